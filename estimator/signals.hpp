@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace touchdown {
+
+/// Index of a leg in every per-wheel array.
+enum class Side : int { left = 0, right = 1 };
+
+/// What one joint's servo reports, in the joint's own sign convention (rad, rad/s, N·m).
+struct JointSignals {
+  double position = 0.0;
+  double velocity = 0.0;
+  double torque = 0.0;
+};
+
+struct LegSignals {
+  JointSignals hip;
+  JointSignals knee;
+  JointSignals wheel;
+};
+
+/// Everything that any contact estimator may listen to at one time step. Nothing in here is ground
+/// truth: it is what the robot measures and commands.
+struct Signals {
+  /// Time of the measurement (s). Only differences count.
+  double time = 0.0;
+  /// Left leg, right leg.
+  std::array<LegSignals, 2> leg;
+  /// Acceleration of the IMU without gravity, in the IMU frame (m/s²).
+  Eigen::Vector3d linear_acceleration = Eigen::Vector3d::Zero();
+  /// Angular velocity of the IMU in its own frame (rad/s).
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  /// `linear_acceleration` projected on the world's upward vertical, γ^z in the paper (m/s²).
+  double vertical_acceleration = 0.0;
+  /// Ground velocity that the policy commanded at the previous step (m/s).
+  double ground_velocity_command = 0.0;
+};
+
+}  // namespace touchdown
