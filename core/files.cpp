@@ -1,0 +1,69 @@
+#include "core/files.hpp"
+
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+
+namespace {
+
+/// Removes the temporary file unless it was moved away.
+struct TemporaryFile {
+  std::filesystem::path path;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
+
+void flush_to_disk(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+void write_atomically(const std::filesystem::path& path,
+                      const std::function<void(const std::filesystem::path&)>& write) {
+  try {
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+    // The extension stays last: encoders and plotters choose their format by it.
+    const std::filesystem::path name =
+        fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(), path.extension().string());
+    const TemporaryFile temporary{path.parent_path() / name};
+    write(temporary.path);
+    flush_to_disk(temporary.path);
+    std::filesystem::rename(temporary.path, path);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw Error(fmt::format("{}: cannot be written: {}", path.string(), error.code().message()));
+  }
+}
+
+void write_atomically(const std::filesystem::path& path, std::string_view content) {
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream file(temporary, std::ios::binary);
+    file.write(content.data(), static_cast<std::streamsize>(content.size()));
+    file.close();
+    if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
+  });
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) {
+    throw InputError(fmt::format("{}: no such file", path.string()));
+  }
+  std::stringstream content;
+  content << file.rdbuf();
+  return std::move(content).str();
+}
+
+}  // namespace touchdown

@@ -1,0 +1,202 @@
+#include "core/yaml.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace touchdown {
+
+namespace {
+
+YAML::Node parse_or_complain(const std::string& text, const std::string& name) {
+  try {
+    YAML::Node root = YAML::Load(text);
+    if (!root.IsMap()) {
+      throw InputError(fmt::format("{}:1:1: expected a mapping of keys to values", name));
+    }
+    return root;
+  } catch (const YAML::ParserException& error) {
+    throw InputError(fmt::format("{}:{}:{}: not valid YAML: {}", name, error.mark.line + 1,
+                                 error.mark.column + 1, error.msg));
+  }
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
+    }
+  }
+  return row[b.size()];
+}
+
+/// The node at `key` below `parent`; list items are addressed by number.
+YAML::Node descend(YAML::Node parent, const std::string& key, std::string_view assignment) {
+  if (!parent.IsSequence()) return parent[key];
+  std::size_t item = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), item);
+  if (error != std::errc{} || end != key.data() + key.size() || item >= parent.size()) {
+    throw InputError(fmt::format("--set {}: '{}' is not the number of an item (0 to {})",
+                                 assignment, key, parent.size() - 1));
+  }
+  return parent[item];
+}
+
+}  // namespace
+
+YamlDocument YamlDocument::load(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file || std::filesystem::is_directory(path)) {
+    throw InputError(fmt::format("{}: no such file", path.string()));
+  }
+  std::stringstream text;
+  text << file.rdbuf();
+  return parse(text.str(), path.string());
+}
+
+YamlDocument YamlDocument::parse(const std::string& text, const std::string& name) {
+  YamlDocument document;
+  document.name_ = name;
+  document.root_ = parse_or_complain(text, name);
+  return document;
+}
+
+void YamlDocument::override_value(std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0) {
+    throw InputError(fmt::format("--set {}: expected key=value", assignment));
+  }
+  YAML::Node value;
+  try {
+    value = YAML::Load(std::string(assignment.substr(equals + 1)));
+  } catch (const YAML::ParserException& error) {
+    throw InputError(fmt::format("--set {}: not a YAML value: {}", assignment, error.msg));
+  }
+  std::vector<std::string> keys;
+  std::stringstream dotted{std::string(assignment.substr(0, equals))};
+  for (std::string key; std::getline(dotted, key, '.');) keys.push_back(key);
+
+  YAML::Node parent = root_;
+  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+    parent.reset(descend(parent, keys[i], assignment));
+    if (parent.IsScalar()) {
+      throw InputError(fmt::format("--set {}: '{}' holds no keys", assignment, keys[i]));
+    }
+  }
+  if (parent.IsSequence()) {
+    descend(parent, keys.back(), assignment) = value;
+  } else {
+    parent[keys.back()] = value;
+  }
+}
+
+YamlMap::YamlMap(const YamlDocument& document) : YamlMap(document.root(), document.name(), "") {}
+
+YamlMap::YamlMap(YAML::Node node, std::string file, std::string path)
+    : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {
+  if (node_ && !node_.IsNull() && !node_.IsMap()) {
+    fail(node_, "", "expected a mapping of keys to values");
+  }
+}
+
+bool YamlMap::has(std::string_view key) const {
+  return node_ && node_.IsMap() && node_[std::string(key)];
+}
+
+YAML::Node YamlMap::take(std::string_view key) {
+  known_.emplace_back(key);
+  if (!has(key)) return YAML::Node(YAML::NodeType::Undefined);
+  return node_[std::string(key)];
+}
+
+std::size_t YamlMap::choose(std::string_view key, const std::vector<std::string>& names,
+                            std::size_t otherwise) {
+  const YAML::Node node = take(key);
+  if (!node) return otherwise;
+  const auto text = convert<std::string>(node, key);
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) {
+    std::string message = fmt::format("expected one of {}", fmt::join(names, ", "));
+    if (const std::string near = nearest(text, names); !near.empty()) {
+      message += fmt::format(" (did you mean '{}'?)", near);
+    }
+    fail(node, key, message);
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+YamlMap YamlMap::child(std::string_view key) {
+  return {take(key), file_, path_.empty() ? std::string(key) : path_ + "." + std::string(key)};
+}
+
+std::vector<YamlMap> YamlMap::children(std::string_view key) {
+  const YAML::Node list = take(key);
+  std::vector<YamlMap> maps;
+  if (!list) return maps;
+  if (!list.IsSequence()) fail(list, key, "expected a list");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    maps.emplace_back(list[i], file_,
+                      fmt::format("{}{}.{}", path_.empty() ? "" : path_ + ".", key, i));
+  }
+  return maps;
+}
+
+void YamlMap::finish() const {
+  if (!node_ || !node_.IsMap()) return;
+  for (const auto& entry : node_) {
+    const auto key = entry.first.as<std::string>();
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    std::string message = "unknown key";
+    if (const std::string near = nearest(key, known_); !near.empty()) {
+      message += fmt::format(" (did you mean '{}'?)", near);
+    } else if (!known_.empty()) {
+      message += fmt::format(" (known: {})", fmt::join(known_, ", "));
+    }
+    fail(entry.first, key, message);
+  }
+}
+
+void YamlMap::fail(std::string_view key, const std::string& message) const {
+  fail(has(key) ? node_[std::string(key)] : node_, key, message);
+}
+
+void YamlMap::fail(const YAML::Node& node, std::string_view key, const std::string& message) const {
+  std::string where = path_;
+  if (!key.empty()) where += (where.empty() ? "" : ".") + std::string(key);
+  // Values set from the command line have no place in the file.
+  const YAML::Mark mark = node ? node.Mark() : YAML::Mark::null_mark();
+  const std::string place =
+      mark.is_null() ? file_ : fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
+  throw InputError(fmt::format("{}: {}{}{}", place, where, where.empty() ? "" : ": ", message));
+}
+
+std::string YamlMap::range_text(double low, double high) {
+  if (std::isinf(high) || high >= 1e15) return fmt::format("a number of at least {}", low);
+  return fmt::format("a number from {} to {}", low, high);
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace touchdown

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace touchdown {
+
+/// The six servos of a wheeled biped, in the order that every array, file and column uses.
+enum class Servo : int { left_hip, left_knee, left_wheel, right_hip, right_knee, right_wheel };
+
+inline constexpr int servo_count = 6;
+inline constexpr int wheel_count = 2;
+
+inline constexpr std::array<std::string_view, servo_count> servo_names = {
+    "left_hip", "left_knee", "left_wheel", "right_hip", "right_knee", "right_wheel"};
+
+/// Index of a servo in the arrays below.
+constexpr std::size_t index(Servo servo) { return static_cast<std::size_t>(servo); }
+
+/// The wheel servos by leg: left, right.
+inline constexpr std::array<Servo, wheel_count> wheel_servos = {Servo::left_wheel,
+                                                                Servo::right_wheel};
+
+/// What one servo is told to do, as Upkie's spine understands it (rad, rad/s, N·m).
+/// torque = clamp(feedforward + kd·kd_scale·(velocity − ω) + kp·kp_scale·(position − q)); a NaN
+/// position drops the position term.
+struct ServoCommand {
+  double feedforward_torque = 0.0;
+  double position = std::numeric_limits<double>::quiet_NaN();
+  double velocity = 0.0;
+  double kp_scale = 1.0;
+  double kd_scale = 1.0;
+  double maximum_torque = std::numeric_limits<double>::infinity();
+};
+
+/// What a policy answers to an observation.
+struct Action {
+  std::array<ServoCommand, servo_count> servo;
+};
+
+/// What one servo measures (rad, rad/s, N·m). `torque` is the torque applied over the last step.
+struct ServoReading {
+  double position = 0.0;
+  double velocity = 0.0;
+  double torque = 0.0;
+};
+
+/// What the IMU measures. Its frame on Upkie: x back, y left, z down.
+struct ImuReading {
+  /// From the IMU frame to the attitude reference system (x forward, y right, z down).
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  /// In the IMU frame (rad/s).
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  /// In the IMU frame, gravity removed (m/s²): the IMU's velocity differenced over one step.
+  Eigen::Vector3d linear_acceleration = Eigen::Vector3d::Zero();
+  /// Proper acceleration in the IMU frame (m/s²): what the accelerometer's chip reports.
+  Eigen::Vector3d raw_linear_acceleration = Eigen::Vector3d::Zero();
+};
+
+/// Everything the robot knows at one control step. No ground truth in here.
+struct Observation {
+  /// Time since the reset (s): the step count times the control period.
+  double time = 0.0;
+  std::array<ServoReading, servo_count> servo;
+  ImuReading imu;
+  /// Pitch of the base, positive when it leans forward (rad), and its rate (rad/s), from the IMU.
+  double pitch = 0.0;
+  double pitch_rate = 0.0;
+  /// Heading of the base, positive to the left (rad), and its rate (rad/s), from the IMU.
+  double yaw = 0.0;
+  double yaw_rate = 0.0;
+};
+
+/// What only the simulator knows. World frame: x forward, y left, z up, origin on the floor.
+struct GroundTruth {
+  /// Position of the base frame in the world (m).
+  Eigen::Vector3d base_position = Eigen::Vector3d::Zero();
+  /// From the base frame (x forward, y left, z up) to the world.
+  Eigen::Quaterniond base_orientation = Eigen::Quaterniond::Identity();
+  /// Of the base frame's origin, in the world (m/s).
+  Eigen::Vector3d base_linear_velocity = Eigen::Vector3d::Zero();
+  /// In the world (rad/s).
+  Eigen::Vector3d base_angular_velocity = Eigen::Vector3d::Zero();
+  /// Of the IMU, in the world (m/s).
+  Eigen::Vector3d imu_linear_velocity = Eigen::Vector3d::Zero();
+  /// Normal force between each tyre and the terrain, averaged over the last step (N).
+  std::array<double, wheel_count> wheel_normal_force = {0.0, 0.0};
+  /// Whether anything but a tyre touches the terrain: the robot has fallen.
+  bool body_touches_terrain = false;
+};
+
+/// The projection of the IMU's acceleration on the world's upward vertical (m/s²): γ^z of the
+/// paper. The attitude reference system's z axis points down, hence the sign.
+inline double vertical_acceleration(const ImuReading& imu) {
+  return -(imu.orientation * imu.linear_acceleration).z();
+}
+
+}  // namespace touchdown

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <mujoco/mujoco.h>
+
+#include "models/robot.hpp"
+#include "models/terrain.hpp"
+
+namespace touchdown {
+
+struct MjModelDeleter {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+using MjModelPtr = std::unique_ptr<mjModel, MjModelDeleter>;
+
+/// A robot standing on a terrain, compiled: the single description that both physics engines and
+/// the renderer are built from.
+///
+/// Any robot works whose MJCF keeps the naming contract: one free-floating base body with exactly
+/// six hinge joints and six motors named as in `servo_names`; a site `imu` on the base body; geoms
+/// `left_tire` and `right_tire` on the bodies that the wheel joints move. Nothing else of the robot
+/// is named by touchdown.
+struct RobotModel {
+  MjModelPtr mj;
+  std::string name;  ///< the MJCF's model name
+  int base_body = -1;
+  int imu_site = -1;
+  std::array<int, servo_count> qpos_address = {};  ///< of each servo's joint in mjData::qpos
+  std::array<int, servo_count> dof_address = {};   ///< of each servo's joint in mjData::qvel
+  std::array<int, wheel_count> tyre_geom = {};     ///< left, right
+  double wheel_radius = 0.0;                       ///< of the tyres (m)
+  std::array<double, servo_count> effort = {};     ///< torque limit of each servo's motor (N·m)
+};
+
+/// Compile a robot's MJCF together with a terrain.
+/// Errors: `InputError` with file:line:column for broken XML, and naming what is missing when the
+/// model does not keep the contract.
+RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain);
+
+}  // namespace touchdown

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/robot.hpp"
+
+namespace touchdown {
+
+/// How a run ended.
+enum class Outcome : int {
+  finished,   ///< reached the end of its scenario
+  timed_out,  ///< still upright when the time was over, without having reached the end
+  fell,       ///< something other than a tyre touched the terrain, or the robot tipped over
+  diverged,   ///< the physics engine produced NaN or velocities that no robot has
+};
+
+/// Where a recording comes from; empty or zero for what a log does not say.
+struct RecordingInfo {
+  std::string scenario;   ///< name of the scenario
+  std::string simulator;  ///< "mujoco", "bullet"; empty for a log of a real robot
+  std::uint64_t seed = 0;
+  std::int64_t run = 0;  ///< index of the run in its experiment
+  std::int64_t control_period_us = 1000;
+  std::optional<Outcome> outcome;
+  /// The resolved scenario as YAML: enough to rebuild the terrain for a video.
+  std::string scenario_yaml;
+};
+
+/// One run, column by column: row k holds what was observed at time k·period and the action that
+/// answered it; `truth` has as many rows for simulated runs and none for a robot's log.
+struct Recording {
+  RecordingInfo info;
+  std::vector<Observation> observation;
+  std::vector<Action> action;
+  std::vector<GroundTruth> truth;
+
+  std::size_t steps() const { return observation.size(); }
+  double period() const { return 1e-6 * static_cast<double>(info.control_period_us); }
+};
+
+}  // namespace touchdown

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "models/robot.hpp"
+
+namespace touchdown {
+
+/// One number per joint, in servo order.
+using JointTorques = std::array<double, servo_count>;
+
+/// The configuration and velocity of the robot: all that an engine needs to start from.
+/// World frame: x forward, y left, z up.
+struct RobotState {
+  /// Origin of the base frame (m).
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  /// From the base frame to the world.
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  /// Velocity of the base frame's origin, in the world (m/s).
+  Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();
+  /// In the world (rad/s).
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  /// Joint angles (rad) and velocities (rad/s), in servo order.
+  std::array<double, servo_count> joint_position = {};
+  std::array<double, servo_count> joint_velocity = {};
+};
+
+/// What touched what during one physics step.
+struct ContactForces {
+  /// Normal force on each tyre from the terrain (N).
+  std::array<double, wheel_count> wheel_normal_force = {0.0, 0.0};
+  /// Anything but a tyre touches the terrain.
+  bool body_touches_terrain = false;
+};
+
+}  // namespace touchdown
