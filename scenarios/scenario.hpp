@@ -1,0 +1,63 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/yaml.hpp"
+#include "models/terrain.hpp"
+#include "policies/tether.hpp"
+#include "policies/velocity_script.hpp"
+#include "policies/wheel_balancer.hpp"
+#include "scenarios/perturbation.hpp"
+#include "simulators/options.hpp"
+
+namespace touchdown {
+
+/// Where and how the robot stands when the run begins.
+struct Start {
+  double x = 0.0;          ///< of the wheels, along the course (m)
+  double y = 0.0;          ///< across it (m)
+  double yaw = 0.0;        ///< heading, positive to the left (rad)
+  double hip = 0.455;      ///< crouch: hip angle (rad)
+  double knee = 0.791;     ///< crouch: knee angle (rad)
+  double clearance = 0.0;  ///< between the tyres and the ground (m)
+};
+
+/// When a run is over.
+struct End {
+  double duration = 30.0;                              ///< the most it may take (s)
+  double x = std::numeric_limits<double>::infinity();  ///< finished once the base is past (m)
+  double settle = 1.0;                                 ///< and has gone on for (s)
+  double fall_tilt = 1.0;                              ///< fell when tilted by more (rad)
+};
+
+/// One experiment's scene: which robot stands on which terrain, what drives it, when it is over.
+/// Everything about a run but the engine and the random draws.
+struct Scenario {
+  std::string name;
+  std::filesystem::path robot = "models/upkie.xml";
+  Terrain terrain;
+  Start start;
+  WheelBalancerConfig balancer;
+  VelocityScript velocity;
+  std::optional<Tether> tether;
+  SimulatorOptions simulation;
+  End end;
+  Perturbation perturbation;
+};
+
+/// Read a scenario strictly. Errors: `InputError` with file:line:column.
+Scenario scenario_from_yaml(const YamlDocument& document);
+Scenario load_scenario(const std::filesystem::path& path);
+
+/// The scenario as YAML that `scenario_from_yaml` reads back to the same scenario.
+std::string to_yaml(const Scenario& scenario);
+
+/// The scenario of run `run`: what `perturbation` allows to vary is drawn from (seed, run), each
+/// quantity from its own stream, so that adding one changes no other.
+Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t run);
+
+}  // namespace touchdown
