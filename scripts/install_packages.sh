@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Installs the Debian packages of packages.txt that are missing. Does nothing, without the network
+# and without root, when all of them are there.
+set -euo pipefail
+
+list="$(dirname "$0")/../packages.txt"
+mapfile -t wanted < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$list")
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  {
+    echo "touchdown: this is not a Debian system, so its packages cannot be installed from here."
+    echo "Install the equivalents of these Debian 12 packages:"
+    printf '  %s\n' "${wanted[@]}"
+    echo "and build with: cmake --preset release && cmake --build --preset release"
+  } >&2
+  exit 1
+fi
+
+# dpkg-query fails for names that it has never heard of; those are simply not installed.
+installed="$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null || true)"
+missing=()
+for package in "${wanted[@]}"; do
+  grep -qxF "installed $package" <<<"$installed" || missing+=("$package")
+done
+((${#missing[@]})) || exit 0
+
+echo "touchdown: installing ${#missing[@]} missing Debian packages: ${missing[*]}"
+
+as_root=(env)
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "touchdown: neither root nor sudo here. Ask an administrator to run:" >&2
+    echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+  [[ -t 0 ]] || as_root+=(-n) # nobody there to type a password
+  as_root+=(env)
+fi
+as_root+=(DEBIAN_FRONTEND=noninteractive)
+
+if ! { "${as_root[@]}" apt-get update -q &&
+  "${as_root[@]}" apt-get install -q -y --no-install-recommends "${missing[@]}"; }; then
+  echo "touchdown: apt-get could not install them (see above). Needed: ${missing[*]}" >&2
+  exit 1
+fi
