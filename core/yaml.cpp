@@ -104,7 +104,7 @@ void YamlDocument::override_value(std::string_view assignment) {
 YamlMap::YamlMap(const YamlDocument& document) : YamlMap(document.root(), document.name(), "") {}
 
 YamlMap::YamlMap(YAML::Node node, std::string file, std::string path)
-    : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {
+    : node_(node), file_(std::move(file)), path_(std::move(path)) {
   if (node_ && !node_.IsNull() && !node_.IsMap()) {
     fail(node_, "", "expected a mapping of keys to values");
   }
