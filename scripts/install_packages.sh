@@ -24,7 +24,7 @@ for package in "${wanted[@]}"; do
 done
 ((${#missing[@]})) || exit 0
 
-echo "touchdown: installing ${#missing[@]} missing Debian packages: ${missing[*]}"
+echo "touchdown: ${#missing[@]} Debian packages are missing: ${missing[*]}"
 
 as_root=(env)
 if ((EUID != 0)); then
@@ -39,6 +39,7 @@ if ((EUID != 0)); then
 fi
 as_root+=(DEBIAN_FRONTEND=noninteractive)
 
+echo "touchdown: installing them with apt-get (what they depend on included, up to 2 GB of disk)"
 if ! { "${as_root[@]}" apt-get update -q &&
   "${as_root[@]}" apt-get install -q -y --no-install-recommends "${missing[@]}"; }; then
   echo "touchdown: apt-get could not install them (see above). Needed: ${missing[*]}" >&2
