@@ -16,10 +16,10 @@ struct WheelBelief {
 
 /// Whether the last signals could be used as they were.
 enum class SignalStatus : int {
-  good,       ///< the step was used as it came
-  invalid,    ///< NaN or infinite input: the belief relaxed towards the prior
-  gap,        ///< time jumped: the window was restarted and the belief relaxed
-  frozen,     ///< a sensor repeats itself to the bit: the belief relaxed
+  good,     ///< the step was used as it came
+  invalid,  ///< NaN or infinite input: the belief relaxed towards the prior
+  gap,      ///< time jumped: the window was restarted and the belief relaxed
+  frozen,   ///< a sensor repeats itself to the bit: the belief relaxed
 };
 
 /// What an estimator believes about the robot after one step.

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
+
+#include <Eigen/Core>
 
 namespace touchdown {
 

@@ -1,0 +1,103 @@
+#include "estimator/bayes_filter.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "estimator/robot_belief.hpp"
+
+namespace touchdown {
+namespace {
+
+/// Eq. (2a): bel-bar(S_t) = Σ_S P(S_t | S_t−1 = S) bel(S_t−1). The published matrix's rows do not
+/// sum to one, so neither does this pair.
+struct Prediction {
+  double contact;
+  double no_contact;
+};
+
+Prediction predict(const Transition& p, double belief) noexcept {
+  return {p.contact_to_contact * belief + p.air_to_contact * (1.0 - belief),
+          p.contact_to_air * belief + p.air_to_air * (1.0 - belief)};
+}
+
+/// Eq. (2b) and (3). Where every product vanishes there is nothing to learn and the old belief
+/// stays.
+double correct(const Likelihoods& p, const Prediction& predicted, double belief) noexcept {
+  const double contact = p.contact * predicted.contact;
+  const double no_contact = p.no_contact * predicted.no_contact;
+  const double eta = contact + no_contact;
+  return eta > 0.0 ? contact / eta : belief;
+}
+
+}  // namespace
+
+double measurement_probability(const Likelihoods& p) noexcept {
+  const double sum = p.contact + p.no_contact;
+  return sum > 0.0 ? p.contact / sum : 0.5;
+}
+
+BayesFilter::BayesFilter(MeasurementModel model, const BayesFilterConfig& config)
+    : config_(config),
+      model_(std::move(model)),
+      transition_(config.transition, config.sample_rate),
+      guard_(config.guard, config.sample_rate),
+      torque_{TorqueChannel(config.measurement.torque, Side::left, config.sample_rate),
+              TorqueChannel(config.measurement.torque, Side::right, config.sample_rate)} {
+  check_measurement_config(config.measurement, config.threshold);
+  reset();
+}
+
+void BayesFilter::reset() noexcept {
+  transition_.reset();
+  guard_.reset();
+  for (TorqueChannel& torque : torque_) {
+    torque.reset();
+  }
+  measurement_ = {};
+  belief_ = Belief{};
+  conclude(belief_, config_.threshold);
+}
+
+const Belief& BayesFilter::update(const Signals& signals) noexcept {
+  const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
+  belief_.status = verdict.status;
+  if (verdict.restart) {
+    transition_.reset();
+    torque_[0].reset();
+    torque_[1].reset();
+  }
+  if (verdict.acceleration_good) {
+    transition_.update(signals.vertical_acceleration);  // Eq. (7) to (13)
+  }
+
+  for (std::size_t side = 0; side < 2; ++side) {
+    double& bel = belief_.wheel[side].p_contact;
+    const LegSignals& leg = signals.leg[side];
+    const bool torques_good = std::isfinite(leg.knee.torque) && std::isfinite(leg.wheel.torque);
+    if (!torques_good) {
+      belief_.status = SignalStatus::invalid;
+    }
+    if (verdict.restart || !torques_good || !verdict.acceleration_good) {
+      bel = guard_.relaxed(bel, verdict.elapsed);
+    }
+    if (!torques_good || !verdict.acceleration_good) {
+      continue;
+    }
+    MeasurementDiagnostics& m = measurement_[side];
+    m.torque = torque_[side].update(leg);  // Eq. (4)
+    m.likelihood = model_(m.torque);       // Eq. (6)
+    m.likelihood.contact += config_.measurement.contact_floor;
+    m.likelihood.no_contact += config_.measurement.no_contact_floor;
+    m.p_measurement = measurement_probability(m.likelihood);  // Eq. (14)
+
+    const Prediction predicted = predict(transition_.transition(), bel);  // Eq. (2a)
+    bel = correct(m.likelihood, predicted, bel);                          // Eq. (2b) and (3)
+    m.p_predicted = predicted.contact;
+  }
+  conclude(belief_, config_.threshold);
+  return belief_;
+}
+
+}  // namespace touchdown

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "estimator/contact_estimator.hpp"
+#include "estimator/measurement_model.hpp"
+#include "estimator/signal_guard.hpp"
+#include "estimator/torque_channel.hpp"
+#include "estimator/transition_model.hpp"
+
+namespace touchdown {
+
+struct MeasurementConfig {
+  /// What m_t is made of, when fitting and when estimating.
+  TorqueConfig torque;
+  /// How the densities are fitted.
+  MeasurementFitConfig fit;
+  /// Added to P(m_t | S_t = C) and to P(m_t | S_t = ¬C) at every step.
+  double contact_floor = 0.0;
+  double no_contact_floor = 0.0;
+
+  bool operator==(const MeasurementConfig&) const = default;
+};
+
+/// Everything that can be chosen about the filter, seen whole. Start from a named configuration.
+struct BayesFilterConfig {
+  /// Rate at which `update` is called (Hz).
+  double sample_rate = 1000.0;
+  /// Eq. (4) to (6).
+  MeasurementConfig measurement;
+  /// Eq. (7) to (13).
+  TransitionConfig transition;
+  /// What to do with signals that cannot be used.
+  SignalGuardConfig guard;
+  /// A wheel is said to be in contact when P(contact) is at least this.
+  double threshold = 0.8;
+
+  /// The paper to the letter.
+  static BayesFilterConfig paper();
+  /// As the authors' robot code does it.
+  static BayesFilterConfig reference();
+  /// The reference with what sensor noise requires: a floor under the bandwidths, the median of the
+  /// power spectrum, a transition matrix whose rows sum to one, absolute low-passed torques on a
+  /// grid that covers all samples.
+  static BayesFilterConfig robust();
+  /// One of the above by its name. Throws InputError for another one.
+  static BayesFilterConfig named(std::string_view name);
+
+  bool operator==(const BayesFilterConfig&) const = default;
+};
+
+/// What one wheel's last update was computed from.
+struct MeasurementDiagnostics {
+  TorqueSample torque;         ///< m_t, Eq. (4) (N·m)
+  Likelihoods likelihood;      ///< Eq. (6), floors included
+  double p_measurement = 0.5;  ///< P_τ(S_t = C | m_t), Eq. (14)
+  double p_predicted = 0.5;    ///< bel-bar(S_t = C), Eq. (2a)
+};
+
+/// P_τ(S_t = C | m_t), Eq. (14): 0.5 where both likelihoods are zero.
+double measurement_probability(const Likelihoods& likelihood) noexcept;
+
+/// The paper's Bayes filter, Eq. (1) to (13), for each wheel of the robot. The two wheels have
+/// their own torques and beliefs; they share the transition model, because there is one
+/// accelerometer.
+///
+/// `update` never throws, allocates or locks, and never returns NaN. A leg whose torques are not
+/// finite, or both legs while the acceleration is not usable, get no measurement: their belief
+/// relaxes to the prior (`SignalGuard`), and the status says why. After a gap in time the window
+/// restarts empty.
+class BayesFilter : public ContactEstimator {
+ public:
+  /// Throws InputError for a configuration that makes no sense.
+  explicit BayesFilter(MeasurementModel model,
+                       const BayesFilterConfig& config = BayesFilterConfig::robust());
+
+  void reset() noexcept override;
+  const Belief& update(const Signals& signals) noexcept override;
+
+  [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
+  [[nodiscard]] const BayesFilterConfig& config() const noexcept { return config_; }
+  /// Power, median frequency, P(switch), P(landing) and the transition matrix of the last step.
+  [[nodiscard]] const Transition& transition() const noexcept { return transition_.transition(); }
+  /// Torques, likelihoods and P_τ of one wheel at the last step that had a measurement.
+  [[nodiscard]] const MeasurementDiagnostics& measurement(Side side) const noexcept {
+    return measurement_[static_cast<std::size_t>(side)];
+  }
+
+ private:
+  BayesFilterConfig config_;
+  MeasurementModel model_;
+  TransitionModel transition_;
+  SignalGuard guard_;
+  std::array<TorqueChannel, 2> torque_;
+  std::array<MeasurementDiagnostics, 2> measurement_;
+  Belief belief_;
+};
+
+}  // namespace touchdown

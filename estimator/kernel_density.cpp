@@ -1,0 +1,121 @@
+#include "estimator/kernel_density.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "core/error.hpp"
+#include "estimator/flush_denormals.hpp"
+
+namespace touchdown {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+void check_samples(std::span<const double> samples, std::size_t at_least) {
+  if (samples.size() < at_least) {
+    throw InputError("a kernel density needs at least " + std::to_string(at_least) +
+                     (at_least == 1 ? " sample" : " samples") + ", got " +
+                     std::to_string(samples.size()));
+  }
+  const auto bad = std::find_if_not(samples.begin(), samples.end(),
+                                    [](double value) { return std::isfinite(value); });
+  if (bad != samples.end()) {
+    throw InputError("a kernel density needs finite samples; sample " +
+                     std::to_string(bad - samples.begin()) + " is " + std::to_string(*bad));
+  }
+}
+
+void check_bandwidth(double bandwidth) {
+  if (!std::isfinite(bandwidth) || !(bandwidth > 0.0)) {
+    throw InputError("a kernel's bandwidth must be positive and finite, got " +
+                     std::to_string(bandwidth));
+  }
+}
+
+/// One column per sample: the kernel, without its constant factor, at every point of the axis.
+void fill_kernels(std::span<const double> samples, double bandwidth, const Eigen::ArrayXd& points,
+                  Matrix& kernels) {
+  const double scale = std::numbers::sqrt2 / 2.0 / bandwidth;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    kernels.col(static_cast<Eigen::Index>(i)).array() =
+        (-((points - samples[i]) * scale).square()).exp();
+  }
+}
+
+Eigen::ArrayXd points_of(const Axis& axis) {
+  Eigen::ArrayXd points(axis.count);
+  for (int i = 0; i < axis.count; ++i) {
+    points[i] = axis[i];
+  }
+  return points;
+}
+
+}  // namespace
+
+double scott_bandwidth(std::span<const double> samples, int dimensions, double floor) {
+  check_samples(samples, 2);
+  const auto n = static_cast<double>(samples.size());
+  const Eigen::Map<const Eigen::ArrayXd> x(samples.data(),
+                                           static_cast<Eigen::Index>(samples.size()));
+  const double deviation = std::sqrt((x - x.mean()).square().sum() / (n - 1.0));
+  const double bandwidth = std::max(floor, std::pow(n, -1.0 / (dimensions + 4)) * deviation);
+  if (!(bandwidth > 0.0)) {
+    throw InputError("all samples are equal: Scott's rule gives no bandwidth, set a floor");
+  }
+  return bandwidth;
+}
+
+std::vector<double> kernel_density(std::span<const double> x, double bandwidth, const Axis& axis) {
+  check_samples(x, 1);
+  check_bandwidth(bandwidth);
+  check_axis(axis, "density");
+  const FlushDenormals flush;
+  const Eigen::ArrayXd points = points_of(axis);
+  const double scale = std::numbers::sqrt2 / 2.0 / bandwidth;
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(axis.count);
+  for (const double sample : x) {
+    sum += (-((points - sample) * scale).square()).exp();
+  }
+  sum /= static_cast<double>(x.size()) * bandwidth * std::sqrt(2.0 * std::numbers::pi);
+  return {sum.begin(), sum.end()};
+}
+
+std::vector<double> kernel_density(std::span<const double> x, std::span<const double> y,
+                                   double x_bandwidth, double y_bandwidth, const Axis& x_axis,
+                                   const Axis& y_axis) {
+  check_samples(x, 1);
+  check_samples(y, 1);
+  if (x.size() != y.size()) {
+    throw InputError("a kernel density needs as many x as y samples, got " +
+                     std::to_string(x.size()) + " and " + std::to_string(y.size()));
+  }
+  check_bandwidth(x_bandwidth);
+  check_bandwidth(y_bandwidth);
+  check_axis(x_axis, "first");
+  check_axis(y_axis, "second");
+
+  // Blocks keep both kernel matrices in the second-level cache.
+  constexpr std::size_t block = 256;
+  const FlushDenormals flush;
+  const Eigen::ArrayXd x_points = points_of(x_axis);
+  const Eigen::ArrayXd y_points = points_of(y_axis);
+  Matrix x_kernels(x_axis.count, block);
+  Matrix y_kernels(y_axis.count, block);
+  // Column-major with y along the rows is row-major with y along the columns.
+  Matrix sum = Matrix::Zero(y_axis.count, x_axis.count);
+  for (std::size_t first = 0; first < x.size(); first += block) {
+    const std::size_t length = std::min(block, x.size() - first);
+    const auto columns = static_cast<Eigen::Index>(length);
+    fill_kernels(x.subspan(first, length), x_bandwidth, x_points, x_kernels);
+    fill_kernels(y.subspan(first, length), y_bandwidth, y_points, y_kernels);
+    sum.noalias() += y_kernels.leftCols(columns) * x_kernels.leftCols(columns).transpose();
+  }
+  sum /= static_cast<double>(x.size()) * 2.0 * std::numbers::pi * x_bandwidth * y_bandwidth;
+  return {sum.data(), sum.data() + sum.size()};
+}
+
+}  // namespace touchdown

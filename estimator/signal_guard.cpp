@@ -1,0 +1,82 @@
+#include "estimator/signal_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+namespace {
+
+constexpr int never = std::numeric_limits<int>::max();
+
+}  // namespace
+
+SignalGuard::SignalGuard(const SignalGuardConfig& config, double sample_rate)
+    : config_(config), time_step_(1.0 / sample_rate), steps_to_frozen_(never) {
+  if (!(std::isfinite(sample_rate) && sample_rate > 0.0)) {
+    throw InputError("signal guard: the sample rate must be positive (Hz)");
+  }
+  if (!(config.relaxation > 0.0 && config.largest_acceleration > 0.0)) {
+    throw InputError("signal guard: relaxation and largest_acceleration must be positive");
+  }
+  if (!(config.maximum_gap >= 0.0 && config.frozen_after >= 0.0)) {
+    throw InputError("signal guard: maximum_gap and frozen_after must not be negative (s)");
+  }
+  const double steps = std::ceil(config.frozen_after * sample_rate);
+  if (steps > 0.0 && steps < never) {
+    steps_to_frozen_ = static_cast<int>(steps);
+  }
+}
+
+void SignalGuard::reset() noexcept {
+  started_ = false;
+  repetitions_ = 0;
+}
+
+SignalGuard::Verdict SignalGuard::check(double time, double vertical_acceleration) noexcept {
+  Verdict verdict;
+  verdict.elapsed = time_step_;
+  if (!std::isfinite(time)) {
+    verdict.status = SignalStatus::invalid;
+    verdict.acceleration_good = false;
+    return verdict;
+  }
+  if (started_) {
+    verdict.elapsed = time - time_;
+    if (verdict.elapsed < 0.0) {
+      verdict.elapsed = std::numeric_limits<double>::infinity();
+    }
+    if (verdict.elapsed > config_.maximum_gap) {
+      verdict.status = SignalStatus::gap;
+      verdict.restart = true;
+    }
+  }
+  time_ = time;
+
+  // Written so that NaN fails.
+  if (!(std::abs(vertical_acceleration) <= config_.largest_acceleration)) {
+    verdict.status = SignalStatus::invalid;
+    verdict.acceleration_good = false;
+    started_ = true;
+    return verdict;
+  }
+  const bool repeated = started_ && vertical_acceleration == acceleration_;
+  repetitions_ = repeated ? std::min(repetitions_ + 1, never - 1) : 0;
+  acceleration_ = vertical_acceleration;
+  started_ = true;
+  if (repetitions_ >= steps_to_frozen_) {
+    verdict.status = SignalStatus::frozen;
+    verdict.acceleration_good = false;
+    verdict.restart = true;
+  }
+  return verdict;
+}
+
+double SignalGuard::relaxed(double p_contact, double elapsed) const noexcept {
+  const double p_switch = 0.5 * (1.0 - std::exp(-elapsed / config_.relaxation));
+  return (1.0 - p_switch) * p_contact + p_switch * (1.0 - p_contact);
+}
+
+}  // namespace touchdown
