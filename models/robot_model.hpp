@@ -9,6 +9,7 @@
 
 #include "models/robot.hpp"
 #include "models/terrain.hpp"
+#include "models/terrain_mjcf.hpp"
 
 namespace touchdown {
 
@@ -39,6 +40,10 @@ struct RobotModel {
 /// Compile a robot's MJCF together with a terrain.
 /// Errors: `InputError` with file:line:column for broken XML, and naming what is missing when the
 /// model does not keep the contract.
-RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain);
+///
+/// From the first call on, MuJoCo's fatal errors are thrown as `Error` in the whole process, and
+/// its warnings are dropped: its own handlers wait for a key press and write files.
+RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain,
+                               const ContactParameters& contact = {});
 
 }  // namespace touchdown

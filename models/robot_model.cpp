@@ -1,0 +1,180 @@
+#include "models/robot_model.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <regex>
+#include <tinyxml2.h>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "models/scene_mjcf.hpp"
+
+namespace touchdown {
+namespace {
+
+/// MuJoCo's own handlers wait for a key press, or write MUJOCO_LOG.TXT into the working directory.
+void install_mujoco_handlers() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    mju_user_error = [](const char* message) { throw Error(std::string("MuJoCo: ") + message); };
+    mju_user_warning = [](const char*) {};  // a simulator reports divergence as an outcome
+  });
+}
+
+/// The robot's text with the scene and the terrain before its end: MuJoCo reads repeated sections
+/// as one, and the robot's lines keep their numbers for error messages.
+std::string compose(const std::filesystem::path& robot_mjcf, const Terrain& terrain,
+                    const ContactParameters& contact) {
+  const std::string text = read_file(robot_mjcf);
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    const int line = std::max(document.ErrorLineNum(), 1);
+    throw InputError(fmt::format("{}:{}:1: expected well-formed XML ({})", robot_mjcf.string(),
+                                 line, document.ErrorName()));
+  }
+  const tinyxml2::XMLElement* root = document.RootElement();
+  const std::size_t end = text.rfind("</mujoco");
+  if (std::strcmp(root->Name(), "mujoco") != 0 || end == std::string::npos) {
+    throw InputError(fmt::format("{}:{}:1: {}: expected a robot in <mujoco>...</mujoco>",
+                                 robot_mjcf.string(), root->GetLineNum(), root->Name()));
+  }
+  return text.substr(0, end) + scene_mjcf + terrain_mjcf(terrain, contact) + text.substr(end);
+}
+
+/// MuJoCo's complaint as one line that begins with file:line:column.
+std::string located(const std::filesystem::path& robot_mjcf, std::string message) {
+  std::smatch match;
+  std::string where = robot_mjcf.string();
+  if (std::regex_search(message, match, std::regex("line (\\d+), column (\\d+)"))) {
+    where += ":" + match[1].str() + ":" + match[2].str();
+  } else if (std::regex_search(message, match, std::regex("line[ =]+(-?\\d+)"))) {
+    where += ":" + match[1].str() + ":1";
+  }
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  while (!message.empty() && message.back() == ' ') message.pop_back();
+  return where + ": " + message;
+}
+
+MjModelPtr compile(const std::filesystem::path& robot_mjcf, const std::string& mjcf) {
+  // Named as if it stood beside the robot's file, so that meshes and includes are found there.
+  const char* const file_name = "touchdown_composed.xml";
+  const auto release = [](mjVFS* vfs) {
+    mj_deleteVFS(vfs);
+    delete vfs;
+  };
+  std::unique_ptr<mjVFS, decltype(release)> vfs(new mjVFS, release);
+  mj_defaultVFS(vfs.get());
+  if (mj_makeEmptyFileVFS(vfs.get(), file_name, static_cast<int>(mjcf.size())) != 0) {
+    throw Error("MuJoCo has no room for the composed model");
+  }
+  const int slot = mj_findFileVFS(vfs.get(), file_name);
+  std::memcpy(vfs->filedata[slot], mjcf.data(), mjcf.size());
+
+  std::array<char, 1000> complaint = {};
+  const std::string beside = (robot_mjcf.parent_path() / file_name).string();
+  MjModelPtr model(
+      mj_loadXML(beside.c_str(), vfs.get(), complaint.data(), static_cast<int>(complaint.size())));
+  if (!model) throw InputError(located(robot_mjcf, complaint.data()));
+  return model;
+}
+
+/// Looks names up and says what the contract wants when they are missing.
+class Contract {
+ public:
+  Contract(const std::filesystem::path& file, const mjModel& model) : file_(file), model_(model) {}
+
+  int find(mjtObj type, std::string_view kind, std::string_view name) const {
+    const int id = mj_name2id(&model_, type, std::string(name).c_str());
+    if (id < 0) fail(fmt::format("expected a {} named '{}'", kind, name));
+    return id;
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(file_.string() + ": " + message);
+  }
+
+ private:
+  const std::filesystem::path& file_;
+  const mjModel& model_;
+};
+
+/// The body that floats; everything of the robot hangs on it.
+int find_base(const mjModel& model, const Contract& contract) {
+  int base = -1;
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    if (model.jnt_type[joint] != mjJNT_FREE) continue;
+    if (base >= 0) contract.fail("expected one free joint, found several");
+    base = model.jnt_bodyid[joint];
+  }
+  if (base < 0) contract.fail("expected a base body with a <freejoint/>");
+  return base;
+}
+
+void find_servos(RobotModel& robot, const Contract& contract) {
+  const mjModel& model = *robot.mj;
+  if (model.njnt != servo_count + 1) {
+    contract.fail(fmt::format("expected {} hinge joints and a free joint, found {} joints",
+                              servo_count, model.njnt));
+  }
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    const std::string name(servo_names[i]);
+    const int joint = contract.find(mjOBJ_JOINT, "hinge joint", name);
+    if (model.jnt_type[joint] != mjJNT_HINGE) {
+      contract.fail(fmt::format("joint '{}': expected a hinge", name));
+    }
+    const int motor = contract.find(mjOBJ_ACTUATOR, "motor", name);
+    if (model.actuator_trntype[motor] != mjTRN_JOINT || model.actuator_trnid[2 * motor] != joint) {
+      contract.fail(fmt::format("motor '{0}': expected it to drive joint '{0}'", name));
+    }
+    if (!model.actuator_ctrllimited[motor]) {
+      contract.fail(fmt::format("motor '{}': expected a ctrlrange, its torque limit (N·m)", name));
+    }
+    robot.qpos_address[i] = model.jnt_qposadr[joint];
+    robot.dof_address[i] = model.jnt_dofadr[joint];
+    robot.effort[i] = model.actuator_ctrlrange[2 * motor + 1];
+  }
+}
+
+void find_tyres(RobotModel& robot, const Contract& contract) {
+  const mjModel& model = *robot.mj;
+  for (std::size_t i = 0; i < wheel_count; ++i) {
+    const std::string name = i == 0 ? "left_tire" : "right_tire";
+    const std::string servo(servo_names[index(wheel_servos[i])]);
+    const int geom = contract.find(mjOBJ_GEOM, "geom", name);
+    const int joint = mj_name2id(&model, mjOBJ_JOINT, servo.c_str());
+    if (model.geom_bodyid[geom] != model.jnt_bodyid[joint]) {
+      contract.fail(fmt::format("geom '{}': expected it on the body that '{}' moves", name, servo));
+    }
+    const int type = model.geom_type[geom];
+    if (type != mjGEOM_SPHERE && type != mjGEOM_CYLINDER && type != mjGEOM_CAPSULE) {
+      contract.fail(fmt::format("geom '{}': expected a sphere, a cylinder or a capsule", name));
+    }
+    robot.tyre_geom[i] = geom;
+    robot.wheel_radius = model.geom_size[3 * geom];
+  }
+}
+
+}  // namespace
+
+RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain,
+                               const ContactParameters& contact) {
+  install_mujoco_handlers();
+  RobotModel robot;
+  robot.mj = compile(robot_mjcf, compose(robot_mjcf, terrain, contact));
+  const Contract contract(robot_mjcf, *robot.mj);
+  robot.name = robot.mj->names;  // the model's own name comes first
+  robot.base_body = find_base(*robot.mj, contract);
+  find_servos(robot, contract);
+  robot.imu_site = contract.find(mjOBJ_SITE, "site", "imu");
+  if (robot.mj->site_bodyid[robot.imu_site] != robot.base_body) {
+    contract.fail("site 'imu': expected it on the base body");
+  }
+  find_tyres(robot, contract);
+  return robot;
+}
+
+}  // namespace touchdown

@@ -1,0 +1,140 @@
+#include "models/terrain_mjcf.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace touchdown {
+namespace {
+
+/// A riser stands this far back from its nosing, so that a wheel meets the nosing alone.
+constexpr double riser_recess = 1e-3;
+/// How far an edge stripe floats above its tread: enough to win the depth test, too little to see.
+constexpr double stripe_height = 3e-4;
+
+class Composer {
+ public:
+  Composer(const Terrain& terrain, const ContactParameters& contact)
+      : terrain_(terrain), profile_(terrain) {
+    // Everything is spelled out: the robot's defaults must not leak into the terrain.
+    contact_ = fmt::format(
+        "contype=\"2\" conaffinity=\"1\" condim=\"3\" priority=\"10\" margin=\"0\" gap=\"0\" "
+        "friction=\"{} 0.005 0.0001\" solref=\"{} {}\" solimp=\"0.9 0.95 0.001 0.5 2\"",
+        terrain.friction, contact.time_constant, contact.damping_ratio);
+  }
+
+  std::string compose() {
+    const double reach = profile_.segments().empty() ? 0.0 : profile_.segments().back().x1;
+    // The third size is the drawn grid's spacing; without it a plane is cut into 40,000 quads.
+    geoms_ += fmt::format(
+        "    <geom name=\"touchdown_floor\" type=\"plane\" size=\"{0} {0} 20\" "
+        "material=\"touchdown_floor\" group=\"1\" {1}/>\n",
+        70.0 + std::abs(reach), contact_);
+    for (const Profile::Segment& segment : profile_.segments()) add_ground(segment);
+    for (const Profile::Edge& edge : profile_.edges()) add_edge(edge);
+    const std::vector<Mesh> meshes = visual_meshes(profile_, terrain_.width);
+    for (std::size_t i = 0; i < meshes.size(); ++i) add_mesh(meshes[i], i);
+    return "  <asset>\n" + assets_ + "  </asset>\n  <worldbody>\n" + geoms_ + "  </worldbody>\n";
+  }
+
+ private:
+  double half_width() const { return 0.5 * terrain_.width; }
+
+  const Profile::Edge* edge_after(const Profile::Segment& segment) const {
+    for (const Profile::Edge& edge : profile_.edges()) {
+      if (&profile_.segments()[edge.segment] == &segment) return &edge;
+    }
+    return nullptr;
+  }
+
+  void add_collider(const std::string& attributes) {
+    geoms_ += fmt::format("    <geom name=\"touchdown_terrain_{}\" {} group=\"3\" {}/>\n",
+                          collider_count_++, attributes, contact_);
+  }
+
+  void add_box(double x0, double x1, double height) {
+    if (x1 <= x0 || height <= 0.0) return;
+    add_collider(fmt::format("type=\"box\" pos=\"{} 0 {}\" size=\"{} {} {}\"", 0.5 * (x0 + x1),
+                             0.5 * height, 0.5 * (x1 - x0), half_width(), 0.5 * height));
+  }
+
+  void add_ground(const Profile::Segment& segment) {
+    const Profile::Edge* edge = edge_after(segment);
+    const double x1 = edge ? edge->tangent_x : segment.x1;
+    if (segment.z0 == segment.z1) {
+      add_box(segment.x0, x1, segment.z0);
+      return;
+    }
+    // A slope is the top of a slab. Its upper end leans forward below the surface; it must not
+    // reach through the face of a drop.
+    const double slope = segment.slope();
+    const double stretch = std::hypot(1.0, slope);
+    double thickness = 0.05;
+    if (edge && slope > 0.0) {
+      thickness = std::clamp((edge->x - x1) * stretch / slope, 0.01, thickness);
+    }
+    const double length = (x1 - segment.x0) * stretch;
+    const double x = 0.5 * (segment.x0 + x1);
+    const double nx = -slope / stretch;
+    const double nz = 1.0 / stretch;
+    add_collider(fmt::format("type=\"box\" pos=\"{} 0 {}\" size=\"{} {} {}\" zaxis=\"{} 0 {}\"",
+                             x - 0.5 * thickness * nx, segment.z(x) - 0.5 * thickness * nz,
+                             0.5 * length, half_width(), 0.5 * thickness, nx, nz));
+  }
+
+  void add_edge(const Profile::Edge& edge) {
+    const Profile::Segment& segment = profile_.segments()[edge.segment];
+    if (edge.radius > 0.0) {
+      add_box(edge.centre_x, edge.x - riser_recess, edge.centre_z);
+      add_collider(fmt::format("type=\"capsule\" fromto=\"{0} {2} {1} {0} {3} {1}\" size=\"{4}\"",
+                               edge.centre_x, edge.centre_z, -half_width(), half_width(),
+                               edge.radius));
+    } else if (segment.z0 != segment.z1) {
+      add_box(edge.x - 0.01, edge.x, edge.top - 0.01);
+    }
+    const double slope = segment.slope();
+    const double stretch = std::hypot(1.0, slope);
+    const double x = edge.tangent_x - 0.03;
+    if (x - 0.012 < segment.x0) return;
+    geoms_ += fmt::format(
+        "    <geom type=\"plane\" pos=\"{} 0 {}\" zaxis=\"{} 0 {}\" size=\"0.012 {} 1\" "
+        "material=\"touchdown_edge\" group=\"1\" contype=\"0\" conaffinity=\"0\"/>\n",
+        x, segment.z(x) + stripe_height, -slope / stretch, 1.0 / stretch, half_width());
+  }
+
+  void add_mesh(const Mesh& mesh, std::size_t number) {
+    std::string vertices, normals, faces;
+    for (const Mesh::Vertex& v : mesh.vertices) {
+      fmt::format_to(std::back_inserter(vertices), "{} {} {} ", v.x, v.y, v.z);
+      fmt::format_to(std::back_inserter(normals), "{} {} {} ", v.nx, v.ny, v.nz);
+    }
+    for (const std::array<int, 3>& face : mesh.faces) {
+      fmt::format_to(std::back_inserter(faces), "{} {} {} ", face[0], face[1], face[2]);
+    }
+    assets_ += fmt::format(
+        "    <mesh name=\"touchdown_terrain_{}\" scale=\"1 1 1\" vertex=\"{}\" normal=\"{}\" "
+        "face=\"{}\"/>\n",
+        number, vertices, normals, faces);
+    geoms_ += fmt::format(
+        "    <geom type=\"mesh\" mesh=\"touchdown_terrain_{}\" material=\"touchdown_step\" "
+        "group=\"1\" contype=\"0\" conaffinity=\"0\"/>\n",
+        number);
+  }
+
+  const Terrain& terrain_;
+  Profile profile_;
+  std::string contact_;
+  std::string assets_;
+  std::string geoms_;
+  int collider_count_ = 0;
+};
+
+}  // namespace
+
+std::string terrain_mjcf(const Terrain& terrain, const ContactParameters& contact) {
+  return Composer(terrain, contact).compose();
+}
+
+}  // namespace touchdown
