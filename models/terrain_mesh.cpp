@@ -23,13 +23,13 @@ void add_segment(const Profile& profile, std::size_t i, std::vector<OutlineFace>
   const double stretch = std::hypot(1.0, segment.slope());
   const double nx = -segment.slope() / stretch;
   const double nz = 1.0 / stretch;
-  double x1 = segment.x1;
   const Profile::Edge* edge = nullptr;
   for (const Profile::Edge& candidate : profile.edges()) {
     if (candidate.segment == i) edge = &candidate;
   }
-  if (edge) x1 = edge->tangent_x;
-  outline.push_back({{segment.x0, segment.z0, nx, nz}, {x1, segment.z(x1), nx, nz}});
+  const double x1 = edge ? edge->tangent_x : segment.x1;
+  const double z1 = edge ? segment.z(x1) : segment.z1;
+  outline.push_back({{segment.x0, segment.z0, nx, nz}, {x1, z1, nx, nz}});
   if (!edge) return;
   OutlinePoint last = outline.back().to;
   if (edge->radius > 0.0) {
