@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "models/robot.hpp"
@@ -16,6 +17,11 @@ enum class Outcome : int {
   fell,       ///< something other than a tyre touched the terrain, or the robot tipped over
   diverged,   ///< the physics engine produced NaN or velocities that no robot has
 };
+
+/// "finished", "timed_out", "fell", "diverged".
+std::string_view to_text(Outcome outcome);
+/// The inverse. Errors: `InputError` for anything else.
+Outcome outcome_from_text(std::string_view text);
 
 /// Where a recording comes from; empty or zero for what a log does not say.
 struct RecordingInfo {

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <istream>
+#include <span>
+
+namespace touchdown {
+
+/// Gives the next bytes of a stream as soon as there are any: fills the beginning of the span and
+/// returns how many; 0 at the end.
+using ByteSource = std::function<std::size_t(std::span<char>)>;
+
+/// A file, or standard input for "-". Errors: `InputError` when it cannot be opened or read.
+ByteSource file_source(const std::filesystem::path& path);
+
+/// Any stream, which must outlive the source.
+ByteSource stream_source(std::istream& stream);
+
+}  // namespace touchdown

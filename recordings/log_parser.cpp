@@ -1,0 +1,135 @@
+#include "recordings/log_parser.hpp"
+
+namespace touchdown {
+
+namespace {
+
+std::vector<const LogKey*> all_keys() {
+  std::vector<const LogKey*> keys;
+  for (const LogKey& key : log_keys()) keys.push_back(&key);
+  return keys;
+}
+
+bool starts_a_map(char first) {
+  const auto byte = static_cast<unsigned char>(first);
+  return (byte & 0xf0U) == 0x80U || byte == 0xdeU || byte == 0xdfU;
+}
+
+}  // namespace
+
+LogParser::LogParser() : tree_(all_keys()), next_child_(tree_.size(), 0) {
+  for (const LogKey& key : log_keys()) {
+    if (key.size > 1) vectors_.push_back(&key);
+    if (key.role != LogKey::Role::needed) continue;
+    for (std::size_t i = 0; i < key.size; ++i) needed_.set(key.slot + i);
+  }
+}
+
+LogParser::Result LogParser::parse(std::string_view bytes, std::size_t& length) {
+  length = 0;
+  if (bytes.empty()) return Result::incomplete;
+  if (!starts_a_map(bytes.front())) return Result::garbage;
+  present_.reset();
+  malformed_.reset();
+  values_.fill(0.0);
+  open_.clear();
+  current_ = 0;
+  element_ = 0;
+  in_key_ = has_config_ = incomplete_ = false;
+  error_offset_ = 0;
+  if (msgpack::parse(bytes.data(), bytes.size(), length, *this)) {
+    drop_malformed();
+    return Result::record;
+  }
+  if (incomplete_) return Result::incomplete;
+  length = error_offset_;
+  return Result::garbage;
+}
+
+void LogParser::drop_malformed() {
+  present_ &= ~malformed_;
+  for (const LogKey* vector : vectors_) {
+    bool whole = true;
+    for (std::size_t i = 0; i < vector->size; ++i) whole = whole && present_[vector->slot + i];
+    for (std::size_t i = 0; i < vector->size && !whole; ++i) present_.reset(vector->slot + i);
+  }
+}
+
+bool LogParser::has_time() const {
+  return present_[log_slot::time] || present_[log_slot::wall_time];
+}
+
+std::vector<std::string> LogParser::missing() const {
+  std::vector<std::string> paths;
+  if (!has_time()) paths.emplace_back("observation.time");
+  for (const LogKey& key : log_keys()) {
+    if (key.role == LogKey::Role::needed && !present_[key.slot]) paths.push_back(key.path);
+  }
+  return paths;
+}
+
+bool LogParser::number(double value) {
+  if (current_ == LogKeyTree::none) return true;
+  const LogKey* key = tree_.node(current_).key;
+  if (key == nullptr || in_key_) return true;
+  if (element_ < key->size) {
+    values_[key->slot + element_] = value;
+    present_.set(key->slot + element_);
+  } else {
+    for (std::size_t i = 0; i < key->size; ++i) malformed_.set(key->slot + i);
+  }
+  ++element_;
+  return true;
+}
+
+int LogParser::child(int parent, std::string_view name) {
+  if (parent == LogKeyTree::none) return LogKeyTree::none;
+  const std::vector<int>& children = tree_.node(parent).children;
+  std::size_t& likely = next_child_[static_cast<std::size_t>(parent)];
+  for (std::size_t tried = 0; tried < children.size(); ++tried) {
+    const std::size_t i = (likely + tried) % children.size();
+    if (tree_.node(children[i]).name != name) continue;
+    likely = i + 1;
+    return children[i];
+  }
+  return LogKeyTree::none;
+}
+
+bool LogParser::visit_str(const char* text, std::uint32_t size) {
+  if (!in_key_) return true;
+  const std::string_view name(text, size);
+  current_ = child(open_.back(), name);
+  element_ = 0;
+  if (open_.size() == 1 && name == "config") has_config_ = true;
+  return true;
+}
+
+bool LogParser::start_map(std::uint32_t /*entries*/) {
+  open_.push_back(current_);
+  return true;
+}
+
+bool LogParser::start_map_key() {
+  in_key_ = true;
+  current_ = LogKeyTree::none;
+  return true;
+}
+
+bool LogParser::end_map_key() {
+  in_key_ = false;
+  return true;
+}
+
+bool LogParser::end_map() {
+  current_ = open_.back();
+  open_.pop_back();
+  return true;
+}
+
+void LogParser::parse_error(std::size_t /*parsed*/, std::size_t offset) { error_offset_ = offset; }
+
+void LogParser::insufficient_bytes(std::size_t /*parsed*/, std::size_t /*offset*/) {
+  incomplete_ = true;
+}
+
+}  // namespace touchdown

@@ -1,0 +1,108 @@
+#include "recordings/log_writer.hpp"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "recordings/log_info.hpp"
+
+namespace touchdown {
+
+namespace {
+
+std::vector<const LogKey*> written_keys(bool with_truth) {
+  std::vector<const LogKey*> keys;
+  for (const LogKey& key : log_keys()) {
+    if (key.role == LogKey::Role::alias) continue;
+    if (key.role == LogKey::Role::truth && !with_truth) continue;
+    keys.push_back(&key);
+  }
+  return keys;
+}
+
+}  // namespace
+
+LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, bool with_truth)
+    : stream_(stream),
+      info_(std::move(info)),
+      with_truth_(with_truth),
+      tree_(written_keys(with_truth)),
+      packer_(buffer_) {}
+
+void LogWriter::write(const Observation& observation, const Action& action,
+                      const GroundTruth* truth) {
+  if (with_truth_ && truth == nullptr) throw Error("a row of a simulated run has no ground truth");
+  const LogValues values = to_values(observation, action, truth);
+  const LogKeyTree::Node& record = tree_.node(0);
+  packer_.pack_map(static_cast<std::uint32_t>(record.children.size()) + (is_first_ ? 1U : 0U));
+  if (is_first_) pack_info(packer_, info_);
+  is_first_ = false;
+  for (const int child : record.children) pack_node(child, values);
+  flush();
+}
+
+void LogWriter::finish() {
+  if (!is_first_) return;
+  packer_.pack_map(1);
+  pack_info(packer_, info_);
+  is_first_ = false;
+  flush();
+}
+
+void LogWriter::flush() {
+  stream_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  buffer_.clear();
+  if (!stream_) throw Error("the log cannot be written: is the disk full?");
+}
+
+void LogWriter::pack_node(int index, const LogValues& values) {
+  const LogKeyTree::Node& node = tree_.node(index);
+  const auto length = static_cast<std::uint32_t>(node.name.size());
+  packer_.pack_str(length).pack_str_body(node.name.data(), length);
+  if (node.key != nullptr) {
+    pack_value(*node.key, values);
+    return;
+  }
+  packer_.pack_map(static_cast<std::uint32_t>(node.children.size()));
+  for (const int child : node.children) pack_node(child, values);
+}
+
+void LogWriter::pack_value(const LogKey& key, const LogValues& values) {
+  if (key.is_flag) {
+    if (values[key.slot] != 0.0) {
+      packer_.pack_true();
+    } else {
+      packer_.pack_false();
+    }
+    return;
+  }
+  if (key.size > 1) packer_.pack_array(static_cast<std::uint32_t>(key.size));
+  for (std::size_t i = 0; i < key.size; ++i) packer_.pack_double(values[key.slot + i]);
+}
+
+void write_recording(const Recording& recording, const std::filesystem::path& path) {
+  const bool with_truth = !recording.truth.empty();
+  if (recording.action.size() != recording.steps() ||
+      (with_truth && recording.truth.size() != recording.steps())) {
+    throw Error(fmt::format(
+        "{}: the recording's columns differ in length: {} observations, {} "
+        "actions, {} true states",
+        path.string(), recording.steps(), recording.action.size(), recording.truth.size()));
+  }
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream file(temporary, std::ios::binary);
+    if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
+    LogWriter writer(file, recording.info, with_truth);
+    for (std::size_t step = 0; step < recording.steps(); ++step) {
+      writer.write(recording.observation[step], recording.action[step],
+                   with_truth ? &recording.truth[step] : nullptr);
+    }
+    writer.finish();
+    file.close();
+    if (!file) throw Error(fmt::format("{}: cannot be written: is the disk full?", path.string()));
+  });
+}
+
+}  // namespace touchdown
