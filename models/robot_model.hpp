@@ -18,6 +18,11 @@ struct MjModelDeleter {
 };
 using MjModelPtr = std::unique_ptr<mjModel, MjModelDeleter>;
 
+struct MjDataDeleter {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using MjDataPtr = std::unique_ptr<mjData, MjDataDeleter>;
+
 /// A robot standing on a terrain, compiled: the single description that both physics engines and
 /// the renderer are built from.
 ///

@@ -44,6 +44,7 @@ struct Scenario {
   WheelBalancerConfig balancer;
   VelocityScript velocity;
   std::optional<Tether> tether;
+  double mass_scale = 1.0;  ///< on the mass and inertia of every body of the robot
   SimulatorOptions simulation;
   End end;
   Perturbation perturbation;

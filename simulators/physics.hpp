@@ -28,6 +28,14 @@ struct RobotState {
   std::array<double, servo_count> joint_velocity = {};
 };
 
+/// A wrench on the base from outside the robot, held over one control step.
+struct ExternalWrench {
+  /// Force in the world frame (N).
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  /// Where it pulls, in the base frame (m).
+  Eigen::Vector3d point_in_base = Eigen::Vector3d::Zero();
+};
+
 /// What touched what during one physics step.
 struct ContactForces {
   /// Normal force on each tyre from the terrain (N).

@@ -11,26 +11,10 @@
 
 #include "models/robot.hpp"
 #include "models/robot_model.hpp"
+#include "simulators/options.hpp"
 #include "simulators/physics.hpp"
-#include "simulators/servo.hpp"
 
 namespace touchdown {
-
-/// How finely time is cut, as whole microseconds so that no step is ever rounded.
-struct StepSizes {
-  /// One step of the physics engine (µs).
-  std::int64_t physics_us = 1000;
-  /// One turn of the control loop (µs): a multiple of the physics step.
-  std::int64_t control_us = 1000;
-};
-
-/// A wrench on the base from outside the robot, held over one control step.
-struct ExternalWrench {
-  /// Force in the world frame (N).
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  /// Where it pulls, in the base frame (m).
-  Eigen::Vector3d point_in_base = Eigen::Vector3d::Zero();
-};
 
 /// The seam for physics engines: a robot on a terrain, stepped by actions.
 ///
@@ -55,14 +39,16 @@ class Simulator {
   const GroundTruth& ground_truth() const { return truth_; }
   const RobotState& state() const { return state_; }
   const RobotModel& model() const { return *model_; }
-  const StepSizes& step_sizes() const { return step_sizes_; }
-  double control_period() const { return 1e-6 * static_cast<double>(step_sizes_.control_us); }
+  const SimulatorOptions& options() const { return options_; }
+  /// Seconds per call of `step`.
+  double control_period() const { return 1e-6 * static_cast<double>(options_.steps.control_us); }
 
   /// False once a position or velocity is not finite or larger than anything physical.
   bool healthy() const;
 
  protected:
-  Simulator(std::shared_ptr<const RobotModel> model, const StepSizes& step_sizes);
+  Simulator(std::shared_ptr<const RobotModel> model, const SimulatorOptions& options);
+  double physics_period() const { return 1e-6 * static_cast<double>(options_.steps.physics_us); }
 
   /// Place the robot; called with a state of finite numbers.
   virtual void place(const RobotState& start) = 0;
@@ -74,15 +60,28 @@ class Simulator {
   virtual void read(ContactForces& forces) const = 0;
 
  private:
-  void sense(const Eigen::Vector3d& imu_velocity_before, const JointTorques& torques);
+  Eigen::Vector3d imu_velocity() const;
+  void observe(const Eigen::Vector3d& imu_acceleration, const JointTorques& measured_torques);
 
   std::shared_ptr<const RobotModel> model_;
-  StepSizes step_sizes_;
+  SimulatorOptions options_;
   std::int64_t step_count_ = 0;
   RobotState state_;
   ContactForces forces_;
+  Eigen::Vector3d imu_position_in_base_;
+  Eigen::Matrix3d imu_rotation_in_base_;
   Observation observation_;
   GroundTruth truth_;
 };
+
+/// The engines that `make_simulator` knows.
+const std::vector<std::string>& simulator_names();
+
+/// The engine called `name`, with `model` in it. The model's contact and time step are taken from
+/// `options`, not from the MJCF.
+/// Errors: `InputError` naming the nearest engine; a model that the engine cannot represent.
+std::unique_ptr<Simulator> make_simulator(std::string_view name,
+                                          std::shared_ptr<const RobotModel> model,
+                                          const SimulatorOptions& options);
 
 }  // namespace touchdown

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "core/yaml.hpp"
+#include "estimator/wheel_contact_observer.hpp"
+#include "policies/policy.hpp"
+#include "policies/velocity_script.hpp"
+
+namespace touchdown {
+
+/// Gains of the balancer. Errors are target − measurement.
+struct WheelBalancerConfig {
+  double pitch_stiffness = 25.0;       ///< integral on the pitch error (m/s² per rad)
+  double pitch_damping = 4.0;          ///< proportional on the pitch error (m/s per rad)
+  double position_stiffness = 1.5;     ///< integral on the position error (1/s²)
+  double position_damping = 1.5;       ///< proportional on the position error (1/s)
+  double velocity_feedforward = -1.0;  ///< of the target velocity: negative, see `act`
+  double max_velocity = 2.0;           ///< of the commanded ground velocity (m/s)
+  double max_acceleration = 1.0;       ///< of the target velocity (m/s²)
+  double max_position_error = 1.0;     ///< m
+  double air_decay_time = 1.0;         ///< of the integral while both wheels are in the air (s)
+  double wheel_kd_scale = 0.2;         ///< of the wheels' velocity servo
+  double yaw_stiffness = 1.0;          ///< differential wheel torque (N·m/rad)
+  double yaw_damping = 0.1;            ///< N·m·s/rad
+  double lateral_stiffness = 0.5;      ///< heading asked for per metre beside the course (rad/m)
+  double max_lateral_error = 0.6;      ///< m
+  double leg_kp_scale = 2.0;           ///< of the hips and knees
+  double leg_kd_scale = 2.0;           ///< of the hips and knees
+};
+
+WheelBalancerConfig wheel_balancer_from_yaml(YamlMap map);
+YAML::Node to_yaml(const WheelBalancerConfig& config);
+
+/// Keeps a wheeled biped upright on its wheels while it follows a velocity script, with its legs
+/// stiff in the posture they had at the reset: Upkie's PI law on pitch and position, plus feedback
+/// of the heading. It knows where it is by wheel odometry and whether it is in the air by Upkie's
+/// own wheel contact observer.
+class WheelBalancer : public Policy {
+ public:
+  /// `wheel_radius` in m; `period` of the control loop in s.
+  WheelBalancer(const WheelBalancerConfig& config, VelocityScript script, double wheel_radius,
+                double period);
+
+  void reset(const Observation& observation) override;
+  Action act(const Observation& observation) override;
+
+  /// What the last action asked of the wheels (m/s).
+  double ground_velocity_command() const { return ground_velocity_; }
+
+ private:
+  void follow_script(double time);
+  void update_odometry(const Observation& observation);
+  bool in_the_air(const Observation& observation);
+  void update_ground_velocity(const Observation& observation);
+  double yaw_torque(const Observation& observation) const;
+  double rolled_distance(const Observation& observation) const;
+
+  WheelBalancerConfig config_;
+  VelocityScript script_;
+  double wheel_radius_;
+  double period_;
+  std::array<WheelContactObserver, wheel_count> contact_;
+
+  std::array<double, servo_count> posture_ = {};
+  double target_velocity_ = 0.0;
+  double target_position_ = 0.0;
+  double target_yaw_ = 0.0;
+  double position_ = 0.0;  ///< along the ground, by odometry (m)
+  double lateral_ = 0.0;   ///< to the left of the target heading, by odometry (m)
+  double last_distance_ = 0.0;
+  double last_yaw_ = 0.0;
+  double heading_ = 0.0;  ///< yaw without its jumps by 2π (rad)
+  double integral_ = 0.0;
+  double ground_velocity_ = 0.0;
+};
+
+}  // namespace touchdown

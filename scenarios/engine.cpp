@@ -1,0 +1,104 @@
+#include "scenarios/engine.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include "policies/wheel_balancer.hpp"
+#include "scenarios/start_pose.hpp"
+#include "simulators/simulator.hpp"
+
+namespace touchdown {
+
+namespace {
+
+bool tipped_over(const GroundTruth& truth, double limit) {
+  const double cosine = (truth.base_orientation * Eigen::Vector3d::UnitZ()).z();
+  return cosine < std::cos(limit);
+}
+
+/// Scales mass and inertia alike, so that the robot keeps its shape.
+void scale_mass(RobotModel& model, double scale) {
+  for (int body = 1; body < model.mj->nbody; ++body) {
+    model.mj->body_mass[body] *= scale;
+    for (int axis = 0; axis < 3; ++axis) model.mj->body_inertia[3 * body + axis] *= scale;
+  }
+  const MjDataPtr data(mj_makeData(model.mj.get()));
+  mj_setConst(model.mj.get(), data.get());
+}
+
+/// Watches a run for its end.
+class Referee {
+ public:
+  Referee(const End& end, double start_of_run) : end_(end), time_over_(start_of_run) {}
+
+  /// The outcome once there is one.
+  std::optional<Outcome> judge(const Simulator& simulator) {
+    const double time = simulator.observation().time;
+    const GroundTruth& truth = simulator.ground_truth();
+    if (!simulator.healthy()) return Outcome::diverged;
+    if (truth.body_touches_terrain || tipped_over(truth, end_.fall_tilt)) return Outcome::fell;
+    if (!past_the_end_ && truth.base_position.x() > end_.x) {
+      past_the_end_ = true;
+      time_over_ = time;
+    }
+    if (past_the_end_ && time - time_over_ >= end_.settle) return Outcome::finished;
+    if (time >= end_.duration) {
+      return std::isinf(end_.x) ? Outcome::finished : Outcome::timed_out;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const End& end_;
+  bool past_the_end_ = false;
+  double time_over_;
+};
+
+}  // namespace
+
+Recording play(const Scenario& scenario, std::string_view simulator_name, std::uint64_t seed,
+               std::int64_t run, const PlayProgress& progress) {
+  auto model = std::make_shared<RobotModel>(compile_robot_model(scenario.robot, scenario.terrain));
+  if (scenario.mass_scale != 1.0) scale_mass(*model, scenario.mass_scale);
+  const auto simulator = make_simulator(simulator_name, model, scenario.simulation);
+  WheelBalancer policy(scenario.balancer, scenario.velocity, model->wheel_radius,
+                       simulator->control_period());
+
+  Recording recording;
+  recording.info = {.scenario = scenario.name,
+                    .simulator = std::string(simulator_name),
+                    .seed = seed,
+                    .run = run,
+                    .control_period_us = scenario.simulation.steps.control_us,
+                    .outcome = std::nullopt,
+                    .scenario_yaml = to_yaml(scenario)};
+  const auto most_steps =
+      static_cast<std::size_t>(scenario.end.duration / simulator->control_period()) + 2;
+  recording.observation.reserve(most_steps);
+  recording.action.reserve(most_steps);
+  recording.truth.reserve(most_steps);
+
+  simulator->reset(start_pose(*model, scenario.terrain, scenario.start));
+  policy.reset(simulator->observation());
+  Referee referee(scenario.end, 0.0);
+  for (std::size_t step = 0;; ++step) {
+    const Action action = policy.act(simulator->observation());
+    recording.observation.push_back(simulator->observation());
+    recording.action.push_back(action);
+    recording.truth.push_back(simulator->ground_truth());
+    recording.info.outcome = referee.judge(*simulator);
+    if (recording.info.outcome) return recording;
+    constexpr std::size_t steps_between_reports = 256;
+    if (progress && step % steps_between_reports == 0 && !progress(simulator->observation().time)) {
+      return recording;
+    }
+    ExternalWrench wrench;
+    if (scenario.tether) {
+      wrench.force = tether_force(*scenario.tether, simulator->ground_truth());
+      wrench.point_in_base = scenario.tether->point_in_base;
+    }
+    simulator->step(action, wrench);
+  }
+}
+
+}  // namespace touchdown

@@ -1,0 +1,105 @@
+#include "simulators/mujoco_simulator.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+
+namespace {
+
+MjModelPtr copy_with_options(const RobotModel& model, const SimulatorOptions& options) {
+  MjModelPtr mj(mj_copyModel(nullptr, model.mj.get()));
+  if (!mj) throw Error("MuJoCo could not copy the model: out of memory");
+  mj->opt.timestep = 1e-6 * static_cast<double>(options.steps.physics_us);
+  for (int geom = 0; geom < mj->ngeom; ++geom) {
+    mj->geom_solref[mjNREF * geom] = options.contact.solref_time_constant;
+    mj->geom_solref[mjNREF * geom + 1] = options.contact.solref_damping_ratio;
+  }
+  return mj;
+}
+
+}  // namespace
+
+MujocoSimulator::MujocoSimulator(std::shared_ptr<const RobotModel> model,
+                                 const SimulatorOptions& options)
+    : Simulator(model, options),
+      mj_(copy_with_options(*model, options)),
+      data_(mj_makeData(mj_.get())) {
+  if (!data_) throw Error("MuJoCo could not make its data: out of memory");
+  const mjtNum* com = &mj_->body_ipos[3 * model->base_body];
+  base_com_ = {com[0], com[1], com[2]};
+}
+
+void MujocoSimulator::place(const RobotState& start) {
+  mj_resetData(mj_.get(), data_.get());
+  const auto joint = static_cast<std::size_t>(mj_->body_jntadr[model().base_body]);
+  mjtNum* q = &data_->qpos[mj_->jnt_qposadr[joint]];
+  mjtNum* v = &data_->qvel[mj_->jnt_dofadr[joint]];
+  // A free joint turns in its own frame but moves in the world's.
+  const Eigen::Vector3d omega = start.orientation.conjugate() * start.angular_velocity;
+  for (int i = 0; i < 3; ++i) {
+    q[i] = start.position[i];
+    v[i] = start.linear_velocity[i];
+    v[3 + i] = omega[i];
+  }
+  q[3] = start.orientation.w();
+  q[4] = start.orientation.x();
+  q[5] = start.orientation.y();
+  q[6] = start.orientation.z();
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    data_->qpos[model().qpos_address[i]] = start.joint_position[i];
+    data_->qvel[model().dof_address[i]] = start.joint_velocity[i];
+  }
+}
+
+void MujocoSimulator::advance(const JointTorques& torques, const ExternalWrench& wrench) {
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    data_->qfrc_applied[model().dof_address[i]] = torques[i];
+  }
+  const Eigen::Vector3d lever =
+      state().orientation * Eigen::Vector3d(wrench.point_in_base - base_com_);
+  const Eigen::Vector3d torque = lever.cross(wrench.force);
+  mjtNum* applied = &data_->xfrc_applied[6 * model().base_body];
+  for (int i = 0; i < 3; ++i) {
+    applied[i] = wrench.force[i];
+    applied[3 + i] = torque[i];
+  }
+  mj_step(mj_.get(), data_.get());
+}
+
+void MujocoSimulator::read(RobotState& state) const {
+  const auto joint = static_cast<std::size_t>(mj_->body_jntadr[model().base_body]);
+  const mjtNum* q = &data_->qpos[mj_->jnt_qposadr[joint]];
+  const mjtNum* v = &data_->qvel[mj_->jnt_dofadr[joint]];
+  state.position = {q[0], q[1], q[2]};
+  state.orientation = Eigen::Quaterniond(q[3], q[4], q[5], q[6]);
+  state.linear_velocity = {v[0], v[1], v[2]};
+  state.angular_velocity = state.orientation * Eigen::Vector3d(v[3], v[4], v[5]);
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    state.joint_position[i] = data_->qpos[model().qpos_address[i]];
+    state.joint_velocity[i] = data_->qvel[model().dof_address[i]];
+  }
+}
+
+void MujocoSimulator::read(ContactForces& forces) const {
+  // After mj_step the contacts are those of the state before it: the ones that acted in the step.
+  forces = {};
+  const auto& tyres = model().tyre_geom;
+  for (int i = 0; i < data_->ncon; ++i) {
+    const mjContact& contact = data_->contact[i];
+    const bool first_is_terrain = mj_->geom_bodyid[contact.geom1] == 0;
+    const int other = first_is_terrain ? contact.geom2 : contact.geom1;
+    if (!first_is_terrain && mj_->geom_bodyid[contact.geom2] != 0) continue;
+    mjtNum wrench[6];
+    mj_contactForce(mj_.get(), data_.get(), i, wrench);
+    const auto tyre = std::find(tyres.begin(), tyres.end(), other);
+    if (tyre != tyres.end()) {
+      forces.wheel_normal_force[static_cast<std::size_t>(tyre - tyres.begin())] += wrench[0];
+    } else if (wrench[0] > 0.0) {
+      forces.body_touches_terrain = true;
+    }
+  }
+}
+
+}  // namespace touchdown

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "simulators/simulator.hpp"
+
+namespace touchdown {
+
+/// MuJoCo behind the `Simulator` seam: it steps a copy of the compiled model.
+class MujocoSimulator : public Simulator {
+ public:
+  MujocoSimulator(std::shared_ptr<const RobotModel> model, const SimulatorOptions& options);
+
+  std::string_view name() const override { return "mujoco"; }
+
+  /// The engine's own data, for comparisons between engines.
+  const mjData& data() const { return *data_; }
+
+ protected:
+  void place(const RobotState& start) override;
+  void advance(const JointTorques& torques, const ExternalWrench& wrench) override;
+  void read(RobotState& state) const override;
+  void read(ContactForces& forces) const override;
+
+ private:
+  MjModelPtr mj_;
+  MjDataPtr data_;
+  Eigen::Vector3d base_com_;  ///< centre of mass of the base body in its frame (m)
+};
+
+}  // namespace touchdown

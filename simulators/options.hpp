@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/yaml.hpp"
+
+namespace touchdown {
+
+/// How finely time is cut, as whole microseconds so that no step is ever rounded.
+struct StepSizes {
+  /// One step of the physics engine (µs).
+  std::int64_t physics_us = 1000;
+  /// One turn of the control loop (µs): a multiple of the physics step.
+  std::int64_t control_us = 1000;
+};
+
+/// How the tyres meet the ground. Each engine has its own soft contact model; these two settings
+/// give about the same flights and landings.
+struct ContactModel {
+  double solref_time_constant = 0.01;  ///< MuJoCo: time constant of the contact spring (s)
+  double solref_damping_ratio = 1.0;   ///< MuJoCo: its damping ratio
+  double bullet_stiffness = 3e4;       ///< Bullet: of the tyres (N/m)
+  double bullet_damping = 1e3;         ///< Bullet: of the tyres (N·s/m)
+  /// Both engines: torque that opposes rolling, per newton of load (N·m/N = m).
+  double rolling_resistance = 0.004;
+};
+
+/// Everything that may be set about a simulation besides the scene.
+struct SimulatorOptions {
+  StepSizes steps;
+  ContactModel contact;
+};
+
+/// Keys: `physics_step_us`, `control_step_us`, `contact`. Errors: `InputError`.
+SimulatorOptions simulator_options_from_yaml(YamlMap map);
+YAML::Node to_yaml(const SimulatorOptions& options);
+
+}  // namespace touchdown

@@ -1,0 +1,18 @@
+#include "simulators/servo.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchdown {
+
+double servo_torque(const ServoCommand& command, double position, double velocity, double effort) {
+  double torque =
+      command.feedforward_torque + servo_kd * command.kd_scale * (command.velocity - velocity);
+  if (!std::isnan(command.position)) {
+    torque += servo_kp * command.kp_scale * (command.position - position);
+  }
+  const double limit = std::max(0.0, std::min(command.maximum_torque, effort));
+  return std::clamp(torque, -limit, limit);
+}
+
+}  // namespace touchdown

@@ -1,0 +1,126 @@
+#include "simulators/simulator.hpp"
+
+#include <cmath>
+
+#include "simulators/servo.hpp"
+
+namespace touchdown {
+
+namespace {
+
+/// The attitude reference system of the IMU (x forward, y right, z down) seen from the world.
+const Eigen::Vector3d world_to_ars(1.0, -1.0, -1.0);
+
+/// Resists rolling in proportion to the load, smoothly through standstill.
+double rolling_torque(double coefficient, double normal_force, double wheel_velocity) {
+  return -coefficient * normal_force * std::tanh(wheel_velocity);
+}
+
+}  // namespace
+
+Simulator::Simulator(std::shared_ptr<const RobotModel> model, const SimulatorOptions& options)
+    : model_(std::move(model)), options_(options) {
+  const auto site = static_cast<std::size_t>(model_->imu_site);
+  const mjtNum* position = &model_->mj->site_pos[3 * site];
+  const mjtNum* quaternion = &model_->mj->site_quat[4 * site];
+  imu_position_in_base_ = {position[0], position[1], position[2]};
+  imu_rotation_in_base_ =
+      Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3])
+          .toRotationMatrix();
+}
+
+void Simulator::reset(const RobotState& start) {
+  step_count_ = 0;
+  forces_ = {};
+  place(start);
+  read(state_);
+  observe(Eigen::Vector3d::Zero(), {});
+}
+
+void Simulator::step(const Action& action, const ExternalWrench& wrench) {
+  const Eigen::Vector3d velocity_before = imu_velocity();
+  const std::int64_t substeps = options_.steps.control_us / options_.steps.physics_us;
+  std::array<double, wheel_count> force_sum = {0.0, 0.0};
+  bool body_touched = false;
+  JointTorques measured = {};
+  for (std::int64_t substep = 0; substep < substeps; ++substep) {
+    for (std::size_t i = 0; i < servo_count; ++i) {
+      measured[i] = servo_torque(action.servo[i], state_.joint_position[i],
+                                 state_.joint_velocity[i], model_->effort[i]);
+    }
+    JointTorques applied = measured;
+    for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+      const std::size_t servo = index(wheel_servos[wheel]);
+      applied[servo] +=
+          rolling_torque(options_.contact.rolling_resistance, forces_.wheel_normal_force[wheel],
+                         state_.joint_velocity[servo]);
+    }
+    advance(applied, wrench);
+    read(state_);
+    read(forces_);
+    for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+      force_sum[wheel] += forces_.wheel_normal_force[wheel];
+    }
+    body_touched = body_touched || forces_.body_touches_terrain;
+  }
+  ++step_count_;
+  observe((imu_velocity() - velocity_before) / control_period(), measured);
+  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+    truth_.wheel_normal_force[wheel] = force_sum[wheel] / static_cast<double>(substeps);
+  }
+  truth_.body_touches_terrain = body_touched;
+}
+
+Eigen::Vector3d Simulator::imu_velocity() const {
+  return state_.linear_velocity +
+         state_.angular_velocity.cross(state_.orientation * imu_position_in_base_);
+}
+
+void Simulator::observe(const Eigen::Vector3d& imu_acceleration,
+                        const JointTorques& measured_torques) {
+  const Eigen::Matrix3d base_to_world = state_.orientation.toRotationMatrix();
+  const Eigen::Matrix3d imu_to_world = base_to_world * imu_rotation_in_base_;
+  const mjtNum* g = model_->mj->opt.gravity;
+  const Eigen::Vector3d gravity(g[0], g[1], g[2]);
+
+  observation_.time = static_cast<double>(step_count_) * control_period();
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    observation_.servo[i] = {state_.joint_position[i], state_.joint_velocity[i],
+                             measured_torques[i]};
+  }
+  observation_.imu.orientation =
+      Eigen::Quaterniond(Eigen::Matrix3d(world_to_ars.asDiagonal() * imu_to_world));
+  observation_.imu.angular_velocity = imu_to_world.transpose() * state_.angular_velocity;
+  observation_.imu.linear_acceleration = imu_to_world.transpose() * imu_acceleration;
+  observation_.imu.raw_linear_acceleration =
+      imu_to_world.transpose() * (imu_acceleration - gravity);
+  observation_.pitch = std::asin(std::clamp(-base_to_world(2, 0), -1.0, 1.0));
+  observation_.pitch_rate = base_to_world.col(1).dot(state_.angular_velocity);
+  observation_.yaw = std::atan2(base_to_world(1, 0), base_to_world(0, 0));
+  observation_.yaw_rate = state_.angular_velocity.z();
+
+  truth_ = {.base_position = state_.position,
+            .base_orientation = state_.orientation,
+            .base_linear_velocity = state_.linear_velocity,
+            .base_angular_velocity = state_.angular_velocity,
+            .imu_linear_velocity = imu_velocity()};
+}
+
+bool Simulator::healthy() const {
+  constexpr double largest_position = 1e4;  // m
+  constexpr double largest_velocity = 1e3;  // m/s and rad/s of the base; tenfold for the joints
+  const auto within = [](double x, double limit) { return std::abs(x) <= limit; };  // false if NaN
+  bool good = state_.orientation.coeffs().allFinite();
+  for (int i = 0; i < 3; ++i) {
+    good = good && within(state_.position[i], largest_position) &&
+           within(state_.linear_velocity[i], largest_velocity) &&
+           within(state_.angular_velocity[i], largest_velocity);
+  }
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    good = good && std::isfinite(state_.joint_position[i]) &&
+           within(state_.joint_velocity[i], 10.0 * largest_velocity);
+  }
+  return good;
+}
+
+}  // namespace touchdown
