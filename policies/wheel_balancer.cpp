@@ -65,22 +65,22 @@ void WheelBalancer::update_ground_velocity(const Observation& observation) {
   target_position_ = std::clamp(target_position_, position_ - config_.max_position_error,
                                 position_ + config_.max_position_error);
   if (in_the_air(observation)) {
-    // Wheels that spin in the air say nothing about pitch or place: forget, do not wind up.
-    const double decay = period_ / config_.air_decay_time;
-    integral_ -= decay * integral_;
-    target_position_ += decay * (position_ - target_position_);
+    // Wheels that spin in the air say nothing about place, and little about pitch: leak what was
+    // accumulated. The pitch still counts, so that a false alarm does not tip the robot over.
+    const double leak = period_ / config_.air_decay_time;
+    integral_ -= leak * integral_;
+    target_position_ += leak * (position_ - target_position_);
   } else {
-    const double position_error = target_position_ - position_;
-    integral_ += period_ * (config_.pitch_stiffness * pitch_error +
-                            config_.position_stiffness * position_error);
-    integral_ = std::clamp(integral_, -config_.max_velocity, config_.max_velocity);
+    integral_ += period_ * config_.position_stiffness * (target_position_ - position_);
   }
+  integral_ = std::clamp(integral_ + period_ * config_.pitch_stiffness * pitch_error,
+                         -config_.max_velocity, config_.max_velocity);
   const double position_error = target_position_ - position_;
-  // The target velocity enters backwards: to lean forward, the wheels first have to roll back.
-  ground_velocity_ = std::clamp(config_.velocity_feedforward * target_velocity_ -
-                                    config_.pitch_damping * pitch_error -
-                                    config_.position_damping * position_error - integral_,
-                                -config_.max_velocity, config_.max_velocity);
+  // No feedforward of the target velocity: the wheels must first roll back for the robot to lean
+  // forward, and the position error does just that.
+  ground_velocity_ = std::clamp(
+      -config_.pitch_damping * pitch_error - config_.position_damping * position_error - integral_,
+      -config_.max_velocity, config_.max_velocity);
 }
 
 double WheelBalancer::yaw_torque(const Observation& observation) const {
@@ -120,7 +120,6 @@ WheelBalancerConfig wheel_balancer_from_yaml(YamlMap map) {
   map.read("pitch_damping", c.pitch_damping, 0.0, 1e4);
   map.read("position_stiffness", c.position_stiffness, 0.0, 1e4);
   map.read("position_damping", c.position_damping, 0.0, 1e4);
-  map.read("velocity_feedforward", c.velocity_feedforward, -10.0, 10.0);
   map.read("max_velocity", c.max_velocity, 0.0, 100.0);
   map.read("max_acceleration", c.max_acceleration, 0.0, 100.0);
   map.read("max_position_error", c.max_position_error, 0.0, 100.0);
@@ -142,7 +141,6 @@ YAML::Node to_yaml(const WheelBalancerConfig& c) {
   node["pitch_damping"] = c.pitch_damping;
   node["position_stiffness"] = c.position_stiffness;
   node["position_damping"] = c.position_damping;
-  node["velocity_feedforward"] = c.velocity_feedforward;
   node["max_velocity"] = c.max_velocity;
   node["max_acceleration"] = c.max_acceleration;
   node["max_position_error"] = c.max_position_error;

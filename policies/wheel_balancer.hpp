@@ -9,22 +9,21 @@ namespace touchdown {
 
 /// Gains of the balancer. Errors are target − measurement.
 struct WheelBalancerConfig {
-  double pitch_stiffness = 25.0;       ///< integral on the pitch error (m/s² per rad)
-  double pitch_damping = 4.0;          ///< proportional on the pitch error (m/s per rad)
-  double position_stiffness = 1.5;     ///< integral on the position error (1/s²)
-  double position_damping = 1.5;       ///< proportional on the position error (1/s)
-  double velocity_feedforward = -1.0;  ///< of the target velocity: negative, see `act`
-  double max_velocity = 2.0;           ///< of the commanded ground velocity (m/s)
-  double max_acceleration = 1.0;       ///< of the target velocity (m/s²)
-  double max_position_error = 1.0;     ///< m
-  double air_decay_time = 1.0;         ///< of the integral while both wheels are in the air (s)
-  double wheel_kd_scale = 0.2;         ///< of the wheels' velocity servo
-  double yaw_stiffness = 1.0;          ///< differential wheel torque (N·m/rad)
-  double yaw_damping = 0.1;            ///< N·m·s/rad
-  double lateral_stiffness = 0.5;      ///< heading asked for per metre beside the course (rad/m)
-  double max_lateral_error = 0.6;      ///< m
-  double leg_kp_scale = 2.0;           ///< of the hips and knees
-  double leg_kd_scale = 2.0;           ///< of the hips and knees
+  double pitch_stiffness = 25.0;    ///< integral on the pitch error (m/s² per rad)
+  double pitch_damping = 4.0;       ///< proportional on the pitch error (m/s per rad)
+  double position_stiffness = 1.5;  ///< integral on the position error (1/s²)
+  double position_damping = 1.5;    ///< proportional on the position error (1/s)
+  double max_velocity = 2.0;        ///< of the commanded ground velocity (m/s)
+  double max_acceleration = 1.0;    ///< of the target velocity (m/s²)
+  double max_position_error = 1.0;  ///< m
+  double air_decay_time = 1.0;      ///< of the integral while both wheels are in the air (s)
+  double wheel_kd_scale = 0.2;      ///< of the wheels' velocity servo
+  double yaw_stiffness = 1.0;       ///< differential wheel torque (N·m/rad)
+  double yaw_damping = 0.1;         ///< N·m·s/rad
+  double lateral_stiffness = 0.5;   ///< heading asked for per metre beside the course (rad/m)
+  double max_lateral_error = 0.6;   ///< m
+  double leg_kp_scale = 2.0;        ///< of the hips and knees
+  double leg_kd_scale = 2.0;        ///< of the hips and knees
 };
 
 WheelBalancerConfig wheel_balancer_from_yaml(YamlMap map);
