@@ -14,22 +14,21 @@ SlidingDft::SlidingDft(int window) : bins_(window / 2 + 1) {
     throw InputError("a sliding window needs two or more samples, got " + std::to_string(window));
   }
   samples_.resize(static_cast<std::size_t>(window));
-  blocks_.resize(static_cast<std::size_t>((bins_ + block_size - 1) / block_size));
-  squared_.resize(blocks_.size() * block_size);
+  rows_.resize(static_cast<std::size_t>((bins_ + lanes - 1) / lanes));
   for (int k = 0; k < bins_; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / window;
-    Block& block = blocks_[static_cast<std::size_t>(k / block_size)];
-    block.cosine[k % block_size] = std::cos(angle);
-    block.sine[k % block_size] = std::sin(angle);
+    Row& row = rows_[static_cast<std::size_t>(k % rows())];
+    row.cosine[k / rows()] = std::cos(angle);
+    row.sine[k / rows()] = std::sin(angle);
   }
 }
 
 void SlidingDft::reset() noexcept {
   std::fill(samples_.begin(), samples_.end(), 0.0);
-  std::fill(squared_.begin(), squared_.end(), 0.0);
-  for (Block& block : blocks_) {
-    std::fill_n(block.real, block_size, 0.0);
-    std::fill_n(block.imaginary, block_size, 0.0);
+  for (Row& row : rows_) {
+    std::fill_n(row.real, lanes, 0.0);
+    std::fill_n(row.imaginary, lanes, 0.0);
+    std::fill_n(row.squared, lanes, 0.0);
   }
   oldest_ = 0;
 }
@@ -38,27 +37,27 @@ void SlidingDft::push(double sample) noexcept {
   const double change = sample - samples_[oldest_];
   samples_[oldest_] = sample;
   oldest_ = oldest_ + 1 == samples_.size() ? 0 : oldest_ + 1;
-  double* squared = squared_.data();
-  for (Block& block : blocks_) {
-    for (int i = 0; i < block_size; ++i) {
-      const double real = block.real[i] + change;
-      const double imaginary = block.imaginary[i];
-      const double turned_real = real * block.cosine[i] - imaginary * block.sine[i];
-      const double turned_imaginary = real * block.sine[i] + imaginary * block.cosine[i];
-      block.real[i] = turned_real;
-      block.imaginary[i] = turned_imaginary;
-      squared[i] = turned_real * turned_real + turned_imaginary * turned_imaginary;
+  for (Row& row : rows_) {
+    for (int i = 0; i < lanes; ++i) {
+      const double real = row.real[i] + change;
+      const double imaginary = row.imaginary[i];
+      const double turned_real = real * row.cosine[i] - imaginary * row.sine[i];
+      const double turned_imaginary = real * row.sine[i] + imaginary * row.cosine[i];
+      row.real[i] = turned_real;
+      row.imaginary[i] = turned_imaginary;
+      row.squared[i] = turned_real * turned_real + turned_imaginary * turned_imaginary;
     }
-    squared += block_size;
   }
 }
 
-double SlidingDft::real(int bin) const noexcept {
-  return blocks_[static_cast<std::size_t>(bin / block_size)].real[bin % block_size];
-}
+double SlidingDft::real(int bin) const noexcept { return row(bin % rows()).real[bin / rows()]; }
 
 double SlidingDft::imaginary(int bin) const noexcept {
-  return blocks_[static_cast<std::size_t>(bin / block_size)].imaginary[bin % block_size];
+  return row(bin % rows()).imaginary[bin / rows()];
+}
+
+double SlidingDft::squared_magnitude(int bin) const noexcept {
+  return row(bin % rows()).squared[bin / rows()];
 }
 
 }  // namespace touchdown

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace touchdown {
@@ -28,22 +29,28 @@ class SlidingDft {
   [[nodiscard]] int bins() const noexcept { return bins_; }
   [[nodiscard]] double real(int bin) const noexcept;
   [[nodiscard]] double imaginary(int bin) const noexcept;
-  /// |X_k|² for k = 0 … bins() − 1, then zeros up to a multiple of `block_size`.
-  [[nodiscard]] const std::vector<double>& squared_magnitudes() const noexcept { return squared_; }
+  /// |X_k|².
+  [[nodiscard]] double squared_magnitude(int bin) const noexcept;
 
-  /// Bins are handled in groups of this many, for the compiler to use its vectors.
-  static constexpr int block_size = 8;
+  /// The compiler's vectors run over `lanes` bins at once, and each lane walks through `rows()`
+  /// neighbouring ones: bin k is in lane k / rows(), row k % rows(). So a sum over rows is at once
+  /// the sums over `lanes` contiguous parts of the spectrum. Bins past the last one are zero.
+  static constexpr int lanes = 8;
+  struct Row {
+    double real[lanes] = {};
+    double imaginary[lanes] = {};
+    double squared[lanes] = {};
+    double cosine[lanes] = {};
+    double sine[lanes] = {};
+  };
+  [[nodiscard]] int rows() const noexcept { return static_cast<int>(rows_.size()); }
+  [[nodiscard]] const Row& row(int index) const noexcept {
+    return rows_[static_cast<std::size_t>(index)];
+  }
 
  private:
-  struct Block {
-    double real[block_size] = {};
-    double imaginary[block_size] = {};
-    double cosine[block_size] = {};
-    double sine[block_size] = {};
-  };
   int bins_;
-  std::vector<Block> blocks_;
-  std::vector<double> squared_;
+  std::vector<Row> rows_;
   std::vector<double> samples_;
   std::size_t oldest_ = 0;
 };

@@ -1,18 +1,33 @@
 #include "estimator/spectrum_summary.hpp"
 
-#include <cmath>
+#include <algorithm>
+
+#include <Eigen/Core>
 
 namespace touchdown {
 namespace {
 
-constexpr int block_size = SlidingDft::block_size;
+constexpr int lanes = SlidingDft::lanes;
 constexpr double negligible_rms = 1e-9;
 
-/// A tree instead of a chain, so that the additions do not wait for each other.
-double sum_of_block(const double* x) noexcept {
-  static_assert(block_size == 8);
-  return ((x[0] + x[4]) + (x[1] + x[5])) + ((x[2] + x[6]) + (x[3] + x[7]));
-}
+/// Sums of the first 1, 2, … 8 values, by a tree: a chain of additions would wait for each other.
+struct PrefixSums {
+  explicit PrefixSums(const double* x) noexcept {
+    static_assert(lanes == 8);
+    const double x23 = x[2] + x[3];
+    const double x45 = x[4] + x[5];
+    const double x67 = x[6] + x[7];
+    sum[0] = x[0];
+    sum[1] = x[0] + x[1];
+    sum[2] = sum[1] + x[2];
+    sum[3] = sum[1] + x23;
+    sum[4] = sum[3] + x[4];
+    sum[5] = sum[3] + x45;
+    sum[6] = sum[5] + x[6];
+    sum[7] = sum[3] + (x45 + x67);
+  }
+  double sum[lanes];
+};
 
 }  // namespace
 
@@ -21,59 +36,67 @@ SpectrumSummary::SpectrumSummary(const SlidingDft& dft, SpectrumKind kind, bool 
       magnitude_(kind == SpectrumKind::magnitude),
       nyquist_bin_(dft.window() % 2 == 0 ? dft.window() / 2 : -1),
       nyquist_counts_(nyquist),
-      weights_(dft.squared_magnitudes().size()),
-      block_sums_(dft.squared_magnitudes().size() / block_size) {}
+      weights_(static_cast<std::size_t>(dft.rows())) {}
 
 SpectrumValues SpectrumSummary::operator()(const SlidingDft& dft) noexcept {
-  const double* squared = dft.squared_magnitudes().data();
-  const std::size_t blocks = block_sums_.size();
+  const int rows = dft.rows();
   const double n = window_;
 
-  double energy = 0.0;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    block_sums_[b] = sum_of_block(squared + b * block_size);
-    energy += block_sums_[b];
+  // Eigen's arrays, because left to itself the compiler takes the square roots one by one.
+  using Lanes = Eigen::Array<double, lanes, 1>;
+  Lanes energy = Lanes::Zero();
+  Lanes weight = Lanes::Zero();
+  for (int r = 0; r < rows; ++r) {
+    const Eigen::Map<const Lanes> squared(dft.row(r).squared);
+    Eigen::Map<Lanes> weights(weights_[static_cast<std::size_t>(r)].lane);
+    energy += squared;
+    if (magnitude_) {
+      weights = squared.sqrt();
+      weight += weights;
+    } else {
+      weights = squared;
+    }
   }
+  if (!magnitude_) {
+    weight = energy;
+  }
+
   // Bins that stand for two frequencies, +ω and −ω, count twice.
-  const double unpaired = squared[0] + (nyquist_bin_ >= 0 ? squared[nyquist_bin_] : 0.0);
+  const double unpaired =
+      dft.squared_magnitude(0) + (nyquist_bin_ >= 0 ? dft.squared_magnitude(nyquist_bin_) : 0.0);
   SpectrumValues values;
-  values.mean_square = (2.0 * energy - unpaired) / (n * n);
+  values.mean_square = (2.0 * PrefixSums(energy.data()).sum[lanes - 1] - unpaired) / (n * n);
   if (!(values.mean_square > negligible_rms * negligible_rms)) {
     return values;
   }
 
-  const double* weights = squared;
-  double total = energy;
-  if (magnitude_) {
-    for (std::size_t k = 0; k < weights_.size(); ++k) {
-      weights_[k] = std::sqrt(squared[k]);
-    }
-    weights = weights_.data();
-    total = 0.0;
-    for (std::size_t b = 0; b < blocks; ++b) {
-      block_sums_[b] = sum_of_block(weights + b * block_size);
-      total += block_sums_[b];
-    }
-  }
+  const PrefixSums cumulative(weight.data());
+  double total = cumulative.sum[lanes - 1];
   if (!nyquist_counts_ && nyquist_bin_ >= 0) {
-    total -= weights[nyquist_bin_];
+    total -= weights_[static_cast<std::size_t>(nyquist_bin_ % rows)].lane[nyquist_bin_ / rows];
   }
-
   const double half = 0.5 * total;
+
+  // Counting comparisons instead of leaving a loop early: where the median is, is not predictable.
+  int lane = 0;
   double below = 0.0;
-  std::size_t block = 0;
-  while (block + 1 < blocks && below + block_sums_[block] < half) {
-    below += block_sums_[block];
-    ++block;
+  for (int i = 0; i < lanes - 1; ++i) {
+    const bool passed = cumulative.sum[i] < half;
+    lane += passed ? 1 : 0;
+    below = passed ? cumulative.sum[i] : below;
   }
-  std::size_t bin = block * block_size;
-  const std::size_t last = weights_.size() - 1;
-  while (bin < last && below + weights[bin] < half) {
-    below += weights[bin];
-    ++bin;
+  int passed_rows = 0;
+  double sum = below;
+  for (int r = 0; r < rows - 1; ++r) {
+    sum += weights_[static_cast<std::size_t>(r)].lane[lane];
+    const bool passed = sum < half;
+    passed_rows += passed ? 1 : 0;
+    below = passed ? sum : below;
   }
-  if (bin > 0 && weights[bin] > 0.0) {
-    values.median_bin = static_cast<double>(bin - 1) + (half - below) / weights[bin];
+  const int bin = lane * rows + passed_rows;
+  const double inside = weights_[static_cast<std::size_t>(passed_rows)].lane[lane];
+  if (bin > 0 && inside > 0.0) {
+    values.median_bin = (bin - 1) + std::min(1.0, (half - below) / inside);
   }
   return values;
 }

@@ -33,13 +33,15 @@ class SpectrumSummary {
   [[nodiscard]] SpectrumValues operator()(const SlidingDft& dft) noexcept;
 
  private:
+  struct Weights {
+    double lane[SlidingDft::lanes] = {};
+  };
   int window_;
   bool magnitude_;
   /// Bin of an even window's Nyquist frequency, or −1.
   int nyquist_bin_;
   bool nyquist_counts_;
-  std::vector<double> weights_;
-  std::vector<double> block_sums_;
+  std::vector<Weights> weights_;
 };
 
 }  // namespace touchdown

@@ -1,5 +1,7 @@
 #include "estimator/transition_model.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/error.hpp"

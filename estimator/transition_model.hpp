@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
+#include "estimator/exponential.hpp"
 #include "estimator/sliding_dft.hpp"
 #include "estimator/spectrum_summary.hpp"
 
@@ -15,7 +13,7 @@ struct Sigmoid {
   double slope = 1.0;
 
   [[nodiscard]] double operator()(double x) const noexcept {
-    return 1.0 / (1.0 + std::exp((offset - x) / slope));
+    return 1.0 / (1.0 + exponential((offset - x) / slope));
   }
   bool operator==(const Sigmoid&) const = default;
 };

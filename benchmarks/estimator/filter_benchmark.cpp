@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <chrono>
+#include <complex>
+#include <memory>
+#include <unsupported/Eigen/FFT>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "estimator/bayes_filter.hpp"
+#include "estimator/measurement_only.hpp"
+#include "signals_for_benchmarks.hpp"
+
+namespace touchdown {
+namespace {
+
+constexpr std::size_t stream_length = 4096;
+
+/// The yardstick: one real transform of 128 samples.
+void Yardstick_Fft128(benchmark::State& state) {
+  Eigen::FFT<double> fft;
+  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<double> window(128);
+  std::vector<std::complex<double>> spectrum(65);
+  for (std::size_t i = 0; i < window.size(); ++i) {
+    window[i] = std::sin(0.3 * static_cast<double>(i));
+  }
+  fft.fwd(spectrum, window);
+  for (auto _ : state) {
+    fft.fwd(spectrum.data(), window.data(), 128);
+    benchmark::DoNotOptimize(spectrum.data());
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(Yardstick_Fft128);
+
+std::unique_ptr<ContactEstimator> estimator(const char* name) {
+  if (std::string(name) == "measurement_only") {
+    return std::make_unique<MeasurementOnly>(bench::model(BayesFilterConfig::robust()));
+  }
+  const BayesFilterConfig config = BayesFilterConfig::named(name);
+  return std::make_unique<BayesFilter>(bench::model(config), config);
+}
+
+/// One `update`: transition, and for both wheels lookup and recursion.
+void Update(benchmark::State& state, const char* name) {
+  const auto filter = estimator(name);
+  std::vector<Signals> stream = bench::signals(stream_length);
+  std::size_t i = 0;
+  double time = 0.0;
+  for (auto _ : state) {
+    Signals& s = stream[i];
+    s.time = time += 0.001;
+    benchmark::DoNotOptimize(filter->update(s).p_any_wheel);
+    i = (i + 1) % stream_length;
+  }
+}
+BENCHMARK_CAPTURE(Update, paper, "paper");
+BENCHMARK_CAPTURE(Update, reference, "reference");
+BENCHMARK_CAPTURE(Update, robust, "robust");
+BENCHMARK_CAPTURE(Update, measurement_only, "measurement_only");
+
+/// The time of every single update, clock included, as percentiles (ns).
+void Latency(benchmark::State& state, const char* name) {
+  using Clock = std::chrono::steady_clock;
+  const auto filter = estimator(name);
+  std::vector<Signals> stream = bench::signals(stream_length);
+  std::vector<double> nanoseconds;
+  double time = 0.0;
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < stream_length; ++i) {
+      stream[i].time = time += 0.001;
+      const auto start = Clock::now();
+      benchmark::DoNotOptimize(filter->update(stream[i]).p_any_wheel);
+      const auto end = Clock::now();
+      nanoseconds.push_back(std::chrono::duration<double, std::nano>(end - start).count());
+    }
+  }
+  std::sort(nanoseconds.begin(), nanoseconds.end());
+  const auto percentile = [&](double p) {
+    return nanoseconds[static_cast<std::size_t>(p * static_cast<double>(nanoseconds.size() - 1))];
+  };
+  state.counters["p50_ns"] = percentile(0.5);
+  state.counters["p99_ns"] = percentile(0.99);
+  state.counters["p99.9_ns"] = percentile(0.999);
+  state.counters["max_ns"] = nanoseconds.back();
+}
+BENCHMARK_CAPTURE(Latency, robust, "robust")->Iterations(250);
+BENCHMARK_CAPTURE(Latency, reference, "reference")->Iterations(250);
+
+}  // namespace
+}  // namespace touchdown
