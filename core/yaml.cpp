@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -13,12 +14,30 @@ namespace touchdown {
 
 namespace {
 
+/// yaml-cpp silently keeps the first of two equal keys; whoever wrote the second would never know.
+void refuse_duplicate_keys(const YAML::Node& node, const std::string& name) {
+  if (node.IsSequence()) {
+    for (const auto& item : node) refuse_duplicate_keys(item, name);
+  }
+  if (!node.IsMap()) return;
+  std::set<std::string> seen;
+  for (const auto& entry : node) {
+    if (entry.first.IsScalar() && !seen.insert(entry.first.Scalar()).second) {
+      const YAML::Mark mark = entry.first.Mark();
+      throw InputError(fmt::format("{}:{}:{}: {}: stands there twice", name, mark.line + 1,
+                                   mark.column + 1, entry.first.Scalar()));
+    }
+    refuse_duplicate_keys(entry.second, name);
+  }
+}
+
 YAML::Node parse_or_complain(const std::string& text, const std::string& name) {
   try {
     YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) {
       throw InputError(fmt::format("{}:1:1: expected a mapping of keys to values", name));
     }
+    refuse_duplicate_keys(root, name);
     return root;
   } catch (const YAML::ParserException& error) {
     throw InputError(fmt::format("{}:{}:{}: not valid YAML: {}", name, error.mark.line + 1,
@@ -84,8 +103,13 @@ void YamlDocument::override_value(std::string_view assignment) {
     throw InputError(fmt::format("--set {}: not a YAML value: {}", assignment, error.msg));
   }
   std::vector<std::string> keys;
-  std::stringstream dotted{std::string(assignment.substr(0, equals))};
-  for (std::string key; std::getline(dotted, key, '.');) keys.push_back(key);
+  std::stringstream dotted{std::string(assignment.substr(0, equals)) + "."};
+  for (std::string key; std::getline(dotted, key, '.');) {
+    if (key.empty()) {
+      throw InputError(fmt::format("--set {}: expected names between the dots", assignment));
+    }
+    keys.push_back(key);
+  }
 
   YAML::Node parent = root_;
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {

@@ -114,7 +114,7 @@ class YamlMap {
     } else if constexpr (std::same_as<T, std::string>) {
       return "a text";
     } else {
-      return "a list of " + type_name<typename T::value_type>() + "s";
+      return "a list, each item " + type_name<typename T::value_type>();
     }
   }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "recordings/pack_float64.hpp"
 
 namespace touchdown {
 
@@ -77,30 +78,41 @@ void pack(Packer& packer, std::string_view key) {
   packer.pack_str_body(key.data(), static_cast<std::uint32_t>(key.size()));
 }
 
-void pack(Packer& packer, std::string_view key, double value) {
-  pack(packer, key);
-  packer.pack_double(value);
-}
+/// Packs beliefs as three maps of numbers.
+class BeliefPacker {
+ public:
+  BeliefPacker(Packer& packer, msgpack::sbuffer& buffer) : packer_(packer), buffer_(buffer) {}
 
-void pack_beliefs(Packer& packer, const LogBeliefs& beliefs) {
-  pack(packer, groups[0]);
-  packer.pack_map(3);
-  pack(packer, "contact_likelihood", beliefs.contact_likelihood);
-  pack(packer, "no_contact_likelihood", beliefs.no_contact_likelihood);
-  pack(packer, "p_contact", beliefs.measurement_p_contact);
-  pack(packer, groups[1]);
-  packer.pack_map(7);
-  pack(packer, "power", beliefs.power);
-  pack(packer, "median_frequency", beliefs.median_frequency);
-  pack(packer, "filtered_median_freq", beliefs.filtered_median_frequency);
-  pack(packer, "p_switch", beliefs.p_switch);
-  pack(packer, "p_landing", beliefs.p_landing);
-  pack(packer, "p_landing_p_switch", beliefs.p_landing_p_switch);
-  pack(packer, "p_takeoff_p_switch", beliefs.p_takeoff_p_switch);
-  pack(packer, groups[2]);
-  packer.pack_map(2);
-  pack(packer, "p_contact", beliefs.p_contact);
-  pack(packer, "p_contact_smooth", beliefs.p_contact_smooth);
+  void group(std::string_view key, std::uint32_t size) {
+    pack(packer_, key);
+    packer_.pack_map(size);
+  }
+  void number(std::string_view key, double value) {
+    pack(packer_, key);
+    pack_float64(buffer_, value);
+  }
+
+ private:
+  Packer& packer_;
+  msgpack::sbuffer& buffer_;
+};
+
+void pack_beliefs(BeliefPacker out, const LogBeliefs& beliefs) {
+  out.group(groups[0], 3);
+  out.number("contact_likelihood", beliefs.contact_likelihood);
+  out.number("no_contact_likelihood", beliefs.no_contact_likelihood);
+  out.number("p_contact", beliefs.measurement_p_contact);
+  out.group(groups[1], 7);
+  out.number("power", beliefs.power);
+  out.number("median_frequency", beliefs.median_frequency);
+  out.number("filtered_median_freq", beliefs.filtered_median_frequency);
+  out.number("p_switch", beliefs.p_switch);
+  out.number("p_landing", beliefs.p_landing);
+  out.number("p_landing_p_switch", beliefs.p_landing_p_switch);
+  out.number("p_takeoff_p_switch", beliefs.p_takeoff_p_switch);
+  out.group(groups[2], 2);
+  out.number("p_contact", beliefs.p_contact);
+  out.number("p_contact_smooth", beliefs.p_contact_smooth);
 }
 
 }  // namespace
@@ -132,7 +144,7 @@ void LogAnnotator::annotate(std::string_view record, const LogBeliefs& beliefs) 
     const char* const after = i + 1 < found.entries.size() ? found.entries[i + 1].begin : end;
     buffer_.write(begin, static_cast<std::size_t>(after - begin));
   }
-  pack_beliefs(packer_, beliefs);
+  pack_beliefs({packer_, buffer_}, beliefs);
   buffer_.write(end, static_cast<std::size_t>(record_end - end));
   copy({buffer_.data(), buffer_.size()});
 }

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "recordings/log_info.hpp"
+#include "recordings/pack_float64.hpp"
 
 namespace touchdown {
 
@@ -79,7 +80,7 @@ void LogWriter::pack_value(const LogKey& key, const LogValues& values) {
     return;
   }
   if (key.size > 1) packer_.pack_array(static_cast<std::uint32_t>(key.size));
-  for (std::size_t i = 0; i < key.size; ++i) packer_.pack_double(values[key.slot + i]);
+  for (std::size_t i = 0; i < key.size; ++i) pack_float64(buffer_, values[key.slot + i]);
 }
 
 void write_recording(const Recording& recording, const std::filesystem::path& path) {

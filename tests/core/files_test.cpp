@@ -1,0 +1,99 @@
+#include "core/files.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+namespace {
+
+class Files : public ::testing::Test {
+ protected:
+  Files()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("touchdown-files-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~Files() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Files, AreWrittenWholeIntoFoldersThatAreMade) {
+  const auto path = folder_ / "a" / "b" / "file.csv";
+  const std::string content("x,y\n\0\xff", 6);
+  write_atomically(path, content);
+  EXPECT_EQ(read_file(path), content);
+  write_atomically(path, "shorter");
+  EXPECT_EQ(read_file(path), "shorter");
+}
+
+TEST_F(Files, AWriterThatThrowsLeavesNeitherFileNorTemporary) {
+  const auto path = folder_ / "file.mp4";
+  std::filesystem::path seen;
+  const auto fail_halfway = [&](const std::filesystem::path& temporary) {
+    seen = temporary;
+    std::ofstream(temporary) << "half";
+    EXPECT_TRUE(std::filesystem::exists(temporary));
+    throw Error("the encoder died");
+  };
+  EXPECT_THROW(write_atomically(path, fail_halfway), Error);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_EQ(seen.parent_path(), folder_) << "a rename must not cross file systems";
+  EXPECT_EQ(seen.extension(), ".mp4") << "writers choose their format by it";
+}
+
+TEST_F(Files, AWriterThatThrowsLeavesTheOldFileAsItWas) {
+  const auto path = folder_ / "file";
+  write_atomically(path, "old");
+  EXPECT_THROW(write_atomically(path,
+                                [](const std::filesystem::path& temporary) {
+                                  std::ofstream(temporary) << "new";
+                                  throw std::runtime_error("no");
+                                }),
+               std::runtime_error);
+  EXPECT_EQ(read_file(path), "old");
+}
+
+TEST_F(Files, AWriterThatWritesNothingIsAnError) {
+  EXPECT_THROW(write_atomically(folder_ / "file", [](const std::filesystem::path&) {}), Error);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(Files, ANameWithoutFolderIsWrittenHere) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_);
+  write_atomically("plain.txt", "x");
+  std::filesystem::current_path(before);
+  EXPECT_EQ(read_file(folder_ / "plain.txt"), "x");
+}
+
+TEST_F(Files, WhereNothingCanBeWrittenIsAnError) {
+  write_atomically(folder_ / "file", "x");
+  EXPECT_THROW(write_atomically(folder_ / "file" / "below", "x"), Error);
+  EXPECT_THROW(write_atomically("/proc/file", "x"), Error);
+}
+
+TEST_F(Files, MissingFilesAndFoldersCannotBeRead) {
+  try {
+    read_file(folder_ / "absent.yaml");
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("absent.yaml"));
+  }
+  EXPECT_THROW(read_file(folder_), InputError);
+}
+
+TEST_F(Files, AnEmptyFileIsRead) {
+  write_atomically(folder_ / "empty", "");
+  EXPECT_EQ(read_file(folder_ / "empty"), "");
+}
+
+}  // namespace
+}  // namespace touchdown

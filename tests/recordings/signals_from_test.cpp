@@ -1,0 +1,42 @@
+#include "recordings/signals_from.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/recordings/sample_recording.hpp"
+
+namespace touchdown {
+namespace {
+
+TEST(SignalsFrom, EveryJointLandsOnItsLeg) {
+  const Observation o = testing::sample_recording(1).observation[0];
+  const Signals signals = signals_from(o, 0.25);
+  EXPECT_EQ(signals.time, o.time);
+  EXPECT_EQ(signals.leg[0].hip.position, o.servo[0].position);
+  EXPECT_EQ(signals.leg[0].knee.torque, o.servo[1].torque);
+  EXPECT_EQ(signals.leg[0].wheel.velocity, o.servo[2].velocity);
+  EXPECT_EQ(signals.leg[1].hip.velocity, o.servo[3].velocity);
+  EXPECT_EQ(signals.leg[1].knee.position, o.servo[4].position);
+  EXPECT_EQ(signals.leg[1].wheel.torque, o.servo[5].torque);
+  EXPECT_EQ(signals.linear_acceleration, o.imu.linear_acceleration);
+  EXPECT_EQ(signals.angular_velocity, o.imu.angular_velocity);
+  EXPECT_EQ(signals.ground_velocity_command, 0.25);
+}
+
+TEST(SignalsFrom, AccelerationIsProjectedUpwards) {
+  Observation o;
+  o.imu.orientation = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY());  // IMU upside down
+  o.imu.linear_acceleration = {0.0, 0.0, 2.0};
+  // The reference system's z points down; an IMU turned about y has its z up.
+  EXPECT_NEAR(signals_from(o, 0.0).vertical_acceleration, 2.0, 1e-12);
+}
+
+TEST(SignalsFrom, GroundVelocityIsTheMeanOfTheWheelsTargets) {
+  Action action;
+  action.servo[index(Servo::left_wheel)].velocity = 12.0;
+  action.servo[index(Servo::right_wheel)].velocity = -8.0;
+  EXPECT_DOUBLE_EQ(ground_velocity_command(action), 0.5);
+  EXPECT_DOUBLE_EQ(ground_velocity_command(action, 0.1), 1.0);
+}
+
+}  // namespace
+}  // namespace touchdown
