@@ -39,16 +39,21 @@ std::vector<Score> score(const ContactSequence& truth, const Track& track,
   const double period = 1e-6 * static_cast<double>(period_us);
   for (const JudgedTransition& judged : judge_transitions(truth, track.contact, period, config)) {
     Score& piece = result[piece_of(judged.step, pieces)];
-    (judged.kind == Transition::takeoff ? piece.takeoff : piece.landing).add(judged, period_us);
+    (judged.kind == EventKind::takeoff ? piece.takeoff : piece.landing).add(judged, period_us);
   }
   return result;
 }
 
-Classification classify(const ContactSequence& truth, const ContactSequence& predicted,
-                        std::int64_t period_us, const ScoringConfig& config) {
-  Classification result;
-  for (std::size_t k = first_scored_step(period_us, config); k < truth.size(); ++k) {
-    result.add(truth[k] != 0, predicted[k] != 0);
+std::vector<Classification> classify(const ContactSequence& truth, const ContactSequence& predicted,
+                                     const std::vector<std::size_t>& pieces, std::int64_t period_us,
+                                     const ScoringConfig& config) {
+  std::vector<Classification> result(pieces.size());
+  const std::size_t skip = first_scored_step(period_us, config);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const std::size_t end = i + 1 < pieces.size() ? pieces[i + 1] : truth.size();
+    for (std::size_t k = std::max(pieces[i], skip); k < end; ++k) {
+      result[i].add(truth[k] != 0, predicted[k] != 0);
+    }
   }
   return result;
 }

@@ -36,9 +36,10 @@ std::vector<Score> score(const ContactSequence& truth, const Track& track,
                          const std::vector<std::size_t>& pieces, std::int64_t period_us,
                          const ScoringConfig& config);
 
-/// The point-wise part alone, over the whole run.
-Classification classify(const ContactSequence& truth, const ContactSequence& predicted,
-                        std::int64_t period_us, const ScoringConfig& config);
+/// The point-wise part alone, from decisions.
+std::vector<Classification> classify(const ContactSequence& truth, const ContactSequence& predicted,
+                                     const std::vector<std::size_t>& pieces, std::int64_t period_us,
+                                     const ScoringConfig& config);
 
 /// The things of which contact is scored.
 enum class View : int { left_wheel, right_wheel, any_wheel, both_wheels };

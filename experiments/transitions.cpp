@@ -46,19 +46,19 @@ std::vector<Flight> true_flights(const ContactSequence& truth, Step minimum) {
   return result;
 }
 
-std::vector<Event> events_of(Transition kind, const std::vector<Flight>& all, const Limits& limit) {
+std::vector<Event> events_of(EventKind kind, const std::vector<Flight>& all, const Limits& limit) {
   std::vector<Event> events;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto takeoff = static_cast<Step>(all[i].takeoff);
     const auto landing = static_cast<Step>(all[i].landing);
-    if (kind == Transition::takeoff && takeoff > 0) {
+    if (kind == EventKind::takeoff && takeoff > 0) {
       const Step before = i == 0 ? 0 : static_cast<Step>(all[i - 1].landing);
       const Step closes = landing < limit.end ? landing - 1 : std::numeric_limits<Step>::max();
       events.push_back({takeoff,
                         {std::max(takeoff - limit.takeoff_opens, before),
                          std::min(takeoff + limit.hold_off, closes)}});
     }
-    if (kind == Transition::landing && landing < limit.end) {
+    if (kind == EventKind::landing && landing < limit.end) {
       const Step closes = i + 1 < all.size() ? static_cast<Step>(all[i + 1].takeoff) - 1
                                              : std::numeric_limits<Step>::max();
       events.push_back({landing,
@@ -69,8 +69,8 @@ std::vector<Event> events_of(Transition kind, const std::vector<Flight>& all, co
   return events;
 }
 
-std::vector<Step> predicted_steps(Transition kind, const ContactSequence& predicted, Step skip) {
-  const std::uint8_t after = kind == Transition::landing ? 1 : 0;
+std::vector<Step> predicted_steps(EventKind kind, const ContactSequence& predicted, Step skip) {
+  const std::uint8_t after = kind == EventKind::landing ? 1 : 0;
   std::vector<Step> steps;
   for (std::size_t k = 1; k < predicted.size(); ++k) {
     if (predicted[k] == after && predicted[k - 1] != after && static_cast<Step>(k) >= skip) {
@@ -105,7 +105,7 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
   const std::vector<Window> forgiving = excused(truth, limit);
   std::vector<JudgedTransition> judged;
 
-  for (const Transition kind : {Transition::takeoff, Transition::landing}) {
+  for (const EventKind kind : {EventKind::takeoff, EventKind::landing}) {
     const std::vector<Step> announced = predicted_steps(kind, predicted, limit.skip);
     for (const Event& event : events_of(kind, long_flights, limit)) {
       // An event that could not have been found in time is not judged.
@@ -113,7 +113,7 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
       const auto first = std::find_if(announced.begin(), announced.end(),
                                       [&](Step step) { return event.window.contains(step); });
       const bool found = first != announced.end();
-      judged.push_back({kind, found ? Verdict::detected : Verdict::missed,
+      judged.push_back({kind, found ? Judgement::detected : Judgement::missed,
                         static_cast<std::size_t>(event.step), found ? *first - event.step : 0});
     }
     Step quiet_until = -1;
@@ -122,7 +122,7 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
           step <= quiet_until || std::any_of(forgiving.begin(), forgiving.end(),
                                              [&](const Window& w) { return w.contains(step); });
       if (irrelevant) continue;
-      judged.push_back({kind, Verdict::false_alarm, static_cast<std::size_t>(step), 0});
+      judged.push_back({kind, Judgement::false_alarm, static_cast<std::size_t>(step), 0});
       quiet_until = step + limit.hold_off;
     }
   }
@@ -130,12 +130,12 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
 }
 
 void TransitionCounts::add(const JudgedTransition& judged, std::int64_t period_us) {
-  if (judged.verdict == Verdict::false_alarm) {
+  if (judged.verdict == Judgement::false_alarm) {
     false_alarms += 1;
     return;
   }
   events += 1;
-  if (judged.verdict == Verdict::missed) return;
+  if (judged.verdict == Judgement::missed) return;
   const std::int64_t us = judged.latency * period_us;
   detected += 1;
   latency_us += us;

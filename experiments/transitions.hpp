@@ -17,13 +17,13 @@ struct ScoringConfig {
   double minimum_flight = 0.05;  ///< shorter flights are no events that must be found (s)
 };
 
-enum class Transition : int { takeoff, landing };
-enum class Verdict : int { detected, missed, false_alarm };
+enum class EventKind : int { takeoff, landing };
+enum class Judgement : int { detected, missed, false_alarm };
 
 /// A true event that was detected or missed, or a predicted one that was a false alarm.
 struct JudgedTransition {
-  Transition kind = Transition::takeoff;
-  Verdict verdict = Verdict::missed;
+  EventKind kind = EventKind::takeoff;
+  Judgement verdict = Judgement::missed;
   std::size_t step = 0;      ///< of the true event; of the prediction for a false alarm
   std::int64_t latency = 0;  ///< steps from the true event to its detection; negative if early
 

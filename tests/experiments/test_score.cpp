@@ -80,7 +80,7 @@ TEST(Score, CountsPointsAfterTheSkippedBeginning) {
   EXPECT_DOUBLE_EQ(points.contact_recall(), 585.0 / 600.0);
   EXPECT_DOUBLE_EQ(points.no_contact_precision(), 75.0 / 90.0);
   EXPECT_DOUBLE_EQ(points.no_contact_recall(), 0.75);
-  EXPECT_EQ(classify(truth, track.contact, period_us, {}), points);
+  EXPECT_EQ(classify(truth, track.contact, {0}, period_us, {}).front(), points);
 }
 
 TEST(Score, OfThePiecesAddsUpToTheWhole) {

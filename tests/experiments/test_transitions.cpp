@@ -8,8 +8,8 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using enum Transition;
-using enum Verdict;
+using enum EventKind;
+using enum Judgement;
 
 constexpr double period = 1e-3;
 

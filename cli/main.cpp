@@ -1,0 +1,83 @@
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "cli/complaint.hpp"
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "experiments/stopped.hpp"
+
+namespace {
+
+enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
+
+// Signal handlers can reach nothing but globals.
+std::atomic<bool> stop_requested = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void request_stop(int /*signal*/) { stop_requested = true; }
+
+/// The first Ctrl-C asks to stop, the second one kills.
+void stop_on_interrupt() {
+  struct sigaction action = {};
+  action.sa_handler = request_stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+}
+
+int complain(const std::string& message, ExitCode code) {
+  fmt::print(stderr, "touchdown: {}\n", message);
+  return code;
+}
+
+std::string joined(int argc, char** argv) {
+  std::string line = "touchdown";
+  for (int i = 1; i < argc; ++i) line += fmt::format(" {}", argv[i]);
+  return line;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace touchdown;
+  Session session{joined(argc, argv), &stop_requested, {}};
+  CLI::App program(
+      "touchdown run experiments/stairs.yaml\n\n"
+      "Simulates wheeled bipeds in two physics engines, injects sensor noise, and\n"
+      "scores what contact estimators make of it.",
+      "touchdown");
+  program.set_version_flag("--version", "touchdown " TOUCHDOWN_VERSION);
+  program.require_subcommand(1);
+  program.failure_message(CLI::FailureMessage::simple);
+  add_run(program, session);
+  add_simulate(program, session);
+  add_render(program, session);
+  add_list(program, session);
+
+  if (argc < 2) {
+    fmt::print("{}", program.help());
+    return wrong_request;
+  }
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return program.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    return complain(complaint(program, argc, argv, error), wrong_request);
+  }
+  try {
+    stop_on_interrupt();
+    session.action();
+    return good;
+  } catch (const InputError& error) {
+    return complain(error.what(), wrong_request);
+  } catch (const Stopped&) {
+    return complain("stopped; what is finished is saved, and the same command goes on from there",
+                    failed);
+  } catch (const std::exception& error) {
+    return complain(error.what(), failed);
+  }
+}

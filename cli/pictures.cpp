@@ -1,0 +1,72 @@
+#include "cli/pictures.hpp"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "cli/belief_track.hpp"
+#include "experiments/estimator_registry.hpp"
+#include "experiments/progress.hpp"
+#include "experiments/stopped.hpp"
+#include "recordings/log_reader.hpp"
+
+namespace touchdown {
+
+namespace {
+
+const PlayedRun* filmed_run(const ExperimentResult& result, const std::string& simulator) {
+  for (const PlayedRun& run : result.runs) {
+    if (run.plan.role == RunRole::test && run.plan.simulator == simulator &&
+        run.plan.run == result.experiment.video.run) {
+      return &run;
+    }
+  }
+  return nullptr;
+}
+
+Picture film(const ExperimentResult& result, const PlayedRun& run, const Session& session) {
+  const Experiment& experiment = result.experiment;
+  const NoiseLevels levels =
+      NoiseCell{experiment.video.torque_noise, experiment.video.accelerometer_noise}.levels();
+  const NoiseKey key = noise_key(experiment, 0, run.plan.run);
+  const UnitNoise noise = unit_noise(run.heard, key);
+  std::vector<BeliefTrack> beliefs;
+  for (const std::string& estimator : experiment.video.estimators) {
+    beliefs.push_back(believe({run.plan.simulator, run.plan.simulator, estimator}, result.models,
+                              run.heard, noise, levels));
+  }
+  const Recording recording =
+      with_noise(read_recording(result.directory.file("recordings", run.plan.file)), key, levels);
+  const auto path = result.directory.file(
+      "videos", fmt::format("{}_{}.mp4", run.plan.simulator, run.plan.scenario.name));
+  const auto last =
+      static_cast<std::int64_t>(static_cast<double>(recording.steps()) * recording.period() * 30.0);
+  Progress progress(fmt::format("filming {}", run.plan.simulator), "frames", last);
+  VideoOptions options;
+  options.labels = experiment.labels;
+  options.workers = experiment.workers;
+  options.progress = [&](int /*done*/, int /*of*/) {
+    progress.advance();
+    if (*session.stop) throw Stopped();
+  };
+  render_video(robot_of(recording), recording, beliefs, options, path);
+  return {"video", path};
+}
+
+}  // namespace
+
+std::vector<Picture> draw_pictures(ExperimentResult& result, const Session& session) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<Picture> pictures;
+  if (result.experiment.video.enabled) {
+    for (const std::string& simulator : result.experiment.simulators) {
+      const PlayedRun* run = filmed_run(result, simulator);
+      if (run != nullptr) pictures.push_back(film(result, *run, session));
+    }
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  result.provenance.timings.emplace_back("draw", elapsed.count());
+  return pictures;
+}
+
+}  // namespace touchdown

@@ -1,0 +1,80 @@
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/verbs.hpp"
+#include "experiments/labels.hpp"
+#include "experiments/progress.hpp"
+#include "experiments/resources.hpp"
+#include "experiments/stopped.hpp"
+#include "recordings/log_writer.hpp"
+#include "scenarios/engine.hpp"
+
+namespace touchdown {
+
+namespace {
+
+struct SimulateFlags {
+  std::string scenario;
+  std::string simulator = "mujoco";
+  std::string output;
+  std::vector<std::string> overrides;
+  std::uint64_t seed = 1;
+  std::int64_t run = -1;
+};
+
+void simulate(const SimulateFlags& flags, const Session& session) {
+  YamlDocument document = YamlDocument::load(find_resource(flags.scenario));
+  for (const std::string& assignment : flags.overrides) document.override_value(assignment);
+  Scenario scenario = scenario_from_yaml(document);
+  scenario.robot = find_resource(scenario.robot);
+  if (flags.run >= 0) scenario = perturbed(scenario, flags.seed, flags.run);
+
+  Recording recording;
+  {
+    constexpr double ticks_per_second = 1000.0;
+    Progress progress("simulating", "ms",
+                      static_cast<std::int64_t>(ticks_per_second * scenario.end.duration));
+    std::int64_t shown = 0;
+    recording = play(scenario, flags.simulator, flags.seed, std::max(flags.run, std::int64_t{0}),
+                     [&](double time) {
+                       const auto ticks = static_cast<std::int64_t>(ticks_per_second * time);
+                       progress.advance(ticks - shown);
+                       shown = ticks;
+                       return !*session.stop;
+                     });
+  }
+  if (*session.stop) throw Stopped();
+  write_recording(recording, flags.output);
+  const auto all = flights(any_wheel(contact_labels(recording, {})));
+  fmt::print("{}: {} {} after {:.3f} s, {} flights\n", flags.output, recording.info.scenario,
+             to_text(*recording.info.outcome),
+             static_cast<double>(recording.steps()) * recording.period(), all.size());
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program, Session& session) {
+  CLI::App* verb = program.add_subcommand(
+      "simulate",
+      "touchdown simulate scenarios/stairs.yaml --simulator bullet -o stairs.mpack\n\n"
+      "Plays one run of a scenario and records it as Upkie logs.");
+  const auto flags = std::make_shared<SimulateFlags>();
+  verb->add_option("scenario", flags->scenario, "Scenario file")->required();
+  verb->add_option("--simulator", flags->simulator, "Physics engine")->capture_default_str();
+  verb->add_option("-o,--output", flags->output, "Recording to write")
+      ->type_name("FILE.mpack")
+      ->required();
+  verb->add_option("--run", flags->run,
+                   "Draw the perturbations of this run from the seed (default: none)")
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--seed", flags->seed, "Seed of the draws")->capture_default_str();
+  verb->add_option("--set", flags->overrides,
+                   "Change a value of the scenario, for example end.duration=5")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  verb->callback(
+      [flags, &session] { session.action = [flags, &session] { simulate(*flags, session); }; });
+}
+
+}  // namespace touchdown

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace touchdown {
+
+/// What all verbs share.
+struct Session {
+  std::string command;                      ///< what was typed
+  const std::atomic<bool>* stop = nullptr;  ///< becomes true on Ctrl-C
+  std::function<void()> action;             ///< set by the verb that was asked for
+};
+
+/// Each adds its verb and flags to the program; the verb's callback sets `session.action`.
+void add_run(CLI::App& program, Session& session);
+void add_simulate(CLI::App& program, Session& session);
+void add_render(CLI::App& program, Session& session);
+void add_list(CLI::App& program, Session& session);
+
+}  // namespace touchdown

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/yaml.hpp"
+#include "experiments/bootstrap.hpp"
+#include "experiments/labels.hpp"
+#include "experiments/transitions.hpp"
+#include "noise/sensor_noise.hpp"
+
+namespace touchdown {
+
+/// Which runs to simulate: every scenario, so many times.
+struct RunsConfig {
+  std::vector<std::string> scenarios;  ///< scenario files
+  int runs = 1;                        ///< of each scenario
+  bool perturbed = true;               ///< drawn from the seed, or the scenario as it stands
+};
+
+/// Standard deviations of Gaussian noise on what the estimator hears, as lists to be combined, and
+/// how often each combination is drawn anew.
+struct NoiseGridConfig {
+  std::vector<double> torque = {0.0};         ///< on knees and wheels alike (N·m)
+  std::vector<double> accelerometer = {0.0};  ///< on each axis (m/s²)
+  int seeds = 1;
+};
+
+/// One noise setting of a sweep.
+struct NoiseCell {
+  double torque = 0.0;         ///< on knees and wheels (N·m)
+  double accelerometer = 0.0;  ///< on each axis (m/s²)
+
+  NoiseLevels levels() const {
+    return {.knee_torque = torque, .wheel_torque = torque, .acceleration = accelerometer};
+  }
+
+  friend bool operator==(const NoiseCell&, const NoiseCell&) = default;
+};
+
+/// What a bootstrap interval takes as its sample.
+enum class SampleUnit : int { run, drop };
+
+struct IntervalConfig {
+  SampleUnit over = SampleUnit::run;
+  BootstrapConfig bootstrap;
+};
+
+/// The run that is drawn and filmed for every engine.
+struct VideoConfig {
+  bool enabled = true;
+  int run = 0;                          ///< index of the test run
+  std::vector<std::string> estimators;  ///< whose probabilities are shown; empty: the first
+  double torque_noise = 0.0;            ///< N·m
+  double accelerometer_noise = 0.0;     ///< m/s²
+};
+
+/// An experiment file, seen whole: what is simulated, who listens through which noise, what counts.
+struct Experiment {
+  std::string name;
+  std::uint64_t seed = 1;
+  std::vector<std::string> simulators = {"mujoco", "bullet"};
+  std::vector<std::string> estimators = {"robust"};
+  RunsConfig fit;   ///< noiseless runs that the measurement models are fitted to
+  RunsConfig test;  ///< runs that estimators are scored on; none of them is ever fitted to
+  NoiseGridConfig noise;
+  std::vector<NoiseCell> highlights;  ///< cells of the grid that are printed and marked
+  LabelConfig labels;
+  ScoringConfig scoring;
+  IntervalConfig intervals;
+  VideoConfig video;
+  int workers = 0;  ///< threads; 0: one per core. Never changes a result.
+};
+
+/// Test runs are numbered from 0, fitted ones from here, so that the two never share a draw.
+inline constexpr std::int64_t first_fit_run = 1'000'000;
+
+/// Reads an experiment strictly. Errors: `InputError` with file:line:column; names of engines and
+/// estimators are checked here, scenario files when they are loaded.
+Experiment experiment_from_yaml(const YamlDocument& document);
+
+/// The experiment with every default written out, as YAML that reads back to the same experiment.
+/// Leaves out `workers`: it changes no result.
+std::string to_yaml(const Experiment& experiment);
+
+}  // namespace touchdown

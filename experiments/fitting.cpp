@@ -1,0 +1,92 @@
+#include "experiments/fitting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/error.hpp"
+#include "experiments/estimator_registry.hpp"
+
+namespace touchdown {
+
+namespace {
+
+/// One measurement model to fit, and the estimators that share it.
+struct Job {
+  std::string simulator;
+  MeasurementConfig config;
+  std::vector<std::string> estimators;
+  std::optional<MeasurementModel> model;
+};
+
+std::vector<Job> jobs_of(const Experiment& experiment) {
+  std::vector<Job> jobs;
+  for (const std::string& simulator : experiment.simulators) {
+    for (const std::string& name : experiment.estimators) {
+      const EstimatorEntry& entry = estimator_entry(name);
+      if (!entry.config) continue;
+      const auto same = std::find_if(jobs.begin(), jobs.end(), [&](const Job& job) {
+        return job.simulator == simulator && job.config == entry.config->measurement;
+      });
+      if (same != jobs.end()) {
+        same->estimators.push_back(name);
+      } else {
+        jobs.push_back({simulator, entry.config->measurement, {name}, std::nullopt});
+      }
+    }
+  }
+  return jobs;
+}
+
+}  // namespace
+
+LabelledTorques labelled_torques(std::span<const HeardRun* const> runs, const TorqueConfig& config,
+                                 const ScoringConfig& scoring) {
+  LabelledTorques torques;
+  for (const HeardRun* run : runs) {
+    const double period = 1e-6 * static_cast<double>(run->info.control_period_us);
+    const auto skip = static_cast<std::size_t>(std::llround(scoring.skip / period));
+    for (std::size_t leg = 0; leg < wheel_count; ++leg) {
+      TorqueChannel channel(config, static_cast<Side>(leg), 1.0 / period);
+      for (std::size_t k = 0; k < run->steps(); ++k) {
+        const TorqueSample sample = channel.update(run->signals[k].leg[leg]);
+        if (k < skip) continue;
+        (run->contact[leg][k] != 0 ? torques.contact : torques.no_contact).push_back(sample);
+      }
+    }
+  }
+  return torques;
+}
+
+MeasurementModel fit(std::span<const HeardRun* const> runs, const MeasurementConfig& config,
+                     const ScoringConfig& scoring) {
+  const LabelledTorques torques = labelled_torques(runs, config.torque, scoring);
+  return fit_measurement_model(torques.contact, torques.no_contact, config.fit);
+}
+
+FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun>& fit_runs) {
+  std::vector<Job> jobs = jobs_of(experiment);
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+    std::vector<const HeardRun*> runs;
+    for (const HeardRun& run : fit_runs) {
+      if (run.info.simulator == jobs[i].simulator) runs.push_back(&run);
+    }
+    try {
+      jobs[i].model = fit(runs, jobs[i].config, experiment.scoring);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("fit on {}: {}", jobs[i].simulator, error.what()));
+    }
+  });
+  FittedModels models;
+  for (const Job& job : jobs) {
+    for (const std::string& name : job.estimators) {
+      models[job.simulator].emplace(name, *job.model);
+    }
+  }
+  return models;
+}
+
+}  // namespace touchdown

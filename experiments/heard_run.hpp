@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimator/contact_estimator.hpp"
+#include "estimator/signals.hpp"
+#include "experiments/experiment.hpp"
+#include "experiments/labels.hpp"
+#include "experiments/score.hpp"
+#include "noise/sensor_noise.hpp"
+#include "recordings/recording.hpp"
+
+namespace touchdown {
+
+/// What a study keeps of a recording: what estimators hear at every step, and what is true.
+struct HeardRun {
+  RecordingInfo info;
+  std::vector<Signals> signals;                      ///< noiseless
+  std::vector<Eigen::Vector3d> up_in_imu;            ///< the world's vertical in the IMU frame
+  std::array<ContactSequence, wheel_count> contact;  ///< labels
+  std::vector<std::size_t> pieces;                   ///< first steps of the statistical samples
+
+  std::size_t steps() const { return signals.size(); }
+};
+
+/// Errors: `InputError` when the recording has no ground truth.
+HeardRun hear(const Recording& recording, const LabelConfig& labels, const ScoringConfig& scoring,
+              SampleUnit unit);
+
+/// Unit Gaussian noise on everything that estimators hear in one run, to be scaled by every noise
+/// level of a sweep: the draws are those of `with_noise` with the same key.
+struct UnitNoise {
+  std::array<std::vector<double>, wheel_count> knee_torque;
+  std::array<std::vector<double>, wheel_count> wheel_torque;
+  std::array<std::vector<double>, 3> acceleration;  ///< in the IMU frame
+  std::vector<double> vertical_acceleration;        ///< the same, along the world's vertical
+};
+
+UnitNoise unit_noise(const HeardRun& run, const NoiseKey& key);
+
+/// What is heard at `step` through sensors with this noise.
+inline Signals noisy(const HeardRun& run, const UnitNoise& noise, const NoiseLevels& levels,
+                     std::size_t step) {
+  Signals signals = run.signals[step];
+  for (std::size_t leg = 0; leg < wheel_count; ++leg) {
+    signals.leg[leg].knee.torque += levels.knee_torque * noise.knee_torque[leg][step];
+    signals.leg[leg].wheel.torque += levels.wheel_torque * noise.wheel_torque[leg][step];
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    signals.linear_acceleration[static_cast<int>(axis)] +=
+        levels.acceleration * noise.acceleration[axis][step];
+  }
+  signals.vertical_acceleration += levels.acceleration * noise.vertical_acceleration[step];
+  return signals;
+}
+
+/// The wheels' decisions of a freshly reset estimator that listens to a whole run through noise.
+std::array<ContactSequence, wheel_count> decide(ContactEstimator& estimator, const HeardRun& run,
+                                                const UnitNoise& noise, const NoiseLevels& levels);
+
+/// As above, with probabilities and the robot's views.
+Prediction predict(ContactEstimator& estimator, const HeardRun& run, const UnitNoise& noise,
+                   const NoiseLevels& levels);
+
+}  // namespace touchdown

@@ -1,0 +1,42 @@
+#include "experiments/run_directory.hpp"
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace touchdown {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Points `link` to `target`, replacing what it pointed to in one step.
+void point(const fs::path& link, const fs::path& target) {
+  const fs::path temporary = link.parent_path() / fmt::format(".latest.{}", ::getpid());
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  fs::create_directory_symlink(target, temporary);
+  fs::rename(temporary, link);
+}
+
+}  // namespace
+
+RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,
+                           const fs::path& out)
+    : path_(out.empty() ? fs::path("runs") / experiment / id : out) {
+  try {
+    fs::create_directories(path_);
+    if (out.empty()) point(path_.parent_path() / "latest", id);
+  } catch (const fs::filesystem_error& error) {
+    throw Error(fmt::format("{}: cannot be made: {}", path_.string(), error.code().message()));
+  }
+}
+
+void RunDirectory::write_table(std::string_view name, const Table& table) const {
+  write_atomically(file("tables", name), to_csv(table));
+}
+
+}  // namespace touchdown

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "experiments/table.hpp"
+
+namespace touchdown {
+
+/// Where one experiment's results go: `runs/<experiment>/<id>/` with a folder per kind of file.
+/// Every file appears whole or not at all.
+class RunDirectory {
+ public:
+  /// `runs/<experiment>/<id>` under the current directory; `runs/<experiment>/latest` then points
+  /// to it. A given `out` is used itself, without such a link. Errors: `Error` when it cannot be
+  /// made.
+  RunDirectory(const std::string& experiment, const std::string& id,
+               const std::filesystem::path& out = {});
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path file(std::string_view folder, std::string_view name) const {
+    return path_ / folder / name;
+  }
+
+  void write_table(std::string_view name, const Table& table) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace touchdown

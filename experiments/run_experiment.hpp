@@ -1,0 +1,50 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/experiment.hpp"
+#include "experiments/fitting.hpp"
+#include "experiments/manifest.hpp"
+#include "experiments/run_directory.hpp"
+#include "experiments/run_plan.hpp"
+#include "experiments/success_tables.hpp"
+
+namespace touchdown {
+
+/// How an experiment is run; none of it changes a result.
+struct RunOptions {
+  std::filesystem::path out;                ///< run directory; empty: by the experiment's content
+  std::string command;                      ///< what was typed, for the manifest
+  const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user asks to stop
+};
+
+/// What an experiment found out. The same is in the run directory's files.
+struct ExperimentResult {
+  Experiment experiment;
+  std::string id;
+  RunDirectory directory;
+  std::vector<PlayedRun> runs;
+  FittedModels models;
+  std::vector<NoiseCell> cells;
+  std::vector<CellSummary> summaries;
+  Provenance provenance;
+};
+
+/// Simulates, fits, listens, scores and writes tables. What an earlier attempt of the same program
+/// left complete in the run directory is used and not computed again.
+/// Errors: `InputError` for a wrong request, `Stopped`, `Error` when no run can be scored.
+ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options);
+
+/// The test runs that are scored: all but those that fell or diverged.
+std::vector<const HeardRun*> scored_runs(const std::vector<PlayedRun>& runs);
+
+/// What a terminal should show.
+std::string summary_text(const ExperimentResult& result);
+
+/// Writes `manifest.json`; again when there are more timings to tell.
+void write_manifest(const ExperimentResult& result);
+
+}  // namespace touchdown

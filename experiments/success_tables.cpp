@@ -1,0 +1,125 @@
+#include "experiments/success_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "experiments/estimator_registry.hpp"
+
+namespace touchdown {
+
+namespace {
+
+const std::vector<std::function<double(const Classification&)>>& statistics() {
+  static const std::vector<std::function<double(const Classification&)>> all = {
+      &Classification::success, &Classification::contact_precision, &Classification::contact_recall,
+      &Classification::no_contact_precision, &Classification::no_contact_recall};
+  return all;
+}
+
+double always_contact_success(const std::vector<Classification>& samples) {
+  Classification all;
+  for (const Classification& sample : samples) all += sample;
+  return ratio(all.contact(), all.points());
+}
+
+std::vector<std::string> setting(const CellSummary& summary) {
+  return {summary.condition.test_simulator, summary.condition.estimator, exact(summary.cell.torque),
+          exact(summary.cell.accelerometer)};
+}
+
+void append(std::vector<std::string>& row, const Interval& interval) {
+  row.push_back(metric(interval.estimate));
+  row.push_back(metric(interval.low));
+  row.push_back(metric(interval.high));
+}
+
+}  // namespace
+
+std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
+                                   const std::vector<NoiseCell>& cells,
+                                   const BootstrapConfig& bootstrap_config) {
+  std::vector<CellSummary> summaries(counts.size() * cells.size());
+  tbb::parallel_for(std::size_t{0}, summaries.size(), [&](std::size_t i) {
+    const ConditionCounts& condition = counts[i / cells.size()];
+    const std::vector<Classification>& samples = condition.samples[i % cells.size()];
+    const std::vector<Interval> intervals =
+        bootstrap<Classification>(samples, statistics(), bootstrap_config);
+    summaries[i] = {condition.condition, cells[i % cells.size()],
+                    intervals[0],        intervals[1],
+                    intervals[2],        intervals[3],
+                    intervals[4],        always_contact_success(samples)};
+  });
+  return summaries;
+}
+
+Table success_table(const std::vector<CellSummary>& summaries) {
+  Table table{{"simulator", "estimator", "torque_noise_nm", "accelerometer_noise_mps2", "success",
+               "success_low", "success_high", "always_contact_success"},
+              {}};
+  for (const CellSummary& summary : summaries) {
+    std::vector<std::string> row = setting(summary);
+    append(row, summary.success);
+    row.push_back(metric(summary.always_contact));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table classification_table(const std::vector<CellSummary>& summaries) {
+  Table table{{"simulator", "estimator", "torque_noise_nm", "accelerometer_noise_mps2"}, {}};
+  for (const char* name :
+       {"contact_precision", "contact_recall", "no_contact_precision", "no_contact_recall"}) {
+    for (const char* suffix : {"", "_low", "_high"}) {
+      table.header.push_back(std::string(name) + suffix);
+    }
+  }
+  for (const CellSummary& summary : summaries) {
+    std::vector<std::string> row = setting(summary);
+    append(row, summary.contact_precision);
+    append(row, summary.contact_recall);
+    append(row, summary.no_contact_precision);
+    append(row, summary.no_contact_recall);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table cell_text_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
+                      const NoiseCell& cell) {
+  Table table{{"estimator", "success rate", "contact precision", "recall", "no contact precision",
+               "recall"},
+              {}};
+  for (const CellSummary& summary : summaries) {
+    if (summary.condition.test_simulator != simulator || !(summary.cell == cell)) continue;
+    table.rows.push_back({estimator_entry(summary.condition.estimator).title,
+                          with_interval(summary.success),
+                          with_interval({summary.contact_precision.estimate, NAN, NAN}),
+                          with_interval({summary.contact_recall.estimate, NAN, NAN}),
+                          with_interval({summary.no_contact_precision.estimate, NAN, NAN}),
+                          with_interval({summary.no_contact_recall.estimate, NAN, NAN})});
+  }
+  return table;
+}
+
+Table grid_text_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
+                      const std::string& estimator, const NoiseGridConfig& noise) {
+  Table table{{"torque noise"}, {}};
+  for (const double level : noise.accelerometer) {
+    table.header.push_back(fmt::format("{} m/s²", level));
+  }
+  for (const double torque : noise.torque) table.rows.push_back({fmt::format("{} N·m", torque)});
+  for (const CellSummary& summary : summaries) {
+    const Condition& who = summary.condition;
+    if (who.test_simulator != simulator || who.estimator != estimator) continue;
+    const auto row = std::find(noise.torque.begin(), noise.torque.end(), summary.cell.torque);
+    const bool loses = summary.success.estimate <= summary.always_contact;
+    table.rows[static_cast<std::size_t>(row - noise.torque.begin())].push_back(
+        fmt::format("{:.3f}{}", summary.success.estimate, loses ? "*" : ""));
+  }
+  return table;
+}
+
+}  // namespace touchdown

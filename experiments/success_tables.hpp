@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/experiment.hpp"
+#include "experiments/sweep.hpp"
+#include "experiments/table.hpp"
+
+namespace touchdown {
+
+/// What one condition achieved in one noise cell, with intervals over runs or drops.
+struct CellSummary {
+  Condition condition;
+  NoiseCell cell;
+  Interval success;
+  Interval contact_precision;
+  Interval contact_recall;
+  Interval no_contact_precision;
+  Interval no_contact_recall;
+  double always_contact = 0.0;  ///< success rate of "always contact" in the same runs
+};
+
+/// By condition, then cell.
+std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
+                                   const std::vector<NoiseCell>& cells,
+                                   const BootstrapConfig& bootstrap);
+
+/// `tables/success.csv` and `tables/classification.csv`.
+Table success_table(const std::vector<CellSummary>& summaries);
+Table classification_table(const std::vector<CellSummary>& summaries);
+
+/// For the terminal: every estimator of one engine in one cell.
+Table cell_text_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
+                      const NoiseCell& cell);
+
+/// For the terminal: one estimator's success rate over the noise grid.
+Table grid_text_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
+                      const std::string& estimator, const NoiseGridConfig& noise);
+
+}  // namespace touchdown

@@ -1,0 +1,165 @@
+#include "experiments/sweep.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include "core/random.hpp"
+#include "experiments/estimator_registry.hpp"
+#include "experiments/stopped.hpp"
+
+namespace touchdown {
+
+namespace {
+
+/// One condition listening to one run under one noise seed.
+struct Task {
+  std::size_t condition = 0;
+  const HeardRun* run = nullptr;
+  int seed = 0;
+};
+
+/// By condition, then run, then seed: the order in which results are added up.
+std::vector<Task> tasks_of(const std::vector<Condition>& conditions,
+                           const std::vector<const HeardRun*>& runs, int seeds) {
+  std::vector<Task> tasks;
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    for (const HeardRun* run : runs) {
+      if (run->info.simulator != conditions[c].test_simulator) continue;
+      for (int seed = 0; seed < seeds; ++seed) tasks.push_back({c, run, seed});
+    }
+  }
+  return tasks;
+}
+
+template <typename Work>
+void in_parallel(std::size_t count, const Work& work) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
+  });
+}
+
+/// Adds one task's samples to those of its run: the noise seeds of a run are one sample.
+template <typename Sample>
+void add_samples(std::vector<Sample>& all, const std::vector<Sample>& task, bool first_seed) {
+  if (first_seed) {
+    all.insert(all.end(), task.begin(), task.end());
+    return;
+  }
+  const std::size_t offset = all.size() - task.size();
+  for (std::size_t i = 0; i < task.size(); ++i) all[offset + i] += task[i];
+}
+
+std::vector<Classification> classify_wheels(
+    const HeardRun& run, const std::array<ContactSequence, wheel_count>& decisions,
+    const ScoringConfig& scoring) {
+  std::vector<Classification> samples(run.pieces.size());
+  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+    const auto pieces = classify(run.contact[wheel], decisions[wheel], run.pieces,
+                                 run.info.control_period_us, scoring);
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] += pieces[i];
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::vector<NoiseCell> noise_cells(const NoiseGridConfig& noise) {
+  std::vector<NoiseCell> cells;
+  for (const double torque : noise.torque) {
+    for (const double accelerometer : noise.accelerometer) cells.push_back({torque, accelerometer});
+  }
+  return cells;
+}
+
+std::vector<Condition> own_engine_conditions(const Experiment& experiment) {
+  std::vector<Condition> conditions;
+  for (const std::string& simulator : experiment.simulators) {
+    for (const std::string& estimator : experiment.estimators) {
+      if (estimator != always_contact_name) conditions.push_back({simulator, simulator, estimator});
+    }
+    conditions.push_back({simulator, simulator, std::string(always_contact_name)});
+  }
+  return conditions;
+}
+
+NoiseKey noise_key(const Experiment& experiment, int noise_seed, std::int64_t run) {
+  constexpr std::uint64_t noise_stream = 0x6e6f697365;  // "noise"
+  const auto bits = philox(experiment.seed, noise_stream, static_cast<std::uint64_t>(noise_seed));
+  return {.seed = (std::uint64_t{bits[0]} << 32U) | bits[1],
+          .run = static_cast<std::uint64_t>(run)};
+}
+
+std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
+                                                 const FittedModels& models,
+                                                 std::int64_t control_period_us) {
+  const EstimatorEntry& entry = estimator_entry(condition.estimator);
+  const MeasurementModel* model =
+      entry.config ? &models.at(condition.fit_simulator).at(condition.estimator) : nullptr;
+  return entry.make(entry, model, 1e6 / static_cast<double>(control_period_us));
+}
+
+std::int64_t sweep_size(const Experiment& experiment, const std::vector<Condition>& conditions,
+                        const std::vector<NoiseCell>& cells,
+                        const std::vector<const HeardRun*>& test_runs) {
+  return static_cast<std::int64_t>(tasks_of(conditions, test_runs, experiment.noise.seeds).size() *
+                                   cells.size());
+}
+
+std::vector<ConditionCounts> sweep(const Experiment& experiment,
+                                   const std::vector<Condition>& conditions,
+                                   const std::vector<NoiseCell>& cells,
+                                   const std::vector<const HeardRun*>& test_runs,
+                                   const FittedModels& models, const SweepProgress& progress) {
+  const std::vector<Task> tasks = tasks_of(conditions, test_runs, experiment.noise.seeds);
+  // By task, then cell, then statistical sample.
+  std::vector<std::vector<std::vector<Classification>>> counts(tasks.size());
+  in_parallel(tasks.size(), [&](std::size_t t) {
+    const Task& task = tasks[t];
+    const UnitNoise noise =
+        unit_noise(*task.run, noise_key(experiment, task.seed, task.run->info.run));
+    const auto estimator =
+        make_estimator(conditions[task.condition], models, task.run->info.control_period_us);
+    for (const NoiseCell& cell : cells) {
+      counts[t].push_back(classify_wheels(
+          *task.run, decide(*estimator, *task.run, noise, cell.levels()), experiment.scoring));
+    }
+    if (!progress(static_cast<std::int64_t>(cells.size()))) throw Stopped();
+  });
+
+  std::vector<ConditionCounts> result;
+  for (const Condition& condition : conditions) {
+    result.push_back({condition, std::vector<std::vector<Classification>>(cells.size())});
+  }
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      add_samples(result[tasks[t].condition].samples[c], counts[t][c], tasks[t].seed == 0);
+    }
+  }
+  return result;
+}
+
+std::vector<ConditionScores> score_conditions(const Experiment& experiment,
+                                              const std::vector<Condition>& conditions,
+                                              const NoiseCell& cell, int seeds,
+                                              const std::vector<const HeardRun*>& test_runs,
+                                              const FittedModels& models,
+                                              const SweepProgress& progress) {
+  const std::vector<Task> tasks = tasks_of(conditions, test_runs, seeds);
+  std::vector<std::vector<RobotScore>> scores(tasks.size());
+  in_parallel(tasks.size(), [&](std::size_t t) {
+    const HeardRun& run = *tasks[t].run;
+    const UnitNoise noise = unit_noise(run, noise_key(experiment, tasks[t].seed, run.info.run));
+    const auto estimator =
+        make_estimator(conditions[tasks[t].condition], models, run.info.control_period_us);
+    scores[t] = score(run.contact, predict(*estimator, run, noise, cell.levels()), run.pieces,
+                      run.info.control_period_us, experiment.scoring);
+    if (!progress(1)) throw Stopped();
+  });
+  std::vector<ConditionScores> result;
+  for (const Condition& condition : conditions) result.push_back({condition, {}});
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    add_samples(result[tasks[t].condition].samples, scores[t], tasks[t].seed == 0);
+  }
+  return result;
+}
+
+}  // namespace touchdown
