@@ -45,10 +45,6 @@ std::unique_ptr<btCollisionShape> shape_of(const mjModel& model, int geom) {
 
 }  // namespace
 
-bool collides(const mjModel& model, int geom) {
-  return model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0;
-}
-
 btCollisionShape* make_shape(const mjModel& model, int geom, BulletShapes& shapes) {
   return shapes.emplace_back(shape_of(model, geom)).get();
 }

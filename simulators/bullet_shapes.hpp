@@ -11,9 +11,6 @@ namespace touchdown {
 /// Owns collision shapes for as long as the world that uses them.
 using BulletShapes = std::vector<std::unique_ptr<btCollisionShape>>;
 
-/// Whether a geom of the compiled model takes part in collisions at all.
-bool collides(const mjModel& model, int geom);
-
 /// The Bullet shape of a geom, in the geom's own frame; kept alive by `shapes`. Planes become
 /// half-spaces, meshes their convex hulls, as in MuJoCo.
 /// Errors: `InputError` for a geom type that has no counterpart (ellipsoid, height field).

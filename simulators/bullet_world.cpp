@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "simulators/bullet_convert.hpp"
+#include "simulators/collision_model.hpp"
 
 namespace touchdown {
 

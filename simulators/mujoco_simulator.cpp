@@ -1,22 +1,30 @@
 #include "simulators/mujoco_simulator.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/error.hpp"
+#include "simulators/collision_model.hpp"
 
 namespace touchdown {
 
 namespace {
 
 MjModelPtr copy_with_options(const RobotModel& model, const SimulatorOptions& options) {
-  MjModelPtr mj(mj_copyModel(nullptr, model.mj.get()));
-  if (!mj) throw Error("MuJoCo could not copy the model: out of memory");
+  MjModelPtr mj = collision_model(*model.mj);
   mj->opt.timestep = 1e-6 * static_cast<double>(options.steps.physics_us);
   for (int geom = 0; geom < mj->ngeom; ++geom) {
     mj->geom_solref[mjNREF * geom] = options.contact.solref_time_constant;
     mj->geom_solref[mjNREF * geom + 1] = options.contact.solref_damping_ratio;
   }
   return mj;
+}
+
+/// MuJoCo answers numbers that are not finite, or huge, with a reset to the model's first pose.
+bool gave_up(const mjData& data) {
+  return data.warning[mjWARN_BADQPOS].number + data.warning[mjWARN_BADQVEL].number +
+             data.warning[mjWARN_BADQACC].number >
+         0;
 }
 
 }  // namespace
@@ -29,6 +37,10 @@ MujocoSimulator::MujocoSimulator(std::shared_ptr<const RobotModel> model,
   if (!data_) throw Error("MuJoCo could not make its data: out of memory");
   const mjtNum* com = &mj_->body_ipos[3 * model->base_body];
   base_com_ = {com[0], com[1], com[2]};
+  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+    const char* name = mj_id2name(model->mj.get(), mjOBJ_GEOM, model->tyre_geom[wheel]);
+    tyre_geom_[wheel] = mj_name2id(mj_.get(), mjOBJ_GEOM, name);
+  }
 }
 
 void MujocoSimulator::place(const RobotState& start) {
@@ -69,6 +81,12 @@ void MujocoSimulator::advance(const JointTorques& torques, const ExternalWrench&
 }
 
 void MujocoSimulator::read(RobotState& state) const {
+  if (gave_up(*data_)) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    state.position.fill(nan);
+    state.linear_velocity.fill(nan);
+    return;
+  }
   const auto joint = static_cast<std::size_t>(mj_->body_jntadr[model().base_body]);
   const mjtNum* q = &data_->qpos[mj_->jnt_qposadr[joint]];
   const mjtNum* v = &data_->qvel[mj_->jnt_dofadr[joint]];
@@ -85,7 +103,6 @@ void MujocoSimulator::read(RobotState& state) const {
 void MujocoSimulator::read(ContactForces& forces) const {
   // After mj_step the contacts are those of the state before it: the ones that acted in the step.
   forces = {};
-  const auto& tyres = model().tyre_geom;
   for (int i = 0; i < data_->ncon; ++i) {
     const mjContact& contact = data_->contact[i];
     const bool first_is_terrain = mj_->geom_bodyid[contact.geom1] == 0;
@@ -93,9 +110,9 @@ void MujocoSimulator::read(ContactForces& forces) const {
     if (!first_is_terrain && mj_->geom_bodyid[contact.geom2] != 0) continue;
     mjtNum wrench[6];
     mj_contactForce(mj_.get(), data_.get(), i, wrench);
-    const auto tyre = std::find(tyres.begin(), tyres.end(), other);
-    if (tyre != tyres.end()) {
-      forces.wheel_normal_force[static_cast<std::size_t>(tyre - tyres.begin())] += wrench[0];
+    const auto tyre = std::find(tyre_geom_.begin(), tyre_geom_.end(), other);
+    if (tyre != tyre_geom_.end()) {
+      forces.wheel_normal_force[static_cast<std::size_t>(tyre - tyre_geom_.begin())] += wrench[0];
     } else if (wrench[0] > 0.0) {
       forces.body_touches_terrain = true;
     }

@@ -14,8 +14,10 @@ class MujocoSimulator : public Simulator {
 
   std::string_view name() const override { return "mujoco"; }
 
-  /// The engine's own data, for comparisons between engines.
-  const mjData& data() const { return *data_; }
+  /// What the engine itself steps: the compiled model without the geoms that touch nothing, with
+  /// the options' time step and contact.
+  const mjModel& engine_model() const { return *mj_; }
+  const mjData& engine_data() const { return *data_; }
 
  protected:
   void place(const RobotState& start) override;
@@ -26,6 +28,7 @@ class MujocoSimulator : public Simulator {
  private:
   MjModelPtr mj_;
   MjDataPtr data_;
+  std::array<int, wheel_count> tyre_geom_ = {};  ///< in `mj_`: left, right
   Eigen::Vector3d base_com_;  ///< centre of mass of the base body in its frame (m)
 };
 
