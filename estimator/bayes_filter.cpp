@@ -10,25 +10,21 @@
 namespace touchdown {
 namespace {
 
+using State = BayesFilter::State;
+
 /// Eq. (2a): bel-bar(S_t) = Σ_S P(S_t | S_t−1 = S) bel(S_t−1). The published matrix's rows do not
 /// sum to one, so neither does this pair.
-struct Prediction {
-  double contact;
-  double no_contact;
-};
-
-Prediction predict(const Transition& p, double belief) noexcept {
-  return {p.contact_to_contact * belief + p.air_to_contact * (1.0 - belief),
-          p.contact_to_air * belief + p.air_to_air * (1.0 - belief)};
+State predict(const Transition& p, const State& bel) noexcept {
+  return {p.contact_to_contact * bel.contact + p.air_to_contact * bel.no_contact,
+          p.contact_to_air * bel.contact + p.air_to_air * bel.no_contact};
 }
 
 /// Eq. (2b) and (3). Where every product vanishes there is nothing to learn and the old belief
 /// stays.
-double correct(const Likelihoods& p, const Prediction& predicted, double belief) noexcept {
-  const double contact = p.contact * predicted.contact;
-  const double no_contact = p.no_contact * predicted.no_contact;
-  const double eta = contact + no_contact;
-  return eta > 0.0 ? contact / eta : belief;
+State correct(const Likelihoods& p, const State& predicted, const State& bel) noexcept {
+  const State joint{p.contact * predicted.contact, p.no_contact * predicted.no_contact};
+  const double eta = joint.contact + joint.no_contact;
+  return eta > 0.0 ? State{joint.contact / eta, joint.no_contact / eta} : bel;
 }
 
 }  // namespace
@@ -56,6 +52,7 @@ void BayesFilter::reset() noexcept {
     torque.reset();
   }
   measurement_ = {};
+  bel_ = {};
   belief_ = Belief{};
   conclude(belief_, config_.threshold);
 }
@@ -73,14 +70,16 @@ const Belief& BayesFilter::update(const Signals& signals) noexcept {
   }
 
   for (std::size_t side = 0; side < 2; ++side) {
-    double& bel = belief_.wheel[side].p_contact;
+    State& bel = bel_[side];
     const LegSignals& leg = signals.leg[side];
     const bool torques_good = std::isfinite(leg.knee.torque) && std::isfinite(leg.wheel.torque);
     if (!torques_good) {
       belief_.status = SignalStatus::invalid;
     }
     if (verdict.restart || !torques_good || !verdict.acceleration_good) {
-      bel = guard_.relaxed(bel, verdict.elapsed);
+      bel.contact = guard_.relaxed(bel.contact, verdict.elapsed);
+      bel.no_contact = 1.0 - bel.contact;
+      belief_.wheel[side].p_contact = bel.contact;
     }
     if (!torques_good || !verdict.acceleration_good) {
       continue;
@@ -92,8 +91,9 @@ const Belief& BayesFilter::update(const Signals& signals) noexcept {
     m.likelihood.no_contact += config_.measurement.no_contact_floor;
     m.p_measurement = measurement_probability(m.likelihood);  // Eq. (14)
 
-    const Prediction predicted = predict(transition_.transition(), bel);  // Eq. (2a)
-    bel = correct(m.likelihood, predicted, bel);                          // Eq. (2b) and (3)
+    const State predicted = predict(transition_.transition(), bel);  // Eq. (2a)
+    bel = correct(m.likelihood, predicted, bel);                     // Eq. (2b) and (3)
+    belief_.wheel[side].p_contact = bel.contact;
     m.p_predicted = predicted.contact;
   }
   conclude(belief_, config_.threshold);

@@ -78,6 +78,13 @@ class BayesFilter : public ContactEstimator {
   void reset() noexcept override;
   const Belief& update(const Signals& signals) noexcept override;
 
+  /// bel(S_t) for both values of S_t. Both are kept, because next to certainty 1 − bel(C) would be
+  /// nothing but rounding error, and that is what the next prediction starts from.
+  struct State {
+    double contact = 0.5;
+    double no_contact = 0.5;
+  };
+
   [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
   [[nodiscard]] const BayesFilterConfig& config() const noexcept { return config_; }
   /// Power, median frequency, P(switch), P(landing) and the transition matrix of the last step.
@@ -94,6 +101,7 @@ class BayesFilter : public ContactEstimator {
   SignalGuard guard_;
   std::array<TorqueChannel, 2> torque_;
   std::array<MeasurementDiagnostics, 2> measurement_;
+  std::array<State, 2> bel_;
   Belief belief_;
 };
 

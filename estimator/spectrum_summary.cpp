@@ -10,6 +10,10 @@ namespace {
 constexpr int lanes = SlidingDft::lanes;
 constexpr double negligible_rms = 1e-9;
 
+/// Eigen's arrays, because left to itself the compiler takes square roots one by one.
+using Lanes = Eigen::Array<double, lanes, 1>;
+using ConstLanesMap = Eigen::Map<const Lanes>;
+
 /// Sums of the first 1, 2, … 8 values, by a tree: a chain of additions would wait for each other.
 struct PrefixSums {
   explicit PrefixSums(const double* x) noexcept {
@@ -33,21 +37,20 @@ struct PrefixSums {
 
 SpectrumSummary::SpectrumSummary(const SlidingDft& dft, SpectrumKind kind, bool nyquist)
     : window_(dft.window()),
+      bins_(dft.bins()),
       magnitude_(kind == SpectrumKind::magnitude),
       nyquist_bin_(dft.window() % 2 == 0 ? dft.window() / 2 : -1),
       nyquist_counts_(nyquist),
       weights_(static_cast<std::size_t>(dft.rows())) {}
 
-SpectrumValues SpectrumSummary::operator()(const SlidingDft& dft) noexcept {
-  const int rows = dft.rows();
+template <typename SquaredRow>
+SpectrumValues SpectrumSummary::summarise(const SquaredRow& squared_row) noexcept {
+  const auto rows = static_cast<int>(weights_.size());
   const double n = window_;
-
-  // Eigen's arrays, because left to itself the compiler takes the square roots one by one.
-  using Lanes = Eigen::Array<double, lanes, 1>;
   Lanes energy = Lanes::Zero();
   Lanes weight = Lanes::Zero();
   for (int r = 0; r < rows; ++r) {
-    const Eigen::Map<const Lanes> squared(dft.row(r).squared);
+    const Lanes squared = squared_row(r);
     Eigen::Map<Lanes> weights(weights_[static_cast<std::size_t>(r)].lane);
     energy += squared;
     if (magnitude_) {
@@ -62,8 +65,12 @@ SpectrumValues SpectrumSummary::operator()(const SlidingDft& dft) noexcept {
   }
 
   // Bins that stand for two frequencies, +ω and −ω, count twice.
-  const double unpaired =
-      dft.squared_magnitude(0) + (nyquist_bin_ >= 0 ? dft.squared_magnitude(nyquist_bin_) : 0.0);
+  const int last_row = (bins_ - 1) % rows;
+  const int last_lane = (bins_ - 1) / rows;
+  const double first = weights_.front().lane[0];
+  const double last =
+      nyquist_bin_ >= 0 ? weights_[static_cast<std::size_t>(last_row)].lane[last_lane] : 0.0;
+  const double unpaired = magnitude_ ? first * first + last * last : first + last;
   SpectrumValues values;
   values.mean_square = (2.0 * PrefixSums(energy.data()).sum[lanes - 1] - unpaired) / (n * n);
   if (!(values.mean_square > negligible_rms * negligible_rms)) {
@@ -73,7 +80,7 @@ SpectrumValues SpectrumSummary::operator()(const SlidingDft& dft) noexcept {
   const PrefixSums cumulative(weight.data());
   double total = cumulative.sum[lanes - 1];
   if (!nyquist_counts_ && nyquist_bin_ >= 0) {
-    total -= weights_[static_cast<std::size_t>(nyquist_bin_ % rows)].lane[nyquist_bin_ / rows];
+    total -= last;
   }
   const double half = 0.5 * total;
 
@@ -99,6 +106,20 @@ SpectrumValues SpectrumSummary::operator()(const SlidingDft& dft) noexcept {
     values.median_bin = (bin - 1) + std::min(1.0, (half - below) / inside);
   }
   return values;
+}
+
+SpectrumValues SpectrumSummary::operator()(const SlidingDft& dft) noexcept {
+  return summarise([&dft](int r) { return ConstLanesMap(dft.row(r).squared); });
+}
+
+SpectrumValues SpectrumSummary::operator()(const SlidingDft& clean, const SlidingDft& noise,
+                                           double sigma) noexcept {
+  return summarise([&clean, &noise, sigma](int r) -> Lanes {
+    const SlidingDft::Row& a = clean.row(r);
+    const SlidingDft::Row& z = noise.row(r);
+    return (ConstLanesMap(a.real) + sigma * ConstLanesMap(z.real)).square() +
+           (ConstLanesMap(a.imaginary) + sigma * ConstLanesMap(z.imaginary)).square();
+  });
 }
 
 }  // namespace touchdown

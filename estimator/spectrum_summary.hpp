@@ -32,11 +32,20 @@ class SpectrumSummary {
   /// `dft` must have the window that was given to the constructor.
   [[nodiscard]] SpectrumValues operator()(const SlidingDft& dft) noexcept;
 
+  /// The same for the window (clean + sigma · noise), from the spectra of both: the transform is
+  /// linear, so that one pair of transforms serves every sigma.
+  [[nodiscard]] SpectrumValues operator()(const SlidingDft& clean, const SlidingDft& noise,
+                                          double sigma) noexcept;
+
  private:
   struct Weights {
     double lane[SlidingDft::lanes] = {};
   };
+  template <typename SquaredRow>
+  SpectrumValues summarise(const SquaredRow& squared_row) noexcept;
+
   int window_;
+  int bins_;
   bool magnitude_;
   /// Bin of an even window's Nyquist frequency, or −1.
   int nyquist_bin_;

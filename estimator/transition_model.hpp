@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "estimator/exponential.hpp"
 #include "estimator/sliding_dft.hpp"
 #include "estimator/spectrum_summary.hpp"
@@ -65,13 +67,59 @@ struct Transition {
   double air_to_air = 1.0;
 };
 
-/// Sets the matrix of a transition from its p_switch and p_landing, Eq. (7) and (8).
-inline void fill_transition_matrix(Transition& t, bool row_stochastic) noexcept {
-  t.air_to_contact = t.p_landing * t.p_switch;
-  t.contact_to_air = (1.0 - t.p_landing) * t.p_switch;
-  t.contact_to_contact = 1.0 - (row_stochastic ? t.contact_to_air : t.p_switch);
-  t.air_to_air = 1.0 - (row_stochastic ? t.air_to_contact : t.p_switch);
-}
+/// The last part of the transition model, from what the spectrum is like to probabilities, Eq. (7),
+/// (8), (11) and (13). Branch-free enough to run over many noise levels side by side.
+class TransitionLaw {
+ public:
+  /// Throws InputError for a rate, slope, margin or memory that makes no sense.
+  TransitionLaw(const TransitionConfig& config, double sample_rate);
+
+  void apply(const SpectrumValues& spectrum, Transition& t) const noexcept {
+    t.power = power_scale_ * spectrum.mean_square;
+    const Odds switching = odds(switch_sigmoid_, t.power);  // Eq. (11)
+    t.p_switch = switching.p;
+
+    t.median_frequency = bin_width_ * spectrum.median_bin;
+    const double input = t.median_frequency * t.p_switch;
+    double filtered = t.filtered_median_frequency;
+    filtered += memory_gain_ * (input - filtered);
+    filtered += memory_gain_ * (input - filtered);
+    t.filtered_median_frequency = remembers_ ? filtered : t.median_frequency;
+    const Odds landing = odds(landing_sigmoid_, t.filtered_median_frequency);  // Eq. (13)
+    t.p_landing = landing.p;
+
+    t.air_to_contact = landing.p * switching.p;      // Eq. (8)
+    t.contact_to_air = landing.not_p * switching.p;  // likewise
+    // 1 − P(leave) = P(no switch) + P(switch the other way), without cancellation.
+    t.contact_to_contact = switching.not_p + (row_stochastic_ ? t.air_to_contact : 0.0);
+    t.air_to_air = switching.not_p + (row_stochastic_ ? t.contact_to_air : 0.0);
+  }
+
+ private:
+  struct Odds {
+    double p;
+    double not_p;
+  };
+  /// A sigmoid and its complement, both to full relative precision: next to certainty 1 − p would
+  /// be rounding noise, and that noise the probability to stay.
+  [[nodiscard]] Odds odds(const Sigmoid& sigmoid, double x) const noexcept {
+    const double against = exponential((sigmoid.offset - x) / sigmoid.slope);
+    const double p = 1.0 / (1.0 + against);
+    return {within_margin(p), within_margin(against * p)};
+  }
+  [[nodiscard]] double within_margin(double p) const noexcept {
+    return std::min(1.0 - margin_, std::max(margin_, p));
+  }
+
+  Sigmoid switch_sigmoid_;
+  Sigmoid landing_sigmoid_;
+  double margin_;
+  double power_scale_;
+  double bin_width_;
+  double memory_gain_;
+  bool remembers_;
+  bool row_stochastic_;
+};
 
 /// The paper's transition model: a landing or a takeoff leaves its mark in the vertical
 /// acceleration's spectrum, its power saying that the state switches and its median frequency in
@@ -91,12 +139,9 @@ class TransitionModel {
   [[nodiscard]] const SlidingDft& spectrum() const noexcept { return dft_; }
 
  private:
-  TransitionConfig config_;
+  TransitionLaw law_;
   SlidingDft dft_;
   SpectrumSummary summary_;
-  double bin_width_;
-  double power_scale_;
-  double memory_gain_;
   Transition transition_;
 };
 

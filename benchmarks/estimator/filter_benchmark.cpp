@@ -2,12 +2,14 @@
 #include <chrono>
 #include <complex>
 #include <memory>
+#include <string>
 #include <unsupported/Eigen/FFT>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "estimator/bayes_filter.hpp"
+#include "estimator/bayes_filter_lanes.hpp"
 #include "estimator/measurement_only.hpp"
 #include "signals_for_benchmarks.hpp"
 
@@ -87,6 +89,46 @@ void Latency(benchmark::State& state, const char* name) {
 }
 BENCHMARK_CAPTURE(Latency, robust, "robust")->Iterations(250);
 BENCHMARK_CAPTURE(Latency, reference, "reference")->Iterations(250);
+
+/// A sweep over `torques` × `accelerations` noise levels; the time per item is that of one lane's
+/// update, which covers both wheels.
+void Lanes(benchmark::State& state, const char* name, int torques, int accelerations) {
+  const BayesFilterConfig config = BayesFilterConfig::named(name);
+  std::vector<NoiseLevel> levels;
+  for (int i = 0; i < torques; ++i) {
+    for (int j = 0; j < accelerations; ++j) {
+      levels.push_back({0.5 * i, 0.5 * i, 2.0 * j});
+    }
+  }
+  if (accelerations == 0) {  // no two lanes have anything in common
+    for (int i = 0; i < torques; ++i) {
+      levels.push_back({0.1 * i, 0.1 * i, 0.3 * i});
+    }
+  }
+  BayesFilterLanes lanes(bench::model(config), config, levels);
+  const std::vector<Signals> stream = bench::signals(stream_length);
+  const std::vector<Signals> noise = bench::signals(stream_length + 7);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    NoiseDraws draws;
+    draws.acceleration = noise[i + 7].leg[0].knee.torque;
+    for (std::size_t side = 0; side < 2; ++side) {
+      draws.torque[side] = {noise[i].leg[side].knee.torque, noise[i].leg[side].wheel.torque};
+    }
+    lanes.update(stream[i], draws);
+    benchmark::DoNotOptimize(lanes.p_contact(Side::left).data());
+    benchmark::ClobberMemory();
+    i = (i + 1) % stream_length;
+  }
+  state.counters["per_lane_update"] = benchmark::Counter(
+      static_cast<double>(levels.size()),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK_CAPTURE(Lanes, robust_grid_6x6, "robust", 6, 6);
+BENCHMARK_CAPTURE(Lanes, robust_36_distinct, "robust", 36, 0);
+BENCHMARK_CAPTURE(Lanes, paper_grid_6x6, "paper", 6, 6);
+BENCHMARK_CAPTURE(Lanes, reference_grid_6x6, "reference", 6, 6);
+BENCHMARK_CAPTURE(Lanes, reference_36_distinct, "reference", 36, 0);
 
 }  // namespace
 }  // namespace touchdown

@@ -1,7 +1,9 @@
 #include "estimator/bayes_filter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -30,6 +32,13 @@ void expect_sane(const Belief& belief) {
   }
 }
 
+/// σ(x), or with `against` 1 − σ(x) to full relative precision.
+double clamped_sigmoid(const Sigmoid& sigmoid, double x, double margin, bool against = false) {
+  const double u = (x - sigmoid.offset) / sigmoid.slope;
+  const double p = 1.0 / (1.0 + std::exp(against ? u : -u));
+  return std::min(1.0 - margin, std::max(margin, p));
+}
+
 class NamedBayesFilter : public testing::TestWithParam<const char*> {};
 
 TEST_P(NamedBayesFilter, FollowsTheEquationsStepByStep) {
@@ -40,24 +49,33 @@ TEST_P(NamedBayesFilter, FollowsTheEquationsStepByStep) {
   std::array<TorqueChannel, 2> channels{TorqueChannel(config.measurement.torque, Side::left, 1e3),
                                         TorqueChannel(config.measurement.torque, Side::right, 1e3)};
   std::array<double, 2> bel{0.5, 0.5};
+  std::array<double, 2> not_bel{0.5, 0.5};
   for (const Signals& s : drops(3000, 1000.0, 7)) {
     const Transition& t = transition.update(s.vertical_acceleration);
     const Belief& belief = filter.update(s);
     ASSERT_EQ(belief.status, SignalStatus::good);
     for (std::size_t i = 0; i < 2; ++i) {
       const Likelihoods p = model(channels[i].update(s.leg[i]));
-      // The published matrix says stay = 1 − P(switch); the repaired one stay = 1 − P(leave).
-      const double landing = t.p_switch * t.p_landing;
-      const double takeoff = t.p_switch * (1.0 - t.p_landing);
-      const bool repaired = config.transition.row_stochastic;
+      // The published matrix says stay = 1 − P(switch), the repaired one stay = 1 − P(leave).
+      const double margin = config.transition.margin;
+      const auto sigmoids = [&](bool no_switch, bool takeoff) {
+        return std::pair{
+            clamped_sigmoid(config.transition.switch_sigmoid, t.power, margin, no_switch),
+            clamped_sigmoid(config.transition.landing_sigmoid, t.filtered_median_frequency, margin,
+                            takeoff)};
+      };
+      const auto [p_switch, p_landing] = sigmoids(false, false);
+      const auto [p_no_switch, p_takeoff] = sigmoids(true, true);
+      const double repair = config.transition.row_stochastic ? p_switch : 0.0;
       const double prior_contact =
-          (1.0 - (repaired ? takeoff : t.p_switch)) * bel[i] + landing * (1.0 - bel[i]);
+          (p_no_switch + repair * p_landing) * bel[i] + p_switch * p_landing * not_bel[i];
       const double prior_air =
-          takeoff * bel[i] + (1.0 - (repaired ? landing : t.p_switch)) * (1.0 - bel[i]);
+          p_switch * p_takeoff * bel[i] + (p_no_switch + repair * p_takeoff) * not_bel[i];
       const double contact = (p.contact + config.measurement.contact_floor) * prior_contact;
       const double air = (p.no_contact + config.measurement.no_contact_floor) * prior_air;
       if (contact + air > 0.0) {
         bel[i] = contact / (contact + air);
+        not_bel[i] = air / (contact + air);
       }
       ASSERT_NEAR(belief.wheel[i].p_contact, bel[i], 1e-12) << s.time;
       ASSERT_EQ(belief.wheel[i].contact, belief.wheel[i].p_contact >= 0.8);

@@ -1,0 +1,103 @@
+#include "estimator/bayes_filter_lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace touchdown {
+namespace {
+
+std::vector<NoiseLevel> different_torque_levels(std::span<const NoiseLevel> levels) {
+  std::vector<NoiseLevel> different;
+  for (NoiseLevel level : levels) {
+    level.acceleration = 0.0;
+    if (std::find(different.begin(), different.end(), level) == different.end()) {
+      different.push_back(level);
+    }
+  }
+  return different;
+}
+
+std::vector<double> different_acceleration_levels(std::span<const NoiseLevel> levels) {
+  std::vector<double> different;
+  for (const NoiseLevel& level : levels) {
+    if (std::find(different.begin(), different.end(), level.acceleration) == different.end()) {
+      different.push_back(level.acceleration);
+    }
+  }
+  return different;
+}
+
+template <typename T>
+std::uint32_t index_of(const std::vector<T>& values, const T& value) {
+  return static_cast<std::uint32_t>(std::find(values.begin(), values.end(), value) -
+                                    values.begin());
+}
+
+bool is_finite(const Signals& clean, const NoiseDraws& draws) noexcept {
+  double sum = clean.vertical_acceleration * 0.0 + draws.acceleration * 0.0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    sum += clean.leg[side].knee.torque * 0.0 + clean.leg[side].wheel.torque * 0.0;
+    sum += draws.torque[side].knee * 0.0 + draws.torque[side].wheel * 0.0;
+  }
+  return sum == 0.0;  // 0 × anything finite is 0, 0 × anything else is NaN
+}
+
+}  // namespace
+
+BayesFilterLanes::BayesFilterLanes(MeasurementModel model, const BayesFilterConfig& config,
+                                   std::span<const NoiseLevel> levels)
+    : measurement_(std::move(model), config, different_torque_levels(levels)),
+      transition_(config.transition, config.sample_rate, different_acceleration_levels(levels)) {
+  const std::vector<NoiseLevel> torques = different_torque_levels(levels);
+  const std::vector<double> accelerations = different_acceleration_levels(levels);
+  for (NoiseLevel level : levels) {
+    acceleration_index_.push_back(index_of(accelerations, level.acceleration));
+    level.acceleration = 0.0;
+    torque_index_.push_back(index_of(torques, level));
+  }
+  for (auto* belief : {&contact_, &no_contact_}) {
+    (*belief)[0].resize(levels.size());
+    (*belief)[1].resize(levels.size());
+  }
+  reset();
+}
+
+void BayesFilterLanes::reset() noexcept {
+  measurement_.reset();
+  transition_.reset();
+  for (auto* belief : {&contact_, &no_contact_}) {
+    for (std::vector<double>& wheel : *belief) {
+      std::fill(wheel.begin(), wheel.end(), 0.5);
+    }
+  }
+}
+
+void BayesFilterLanes::update(const Signals& clean, const NoiseDraws& draws) noexcept {
+  if (!is_finite(clean, draws)) {
+    return;
+  }
+  transition_.update(clean.vertical_acceleration, draws.acceleration);  // Eq. (7) to (13)
+  measurement_.update(clean, draws);                                    // Eq. (4) to (6)
+  const Transition* const transitions = transition_.transitions().data();
+  for (const Side side : {Side::left, Side::right}) {
+    const double* const p_contact = measurement_.contact(side).data();
+    const double* const p_no_contact = measurement_.no_contact(side).data();
+    double* const contact = contact_[static_cast<std::size_t>(side)].data();
+    double* const no_contact = no_contact_[static_cast<std::size_t>(side)].data();
+    for (std::size_t lane = 0; lane < torque_index_.size(); ++lane) {
+      const Transition& p = transitions[acceleration_index_[lane]];
+      const std::uint32_t torque = torque_index_[lane];
+      // Eq. (2a), (2b) and (3)
+      const double joint_contact = p_contact[torque] * (p.contact_to_contact * contact[lane] +
+                                                        p.air_to_contact * no_contact[lane]);
+      const double joint_no_contact = p_no_contact[torque] * (p.contact_to_air * contact[lane] +
+                                                              p.air_to_air * no_contact[lane]);
+      const double eta = joint_contact + joint_no_contact;
+      contact[lane] = eta > 0.0 ? joint_contact / eta : contact[lane];
+      no_contact[lane] = eta > 0.0 ? joint_no_contact / eta : no_contact[lane];
+    }
+  }
+}
+
+}  // namespace touchdown

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "estimator/bayes_filter.hpp"
+#include "estimator/noise_level.hpp"
+
+namespace touchdown {
+
+/// The measurement model, Eq. (4) to (6) and (14), under many levels of torque noise side by side:
+/// one clean recording, one noise realisation, one lane per level. With it alone a sweep over the
+/// measurement-only ablation is done. `update` neither allocates nor throws.
+class MeasurementLanes {
+ public:
+  /// Throws InputError for no levels, a level that is negative or not finite, a bad configuration.
+  MeasurementLanes(MeasurementModel model, const BayesFilterConfig& config,
+                   std::span<const NoiseLevel> levels);
+
+  void reset() noexcept;
+
+  /// One step. All inputs must be finite.
+  void update(const Signals& clean, const NoiseDraws& draws) noexcept;
+
+  /// P(m_t | S_t = C), floor included, per level.
+  [[nodiscard]] std::span<const double> contact(Side side) const noexcept {
+    return leg_[static_cast<std::size_t>(side)].contact;
+  }
+  /// P(m_t | S_t = ¬C), floor included, per level.
+  [[nodiscard]] std::span<const double> no_contact(Side side) const noexcept {
+    return leg_[static_cast<std::size_t>(side)].no_contact;
+  }
+  /// P_τ(S_t = C | m_t), Eq. (14), per level.
+  [[nodiscard]] std::span<const double> p_measurement(Side side) const noexcept {
+    return leg_[static_cast<std::size_t>(side)].p_measurement;
+  }
+
+ private:
+  struct Leg {
+    std::vector<double> knee;
+    std::vector<double> wheel;
+    std::vector<double> contact;
+    std::vector<double> no_contact;
+    std::vector<double> p_measurement;
+  };
+  MeasurementModel model_;
+  MeasurementConfig config_;
+  double gain_;
+  bool started_ = false;
+  std::vector<double> knee_sigma_;
+  std::vector<double> wheel_sigma_;
+  std::array<Leg, 2> leg_;
+};
+
+}  // namespace touchdown
