@@ -5,6 +5,8 @@
 
 #include <msgpack.hpp>
 
+#include "recordings/observation_outline.hpp"
+
 namespace touchdown {
 
 /// What an estimator made of one step, by the names under which the authors' contact_agent logs it.
@@ -36,10 +38,11 @@ class LogAnnotator {
   /// Copies records as they are. Errors: `Error` when the stream fails.
   void copy(std::string_view records);
 
-  /// Copies one record with `beliefs` added to its `observation`, as `LogReader::record()` gives
-  /// it. Errors: `InputError` if the record has no `observation` map; `Error` when the stream
-  /// fails.
-  void annotate(std::string_view record, const LogBeliefs& beliefs);
+  /// Copies one record with `beliefs` added to its `observation`; `record` and `outline` as
+  /// `LogReader` gives them.
+  /// Errors: `InputError` if the record has no `observation` map; `Error` when the stream fails.
+  void annotate(std::string_view record, const ObservationOutline& outline,
+                const LogBeliefs& beliefs);
 
  private:
   std::ostream& stream_;

@@ -7,6 +7,7 @@
 
 #include "recordings/log_keys.hpp"
 #include "recordings/log_row.hpp"
+#include "recordings/observation_outline.hpp"
 
 namespace touchdown {
 
@@ -29,6 +30,7 @@ class LogParser : public msgpack::null_visitor {
   const LogValues& values() const { return values_; }
   /// A vector is present only when it had the right number of elements.
   const LogPresence& present() const { return present_; }
+  const ObservationOutline& outline() const { return outline_; }
   bool has_config() const { return has_config_; }
 
   /// Dotted paths of the needed keys that the last record lacks.
@@ -54,6 +56,8 @@ class LogParser : public msgpack::null_visitor {
  private:
   bool number(double value);
   int child(int parent, std::string_view name);
+  void note_place(std::string_view key);
+  void end_belief(std::size_t offset);
   void drop_malformed();
   bool has_time() const;
 
@@ -67,6 +71,10 @@ class LogParser : public msgpack::null_visitor {
   std::vector<int> open_;  ///< the maps around the current value
   int current_ = 0;
   std::size_t element_ = 0;
+  ObservationOutline outline_;
+  const char* record_ = nullptr;
+  bool in_observation_ = false;
+  bool in_belief_ = false;
   bool in_key_ = false;
   bool has_config_ = false;
   bool incomplete_ = false;

@@ -98,6 +98,7 @@ void LogReader::read_entry(Entry& entry) {
     if (*start_time_ != 0.0) time -= *start_time_;
     if (info_) has_period_ = true;
     entry.record = record;
+    entry.outline = parser_.outline();
     return;
   }
 }
@@ -127,13 +128,12 @@ bool LogReader::parse_record() {
 
 bool LogReader::refill() {
   if (at_end_) return false;
-  if (begin_ > 0) {
-    buffer_.erase(0, begin_);
-    end_ -= begin_;
-    begin_ = 0;
-  }
-  buffer_.resize(std::max(end_ + chunk_size, buffer_.size()));
-  const std::size_t size = source_(std::span(buffer_).subspan(end_));
+  std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
+            buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+  end_ -= begin_;
+  begin_ = 0;
+  if (buffer_.size() < end_ + chunk_size) buffer_.resize(2 * (end_ + chunk_size));
+  const std::size_t size = source_(std::span(buffer_).subspan(end_, chunk_size));
   end_ += size;
   at_end_ = size == 0;
   return !at_end_;

@@ -42,6 +42,8 @@ class LogReader {
   /// skipped right before it (or before the end); valid until `next()` is called again.
   std::string_view record() const { return current_.record; }
   std::string_view skipped() const { return current_.skipped; }
+  /// Where things stand in `record()`, for `LogAnnotator`.
+  const ObservationOutline& outline() const { return current_.outline; }
 
   /// One line each about what was wrong but not fatal; complete at the end of the log.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -53,6 +55,7 @@ class LogReader {
   struct Entry {
     std::optional<LogRow> row;
     std::string record;
+    ObservationOutline outline;
     std::string skipped;
   };
 

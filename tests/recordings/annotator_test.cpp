@@ -45,7 +45,7 @@ std::string annotated(const std::string& log, bool look_ahead = false) {
   int i = 0;
   while (reader.next()) {
     annotator.copy(reader.skipped());
-    annotator.annotate(reader.record(), beliefs_of(i++));
+    annotator.annotate(reader.record(), reader.outline(), beliefs_of(i++));
   }
   annotator.copy(reader.skipped());
   return out.str();
@@ -69,6 +69,24 @@ TEST(Annotator, ReplacesBeliefsThatAreThereAlready) {
   json record = expected(upkie_record(0.0), 7);
   record["observation"]["contact_filter"]["debug"] = {1, 2};
   EXPECT_EQ(unpack(annotated(pack({record}))).at(0), expected(upkie_record(0.0), 0));
+}
+
+TEST(Annotator, ReplacesBeliefsThatEndTheObservationOrTheRecord) {
+  for (const char* tail : {"", "zzz"}) {
+    // `observation` as the last key or not, and in it a belief as the last key.
+    nlohmann::ordered_json by_hand;
+    const json source = upkie_record(0.0);
+    by_hand["time"] = source["time"];
+    for (const auto& [key, value] : source["observation"].items()) {
+      by_hand["observation"][key] = value;
+    }
+    by_hand["observation"]["transition_model"] = {{"power", 1}};
+    if (*tail != '\0') by_hand[tail] = 1;
+    const auto bytes = nlohmann::ordered_json::to_msgpack(by_hand);
+    json result = json::from_msgpack(bytes);
+    result["observation"] = expected(upkie_record(0.0), 0)["observation"];
+    EXPECT_EQ(unpack(annotated(std::string(bytes.begin(), bytes.end()))).at(0), result);
+  }
 }
 
 TEST(Annotator, CopiesSkippedRecordsAtBothEnds) {
@@ -108,9 +126,15 @@ TEST(Annotator, AMapCalledObservationElsewhereIsLeftAlone) {
 TEST(Annotator, ARecordWithoutObservationIsRefused) {
   std::ostringstream out;
   LogAnnotator annotator(out);
-  EXPECT_THROW(annotator.annotate(pack({{{"time", 1.0}}}), {}), InputError);
-  EXPECT_THROW(annotator.annotate(pack({{{"observation", 1.0}}}), {}), InputError);
-  EXPECT_THROW(annotator.annotate("", {}), InputError);
+  const auto annotate = [&](const std::string& record) {
+    LogParser parser;
+    std::size_t length = 0;
+    parser.parse(record, length);
+    annotator.annotate(record, parser.outline(), {});
+  };
+  EXPECT_THROW(annotate(pack({{{"time", 1.0}}})), InputError);
+  EXPECT_THROW(annotate(pack({{{"observation", 1.0}}})), InputError);
+  EXPECT_THROW(annotate(""), InputError);
 }
 
 }  // namespace
