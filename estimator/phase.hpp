@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace touchdown {
+
+/// Where the two legs are between rolling and falling: the joint states of the phase filter's
+/// hidden Markov model (docs/phase_filter.md).
+enum class Phase : std::uint8_t {
+  rolling,     ///< both wheels carry the robot, no flight is near
+  unloading_1, ///< both wheels touch; they will leave the ground within 100 to 40 ms
+  unloading_2, ///< … within 40 to 15 ms
+  unloading_3, ///< … within 15 ms
+  flight,      ///< neither wheel touches, nothing else holds the robot
+  impact_1,    ///< both wheels touch; they landed up to 15 ms ago
+  impact_2,    ///< … 15 to 60 ms ago
+  impact_3,    ///< … 60 to 150 ms ago
+  held,        ///< neither wheel touches, but the robot does not fall: hung or lifted
+  left_only,   ///< only the left wheel touches
+  right_only,  ///< only the right wheel touches
+};
+
+inline constexpr std::size_t phase_count = 11;
+
+/// Phases with a torque density of their own. The two single-wheel phases borrow: rolling for the
+/// leg that touches, flight for the other one.
+inline constexpr std::size_t torque_density_count = 9;
+
+/// Phases with an acceleration density of their own; the two single-wheel phases share the last.
+inline constexpr std::size_t acceleration_density_count = 10;
+
+constexpr std::size_t index(Phase phase) noexcept { return static_cast<std::size_t>(phase); }
+
+/// By `Phase`.
+inline constexpr std::array<std::string_view, phase_count> phase_names = {
+    "rolling",  "unloading_1", "unloading_2", "unloading_3", "flight",    "impact_1",
+    "impact_2", "impact_3",    "held",        "left_only",   "right_only"};
+
+constexpr bool left_touches(Phase phase) noexcept {
+  return phase != Phase::flight && phase != Phase::held && phase != Phase::right_only;
+}
+
+constexpr bool right_touches(Phase phase) noexcept {
+  return phase != Phase::flight && phase != Phase::held && phase != Phase::left_only;
+}
+
+/// The phase in a mirror: left and right exchanged.
+constexpr Phase mirrored(Phase phase) noexcept {
+  if (phase == Phase::left_only) return Phase::right_only;
+  if (phase == Phase::right_only) return Phase::left_only;
+  return phase;
+}
+
+/// A probability per phase.
+using PhaseProbabilities = std::array<double, phase_count>;
+
+}  // namespace touchdown
