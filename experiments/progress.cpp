@@ -39,7 +39,7 @@ Progress::Progress(std::string what, std::string unit, std::int64_t total)
 
 Progress::~Progress() {
   const std::scoped_lock lock(mutex_);
-  show(Clock::now(), true);
+  if (done_ > 0) show(Clock::now(), true);
 }
 
 void Progress::advance(std::int64_t units) {

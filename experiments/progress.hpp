@@ -14,7 +14,7 @@ class Progress {
  public:
   /// `what` is counted in `unit`s, `total` of them.
   Progress(std::string what, std::string unit, std::int64_t total);
-  /// Leaves a finished line behind.
+  /// Leaves a finished line behind, if there was anything to tell.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -10,9 +10,9 @@
 #include "core/files.hpp"
 #include "experiments/estimator_registry.hpp"
 #include "experiments/fingerprint.hpp"
-#include "experiments/measurement_model_file.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/stopped.hpp"
+#include "recordings/model_file.hpp"
 
 namespace touchdown {
 

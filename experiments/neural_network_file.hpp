@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "estimator/neural_network.hpp"
+
+namespace touchdown {
+
+/// Writes the weights as NumPy arrays: `period`, `input_mean`, `input_scale` and, for `gru_input`,
+/// `gru_hidden`, `first`, `second` and `heads`, `<layer>_weight` and `<layer>_bias`. Their single
+/// precision survives bit by bit. Errors: `Error` when it cannot be written.
+void write_neural_network(const NeuralNetwork& network, const std::filesystem::path& path);
+
+/// Reads such a file. Errors: `InputError`, one line that names the file: unreadable or cut off,
+/// arrays missing (all of them), shapes that do not fit, numbers that are not finite.
+NeuralNetwork read_neural_network(const std::filesystem::path& path);
+
+}  // namespace touchdown

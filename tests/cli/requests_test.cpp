@@ -1,0 +1,136 @@
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr int wrong_request = 2;
+
+/// The one line a wrong request is answered with.
+std::string complaint_about(const std::string& arguments, const ScratchFolder& folder) {
+  const Ended ended = touchdown_program(arguments, folder.path());
+  EXPECT_EQ(ended.exit_code, wrong_request) << ended.errors;
+  EXPECT_EQ(ended.output, "");
+  EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
+  EXPECT_THAT(ended.errors, StartsWith("touchdown: "));
+  return ended.errors;
+}
+
+std::string minimal(const std::string& more) {
+  return "name: tiny\nfit: {scenarios: [step.yaml]}\ntest: {scenarios: [step.yaml]}\n" + more;
+}
+
+TEST(WrongRequest, AnUnknownVerbSuggestsTheNearestOne) {
+  EXPECT_THAT(complaint_about("rnu x.yaml", {}),
+              AllOf(HasSubstr("unknown command 'rnu'"), HasSubstr("did you mean 'run'?")));
+}
+
+TEST(WrongRequest, AnUnknownFlagSuggestsTheNearestOne) {
+  EXPECT_THAT(complaint_about("run x.yaml --otu dir", {}),
+              AllOf(HasSubstr("'--otu'"), HasSubstr("did you mean '--out'?")));
+}
+
+TEST(WrongRequest, AMissingArgumentIsNamed) {
+  EXPECT_THAT(complaint_about("run", {}), HasSubstr("experiment"));
+}
+
+TEST(WrongRequest, AMissingFileSuggestsTheNearestOne) {
+  EXPECT_THAT(complaint_about("run experiments/stiars.yaml", {}),
+              AllOf(HasSubstr("experiments/stiars.yaml: no such file"),
+                    HasSubstr("did you mean 'experiments/stairs.yaml'?")));
+}
+
+TEST(WrongRequest, AnUnknownKeyIsShownWithItsPlaceAndTheNearestKey) {
+  const ScratchFolder folder;
+  folder.write("x.yaml", minimal("noise:\n  sedes: 3\n"));
+  EXPECT_THAT(complaint_about("run x.yaml", folder),
+              AllOf(HasSubstr("x.yaml:5:3: noise.sedes"), HasSubstr("did you mean 'seeds'?")));
+}
+
+TEST(WrongRequest, AWrongTypeIsShownWithItsPlaceAndWhatWasExpected) {
+  const ScratchFolder folder;
+  folder.write("x.yaml", minimal("seed: many\n"));
+  EXPECT_THAT(complaint_about("run x.yaml", folder),
+              AllOf(HasSubstr("x.yaml:4:7: seed"), HasSubstr("expected a whole number")));
+}
+
+TEST(WrongRequest, AValueOutOfRangeIsShownWithTheRange) {
+  const ScratchFolder folder;
+  folder.write("x.yaml", minimal("noise: {seeds: 0}\n"));
+  EXPECT_THAT(complaint_about("run x.yaml", folder),
+              AllOf(HasSubstr("noise.seeds"), HasSubstr("from 1 to")));
+}
+
+TEST(WrongRequest, AnUnknownSimulatorSuggestsTheNearestOne) {
+  const ScratchFolder folder;
+  folder.write("x.yaml", minimal("simulators: [mujco]\n"));
+  EXPECT_THAT(complaint_about("run x.yaml", folder),
+              AllOf(HasSubstr("x.yaml:4:13: simulators"), HasSubstr("did you mean 'mujoco'?")));
+  write_tiny_experiment(folder);
+  EXPECT_THAT(complaint_about("simulate step.yaml --simulator bulet -o x.mpack", folder),
+              HasSubstr("bullet"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.mpack"));
+}
+
+TEST(WrongRequest, AnUnknownEstimatorSuggestsTheNearestOne) {
+  const ScratchFolder folder;
+  folder.write("x.yaml", minimal("estimators: [robst]\n"));
+  EXPECT_THAT(complaint_about("run x.yaml", folder), HasSubstr("did you mean 'robust'?"));
+}
+
+TEST(WrongRequest, AHighlightBesideTheGridIsRefused) {
+  const ScratchFolder folder;
+  folder.write("x.yaml", minimal("highlights: [{torque: 0.5, accelerometer: 0.0}]\n"));
+  EXPECT_THAT(complaint_about("run x.yaml", folder), HasSubstr("highlights.0.torque"));
+}
+
+TEST(WrongRequest, AnOverrideOfAnUnknownKeyIsRefused) {
+  const ScratchFolder folder;
+  const std::string experiment = write_tiny_experiment(folder);
+  EXPECT_THAT(complaint_about("run " + experiment + " --set noise.sedes=3", folder),
+              HasSubstr("did you mean 'seeds'?"));
+  EXPECT_THAT(complaint_about("run " + experiment + " --set noise", folder),
+              HasSubstr("key=value"));
+}
+
+TEST(WrongRequest, WhatIsNoYamlIsShownWithItsPlace) {
+  const ScratchFolder folder;
+  folder.write("x.yaml", "name: [tiny\n");
+  EXPECT_THAT(complaint_about("run x.yaml", folder), HasSubstr("not valid YAML"));
+}
+
+TEST(WrongRequest, ALogThatIsNoneIsRefused) {
+  const ScratchFolder folder;
+  folder.write("x.mpack", "no log");
+  complaint_about("render x.mpack -o x.mp4", folder);
+  complaint_about("render missing.mpack -o x.mp4", folder);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.mp4"));
+}
+
+TEST(Help, BeginsWithALineToCopy) {
+  for (const std::string verb : {"", "run", "simulate", "render"}) {
+    const Ended ended = touchdown_program(verb + " --help", ScratchFolder().path());
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.output, StartsWith("touchdown " + (verb.empty() ? "run" : verb) + " "));
+  }
+}
+
+TEST(List, NamesWhatThereIs) {
+  const Ended ended = touchdown_program("list", ScratchFolder().path());
+  EXPECT_EQ(ended.exit_code, 0);
+  for (const char* name : {"experiments/stairs.yaml", "scenarios/stairs.yaml", "mujoco", "bullet",
+                           "robust", "always_contact"}) {
+    EXPECT_THAT(ended.output, HasSubstr(name));
+  }
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,117 @@
+#include <map>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "program.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+/// The results that must not depend on when, where and by how many threads they were computed.
+std::map<std::string, std::string> reproducible_files(const fs::path& run_directory) {
+  std::map<std::string, std::string> files;
+  for (const char* folder : {"tables", "recordings", "models"}) {
+    for (const auto& entry : fs::directory_iterator(run_directory / folder)) {
+      files[folder + std::string("/") + entry.path().filename().string()] = read_file(entry.path());
+    }
+  }
+  files["config.yaml"] = read_file(run_directory / "config.yaml");
+  return files;
+}
+
+void run_tiny(const ScratchFolder& folder, const std::string& flags) {
+  const Ended ended = touchdown_program("run tiny.yaml " + flags, folder.path());
+  ASSERT_EQ(ended.exit_code, 0) << ended.errors;
+}
+
+TEST(Run, GivesTheSameBytesInTwoProcessesAndWithOneAndFourThreads) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  run_tiny(folder, "--out a --set workers=4");
+  run_tiny(folder, "--out b --set workers=4");
+  run_tiny(folder, "--out c --set workers=1");
+  const auto first = reproducible_files(folder.path() / "a");
+  EXPECT_EQ(first.count("tables/success.csv"), 1U);
+  EXPECT_EQ(first.count("recordings/bullet_step_test_002.mpack"), 1U);
+  for (const char* other : {"b", "c"}) {
+    const auto files = reproducible_files(folder.path() / other);
+    ASSERT_EQ(files.size(), first.size());
+    for (const auto& [name, content] : first) {
+      EXPECT_TRUE(files.at(name) == content) << name << " differs in " << other;
+    }
+  }
+}
+
+TEST(Run, GivesOtherNumbersForAnotherSeed) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  run_tiny(folder, "--out a");
+  run_tiny(folder, "--out b --set seed=4");
+  EXPECT_NE(read_file(folder.path() / "a/tables/success.csv"),
+            read_file(folder.path() / "b/tables/success.csv"));
+}
+
+TEST(Run, LeavesADirectoryThatExplainsItself) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  run_tiny(folder, "");
+  const fs::path latest = folder.path() / "runs/tiny/latest";
+  ASSERT_TRUE(fs::is_symlink(latest));
+  EXPECT_THAT(read_file(latest / "tables/success.csv"),
+              StartsWith("simulator,estimator,torque_noise_nm,accelerometer_noise_mps2,success,"
+                         "success_low,success_high"));
+  EXPECT_THAT(read_file(latest / "tables/classification.csv"), HasSubstr("contact_precision,"));
+  EXPECT_THAT(read_file(latest / "tables/success.csv"), HasSubstr("bullet,always_contact,1,5,"));
+  for (const char* key : {"\"versions\"", "\"seeds\"", "\"host\"", "\"timings_s\""}) {
+    EXPECT_THAT(read_file(latest / "manifest.json"), HasSubstr(key));
+  }
+}
+
+TEST(Run, OfItsOwnResolvedConfigurationGivesTheSameResults) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  run_tiny(folder, "--out a");
+  const Ended ended = touchdown_program("run a/config.yaml --out b", folder.path());
+  ASSERT_EQ(ended.exit_code, 0) << ended.errors;
+  EXPECT_EQ(reproducible_files(folder.path() / "a"), reproducible_files(folder.path() / "b"));
+}
+
+TEST(Run, UsesRecordingsThatAreThereAlready) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  run_tiny(folder, "--out a");
+  const fs::path recording = folder.path() / "a/recordings/mujoco_step_test_000.mpack";
+  const auto written = fs::last_write_time(recording);
+  const auto before = reproducible_files(folder.path() / "a");
+  fs::remove(folder.path() / "a/recordings/mujoco_step_test_001.mpack");
+  run_tiny(folder, "--out a");
+  EXPECT_EQ(fs::last_write_time(recording), written);
+  EXPECT_EQ(reproducible_files(folder.path() / "a"), before);
+}
+
+TEST(Simulate, RecordsTheSameRunTwice) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  for (const std::string name : {"a", "b"}) {
+    const Ended ended = touchdown_program(
+        "simulate step.yaml --simulator bullet --run 1 --seed 9 -o " + name + ".mpack",
+        folder.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    EXPECT_THAT(ended.output, HasSubstr("step"));
+  }
+  EXPECT_EQ(read_file(folder.path() / "a.mpack"), read_file(folder.path() / "b.mpack"));
+  touchdown_program("simulate step.yaml --simulator bullet --run 2 --seed 9 -o c.mpack",
+                    folder.path());
+  EXPECT_NE(read_file(folder.path() / "a.mpack"), read_file(folder.path() / "c.mpack"));
+}
+
+}  // namespace
+}  // namespace touchdown
