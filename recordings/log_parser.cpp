@@ -27,7 +27,7 @@ std::size_t string_header_size(const char* text, std::size_t size) {
 
 }  // namespace
 
-LogParser::LogParser() : tree_(all_keys()), next_child_(tree_.size(), 0) {
+LogParser::LogParser() : tree_(all_keys()), sequences_(tree_.size()) {
   for (const LogKey& key : log_keys()) {
     if (key.size > 1) vectors_.push_back(&key);
     if (key.role != LogKey::Role::needed) continue;
@@ -99,15 +99,23 @@ bool LogParser::number(double value) {
 
 int LogParser::child(int parent, std::string_view name) {
   if (parent == LogKeyTree::none) return LogKeyTree::none;
-  const std::vector<int>& children = tree_.node(parent).children;
-  std::size_t& likely = next_child_[static_cast<std::size_t>(parent)];
-  for (std::size_t tried = 0; tried < children.size(); ++tried) {
-    const std::size_t i = (likely + tried) % children.size();
-    if (tree_.node(children[i]).name != name) continue;
-    likely = i + 1;
-    return children[i];
+  // Records of a log repeat each other: the key is most likely the one of the record before.
+  KeySequence& before = sequences_[static_cast<std::size_t>(parent)];
+  const std::size_t position = before.position++;
+  if (position < before.keys.size() && before.keys[position].name == name) {
+    return before.keys[position].child;
   }
-  return LogKeyTree::none;
+  const std::vector<int>& children = tree_.node(parent).children;
+  const auto found = std::find_if(children.begin(), children.end(),
+                                  [&](int index) { return tree_.node(index).name == name; });
+  const int result = found == children.end() ? LogKeyTree::none : *found;
+  constexpr std::size_t most_remembered = 64;
+  if (position < before.keys.size()) {
+    before.keys[position] = {std::string(name), result};
+  } else if (position < most_remembered) {
+    before.keys.push_back({std::string(name), result});
+  }
+  return result;
 }
 
 bool LogParser::visit_str(const char* text, std::uint32_t size) {
@@ -142,6 +150,7 @@ void LogParser::end_belief(std::size_t offset) {
 }
 
 bool LogParser::start_map(std::uint32_t /*entries*/) {
+  if (current_ != LogKeyTree::none) sequences_[static_cast<std::size_t>(current_)].position = 0;
   open_.push_back(current_);
   return true;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -54,6 +55,16 @@ class LogParser : public msgpack::null_visitor {
   /// @}
 
  private:
+  /// The keys that a map had in the record before.
+  struct KeySequence {
+    struct Key {
+      std::string name;
+      int child;
+    };
+    std::vector<Key> keys;
+    std::size_t position = 0;
+  };
+
   bool number(double value);
   int child(int parent, std::string_view name);
   void note_place(std::string_view key);
@@ -62,7 +73,7 @@ class LogParser : public msgpack::null_visitor {
   bool has_time() const;
 
   LogKeyTree tree_;
-  std::vector<std::size_t> next_child_;  ///< per node: the child that is likely to come next
+  std::vector<KeySequence> sequences_;  ///< per node of the tree
   std::vector<const LogKey*> vectors_;
   LogPresence needed_;
   LogPresence present_;

@@ -160,20 +160,4 @@ void LogReader::complain_about_missing_keys() const {
       fmt::format("{}: needed keys are missing: {}", name_, fmt::join(parser_.missing(), ", ")));
 }
 
-Recording read_recording(const std::filesystem::path& path, std::vector<std::string>* warnings) {
-  LogReader reader(path);
-  Recording recording;
-  recording.info = reader.info();
-  while (std::optional<LogRow> row = reader.next()) {
-    recording.observation.push_back(row->observation);
-    recording.action.push_back(row->action);
-    if (row->truth) recording.truth.push_back(*row->truth);
-  }
-  if (recording.truth.size() != recording.steps()) recording.truth.clear();
-  if (warnings != nullptr) {
-    warnings->insert(warnings->end(), reader.warnings().begin(), reader.warnings().end());
-  }
-  return recording;
-}
-
 }  // namespace touchdown

@@ -90,8 +90,4 @@ class LogReader {
   std::vector<std::string> warnings_;
 };
 
-/// The whole log in memory; messages go to `warnings` if given.
-Recording read_recording(const std::filesystem::path& path,
-                         std::vector<std::string>* warnings = nullptr);
-
 }  // namespace touchdown

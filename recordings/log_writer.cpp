@@ -1,11 +1,6 @@
 #include "recordings/log_writer.hpp"
 
-#include <fstream>
-
-#include <fmt/format.h>
-
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "recordings/log_info.hpp"
 #include "recordings/pack_float64.hpp"
 
@@ -81,29 +76,6 @@ void LogWriter::pack_value(const LogKey& key, const LogValues& values) {
   }
   if (key.size > 1) packer_.pack_array(static_cast<std::uint32_t>(key.size));
   for (std::size_t i = 0; i < key.size; ++i) pack_float64(buffer_, values[key.slot + i]);
-}
-
-void write_recording(const Recording& recording, const std::filesystem::path& path) {
-  const bool with_truth = !recording.truth.empty();
-  if (recording.action.size() != recording.steps() ||
-      (with_truth && recording.truth.size() != recording.steps())) {
-    throw Error(fmt::format(
-        "{}: the recording's columns differ in length: {} observations, {} "
-        "actions, {} true states",
-        path.string(), recording.steps(), recording.action.size(), recording.truth.size()));
-  }
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
-    if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
-    LogWriter writer(file, recording.info, with_truth);
-    for (std::size_t step = 0; step < recording.steps(); ++step) {
-      writer.write(recording.observation[step], recording.action[step],
-                   with_truth ? &recording.truth[step] : nullptr);
-    }
-    writer.finish();
-    file.close();
-    if (!file) throw Error(fmt::format("{}: cannot be written: is the disk full?", path.string()));
-  });
 }
 
 }  // namespace touchdown

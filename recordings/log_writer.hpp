@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <ostream>
 
 #include <msgpack.hpp>
@@ -39,9 +38,5 @@ class LogWriter {
   msgpack::sbuffer buffer_;
   msgpack::packer<msgpack::sbuffer> packer_;
 };
-
-/// The whole recording as one file, whole or not at all.
-/// Errors: `Error` when it cannot be written or its columns differ in length.
-void write_recording(const Recording& recording, const std::filesystem::path& path);
 
 }  // namespace touchdown

@@ -1,11 +1,12 @@
 #include "recordings/npy.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <functional>
 #include <numeric>
-#include <regex>
 
 #include <fmt/format.h>
 
@@ -28,6 +29,36 @@ struct Header {
   std::size_t data_offset = 0;
 };
 
+/// The header is a Python dictionary on one line: what follows `'key':` in it.
+std::string_view value_of(std::string_view text, std::string_view key) {
+  const std::size_t found = text.find(fmt::format("'{}':", key));
+  if (found == std::string_view::npos) return {};
+  const std::string_view rest = text.substr(found + key.size() + 3);
+  return rest.substr(std::min(rest.size(), rest.find_first_not_of(' ')));
+}
+
+/// What stands between the marks, if the text begins with the first one.
+std::string_view between(std::string_view text, std::string_view open, std::string_view close) {
+  const std::size_t end = text.find(close, open.size());
+  if (!text.starts_with(open) || end == std::string_view::npos) return {};
+  return text.substr(open.size(), end - open.size());
+}
+
+/// "2, 3" or "2,"; empty if it is anything else.
+std::vector<std::size_t> parse_shape(std::string_view text) {
+  std::vector<std::size_t> shape;
+  while (!text.empty()) {
+    std::size_t axis = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), axis);
+    if (error != std::errc{}) return {};
+    shape.push_back(axis);
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    const std::size_t next = text.find_first_not_of(", ");
+    text.remove_prefix(std::min(text.size(), next));
+  }
+  return shape;
+}
+
 Header parse_header(std::string_view bytes, const std::string& name) {
   const auto byte = [&](std::size_t i) {
     return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i]));
@@ -42,19 +73,15 @@ Header parse_header(std::string_view bytes, const std::string& name) {
   if (bytes.size() < start + length || length > 65536) {
     throw InputError(fmt::format("{}: is cut off within its header", name));
   }
-  const std::string text(bytes.substr(start, length));
-
-  static const std::regex pattern(
-      R"(^\s*\{\s*'descr':\s*'([^']*)'\s*,\s*'fortran_order':\s*(True|False)\s*,\s*)"
-      R"('shape':\s*\(\s*(\d{1,12})\s*,\s*(\d{1,12})?\s*,?\s*\)\s*,?\s*\}\s*$)");
-  std::smatch match;
-  if (!std::regex_match(text, match, pattern)) {
+  const std::string_view text = bytes.substr(start, length);
+  Header header{std::string(between(value_of(text, "descr"), "'", "'")),
+                value_of(text, "fortran_order").starts_with("True"),
+                parse_shape(between(value_of(text, "shape"), "(", ")")), start + length};
+  if (header.type.empty() || header.shape.empty() || header.shape.size() > 2) {
     throw InputError(
         fmt::format("{}: expected an array of numbers with one or two axes, found the header {}",
                     name, text.substr(0, text.find_last_not_of(" \n") + 1)));
   }
-  Header header{match[1], match[2] == "True", {std::stoul(match[3])}, start + length};
-  if (match[4].matched) header.shape.push_back(std::stoul(match[4]));
   for (const std::size_t axis : header.shape) {
     if (axis > largest_axis) throw InputError(fmt::format("{}: has an axis of {}", name, axis));
   }

@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "recordings/log_reader.hpp"
 #include "recordings/log_writer.hpp"
+#include "recordings/recording_file.hpp"
 #include "tests/recordings/sample_recording.hpp"
 
 namespace touchdown {

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "recordings/log_reader.hpp"
+#include "recordings/recording_file.hpp"
 #include "tests/recordings/sample_recording.hpp"
 #include "tests/recordings/upkie_log.hpp"
 
