@@ -1,0 +1,138 @@
+#include "tests/simulators/bodies.hpp"
+#include "tests/simulators/standing.hpp"
+
+namespace touchdown {
+namespace {
+
+class Contact : public EveryEngine {};
+
+TEST_P(Contact, StandingWheelsCarryTheWeight) {
+  const auto simulator = make(upkie());
+  simulator->reset(upright());
+  stand(*simulator, 3.0);
+  const GroundTruth& truth = simulator->ground_truth();
+  const double weight = 9.81 * motion(simulator->model(), simulator->state()).mass;
+  EXPECT_NEAR(truth.wheel_normal_force[0] + truth.wheel_normal_force[1], weight, 1e-7 * weight);
+  EXPECT_NEAR(truth.wheel_normal_force[0], 0.5 * weight, 0.02 * weight);
+  EXPECT_FALSE(truth.body_touches_terrain);
+  // Soft ground gives, but not much.
+  EXPECT_NEAR(simulator->state().position.z(), 0.557, 1.5e-3);
+}
+
+TEST_P(Contact, TheForceIsAveragedOverTheControlStep) {
+  SimulatorOptions options;
+  options.steps = {1000, 5000};
+  const auto coarse = make(upkie(), options);
+  const auto fine = make(upkie());
+  RobotState start = upright();
+  start.position.z() += 0.05;
+  coarse->reset(start);
+  fine->reset(start);
+  // Held servos are not the same as refreshed ones, hence limp legs: they fold alike.
+  double largest = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    std::array<double, wheel_count> sum = {};
+    for (int j = 0; j < 5; ++j) {
+      fine->step(torques());
+      for (std::size_t w = 0; w < wheel_count; ++w) {
+        sum[w] += fine->ground_truth().wheel_normal_force[w];
+      }
+    }
+    coarse->step(torques());
+    for (std::size_t w = 0; w < wheel_count; ++w) {
+      largest = std::max(largest, sum[w]);
+      EXPECT_DOUBLE_EQ(coarse->ground_truth().wheel_normal_force[w], sum[w] / 5.0);
+    }
+  }
+  EXPECT_GT(largest, 100.0);
+}
+
+TEST_P(Contact, NothingTouchesInTheAir) {
+  const auto simulator = make(upkie());
+  simulator->reset(at_height(2.0));
+  for (int i = 0; i < 100; ++i) {
+    simulator->step(torques());
+    ASSERT_EQ(simulator->ground_truth().wheel_normal_force, (std::array<double, 2>{0.0, 0.0}));
+    ASSERT_FALSE(simulator->ground_truth().body_touches_terrain);
+  }
+}
+
+TEST_P(Contact, ATorsoOnTheFloorIsNotAWheel) {
+  const auto simulator = make(upkie());
+  RobotState lying = at_height(0.3);
+  lying.orientation = Eigen::AngleAxisd(1.5, Eigen::Vector3d::UnitY());
+  simulator->reset(lying);
+  bool touched = false;
+  for (int i = 0; i < 1000 && !touched; ++i) {
+    simulator->step(stiff_legs(lying));
+    touched = simulator->ground_truth().body_touches_terrain;
+  }
+  EXPECT_TRUE(touched);
+}
+
+TEST_P(Contact, FrictionIsTheTerrains) {
+  // Sliding on locked wheels: the level force on the robot is friction times load.
+  for (const double friction : {0.2, 0.5}) {
+    Terrain terrain;
+    terrain.friction = friction;
+    const auto simulator = make(upkie({}, terrain));
+    RobotState start = upright();
+    simulator->reset(start);
+    stand(*simulator, 2.0);
+    RobotState sliding = simulator->state();
+    sliding.linear_velocity.y() += 1.0;  // sideways: wheels neither roll nor tip over the axle
+    const auto model = upkie({}, terrain);
+    const double before = motion(*model, sliding).momentum.y();
+    const Action hold = locked(simulator->state());
+    simulator->reset(sliding);
+    double impulse = 0.0;
+    for (int i = 0; i < 20; ++i) {
+      simulator->step(hold);
+      const auto& force = simulator->ground_truth().wheel_normal_force;
+      impulse += (force[0] + force[1]) * simulator->control_period();
+    }
+    const double lost = before - motion(*model, simulator->state()).momentum.y();
+    EXPECT_NEAR(lost, friction * impulse, 0.03 * friction * impulse);
+  }
+}
+
+/// Wheel speeds after 0.2 s of coasting at `speed`, without and with resistance.
+double slowed_by(const Simulator& plain, const Simulator& resisting) {
+  const auto speed = [](const Simulator& s) {
+    return s.state().joint_velocity[index(Servo::left_wheel)] -
+           s.state().joint_velocity[index(Servo::right_wheel)];
+  };
+  return 0.5 * (speed(plain) - speed(resisting));
+}
+
+TEST_P(Contact, RollingResistanceSlowsEitherWayAndIsNotMeasured) {
+  for (const double speed : {1.0, -1.0}) {
+    SimulatorOptions options;
+    options.contact.rolling_resistance = 0.0;
+    const auto plain = make(upkie(), options);
+    options.contact.rolling_resistance = 0.004;
+    const auto resisting = make(upkie(), options);
+    RobotState start = upright();
+    start.linear_velocity.x() = speed;
+    start.joint_velocity[index(Servo::left_wheel)] = speed / 0.05;
+    start.joint_velocity[index(Servo::right_wheel)] = -speed / 0.05;
+    for (Simulator* simulator : {plain.get(), resisting.get()}) {
+      simulator->reset(start);
+      for (int i = 0; i < 200; ++i) {
+        simulator->step(stiff_legs(start));
+        ASSERT_EQ(simulator->observation().servo[index(Servo::left_wheel)].torque, 0.0);
+      }
+    }
+    const double slowed = slowed_by(*plain, *resisting);
+    EXPECT_GT(slowed * speed, 0.0);
+    // At least the deceleration of a point mass: 0.004·g/r of wheel speed per second is what a
+    // rigid robot would lose by c·N/r; tipping changes it by a factor, not in sign.
+    EXPECT_GT(std::abs(slowed), 0.1 * 0.004 * 9.81 / (0.05 * 0.05) * 0.2);
+    EXPECT_LT(std::abs(slowed), 10.0 * 0.004 * 9.81 / (0.05 * 0.05) * 0.2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engine, Contact, ::testing::ValuesIn(simulator_names()), engine_name);
+
+}  // namespace
+}  // namespace touchdown

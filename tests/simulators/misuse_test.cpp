@@ -1,0 +1,129 @@
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "tests/simulators/standing.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+template <typename F>
+std::string complaint(F&& attempt) {
+  try {
+    attempt();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(Misuse, AnUnknownSimulatorIsNamedWithTheKnownOnes) {
+  const auto robot = upkie();
+  const auto of = [&](const char* name) {
+    return complaint([&] { (void)make_simulator(name, robot, {}); });
+  };
+  EXPECT_THAT(of("mujocco"), AllOf(HasSubstr("unknown simulator 'mujocco'"),
+                                   HasSubstr("mujoco, bullet"), HasSubstr("mean 'mujoco'?")));
+  EXPECT_THAT(of("gazebo"), AllOf(HasSubstr("gazebo"), ::testing::Not(HasSubstr("did you mean"))));
+  EXPECT_THAT(of(""), HasSubstr("unknown simulator ''"));
+}
+
+TEST(Misuse, BulletSaysWhatItCannotRepresent) {
+  const auto make = [](auto&& change) {
+    const auto robot = upkie(change);
+    return complaint([&] { (void)make_simulator("bullet", robot, {}); });
+  };
+  const auto at = [](const RobotModel& robot, Servo servo) {
+    return robot.dof_address[index(servo)];
+  };
+  EXPECT_THAT(make([&](RobotModel& r) { r.mj->dof_armature[at(r, Servo::left_knee)] = 0.01; }),
+              AllOf(HasSubstr("'left_knee'"), HasSubstr("armature")));
+  EXPECT_THAT(make([&](RobotModel& r) { r.mj->dof_damping[at(r, Servo::right_hip)] = 0.01; }),
+              AllOf(HasSubstr("'right_hip'"), HasSubstr("damping")));
+  EXPECT_THAT(make([&](RobotModel& r) { r.mj->geom_type[r.tyre_geom[0]] = mjGEOM_ELLIPSOID; }),
+              AllOf(HasSubstr("'left_tire'"), HasSubstr("Bullet has no counterpart")));
+}
+
+class Robust : public EveryEngine {};
+
+TEST_P(Robust, AResetGivesTheSameBitsAgain) {
+  const auto simulator = make(upkie());
+  const auto run = [&] {
+    RobotState start = upright();
+    start.position.z() += 0.2;
+    simulator->reset(start);
+    std::vector<double> trace;
+    for (int i = 0; i < 400; ++i) {
+      simulator->step(locked(start), guide(simulator->state()));
+      const RobotState& s = simulator->state();
+      trace.insert(trace.end(), s.position.begin(), s.position.end());
+      trace.insert(trace.end(), s.joint_velocity.begin(), s.joint_velocity.end());
+      const auto& force = simulator->ground_truth().wheel_normal_force;
+      trace.insert(trace.end(), force.begin(), force.end());
+    }
+    return trace;
+  };
+  const std::vector<double> first = run();
+  EXPECT_EQ(run(), first);
+  EXPECT_EQ(simulator->observation().time, 0.4);
+}
+
+TEST_P(Robust, NotANumberIsIllHealthNotACrash) {
+  for (const bool in_the_air : {true, false}) {
+    const auto simulator = make(upkie());
+    simulator->reset(in_the_air ? at_height(3.0) : upright());
+    EXPECT_TRUE(simulator->healthy());
+    Action action = torques();
+    action.servo[0].feedforward_torque = nan;
+    for (int i = 0; i < 5; ++i) simulator->step(action);
+    EXPECT_FALSE(simulator->healthy());
+    // And it does not become well by itself, only by a reset.
+    for (int i = 0; i < 5; ++i) simulator->step(torques());
+    EXPECT_FALSE(simulator->healthy());
+    simulator->reset(upright());
+    simulator->step(torques());
+    EXPECT_TRUE(simulator->healthy());
+  }
+}
+
+TEST_P(Robust, AForceThatIsNotANumberIsIllHealthToo) {
+  const auto simulator = make(upkie());
+  simulator->reset(upright());
+  for (int i = 0; i < 5; ++i) {
+    simulator->step(torques(), {Eigen::Vector3d(nan, 0.0, 0.0), Eigen::Vector3d::Zero()});
+  }
+  EXPECT_FALSE(simulator->healthy());
+}
+
+TEST_P(Robust, AbsurdVelocitiesAreIllHealth) {
+  const auto simulator = make(upkie());
+  RobotState start = at_height(3.0);
+  start.linear_velocity.x() = 2e3;
+  simulator->reset(start);
+  EXPECT_FALSE(simulator->healthy());
+  start = at_height(3.0);
+  start.joint_velocity[index(Servo::left_wheel)] = 2e4;
+  simulator->reset(start);
+  EXPECT_FALSE(simulator->healthy());
+  start = at_height(2e4);
+  simulator->reset(start);
+  EXPECT_FALSE(simulator->healthy());
+}
+
+TEST_P(Robust, AHugePushIsSurvivedOrReported) {
+  const auto simulator = make(upkie());
+  simulator->reset(upright());
+  for (int i = 0; i < 20; ++i) {
+    simulator->step(torques(), {Eigen::Vector3d(0.0, 0.0, -1e9), Eigen::Vector3d::Zero()});
+  }
+  EXPECT_FALSE(simulator->healthy());
+}
+
+INSTANTIATE_TEST_SUITE_P(Engine, Robust, ::testing::ValuesIn(simulator_names()), engine_name);
+
+}  // namespace
+}  // namespace touchdown

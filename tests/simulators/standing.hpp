@@ -1,0 +1,34 @@
+#pragma once
+
+#include "tests/simulators/upkie.hpp"
+
+namespace touchdown {
+
+/// Upkie with straight legs, its tyres on the floor.
+inline RobotState upright() { return at_height(0.507 + 0.05); }
+
+/// Legs and wheels held at their angles in `state`.
+inline Action locked(const RobotState& state) {
+  Action action = stiff_legs(state);
+  for (const Servo wheel : wheel_servos) {
+    action.servo[index(wheel)] = {
+        .position = state.joint_position[index(wheel)], .kp_scale = 0.5, .kd_scale = 0.1};
+  }
+  return action;
+}
+
+/// A level spring and damper that keeps the base above the origin: it adds nothing vertical.
+inline ExternalWrench guide(const RobotState& state) {
+  Eigen::Vector3d force = -400.0 * state.position - 80.0 * state.linear_velocity;
+  force.z() = 0.0;
+  return {force, Eigen::Vector3d::Zero()};
+}
+
+/// Stand for `seconds`.
+inline void stand(Simulator& simulator, double seconds) {
+  const Action action = locked(simulator.state());
+  const auto steps = std::lround(seconds / simulator.control_period());
+  for (long i = 0; i < steps; ++i) simulator.step(action, guide(simulator.state()));
+}
+
+}  // namespace touchdown

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/random.hpp"
+#include "simulators/simulator.hpp"
+
+namespace touchdown {
+
+inline const std::string upkie_mjcf = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
+
+/// Upkie on a floor, after `change` had its way with the compiled model.
+inline std::shared_ptr<const RobotModel> upkie(const std::function<void(RobotModel&)>& change = {},
+                                               const Terrain& terrain = {}) {
+  auto model = std::make_shared<RobotModel>(compile_robot_model(upkie_mjcf, terrain));
+  if (change) {
+    change(*model);
+    const MjDataPtr data(mj_makeData(model->mj.get()));
+    mj_setConst(model->mj.get(), data.get());
+  }
+  return model;
+}
+
+inline void without_gravity(RobotModel& robot) { robot.mj->opt.gravity[2] = 0.0; }
+
+/// One physics step per control step, of `microseconds`.
+inline SimulatorOptions steps_of(std::int64_t microseconds) {
+  SimulatorOptions options;
+  options.steps = {microseconds, microseconds};
+  return options;
+}
+
+/// An action whose servos are limp but for these torques.
+inline Action torques(const JointTorques& torque = {}) {
+  Action action;
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    action.servo[i].feedforward_torque = torque[i];
+    action.servo[i].kd_scale = 0.0;
+  }
+  return action;
+}
+
+/// An action that holds the legs where they are in `state` and lets the wheels roll.
+inline Action stiff_legs(const RobotState& state) {
+  Action action = torques();
+  for (const Servo servo :
+       {Servo::left_hip, Servo::left_knee, Servo::right_hip, Servo::right_knee}) {
+    action.servo[index(servo)] = {
+        .position = state.joint_position[index(servo)], .kp_scale = 10.0, .kd_scale = 2.0};
+  }
+  return action;
+}
+
+inline RobotState at_height(double z) {
+  RobotState state;
+  state.position.z() = z;
+  return state;
+}
+
+/// A stream of uniform numbers that are the same everywhere.
+class Draws {
+ public:
+  explicit Draws(std::uint64_t seed) : seed_(seed) {}
+  double between(double low, double high) {
+    return low + (high - low) * uniform01(seed_, 0, count_++);
+  }
+  Eigen::Vector3d vector(double size) {
+    const double x = between(-size, size);
+    const double y = between(-size, size);
+    return {x, y, between(-size, size)};
+  }
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t count_ = 0;
+};
+
+/// High up, every way round, everything moving; the joints away from their limits.
+inline RobotState random_state(Draws& draw) {
+  RobotState state;
+  state.position = Eigen::Vector3d(0.0, 0.0, 50.0) + draw.vector(1.0);
+  state.orientation = Eigen::AngleAxisd(draw.between(0.0, 3.1), draw.vector(1.0).normalized());
+  state.linear_velocity = draw.vector(2.0);
+  state.angular_velocity = draw.vector(4.0);
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    state.joint_position[i] = draw.between(-1.0, 1.0);
+    state.joint_velocity[i] = draw.between(-8.0, 8.0);
+  }
+  return state;
+}
+
+/// A test that every engine must pass.
+class EveryEngine : public ::testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Simulator> make(std::shared_ptr<const RobotModel> model,
+                                  const SimulatorOptions& options = {}) const {
+    return make_simulator(GetParam(), std::move(model), options);
+  }
+};
+
+inline std::string engine_name(const ::testing::TestParamInfo<std::string>& engine) {
+  return engine.param;
+}
+
+}  // namespace touchdown
