@@ -10,17 +10,17 @@ namespace touchdown {
 /// Where the two legs are between rolling and falling: the joint states of the phase filter's
 /// hidden Markov model (docs/phase_filter.md).
 enum class Phase : std::uint8_t {
-  rolling,     ///< both wheels carry the robot, no flight is near
-  unloading_1, ///< both wheels touch; they will leave the ground within 100 to 40 ms
-  unloading_2, ///< … within 40 to 15 ms
-  unloading_3, ///< … within 15 ms
-  flight,      ///< neither wheel touches, nothing else holds the robot
-  impact_1,    ///< both wheels touch; they landed up to 15 ms ago
-  impact_2,    ///< … 15 to 60 ms ago
-  impact_3,    ///< … 60 to 150 ms ago
-  held,        ///< neither wheel touches, but the robot does not fall: hung or lifted
-  left_only,   ///< only the left wheel touches
-  right_only,  ///< only the right wheel touches
+  rolling,      ///< both wheels carry the robot, no flight is near
+  unloading_1,  ///< both wheels touch; they will leave the ground within 100 to 40 ms
+  unloading_2,  ///< … within 40 to 15 ms
+  unloading_3,  ///< … within 15 ms
+  flight,       ///< neither wheel touches, nothing else holds the robot
+  impact_1,     ///< both wheels touch; they landed up to 15 ms ago
+  impact_2,     ///< … 15 to 60 ms ago
+  impact_3,     ///< … 60 to 150 ms ago
+  held,         ///< neither wheel touches, but the robot does not fall: hung or lifted
+  left_only,    ///< only the left wheel touches
+  right_only,   ///< only the right wheel touches
 };
 
 inline constexpr std::size_t phase_count = 11;

@@ -17,9 +17,8 @@ bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 bool is_ladder(const std::vector<double>& levels) {
   return !levels.empty() && levels.front() >= 0.0 && std::isfinite(levels.back()) &&
-         std::adjacent_find(levels.begin(), levels.end(), [](double a, double b) {
-           return !(a < b);
-         }) == levels.end();
+         std::adjacent_find(levels.begin(), levels.end(),
+                            [](double a, double b) { return !(a < b); }) == levels.end();
 }
 
 }  // namespace

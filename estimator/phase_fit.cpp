@@ -43,9 +43,8 @@ void fill_mixture(const std::vector<double>& density, double uniform, double con
                   std::size_t first, std::size_t stride, std::vector<float>& log_density) {
   const std::size_t cells = log_density.size() / stride;
   for (std::size_t cell = 0; cell < cells; ++cell) {
-    const double mixture = density.empty() ? uniform
-                                           : (1.0 - contamination) * density[cell] +
-                                                 contamination * uniform;
+    const double mixture =
+        density.empty() ? uniform : (1.0 - contamination) * density[cell] + contamination * uniform;
     log_density[cell * stride + first] = static_cast<float>(std::log(mixture));
   }
 }
@@ -111,7 +110,8 @@ PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, double noise,
     }
   }
   PhaseTorqueDensity result{
-      noise, h,
+      noise,
+      h,
       axis_over(knee_range, h, std::min(config.grid_step * h, config.largest_knee_step)),
       axis_over(wheel_range, h, std::min(config.grid_step * h, config.largest_wheel_step)),
       {}};
@@ -165,8 +165,7 @@ PhaseModel fit_phase_model(std::span<const PhaseFitRun> runs, double sample_rate
   for (const PhaseFitRun& run : runs) collector.add(run);
   for (const Phase needed : {Phase::rolling, Phase::flight}) {
     if (!(collector.seconds()[index(needed)] > 0.0)) {
-      throw InputError("phase fit: the runs contain no " +
-                       std::string(phase_names[index(needed)]));
+      throw InputError("phase fit: the runs contain no " + std::string(phase_names[index(needed)]));
     }
   }
   PhaseModel model;

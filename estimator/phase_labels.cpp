@@ -27,16 +27,18 @@ std::vector<std::uint8_t> without_short_flights(WheelContact contact, std::size_
   return filled;
 }
 
-/// Per step, how many steps ago the robot last had a wheel in the air: 1 at the first step with
-/// both wheels down, `never` before any flight.
-std::vector<std::size_t> steps_since(const std::vector<std::uint8_t>& both) {
-  std::vector<std::size_t> since(both.size(), never);
+/// For every step how many steps lie between it and the last one (in the order of the indices that
+/// `at` gives) with a wheel in the air: 0 in the air, 1 right beside it, `never` without any.
+template <typename At>
+std::vector<std::size_t> steps_from_air(const std::vector<std::uint8_t>& both, const At& at) {
+  std::vector<std::size_t> steps(both.size());
   std::size_t count = never;
-  for (std::size_t k = 0; k < both.size(); ++k) {
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const std::size_t k = at(i);
     count = both[k] == 0 ? 0 : (count == never ? never : count + 1);
-    since[k] = count;
+    steps[k] = count;
   }
-  return since;
+  return steps;
 }
 
 /// With both wheels on the ground, `after` steps after a landing and `before` steps before a
@@ -109,10 +111,8 @@ std::vector<Phase> label_phases(const std::array<WheelContact, 2>& contact,
   std::transform(left.begin(), left.end(), right.begin(), both.begin(),
                  [](auto l, auto r) { return std::uint8_t{l != 0 && r != 0}; });
 
-  const std::vector<std::size_t> after = steps_since(both);
-  std::reverse(both.begin(), both.end());
-  std::vector<std::size_t> before = steps_since(both);
-  std::reverse(before.begin(), before.end());
+  const auto after = steps_from_air(both, [](std::size_t i) { return i; });
+  const auto before = steps_from_air(both, [&](std::size_t i) { return steps - 1 - i; });
 
   std::vector<Phase> phases(steps);
   for (std::size_t k = 0; k < steps; ++k) {

@@ -18,8 +18,8 @@ void check_transition(const PhaseTransition& transition) {
       sum += p;
     }
     if (!(std::abs(sum - 1.0) < 1e-6)) {
-      throw InputError("phase model: transitions from " + std::string(phase_names[i]) +
-                       " sum to " + std::to_string(sum) + " instead of 1");
+      throw InputError("phase model: transitions from " + std::string(phase_names[i]) + " sum to " +
+                       std::to_string(sum) + " instead of 1");
     }
   }
 }

@@ -49,10 +49,10 @@ void check_phase_model(const PhaseModel& model);
 
 /// One run to learn from: what was heard, and the truth. The data must outlive the fit.
 struct PhaseFitRun {
-  std::span<const Signals> signals;   ///< one per step, free of sensor noise
+  std::span<const Signals> signals;     ///< one per step, free of sensor noise
   std::array<WheelContact, 2> contact;  ///< left, right wheel
-  bool may_be_held = false;  ///< something besides the ground may carry the robot
-  std::size_t skip = 0;      ///< steps at the beginning that are not used
+  bool may_be_held = false;             ///< something besides the ground may carry the robot
+  std::size_t skip = 0;                 ///< steps at the beginning that are not used
 };
 
 /// How often phase j followed phase i. Every transition is counted with its mirror image, so that

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "estimator/contact_estimator.hpp"
+#include "estimator/phase_filter_config.hpp"
+#include "estimator/phase_model.hpp"
+#include "estimator/phase_noise.hpp"
+#include "estimator/phase_tables.hpp"
+#include "estimator/signal_guard.hpp"
+
+namespace touchdown {
+
+/// A hidden Markov model over the contact phases of both legs, run forward (docs/phase_filter.md).
+/// Where the paper's filter asks whether a wheel touches now, this one asks where the robot is
+/// between rolling and falling, from the signed knee and wheel torques of both legs and the
+/// vertical acceleration, and adds up: P(left wheel touches) is the probability of all phases in
+/// which it does.
+///
+/// `update` never throws, allocates or locks, and never returns NaN. A leg whose torques are not
+/// finite says nothing at that step; without a usable acceleration, or without torques of either
+/// leg, the belief relaxes to the prior (`SignalGuard`), and the status says why.
+class PhaseFilter : public ContactEstimator {
+ public:
+  /// Throws InputError for a bad model or configuration, and for a sample rate that is not the
+  /// model's divided by a whole number.
+  explicit PhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config = {});
+
+  void reset() noexcept override;
+  const Belief& update(const Signals& signals) noexcept override;
+
+  [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
+  [[nodiscard]] const PhaseFilterConfig& config() const noexcept { return config_; }
+  /// P(phase | everything heard so far), which sums to one.
+  [[nodiscard]] PhaseProbabilities phases() const noexcept;
+  /// The sensor noise that the last step was judged with.
+  [[nodiscard]] PhaseNoise noise() const noexcept;
+
+ private:
+  using Lanes = std::array<double, phase_lanes>;
+
+  void forget(double elapsed) noexcept;
+  void listen_to_noise(const Signals& signals, bool acceleration_good) noexcept;
+  void predict_and_correct(const Lanes& log_likelihood) noexcept;
+  void conclude() noexcept;
+
+  PhaseFilterConfig config_;
+  PhaseTorqueTables torque_;
+  PhaseAccelerationTables acceleration_;
+  SignalGuard guard_;
+  NoiseEstimate<4> torque_noise_;
+  NoiseEstimate<1> acceleration_noise_;
+  // By rung of the estimates; of one entry each if the noise is known.
+  std::vector<PhaseNoiseLevel> torque_levels_;
+  std::vector<PhaseNoiseLevel> acceleration_levels_;
+  alignas(64) std::array<Lanes, phase_count> transition_{};  // from row to column
+  alignas(64) Lanes alpha_{};
+  Belief belief_;
+};
+
+}  // namespace touchdown
