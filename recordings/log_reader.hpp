@@ -13,6 +13,7 @@
 #include "recordings/log_parser.hpp"
 #include "recordings/log_row.hpp"
 #include "recordings/recording.hpp"
+#include "recordings/recording_file.hpp"
 
 namespace touchdown {
 

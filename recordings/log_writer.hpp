@@ -7,6 +7,7 @@
 #include "recordings/log_keys.hpp"
 #include "recordings/log_row.hpp"
 #include "recordings/recording.hpp"
+#include "recordings/recording_file.hpp"
 
 namespace touchdown {
 
