@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 namespace touchdown {
@@ -31,7 +32,7 @@ SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height)
     : rows_(std::move(rows)),
       width_(width),
       height_(height),
-      left_(width * 150 / 1280),
+      left_(std::max(width * 176 / 1280, 60)),
       right_(width - width * 24 / 1280) {
   const int gap = std::max(4, height / 20);
   const int count = std::max<int>(1, static_cast<int>(rows_.size()));
@@ -64,11 +65,19 @@ void SignalStrip::draw_labels() {
     pen_.write(background_, rows_[i].title, left, top, letters, ink);
     top += line;
     int x = left;
-    for (const StripCurve& curve : rows_[i].curves) {
+    for (const double share : {0.0, 1.0}) {
+      const float value = rows_[i].low + static_cast<float>(share) * (rows_[i].high - rows_[i].low);
+      const std::string tick = fmt::format("{:.2g}", value);
+      const auto at = static_cast<int>(y(rows_[i], area, value));
+      pen_.write(background_, tick, left_ - 5 - pen_.width(tick, letters - 2),
+                 at - (share > 0.0 ? letters / 4 : letters * 3 / 4), letters - 2, rgb(0x5c636e));
+    }
+    for (auto found = rows_[i].curves.rbegin(); found != rows_[i].curves.rend(); ++found) {
+      const StripCurve& curve = *found;  // the first one is drawn last
       if (!curve.emphasis) continue;
       const int dash = letters * 5 / 4;
       const int needed = dash + 4 + pen_.width(curve.label, letters - 1) + letters / 2;
-      if (x > left && x + needed > left_) {
+      if (x > left && x + needed > left_ - letters * 2) {
         x = left;
         top += line;
       }

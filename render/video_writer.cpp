@@ -1,5 +1,7 @@
 #include "render/video_writer.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 extern "C" {
@@ -115,6 +117,8 @@ VideoWriter::VideoWriter(std::filesystem::path path, int width, int height, int 
   format->flags |= AVFMT_FLAG_BITEXACT;
   check(av_opt_set(codec.priv_data, "preset", "veryfast", 0), "preset");
   check(av_opt_set(codec.priv_data, "crf", "21", 0), "quality");
+  // x264's macroblock tree reads memory that it never wrote: the same frames, other bytes.
+  check(av_opt_set(codec.priv_data, "x264-params", "mbtree=0", 0), "parameters");
   check(avcodec_open2(&codec, encoder, nullptr), "cannot start the encoder");
 
   streams_->stream = avformat_new_stream(format, nullptr);

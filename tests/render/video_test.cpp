@@ -82,7 +82,7 @@ TEST_F(Video, IsAnMp4WithItsIndexInFrontAndTheSameBytesEveryTime) {
   EXPECT_EQ(statistics.frames, 13);
   render_video(robot_, run_, beliefs_, small_, folder_ / "deep/b.mp4");
   const std::string a = read_file(folder_ / "a.mp4");
-  EXPECT_EQ(a, read_file(folder_ / "deep/b.mp4"));
+  EXPECT_TRUE(a == read_file(folder_ / "deep/b.mp4"));
   EXPECT_EQ(a.substr(4, 4), "ftyp");
   EXPECT_LT(a.find("moov"), a.find("mdat"));
   EXPECT_NE(a.find("avc1"), std::string::npos);
