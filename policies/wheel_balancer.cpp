@@ -74,7 +74,7 @@ void WheelBalancer::update_ground_velocity(const Observation& observation) {
     integral_ += period_ * config_.position_stiffness * (target_position_ - position_);
   }
   integral_ = std::clamp(integral_ + period_ * config_.pitch_stiffness * pitch_error,
-                         -config_.max_velocity, config_.max_velocity);
+                         -config_.max_integral, config_.max_integral);
   const double position_error = target_position_ - position_;
   // No feedforward of the target velocity: the wheels must first roll back for the robot to lean
   // forward, and the position error does just that.
@@ -121,6 +121,7 @@ WheelBalancerConfig wheel_balancer_from_yaml(YamlMap map) {
   map.read("position_stiffness", c.position_stiffness, 0.0, 1e4);
   map.read("position_damping", c.position_damping, 0.0, 1e4);
   map.read("max_velocity", c.max_velocity, 0.0, 100.0);
+  map.read("max_integral", c.max_integral, 0.0, 1e3);
   map.read("max_acceleration", c.max_acceleration, 0.0, 100.0);
   map.read("max_position_error", c.max_position_error, 0.0, 100.0);
   map.read("air_decay_time", c.air_decay_time, 1e-3, 1e3);
@@ -142,6 +143,7 @@ YAML::Node to_yaml(const WheelBalancerConfig& c) {
   node["position_stiffness"] = c.position_stiffness;
   node["position_damping"] = c.position_damping;
   node["max_velocity"] = c.max_velocity;
+  node["max_integral"] = c.max_integral;
   node["max_acceleration"] = c.max_acceleration;
   node["max_position_error"] = c.max_position_error;
   node["air_decay_time"] = c.air_decay_time;

@@ -9,11 +9,12 @@ namespace touchdown {
 
 /// Gains of the balancer. Errors are target − measurement.
 struct WheelBalancerConfig {
-  double pitch_stiffness = 25.0;    ///< integral on the pitch error (m/s² per rad)
-  double pitch_damping = 4.0;       ///< proportional on the pitch error (m/s per rad)
+  double pitch_stiffness = 32.0;    ///< integral on the pitch error (m/s² per rad)
+  double pitch_damping = 5.5;       ///< proportional on the pitch error (m/s per rad)
   double position_stiffness = 1.5;  ///< integral on the position error (1/s²)
-  double position_damping = 1.5;    ///< proportional on the position error (1/s)
+  double position_damping = 3.0;    ///< proportional on the position error (1/s)
   double max_velocity = 2.0;        ///< of the commanded ground velocity (m/s)
+  double max_integral = 10.0;       ///< of the accumulated part of that command (m/s)
   double max_acceleration = 1.0;    ///< of the target velocity (m/s²)
   double max_position_error = 1.0;  ///< m
   double air_decay_time = 1.0;      ///< of the integral while both wheels are in the air (s)
