@@ -79,23 +79,34 @@ void BayesFilterLanes::update(const Signals& clean, const NoiseDraws& draws) noe
   }
   transition_.update(clean.vertical_acceleration, draws.acceleration);  // Eq. (7) to (13)
   measurement_.update(clean, draws);                                    // Eq. (4) to (6)
-  const Transition* const transitions = transition_.transitions().data();
+  const double* const stay = transition_.contact_to_contact().data();
+  const double* const takeoff = transition_.contact_to_air().data();
+  const double* const landing = transition_.air_to_contact().data();
+  const double* const fly = transition_.air_to_air().data();
+  const std::uint32_t* const torque_index = torque_index_.data();
+  const std::uint32_t* const acceleration_index = acceleration_index_.data();
+  const std::size_t count = lanes();
   for (const Side side : {Side::left, Side::right}) {
     const double* const p_contact = measurement_.contact(side).data();
     const double* const p_no_contact = measurement_.no_contact(side).data();
     double* const contact = contact_[static_cast<std::size_t>(side)].data();
     double* const no_contact = no_contact_[static_cast<std::size_t>(side)].data();
-    for (std::size_t lane = 0; lane < torque_index_.size(); ++lane) {
-      const Transition& p = transitions[acceleration_index_[lane]];
-      const std::uint32_t torque = torque_index_[lane];
+#pragma GCC ivdep  // the arrays do not overlap
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::uint32_t a = acceleration_index[lane];
+      const std::uint32_t torque = torque_index[lane];
+      const double bel = contact[lane];
+      const double not_bel = no_contact[lane];
       // Eq. (2a), (2b) and (3)
-      const double joint_contact = p_contact[torque] * (p.contact_to_contact * contact[lane] +
-                                                        p.air_to_contact * no_contact[lane]);
-      const double joint_no_contact = p_no_contact[torque] * (p.contact_to_air * contact[lane] +
-                                                              p.air_to_air * no_contact[lane]);
-      const double eta = joint_contact + joint_no_contact;
-      contact[lane] = eta > 0.0 ? joint_contact / eta : contact[lane];
-      no_contact[lane] = eta > 0.0 ? joint_no_contact / eta : no_contact[lane];
+      const double joint = p_contact[torque] * (stay[a] * bel + landing[a] * not_bel);
+      const double not_joint = p_no_contact[torque] * (takeoff[a] * bel + fly[a] * not_bel);
+      const double eta = joint + not_joint;
+      // Divided before it is known whether by zero: a choice of values is vector code, a branch
+      // not.
+      const double corrected = joint / eta;
+      const double not_corrected = not_joint / eta;
+      contact[lane] = eta > 0.0 ? corrected : bel;
+      no_contact[lane] = eta > 0.0 ? not_corrected : not_bel;
     }
   }
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -21,7 +20,8 @@ inline double exponential(double x) noexcept {
   // Adding 1.5·2^52 rounds to an integer and leaves it in the low bits.
   constexpr double shifter = 0x1.8p52;
 
-  const double bounded = std::min(limit, std::max(-limit, x));
+  const double above = x > -limit ? x : -limit;
+  const double bounded = above < limit ? above : limit;
   const double shifted = bounded * inverse_ln2 + shifter;
   const double k = shifted - shifter;
   const double r = (bounded - k * ln2_high) - k * ln2_low;

@@ -8,7 +8,6 @@ namespace touchdown {
 namespace {
 
 constexpr int lanes = SlidingDft::lanes;
-constexpr double negligible_rms = 1e-9;
 
 /// Eigen's arrays, because left to itself the compiler takes square roots one by one.
 using Lanes = Eigen::Array<double, lanes, 1>;

@@ -26,6 +26,9 @@ struct SpectrumValues {
 /// holds half or more, or if the window holds no more than rounding errors (an RMS below 1e-9).
 class SpectrumSummary {
  public:
+  /// RMS of a window below which its spectrum counts as empty.
+  static constexpr double negligible_rms = 1e-9;
+
   /// With `nyquist` false an even window's last bin, N/2, is left out of the median.
   SpectrumSummary(const SlidingDft& dft, SpectrumKind kind, bool nyquist);
 

@@ -12,10 +12,17 @@ TransitionLanes::TransitionLanes(const TransitionConfig& config, double sample_r
     : law_(config, sample_rate),
       clean_(config.window),
       noise_(config.window),
-      summary_(clean_, config.median_of, config.nyquist),
+      magnitude_(config.median_of == SpectrumKind::magnitude),
+      magnitudes_(clean_, SpectrumKind::magnitude, config.nyquist),
+      powers_(clean_, config.nyquist),
       sigmas_(sigmas.begin(), sigmas.end()),
-      spectra_(sigmas.size()),
-      transitions_(sigmas.size()) {
+      mean_square_(sigmas.size()),
+      median_bin_(sigmas.size()),
+      filtered_median_(sigmas.size()),
+      stay_(sigmas.size()),
+      takeoff_(sigmas.size()),
+      landing_(sigmas.size()),
+      fly_(sigmas.size()) {
   for (const double sigma : sigmas) {
     if (!(std::isfinite(sigma) && sigma >= 0.0)) {
       throw InputError("an accelerometer noise level must be finite and not negative (m/s²)");
@@ -26,17 +33,36 @@ TransitionLanes::TransitionLanes(const TransitionConfig& config, double sample_r
 void TransitionLanes::reset() noexcept {
   clean_.reset();
   noise_.reset();
-  std::fill(transitions_.begin(), transitions_.end(), Transition{});
+  std::fill(filtered_median_.begin(), filtered_median_.end(), 0.0);
 }
 
 void TransitionLanes::update(double vertical_acceleration, double draw) noexcept {
   clean_.push(vertical_acceleration);
   noise_.push(draw);
-  for (std::size_t i = 0; i < sigmas_.size(); ++i) {
-    spectra_[i] = summary_(clean_, noise_, sigmas_[i]);
+  powers_.update(clean_, noise_);
+  const std::size_t count = sigmas_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const SpectrumValues spectrum =
+        magnitude_ ? magnitudes_(clean_, noise_, sigmas_[i]) : powers_(sigmas_[i]);
+    mean_square_[i] = spectrum.mean_square;
+    median_bin_[i] = spectrum.median_bin;
   }
-  for (std::size_t i = 0; i < sigmas_.size(); ++i) {
-    law_.apply(spectra_[i], transitions_[i]);
+  const double* const mean_square = mean_square_.data();
+  const double* const median_bin = median_bin_.data();
+  double* const filtered_median = filtered_median_.data();
+  double* const stay = stay_.data();
+  double* const takeoff = takeoff_.data();
+  double* const landing = landing_.data();
+  double* const fly = fly_.data();
+  const TransitionLaw law = law_;
+#pragma GCC ivdep  // the arrays do not overlap
+  for (std::size_t i = 0; i < count; ++i) {
+    const Transition t = law.next({mean_square[i], median_bin[i]}, filtered_median[i]);
+    filtered_median[i] = t.filtered_median_frequency;
+    stay[i] = t.contact_to_contact;
+    takeoff[i] = t.contact_to_air;
+    landing[i] = t.air_to_contact;
+    fly[i] = t.air_to_air;
   }
 }
 

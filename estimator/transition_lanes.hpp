@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "estimator/mixed_power_spectrum.hpp"
 #include "estimator/transition_model.hpp"
 
 namespace touchdown {
@@ -22,17 +23,27 @@ class TransitionLanes {
   /// One step: clean vertical acceleration (m/s²) and a standard normal draw, both finite.
   void update(double vertical_acceleration, double draw) noexcept;
 
-  /// Per sigma.
-  [[nodiscard]] std::span<const Transition> transitions() const noexcept { return transitions_; }
+  /// The transition matrix, one array per element, one value per sigma.
+  [[nodiscard]] std::span<const double> contact_to_contact() const noexcept { return stay_; }
+  [[nodiscard]] std::span<const double> contact_to_air() const noexcept { return takeoff_; }
+  [[nodiscard]] std::span<const double> air_to_contact() const noexcept { return landing_; }
+  [[nodiscard]] std::span<const double> air_to_air() const noexcept { return fly_; }
 
  private:
   TransitionLaw law_;
   SlidingDft clean_;
   SlidingDft noise_;
-  SpectrumSummary summary_;
+  bool magnitude_;
+  SpectrumSummary magnitudes_;
+  MixedPowerSpectrum powers_;
   std::vector<double> sigmas_;
-  std::vector<SpectrumValues> spectra_;
-  std::vector<Transition> transitions_;
+  std::vector<double> mean_square_;
+  std::vector<double> median_bin_;
+  std::vector<double> filtered_median_;
+  std::vector<double> stay_;
+  std::vector<double> takeoff_;
+  std::vector<double> landing_;
+  std::vector<double> fly_;
 };
 
 }  // namespace touchdown

@@ -21,11 +21,12 @@ TransitionLaw::TransitionLaw(const TransitionConfig& config, double sample_rate)
     : switch_sigmoid_(config.switch_sigmoid),
       landing_sigmoid_(config.landing_sigmoid),
       margin_(config.margin),
+      highest_(1.0 - config.margin),
       power_scale_(config.power == PowerMeasure::mean_square ? 1.0 : config.window),
       bin_width_(sample_rate / config.window),
       memory_gain_(low_pass_gain(config.median_memory, 1.0 / sample_rate)),
-      remembers_(config.median_memory > 0.0),
-      row_stochastic_(config.row_stochastic) {
+      memory_(config.median_memory),
+      repair_(config.row_stochastic ? 1.0 : 0.0) {
   check(std::isfinite(sample_rate) && sample_rate > 0.0, "the sample rate must be positive (Hz)");
   check(config.switch_sigmoid.slope > 0.0, "the switch sigmoid's slope must be positive");
   check(config.landing_sigmoid.slope > 0.0, "the landing sigmoid's slope must be positive");
@@ -44,8 +45,8 @@ void TransitionModel::reset() noexcept {
 }
 
 const Transition& TransitionModel::update(double vertical_acceleration) noexcept {
-  dft_.push(vertical_acceleration);         // Eq. (9) and (10)
-  law_.apply(summary_(dft_), transition_);  // Eq. (11) to (13)
+  dft_.push(vertical_acceleration);  // Eq. (9) and (10)
+  transition_ = law_.next(summary_(dft_), transition_.filtered_median_frequency);
   return transition_;
 }
 

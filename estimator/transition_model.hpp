@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "estimator/exponential.hpp"
 #include "estimator/sliding_dft.hpp"
 #include "estimator/spectrum_summary.hpp"
@@ -74,25 +72,28 @@ class TransitionLaw {
   /// Throws InputError for a rate, slope, margin or memory that makes no sense.
   TransitionLaw(const TransitionConfig& config, double sample_rate);
 
-  void apply(const SpectrumValues& spectrum, Transition& t) const noexcept {
+  /// The transition after one whose filtered median frequency was `remembered` (Hz).
+  [[nodiscard]] Transition next(const SpectrumValues& spectrum, double remembered) const noexcept {
+    Transition t;
     t.power = power_scale_ * spectrum.mean_square;
     const Odds switching = odds(switch_sigmoid_, t.power);  // Eq. (11)
     t.p_switch = switching.p;
 
     t.median_frequency = bin_width_ * spectrum.median_bin;
     const double input = t.median_frequency * t.p_switch;
-    double filtered = t.filtered_median_frequency;
+    double filtered = remembered;
     filtered += memory_gain_ * (input - filtered);
     filtered += memory_gain_ * (input - filtered);
-    t.filtered_median_frequency = remembers_ ? filtered : t.median_frequency;
+    t.filtered_median_frequency = memory_ > 0.0 ? filtered : t.median_frequency;
     const Odds landing = odds(landing_sigmoid_, t.filtered_median_frequency);  // Eq. (13)
     t.p_landing = landing.p;
 
     t.air_to_contact = landing.p * switching.p;      // Eq. (8)
     t.contact_to_air = landing.not_p * switching.p;  // likewise
     // 1 − P(leave) = P(no switch) + P(switch the other way), without cancellation.
-    t.contact_to_contact = switching.not_p + (row_stochastic_ ? t.air_to_contact : 0.0);
-    t.air_to_air = switching.not_p + (row_stochastic_ ? t.contact_to_air : 0.0);
+    t.contact_to_contact = switching.not_p + repair_ * t.air_to_contact;
+    t.air_to_air = switching.not_p + repair_ * t.contact_to_air;
+    return t;
   }
 
  private:
@@ -108,17 +109,20 @@ class TransitionLaw {
     return {within_margin(p), within_margin(against * p)};
   }
   [[nodiscard]] double within_margin(double p) const noexcept {
-    return std::min(1.0 - margin_, std::max(margin_, p));
+    const double above = p > margin_ ? p : margin_;
+    return above < highest_ ? above : highest_;
   }
 
   Sigmoid switch_sigmoid_;
   Sigmoid landing_sigmoid_;
   double margin_;
+  double highest_;
   double power_scale_;
   double bin_width_;
   double memory_gain_;
-  bool remembers_;
-  bool row_stochastic_;
+  double memory_;
+  /// 1 if rows are to sum to one, 0 as published.
+  double repair_;
 };
 
 /// The paper's transition model: a landing or a takeoff leaves its mark in the vertical
