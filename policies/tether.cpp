@@ -1,27 +1,10 @@
 #include "policies/tether.hpp"
 
 #include <algorithm>
-#include <vector>
+
+#include "policies/vector_yaml.hpp"
 
 namespace touchdown {
-
-namespace {
-
-void read_vector(YamlMap& map, std::string_view key, Eigen::Vector3d& value) {
-  std::vector<double> numbers(value.begin(), value.end());
-  map.read(key, numbers);
-  if (numbers.size() != 3) map.fail(key, "expected three numbers: x, y, z");
-  value = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
-}
-
-YAML::Node to_node(const Eigen::Vector3d& value) {
-  YAML::Node node;
-  for (const double x : value) node.push_back(x);
-  node.SetStyle(YAML::EmitterStyle::Flow);
-  return node;
-}
-
-}  // namespace
 
 Eigen::Vector3d tether_force(const Tether& tether, const GroundTruth& robot) {
   const Eigen::Vector3d lever = robot.base_orientation * tether.point_in_base;

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "policies/wheel_balancer.hpp"
+#include "scenarios/external_forces.hpp"
 #include "scenarios/start_pose.hpp"
-#include "simulators/simulator.hpp"
 
 namespace touchdown {
 
@@ -56,49 +56,51 @@ class Referee {
 
 }  // namespace
 
-Recording play(const Scenario& scenario, std::string_view simulator_name, std::uint64_t seed,
-               std::int64_t run, const PlayProgress& progress) {
+std::unique_ptr<Simulator> make_simulator(const Scenario& scenario, std::string_view name) {
   auto model = std::make_shared<RobotModel>(compile_robot_model(scenario.robot, scenario.terrain));
   if (scenario.mass_scale != 1.0) scale_mass(*model, scenario.mass_scale);
-  const auto simulator = make_simulator(simulator_name, model, scenario.simulation);
-  WheelBalancer policy(scenario.balancer, scenario.velocity, model->wheel_radius,
-                       simulator->control_period());
+  return make_simulator(name, std::move(model), scenario.simulation);
+}
 
+Recording play(const Scenario& scenario, Simulator& simulator, std::uint64_t seed, std::int64_t run,
+               const PlayProgress& progress) {
   Recording recording;
   recording.info = {.scenario = scenario.name,
-                    .simulator = std::string(simulator_name),
+                    .simulator = std::string(simulator.name()),
                     .seed = seed,
                     .run = run,
                     .control_period_us = scenario.simulation.steps.control_us,
                     .outcome = std::nullopt,
                     .scenario_yaml = to_yaml(scenario)};
   const auto most_steps =
-      static_cast<std::size_t>(scenario.end.duration / simulator->control_period()) + 2;
+      static_cast<std::size_t>(scenario.end.duration / simulator.control_period()) + 2;
   recording.observation.reserve(most_steps);
   recording.action.reserve(most_steps);
   recording.truth.reserve(most_steps);
 
-  simulator->reset(start_pose(*model, scenario.terrain, scenario.start));
-  policy.reset(simulator->observation());
+  WheelBalancer policy(scenario.balancer, scenario.velocity, simulator.model().wheel_radius,
+                       simulator.control_period());
+  simulator.reset(start_pose(simulator.model(), scenario.terrain, scenario.start));
+  policy.reset(simulator.observation());
   Referee referee(scenario.end, 0.0);
+  ExternalForces forces(scenario);
   for (std::size_t step = 0;; ++step) {
-    const Action action = policy.act(simulator->observation());
-    recording.observation.push_back(simulator->observation());
-    recording.action.push_back(action);
-    recording.truth.push_back(simulator->ground_truth());
-    recording.info.outcome = referee.judge(*simulator);
+    recording.observation.push_back(simulator.observation());
+    recording.action.push_back(policy.act(simulator.observation()));
+    recording.truth.push_back(simulator.ground_truth());
+    recording.info.outcome = referee.judge(simulator);
     if (recording.info.outcome) return recording;
     constexpr std::size_t steps_between_reports = 256;
-    if (progress && step % steps_between_reports == 0 && !progress(simulator->observation().time)) {
+    if (progress && step % steps_between_reports == 0 && !progress(simulator.observation().time)) {
       return recording;
     }
-    ExternalWrench wrench;
-    if (scenario.tether) {
-      wrench.force = tether_force(*scenario.tether, simulator->ground_truth());
-      wrench.point_in_base = scenario.tether->point_in_base;
-    }
-    simulator->step(action, wrench);
+    simulator.step(recording.action.back(), forces.on(simulator));
   }
+}
+
+Recording play(const Scenario& scenario, std::string_view simulator, std::uint64_t seed,
+               std::int64_t run, const PlayProgress& progress) {
+  return play(scenario, *make_simulator(scenario, simulator), seed, run, progress);
 }
 
 }  // namespace touchdown

@@ -12,6 +12,9 @@ Perturbation perturbation_from_yaml(YamlMap map) {
   map.read("mass_scale", p.mass_scale, 0.0, 0.9);
   map.read("friction", p.friction, 0.0, 2.0);
   map.read("servo_gain_scale", p.servo_gain_scale, 0.0, 0.9);
+  map.read("force_scale", p.force_scale, 0.0, 1.0);
+  if (map.has("drive")) p.drive = random_drive_from_yaml(map.child("drive"));
+  if (map.has("lift")) p.lift = random_lifts_from_yaml(map.child("lift"));
   map.finish();
   return p;
 }
@@ -26,6 +29,9 @@ YAML::Node to_yaml(const Perturbation& p) {
   node["mass_scale"] = p.mass_scale;
   node["friction"] = p.friction;
   node["servo_gain_scale"] = p.servo_gain_scale;
+  node["force_scale"] = p.force_scale;
+  if (p.drive) node["drive"] = to_yaml(*p.drive);
+  if (p.lift) node["lift"] = to_yaml(*p.lift);
   return node;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "core/yaml.hpp"
+#include "scenarios/random_scripts.hpp"
 
 namespace touchdown {
 
@@ -15,6 +18,9 @@ struct Perturbation {
   double mass_scale = 0.0;        ///< mass and inertia of every body
   double friction = 0.0;          ///< of the terrain
   double servo_gain_scale = 0.0;  ///< position and velocity gains of the legs' servos
+  double force_scale = 0.0;       ///< every external force
+  std::optional<RandomDrive> drive;  ///< instead of the scenario's own velocity script
+  std::optional<RandomLifts> lift;   ///< besides the scenario's own forces
 };
 
 Perturbation perturbation_from_yaml(YamlMap map);

@@ -64,6 +64,7 @@ Scenario scenario_from_yaml(const YamlDocument& document) {
   scenario.balancer = wheel_balancer_from_yaml(map.child("balancer"));
   scenario.velocity = velocity_script_from_yaml(map, "velocity");
   if (map.has("tether")) scenario.tether = tether_from_yaml(map.child("tether"));
+  scenario.forces = force_script_from_yaml(map, "forces");
   map.read("mass_scale", scenario.mass_scale, 0.01, 100.0);
   scenario.simulation = simulator_options_from_yaml(map.child("simulation"));
   scenario.end = end_from_yaml(map.child("end"));
@@ -85,6 +86,7 @@ std::string to_yaml(const Scenario& scenario) {
   node["balancer"] = to_yaml(scenario.balancer);
   node["velocity"] = to_yaml(scenario.velocity);
   if (scenario.tether) node["tether"] = to_yaml(*scenario.tether);
+  if (!scenario.forces.empty()) node["forces"] = to_yaml(scenario.forces);
   node["mass_scale"] = scenario.mass_scale;
   node["simulation"] = to_yaml(scenario.simulation);
   node["end"] = to_yaml(scenario.end);
@@ -97,7 +99,7 @@ std::string to_yaml(const Scenario& scenario) {
 
 Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t run) {
   // The numbers of the streams are part of what a seed means: append, never renumber.
-  enum Stream : std::uint64_t { x, y, yaw, velocity, crouch, mass_scale, friction, servo_gain };
+  enum Stream : std::uint64_t { x, y, yaw, velocity, crouch, mass, friction, servo_gain, force };
   const auto draw = [&](Stream stream, double half_width) {
     return half_width * (2.0 * uniform01(seed, static_cast<std::uint64_t>(run), stream) - 1.0);
   };
@@ -115,11 +117,19 @@ Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t ru
     varied.start.knee *= (scenario.start.hip + deeper) / scenario.start.hip;
   }
   varied.start.hip += deeper;
-  varied.mass_scale *= 1.0 + draw(mass_scale, p.mass_scale);
+  varied.mass_scale *= 1.0 + draw(mass, p.mass_scale);
   varied.terrain.friction = std::max(0.0, scenario.terrain.friction + draw(friction, p.friction));
   const double stiffer = 1.0 + draw(servo_gain, p.servo_gain_scale);
   varied.balancer.leg_kp_scale *= stiffer;
   varied.balancer.leg_kd_scale *= stiffer;
+  const double stronger = 1.0 + draw(force, p.force_scale);
+  for (TimedForce& timed : varied.forces) timed.force *= stronger;
+  const double duration = scenario.end.duration;
+  if (p.drive) varied.velocity = random_drive(*p.drive, duration, seed, run);
+  if (p.lift) {
+    const ForceScript lifts = random_lifts(*p.lift, duration, seed, run);
+    varied.forces.insert(varied.forces.end(), lifts.begin(), lifts.end());
+  }
   varied.perturbation = {};
   return varied;
 }

@@ -33,15 +33,16 @@ void BulletSimulator::place(const RobotState& start) {
   robot.updateCollisionObjectWorldTransforms(rotations, origins);
 }
 
-void BulletSimulator::advance(const JointTorques& torques, const ExternalWrench& wrench) {
+void BulletSimulator::advance(const JointTorques& torques,
+                              std::span<const ExternalWrench> wrenches) {
   btMultiBody& robot = world_->robot();
   for (std::size_t i = 0; i < servo_count; ++i) {
     robot.addJointTorque(world_->link_of(i), torques[i]);
   }
-  const Eigen::Vector3d lever =
-      state().orientation * Eigen::Vector3d(wrench.point_in_base - base_com_);
-  robot.addBaseForce(to_bullet(wrench.force));
-  robot.addBaseTorque(to_bullet(lever.cross(wrench.force)));
+  for (const ExternalWrench& wrench : wrenches) {
+    robot.addBaseForce(to_bullet(wrench.force));
+    robot.addBaseTorque(to_bullet(torque_about(base_com_, wrench, state())));
+  }
   // Zero sub-steps: one step of exactly this length.
   world_->world().stepSimulation(physics_period(), 0);
 }

@@ -20,7 +20,7 @@ class BulletSimulator : public Simulator {
 
  protected:
   void place(const RobotState& start) override;
-  void advance(const JointTorques& torques, const ExternalWrench& wrench) override;
+  void advance(const JointTorques& torques, std::span<const ExternalWrench> wrenches) override;
   void read(RobotState& state) const override;
   void read(ContactForces& forces) const override;
 

@@ -65,17 +65,17 @@ void MujocoSimulator::place(const RobotState& start) {
   }
 }
 
-void MujocoSimulator::advance(const JointTorques& torques, const ExternalWrench& wrench) {
+void MujocoSimulator::advance(const JointTorques& torques,
+                              std::span<const ExternalWrench> wrenches) {
   for (std::size_t i = 0; i < servo_count; ++i) {
     data_->qfrc_applied[model().dof_address[i]] = torques[i];
   }
-  const Eigen::Vector3d lever =
-      state().orientation * Eigen::Vector3d(wrench.point_in_base - base_com_);
-  const Eigen::Vector3d torque = lever.cross(wrench.force);
-  mjtNum* applied = &data_->xfrc_applied[6 * model().base_body];
-  for (int i = 0; i < 3; ++i) {
-    applied[i] = wrench.force[i];
-    applied[3 + i] = torque[i];
+  Eigen::Map<Eigen::Matrix<mjtNum, 6, 1>> applied(
+      &data_->xfrc_applied[6 * model().base_body]);  // at the base's centre of mass
+  applied.setZero();
+  for (const ExternalWrench& wrench : wrenches) {
+    applied.head<3>() += wrench.force;
+    applied.tail<3>() += torque_about(base_com_, wrench, state());
   }
   mj_step(mj_.get(), data_.get());
 }

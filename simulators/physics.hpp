@@ -28,13 +28,20 @@ struct RobotState {
   std::array<double, servo_count> joint_velocity = {};
 };
 
-/// A wrench on the base from outside the robot, held over one control step.
+/// A force on the base from outside the robot, held over one control step.
 struct ExternalWrench {
   /// Force in the world frame (N).
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   /// Where it pulls, in the base frame (m).
   Eigen::Vector3d point_in_base = Eigen::Vector3d::Zero();
 };
+
+/// The torque of `wrench` about a point of the base (base frame, m), in the world frame (N·m).
+inline Eigen::Vector3d torque_about(const Eigen::Vector3d& pivot_in_base,
+                                    const ExternalWrench& wrench, const RobotState& state) {
+  const Eigen::Vector3d lever = state.orientation * (wrench.point_in_base - pivot_in_base);
+  return lever.cross(wrench.force);
+}
 
 /// What touched what during one physics step.
 struct ContactForces {

@@ -37,7 +37,7 @@ void Simulator::reset(const RobotState& start) {
   observe(Eigen::Vector3d::Zero(), {});
 }
 
-void Simulator::step(const Action& action, const ExternalWrench& wrench) {
+void Simulator::step(const Action& action, std::span<const ExternalWrench> wrenches) {
   const Eigen::Vector3d velocity_before = imu_velocity();
   const std::int64_t substeps = options_.steps.control_us / options_.steps.physics_us;
   std::array<double, wheel_count> force_sum = {0.0, 0.0};
@@ -55,7 +55,7 @@ void Simulator::step(const Action& action, const ExternalWrench& wrench) {
           rolling_torque(options_.contact.rolling_resistance, forces_.wheel_normal_force[wheel],
                          state_.joint_velocity[servo]);
     }
-    advance(applied, wrench);
+    advance(applied, wrenches);
     read(state_);
     read(forces_);
     for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {

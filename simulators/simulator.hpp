@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,8 +33,9 @@ class Simulator {
   /// Put the robot at `start` with zero time. The same start gives the same bits afterwards.
   void reset(const RobotState& start);
 
-  /// Apply `action` and `wrench` for one control step.
-  void step(const Action& action, const ExternalWrench& wrench = {});
+  /// Apply `action` and what pulls at the robot from outside for one control step.
+  void step(const Action& action, std::span<const ExternalWrench> wrenches = {});
+  void step(const Action& action, const ExternalWrench& wrench) { step(action, {&wrench, 1}); }
 
   const Observation& observation() const { return observation_; }
   const GroundTruth& ground_truth() const { return truth_; }
@@ -52,8 +54,8 @@ class Simulator {
 
   /// Place the robot; called with a state of finite numbers.
   virtual void place(const RobotState& start) = 0;
-  /// Advance one physics step under joint torques (servo order, N·m) and a wrench on the base.
-  virtual void advance(const JointTorques& torques, const ExternalWrench& wrench) = 0;
+  /// Advance one physics step under joint torques (servo order, N·m) and wrenches on the base.
+  virtual void advance(const JointTorques& torques, std::span<const ExternalWrench> wrenches) = 0;
   /// Where the robot is now.
   virtual void read(RobotState& state) const = 0;
   /// The contact forces of the physics step that just ended.

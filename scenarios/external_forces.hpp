@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scenarios/scenario.hpp"
+#include "simulators/simulator.hpp"
+
+namespace touchdown {
+
+/// What pulls at the robot from outside while a scenario is played: its tether and its timed
+/// forces. Keeps a reference to the scenario.
+class ExternalForces {
+ public:
+  explicit ExternalForces(const Scenario& scenario) : scenario_(scenario) {}
+
+  /// The forces of the coming control step; valid until the next call.
+  std::span<const ExternalWrench> on(const Simulator& simulator);
+
+ private:
+  const Scenario& scenario_;
+  std::vector<ExternalWrench> wrenches_;
+};
+
+}  // namespace touchdown

@@ -1,0 +1,129 @@
+#include "scenarios/random_scripts.hpp"
+
+#include <fmt/format.h>
+
+#include "core/random.hpp"
+#include "policies/vector_yaml.hpp"
+
+namespace touchdown {
+
+namespace {
+
+/// The draws of one entry of one script. Scripts and quantities have streams of their own, apart
+/// from those of `perturbed`, which leaves the upper half of the counter zero: append to the lists
+/// of streams, never renumber.
+class Draw {
+ public:
+  Draw(std::uint64_t seed, std::int64_t run, std::uint64_t entry)
+      : seed_(seed), run_(static_cast<std::uint64_t>(run)), entry_(entry + 1) {}
+
+  double between(std::uint64_t stream, const Range& range) const {
+    return range.low + (range.high - range.low) * uniform01(seed_, run_, entry_ << 32U | stream);
+  }
+
+ private:
+  std::uint64_t seed_, run_, entry_;
+};
+
+enum Stream : std::uint64_t {
+  drive_hold,
+  drive_velocity,
+  drive_yaw_rate,
+  drive_standing,
+  lift_hold,
+  lift_pause,
+  lift_force
+};
+
+void read_range(YamlMap& map, std::string_view key, Range& range, double low, double high) {
+  std::vector<double> ends = {range.low, range.high};
+  map.read(key, ends);
+  if (ends.size() != 2 || !(low <= ends[0] && ends[0] <= ends[1] && ends[1] <= high)) {
+    map.fail(key, fmt::format("expected [low, high] within {} to {}", low, high));
+  }
+  range = {ends[0], ends[1]};
+}
+
+YAML::Node to_node(const Range& range) {
+  YAML::Node node;
+  node.push_back(range.low);
+  node.push_back(range.high);
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  return node;
+}
+
+}  // namespace
+
+RandomDrive random_drive_from_yaml(YamlMap map) {
+  RandomDrive drive;
+  map.read("velocity", drive.velocity, 0.0, 3.0);
+  map.read("yaw_rate", drive.yaw_rate, 0.0, 10.0);
+  map.read("standing", drive.standing, 0.0, 1.0);
+  read_range(map, "hold", drive.hold, 0.01, 1e4);
+  map.read("start", drive.start, 0.0, 1e4);
+  map.finish();
+  return drive;
+}
+
+RandomLifts random_lifts_from_yaml(YamlMap map) {
+  RandomLifts lifts;
+  read_range(map, "force", lifts.force, 0.0, 1e4);
+  read_range(map, "hold", lifts.hold, 0.001, 1e4);
+  read_range(map, "pause", lifts.pause, 0.001, 1e4);
+  map.read("start", lifts.start, 0.0, 1e4);
+  read_vector(map, "point_in_base", lifts.point_in_base);
+  map.finish();
+  return lifts;
+}
+
+YAML::Node to_yaml(const RandomDrive& drive) {
+  YAML::Node node;
+  node["velocity"] = drive.velocity;
+  node["yaw_rate"] = drive.yaw_rate;
+  node["standing"] = drive.standing;
+  node["hold"] = to_node(drive.hold);
+  node["start"] = drive.start;
+  return node;
+}
+
+YAML::Node to_yaml(const RandomLifts& lifts) {
+  YAML::Node node;
+  node["force"] = to_node(lifts.force);
+  node["hold"] = to_node(lifts.hold);
+  node["pause"] = to_node(lifts.pause);
+  node["start"] = lifts.start;
+  node["point_in_base"] = to_node(lifts.point_in_base);
+  return node;
+}
+
+VelocityScript random_drive(const RandomDrive& drive, double duration, std::uint64_t seed,
+                            std::int64_t run) {
+  VelocityScript script;
+  double time = drive.start;
+  for (std::uint64_t entry = 0; time < duration; ++entry) {
+    const Draw draw(seed, run, entry);
+    const bool stands = draw.between(drive_standing, {0.0, 1.0}) < drive.standing;
+    const double velocity = draw.between(drive_velocity, {-drive.velocity, drive.velocity});
+    const double yaw_rate = draw.between(drive_yaw_rate, {-drive.yaw_rate, drive.yaw_rate});
+    script.push_back({time, stands ? 0.0 : velocity, stands ? 0.0 : yaw_rate});
+    time += draw.between(drive_hold, drive.hold);
+  }
+  return script;
+}
+
+ForceScript random_lifts(const RandomLifts& lifts, double duration, std::uint64_t seed,
+                         std::int64_t run) {
+  ForceScript script;
+  double time = lifts.start;
+  for (std::uint64_t entry = 0; time < duration; ++entry) {
+    const Draw draw(seed, run, entry);
+    const double hold = draw.between(lift_hold, lifts.hold);
+    const Eigen::Vector3d force(0.0, 0.0, draw.between(lift_force, lifts.force));
+    script.push_back(
+        {.time = time, .duration = hold, .force = force, .point_in_base = lifts.point_in_base});
+    time += hold + draw.between(lift_pause, lifts.pause);
+  }
+  return script;
+}
+
+}  // namespace touchdown
