@@ -1,6 +1,7 @@
 #include "estimator/mixed_power_spectrum.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace touchdown {
 
@@ -50,24 +51,25 @@ SpectrumValues MixedPowerSpectrum::operator()(double sigma) const noexcept {
   }
 
   const double half = 0.5 * (nyquist_counts_ ? energy : energy - last);
-  int lane = 0;
-  double before = 0.0;
-  for (int i = 0; i < lanes - 1; ++i) {
-    const double sum = up_to_lane_.at(i, sigma);
-    lane += sum < half ? 1 : 0;
-    before = sum < half ? sum : before;
+  // Counters as wide as the sums, so that eight comparisons are two vectors. The last lane's sum is
+  // the whole, never less than its half.
+  std::int64_t passed_lanes = 0;
+  for (int i = 0; i < lanes; ++i) {
+    passed_lanes += up_to_lane_.at(i, sigma) < half ? 1 : 0;
   }
+  const int lane = std::min(lanes - 1, static_cast<int>(passed_lanes));
+  const double before = lane > 0 ? up_to_lane_.at(lane - 1, sigma) : 0.0;
+  const double remaining = half - before;
   int row = 0;
-  double below = before;
   for (int r = 0; r < rows - 1; ++r) {
-    const double sum = before + within_lane_[static_cast<std::size_t>(r)].at(lane, sigma);
-    row += sum < half ? 1 : 0;
-    below = sum < half ? sum : below;
+    row += within_lane_[static_cast<std::size_t>(r)].at(lane, sigma) < remaining ? 1 : 0;
   }
+  const double below =
+      row > 0 ? within_lane_[static_cast<std::size_t>(row - 1)].at(lane, sigma) : 0.0;
   const int bin = lane * rows + row;
   const double inside = bin_[static_cast<std::size_t>(row)].at(lane, sigma);
   if (bin > 0 && inside > 0.0) {
-    values.median_bin = (bin - 1) + std::min(1.0, (half - below) / inside);
+    values.median_bin = (bin - 1) + std::min(1.0, (remaining - below) / inside);
   }
   return values;
 }
