@@ -8,7 +8,7 @@
 #include "experiments/estimator_registry.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/stopped.hpp"
-#include "recordings/log_reader.hpp"
+#include "recordings/recording_file.hpp"
 
 namespace touchdown {
 

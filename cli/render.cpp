@@ -7,7 +7,7 @@
 #include "cli/verbs.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/stopped.hpp"
-#include "recordings/log_reader.hpp"
+#include "recordings/recording_file.hpp"
 
 namespace touchdown {
 

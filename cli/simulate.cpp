@@ -7,7 +7,7 @@
 #include "experiments/progress.hpp"
 #include "experiments/resources.hpp"
 #include "experiments/stopped.hpp"
-#include "recordings/log_writer.hpp"
+#include "recordings/recording_file.hpp"
 #include "scenarios/engine.hpp"
 
 namespace touchdown {

@@ -9,8 +9,7 @@
 
 #include "experiments/resources.hpp"
 #include "experiments/stopped.hpp"
-#include "recordings/log_reader.hpp"
-#include "recordings/log_writer.hpp"
+#include "recordings/recording_file.hpp"
 #include "scenarios/engine.hpp"
 
 namespace touchdown {
