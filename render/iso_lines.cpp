@@ -1,0 +1,45 @@
+#include "render/iso_lines.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace touchdown {
+
+std::vector<IsoPiece> iso_lines(const std::vector<std::vector<double>>& rows, double level) {
+  std::vector<IsoPiece> pieces;
+  for (std::size_t r = 0; r + 1 < rows.size(); ++r) {
+    for (std::size_t c = 0; c + 1 < rows[r].size() && c + 1 < rows[r + 1].size(); ++c) {
+      // Corners counter-clockwise from (column c, row r).
+      const std::array<double, 4> value = {rows[r][c], rows[r][c + 1], rows[r + 1][c + 1],
+                                           rows[r + 1][c]};
+      const auto x = static_cast<double>(c);
+      const auto y = static_cast<double>(r);
+      const std::array<std::array<double, 2>, 4> corner = {
+          {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}};
+      std::vector<std::array<double, 2>> crossings;
+      bool finite = true;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t next = (k + 1) % 4;
+        finite = finite && std::isfinite(value[k]);
+        if ((value[k] >= level) == (value[next] >= level)) continue;
+        const double share = (level - value[k]) / (value[next] - value[k]);
+        crossings.push_back({corner[k][0] + share * (corner[next][0] - corner[k][0]),
+                             corner[k][1] + share * (corner[next][1] - corner[k][1])});
+      }
+      if (!finite) continue;
+      if (crossings.size() == 2) {
+        pieces.push_back({crossings[0], crossings[1]});
+      } else if (crossings.size() == 4) {
+        const double middle = 0.25 * (value[0] + value[1] + value[2] + value[3]);
+        // Crossings are on edges 0..3; the middle belongs with corner 0 or with corners 1 and 3.
+        const bool with_first = (middle >= level) == (value[0] >= level);
+        const std::size_t shift = with_first ? 0 : 1;
+        pieces.push_back({crossings[shift], crossings[shift + 1]});
+        pieces.push_back({crossings[shift + 2], crossings[(shift + 3) % 4]});
+      }
+    }
+  }
+  return pieces;
+}
+
+}  // namespace touchdown
