@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/belief_track.hpp"
+#include "cli/heatmaps.hpp"
 #include "experiments/estimator_registry.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/stopped.hpp"
@@ -58,6 +59,14 @@ Picture film(const ExperimentResult& result, const PlayedRun& run, const Session
 std::vector<Picture> draw_pictures(ExperimentResult& result, const Session& session) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<Picture> pictures;
+  if (result.cells.size() > 1) {
+    for (const std::string& simulator : result.experiment.simulators) {
+      const Figure figure = draw_heatmap(success_heatmap(result, simulator),
+                                         result.directory.file("figures", "success_" + simulator));
+      pictures.push_back({"heatmap", figure.png});
+      pictures.push_back({"", figure.svg});
+    }
+  }
   if (result.experiment.video.enabled) {
     for (const std::string& simulator : result.experiment.simulators) {
       const PlayedRun* run = filmed_run(result, simulator);
