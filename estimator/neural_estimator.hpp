@@ -10,10 +10,9 @@
 namespace touchdown {
 
 struct NeuralEstimatorConfig {
-  /// How often `update` is called (Hz).
+  /// How often `update` is called (Hz). One step of the network lasts a whole number of samples;
+  /// the belief holds in between.
   double sample_rate = 1000.0;
-  /// One step of the network (s): a whole number of samples. The belief holds in between.
-  double period = 0.005;
   /// Contact is decided at this probability or above.
   double threshold = 0.8;
   SignalGuardConfig guard;
@@ -47,8 +46,8 @@ class NeuralEstimator : public ContactEstimator {
 
   NeuralEstimatorConfig config_;
   SignalGuard guard_;
-  NeuralInputSampler sampler_;
   NeuralForward<1> forward_;
+  NeuralInputSampler sampler_;
   NeuralForward<1>::Columns input_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Belief belief_;

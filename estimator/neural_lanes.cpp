@@ -35,9 +35,9 @@ std::shared_ptr<const NeuralNetwork> checked(std::shared_ptr<const NeuralNetwork
 NeuralLanes::NeuralLanes(std::shared_ptr<const NeuralNetwork> network,
                          const NeuralEstimatorConfig& config, std::span<const double> sigmas)
     : sigmas_(checked_sigmas(sigmas)),
-      clean_(neural_stride(config.sample_rate, config.period)),
-      draws_(clean_),
       forward_(checked(std::move(network)), sigmas_.size()),
+      clean_(neural_stride(config.sample_rate, forward_.network().period)),
+      draws_(clean_),
       inputs_(neural_input_count, sigmas_.size()),
       p_contact_(sigmas.size(), 0.5) {}
 

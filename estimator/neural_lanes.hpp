@@ -32,9 +32,9 @@ class NeuralLanes {
 
  private:
   Eigen::RowVectorXf sigmas_;
+  NeuralForward<Eigen::Dynamic> forward_;
   NeuralInputSampler clean_;
   NeuralInputSampler draws_;  ///< averages the draws as the other one averages accelerations
-  NeuralForward<Eigen::Dynamic> forward_;
   NeuralForward<Eigen::Dynamic>::Columns inputs_;
   std::vector<double> p_contact_;
 };

@@ -1,5 +1,6 @@
 #include "estimator/neural_network.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "core/error.hpp"
@@ -40,6 +41,9 @@ void check(const NeuralNetwork& network) {
   const Eigen::Index hidden = network.hidden();
   if (hidden == 0) {
     throw InputError("gru_hidden_weight: is empty");
+  }
+  if (!(std::isfinite(network.period) && network.period > 0.0)) {
+    throw InputError("period: expected a positive number (s)");
   }
   check_vector(network.input_mean, "input_mean", neural_input_count);
   check_vector(network.input_scale, "input_scale", neural_input_count);

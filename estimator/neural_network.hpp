@@ -19,6 +19,7 @@ struct DenseLayer {
 /// two heads. Nothing but numbers, in the precision that they were trained in; with the paper's
 /// sizes (128 hidden, 256 × 128) there are 123,652 of them.
 struct NeuralNetwork {
+  double period = 0.005;        ///< of one of its steps (s)
   Eigen::VectorXf input_mean;   ///< of the training data
   Eigen::VectorXf input_scale;  ///< standardised input = (input − mean) ∘ scale
   DenseLayer gru_input;         ///< 3·hidden × inputs: reset gate, update gate, candidate
