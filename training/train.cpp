@@ -1,0 +1,192 @@
+#include "training/train.hpp"
+
+#include <chrono>
+#include <memory>
+#include <omp.h>
+#include <vector>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include "core/files.hpp"
+#include "experiments/fingerprint.hpp"
+#include "experiments/neural_network_file.hpp"
+#include "experiments/progress.hpp"
+#include "experiments/run_directory.hpp"
+#include "experiments/stopped.hpp"
+#include "training/blas.hpp"
+#include "training/initial_weights.hpp"
+#include "training/loss_figure.hpp"
+#include "training/rollout.hpp"
+#include "training/training_manifest.hpp"
+
+namespace touchdown {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// One training, from its beginning or from where it was stopped.
+class Session {
+ public:
+  Session(const TrainingConfig& config, const TrainingRequest& request)
+      : config_(config),
+        request_(request),
+        scenario_(rollout_scenario(config.rollout)),
+        directory_(config.name, Fingerprint().add(to_yaml(config)).add(to_yaml(scenario_)).text(),
+                   request.out),
+        history_file_(directory_.file("tables", "training.csv")) {
+    write_atomically(directory_.path() / "config.yaml", to_yaml(config));
+    if (fs::exists(history_file_)) history_ = read_history(history_file_);
+  }
+
+  TrainingResult run() {
+    if (!done()) {
+      validation_ = episodes("validation", first_validation_environment,
+                             config_.optimiser.validation_episodes);
+      resume();
+      while (!done()) iterate();
+    }
+    return finish();
+  }
+
+ private:
+  bool done() const {
+    return static_cast<int>(history_.size()) >= config_.optimiser.iterations ||
+           stopped_improving(history_, config_.optimiser.patience);
+  }
+
+  bool stop_asked() const { return request_.stop != nullptr && *request_.stop; }
+
+  EpisodeBatch episodes(const std::string& what, std::int64_t first, int count) {
+    const auto start = Clock::now();
+    Progress progress(what, "episodes", count);
+    EpisodeBatch batch = roll_out(config_.rollout, scenario_, config_.seed, first, count, [&] {
+      progress.advance();
+      return !stop_asked();
+    });
+    times_.rollout += seconds_since(start);
+    times_.rollout_steps += std::int64_t{batch.steps} * batch.environments;
+    return batch;
+  }
+
+  EpisodeBatch training_episodes(int iteration) {
+    const std::int64_t count = config_.rollout.environments;
+    return episodes("rolling out", (iteration - 1) * count, static_cast<int>(count));
+  }
+
+  fs::path checkpoint(std::size_t iteration) const {
+    return directory_.file("checkpoints", fmt::format("{:04}.pt", iteration));
+  }
+
+  /// The first iteration's data tells how to standardise; a checkpoint knows all the rest.
+  void resume() {
+    if (history_.empty()) {
+      first_batch_ = std::make_unique<EpisodeBatch>(training_episodes(1));
+      trainer_ = std::make_unique<Trainer>(
+          initial_network(config_.network, config_.seed, *first_batch_, config_.period()),
+          config_.optimiser);
+      return;
+    }
+    trainer_ = std::make_unique<Trainer>(read_neural_network(directory_.file("models", "nmn.npz")),
+                                         config_.optimiser);
+    trainer_->load(checkpoint(history_.size()));
+    fmt::print(stderr, "going on after iteration {}\n", history_.size());
+  }
+
+  void iterate() {
+    const int iteration = static_cast<int>(history_.size()) + 1;
+    const EpisodeBatch batch =
+        first_batch_ ? std::move(*first_batch_) : training_episodes(iteration);
+    first_batch_.reset();
+    IterationRecord record;
+    record.iteration = iteration;
+    record.data_seconds = iteration * batch.seconds(config_.period());
+    const auto start = Clock::now();
+    {
+      const std::int64_t steps = std::int64_t{batch.steps} * batch.environments;
+      Progress progress("training", "steps", steps * config_.optimiser.epochs);
+      for (int epoch = 0; epoch < config_.optimiser.epochs; ++epoch) {
+        record.training = trainer_->train_epoch(batch);
+        progress.advance(steps);
+        times_.training_steps += steps;
+        if (stop_asked()) throw Stopped();
+      }
+    }
+    record.validation = trainer_->evaluate(validation_);
+    times_.training += seconds_since(start);
+    history_.push_back(record);
+    save();
+  }
+
+  /// In an order that leaves something to go on from wherever it is cut off.
+  void save() {
+    const bool best = best_iteration(history_) + 1 == history_.size();
+    if (best) {
+      write_neural_network(trainer_->network(), directory_.file("models", "nmn.npz"));
+    }
+    write_atomically(checkpoint(history_.size()),
+                     [&](const fs::path& temporary) { trainer_->save(temporary); });
+    write_history(history_, history_file_);
+    std::error_code ignored;
+    fs::remove(checkpoint(history_.size() - 1), ignored);
+    const IterationRecord& now = history_.back();
+    fmt::print(stderr,
+               "iteration {}/{}: training loss {:.4f}, validation loss {:.4f} (contact {:.4f} nat, "
+               "right {:.2f} %; velocity {:.4f} m²/s²){}\n",
+               now.iteration, config_.optimiser.iterations, now.training.total,
+               now.validation.total, now.validation.contact, 100.0 * now.validation.accuracy,
+               now.validation.velocity, best ? ", the best so far" : "");
+  }
+
+  TrainingResult finish() {
+    TrainingResult result;
+    result.directory = directory_.path();
+    result.network = directory_.file("models", "nmn.npz");
+    result.history = history_;
+    result.chosen = best_iteration(history_);
+    result.figure = draw_losses(history_file_, directory_.path() / "figures",
+                                history_[result.chosen].iteration);
+    const std::string manifest =
+        training_manifest(config_, request_, result, times_, read_file(result.network));
+    write_atomically(directory_.file("models", "nmn.json"), manifest);
+    if (!request_.network.empty()) {
+      write_atomically(request_.network, read_file(result.network));
+      write_atomically(fs::path(request_.network).replace_extension("json"), manifest);
+    }
+    return result;
+  }
+
+  const TrainingConfig& config_;
+  const TrainingRequest& request_;
+  Scenario scenario_;
+  RunDirectory directory_;
+  fs::path history_file_;
+  TrainingHistory history_;
+  EpisodeBatch validation_;
+  std::unique_ptr<EpisodeBatch> first_batch_;
+  std::unique_ptr<Trainer> trainer_;
+  TrainingTimes times_;
+};
+
+}  // namespace
+
+TrainingResult train(const TrainingConfig& config, const TrainingRequest& request) {
+  if (const BlasReport blas = blas_in_use(); !blas.warning.empty()) {
+    fmt::print(stderr, "touchdown: warning: {}\n", blas.warning);
+  }
+  std::unique_ptr<tbb::global_control> limit;
+  if (request.threads > 0) {
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                  static_cast<std::size_t>(request.threads));
+    omp_set_num_threads(request.threads);
+  }
+  return Session(config, request).run();
+}
+
+}  // namespace touchdown

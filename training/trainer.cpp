@@ -1,0 +1,257 @@
+#include "training/trainer.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <torch/nn/functional/loss.h>
+#include <torch/optim/adam.h>
+#include <torch/serialize.h>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "training/torch_network.hpp"
+
+namespace touchdown {
+
+namespace {
+
+using torch::Tensor;
+namespace functional = torch::nn::functional;
+
+/// Some environments of a batch, as tensors that look into it.
+struct Part {
+  std::int64_t first = 0;
+  std::int64_t lanes = 0;
+  Tensor input;
+  Tensor contact;
+  Tensor velocity;
+  Tensor keep;
+};
+
+/// Tensors do not know constness; nobody writes to these.
+Tensor view(const std::vector<float>& numbers, std::int64_t rows, std::int64_t lanes,
+            std::int64_t columns) {
+  return torch::from_blob(const_cast<float*>(numbers.data()), {rows, lanes, columns});
+}
+
+std::vector<Part> split(const EpisodeBatch& batch, int most_parts) {
+  const std::int64_t lanes = batch.environments;
+  const std::int64_t parts = std::min<std::int64_t>(most_parts, lanes);
+  const Tensor input = view(batch.input, batch.steps, lanes, neural_input_count);
+  const Tensor contact = view(batch.contact, batch.steps, lanes, 1);
+  const Tensor velocity = view(batch.velocity, batch.steps, lanes, 3);
+  const Tensor keep = view(batch.keep, batch.steps / batch.sequence, lanes, 1);
+  std::vector<Part> split;
+  for (std::int64_t p = 0; p < parts; ++p) {
+    const std::int64_t first = p * lanes / parts;
+    const std::int64_t count = (p + 1) * lanes / parts - first;
+    split.push_back({first, count, input.narrow(1, first, count), contact.narrow(1, first, count),
+                     velocity.narrow(1, first, count), keep.narrow(1, first, count)});
+  }
+  return split;
+}
+
+/// Sums over steps, to be divided at the end.
+struct LossSum {
+  double contact = 0.0;
+  double velocity = 0.0;
+  double right = 0.0;
+  double steps = 0.0;
+
+  LossSum& operator+=(const LossSum& other) {
+    contact += other.contact;
+    velocity += other.velocity;
+    right += other.right;
+    steps += other.steps;
+    return *this;
+  }
+};
+
+struct SequenceLoss {
+  Tensor contact;   ///< mean
+  Tensor velocity;  ///< mean
+  LossSum sum;
+};
+
+SequenceLoss loss_of(const Tensor& outputs, const Tensor& contact, const Tensor& velocity) {
+  const Tensor logit = outputs.narrow(2, 0, 1);
+  SequenceLoss loss;
+  loss.contact = functional::binary_cross_entropy_with_logits(logit, contact);
+  loss.velocity = functional::mse_loss(outputs.narrow(2, 1, 3), velocity);
+  const auto steps = static_cast<double>(logit.numel());
+  loss.sum.contact = steps * loss.contact.item<double>();
+  loss.sum.velocity = steps * loss.velocity.item<double>();
+  loss.sum.right = (logit.detach().ge(0.0) == contact.ge(0.5)).sum().item<double>();
+  loss.sum.steps = steps;
+  return loss;
+}
+
+/// Work on all parts side by side. A parallel region, since both OpenBLAS and libtorch then know
+/// that each of its threads has one core to itself. Errors: the first part's.
+template <typename Work>
+void for_each_part(std::size_t parts, const Work& work) {
+  std::vector<std::exception_ptr> errors(parts);
+  const int count = static_cast<int>(parts);
+#pragma omp parallel for schedule(static, 1)
+  for (int i = 0; i < count; ++i) {
+    const auto part = static_cast<std::size_t>(i);
+    try {
+      work(part);
+    } catch (...) {
+      errors[part] = std::current_exception();
+    }
+  }
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
+}
+
+}  // namespace
+
+struct Trainer::Impl {
+  Impl(const NeuralNetwork& network, const OptimiserConfig& given)
+      : config(given),
+        adam(((void)networks.push_back(std::make_shared<TorchNetwork>(network)),
+              networks[0]->parameters()),
+             torch::optim::AdamOptions(given.learning_rate)) {
+    for (int part = 1; part < config.parts; ++part) {
+      networks.push_back(std::make_shared<TorchNetwork>(network));
+      networks.back()->share_parameters_of(*networks[0]);
+    }
+  }
+
+  /// One optimiser step on one sequence of all parts.
+  LossSum step(const std::vector<Part>& parts, std::vector<Tensor>& hidden, std::int64_t sequence,
+               std::int64_t length, std::int64_t lanes) {
+    std::vector<LossSum> sums(parts.size());
+    for_each_part(parts.size(), [&](std::size_t p) {
+      const Part& part = parts[p];
+      const auto [outputs, next] =
+          networks[p]->forward(part.input.narrow(0, sequence * length, length),
+                               hidden[p] * part.keep[sequence].unsqueeze(0));
+      hidden[p] = next.detach();
+      const SequenceLoss loss = loss_of(outputs, part.contact.narrow(0, sequence * length, length),
+                                        part.velocity.narrow(0, sequence * length, length));
+      sums[p] = loss.sum;
+      networks[p]->zero_grad();
+      const double share = static_cast<double>(part.lanes) / static_cast<double>(lanes);
+      (share * (loss.contact + config.velocity_weight * loss.velocity)).backward();
+    });
+    add_gradients(parts.size());
+    adam.step();
+    LossSum sum;
+    for (const LossSum& part : sums) sum += part;
+    return sum;
+  }
+
+  /// In the order of the parts, so that rounding is the same whoever came first.
+  void add_gradients(std::size_t parts) {
+    const auto total = networks[0]->parameters();
+    for (std::size_t p = 1; p < parts; ++p) {
+      const auto own = networks[p]->parameters();
+      for (std::size_t i = 0; i < total.size(); ++i) total[i].mutable_grad() += own[i].grad();
+    }
+  }
+
+  Loss mean(const LossSum& sum) const {
+    const double contact = sum.contact / sum.steps;
+    const double velocity = sum.velocity / sum.steps;
+    return {.contact = contact,
+            .velocity = velocity,
+            .total = contact + config.velocity_weight * velocity,
+            .accuracy = sum.right / sum.steps};
+  }
+
+  OptimiserConfig config;
+  /// One per part; all share the first one's parameters and have gradients of their own.
+  std::vector<std::shared_ptr<TorchNetwork>> networks;
+  torch::optim::Adam adam;
+};
+
+Trainer::Trainer(const NeuralNetwork& network, const OptimiserConfig& config)
+    : impl_(std::make_unique<Impl>(network, config)) {}
+Trainer::~Trainer() = default;
+
+Loss Trainer::train_epoch(const EpisodeBatch& batch) {
+  const std::vector<Part> parts = split(batch, impl_->config.parts);
+  std::vector<Tensor> hidden;
+  for (const Part& part : parts) hidden.push_back(impl_->networks[0]->no_memory(part.lanes));
+  LossSum sum;
+  for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
+    sum += impl_->step(parts, hidden, s, batch.sequence, batch.environments);
+  }
+  return impl_->mean(sum);
+}
+
+Loss Trainer::evaluate(const EpisodeBatch& batch) const {
+  const std::vector<Part> parts = split(batch, impl_->config.parts);
+  std::vector<LossSum> sums(parts.size());
+  for_each_part(parts.size(), [&](std::size_t p) {
+    const torch::NoGradGuard no_grad;  // holds for one thread
+    const Part& part = parts[p];
+    Tensor hidden = impl_->networks[p]->no_memory(part.lanes);
+    for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
+      const std::int64_t first = s * batch.sequence;
+      const auto [outputs, next] = impl_->networks[p]->forward(
+          part.input.narrow(0, first, batch.sequence), hidden * part.keep[s].unsqueeze(0));
+      hidden = next;
+      sums[p] += loss_of(outputs, part.contact.narrow(0, first, batch.sequence),
+                         part.velocity.narrow(0, first, batch.sequence))
+                     .sum;
+    }
+  });
+  LossSum sum;
+  for (const LossSum& part : sums) sum += part;
+  return impl_->mean(sum);
+}
+
+std::vector<float> Trainer::outputs(const EpisodeBatch& batch) const {
+  const torch::NoGradGuard no_grad;
+  const Part all = split(batch, 1).front();
+  Tensor hidden = impl_->networks[0]->no_memory(all.lanes);
+  std::vector<float> result;
+  for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
+    auto [outputs, next] = impl_->networks[0]->forward(
+        all.input.narrow(0, s * batch.sequence, batch.sequence), hidden * all.keep[s].unsqueeze(0));
+    hidden = next;
+    const Tensor numbers = outputs.contiguous();
+    result.insert(result.end(), numbers.data_ptr<float>(),
+                  numbers.data_ptr<float>() + numbers.numel());
+  }
+  return result;
+}
+
+NeuralNetwork Trainer::network() const { return impl_->networks[0]->numbers(); }
+
+void Trainer::save(const std::filesystem::path& path) const {
+  torch::serialize::OutputArchive archive;
+  torch::serialize::OutputArchive network;
+  torch::serialize::OutputArchive adam;
+  impl_->networks[0]->save(network);
+  impl_->adam.save(adam);
+  archive.write("network", network);
+  archive.write("adam", adam);
+  archive.save_to(path.string());
+}
+
+void Trainer::load(const std::filesystem::path& path) {
+  try {
+    torch::serialize::InputArchive archive;
+    archive.load_from(path.string());
+    torch::serialize::InputArchive network;
+    torch::serialize::InputArchive adam;
+    archive.read("network", network);
+    archive.read("adam", adam);
+    impl_->networks[0]->load(network);
+    impl_->adam.load(adam);
+  } catch (const std::exception&) {
+    // libtorch's messages are pages long.
+    throw InputError(fmt::format("{}: is not a checkpoint of this network; remove it to start anew",
+                                 path.string()));
+  }
+  for (std::size_t p = 1; p < impl_->networks.size(); ++p) {
+    impl_->networks[p]->share_parameters_of(*impl_->networks[0]);
+  }
+}
+
+}  // namespace touchdown

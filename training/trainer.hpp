@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "estimator/neural_network.hpp"
+#include "training/rollout.hpp"
+#include "training/training_config.hpp"
+
+namespace touchdown {
+
+/// Mean losses of a network over a batch of episodes.
+struct Loss {
+  double contact = 0.0;   ///< cross-entropy of the contact probability (nat)
+  double velocity = 0.0;  ///< squared error, mean over the three axes (m²/s²)
+  double total = 0.0;     ///< contact + velocity_weight × velocity
+  /// Share of steps whose contact is told right by P(S = C) ≥ 0.5.
+  double accuracy = 0.0;
+};
+
+/// Trains a neural measurement network by truncated backpropagation through time: the recurrent
+/// state is carried through an episode, gradients through one sequence of it. One optimiser step
+/// per sequence of all environments. The same seed, data and `parts` give the same bits, whatever
+/// the number of threads.
+class Trainer {
+ public:
+  /// Starts from `network`.
+  Trainer(const NeuralNetwork& network, const OptimiserConfig& config);
+  ~Trainer();
+  Trainer(const Trainer&) = delete;
+  Trainer& operator=(const Trainer&) = delete;
+
+  /// Goes once through the episodes. Returns the losses met on the way.
+  Loss train_epoch(const EpisodeBatch& batch);
+  Loss evaluate(const EpisodeBatch& batch) const;
+  /// steps × environments × neural_output_count.
+  std::vector<float> outputs(const EpisodeBatch& batch) const;
+
+  NeuralNetwork network() const;
+
+  /// All that training goes on from, to the bit: weights and the optimiser's moments.
+  void save(const std::filesystem::path& path) const;
+  /// Errors: `InputError` for a file that is not a checkpoint of such a network.
+  void load(const std::filesystem::path& path);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace touchdown

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/yaml.hpp"
+#include "experiments/labels.hpp"
+#include "noise/sensor_noise.hpp"
+
+namespace touchdown {
+
+/// When the robot counts as being in contact, from its two wheels.
+enum class RobotContact : int {
+  any_wheel,   ///< it touches the ground: no contact means that it flies
+  both_wheels  ///< it stands on both wheels
+};
+
+/// How labelled data comes about: parallel environments that each roll out one episode at a time.
+struct RolloutConfig {
+  std::string scenario = "scenarios/lift.yaml";
+  std::string simulator = "bullet";
+  std::int64_t control_step_us = 5000;  ///< one step of the network
+  int environments = 400;               ///< episodes per iteration
+  int steps = 400;                      ///< of an episode; a multiple of `sequence`
+  int sequence = 10;                    ///< steps that gradients are carried back through
+  double skip = 0.0;                    ///< of every run, before the episode begins (s)
+  RobotContact contact = RobotContact::any_wheel;
+  LabelConfig labels;
+  NoiseLevels noise;  ///< of the sensors; the paper trains without
+};
+
+/// Numbers of features between inputs and outputs.
+struct NetworkSize {
+  int hidden = 128;  ///< of the GRU
+  int first = 256;   ///< of the perceptron behind it
+  int second = 128;
+};
+
+struct OptimiserConfig {
+  int iterations = 25;          ///< at most, each with data of its own
+  int epochs = 32;              ///< over an iteration's data
+  double learning_rate = 5e-4;  ///< of Adam
+  double velocity_weight =
+      1.0;           ///< of the velocity's squared error (s²/m²) beside the cross-entropy
+  int patience = 5;  ///< iterations without a better validation loss before stopping
+  int validation_episodes = 1000;  ///< never trained on
+  /// Parts of a batch whose gradients are computed side by side, then added in order. Threads work
+  /// on parts, so that their number changes no bit of the result.
+  int parts = 4;
+};
+
+/// A training file, seen whole: the paper's Section V, paragraphs "Simulation" and "Training".
+struct TrainingConfig {
+  std::string name = "nmn";
+  std::uint64_t seed = 1;
+  RolloutConfig rollout;
+  NetworkSize network;
+  OptimiserConfig optimiser;
+
+  double period() const { return 1e-6 * static_cast<double>(rollout.control_step_us); }
+};
+
+/// Reads a training file strictly. Errors: `InputError` with file:line:column.
+TrainingConfig training_from_yaml(const YamlDocument& document);
+
+/// The same with every default written out; reads back to the same.
+std::string to_yaml(const TrainingConfig& config);
+
+}  // namespace touchdown
