@@ -143,7 +143,9 @@ std::string gnuplot_text(std::string_view text) {
     if (letter == '\n') {
       result += "'.\"\\n\".'";
     } else if (letter == '\'') {
-      result += "''";
+      result += "'.\"'\".'";  // gnuplot's own '' fails at the beginning of a text
+    } else if (letter == '@') {
+      result += "'.\"\\100\".'";  // a macro's sign, even within quotes
     } else if (static_cast<unsigned char>(letter) >= 0x20) {
       result += letter;
     }
