@@ -91,7 +91,10 @@ void BayesFilterLanes::update(const Signals& clean, const NoiseDraws& draws) noe
     const double* const p_no_contact = measurement_.no_contact(side).data();
     double* const contact = contact_[static_cast<std::size_t>(side)].data();
     double* const no_contact = no_contact_[static_cast<std::size_t>(side)].data();
-#pragma GCC ivdep  // the arrays do not overlap
+    // The arrays do not overlap, which the compiler cannot know.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC ivdep
+#endif
     for (std::size_t lane = 0; lane < count; ++lane) {
       const std::uint32_t a = acceleration_index[lane];
       const std::uint32_t torque = torque_index[lane];

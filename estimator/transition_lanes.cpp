@@ -55,7 +55,10 @@ void TransitionLanes::update(double vertical_acceleration, double draw) noexcept
   double* const landing = landing_.data();
   double* const fly = fly_.data();
   const TransitionLaw law = law_;
-#pragma GCC ivdep  // the arrays do not overlap
+  // The arrays do not overlap, which the compiler cannot know.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC ivdep
+#endif
   for (std::size_t i = 0; i < count; ++i) {
     const Transition t = law.next({mean_square[i], median_bin[i]}, filtered_median[i]);
     filtered_median[i] = t.filtered_median_frequency;

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t stream_length = 4096;
 
 /// The yardstick: one real transform of 128 samples.
-void Yardstick_Fft128(benchmark::State& state) {
+void yardstick_fft_128(benchmark::State& state) {
   Eigen::FFT<double> fft;
   fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
   std::vector<double> window(128);
@@ -34,7 +34,7 @@ void Yardstick_Fft128(benchmark::State& state) {
     benchmark::ClobberMemory();
   }
 }
-BENCHMARK(Yardstick_Fft128);
+BENCHMARK(yardstick_fft_128);
 
 std::unique_ptr<ContactEstimator> estimator(const char* name) {
   if (std::string(name) == "measurement_only") {
@@ -45,7 +45,7 @@ std::unique_ptr<ContactEstimator> estimator(const char* name) {
 }
 
 /// One `update`: transition, and for both wheels lookup and recursion.
-void Update(benchmark::State& state, const char* name) {
+void update(benchmark::State& state, const char* name) {
   const auto filter = estimator(name);
   std::vector<Signals> stream = bench::signals(stream_length);
   std::size_t i = 0;
@@ -57,13 +57,13 @@ void Update(benchmark::State& state, const char* name) {
     i = (i + 1) % stream_length;
   }
 }
-BENCHMARK_CAPTURE(Update, paper, "paper");
-BENCHMARK_CAPTURE(Update, reference, "reference");
-BENCHMARK_CAPTURE(Update, robust, "robust");
-BENCHMARK_CAPTURE(Update, measurement_only, "measurement_only");
+BENCHMARK_CAPTURE(update, paper, "paper");
+BENCHMARK_CAPTURE(update, reference, "reference");
+BENCHMARK_CAPTURE(update, robust, "robust");
+BENCHMARK_CAPTURE(update, measurement_only, "measurement_only");
 
 /// The time of every single update, clock included, as percentiles (ns).
-void Latency(benchmark::State& state, const char* name) {
+void latency(benchmark::State& state, const char* name) {
   using Clock = std::chrono::steady_clock;
   const auto filter = estimator(name);
   std::vector<Signals> stream = bench::signals(stream_length);
@@ -87,12 +87,12 @@ void Latency(benchmark::State& state, const char* name) {
   state.counters["p99.9_ns"] = percentile(0.999);
   state.counters["max_ns"] = nanoseconds.back();
 }
-BENCHMARK_CAPTURE(Latency, robust, "robust")->Iterations(250);
-BENCHMARK_CAPTURE(Latency, reference, "reference")->Iterations(250);
+BENCHMARK_CAPTURE(latency, robust, "robust")->Iterations(250);
+BENCHMARK_CAPTURE(latency, reference, "reference")->Iterations(250);
 
 /// A sweep over `torques` × `accelerations` noise levels; the time per item is that of one lane's
 /// update, which covers both wheels.
-void Lanes(benchmark::State& state, const char* name, int torques, int accelerations) {
+void lanes_update(benchmark::State& state, const char* name, int torques, int accelerations) {
   const BayesFilterConfig config = BayesFilterConfig::named(name);
   std::vector<NoiseLevel> levels;
   for (int i = 0; i < torques; ++i) {
@@ -124,11 +124,11 @@ void Lanes(benchmark::State& state, const char* name, int torques, int accelerat
       static_cast<double>(levels.size()),
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK_CAPTURE(Lanes, robust_grid_6x6, "robust", 6, 6);
-BENCHMARK_CAPTURE(Lanes, robust_36_distinct, "robust", 36, 0);
-BENCHMARK_CAPTURE(Lanes, paper_grid_6x6, "paper", 6, 6);
-BENCHMARK_CAPTURE(Lanes, reference_grid_6x6, "reference", 6, 6);
-BENCHMARK_CAPTURE(Lanes, reference_36_distinct, "reference", 36, 0);
+BENCHMARK_CAPTURE(lanes_update, robust_grid_6x6, "robust", 6, 6);
+BENCHMARK_CAPTURE(lanes_update, robust_36_distinct, "robust", 36, 0);
+BENCHMARK_CAPTURE(lanes_update, paper_grid_6x6, "paper", 6, 6);
+BENCHMARK_CAPTURE(lanes_update, reference_grid_6x6, "reference", 6, 6);
+BENCHMARK_CAPTURE(lanes_update, reference_36_distinct, "reference", 36, 0);
 
 }  // namespace
 }  // namespace touchdown

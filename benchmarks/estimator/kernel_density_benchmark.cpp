@@ -10,7 +10,7 @@ namespace touchdown {
 namespace {
 
 /// 84,000 samples on 200 × 200 points, as much as seven minutes of two legs at 100 Hz.
-void KernelDensity84k(benchmark::State& state) {
+void kernel_density_84k(benchmark::State& state) {
   std::mt19937 engine(1);
   const auto uniform = [&engine] { return static_cast<double>(engine()) / 4294967296.0; };
   std::vector<double> knee(84'000);
@@ -26,7 +26,7 @@ void KernelDensity84k(benchmark::State& state) {
                                             Axis{0.0, 0.75, 200}, Axis{0.0, 3.0, 200}));
   }
 }
-BENCHMARK(KernelDensity84k)->Unit(benchmark::kMillisecond);
+BENCHMARK(kernel_density_84k)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace touchdown

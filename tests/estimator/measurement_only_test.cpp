@@ -10,7 +10,6 @@ namespace touchdown {
 namespace {
 
 using test::drops;
-using test::in_the_air;
 using test::labelled;
 
 MeasurementModel fitted() {

@@ -1,13 +1,16 @@
 // Counts every call of malloc and its siblings, which operator new ends in, by this thread.
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "estimator/bayes_filter.hpp"
+#include "estimator/bayes_filter_lanes.hpp"
 #include "estimator/measurement_only.hpp"
 #include "estimator/wheel_contact_observer.hpp"
 #include "synthetic.hpp"
@@ -18,6 +21,7 @@ thread_local int calls = 0;
 void count() noexcept { calls += counting ? 1 : 0; }
 }  // namespace
 
+// NOLINTBEGIN(readability-identifier-naming): the C library's names
 extern "C" {
 void* __libc_malloc(std::size_t);
 void __libc_free(void*);
@@ -48,6 +52,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 #endif
 }
+// NOLINTEND(readability-identifier-naming)
 
 namespace touchdown {
 namespace {
@@ -105,6 +110,26 @@ TEST_F(RealTime, UpdateAndResetAllocateNothing) {
                 0)
           << name;
     }
+  }
+}
+
+TEST_F(RealTime, LanesAllocateNothing) {
+  const auto stream = test::drops(1000);
+  for (const char* name : {"paper", "reference", "robust"}) {
+    const BayesFilterConfig config = BayesFilterConfig::named(name);
+    const auto samples = test::labelled(test::drops(3000), config.measurement.torque);
+    const std::vector<NoiseLevel> levels{{0.0, 0.0, 0.0}, {1.0, 1.0, 5.0}, {3.0, 3.0, 10.0}};
+    BayesFilterLanes lanes(
+        fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit), config,
+        levels);
+    EXPECT_EQ(allocations_of([&] {
+                for (const Signals& s : stream) {
+                  lanes.update(s, NoiseDraws{});
+                }
+                lanes.reset();
+              }),
+              0)
+        << name;
   }
 }
 
