@@ -11,9 +11,9 @@ namespace touchdown {
 /// hidden Markov model (docs/phase_filter.md).
 enum class Phase : std::uint8_t {
   rolling,      ///< both wheels carry the robot, no flight is near
-  unloading_1,  ///< both wheels touch; they will leave the ground within 100 to 40 ms
-  unloading_2,  ///< … within 40 to 15 ms
-  unloading_3,  ///< … within 15 ms
+  unloading_1,  ///< both wheels touch; they will leave the ground in 150 to 60 ms
+  unloading_2,  ///< … in 60 to 20 ms
+  unloading_3,  ///< … within 20 ms
   flight,       ///< neither wheel touches, nothing else holds the robot
   impact_1,     ///< both wheels touch; they landed up to 15 ms ago
   impact_2,     ///< … 15 to 60 ms ago

@@ -15,7 +15,7 @@ struct PhaseLabelConfig {
   /// A wheel's flight that is shorter than this is no flight (s).
   double shortest_flight = 0.02;
   /// How long before a takeoff unloading 1, 2 and 3 begin (s), decreasing.
-  std::array<double, 3> unloading = {0.100, 0.040, 0.015};
+  std::array<double, 3> unloading = {0.150, 0.060, 0.020};
   /// How long after a landing impact 1, 2 and 3 end (s), increasing.
   std::array<double, 3> impact = {0.015, 0.060, 0.150};
   /// The robot is held, not falling, while its low-passed vertical acceleration is further than
