@@ -25,6 +25,7 @@ void WheelBalancer::reset(const Observation& observation) {
   last_distance_ = rolled_distance(observation);
   last_yaw_ = observation.yaw;
   heading_ = observation.yaw;
+  if (config_.keep_heading) target_yaw_ = observation.yaw;
 }
 
 double WheelBalancer::rolled_distance(const Observation& observation) const {
@@ -130,6 +131,7 @@ WheelBalancerConfig wheel_balancer_from_yaml(YamlMap map) {
   map.read("yaw_damping", c.yaw_damping, 0.0, 100.0);
   map.read("lateral_stiffness", c.lateral_stiffness, 0.0, 100.0);
   map.read("max_lateral_error", c.max_lateral_error, 0.0, 100.0);
+  map.read("keep_heading", c.keep_heading);
   map.read("leg_kp_scale", c.leg_kp_scale, 0.0, 100.0);
   map.read("leg_kd_scale", c.leg_kd_scale, 0.0, 100.0);
   map.finish();
@@ -152,6 +154,7 @@ YAML::Node to_yaml(const WheelBalancerConfig& c) {
   node["yaw_damping"] = c.yaw_damping;
   node["lateral_stiffness"] = c.lateral_stiffness;
   node["max_lateral_error"] = c.max_lateral_error;
+  node["keep_heading"] = c.keep_heading;
   node["leg_kp_scale"] = c.leg_kp_scale;
   node["leg_kd_scale"] = c.leg_kd_scale;
   return node;

@@ -23,6 +23,7 @@ struct WheelBalancerConfig {
   double yaw_damping = 0.1;         ///< N·m·s/rad
   double lateral_stiffness = 0.5;   ///< heading asked for per metre beside the course (rad/m)
   double max_lateral_error = 0.6;   ///< m
+  bool keep_heading = false;        ///< the course is the heading at the reset, not the world's +x
   double leg_kp_scale = 2.0;        ///< of the hips and knees
   double leg_kd_scale = 2.0;        ///< of the hips and knees
 };

@@ -9,6 +9,7 @@
 #include "core/yaml.hpp"
 #include "models/terrain.hpp"
 #include "policies/force_script.hpp"
+#include "policies/guide.hpp"
 #include "policies/tether.hpp"
 #include "policies/velocity_script.hpp"
 #include "policies/wheel_balancer.hpp"
@@ -45,6 +46,7 @@ struct Scenario {
   WheelBalancerConfig balancer;
   VelocityScript velocity;
   std::optional<Tether> tether;
+  std::optional<Guide> guide;
   ForceScript forces;
   double mass_scale = 1.0;  ///< on the mass and inertia of every body of the robot
   SimulatorOptions simulation;
