@@ -8,8 +8,10 @@
 #include "core/error.hpp"
 #include "core/yaml.hpp"
 #include "estimator/measurement_only.hpp"
+#include "estimator/phase_filter.hpp"
 #include "estimator/wheel_contact_observer.hpp"
 #include "experiments/always_contact.hpp"
+#include "experiments/fitting.hpp"
 
 namespace touchdown {
 
@@ -22,19 +24,25 @@ BayesFilterConfig at_rate(const EstimatorEntry& entry, double sample_rate) {
 }
 
 std::unique_ptr<ContactEstimator> make_bayes_filter(const EstimatorEntry& entry,
-                                                    const MeasurementModel* model,
-                                                    double sample_rate) {
-  return std::make_unique<BayesFilter>(*model, at_rate(entry, sample_rate));
+                                                    const FittedModel* model, double sample_rate) {
+  return std::make_unique<BayesFilter>(*model->measurement, at_rate(entry, sample_rate));
 }
 
 std::unique_ptr<ContactEstimator> make_measurement_only(const EstimatorEntry& entry,
-                                                        const MeasurementModel* model,
+                                                        const FittedModel* model,
                                                         double sample_rate) {
-  return std::make_unique<MeasurementOnly>(*model, at_rate(entry, sample_rate));
+  return std::make_unique<MeasurementOnly>(*model->measurement, at_rate(entry, sample_rate));
+}
+
+std::unique_ptr<ContactEstimator> make_phase_filter(const EstimatorEntry& entry,
+                                                    const FittedModel* model, double sample_rate) {
+  PhaseFilterConfig config = *entry.phase;
+  config.sample_rate = sample_rate;
+  return std::make_unique<PhaseFilter>(model->phase->model, config);
 }
 
 std::unique_ptr<ContactEstimator> make_upkie_observer(const EstimatorEntry& /*entry*/,
-                                                      const MeasurementModel* /*model*/,
+                                                      const FittedModel* /*model*/,
                                                       double sample_rate) {
   UpkieObserverConfig config;
   config.time_step = 1.0 / sample_rate;
@@ -42,7 +50,7 @@ std::unique_ptr<ContactEstimator> make_upkie_observer(const EstimatorEntry& /*en
 }
 
 std::unique_ptr<ContactEstimator> make_always_contact(const EstimatorEntry& /*entry*/,
-                                                      const MeasurementModel* /*model*/,
+                                                      const FittedModel* /*model*/,
                                                       double /*sample_rate*/) {
   return std::make_unique<AlwaysContact>();
 }
@@ -50,13 +58,19 @@ std::unique_ptr<ContactEstimator> make_always_contact(const EstimatorEntry& /*en
 }  // namespace
 
 std::span<const EstimatorEntry> estimator_entries() {
-  static const std::array<EstimatorEntry, 6> entries = {{
-      {"robust", "Bayes filter (robust)", BayesFilterConfig::robust(), make_bayes_filter},
-      {"reference", "Bayes filter (reference)", BayesFilterConfig::reference(), make_bayes_filter},
-      {"paper", "Bayes filter (paper)", BayesFilterConfig::paper(), make_bayes_filter},
-      {"measurement_only", "Measurement only", BayesFilterConfig::robust(), make_measurement_only},
-      {"upkie_observer", "Upkie's observer", std::nullopt, make_upkie_observer},
-      {std::string(always_contact_name), "Always contact", std::nullopt, make_always_contact},
+  static const std::array<EstimatorEntry, 7> entries = {{
+      {"robust", "Bayes filter (robust)", BayesFilterConfig::robust(), std::nullopt,
+       make_bayes_filter},
+      {"reference", "Bayes filter (reference)", BayesFilterConfig::reference(), std::nullopt,
+       make_bayes_filter},
+      {"paper", "Bayes filter (paper)", BayesFilterConfig::paper(), std::nullopt,
+       make_bayes_filter},
+      {"measurement_only", "Measurement only", BayesFilterConfig::robust(), std::nullopt,
+       make_measurement_only},
+      {"phase", "Phase filter", std::nullopt, PhaseFilterConfig{}, make_phase_filter},
+      {"upkie_observer", "Upkie's observer", std::nullopt, std::nullopt, make_upkie_observer},
+      {std::string(always_contact_name), "Always contact", std::nullopt, std::nullopt,
+       make_always_contact},
   }};
   return entries;
 }

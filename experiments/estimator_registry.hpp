@@ -9,8 +9,11 @@
 
 #include "estimator/bayes_filter.hpp"
 #include "estimator/contact_estimator.hpp"
+#include "estimator/phase_filter_config.hpp"
 
 namespace touchdown {
+
+struct FittedModel;
 
 /// The estimator that every table shows beside the others.
 inline constexpr std::string_view always_contact_name = "always_contact";
@@ -19,11 +22,13 @@ inline constexpr std::string_view always_contact_name = "always_contact";
 struct EstimatorEntry {
   std::string name;
   std::string title;  ///< for tables and figures
-  /// The filter configuration whose measurement model it needs; nothing if it needs no model.
+  /// The filter configuration whose measurement model it needs, if it needs one.
   std::optional<BayesFilterConfig> config;
-  /// `model` is null when `config` is empty.
-  std::unique_ptr<ContactEstimator> (*make)(const EstimatorEntry& entry,
-                                            const MeasurementModel* model, double sample_rate);
+  /// The configuration whose phase model it needs, if it needs one.
+  std::optional<PhaseFilterConfig> phase;
+  /// `model` is null when it needs none.
+  std::unique_ptr<ContactEstimator> (*make)(const EstimatorEntry& entry, const FittedModel* model,
+                                            double sample_rate);
 };
 
 /// Every estimator an experiment can name, in the order of tables.

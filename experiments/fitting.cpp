@@ -9,17 +9,24 @@
 
 #include "core/error.hpp"
 #include "experiments/estimator_registry.hpp"
+#include "experiments/phase_fitting.hpp"
+#include "experiments/reserved_seeds.hpp"
 
 namespace touchdown {
 
 namespace {
 
-/// One measurement model to fit, and the estimators that share it.
+/// One model to fit, and the estimators that share it.
 struct Job {
   std::string simulator;
-  MeasurementConfig config;
+  std::optional<MeasurementConfig> measurement;
+  std::optional<PhaseFitConfig> phase;
   std::vector<std::string> estimators;
-  std::optional<MeasurementModel> model;
+  FittedModel model;
+
+  bool fits_the_same(const Job& other) const {
+    return simulator == other.simulator && measurement == other.measurement && phase == other.phase;
+  }
 };
 
 std::vector<Job> jobs_of(const Experiment& experiment) {
@@ -27,14 +34,16 @@ std::vector<Job> jobs_of(const Experiment& experiment) {
   for (const std::string& simulator : experiment.simulators) {
     for (const std::string& name : experiment.estimators) {
       const EstimatorEntry& entry = estimator_entry(name);
-      if (!entry.config) continue;
-      const auto same = std::find_if(jobs.begin(), jobs.end(), [&](const Job& job) {
-        return job.simulator == simulator && job.config == entry.config->measurement;
-      });
+      Job job{simulator, {}, {}, {name}, {}};
+      if (entry.config) job.measurement = entry.config->measurement;
+      if (entry.phase) job.phase = entry.phase->fit;
+      if (!job.measurement && !job.phase) continue;
+      const auto same = std::find_if(jobs.begin(), jobs.end(),
+                                     [&](const Job& other) { return other.fits_the_same(job); });
       if (same != jobs.end()) {
         same->estimators.push_back(name);
       } else {
-        jobs.push_back({simulator, entry.config->measurement, {name}, std::nullopt});
+        jobs.push_back(std::move(job));
       }
     }
   }
@@ -63,6 +72,7 @@ LabelledTorques labelled_torques(std::span<const HeardRun* const> runs, const To
 
 MeasurementModel fit(std::span<const HeardRun* const> runs, const MeasurementConfig& config,
                      const ScoringConfig& scoring) {
+  for (const HeardRun* run : runs) check_may_be_fitted(run->info);
   const LabelledTorques torques = labelled_torques(runs, config.torque, scoring);
   return fit_measurement_model(torques.contact, torques.no_contact, config.fit);
 }
@@ -75,7 +85,13 @@ FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun
       if (run.info.simulator == jobs[i].simulator) runs.push_back(&run);
     }
     try {
-      jobs[i].model = fit(runs, jobs[i].config, experiment.scoring);
+      if (jobs[i].measurement) {
+        jobs[i].model.measurement = fit(runs, *jobs[i].measurement, experiment.scoring);
+      } else {
+        jobs[i].model.phase = std::make_shared<PhaseModelFile>(
+            PhaseModelFile{fit_phases(runs, *jobs[i].phase, experiment.scoring.skip),
+                           provenance_of(runs, experiment.scoring.skip)});
+      }
     } catch (const InputError& error) {
       throw InputError(fmt::format("fit on {}: {}", jobs[i].simulator, error.what()));
     }
@@ -83,7 +99,7 @@ FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun
   FittedModels models;
   for (const Job& job : jobs) {
     for (const std::string& name : job.estimators) {
-      models[job.simulator].emplace(name, *job.model);
+      models[job.simulator].emplace(name, job.model);
     }
   }
   return models;

@@ -1,13 +1,17 @@
 #pragma once
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "estimator/bayes_filter.hpp"
+#include "estimator/phase_model.hpp"
 #include "experiments/experiment.hpp"
 #include "experiments/heard_run.hpp"
+#include "recordings/phase_model_file.hpp"
 
 namespace touchdown {
 
@@ -26,9 +30,15 @@ LabelledTorques labelled_torques(std::span<const HeardRun* const> runs, const To
 MeasurementModel fit(std::span<const HeardRun* const> runs, const MeasurementConfig& config,
                      const ScoringConfig& scoring);
 
-/// Measurement models by engine that was fitted on, then by estimator. Estimators that need the
-/// same model share it.
-using FittedModels = std::map<std::string, std::map<std::string, MeasurementModel>>;
+/// What an estimator was fitted with: one of the two.
+struct FittedModel {
+  std::optional<MeasurementModel> measurement;
+  std::shared_ptr<const PhaseModelFile> phase;
+};
+
+/// Models by engine that was fitted on, then by estimator. Estimators that need the same model
+/// share it.
+using FittedModels = std::map<std::string, std::map<std::string, FittedModel>>;
 
 /// Fits what the experiment's estimators need, for each engine on its own runs, in parallel.
 FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun>& fit_runs);

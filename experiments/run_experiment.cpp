@@ -10,7 +10,9 @@
 #include "core/files.hpp"
 #include "experiments/estimator_registry.hpp"
 #include "experiments/fingerprint.hpp"
+#include "experiments/paper_tables.hpp"
 #include "experiments/progress.hpp"
+#include "experiments/score_tables.hpp"
 #include "experiments/stopped.hpp"
 #include "recordings/model_file.hpp"
 
@@ -59,8 +61,9 @@ void discard_results_of_other_builds(const RunDirectory& directory) {
 void write_models(const FittedModels& models, const RunDirectory& directory) {
   for (const auto& [simulator, by_estimator] : models) {
     for (const auto& [estimator, model] : by_estimator) {
-      write_measurement_model(
-          model, directory.file("models", fmt::format("{}_{}.npz", simulator, estimator)));
+      const auto file = directory.file("models", fmt::format("{}_{}.npz", simulator, estimator));
+      if (model.measurement) write_measurement_model(*model.measurement, file);
+      if (model.phase) write_phase_model(*model.phase, file);
     }
   }
 }
@@ -82,6 +85,69 @@ std::vector<HeardRun> heard(const std::vector<PlayedRun>& runs, RunRole role) {
     if (run.plan.role == role && !is_failure(run.report.outcome)) result.push_back(run.heard);
   }
   return result;
+}
+
+/// Transitions, calibration and all views in the highlighted cells.
+void score_highlights(ExperimentResult& result, const std::vector<const HeardRun*>& test_runs,
+                      const std::function<bool()>& going_on) {
+  const Experiment& experiment = result.experiment;
+  const BootstrapConfig& config = experiment.intervals.bootstrap;
+  for (const NoiseCell& cell : experiment.highlights) {
+    const std::vector<ConditionScores> scores = score_conditions(
+        experiment, own_engine_conditions(experiment), cell, experiment.noise.seeds, test_runs,
+        result.models, [&](std::int64_t /*cells*/) { return going_on(); });
+    const auto summaries = summarise(scores, cell, config);
+    const auto compared = differences(scores, cell, config);
+    result.scores.insert(result.scores.end(), summaries.begin(), summaries.end());
+    result.differences.insert(result.differences.end(), compared.begin(), compared.end());
+  }
+}
+
+/// What the numbers of one cell are, in words.
+std::string how_scored(const Experiment& experiment, const NoiseCell& cell) {
+  return fmt::format(
+      "Both wheels; torque noise {} N·m, accelerometer noise {} m/s², {} noise seeds; contact: "
+      "normal force > {} N, states under {} ms merged; {:.0f} % bootstrap intervals over {}s.",
+      cell.torque, cell.accelerometer, experiment.noise.seeds, experiment.labels.force_threshold,
+      1e3 * experiment.labels.debounce, 100.0 * experiment.intervals.bootstrap.level,
+      experiment.intervals.over == SampleUnit::run ? "run" : "drop");
+}
+
+/// The paper's tables for every highlighted cell, one below the other.
+std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
+  std::vector<CaptionedTable> tables;
+  for (const NoiseCell& cell : result.experiment.highlights) {
+    std::vector<ScoreSummary> scores;
+    std::copy_if(result.scores.begin(), result.scores.end(), std::back_inserter(scores),
+                 [&](const ScoreSummary& score) { return score.cell == cell; });
+    std::vector<Difference> compared;
+    std::copy_if(result.differences.begin(), result.differences.end(), std::back_inserter(compared),
+                 [&](const Difference& difference) { return difference.cell == cell; });
+    for (CaptionedTable& table : paper_tables(scores, how_scored(result.experiment, cell))) {
+      tables.push_back(std::move(table));
+    }
+    tables.push_back(difference_text_table(compared));
+  }
+  return tables;
+}
+
+void write_score_tables(const ExperimentResult& result) {
+  const RunDirectory& directory = result.directory;
+  directory.write_table("views.csv", views_table(result.scores));
+  directory.write_table("transitions.csv", transitions_table(result.scores));
+  directory.write_table("latency.csv", latency_table(result.scores));
+  directory.write_table("calibration.csv", calibration_table(result.scores));
+  directory.write_table("reliability.csv", reliability_table(result.scores));
+  directory.write_table("differences.csv", differences_table(result.differences));
+  if (!result.experiment.paper_tables) return;
+  std::string markdown;
+  std::string latex;
+  for (const CaptionedTable& table : paper_tables(result)) {
+    markdown += to_markdown(table) + "\n";
+    latex += to_latex(table) + "\n";
+  }
+  write_atomically(directory.file("tables", "tables.md"), markdown);
+  write_atomically(directory.file("tables", "tables.tex"), latex);
 }
 
 }  // namespace
@@ -112,6 +178,8 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& 
                           {},
                           {},
                           noise_cells(experiment.noise),
+                          {},
+                          {},
                           {},
                           {options.command, threads, {}}};
   discard_results_of_other_builds(result.directory);
@@ -146,8 +214,13 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& 
         });
     result.summaries = summarise(counts, result.cells, experiment.intervals.bootstrap);
   }
+  {
+    const PhaseTimer timer(result.provenance, "score");
+    score_highlights(result, test_runs, going_on);
+  }
   result.directory.write_table("success.csv", success_table(result.summaries));
   result.directory.write_table("classification.csv", classification_table(result.summaries));
+  write_score_tables(result);
   write_manifest(result);
   return result;
 }
@@ -180,6 +253,9 @@ std::string summary_text(const ExperimentResult& result) {
           simulator, estimator_entry(first).title);
       text += to_text(grid_text_table(result.summaries, simulator, first, experiment.noise));
     }
+  }
+  if (experiment.paper_tables) {
+    for (const CaptionedTable& table : paper_tables(result)) text += '\n' + to_text(table);
   }
   text += fmt::format(
       "\nBoth wheels; contact: normal force > {} N, states under {} ms merged; first {} ms not "

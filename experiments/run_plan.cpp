@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "experiments/reserved_seeds.hpp"
 #include "experiments/resources.hpp"
 #include "experiments/stopped.hpp"
 #include "recordings/recording_file.hpp"
@@ -34,10 +35,15 @@ RunReport report(const Recording& recording, const HeardRun& heard, const Scorin
           }))};
 }
 
+/// Nothing is fitted to runs of reserved seeds.
+std::uint64_t seed_of(const Experiment& experiment, RunRole role) {
+  return role == RunRole::fit ? fit_seed(experiment.seed) : experiment.seed;
+}
+
 Recording play_or_read(const Experiment& experiment, const PlannedRun& run,
                        const std::filesystem::path& file) {
   if (std::filesystem::exists(file)) return read_recording(file);
-  Recording recording = play(run.scenario, run.simulator, experiment.seed, run.run);
+  Recording recording = play(run.scenario, run.simulator, seed_of(experiment, run.role), run.run);
   write_recording(recording, file);
   return recording;
 }
@@ -70,12 +76,13 @@ std::vector<PlannedRun> plan_runs(const Experiment& experiment,
       for (const std::string& file : runs.scenarios) {
         const Scenario& scenario = scenario_called(file, scenarios);
         for (int i = 0; i < runs.runs; ++i, ++index) {
-          plan.push_back({role, simulator,
-                          runs.perturbed ? perturbed(scenario, experiment.seed, index) : scenario,
-                          index,
-                          fmt::format("{}_{}_{}_{:03}.mpack", simulator, scenario.name,
-                                      role == RunRole::fit ? "fit" : "test",
-                                      role == RunRole::fit ? index - first_fit_run : index)});
+          plan.push_back(
+              {role, simulator,
+               runs.perturbed ? perturbed(scenario, seed_of(experiment, role), index) : scenario,
+               index,
+               fmt::format("{}_{}_{}_{:03}.mpack", simulator, scenario.name,
+                           role == RunRole::fit ? "fit" : "test",
+                           role == RunRole::fit ? index - first_fit_run : index)});
         }
       }
     }

@@ -92,8 +92,9 @@ std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
                                                  const FittedModels& models,
                                                  std::int64_t control_period_us) {
   const EstimatorEntry& entry = estimator_entry(condition.estimator);
-  const MeasurementModel* model =
-      entry.config ? &models.at(condition.fit_simulator).at(condition.estimator) : nullptr;
+  const FittedModel* model = entry.config || entry.phase
+                                 ? &models.at(condition.fit_simulator).at(condition.estimator)
+                                 : nullptr;
   return entry.make(entry, model, 1e6 / static_cast<double>(control_period_us));
 }
 
