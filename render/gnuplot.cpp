@@ -63,7 +63,7 @@ std::string run_gnuplot(const std::filesystem::path& folder, const std::string& 
   ::close(ends[1]);
   std::string complaints;
   std::array<char, 4096> buffer;
-  for (ssize_t got; (got = ::read(ends[0], buffer.data(), buffer.size())) != 0;) {
+  for (ssize_t got = 0; (got = ::read(ends[0], buffer.data(), buffer.size())) != 0;) {
     if (got < 0 && errno != EINTR) break;
     if (got > 0) complaints.append(buffer.data(), static_cast<std::size_t>(got));
   }

@@ -147,7 +147,8 @@ Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
       tics(heatmap.x), tics(heatmap.y));
   for (std::size_t i = 0; i < panels; ++i) {
     const auto column = static_cast<double>(i % columns);
-    const auto row = static_cast<double>(i / columns);
+    const std::size_t row_number = i / columns;
+    const auto row = static_cast<double>(row_number);
     const double left = column * (panel_width + gap_x) + gap_x - 8.0;
     const double top = title_height + row * (panel_height + gap_y) + 22.0;
     commands += fmt::format(

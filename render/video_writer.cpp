@@ -163,10 +163,7 @@ void VideoWriter::finish() {
   streams_->encode(nullptr);
   check(av_write_trailer(streams_->format.get()), "cannot finish the file");
   check(avio_closep(&streams_->format->pb), "cannot finish the file");
-  write_atomically(path_, [this](const std::filesystem::path& temporary) {
-    std::filesystem::copy_file(streams_->file.path(), temporary,
-                               std::filesystem::copy_options::overwrite_existing);
-  });
+  write_atomically(path_, read_file(streams_->file.path()));
   streams_.reset();
 }
 
