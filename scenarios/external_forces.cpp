@@ -8,9 +8,8 @@ std::span<const ExternalWrench> ExternalForces::on(const Simulator& simulator) {
     wrenches_.push_back({tether_force(*scenario_.tether, simulator.ground_truth()),
                          scenario_.tether->point_in_base});
   }
-  if (scenario_.guide) {
-    wrenches_.push_back(
-        {guide_force(*scenario_.guide, simulator.ground_truth()), scenario_.guide->point_in_base});
+  for (const Guide& guide : scenario_.guides) {
+    wrenches_.push_back({guide_force(guide, simulator.ground_truth()), guide.point_in_base});
   }
   const Observation& now = simulator.observation();
   for (const TimedForce& force : scenario_.forces) {

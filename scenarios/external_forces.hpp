@@ -9,7 +9,7 @@
 namespace touchdown {
 
 /// What pulls at the robot from outside while a scenario is played: its tether, its
-/// guide and its timed forces. Keeps a reference to the scenario.
+/// guides and its timed forces. Keeps a reference to the scenario.
 class ExternalForces {
  public:
   explicit ExternalForces(const Scenario& scenario) : scenario_(scenario) {}

@@ -64,7 +64,9 @@ Scenario scenario_from_yaml(const YamlDocument& document) {
   scenario.balancer = wheel_balancer_from_yaml(map.child("balancer"));
   scenario.velocity = velocity_script_from_yaml(map, "velocity");
   if (map.has("tether")) scenario.tether = tether_from_yaml(map.child("tether"));
-  if (map.has("guide")) scenario.guide = guide_from_yaml(map.child("guide"));
+  for (YamlMap& guide : map.children("guides")) {
+    scenario.guides.push_back(guide_from_yaml(std::move(guide)));
+  }
   scenario.forces = force_script_from_yaml(map, "forces");
   map.read("mass_scale", scenario.mass_scale, 0.01, 100.0);
   scenario.simulation = simulator_options_from_yaml(map.child("simulation"));
@@ -87,7 +89,7 @@ std::string to_yaml(const Scenario& scenario) {
   node["balancer"] = to_yaml(scenario.balancer);
   node["velocity"] = to_yaml(scenario.velocity);
   if (scenario.tether) node["tether"] = to_yaml(*scenario.tether);
-  if (scenario.guide) node["guide"] = to_yaml(*scenario.guide);
+  for (const Guide& guide : scenario.guides) node["guides"].push_back(to_yaml(guide));
   if (!scenario.forces.empty()) node["forces"] = to_yaml(scenario.forces);
   node["mass_scale"] = scenario.mass_scale;
   node["simulation"] = to_yaml(scenario.simulation);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/yaml.hpp"
 #include "models/terrain.hpp"
@@ -46,7 +47,7 @@ struct Scenario {
   WheelBalancerConfig balancer;
   VelocityScript velocity;
   std::optional<Tether> tether;
-  std::optional<Guide> guide;
+  std::vector<Guide> guides;
   ForceScript forces;
   double mass_scale = 1.0;  ///< on the mass and inertia of every body of the robot
   SimulatorOptions simulation;
