@@ -53,7 +53,8 @@ std::vector<float> torque(const Recording& recording, Servo servo) {
   return values;
 }
 
-/// Symmetric about zero, and wide enough for all but the rarest peaks (N·m).
+/// Symmetric about zero and wide enough for everyday torques; landings run into the edge, or else
+/// they would flatten everything (N·m).
 void fit_range(StripRow& row) {
   std::vector<float> sizes;
   for (const StripCurve& curve : row.curves) {
@@ -63,9 +64,9 @@ void fit_range(StripRow& row) {
   }
   float range = 1.0f;
   if (!sizes.empty()) {
-    const auto at = sizes.begin() + static_cast<std::ptrdiff_t>((sizes.size() - 1) * 998 / 1000);
+    const auto at = sizes.begin() + static_cast<std::ptrdiff_t>((sizes.size() - 1) * 95 / 100);
     std::nth_element(sizes.begin(), at, sizes.end());
-    range = std::max(0.5f, 1.1f * *at);
+    range = std::max(1.0f, 2.0f * *at);
   }
   row.low = -range;
   row.high = range;
