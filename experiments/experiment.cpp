@@ -210,6 +210,7 @@ Experiment experiment_from_yaml(const YamlDocument& document) {
   experiment.scoring = scoring_from_yaml(map.child("scoring"));
   experiment.intervals = intervals_from_yaml(map.child("intervals"));
   experiment.video = video_from_yaml(map.child("video"), experiment);
+  map.read("paper_tables", experiment.paper_tables);
   map.read("workers", experiment.workers, 0, 4096);
   map.finish();
   return experiment;
@@ -229,6 +230,7 @@ std::string to_yaml(const Experiment& experiment) {
   node["scoring"] = to_node(experiment.scoring);
   node["intervals"] = to_node(experiment.intervals);
   node["video"] = to_node(experiment.video);
+  node["paper_tables"] = experiment.paper_tables;
   YAML::Emitter emitter;
   emitter << node;
   return std::string(emitter.c_str()) + "\n";

@@ -71,7 +71,8 @@ struct Experiment {
   ScoringConfig scoring;
   IntervalConfig intervals;
   VideoConfig video;
-  int workers = 0;  ///< threads; 0: one per core. Never changes a result.
+  bool paper_tables = false;  ///< print the paper's Tables I to III for every highlighted cell
+  int workers = 0;            ///< threads; 0: one per core. Never changes a result.
 };
 
 /// Test runs are numbered from 0, fitted ones from here, so that the two never share a draw.

@@ -8,6 +8,7 @@
 #include "experiments/experiment.hpp"
 #include "experiments/fitting.hpp"
 #include "experiments/manifest.hpp"
+#include "experiments/metrics.hpp"
 #include "experiments/run_directory.hpp"
 #include "experiments/run_plan.hpp"
 #include "experiments/success_tables.hpp"
@@ -29,7 +30,9 @@ struct ExperimentResult {
   std::vector<PlayedRun> runs;
   FittedModels models;
   std::vector<NoiseCell> cells;
-  std::vector<CellSummary> summaries;
+  std::vector<CellSummary> summaries;   ///< of every noise cell
+  std::vector<ScoreSummary> scores;     ///< of the highlighted ones
+  std::vector<Difference> differences;  ///< likewise
   Provenance provenance;
 };
 

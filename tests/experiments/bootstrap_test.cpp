@@ -1,10 +1,11 @@
+#include "experiments/bootstrap.hpp"
+
 #include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
-#include "experiments/bootstrap.hpp"
 
 namespace touchdown {
 namespace {

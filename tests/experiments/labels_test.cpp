@@ -1,7 +1,8 @@
+#include "experiments/labels.hpp"
+
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "experiments/labels.hpp"
 
 namespace touchdown {
 namespace {

@@ -1,7 +1,8 @@
+#include "experiments/score.hpp"
+
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
-#include "experiments/score.hpp"
 
 namespace touchdown {
 namespace {

@@ -1,7 +1,7 @@
+#include "experiments/transitions.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "experiments/transitions.hpp"
 
 namespace touchdown {
 namespace {
