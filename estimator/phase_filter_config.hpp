@@ -33,7 +33,7 @@ struct PhaseFitConfig {
   double wheel_range = 1.8;
   double acceleration_range = 300.0;
   /// Added to every transition count.
-  double pseudo_count = 0.1;
+  double pseudo_count = 0.01;
   /// A density is made of at most so many samples, evenly thinned out (0: no limit).
   std::size_t largest_sample = 20'000;
 
