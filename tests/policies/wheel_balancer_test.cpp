@@ -1,0 +1,183 @@
+#include "policies/wheel_balancer.hpp"
+
+#include <cmath>
+#include <type_traits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double radius = 0.05;
+constexpr double period = 1e-3;
+
+// What a policy gets is an observation, and there is no ground truth in one.
+static_assert(std::is_same_v<decltype(&Policy::act), Action (Policy::*)(const Observation&)>);
+static_assert(std::is_same_v<decltype(&Policy::reset), void (Policy::*)(const Observation&)>);
+
+WheelBalancer balancer(VelocityScript script = {}, WheelBalancerConfig config = {}) {
+  return {config, std::move(script), radius, period};
+}
+
+/// Torque that each wheel servo would apply to a wheel at rest, along its forward direction.
+std::array<double, 2> forward_torques(const Action& action) {
+  const ServoCommand& left = action.servo[index(Servo::left_wheel)];
+  const ServoCommand& right = action.servo[index(Servo::right_wheel)];
+  return {left.feedforward_torque + left.kd_scale * left.velocity,
+          -(right.feedforward_torque + right.kd_scale * right.velocity)};
+}
+
+TEST(WheelBalancer, DoesNothingWhenUprightAndThere) {
+  WheelBalancer policy = balancer();
+  policy.reset({});
+  const auto [left, right] = forward_torques(policy.act({}));
+  EXPECT_EQ(left, 0.0);
+  EXPECT_EQ(right, 0.0);
+}
+
+TEST(WheelBalancer, RollsTowardsTheSideItFallsTo) {
+  for (const double pitch : {0.1, -0.1}) {
+    WheelBalancer policy = balancer();
+    policy.reset({});
+    Observation seen;
+    seen.pitch = pitch;
+    const auto [left, right] = forward_torques(policy.act(seen));
+    EXPECT_GT(left * pitch, 0.0);
+    EXPECT_NEAR(left, right, 1e-12);
+  }
+}
+
+TEST(WheelBalancer, RollsBackFirstWhenItIsToGoForward) {
+  // To lean forward, the wheels have to come back; so with a robot ahead of its place, they go on.
+  WheelBalancer policy = balancer();
+  policy.reset({});
+  Observation seen;
+  seen.servo[index(Servo::left_wheel)].position = -1.0;  // 5 cm behind
+  seen.servo[index(Servo::right_wheel)].position = 1.0;
+  EXPECT_LT(forward_torques(policy.act(seen))[0], 0.0);
+}
+
+TEST(WheelBalancer, TurnsRightWhenItPointsLeftAndBack) {
+  WheelBalancer policy = balancer();
+  policy.reset({});
+  Observation seen;
+  seen.yaw = 0.2;
+  const auto [left, right] = forward_torques(policy.act(seen));
+  EXPECT_GT(left, 0.0);
+  EXPECT_NEAR(left, -right, 1e-12);
+  seen.yaw = -0.2;
+  policy.reset({});
+  EXPECT_LT(forward_torques(policy.act(seen))[0], 0.0);
+}
+
+TEST(WheelBalancer, TurnsRightWhenItIsLeftOfTheCourse) {
+  WheelBalancer policy = balancer();
+  policy.reset({});
+  Observation seen;
+  seen.yaw = 0.3;
+  (void)policy.act(seen);
+  seen.servo[index(Servo::left_wheel)].position = 10.0;  // half a metre on, to the left
+  seen.servo[index(Servo::right_wheel)].position = -10.0;
+  (void)policy.act(seen);
+  seen.yaw = 0.0;
+  const auto [left, right] = forward_torques(policy.act(seen));
+  EXPECT_GT(left - right, 0.1);
+}
+
+TEST(WheelBalancer, StartsAskewAndComesRoundUnlessToldToKeepItsHeading) {
+  Observation askew;
+  askew.yaw = 0.4;
+  WheelBalancer comes_round = balancer();
+  comes_round.reset(askew);
+  EXPECT_GT(forward_torques(comes_round.act(askew))[0], 0.1);
+  WheelBalancer keeps = balancer({}, {.keep_heading = true});
+  keeps.reset(askew);
+  EXPECT_EQ(forward_torques(keeps.act(askew))[0], 0.0);
+}
+
+TEST(WheelBalancer, AHeadingBeyondHalfATurnIsNotASurprise) {
+  WheelBalancer policy = balancer({}, {.keep_heading = true});
+  Observation seen;
+  seen.yaw = 3.1;
+  policy.reset(seen);
+  seen.yaw = 3.2 - 2.0 * M_PI;  // turned left by 0.1, across the jump
+  const auto [left, right] = forward_torques(policy.act(seen));
+  EXPECT_NEAR(left, 0.1, 1e-9);
+  EXPECT_NEAR(right, -0.1, 1e-9);
+}
+
+TEST(WheelBalancer, HoldsThePostureOfTheReset) {
+  WheelBalancer policy = balancer();
+  Observation crouched;
+  crouched.servo[index(Servo::left_hip)].position = 0.4;
+  crouched.servo[index(Servo::left_knee)].position = -0.7;
+  policy.reset(crouched);
+  const Action action = policy.act({});
+  EXPECT_EQ(action.servo[index(Servo::left_hip)].position, 0.4);
+  EXPECT_EQ(action.servo[index(Servo::left_knee)].position, -0.7);
+  EXPECT_EQ(action.servo[index(Servo::right_knee)].position, 0.0);
+  EXPECT_TRUE(std::isnan(action.servo[index(Servo::left_wheel)].position));
+}
+
+/// What it commands over a second of a made-up rocking motion.
+std::vector<double> commands(WheelBalancer& policy) {
+  std::vector<double> trace;
+  policy.reset({});
+  for (int i = 0; i < 1000; ++i) {
+    Observation seen;
+    seen.time = i * period;
+    seen.pitch = 0.05 * std::sin(0.01 * i);
+    seen.yaw = 0.1 * std::sin(0.003 * i);
+    seen.servo[index(Servo::left_wheel)] = {0.01 * i, 10.0 + std::sin(0.1 * i), 0.3};
+    seen.servo[index(Servo::right_wheel)] = {-0.01 * i, -10.0, -0.2};
+    const Action action = policy.act(seen);
+    trace.push_back(action.servo[index(Servo::left_wheel)].velocity);
+    trace.push_back(action.servo[index(Servo::right_wheel)].feedforward_torque);
+  }
+  return trace;
+}
+
+TEST(WheelBalancer, IsAsNewAfterAReset) {
+  WheelBalancer policy = balancer({{0.2, 0.5, 0.3}});
+  const std::vector<double> first = commands(policy);
+  EXPECT_EQ(commands(policy), first);
+  EXPECT_NE(first.front(), first.back());
+}
+
+TEST(WheelBalancer, NeverAsksForMoreThanItsLimit) {
+  WheelBalancer policy = balancer({{0.0, 3.0, 0.0}});
+  policy.reset({});
+  for (int i = 0; i < 3000; ++i) {
+    Observation seen;
+    seen.time = i * period;
+    seen.pitch = 1.5;
+    (void)policy.act(seen);
+    ASSERT_LE(std::abs(policy.ground_velocity_command()), WheelBalancerConfig{}.max_velocity);
+  }
+  EXPECT_EQ(policy.ground_velocity_command(), WheelBalancerConfig{}.max_velocity);
+}
+
+TEST(WheelBalancer, ReadsItsGainsStrictly) {
+  const auto read = [](const std::string& text) {
+    return wheel_balancer_from_yaml(YamlMap(YamlDocument::parse(text, "gains.yaml")));
+  };
+  const WheelBalancerConfig config = read("{pitch_damping: 3, keep_heading: true}");
+  EXPECT_EQ(config.pitch_damping, 3.0);
+  EXPECT_TRUE(config.keep_heading);
+  EXPECT_EQ(config.pitch_stiffness, WheelBalancerConfig{}.pitch_stiffness);
+  EXPECT_EQ(YAML::Dump(to_yaml(read(YAML::Dump(to_yaml(config))))), YAML::Dump(to_yaml(config)));
+  try {
+    (void)read("pitch_stifness: 3");
+    FAIL() << "no complaint";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did you mean 'pitch_stiffness'?"));
+  }
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,101 @@
+#include "tests/scenarios/runs.hpp"
+
+namespace touchdown {
+namespace {
+
+Perturbation all_of_it() {
+  return {.x = 0.1,
+          .y = 0.2,
+          .yaw = 0.3,
+          .velocity = 0.15,
+          .crouch = 0.1,
+          .mass_scale = 0.1,
+          .friction = 0.3,
+          .servo_gain_scale = 0.2,
+          .force_scale = 0.5,
+          .drive = std::nullopt,
+          .lift = std::nullopt};
+}
+
+Scenario base() {
+  Scenario scenario = standing(20.0);
+  scenario.velocity = {{1.0, 0.5, 0.0}, {3.0, 0.0, 0.0}};
+  scenario.forces = {{.time = 1.0, .duration = 0.5, .force = {2.0, 0.0, 4.0}}};
+  scenario.perturbation = all_of_it();
+  return scenario;
+}
+
+TEST(Perturbed, IsAFunctionOfSeedAndRun) {
+  EXPECT_EQ(to_yaml(perturbed(base(), 5, 3)), to_yaml(perturbed(base(), 5, 3)));
+  EXPECT_NE(to_yaml(perturbed(base(), 5, 3)), to_yaml(perturbed(base(), 5, 4)));
+  EXPECT_NE(to_yaml(perturbed(base(), 5, 3)), to_yaml(perturbed(base(), 6, 3)));
+}
+
+TEST(Perturbed, StaysWithinTheHalfWidthsAndReachesThem) {
+  double lowest = 1e9;
+  double highest = -1e9;
+  for (int run = 0; run < 400; ++run) {
+    const Scenario varied = perturbed(base(), 1, run);
+    EXPECT_LE(std::abs(varied.start.x), 0.1);
+    EXPECT_LE(std::abs(varied.start.y), 0.2);
+    EXPECT_LE(std::abs(varied.start.yaw), 0.3);
+    EXPECT_LE(std::abs(varied.velocity[0].velocity - 0.5), 0.15);
+    EXPECT_EQ(varied.velocity[1].velocity, 0.0);  // standing stays standing
+    EXPECT_LE(std::abs(varied.start.hip - 0.455), 0.1);
+    EXPECT_NEAR(varied.start.knee / varied.start.hip, 0.791 / 0.455, 1e-12);
+    EXPECT_LE(std::abs(varied.mass_scale - 1.0), 0.1);
+    EXPECT_LE(std::abs(varied.terrain.friction - 1.0), 0.3);
+    EXPECT_LE(std::abs(varied.balancer.leg_kp_scale - 2.0), 0.4);
+    EXPECT_NEAR(varied.balancer.leg_kd_scale, varied.balancer.leg_kp_scale, 1e-12);
+    EXPECT_LE(std::abs(varied.forces[0].force.x() - 2.0), 1.0);
+    EXPECT_NEAR(varied.forces[0].force.z(), 2.0 * varied.forces[0].force.x(), 1e-12);
+    lowest = std::min(lowest, varied.start.x);
+    highest = std::max(highest, varied.start.x);
+  }
+  EXPECT_LT(lowest, -0.095);
+  EXPECT_GT(highest, 0.095);
+}
+
+TEST(Perturbed, OneQuantityMoreChangesNoOther) {
+  Scenario less = base();
+  less.perturbation = {};
+  less.perturbation.yaw = 0.3;
+  Scenario more = base();
+  more.perturbation.drive = RandomDrive{};
+  more.perturbation.lift = RandomLifts{};
+  for (int run = 0; run < 5; ++run) {
+    const Scenario alone = perturbed(less, 9, run);
+    const Scenario some = perturbed(base(), 9, run);
+    const Scenario all = perturbed(more, 9, run);
+    EXPECT_EQ(alone.start.yaw, some.start.yaw);
+    EXPECT_EQ(alone.start.x, 0.0);
+    EXPECT_EQ(some.start.yaw, all.start.yaw);
+    EXPECT_EQ(some.mass_scale, all.mass_scale);
+    EXPECT_EQ(some.forces[0].force, all.forces[0].force);
+  }
+}
+
+TEST(Perturbed, NothingAllowedIsNothingChanged) {
+  Scenario still = base();
+  still.perturbation = {};
+  EXPECT_EQ(to_yaml(perturbed(still, 4, 2)), to_yaml(still));
+}
+
+TEST(Perturbed, WhatWasDrawnIsNotDrawnAgain) {
+  const Scenario once = perturbed(base(), 4, 2);
+  EXPECT_EQ(to_yaml(perturbed(once, 8, 8)), to_yaml(once));
+}
+
+TEST(Perturbed, QuantitiesAreIndependent) {
+  // The correlation of two streams over many runs is that of chance.
+  double product = 0.0;
+  const int runs = 4000;
+  for (int run = 0; run < runs; ++run) {
+    const Scenario varied = perturbed(base(), 1, run);
+    product += (varied.start.x / 0.1) * (varied.start.yaw / 0.3);
+  }
+  EXPECT_LT(std::abs(product / runs) * 3.0, 4.0 / std::sqrt(runs));
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,96 @@
+#include "scenarios/random_scripts.hpp"
+
+#include "tests/scenarios/runs.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::HasSubstr;
+
+const RandomDrive drive = {
+    .velocity = 0.6, .yaw_rate = 0.8, .standing = 0.25, .hold = {0.5, 2.0}, .start = 1.0};
+
+TEST(RandomDrive, HoldsEachCommandWithinItsRange) {
+  int commands = 0;
+  int standing = 0;
+  for (int run = 0; run < 50; ++run) {
+    const VelocityScript script = random_drive(drive, 60.0, 3, run);
+    ASSERT_FALSE(script.empty());
+    EXPECT_EQ(script.front().time, 1.0);
+    for (std::size_t i = 0; i < script.size(); ++i) {
+      EXPECT_LE(std::abs(script[i].velocity), 0.6);
+      EXPECT_LE(std::abs(script[i].yaw_rate), 0.8);
+      EXPECT_LT(script[i].time, 60.0);
+      if (i > 0) {
+        EXPECT_GE(script[i].time - script[i - 1].time, 0.5);
+        EXPECT_LE(script[i].time - script[i - 1].time, 2.0);
+      }
+      ++commands;
+      standing += script[i].velocity == 0.0 && script[i].yaw_rate == 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(script.back().time, 58.0);
+  }
+  EXPECT_NEAR(static_cast<double>(standing) / commands, 0.25, 0.04);
+}
+
+TEST(RandomDrive, IsAFunctionOfSeedAndRunAndALongerOneBeginsTheSame) {
+  const VelocityScript one = random_drive(drive, 20.0, 3, 1);
+  const VelocityScript longer = random_drive(drive, 40.0, 3, 1);
+  const VelocityScript other = random_drive(drive, 20.0, 3, 2);
+  ASSERT_GT(longer.size(), one.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].time, longer[i].time);
+    EXPECT_EQ(one[i].velocity, longer[i].velocity);
+  }
+  EXPECT_NE(one[0].velocity, other[0].velocity);
+}
+
+TEST(RandomLifts, LiftAndPauseWithinTheirRanges) {
+  const RandomLifts lifts;
+  const ForceScript script = random_lifts(lifts, 60.0, 3, 1);
+  ASSERT_GT(script.size(), 20U);
+  for (std::size_t i = 0; i < script.size(); ++i) {
+    EXPECT_EQ(script[i].force.head<2>(), Eigen::Vector2d::Zero());
+    EXPECT_GE(script[i].force.z(), lifts.force.low);
+    EXPECT_LE(script[i].force.z(), lifts.force.high);
+    EXPECT_GE(script[i].duration, lifts.hold.low);
+    EXPECT_LE(script[i].duration, lifts.hold.high);
+    if (i == 0) continue;
+    const double pause = script[i].time - script[i - 1].time - script[i - 1].duration;
+    EXPECT_GE(pause, lifts.pause.low - 1e-12);
+    EXPECT_LE(pause, lifts.pause.high + 1e-12);
+  }
+}
+
+TEST(RandomScripts, ReplaceTheSticksAndAddToTheForces) {
+  Scenario scenario = standing(10.0);
+  scenario.velocity = {{1.0, 0.5, 0.0}};
+  scenario.forces = {{.time = 0.5, .duration = 0.1, .force = {1.0, 0.0, 0.0}}};
+  scenario.perturbation.drive = drive;
+  scenario.perturbation.lift = RandomLifts{};
+  const Scenario varied = perturbed(scenario, 3, 1);
+  EXPECT_GT(varied.velocity.size(), 3U);
+  EXPECT_GT(varied.forces.size(), 3U);
+  EXPECT_EQ(varied.forces.front().force.x(), 1.0);
+}
+
+std::string complaint(const std::string& perturbation) {
+  try {
+    (void)perturbation_from_yaml(YamlMap(YamlDocument::parse(perturbation, "p.yaml")));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(RandomScripts, ComplainOnTheLine) {
+  EXPECT_THAT(complaint("drive:\n  hold: [2, 1]\n"),
+              AllOf(HasSubstr("p.yaml:2:"), HasSubstr("[low, high]")));
+  EXPECT_THAT(complaint("drive:\n  hold: [0, 1]\n"), HasSubstr("[low, high]"));
+  EXPECT_THAT(complaint("lift:\n  force: 3\n"), HasSubstr("p.yaml:2:"));
+  EXPECT_THAT(complaint("lift:\n  forse: [1, 2]\n"), HasSubstr("did you mean 'force'"));
+  EXPECT_THAT(complaint("drive:\n  standing: 1.5\n"), HasSubstr("standing: expected"));
+}
+
+}  // namespace
+}  // namespace touchdown

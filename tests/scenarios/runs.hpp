@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "scenarios/engine.hpp"
+
+namespace touchdown {
+
+inline Scenario scenario_called(const std::string& name) {
+  Scenario scenario = load_scenario(TOUCHDOWN_SOURCE_DIR "/scenarios/" + name + ".yaml");
+  scenario.robot = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
+  return scenario;
+}
+
+/// The smallest scenario: Upkie standing on the floor.
+inline Scenario standing(double seconds) {
+  Scenario scenario;
+  scenario.name = "standing";
+  scenario.robot = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
+  scenario.end.duration = seconds;
+  return scenario;
+}
+
+inline bool in_contact(const GroundTruth& truth, std::size_t wheel) {
+  return truth.wheel_normal_force[wheel] > 1.0;
+}
+
+/// How long each phase without contact of both wheels lasted, from `shortest` on (s).
+inline std::vector<double> flights(const Recording& recording, double shortest) {
+  std::vector<double> durations;
+  std::size_t steps = 0;
+  for (std::size_t k = 1; k < recording.steps(); ++k) {  // nothing has acted yet at step 0
+    const GroundTruth& truth = recording.truth[k];
+    if (!in_contact(truth, 0) && !in_contact(truth, 1)) {
+      ++steps;
+    } else {
+      const double duration = static_cast<double>(steps) * recording.period();
+      if (duration >= shortest) durations.push_back(duration);
+      steps = 0;
+    }
+  }
+  return durations;
+}
+
+inline std::string engine_name(const ::testing::TestParamInfo<std::string>& engine) {
+  return engine.param;
+}
+
+class InEveryEngine : public ::testing::TestWithParam<std::string> {};
+
+}  // namespace touchdown

@@ -1,0 +1,53 @@
+#include "scenarios/start_pose.hpp"
+
+#include "tests/scenarios/runs.hpp"
+
+namespace touchdown {
+namespace {
+
+/// Where MuJoCo puts the tyres and the centre of mass in `state`.
+struct Pose {
+  Eigen::Vector3d left, right, centre_of_mass;
+};
+
+Pose pose(const RobotModel& model, const RobotState& state) {
+  const MjDataPtr data(mj_makeData(model.mj.get()));
+  for (int i = 0; i < 3; ++i) data->qpos[i] = state.position[i];
+  data->qpos[3] = state.orientation.w();
+  data->qpos[4] = state.orientation.x();
+  data->qpos[5] = state.orientation.y();
+  data->qpos[6] = state.orientation.z();
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    data->qpos[model.qpos_address[i]] = state.joint_position[i];
+  }
+  mj_forward(model.mj.get(), data.get());
+  const auto at = [](const mjtNum* x, int row) {
+    return Eigen::Vector3d(x[3 * row], x[3 * row + 1], x[3 * row + 2]);
+  };
+  return {at(data->geom_xpos, model.tyre_geom[0]), at(data->geom_xpos, model.tyre_geom[1]),
+          at(data->subtree_com, model.base_body)};
+}
+
+TEST(StartPose, StandsOnItsWheelsWithTheCentreOfMassAboveThem) {
+  const Terrain stairs = {.pieces = {Flat{3.0}, StairFlight{}}};
+  const RobotModel model = compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml", stairs);
+  for (const double hip : {0.0, 0.3, 0.6}) {
+    for (const double yaw : {0.0, -0.7, 2.0}) {
+      const Start start = {
+          .x = 0.2, .y = -0.3, .yaw = yaw, .hip = hip, .knee = 1.7 * hip, .clearance = 0.01};
+      const Pose at = pose(model, start_pose(model, stairs, start));
+      const Eigen::Vector3d axle = 0.5 * (at.left + at.right);
+      EXPECT_NEAR(axle.x(), 0.2, 1e-9);
+      EXPECT_NEAR(axle.y(), -0.3, 1e-9);
+      EXPECT_NEAR(at.left.z(), 7 * 0.25 + 0.05 + 0.01, 1e-9);
+      EXPECT_NEAR(at.right.z(), at.left.z(), 1e-9);
+      // The axle points left of the heading.
+      EXPECT_NEAR(std::atan2(-(at.left - at.right).x(), (at.left - at.right).y()), yaw, 1e-9);
+      EXPECT_NEAR(at.centre_of_mass.x(), axle.x(), 1e-3);
+      EXPECT_NEAR(at.centre_of_mass.y(), axle.y(), 1e-3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchdown
