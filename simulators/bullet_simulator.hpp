@@ -19,6 +19,9 @@ class BulletSimulator : public Simulator {
   std::string_view name() const override { return "bullet"; }
 
  protected:
+  /// The engine's own world; a reset makes another.
+  BulletWorld& bullet() { return *world_; }
+
   void place(const RobotState& start) override;
   void advance(const JointTorques& torques, std::span<const ExternalWrench> wrenches) override;
   void read(RobotState& state) const override;
