@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
   add_run(program, session);
   add_simulate(program, session);
   add_render(program, session);
+  add_train(program, session);
   add_list(program, session);
 
   if (argc < 2) {

@@ -19,6 +19,7 @@ struct Session {
 void add_run(CLI::App& program, Session& session);
 void add_simulate(CLI::App& program, Session& session);
 void add_render(CLI::App& program, Session& session);
+void add_train(CLI::App& program, Session& session);
 void add_list(CLI::App& program, Session& session);
 
 }  // namespace touchdown

@@ -8,10 +8,12 @@
 #include "core/error.hpp"
 #include "core/yaml.hpp"
 #include "estimator/measurement_only.hpp"
+#include "estimator/neural_estimator.hpp"
 #include "estimator/phase_filter.hpp"
 #include "estimator/wheel_contact_observer.hpp"
 #include "experiments/always_contact.hpp"
 #include "experiments/fitting.hpp"
+#include "experiments/neural_network_file.hpp"
 
 namespace touchdown {
 
@@ -41,6 +43,15 @@ std::unique_ptr<ContactEstimator> make_phase_filter(const EstimatorEntry& entry,
   return std::make_unique<PhaseFilter>(model->phase->model, config);
 }
 
+std::unique_ptr<ContactEstimator> make_neural_estimator(const EstimatorEntry& /*entry*/,
+                                                        const FittedModel* /*model*/,
+                                                        double sample_rate) {
+  NeuralEstimatorConfig config;
+  config.sample_rate = sample_rate;
+  return std::make_unique<NeuralEstimator>(
+      std::make_shared<const NeuralNetwork>(shipped_neural_network()), config);
+}
+
 std::unique_ptr<ContactEstimator> make_upkie_observer(const EstimatorEntry& /*entry*/,
                                                       const FittedModel* /*model*/,
                                                       double sample_rate) {
@@ -58,7 +69,7 @@ std::unique_ptr<ContactEstimator> make_always_contact(const EstimatorEntry& /*en
 }  // namespace
 
 std::span<const EstimatorEntry> estimator_entries() {
-  static const std::array<EstimatorEntry, 7> entries = {{
+  static const std::array<EstimatorEntry, 8> entries = {{
       {"robust", "Bayes filter (robust)", BayesFilterConfig::robust(), std::nullopt,
        make_bayes_filter},
       {"reference", "Bayes filter (reference)", BayesFilterConfig::reference(), std::nullopt,
@@ -68,6 +79,7 @@ std::span<const EstimatorEntry> estimator_entries() {
       {"measurement_only", "Measurement only", BayesFilterConfig::robust(), std::nullopt,
        make_measurement_only},
       {"phase", "Phase filter", std::nullopt, PhaseFilterConfig{}, make_phase_filter},
+      {"nmn", "NMN", std::nullopt, std::nullopt, make_neural_estimator},
       {"upkie_observer", "Upkie's observer", std::nullopt, std::nullopt, make_upkie_observer},
       {std::string(always_contact_name), "Always contact", std::nullopt, std::nullopt,
        make_always_contact},

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "experiments/resources.hpp"
 #include "recordings/npz.hpp"
 
 namespace touchdown {
@@ -84,6 +85,20 @@ NeuralNetwork read_neural_network(const std::filesystem::path& path) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }
   return network;
+}
+
+NeuralNetwork shipped_neural_network() {
+  constexpr const char* file = "models/nmn.npz";
+  std::filesystem::path path;
+  try {
+    path = find_resource(file);
+  } catch (const InputError&) {
+    throw InputError(fmt::format(
+        "nmn: {} is missing; 'touchdown train experiments/nmn.yaml -o {}' makes it in less than "
+        "20 minutes (training needs the packages libtorch-dev and libopenblas0-openmp)",
+        file, file));
+  }
+  return read_neural_network(path);
 }
 
 }  // namespace touchdown

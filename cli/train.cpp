@@ -1,0 +1,44 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+
+namespace touchdown {
+
+namespace {
+
+/// Becomes the program that trains: libtorch is slow to load and brings another OpenGL with it, so
+/// it stays out of this one.
+[[noreturn]] void become_trainer(const std::vector<std::string>& given) {
+  std::error_code ignored;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  std::string program = (self.parent_path() / "touchdown-train").string();
+  std::vector<std::string> words = given;
+  std::vector<char*> arguments = {program.data()};
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  ::execv(program.c_str(), arguments.data());
+  throw Error("train: " + program +
+              " is missing: install the packages libtorch-dev and libopenblas0-openmp, then "
+              "configure and build again");
+}
+
+}  // namespace
+
+void add_train(CLI::App& program, Session& session) {
+  CLI::App* verb = program.add_subcommand(
+      "train",
+      "touchdown train experiments/nmn.yaml\n\n"
+      "Trains the neural measurement network on simulated data (needs libtorch).");
+  verb->set_help_flag();  // the trainer has its own
+  verb->prefix_command();
+  verb->callback([verb, &session] {
+    session.action = [arguments = verb->remaining()] { become_trainer(arguments); };
+  });
+}
+
+}  // namespace touchdown
