@@ -18,32 +18,34 @@ namespace touchdown {
 
 namespace {
 
-/// Runs per environment before giving up; also how far apart the environments' runs are numbered.
-constexpr std::int64_t most_runs = 1000;
+/// Tries per run before giving up; also how far apart the runs' draws are numbered.
+constexpr std::int64_t most_tries = 1000;
 
 std::size_t size(int n) { return static_cast<std::size_t>(n); }
 
-/// Writes rows of one environment's column.
-class Column {
- public:
-  Column(EpisodeBatch& batch, int environment) : batch_(batch), environment_(size(environment)) {}
+/// The episodes that one run fills: consecutive environments, as one long row of steps.
+struct Stretch {
+  EpisodeBatch& batch;
+  int first_environment;
+  int environments;
 
-  void begin_run(int step) { batch_.keep[at(step / batch_.sequence)] = 0.0F; }
+  int steps() const { return batch.steps * environments; }
+
+  void begin_run(int step) { batch.keep[at(step % batch.steps / batch.sequence, step)] = 0.0F; }
 
   void write(int step, const NeuralInput& input, bool contact, const Eigen::Vector3d& velocity) {
-    const std::size_t row = at(step);
-    std::copy(input.begin(), input.end(), &batch_.input[row * neural_input_count]);
-    batch_.contact[row] = contact ? 1.0F : 0.0F;
+    const std::size_t row = at(step % batch.steps, step);
+    std::copy(input.begin(), input.end(), &batch.input[row * neural_input_count]);
+    batch.contact[row] = contact ? 1.0F : 0.0F;
     for (int i = 0; i < 3; ++i) {
-      batch_.velocity[row * 3 + size(i)] = static_cast<float>(velocity[i]);
+      batch.velocity[row * 3 + size(i)] = static_cast<float>(velocity[i]);
     }
   }
 
  private:
-  std::size_t at(int row) const { return size(row) * size(batch_.environments) + environment_; }
-
-  EpisodeBatch& batch_;
-  std::size_t environment_;
+  std::size_t at(int row, int step) const {
+    return size(row) * size(batch.environments) + size(first_environment + step / batch.steps);
+  }
 };
 
 ContactSequence robot_contact(const Recording& recording, const RolloutConfig& config) {
@@ -51,51 +53,61 @@ ContactSequence robot_contact(const Recording& recording, const RolloutConfig& c
   return config.contact == RobotContact::any_wheel ? any_wheel(wheels) : both_wheels(wheels);
 }
 
-/// Writes a run's rows from `first` on into the column from `step` on, whole sequences only.
+/// Writes a recording's rows from `first` on into the stretch from `step` on, whole sequences only.
 /// Returns the step behind the last one.
-int write_run(const Recording& recording, int first, const RolloutConfig& config, int step,
-              Column& column) {
-  const int rows = std::min(static_cast<int>(recording.steps()) - first, config.steps - step);
+int write_rows(const Recording& recording, int first, const RolloutConfig& config, int step,
+               Stretch& stretch) {
+  const int rows = std::min(static_cast<int>(recording.steps()) - first, stretch.steps() - step);
   const int whole = rows / config.sequence * config.sequence;
   if (whole <= 0) return step;
   const ContactSequence contact = robot_contact(recording, config);
   const NoiseKey key{.seed = recording.info.seed,
                      .run = static_cast<std::uint64_t>(recording.info.run)};
-  column.begin_run(step);
+  stretch.begin_run(step);
   for (int i = 0; i < whole; ++i) {
     const std::size_t k = size(first + i);
     const double command = k > 0 ? ground_velocity_command(recording.action[k - 1]) : 0.0;
     const Observation heard = with_noise(recording.observation[k], key, k, config.noise);
     const GroundTruth& truth = recording.truth[k];
-    column.write(step + i, neural_input(signals_from(heard, command)), contact[k] != 0,
-                 truth.base_orientation.conjugate() * truth.imu_linear_velocity);
+    stretch.write(step + i, neural_input(signals_from(heard, command)), contact[k] != 0,
+                  truth.base_orientation.conjugate() * truth.imu_linear_velocity);
   }
   return step + whole;
 }
 
-void roll_out_environment(const RolloutConfig& config, Scenario scenario, std::uint64_t seed,
-                          std::int64_t number, Column column) {
+void roll_out_run(const RolloutConfig& config, const Scenario& scenario, std::uint64_t seed,
+                  std::int64_t number, Stretch stretch) {
   const double period = 1e-6 * static_cast<double>(config.control_step_us);
   const int skip = static_cast<int>(std::lround(config.skip / period));
   int step = 0;
-  for (std::int64_t attempt = 0; step < config.steps; ++attempt) {
-    if (attempt == most_runs) {
-      throw InputError(fmt::format("{}: in {} runs the robot did not stay up for {} steps",
-                                   config.scenario, most_runs, config.steps));
+  for (std::int64_t attempt = 0; step < stretch.steps(); ++attempt) {
+    if (attempt == most_tries) {
+      throw InputError(fmt::format("{}: the robot fell {} times within {:.0f} s", config.scenario,
+                                   most_tries, period * stretch.steps()));
     }
-    scenario.end.duration = (skip + config.steps - step) * period;
-    const std::int64_t run = number * most_runs + attempt;
-    const Recording recording = play(perturbed(scenario, seed, run), config.simulator, seed, run);
+    const std::int64_t run = number * most_tries + attempt;
+    Scenario drawn = perturbed(scenario, seed, run);
+    drawn.end.duration = (skip + stretch.steps() - step) * period;
+    const Recording recording = play(drawn, config.simulator, seed, run);
     if (recording.info.outcome == Outcome::diverged) continue;
-    step = write_run(recording, skip, config, step, column);
+    step = write_rows(recording, skip, config, step, stretch);
   }
 }
 
 }  // namespace
 
+int episodes_per_run(const RolloutConfig& config, const Scenario& scenario) {
+  const double episode = 1e-6 * static_cast<double>(config.control_step_us) * config.steps;
+  return std::max(1, static_cast<int>((scenario.end.duration - config.skip) / episode + 1e-6));
+}
+
+int runs_for(const RolloutConfig& config, const Scenario& scenario, int environments) {
+  const int each = episodes_per_run(config, scenario);
+  return (environments + each - 1) / each;
+}
+
 EpisodeBatch roll_out(const RolloutConfig& config, const Scenario& scenario, std::uint64_t seed,
-                      std::int64_t first_environment, int environments,
-                      const RolloutProgress& progress) {
+                      std::int64_t first_run, int environments, const RolloutProgress& progress) {
   EpisodeBatch batch;
   batch.steps = config.steps;
   batch.environments = environments;
@@ -105,9 +117,10 @@ EpisodeBatch roll_out(const RolloutConfig& config, const Scenario& scenario, std
   batch.contact.resize(rows);
   batch.velocity.resize(rows * 3);
   batch.keep.assign(rows / size(config.sequence), 1.0F);
-  tbb::parallel_for(0, environments, [&](int environment) {
-    roll_out_environment(config, scenario, seed, first_environment + environment,
-                         Column(batch, environment));
+  const int each = episodes_per_run(config, scenario);
+  tbb::parallel_for(0, runs_for(config, scenario, environments), [&](int run) {
+    roll_out_run(config, scenario, seed, first_run + run,
+                 {batch, run * each, std::min(each, environments - run * each)});
     if (!progress()) throw Stopped();
   });
   return batch;

@@ -26,20 +26,25 @@ struct EpisodeBatch {
   double seconds(double period) const { return period * steps * environments; }
 };
 
-/// Called after each episode; returning false ends the rollout with `Stopped`.
+/// Called after each run; returning false ends the rollout with `Stopped`.
 using RolloutProgress = std::function<bool()>;
 
-/// Plays the scenario, perturbed anew for every run, in `environments` parallel environments. An
-/// environment whose robot falls before its episode is over goes on with another run, from the next
-/// sequence on. Environments are numbered from `first_environment`; what happens in one depends on
-/// (seed, its number) and nothing else, so that neither threads nor other environments matter.
+/// Plays the scenario, perturbed anew for every run, and cuts what happened into episodes: each run
+/// gives `episodes_per_run` environments an episode, one after the other. If the robot falls, the
+/// rest comes from another run, from the next sequence on. What happens in run n depends on (seed,
+/// n) and nothing else, so that neither threads nor other runs matter.
 /// Errors: `InputError` for a scenario in which the robot falls over and over again; `Stopped`.
 EpisodeBatch roll_out(const RolloutConfig& config, const Scenario& scenario, std::uint64_t seed,
-                      std::int64_t first_environment, int environments,
-                      const RolloutProgress& progress);
+                      std::int64_t first_run, int environments, const RolloutProgress& progress);
 
-/// Environments of the validation set are numbered from here.
-inline constexpr std::int64_t first_validation_environment = std::int64_t{1} << 40;
+/// As many episodes as fit into the scenario's duration, at least one.
+int episodes_per_run(const RolloutConfig& config, const Scenario& scenario);
+
+/// Runs that `environments` episodes come from.
+int runs_for(const RolloutConfig& config, const Scenario& scenario, int environments);
+
+/// Runs of the validation set are numbered from here.
+inline constexpr std::int64_t first_validation_run = std::int64_t{1} << 40;
 
 /// The scenario that a rollout plays: found, read, and set to the rollout's control step.
 Scenario rollout_scenario(const RolloutConfig& config);

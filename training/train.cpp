@@ -47,8 +47,8 @@ class Session {
 
   TrainingResult run() {
     if (!done()) {
-      validation_ = episodes("validation", first_validation_environment,
-                             config_.optimiser.validation_episodes);
+      validation_ =
+          episodes("validation", first_validation_run, config_.optimiser.validation_episodes);
       resume();
       while (!done()) iterate();
     }
@@ -65,7 +65,7 @@ class Session {
 
   EpisodeBatch episodes(const std::string& what, std::int64_t first, int count) {
     const auto start = Clock::now();
-    Progress progress(what, "episodes", count);
+    Progress progress(what, "runs", runs_for(config_.rollout, scenario_, count));
     EpisodeBatch batch = roll_out(config_.rollout, scenario_, config_.seed, first, count, [&] {
       progress.advance();
       return !stop_asked();
@@ -76,8 +76,9 @@ class Session {
   }
 
   EpisodeBatch training_episodes(int iteration) {
-    const std::int64_t count = config_.rollout.environments;
-    return episodes("rolling out", (iteration - 1) * count, static_cast<int>(count));
+    const int count = config_.rollout.environments;
+    const std::int64_t runs = runs_for(config_.rollout, scenario_, count);
+    return episodes("rolling out", (iteration - 1) * runs, count);
   }
 
   fs::path checkpoint(std::size_t iteration) const {

@@ -15,7 +15,7 @@ enum class RobotContact : int {
   both_wheels  ///< it stands on both wheels
 };
 
-/// How labelled data comes about: parallel environments that each roll out one episode at a time.
+/// How labelled data comes about: episodes of parallel environments, cut from runs of a scenario.
 struct RolloutConfig {
   std::string scenario = "scenarios/lift.yaml";
   std::string simulator = "bullet";
@@ -23,7 +23,7 @@ struct RolloutConfig {
   int environments = 400;               ///< episodes per iteration
   int steps = 400;                      ///< of an episode; a multiple of `sequence`
   int sequence = 10;                    ///< steps that gradients are carried back through
-  double skip = 0.0;                    ///< of every run, before the episode begins (s)
+  double skip = 0.0;                    ///< of every run, before its first episode begins (s)
   RobotContact contact = RobotContact::any_wheel;
   LabelConfig labels;
   NoiseLevels noise;  ///< of the sensors; the paper trains without
