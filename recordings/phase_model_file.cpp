@@ -21,7 +21,7 @@ NpyArray table(const std::vector<float>& values, std::size_t columns) {
 
 NpyArray text(const ModelProvenance& provenance) {
   std::string lines;
-  for (const auto& [key, value] : provenance) lines += key + ": " + value + "\n";
+  for (const auto& [key, value] : provenance) lines += fmt::format("{}: {}\n", key, value);
   NpyArray array{{lines.size()}, {}};
   for (const char c : lines) array.data.push_back(static_cast<unsigned char>(c));
   return array;
