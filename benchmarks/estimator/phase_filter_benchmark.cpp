@@ -26,8 +26,8 @@ const PhaseModel& phase_model() {
 }
 
 /// One `update` for both legs: lookups, online noise estimate, recursion. Compare with
-/// `Yardstick_Fft128` of the same run.
-void Update_phase(benchmark::State& state) {
+/// `yardstick_fft_128` of the same run.
+void update_phase(benchmark::State& state) {
   PhaseFilter filter(phase_model());
   std::vector<Signals> stream = bench::signals(stream_length);
   std::size_t i = 0;
@@ -39,10 +39,10 @@ void Update_phase(benchmark::State& state) {
     i = (i + 1) % stream_length;
   }
 }
-BENCHMARK(Update_phase);
+BENCHMARK(update_phase)->Name("update/phase");
 
 /// The time of every single update, clock included, as percentiles (ns).
-void Latency_phase(benchmark::State& state) {
+void latency_phase(benchmark::State& state) {
   using Clock = std::chrono::steady_clock;
   PhaseFilter filter(phase_model());
   std::vector<Signals> stream = bench::signals(stream_length);
@@ -66,7 +66,7 @@ void Latency_phase(benchmark::State& state) {
   state.counters["p99.9_ns"] = percentile(0.999);
   state.counters["max_ns"] = nanoseconds.back();
 }
-BENCHMARK(Latency_phase)->Iterations(250);
+BENCHMARK(latency_phase)->Name("latency/phase")->Iterations(250);
 
 }  // namespace
 }  // namespace touchdown

@@ -12,7 +12,9 @@
 #include "estimator/bayes_filter.hpp"
 #include "estimator/bayes_filter_lanes.hpp"
 #include "estimator/measurement_only.hpp"
+#include "estimator/phase_filter.hpp"
 #include "estimator/wheel_contact_observer.hpp"
+#include "phase_synthetic.hpp"
 #include "synthetic.hpp"
 
 namespace {
@@ -131,6 +133,22 @@ TEST_F(RealTime, LanesAllocateNothing) {
               0)
         << name;
   }
+}
+
+TEST_F(RealTime, ThePhaseFilterAllocatesNothing) {
+  PhaseFilter filter(test::small_phase_model());
+  std::vector<Signals> stream = test::phase_run(2, 3, 20, 0.5).signals;
+  stream[100].vertical_acceleration = std::nan("");
+  stream[200].leg[0].knee.torque = HUGE_VAL;
+  stream[300].time = -5.0;
+  stream[400].time = 1e9;
+  EXPECT_EQ(allocations_of([&] {
+              for (const Signals& s : stream) {
+                filter.update(s);
+              }
+              filter.reset();
+            }),
+            0);
 }
 
 static_assert(noexcept(std::declval<ContactEstimator&>().update(std::declval<Signals>())));

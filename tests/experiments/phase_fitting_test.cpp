@@ -1,9 +1,10 @@
+#include "experiments/phase_fitting.hpp"
+
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "experiments/phase_fitting.hpp"
 #include "experiments/reserved_seeds.hpp"
 
 namespace touchdown {
