@@ -18,8 +18,9 @@ namespace touchdown {
 
 namespace {
 
-/// Tries per run before giving up; also how far apart the runs' draws are numbered.
-constexpr std::int64_t most_tries = 1000;
+/// Tries per run before giving up, and how far apart the runs' draws are numbered.
+constexpr std::int64_t most_tries = 100;
+constexpr std::int64_t draws_per_run = 1000;
 
 std::size_t size(int n) { return static_cast<std::size_t>(n); }
 
@@ -85,7 +86,7 @@ void roll_out_run(const RolloutConfig& config, const Scenario& scenario, std::ui
       throw InputError(fmt::format("{}: the robot fell {} times within {:.0f} s", config.scenario,
                                    most_tries, period * stretch.steps()));
     }
-    const std::int64_t run = number * most_tries + attempt;
+    const std::int64_t run = number * draws_per_run + attempt;
     Scenario drawn = perturbed(scenario, seed, run);
     drawn.end.duration = (skip + stretch.steps() - step) * period;
     const Recording recording = play(drawn, config.simulator, seed, run);

@@ -153,6 +153,13 @@ struct Trainer::Impl {
     }
   }
 
+  std::vector<std::vector<std::int64_t>> shapes() const {
+    std::vector<std::vector<std::int64_t>> all;
+    for (const Tensor& parameter : networks[0]->parameters())
+      all.push_back(parameter.sizes().vec());
+    return all;
+  }
+
   Loss mean(const LossSum& sum) const {
     const double contact = sum.contact / sum.steps;
     const double velocity = sum.velocity / sum.steps;
@@ -242,7 +249,9 @@ void Trainer::load(const std::filesystem::path& path) {
     torch::serialize::InputArchive adam;
     archive.read("network", network);
     archive.read("adam", adam);
-    impl_->networks[0]->load(network);
+    const auto shapes = impl_->shapes();
+    impl_->networks[0]->load(network);  // takes any shape
+    if (impl_->shapes() != shapes) throw InputError("another network's");
     impl_->adam.load(adam);
   } catch (const std::exception&) {
     // libtorch's messages are pages long.

@@ -1,0 +1,84 @@
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "estimator/neural_estimator.hpp"
+#include "estimator/neural_lanes.hpp"
+#include "signals_for_benchmarks.hpp"
+
+namespace touchdown {
+namespace {
+
+constexpr std::size_t stream_length = 4096;
+
+/// The paper's sizes; small weights that are no denormals.
+std::shared_ptr<const NeuralNetwork> network() {
+  std::uint32_t state = 1;
+  const auto fill = [&](auto& matrix, Eigen::Index rows, Eigen::Index columns) {
+    matrix.resize(rows, columns);
+    for (float& x : matrix.reshaped()) {
+      state = state * 1664525U + 1013904223U;
+      x = static_cast<float>(state >> 8U) / 1.6777216e8F - 0.05F;
+    }
+  };
+  NeuralNetwork n;
+  const auto layer = [&](DenseLayer& dense, Eigen::Index outputs, Eigen::Index inputs) {
+    fill(dense.weight, outputs, inputs);
+    fill(dense.bias, outputs, 1);
+  };
+  n.input_mean = Eigen::VectorXf::Zero(neural_input_count);
+  n.input_scale = Eigen::VectorXf::Ones(neural_input_count);
+  layer(n.gru_input, 384, neural_input_count);
+  layer(n.gru_hidden, 384, 128);
+  layer(n.first, 256, 128);
+  layer(n.second, 128, 256);
+  layer(n.heads, neural_output_count, 128);
+  return std::make_shared<const NeuralNetwork>(std::move(n));
+}
+
+/// One step of the network.
+void neural_step(benchmark::State& state) {
+  NeuralForward<1> forward(network());
+  const NeuralForward<1>::Columns input =
+      NeuralForward<1>::Columns::Constant(neural_input_count, 0.3F);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(forward.step(input).data());
+  }
+}
+BENCHMARK(neural_step);
+
+/// One `update` at 1 kHz, of which every fifth steps the network; compare with the filter's.
+void neural_update(benchmark::State& state) {
+  NeuralEstimator estimator(network());
+  std::vector<Signals> stream = bench::signals(stream_length);
+  std::size_t i = 0;
+  double time = 0.0;
+  for (auto _ : state) {
+    Signals& s = stream[i];
+    s.time = time += 0.001;
+    benchmark::DoNotOptimize(estimator.update(s).p_any_wheel);
+    i = (i + 1) % stream_length;
+  }
+}
+BENCHMARK(neural_update);
+
+/// Many noise levels side by side; the time per item is that of one lane's update at 1 kHz.
+void neural_lanes_update(benchmark::State& state) {
+  std::vector<double> sigmas;
+  for (std::int64_t i = 0; i < state.range(0); ++i) sigmas.push_back(0.3 * static_cast<double>(i));
+  NeuralLanes lanes(network(), {}, sigmas);
+  const std::vector<Signals> stream = bench::signals(stream_length);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    lanes.update(stream[i], Eigen::Vector3d::Constant(0.1));
+    benchmark::DoNotOptimize(lanes.p_contact().data());
+    i = (i + 1) % stream_length;
+  }
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+BENCHMARK(neural_lanes_update)->Arg(1)->Arg(6)->Arg(36)->Arg(128);
+
+}  // namespace
+}  // namespace touchdown

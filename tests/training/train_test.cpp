@@ -1,0 +1,96 @@
+#include "training/train.hpp"
+
+#include <atomic>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "experiments/fingerprint.hpp"
+#include "experiments/neural_network_file.hpp"
+
+namespace touchdown {
+namespace {
+
+class Train : public testing::Test {
+ protected:
+  Train() {
+    config_.rollout.scenario = std::string(TOUCHDOWN_SOURCE_DIR) + "/scenarios/lift_drive.yaml";
+    config_.rollout.environments = 8;
+    config_.rollout.steps = 50;
+    config_.network = {8, 8, 4};
+    config_.optimiser.iterations = 3;
+    config_.optimiser.epochs = 2;
+    config_.optimiser.validation_episodes = 8;
+    std::filesystem::remove_all(folder_);
+  }
+  ~Train() override { std::filesystem::remove_all(folder_); }
+
+  TrainingResult run(const std::string& out, int threads = 2) const {
+    TrainingRequest request;
+    request.out = folder_ / out;
+    request.threads = threads;
+    request.command = "touchdown train x.yaml";
+    return train(config_, request);
+  }
+
+  TrainingConfig config_;
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / "touchdown_train_test";
+};
+
+TEST_F(Train, LeavesWeightsCurvesAndAManifestBehind) {
+  const TrainingResult result = run("a");
+  ASSERT_EQ(result.history.size(), 3U);
+  EXPECT_EQ(result.history[2].data_seconds, 3 * 8 * 50 * 0.005);
+  EXPECT_EQ(read_neural_network(result.network).hidden(), 8);
+  EXPECT_EQ(read_history(result.directory / "tables" / "training.csv").size(), 3U);
+  EXPECT_TRUE(std::filesystem::exists(result.figure));
+  const auto manifest = nlohmann::json::parse(read_file(result.directory / "models" / "nmn.json"));
+  EXPECT_EQ(manifest["fingerprint"], Fingerprint().add(read_file(result.network)).text());
+  EXPECT_EQ(manifest["chosen_iteration"], result.chosen + 1);
+  EXPECT_EQ(manifest["command"], "touchdown train x.yaml");
+  EXPECT_EQ(to_yaml(training_from_yaml(YamlDocument::parse(manifest["config_yaml"], "m"))),
+            to_yaml(config_));
+}
+
+TEST_F(Train, TheSameSeedGivesTheSameFileWhateverTheThreads) {
+  const std::string one = read_file(run("one", 1).network);
+  EXPECT_EQ(one, read_file(run("four", 4).network));
+  config_.seed = 2;
+  EXPECT_NE(one, read_file(run("other").network));
+}
+
+TEST_F(Train, GoesOnWhereItWasStopped) {
+  const TrainingResult straight = run("straight");
+  // One iteration, then the rest: the folder of a training that was stopped after its first.
+  config_.optimiser.iterations = 1;
+  run("stopped");
+  config_.optimiser.iterations = 3;
+  const TrainingResult resumed = run("stopped");
+  EXPECT_EQ(read_file(straight.directory / "tables" / "training.csv"),
+            read_file(resumed.directory / "tables" / "training.csv"));
+  EXPECT_EQ(read_file(straight.network), read_file(resumed.network));
+}
+
+TEST_F(Train, SavesNothingHalfWhenAskedToStop) {
+  const std::atomic<bool> stop = true;
+  TrainingRequest request;
+  request.out = folder_ / "halt";
+  request.stop = &stop;
+  EXPECT_ANY_THROW(train(config_, request));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "halt" / "models" / "nmn.npz"));
+}
+
+TEST_F(Train, StopsEarlyWhenNothingGetsBetter) {
+  config_.optimiser.learning_rate = 1e-12;  // nothing learned
+  config_.optimiser.patience = 1;
+  config_.optimiser.iterations = 20;
+  EXPECT_LT(run("early").history.size(), 20U);
+}
+
+}  // namespace
+}  // namespace touchdown

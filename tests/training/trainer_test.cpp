@@ -1,0 +1,152 @@
+#include "training/trainer.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <omp.h>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "estimator/neural_forward.hpp"
+#include "toy_episodes.hpp"
+#include "training/initial_weights.hpp"
+
+namespace touchdown {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+NeuralNetwork start(const EpisodeBatch& data, const NetworkSize& size = {16, 16, 8}) {
+  return initial_network(size, 1, data, 0.005);
+}
+
+bool equal(const NeuralNetwork& a, const NeuralNetwork& b) {
+  const auto same = [](const DenseLayer& x, const DenseLayer& y) {
+    return x.weight == y.weight && x.bias == y.bias;
+  };
+  return a.input_mean == b.input_mean && a.input_scale == b.input_scale &&
+         same(a.gru_input, b.gru_input) && same(a.gru_hidden, b.gru_hidden) &&
+         same(a.first, b.first) && same(a.second, b.second) && same(a.heads, b.heads);
+}
+
+TEST(InitialNetwork, StandardisesTheDataAndIsAFunctionOfTheSeed) {
+  EpisodeBatch data = test::toy_episodes(50);
+  for (std::size_t row = 0; row < data.contact.size(); ++row) {
+    data.input[row * neural_input_count + 4] = 7.0F;  // a joint that holds still
+    data.input[row * neural_input_count + 5] *= 100.0F;
+  }
+  const NeuralNetwork network = start(data);
+  EXPECT_TRUE(equal(network, start(data)));
+  EXPECT_FALSE(equal(network, initial_network({16, 16, 8}, 2, data, 0.005)));
+  EXPECT_EQ(network.input_mean[4], 7.0F);
+  EXPECT_EQ(network.input_scale[4], 1.0F);
+  // Uniform within ±1 has a standard deviation of 1/√3.
+  EXPECT_NEAR(network.input_scale[3], std::sqrt(3.0F), 0.03F);
+  EXPECT_NEAR(network.input_scale[5], std::sqrt(3.0F) / 100.0F, 3e-4F);
+  EXPECT_LE(network.gru_hidden.weight.cwiseAbs().maxCoeff(), 0.25F);
+  EXPECT_GT(network.gru_hidden.weight.cwiseAbs().maxCoeff(), 0.24F);
+}
+
+TEST(Trainer, ComputesWhatEigenComputes) {
+  const EpisodeBatch batch = test::toy_episodes(3, 100);
+  const Trainer trainer(start(batch, {128, 256, 128}), {});
+  const std::vector<float> outputs = trainer.outputs(batch);
+  const auto network = std::make_shared<const NeuralNetwork>(trainer.network());
+  NeuralForward<Eigen::Dynamic> forward(network, 3);
+  for (int step = 0; step < batch.steps; ++step) {
+    const Eigen::Map<const Eigen::MatrixXf> inputs(
+        &batch.input[static_cast<std::size_t>(step) * 3 * neural_input_count], neural_input_count,
+        3);
+    const Eigen::Map<const Eigen::MatrixXf> expected(
+        &outputs[static_cast<std::size_t>(step) * 3 * neural_output_count], neural_output_count, 3);
+    ASSERT_LT((forward.step(inputs) - expected).cwiseAbs().maxCoeff(), 1e-5F) << step;
+  }
+}
+
+TEST(Trainer, KeepsTheNetworkToTheBit) {
+  const EpisodeBatch batch = test::toy_episodes(4);
+  const NeuralNetwork network = start(batch);
+  EXPECT_TRUE(equal(Trainer(network, {}).network(), network));
+}
+
+TEST(Trainer, ForgetsWhereARunBegins) {
+  EpisodeBatch batch = test::toy_episodes(1);
+  const Trainer trainer(start(batch), {});
+  const std::vector<float> carried = trainer.outputs(batch);
+  batch.keep[2] = 0.0F;
+  const std::vector<float> forgotten = trainer.outputs(batch);
+  EXPECT_EQ(carried[19 * neural_output_count], forgotten[19 * neural_output_count]);
+  EXPECT_NE(carried[20 * neural_output_count], forgotten[20 * neural_output_count]);
+}
+
+TEST(Trainer, LearnsARuleThatTakesMemory) {
+  const EpisodeBatch batch = test::toy_episodes(64);
+  const EpisodeBatch unseen = test::toy_episodes(64, 40, 2);
+  Trainer trainer(start(batch, {32, 32, 16}), {.learning_rate = 5e-3});
+  const Loss before = trainer.evaluate(unseen);
+  for (int epoch = 0; epoch < 60; ++epoch) trainer.train_epoch(batch);
+  const Loss after = trainer.evaluate(unseen);
+  EXPECT_LT(before.accuracy, 0.7);
+  EXPECT_GT(after.accuracy, 0.9);
+  EXPECT_LT(after.velocity, 0.2 * before.velocity);
+  EXPECT_NEAR(after.total, after.contact + after.velocity, 1e-12);
+}
+
+TEST(Trainer, GivesTheSameBitsWhateverTheNumberOfThreads) {
+  const EpisodeBatch batch = test::toy_episodes(10);
+  const int threads = omp_get_max_threads();
+  const auto trained = [&](int count) {
+    omp_set_num_threads(count);
+    Trainer trainer(start(batch), {});
+    for (int epoch = 0; epoch < 3; ++epoch) trainer.train_epoch(batch);
+    return trainer.network();
+  };
+  const NeuralNetwork one = trained(1);
+  const NeuralNetwork three = trained(3);
+  omp_set_num_threads(threads);
+  EXPECT_TRUE(equal(one, three));
+  EXPECT_FALSE(equal(one, start(batch)));
+}
+
+class Checkpoint : public testing::Test {
+ protected:
+  ~Checkpoint() override { std::filesystem::remove(path_); }
+  const std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / "touchdown_trainer_test.pt";
+};
+
+TEST_F(Checkpoint, GoesOnToTheBit) {
+  const EpisodeBatch batch = test::toy_episodes(8);
+  Trainer straight(start(batch), {});
+  straight.train_epoch(batch);
+  straight.save(path_);
+  straight.train_epoch(batch);
+
+  Trainer resumed(initial_network({16, 16, 8}, 99, batch, 0.005), {});
+  resumed.load(path_);
+  resumed.train_epoch(batch);
+  EXPECT_TRUE(equal(straight.network(), resumed.network()));
+}
+
+TEST_F(Checkpoint, ComplainsOnceAboutWhatIsNone) {
+  const EpisodeBatch batch = test::toy_episodes(2);
+  Trainer trainer(start(batch), {});
+  const auto expect_complaint = [&] {
+    EXPECT_THAT([&] { trainer.load(path_); },
+                ThrowsMessage<InputError>(HasSubstr("is not a checkpoint of this network")));
+  };
+  std::ofstream(path_) << "nonsense";
+  expect_complaint();
+  trainer.save(path_);
+  std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
+  expect_complaint();
+  Trainer(start(batch, {8, 8, 8}), {}).save(path_);
+  expect_complaint();
+  std::filesystem::remove(path_);
+  expect_complaint();
+}
+
+}  // namespace
+}  // namespace touchdown
