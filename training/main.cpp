@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "experiments/resources.hpp"
 #include "experiments/stopped.hpp"
+#include "training/sample_efficiency.hpp"
 #include "training/train.hpp"
 
 namespace {
@@ -41,6 +42,11 @@ int run(const Flags& flags, const touchdown::TrainingRequest& request) {
   using namespace touchdown;
   YamlDocument document = YamlDocument::load(find_resource(flags.file));
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
+  if (is_sample_efficiency(document)) {
+    const auto directory = sample_efficiency(sample_efficiency_from_yaml(document), request);
+    fmt::print("results   {}\n", directory.string());
+    return good;
+  }
   const TrainingResult result = train(training_from_yaml(document), request);
   const IterationRecord& chosen = result.history[result.chosen];
   fmt::print("network   {}, of iteration {} of {}, validation loss {:.4f}\n",
