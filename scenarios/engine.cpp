@@ -59,7 +59,7 @@ class Referee {
 std::unique_ptr<Simulator> make_simulator(const Scenario& scenario, std::string_view name) {
   auto model = std::make_shared<RobotModel>(compile_robot_model(scenario.robot, scenario.terrain));
   if (scenario.mass_scale != 1.0) scale_mass(*model, scenario.mass_scale);
-  return make_simulator(name, std::move(model), scenario.simulation);
+  return make_simulator(name, model, scenario.simulation);
 }
 
 Recording play(const Scenario& scenario, Simulator& simulator, std::uint64_t seed, std::int64_t run,

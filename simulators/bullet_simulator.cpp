@@ -5,7 +5,7 @@
 
 namespace touchdown {
 
-BulletSimulator::BulletSimulator(std::shared_ptr<const RobotModel> model,
+BulletSimulator::BulletSimulator(const std::shared_ptr<const RobotModel>& model,
                                  const SimulatorOptions& options)
     : Simulator(model, options),
       base_com_(vector_at(model->mj->body_ipos, model->base_body)),

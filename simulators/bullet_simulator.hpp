@@ -13,7 +13,7 @@ class BulletWorld;
 /// only a fresh world repeats itself bit by bit.
 class BulletSimulator : public Simulator {
  public:
-  BulletSimulator(std::shared_ptr<const RobotModel> model, const SimulatorOptions& options);
+  BulletSimulator(const std::shared_ptr<const RobotModel>& model, const SimulatorOptions& options);
   ~BulletSimulator() override;
 
   std::string_view name() const override { return "bullet"; }

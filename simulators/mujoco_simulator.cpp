@@ -29,7 +29,7 @@ bool gave_up(const mjData& data) {
 
 }  // namespace
 
-MujocoSimulator::MujocoSimulator(std::shared_ptr<const RobotModel> model,
+MujocoSimulator::MujocoSimulator(const std::shared_ptr<const RobotModel>& model,
                                  const SimulatorOptions& options)
     : Simulator(model, options),
       mj_(copy_with_options(*model, options)),

@@ -10,7 +10,7 @@ namespace touchdown {
 /// MuJoCo behind the `Simulator` seam: it steps a copy of the compiled model.
 class MujocoSimulator : public Simulator {
  public:
-  MujocoSimulator(std::shared_ptr<const RobotModel> model, const SimulatorOptions& options);
+  MujocoSimulator(const std::shared_ptr<const RobotModel>& model, const SimulatorOptions& options);
 
   std::string_view name() const override { return "mujoco"; }
 

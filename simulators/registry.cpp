@@ -13,10 +13,10 @@ const std::vector<std::string>& simulator_names() {
 }
 
 std::unique_ptr<Simulator> make_simulator(std::string_view name,
-                                          std::shared_ptr<const RobotModel> model,
+                                          const std::shared_ptr<const RobotModel>& model,
                                           const SimulatorOptions& options) {
-  if (name == "mujoco") return std::make_unique<MujocoSimulator>(std::move(model), options);
-  if (name == "bullet") return std::make_unique<BulletSimulator>(std::move(model), options);
+  if (name == "mujoco") return std::make_unique<MujocoSimulator>(model, options);
+  if (name == "bullet") return std::make_unique<BulletSimulator>(model, options);
   const std::string near = nearest(name, simulator_names());
   throw InputError(fmt::format("unknown simulator '{}': expected one of {}{}", name,
                                fmt::join(simulator_names(), ", "),

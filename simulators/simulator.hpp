@@ -83,7 +83,7 @@ const std::vector<std::string>& simulator_names();
 /// `options`, not from the MJCF.
 /// Errors: `InputError` naming the nearest engine; a model that the engine cannot represent.
 std::unique_ptr<Simulator> make_simulator(std::string_view name,
-                                          std::shared_ptr<const RobotModel> model,
+                                          const std::shared_ptr<const RobotModel>& model,
                                           const SimulatorOptions& options);
 
 }  // namespace touchdown

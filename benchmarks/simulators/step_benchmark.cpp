@@ -96,7 +96,7 @@ double bare_bullet(const Scenario& scenario, const std::vector<JointTorques>& to
 }
 
 /// Played and bare in turn, so that whatever else the machine does meets both; the fastest counts.
-void Step(benchmark::State& state, const char* engine) {
+void step(benchmark::State& state, const char* engine) {
   const Scenario scenario = stairs();
   const auto simulator = make_simulator(scenario, engine);
   const Recording recording = play(scenario, *simulator);
@@ -123,22 +123,22 @@ void Step(benchmark::State& state, const char* engine) {
   state.counters["overhead_percent"] = 100.0 * (played / bare - 1.0);
   state.counters["steps_per_second"] = steps / played;
 }
-BENCHMARK_CAPTURE(Step, mujoco, "mujoco")
+BENCHMARK_CAPTURE(step, mujoco, "mujoco")
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond)
     ->MinTime(4.0);
-BENCHMARK_CAPTURE(Step, bullet, "bullet")
+BENCHMARK_CAPTURE(step, bullet, "bullet")
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond)
     ->MinTime(4.0);
 
 /// Robot and terrain compiled and put into an engine: once per run, or once per many.
-void MakeSimulator(benchmark::State& state, const char* engine) {
+void compile_scene(benchmark::State& state, const char* engine) {
   const Scenario scenario = stairs();
   for (auto _ : state) benchmark::DoNotOptimize(make_simulator(scenario, engine));
 }
-BENCHMARK_CAPTURE(MakeSimulator, mujoco, "mujoco")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(MakeSimulator, bullet, "bullet")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(compile_scene, mujoco, "mujoco")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(compile_scene, bullet, "bullet")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace touchdown

@@ -98,9 +98,9 @@ inline RobotState random_state(Draws& draw) {
 /// A test that every engine must pass.
 class EveryEngine : public ::testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<Simulator> make(std::shared_ptr<const RobotModel> model,
+  std::unique_ptr<Simulator> make(const std::shared_ptr<const RobotModel>& model,
                                   const SimulatorOptions& options = {}) const {
-    return make_simulator(GetParam(), std::move(model), options);
+    return make_simulator(GetParam(), model, options);
   }
 };
 
