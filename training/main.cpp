@@ -11,6 +11,8 @@
 #include "training/sample_efficiency.hpp"
 #include "training/train.hpp"
 
+namespace touchdown {
+
 namespace {
 
 enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
@@ -38,8 +40,7 @@ struct Flags {
   std::vector<std::string> overrides;
 };
 
-int run(const Flags& flags, const touchdown::TrainingRequest& request) {
-  using namespace touchdown;
+int run(const Flags& flags, const TrainingRequest& request) {
   YamlDocument document = YamlDocument::load(find_resource(flags.file));
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
   if (is_sample_efficiency(document)) {
@@ -57,10 +58,8 @@ int run(const Flags& flags, const touchdown::TrainingRequest& request) {
   return good;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  touchdown::TrainingRequest request;
+int run_program(int argc, char** argv) {
+  TrainingRequest request;
   request.stop = &stop_requested;
   request.command = "touchdown train";
   for (int i = 1; i < argc; ++i) request.command += fmt::format(" {}", argv[i]);
@@ -93,12 +92,18 @@ int main(int argc, char** argv) {
   try {
     stop_on_interrupt();
     return run(flags, request);
-  } catch (const touchdown::InputError& error) {
+  } catch (const InputError& error) {
     return complain(error.what(), wrong_request);
-  } catch (const touchdown::Stopped&) {
+  } catch (const Stopped&) {
     return complain(
         "stopped; finished iterations are saved, and the same command goes on from there", failed);
   } catch (const std::exception& error) {
     return complain(error.what(), failed);
   }
 }
+
+}  // namespace
+
+}  // namespace touchdown
+
+int main(int argc, char** argv) { return touchdown::run_program(argc, argv); }

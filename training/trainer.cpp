@@ -163,10 +163,7 @@ struct Trainer::Impl {
   Loss mean(const LossSum& sum) const {
     const double contact = sum.contact / sum.steps;
     const double velocity = sum.velocity / sum.steps;
-    return {.contact = contact,
-            .velocity = velocity,
-            .total = contact + config.velocity_weight * velocity,
-            .accuracy = sum.right / sum.steps};
+    return {contact, velocity, contact + config.velocity_weight * velocity, sum.right / sum.steps};
   }
 
   OptimiserConfig config;

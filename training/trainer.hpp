@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "estimator/neural_network.hpp"
-#include "training/rollout.hpp"
-#include "training/training_config.hpp"
+#include "training/episode_batch.hpp"
+#include "training/optimiser_config.hpp"
 
 namespace touchdown {
 

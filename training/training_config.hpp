@@ -6,6 +6,7 @@
 #include "core/yaml.hpp"
 #include "experiments/labels.hpp"
 #include "noise/sensor_noise.hpp"
+#include "training/optimiser_config.hpp"
 
 namespace touchdown {
 
@@ -34,19 +35,6 @@ struct NetworkSize {
   int hidden = 128;  ///< of the GRU
   int first = 256;   ///< of the perceptron behind it
   int second = 128;
-};
-
-struct OptimiserConfig {
-  int iterations = 25;          ///< at most, each with data of its own
-  int epochs = 32;              ///< over an iteration's data
-  double learning_rate = 5e-4;  ///< of Adam
-  double velocity_weight =
-      1.0;           ///< of the velocity's squared error (s²/m²) beside the cross-entropy
-  int patience = 5;  ///< iterations without a better validation loss before stopping
-  int validation_episodes = 1000;  ///< never trained on
-  /// Parts of a batch whose gradients are computed side by side, then added in order. Threads work
-  /// on parts, so that their number changes no bit of the result.
-  int parts = 4;
 };
 
 /// A training file, seen whole: the paper's Section V, paragraphs "Simulation" and "Training".
