@@ -178,6 +178,7 @@ std::filesystem::path sample_efficiency(const SampleEfficiencyConfig& config,
                                         const TrainingRequest& request) {
   const RunDirectory directory(config.name, Fingerprint().add(to_yaml(config)).text(), request.out);
   write_atomically(directory.path() / "config.yaml", to_yaml(config));
+  set_training_threads(threads_of(request));
   const Table table = Study(config, request).run();
   directory.write_table("sample_efficiency.csv", table);
   fmt::print("{}", to_text(table, 2));

@@ -1,8 +1,9 @@
 #include "training/train.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
-#include <omp.h>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -177,16 +178,18 @@ class Session {
 
 }  // namespace
 
+int threads_of(const TrainingRequest& request) {
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  return request.threads > 0 ? request.threads : static_cast<int>(cores);
+}
+
 TrainingResult train(const TrainingConfig& config, const TrainingRequest& request) {
   if (const BlasReport blas = blas_in_use(); !blas.warning.empty()) {
     fmt::print(stderr, "touchdown: warning: {}\n", blas.warning);
   }
-  std::unique_ptr<tbb::global_control> limit;
-  if (request.threads > 0) {
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                  static_cast<std::size_t>(request.threads));
-    omp_set_num_threads(request.threads);
-  }
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads_of(request)));
+  set_training_threads(threads_of(request));
   return Session(config, request).run();
 }
 

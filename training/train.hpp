@@ -18,6 +18,9 @@ struct TrainingRequest {
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to stop
 };
 
+/// The number of threads that a request asks for.
+int threads_of(const TrainingRequest& request);
+
 struct TrainingResult {
   std::filesystem::path directory;
   std::filesystem::path network;  ///< the weights of the chosen iteration

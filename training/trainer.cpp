@@ -1,5 +1,6 @@
 #include "training/trainer.hpp"
 
+#include <ATen/Parallel.h>
 #include <algorithm>
 #include <exception>
 #include <torch/nn/functional/loss.h>
@@ -107,6 +108,8 @@ void for_each_part(std::size_t parts, const Work& work) {
 }
 
 }  // namespace
+
+void set_training_threads(int threads) { at::set_num_threads(threads); }
 
 struct Trainer::Impl {
   Impl(const NeuralNetwork& network, const OptimiserConfig& given)

@@ -19,6 +19,10 @@ struct Loss {
   double accuracy = 0.0;
 };
 
+/// How many threads networks are trained and evaluated with from now on. Has to be said: libtorch
+/// takes half of the cores for siblings of the other half.
+void set_training_threads(int threads);
+
 /// Trains a neural measurement network by truncated backpropagation through time: the recurrent
 /// state is carried through an episode, gradients through one sequence of it. One optimiser step
 /// per sequence of all environments. The same seed, data and `parts` give the same bits, whatever

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <omp.h>
 #include <torch/version.h>
 
 #include <fmt/chrono.h>
@@ -46,7 +45,7 @@ std::string training_manifest(const TrainingConfig& config, const TrainingReques
   json["labelled_data_s"] = chosen.data_seconds;
   json["training_loss"] = losses(chosen.training);
   json["validation_loss"] = losses(chosen.validation);
-  json["threads"] = omp_get_max_threads();
+  json["threads"] = threads_of(request);
   json["timings_s"] = {{"rollout", times.rollout}, {"training", times.training}};
   json["steps_per_s"] = {{"rollout", per_second(times.rollout_steps, times.rollout)},
                          {"training", per_second(times.training_steps, times.training)}};

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <omp.h>
 
 #include <gmock/gmock.h>
 
@@ -96,16 +95,14 @@ TEST(Trainer, LearnsARuleThatTakesMemory) {
 
 TEST(Trainer, GivesTheSameBitsWhateverTheNumberOfThreads) {
   const EpisodeBatch batch = test::toy_episodes(10);
-  const int threads = omp_get_max_threads();
   const auto trained = [&](int count) {
-    omp_set_num_threads(count);
+    set_training_threads(count);
     Trainer trainer(start(batch), {});
     for (int epoch = 0; epoch < 3; ++epoch) trainer.train_epoch(batch);
     return trainer.network();
   };
   const NeuralNetwork one = trained(1);
   const NeuralNetwork three = trained(3);
-  omp_set_num_threads(threads);
   EXPECT_TRUE(equal(one, three));
   EXPECT_FALSE(equal(one, start(batch)));
 }
