@@ -18,14 +18,15 @@ constexpr const char* script_text = R"gnuplot(# gnuplot training.gp
 set terminal pngcairo size 1200,800 font "DejaVu Sans,20" linewidth 2
 set output "training.png"
 set datafile separator comma
-set key top right
+set key top right opaque
+set xrange [0:*]
 set grid lc rgb "#dddddd"
 set logscale y
 set format y "%g"
 set xlabel "Iteration (each with data of its own)"
-set ylabel "Loss: cross-entropy (nat) + squared velocity error (m²/s²)"
+set ylabel "Cross-entropy (nat) + squared velocity error (m²/s²)" font ",18"
 set arrow from {chosen}, graph 0 to {chosen}, graph 1 nohead dashtype 2 lc rgb "#888888"
-set label "chosen" at {chosen}, graph 0.03 offset 0.5,0 tc rgb "#555555"
+set label "chosen" at {chosen}, graph 0.03 right offset -0.5,0 tc rgb "#555555"
 plot "{data}" using "iteration":"training_loss" with linespoints pt 7 ps 0.8 \
        lc rgb "#4477aa" title "training (last epoch)", \
      "" using "iteration":"validation_loss" with linespoints pt 7 ps 0.8 \

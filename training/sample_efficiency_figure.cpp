@@ -13,13 +13,13 @@ constexpr const char* head = R"gnuplot(# gnuplot sample_efficiency.gp
 set terminal pngcairo size 1600,{height} font "DejaVu Sans,18" linewidth 2
 set output "sample_efficiency.png"
 set datafile separator comma
-set datafile missing "nan"
+set datafile missing NaN
 data = "../tables/sample_efficiency.csv"
-rows(engine, method, column) = strcol(1) eq engine && strcol(2) eq method ? column : 1/0
+rows(engine, method, column) = strcol(1) eq engine && strcol(2) eq method ? column : NaN
 set multiplot layout {rows},2
 set logscale x
 set grid lc rgb "#dddddd"
-set key bottom right
+set key outside bottom center horizontal
 set xlabel "Labelled data (s)"
 set yrange [*:1]
 )gnuplot";
@@ -27,8 +27,8 @@ set yrange [*:1]
 constexpr const char* panel = R"gnuplot(
 set title "{engine}"
 set ylabel "{label}"
-plot data using 3:(rows("{engine}", "{filter}", ${column})) smooth unique with linespoints pt 7 lc rgb "#4477aa" title "{filter}", \
-     data using 3:(rows("{engine}", "NMN", ${column})) smooth unique with linespoints pt 5 lc rgb "#cc6677" title "NMN"
+plot data using 3:(rows("{engine}", "{filter}", ${column})) with linespoints pt 7 lc rgb "#4477aa" title "{filter}", \
+     data using 3:(rows("{engine}", "NMN", ${column})) with linespoints pt 5 lc rgb "#cc6677" title "NMN"
 )gnuplot";
 
 }  // namespace

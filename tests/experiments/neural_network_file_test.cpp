@@ -50,7 +50,7 @@ NeuralNetwork odd_network() {
 
 class NeuralNetworkFile : public testing::Test {
  protected:
-  ~NeuralNetworkFile() override { std::filesystem::remove(path_); }
+  void TearDown() override { std::filesystem::remove(path_); }
 
   void expect_complaint(const std::string& text) const {
     EXPECT_THAT([&] { read_neural_network(path_); },

@@ -27,7 +27,7 @@ class Train : public testing::Test {
     config_.optimiser.validation_episodes = 8;
     std::filesystem::remove_all(folder_);
   }
-  ~Train() override { std::filesystem::remove_all(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   TrainingResult run(const std::string& out, int threads = 2) const {
     TrainingRequest request;

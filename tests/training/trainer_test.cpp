@@ -109,7 +109,7 @@ TEST(Trainer, GivesTheSameBitsWhateverTheNumberOfThreads) {
 
 class Checkpoint : public testing::Test {
  protected:
-  ~Checkpoint() override { std::filesystem::remove(path_); }
+  void TearDown() override { std::filesystem::remove(path_); }
   const std::filesystem::path path_ =
       std::filesystem::temp_directory_path() / "touchdown_trainer_test.pt";
 };

@@ -36,7 +36,7 @@ TEST(TrainingHistory, StopsAfterSoManyWithoutABetterOne) {
 
 class HistoryFile : public testing::Test {
  protected:
-  ~HistoryFile() override { std::filesystem::remove(path_); }
+  void TearDown() override { std::filesystem::remove(path_); }
   void expect_complaint(const std::string& text, const char* place) {
     std::ofstream(path_) << text;
     EXPECT_THAT([&] { read_history(path_); }, ThrowsMessage<InputError>(HasSubstr(place)));
