@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include "core/files.hpp"
 
@@ -15,22 +14,6 @@ Ended touchdown_program(const std::string& arguments, const std::filesystem::pat
                               arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
-}
-
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "touchdown_cli_XXXXXX").string();
-  path_ = ::mkdtemp(name.data());
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path ScratchFolder::write(const std::string& name,
-                                           const std::string& content) const {
-  write_atomically(path_ / name, content);
-  return path_ / name;
 }
 
 std::string write_tiny_experiment(const ScratchFolder& folder) {

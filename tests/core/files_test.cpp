@@ -3,26 +3,20 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
 
 class Files : public ::testing::Test {
  protected:
-  Files()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("touchdown-files-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Files() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path folder_;
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
 };
 
 TEST_F(Files, AreWrittenWholeIntoFoldersThatAreMade) {

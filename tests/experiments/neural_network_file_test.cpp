@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "recordings/npz.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
@@ -50,16 +51,14 @@ NeuralNetwork odd_network() {
 
 class NeuralNetworkFile : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
-
   void expect_complaint(const std::string& text) const {
     EXPECT_THAT([&] { read_neural_network(path_); },
                 ThrowsMessage<InputError>(
                     AllOf(HasSubstr(path_.string()), HasSubstr(text), Not(HasSubstr("\n")))));
   }
 
-  const std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / "touchdown_network_test.npz";
+  const ScratchFolder scratch_;
+  const std::filesystem::path path_ = scratch_ / "network.npz";
 };
 
 TEST_F(NeuralNetworkFile, KeepsEveryBit) {

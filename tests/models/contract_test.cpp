@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "models/robot_model.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
@@ -22,13 +22,6 @@ const std::string upkie = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
 
 class NamingContract : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("touchdown-contract-" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::string& text) {
     const std::filesystem::path path = folder_ / "robot.xml";
     std::ofstream(path) << text;
@@ -56,7 +49,8 @@ class NamingContract : public ::testing::Test {
     return "";
   }
 
-  std::filesystem::path folder_;
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
 };
 
 TEST_F(NamingContract, MissingNamesAreNamed) {

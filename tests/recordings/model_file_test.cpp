@@ -10,13 +10,13 @@
 #include "core/error.hpp"
 #include "recordings/npz.hpp"
 #include "tests/recordings/sample_recording.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 
 const std::filesystem::path reference =
     std::filesystem::path(TOUCHDOWN_REFERENCE_DATA) / "bullet_stairs.npz";
@@ -36,7 +36,7 @@ NpzArrays small_model() {
 }
 
 std::string message(const NpzArrays& arrays) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_npz(arrays, folder / "model.npz");
   try {
     read_measurement_model(folder / "model.npz");
@@ -47,7 +47,7 @@ std::string message(const NpzArrays& arrays) {
 }
 
 TEST(ModelFile, RowsFollowTheWheelTorque) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_npz(small_model(), folder / "model.npz");
   const MeasurementModel model = read_measurement_model(folder / "model.npz");
   EXPECT_EQ(model.wheel_axis().count, 3);
@@ -60,7 +60,7 @@ TEST(ModelFile, RowsFollowTheWheelTorque) {
 }
 
 TEST(ModelFile, WritesWhatItReadAndTheContactProbability) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_npz(small_model(), folder / "in.npz");
   write_measurement_model(read_measurement_model(folder / "in.npz"), folder / "out.npz");
   const NpzArrays out = read_npz(folder / "out.npz");
@@ -77,7 +77,7 @@ TEST(ModelFile, TheAuthorsGridsLoadAndComeBackAsTheyWere) {
   if (!std::filesystem::exists(reference)) {
     GTEST_SKIP() << "the authors' grids are not here: " << reference;
   }
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_measurement_model(read_measurement_model(reference), folder / "out.npz");
   const NpzArrays theirs = read_npz(reference);
   const NpzArrays ours = read_npz(folder / "out.npz");
@@ -99,7 +99,7 @@ TEST(ModelFile, NumPySeesTheSameKeysShapesAndTypesAsInTheAuthorsFile) {
   if (python.empty()) {
     GTEST_SKIP() << "python3 with NumPy is not installed";
   }
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_measurement_model(read_measurement_model(reference), folder / "out.npz");
   std::ofstream(folder / "script.py") << R"(
 import sys

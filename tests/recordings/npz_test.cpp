@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "tests/recordings/sample_recording.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::python_with_numpy;
-using testing::TemporaryFolder;
 
 NpzArrays sample_arrays() {
   return {{"one", {{3}, {1.0, -0.0, 1e-310}}},
@@ -50,14 +50,14 @@ std::string message(const std::string& bytes) {
   return "nothing was thrown";
 }
 
-bool runs(const std::string& script, const TemporaryFolder& folder) {
+bool runs(const std::string& script, const ScratchFolder& folder) {
   std::ofstream(folder / "script.py") << "import numpy as np\n" << script;
   return std::system(("cd " + folder.path().string() + " && " + python_with_numpy() + " script.py")
                          .c_str()) == 0;
 }
 
 TEST(Npz, GivesBackWhatWasWritten) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_npz(sample_arrays(), folder / "a.npz");
   const NpzArrays back = read_npz(folder / "a.npz");
   ASSERT_EQ(back.size(), 3U);
@@ -69,7 +69,7 @@ TEST(Npz, GivesBackWhatWasWritten) {
 }
 
 TEST(Npz, SameArraysGiveTheSameBytesAtAnyTimeAndPlace) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ::setenv("TZ", "UTC", 1);
   write_npz(sample_arrays(), folder / "a.npz");
   ::setenv("TZ", "Asia/Tokyo", 1);
@@ -82,7 +82,7 @@ TEST(Npz, SameArraysGiveTheSameBytesAtAnyTimeAndPlace) {
 
 TEST(Npz, NumPyReadsOursWithNamesShapesAndTypes) {
   if (python_with_numpy().empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_npz(sample_arrays(), folder / "a.npz");
   EXPECT_TRUE(runs(R"(
 a = np.load('a.npz')
@@ -96,7 +96,7 @@ assert (a['two'] == [[1.5, 2.5, 3.5], [4.5, 5.5, 6.5]]).all()
 
 TEST(Npz, ReadsNumPysDeflatedFortranAndSinglePrecision) {
   if (python_with_numpy().empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(runs(R"(
 two = np.arange(6.0).reshape(2, 3)
 np.savez_compressed('a.npz', fortran=np.asfortranarray(two), single=two.astype('f4'), zeros=np.zeros((500, 400)))
@@ -146,7 +146,7 @@ TEST(Npy, WhatItIsNotSaysSo) {
 }
 
 TEST(Npz, BrokenFilesAreOneClearError) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto fails = [&](const std::string& bytes) {
     std::ofstream(folder / "bad.npz", std::ios::binary) << bytes;
     try {
@@ -174,7 +174,7 @@ TEST(Npz, BrokenFilesAreOneClearError) {
 }
 
 TEST(Npz, FlippedBytesNeverDoMoreThanAnError) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_npz(sample_arrays(), folder / "good.npz");
   const std::string good = read_file(folder / "good.npz");
   std::mt19937 random(2);

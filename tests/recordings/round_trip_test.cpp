@@ -12,12 +12,12 @@
 #include "recordings/log_writer.hpp"
 #include "recordings/recording_file.hpp"
 #include "tests/recordings/sample_recording.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
 
 using testing::sample_recording;
-using testing::TemporaryFolder;
 
 /// Every number of a row as bits, gathered member by member without the help of the library.
 std::vector<std::uint64_t> bits(const Recording& recording, std::size_t step) {
@@ -65,7 +65,7 @@ void expect_same(const Recording& a, const Recording& b) {
 }
 
 TEST(RoundTrip, KeepsEveryBitOfASimulatedRun) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const Recording recording = sample_recording(700);  // several chunks of the reader's buffer
   write_recording(recording, folder / "run.mpack");
   std::vector<std::string> warnings;
@@ -74,7 +74,7 @@ TEST(RoundTrip, KeepsEveryBitOfASimulatedRun) {
 }
 
 TEST(RoundTrip, KeepsARunWithoutGroundTruthOrOutcome) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Recording recording = sample_recording(3, false);
   recording.info.outcome.reset();
   recording.info.control_period_us = 2000;  // on purpose not what its times say
@@ -83,7 +83,7 @@ TEST(RoundTrip, KeepsARunWithoutGroundTruthOrOutcome) {
 }
 
 TEST(RoundTrip, KeepsATimeThatDoesNotBeginAtZero) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Recording recording = sample_recording(4);
   for (Observation& observation : recording.observation) observation.time += 12.5;
   write_recording(recording, folder / "run.mpack");
@@ -91,7 +91,7 @@ TEST(RoundTrip, KeepsATimeThatDoesNotBeginAtZero) {
 }
 
 TEST(RoundTrip, KeepsTheInfoOfARunWithoutSteps) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Recording recording = sample_recording(0);
   recording.info.outcome = Outcome::diverged;
   write_recording(recording, folder / "run.mpack");
@@ -107,7 +107,7 @@ TEST(RoundTrip, KeepsEveryOutcome) {
 }
 
 TEST(RoundTrip, SameRecordingGivesTheSameBytes) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_recording(sample_recording(20), folder / "a.mpack");
   write_recording(sample_recording(20), folder / "b.mpack");
   EXPECT_EQ(read_file(folder / "a.mpack"), read_file(folder / "b.mpack"));
@@ -139,7 +139,7 @@ TEST(RoundTrip, ARowWithoutItsTruthIsRefused) {
 }
 
 TEST(RoundTrip, ColumnsOfDifferentLengthsAreRefusedAndLeaveNoFile) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Recording recording = sample_recording(4);
   recording.truth.pop_back();
   EXPECT_THROW(write_recording(recording, folder / "run.mpack"), Error);

@@ -12,6 +12,7 @@
 #include "recordings/recording_file.hpp"
 #include "tests/recordings/sample_recording.hpp"
 #include "tests/recordings/upkie_log.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
@@ -21,7 +22,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::pack;
-using testing::TemporaryFolder;
 using testing::upkie_record;
 
 std::vector<json> upkie_records(int count) {
@@ -86,7 +86,7 @@ TEST(UglyLogs, AnEmptyLogIsAnError) { EXPECT_THAT(read("").error, HasSubstr("emp
 
 TEST(UglyLogs, AMissingFileIsAnError) {
   EXPECT_THROW(LogReader("/nonexistent/run.mpack"), InputError);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_THROW(read_recording(folder.path()), InputError) << "a folder is no log";
 }
 

@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include "render/gnuplot.hpp"
 #include "render/heatmap.hpp"
 #include "render/iso_lines.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
@@ -40,13 +40,6 @@ Heatmap success_heatmap() {
 
 class FigureFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() / ("touchdown-figure-" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::vector<std::string> names() const {
     std::vector<std::string> result;
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
@@ -55,7 +48,8 @@ class FigureFiles : public ::testing::Test {
     return result;
   }
 
-  std::filesystem::path folder_;
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
 };
 
 TEST_F(FigureFiles, AppearTogetherWithScriptAndData) {

@@ -3,7 +3,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,6 +14,7 @@
 #include "render/frame_painter.hpp"
 #include "render/frame_workers.hpp"
 #include "tests/render/staged_run.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
@@ -24,13 +24,6 @@ using ::testing::ThrowsMessage;
 
 class Video : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() / ("touchdown-video-" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::size_t files() const {
     return static_cast<std::size_t>(
         std::distance(std::filesystem::recursive_directory_iterator(folder_), {}));
@@ -63,7 +56,8 @@ class Video : public ::testing::Test {
   const std::vector<BeliefTrack> beliefs_ = {staged_beliefs(run_, "robust"),
                                              staged_beliefs(run_, "paper", 0.01f)};
   const VideoOptions small_ = {.width = 320, .height = 180, .from = 1.9, .to = 2.3};
-  std::filesystem::path folder_;
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
 };
 
 TEST_F(Video, FramesDoNotDependOnTheNumberOfWorkers) {

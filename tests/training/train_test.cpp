@@ -11,6 +11,7 @@
 #include "core/files.hpp"
 #include "experiments/fingerprint.hpp"
 #include "experiments/neural_network_file.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
@@ -25,9 +26,7 @@ class Train : public testing::Test {
     config_.optimiser.iterations = 3;
     config_.optimiser.epochs = 2;
     config_.optimiser.validation_episodes = 8;
-    std::filesystem::remove_all(folder_);
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   TrainingResult run(const std::string& out, int threads = 2) const {
     TrainingRequest request;
@@ -38,8 +37,8 @@ class Train : public testing::Test {
   }
 
   TrainingConfig config_;
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / "touchdown_train_test";
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
 };
 
 TEST_F(Train, LeavesWeightsCurvesAndAManifestBehind) {

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "estimator/neural_forward.hpp"
+#include "tests/scratch_folder.hpp"
 #include "toy_episodes.hpp"
 #include "training/initial_weights.hpp"
 
@@ -109,9 +110,8 @@ TEST(Trainer, GivesTheSameBitsWhateverTheNumberOfThreads) {
 
 class Checkpoint : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
-  const std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / "touchdown_trainer_test.pt";
+  const ScratchFolder scratch_;
+  const std::filesystem::path path_ = scratch_ / "trainer.pt";
 };
 
 TEST_F(Checkpoint, GoesOnToTheBit) {

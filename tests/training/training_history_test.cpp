@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
@@ -36,13 +37,12 @@ TEST(TrainingHistory, StopsAfterSoManyWithoutABetterOne) {
 
 class HistoryFile : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
   void expect_complaint(const std::string& text, const char* place) {
     std::ofstream(path_) << text;
     EXPECT_THAT([&] { read_history(path_); }, ThrowsMessage<InputError>(HasSubstr(place)));
   }
-  const std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / "touchdown_history_test.csv";
+  const ScratchFolder scratch_;
+  const std::filesystem::path path_ = scratch_ / "history.csv";
 };
 
 TEST_F(HistoryFile, ReadsBackToTheBit) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "core/files.hpp"
+
+namespace touchdown {
+
+/// An empty folder of the test's own, gone with everything in it when the test is over. Tests run
+/// side by side: no two may write to the same place.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "touchdown_XXXXXX").string();
+    const char* made = ::mkdtemp(name.data());
+    if (made == nullptr) throw std::filesystem::filesystem_error("mkdtemp", std::error_code());
+    path_ = made;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+  /// Writes a file and returns its path.
+  std::filesystem::path write(const std::string& name, const std::string& content) const {
+    write_atomically(path_ / name, content);
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace touchdown
