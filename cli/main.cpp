@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "experiments/stopped.hpp"
 
+namespace touchdown {
 namespace {
 
 enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
@@ -39,10 +40,7 @@ std::string joined(int argc, char** argv) {
   return line;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using namespace touchdown;
+int run_command_line(int argc, char** argv) {
   Session session{joined(argc, argv), &stop_requested, {}};
   CLI::App program(
       "touchdown run experiments/stairs.yaml\n\n"
@@ -82,3 +80,8 @@ int main(int argc, char** argv) {
     return complain(error.what(), failed);
   }
 }
+
+}  // namespace
+}  // namespace touchdown
+
+int main(int argc, char** argv) { return touchdown::run_command_line(argc, argv); }

@@ -13,7 +13,8 @@ namespace {
 using Contact = std::vector<std::uint8_t>;
 
 /// At 1 kHz: contact except in the given stretches [begin, end).
-Contact contact_but(std::size_t steps, std::vector<std::pair<std::size_t, std::size_t>> off) {
+Contact contact_but(std::size_t steps,
+                    const std::vector<std::pair<std::size_t, std::size_t>>& off) {
   Contact contact(steps, 1);
   for (const auto& [begin, end] : off) {
     std::fill(contact.begin() + static_cast<int>(begin), contact.begin() + static_cast<int>(end),

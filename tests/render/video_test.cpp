@@ -34,13 +34,13 @@ class Video : public ::testing::Test {
     const VideoSource source{robot_, run_, beliefs_};
     const FrameLayout layout{.width = 320, .height = 180, .supersampling = supersampling};
     std::vector<std::size_t> hashes;
-    const std::size_t bytes = 320 * 180 * 3;
+    constexpr std::size_t bytes = std::size_t{320} * 180 * 3;
     paint_in_order(
         9, bytes, workers,
         [&]() -> PaintFrame {
           auto painter = std::make_shared<FramePainter>(std::vector<VideoSource>{source}, layout,
                                                         LabelConfig{});
-          return [painter, bytes](int frame, std::uint8_t* pixels) {
+          return [painter](int frame, std::uint8_t* pixels) {
             std::memcpy(pixels, painter->paint(1.9 + frame / 15.0).data, bytes);
           };
         },
@@ -130,7 +130,7 @@ TEST_F(Video, UnwritablePathsAreRefusedBeforeAnythingIsPainted) {
 }
 
 TEST_F(Video, WrongRequestsAreNamed) {
-  const auto complaint = [&](VideoOptions options) {
+  const auto complaint = [&](const VideoOptions& options) {
     return [this, options] { render_video(robot_, run_, {}, options, folder_ / "x.mp4"); };
   };
   VideoOptions odd = small_;
