@@ -1,12 +1,12 @@
 #include "experiments/estimator_registry.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
+#include "estimator/free_fall.hpp"
 #include "estimator/measurement_only.hpp"
 #include "estimator/neural_estimator.hpp"
 #include "estimator/phase_filter.hpp"
@@ -60,6 +60,13 @@ std::unique_ptr<ContactEstimator> make_upkie_observer(const EstimatorEntry& /*en
   return std::make_unique<UpkieObserver>(config);
 }
 
+std::unique_ptr<ContactEstimator> make_free_fall(const EstimatorEntry& /*entry*/,
+                                                 const FittedModel* /*model*/, double sample_rate) {
+  FreeFallConfig config;
+  config.sample_rate = sample_rate;
+  return std::make_unique<FreeFall>(config);
+}
+
 std::unique_ptr<ContactEstimator> make_always_contact(const EstimatorEntry& /*entry*/,
                                                       const FittedModel* /*model*/,
                                                       double /*sample_rate*/) {
@@ -69,7 +76,7 @@ std::unique_ptr<ContactEstimator> make_always_contact(const EstimatorEntry& /*en
 }  // namespace
 
 std::span<const EstimatorEntry> estimator_entries() {
-  static const std::array<EstimatorEntry, 8> entries = {{
+  static const std::vector<EstimatorEntry> entries = {
       {"robust", "Bayes filter (robust)", BayesFilterConfig::robust(), std::nullopt,
        make_bayes_filter},
       {"reference", "Bayes filter (reference)", BayesFilterConfig::reference(), std::nullopt,
@@ -81,9 +88,10 @@ std::span<const EstimatorEntry> estimator_entries() {
       {"phase", "Phase filter", std::nullopt, PhaseFilterConfig{}, make_phase_filter},
       {"nmn", "NMN", std::nullopt, std::nullopt, make_neural_estimator},
       {"upkie_observer", "Upkie's observer", std::nullopt, std::nullopt, make_upkie_observer},
+      {"free_fall", "Free fall", std::nullopt, std::nullopt, make_free_fall},
       {std::string(always_contact_name), "Always contact", std::nullopt, std::nullopt,
        make_always_contact},
-  }};
+  };
   return entries;
 }
 

@@ -11,6 +11,7 @@
 
 #include "estimator/bayes_filter.hpp"
 #include "estimator/bayes_filter_lanes.hpp"
+#include "estimator/free_fall.hpp"
 #include "estimator/measurement_only.hpp"
 #include "estimator/phase_filter.hpp"
 #include "estimator/wheel_contact_observer.hpp"
@@ -100,9 +101,10 @@ TEST_F(RealTime, UpdateAndResetAllocateNothing) {
     BayesFilter filter(model, config);
     MeasurementOnly ablation(model, config);
     UpkieObserver observer;
+    FreeFall free_fall;
     for (ContactEstimator* const estimator :
          {static_cast<ContactEstimator*>(&filter), static_cast<ContactEstimator*>(&ablation),
-          static_cast<ContactEstimator*>(&observer)}) {
+          static_cast<ContactEstimator*>(&observer), static_cast<ContactEstimator*>(&free_fall)}) {
       EXPECT_EQ(allocations_of([&] {
                   for (const Signals& s : stream) {
                     estimator->update(s);
