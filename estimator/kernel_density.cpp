@@ -59,8 +59,9 @@ Eigen::ArrayXd points_of(const Axis& axis) {
 double scott_bandwidth(std::span<const double> samples, int dimensions, double floor) {
   check_samples(samples, 2);
   const auto n = static_cast<double>(samples.size());
-  const Eigen::Map<const Eigen::ArrayXd> x(samples.data(),
-                                           static_cast<Eigen::Index>(samples.size()));
+  // A copy, because Eigen's sums over foreign memory depend on where in memory it lies.
+  const Eigen::ArrayXd x =
+      Eigen::Map<const Eigen::ArrayXd>(samples.data(), static_cast<Eigen::Index>(samples.size()));
   const double deviation = std::sqrt((x - x.mean()).square().sum() / (n - 1.0));
   const double bandwidth = std::max(floor, std::pow(n, -1.0 / (dimensions + 4)) * deviation);
   if (!(bandwidth > 0.0)) {
