@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <unistd.h>
 
@@ -35,9 +36,11 @@ void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write) {
   try {
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+    // Processes on two machines that share a disk may have the same number.
     // The extension stays last: encoders and plotters choose their format by it.
     const std::filesystem::path name =
-        fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(), path.extension().string());
+        fmt::format(".{}.{}.{:08x}.part{}", path.stem().string(), ::getpid(),
+                    std::random_device{}(), path.extension().string());
     const TemporaryFile temporary{path.parent_path() / name};
     write(temporary.path);
     flush_to_disk(temporary.path);
