@@ -8,7 +8,6 @@
 #include "cli/complaint.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
-#include "experiments/stopped.hpp"
 
 namespace touchdown {
 namespace {
@@ -51,6 +50,7 @@ int run_command_line(int argc, char** argv) {
   program.require_subcommand(1);
   program.failure_message(CLI::FailureMessage::simple);
   add_run(program, session);
+  add_merge(program, session);
   add_simulate(program, session);
   add_render(program, session);
   add_train(program, session);
@@ -73,9 +73,6 @@ int run_command_line(int argc, char** argv) {
     return good;
   } catch (const InputError& error) {
     return complain(error.what(), wrong_request);
-  } catch (const Stopped&) {
-    return complain("stopped; what is finished is saved, and the same command goes on from there",
-                    failed);
   } catch (const std::exception& error) {
     return complain(error.what(), failed);
   }

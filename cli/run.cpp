@@ -1,9 +1,10 @@
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
-#include "cli/pictures.hpp"
+#include "cli/show_result.hpp"
 #include "cli/verbs.hpp"
 #include "experiments/resources.hpp"
 #include "experiments/run_experiment.hpp"
@@ -16,24 +17,35 @@ struct RunFlags {
   std::string experiment;
   std::string out;
   std::vector<std::string> overrides;
+  std::string shard;
   bool no_pictures = false;
 };
 
+void run_one_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
+  const ShardReport report = run_shard(experiment, shard, options);
+  for (const PlayedRun& run : report.failed_runs) {
+    fmt::print("Not used: {} ({})\n", run.plan.file,
+               run.report.error.empty() ? to_text(run.report.outcome) : run.report.error);
+  }
+  fmt::print("shard {}: {} parts, {} computed now\n", to_text(shard), report.tasks,
+             report.computed);
+  fmt::print("when all {} are done: touchdown merge {}\n", shard.count,
+             report.directory.path().string());
+}
+
 void run(const RunFlags& flags, const Session& session) {
+  std::optional<Shard> shard;
+  if (!flags.shard.empty()) shard = shard_from(flags.shard);
   YamlDocument document = YamlDocument::load(find_resource(flags.experiment));
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
   const Experiment experiment = experiment_from_yaml(document);
-  ExperimentResult result = run_experiment(
-      experiment, {.out = flags.out, .command = session.command, .stop = session.stop});
-  fmt::print("{}", summary_text(result));
-  fmt::print("\nresults   {}\ntables    {}\n", result.directory.path().string(),
-             (result.directory.path() / "tables").string());
-  std::fflush(stdout);
-  if (flags.no_pictures) return;
-  for (const auto& picture : draw_pictures(result, session)) {
-    fmt::print("{:<9} {}\n", picture.kind, picture.path.string());
+  const RunOptions options{.out = flags.out, .command = session.command, .stop = session.stop};
+  if (shard) {
+    run_one_shard(experiment, *shard, options);
+    return;
   }
-  write_manifest(result);
+  ExperimentResult result = run_experiment(experiment, options);
+  show(result, session, flags.no_pictures);
 }
 
 }  // namespace
@@ -51,6 +63,9 @@ void add_run(CLI::App& program, Session& session) {
                    "Change a value of the experiment, for example noise.seeds=3")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  verb->add_option("--shard", flags->shard,
+                   "Compute one part of n into the run directory, for `touchdown merge`")
+      ->type_name("K/N");
   verb->add_flag("--no-pictures", flags->no_pictures, "Tables only: no figures, no videos");
   verb->callback(
       [flags, &session] { session.action = [flags, &session] { run(*flags, session); }; });

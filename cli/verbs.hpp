@@ -17,6 +17,7 @@ struct Session {
 
 /// Each adds its verb and flags to the program; the verb's callback sets `session.action`.
 void add_run(CLI::App& program, Session& session);
+void add_merge(CLI::App& program, Session& session);
 void add_simulate(CLI::App& program, Session& session);
 void add_render(CLI::App& program, Session& session);
 void add_train(CLI::App& program, Session& session);

@@ -52,11 +52,20 @@ void Progress::advance(std::int64_t units) {
   show(now, false);
 }
 
+void Progress::skip(std::int64_t units) {
+  {
+    const std::scoped_lock lock(mutex_);
+    skipped_ += units;
+  }
+  advance(units);
+}
+
 void Progress::show(Clock::time_point now, bool last) {
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const double rate = elapsed > 0.0 ? static_cast<double>(done_) / elapsed : 0.0;
+  const double rate = elapsed > 0.0 ? static_cast<double>(done_ - skipped_) / elapsed : 0.0;
   std::string state = fmt::format("{}/{} {}", done_, total_, unit_);
   if (last) {
+    if (skipped_ > 0) state += fmt::format(" ({} of them were there)", skipped_);
     state += fmt::format(" in {}", duration(elapsed));
   } else if (rate > 0.0) {
     state += fmt::format(", {:.3g}/s, {} left", rate,

@@ -20,6 +20,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void advance(std::int64_t units = 1);
+  /// Units that were done before: they count, but say nothing about the rate.
+  void skip(std::int64_t units = 1);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -33,6 +35,7 @@ class Progress {
   const Clock::time_point start_;
   std::mutex mutex_;
   std::int64_t done_ = 0;
+  std::int64_t skipped_ = 0;
   Clock::time_point shown_;
 };
 

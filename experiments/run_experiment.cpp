@@ -1,20 +1,25 @@
 #include "experiments/run_experiment.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <optional>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/estimator_registry.hpp"
-#include "experiments/fingerprint.hpp"
-#include "experiments/paper_tables.hpp"
+#include "experiments/listening.hpp"
 #include "experiments/progress.hpp"
-#include "experiments/score_tables.hpp"
+#include "experiments/result_files.hpp"
+#include "experiments/run_request.hpp"
+#include "experiments/saved_state.hpp"
+#include "experiments/shard_log.hpp"
 #include "experiments/stopped.hpp"
-#include "recordings/model_file.hpp"
 
 namespace touchdown {
 
@@ -38,47 +43,6 @@ class PhaseTimer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::string id_of(const Experiment& experiment, const std::vector<NamedScenario>& scenarios) {
-  Fingerprint fingerprint;
-  fingerprint.add(to_yaml(experiment));
-  for (const NamedScenario& named : scenarios) {
-    fingerprint.add(to_yaml(named.scenario)).add(read_file(named.scenario.robot));
-  }
-  return fingerprint.text();
-}
-
-/// Another build may compute other numbers: what it left behind is not used.
-void discard_results_of_other_builds(const RunDirectory& directory) {
-  const auto stamp = directory.file("state", "build");
-  const std::string build = build_fingerprint() + "\n";
-  if (std::filesystem::exists(stamp) && read_file(stamp) == build) return;
-  for (const char* folder : {"state", "recordings", "models", "tables", "figures", "videos"}) {
-    std::filesystem::remove_all(directory.path() / folder);
-  }
-  write_atomically(stamp, build);
-}
-
-void write_models(const FittedModels& models, const RunDirectory& directory) {
-  for (const auto& [simulator, by_estimator] : models) {
-    for (const auto& [estimator, model] : by_estimator) {
-      const auto file = directory.file("models", fmt::format("{}_{}.npz", simulator, estimator));
-      if (model.measurement) write_measurement_model(*model.measurement, file);
-      if (model.phase) write_phase_model(*model.phase, file);
-    }
-  }
-}
-
-Table runs_table(const std::vector<PlayedRun>& runs) {
-  Table table{{"simulator", "scenario", "role", "run", "outcome", "flights", "duration_s"}, {}};
-  for (const PlayedRun& run : runs) {
-    table.rows.push_back({run.plan.simulator, run.plan.scenario.name,
-                          run.plan.role == RunRole::fit ? "fit" : "test",
-                          std::to_string(run.plan.run), std::string(to_text(run.report.outcome)),
-                          std::to_string(run.report.flights), metric(run.report.duration)});
-  }
-  return table;
-}
-
 std::vector<HeardRun> heard(const std::vector<PlayedRun>& runs, RunRole role) {
   std::vector<HeardRun> result;
   for (const PlayedRun& run : runs) {
@@ -87,68 +51,202 @@ std::vector<HeardRun> heard(const std::vector<PlayedRun>& runs, RunRole role) {
   return result;
 }
 
-/// Transitions, calibration and all views in the highlighted cells.
-void score_highlights(ExperimentResult& result, const std::vector<const HeardRun*>& test_runs,
-                      const std::function<bool()>& going_on) {
-  const Experiment& experiment = result.experiment;
-  const BootstrapConfig& config = experiment.intervals.bootstrap;
-  for (const NoiseCell& cell : experiment.highlights) {
-    const std::vector<ConditionScores> scores = score_conditions(
-        experiment, own_engine_conditions(experiment), cell, experiment.noise.seeds, test_runs,
-        result.models, [&](std::int64_t /*cells*/) { return going_on(); });
-    const auto summaries = summarise(scores, cell, config);
-    const auto compared = differences(scores, cell, config);
-    result.scores.insert(result.scores.end(), summaries.begin(), summaries.end());
-    result.differences.insert(result.differences.end(), compared.begin(), compared.end());
-  }
+int threads_of(const Experiment& experiment) {
+  if (experiment.workers > 0) return experiment.workers;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-/// What the numbers of one cell are, in words.
-std::string how_scored(const Experiment& experiment, const NoiseCell& cell) {
-  return fmt::format(
-      "Both wheels; torque noise {} N·m, accelerometer noise {} m/s², {} noise seeds; contact: "
-      "normal force > {} N, states under {} ms merged; {:.0f} % bootstrap intervals over {}s.",
-      cell.torque, cell.accelerometer, experiment.noise.seeds, experiment.labels.force_threshold,
-      1e3 * experiment.labels.debounce, 100.0 * experiment.intervals.bootstrap.level,
-      experiment.intervals.over == SampleUnit::run ? "run" : "drop");
-}
+/// An experiment on its way through simulating, fitting and listening.
+class Execution {
+ public:
+  Execution(RunRequest request, RunDirectory directory, const RunOptions& options)
+      : request_(std::move(request)),
+        directory_(std::move(directory)),
+        stop_(options.stop),
+        threads_(threads_of(request_.experiment)),
+        limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
+        cells_(noise_cells(request_.experiment.noise)),
+        plan_(plan_runs(request_.experiment, request_.scenarios)),
+        tasks_(listening_tasks(request_.experiment, plan_)),
+        saved_(directory_.path() / "state" / "listening", state_key(request_)) {}
 
-/// The paper's tables for every highlighted cell, one below the other.
-std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
-  std::vector<CaptionedTable> tables;
-  for (const NoiseCell& cell : result.experiment.highlights) {
-    std::vector<ScoreSummary> scores;
-    std::copy_if(result.scores.begin(), result.scores.end(), std::back_inserter(scores),
-                 [&](const ScoreSummary& score) { return score.cell == cell; });
-    std::vector<Difference> compared;
-    std::copy_if(result.differences.begin(), result.differences.end(), std::back_inserter(compared),
-                 [&](const Difference& difference) { return difference.cell == cell; });
-    for (CaptionedTable& table : paper_tables(scores, how_scored(result.experiment, cell))) {
-      tables.push_back(std::move(table));
+  const RunRequest& request() const { return request_; }
+  const RunDirectory& directory() const { return directory_; }
+  const std::vector<ListeningTask>& tasks() const { return tasks_; }
+  const std::vector<PlayedRun>& runs() const { return runs_; }
+
+  /// Everything that the tasks from `begin` to `end` need and that is not there yet. Returns how
+  /// many tasks it computed.
+  std::size_t compute(std::size_t begin, std::size_t end) {
+    try {
+      simulate(begin, end, MissingRun::simulate);
+      fit();
+      return listen_to(begin, end);
+    } catch (const Stopped&) {
+      throw Stopped(what_is_saved());
     }
-    tables.push_back(difference_text_table(compared));
   }
-  return tables;
-}
 
-void write_score_tables(const ExperimentResult& result) {
-  const RunDirectory& directory = result.directory;
-  directory.write_table("views.csv", views_table(result.scores));
-  directory.write_table("transitions.csv", transitions_table(result.scores));
-  directory.write_table("latency.csv", latency_table(result.scores));
-  directory.write_table("calibration.csv", calibration_table(result.scores));
-  directory.write_table("reliability.csv", reliability_table(result.scores));
-  directory.write_table("differences.csv", differences_table(result.differences));
-  if (!result.experiment.paper_tables) return;
-  std::string markdown;
-  std::string latex;
-  for (const CaptionedTable& table : paper_tables(result)) {
-    markdown += to_markdown(table) + "\n";
-    latex += to_latex(table) + "\n";
+  /// The result, from what is there; never simulates.
+  ExperimentResult assemble(const std::string& command) {
+    if (runs_.size() != plan_.size()) {
+      simulate(0, tasks_.size(), MissingRun::refuse);
+      fit();
+    }
+    if (scored_runs(runs_).empty()) {
+      throw Error("no test run stayed upright: there is nothing to score");
+    }
+    const Experiment& experiment = request_.experiment;
+    const BootstrapConfig& config = experiment.intervals.bootstrap;
+    ExperimentResult result{
+        experiment, request_.id, directory_, std::move(runs_),       std::move(models_), cells_,
+        {},         {},          {},         {command, threads_, {}}};
+    {
+      const PhaseTimer timer(provenance_, "score");
+      const CollectedListening heard = collect(experiment, cells_, plan_, tasks_, saved_);
+      result.summaries = summarise(heard.counts, cells_, config);
+      for (std::size_t i = 0; i < experiment.highlights.size(); ++i) {
+        const NoiseCell& cell = experiment.highlights[i];
+        const auto scores = summarise(heard.highlights[i], cell, config);
+        const auto compared = differences(heard.highlights[i], cell, config);
+        result.scores.insert(result.scores.end(), scores.begin(), scores.end());
+        result.differences.insert(result.differences.end(), compared.begin(), compared.end());
+      }
+    }
+    result.provenance.timings = provenance_.timings;
+    write_result_files(result);
+    remove_shard_notes(directory_.path());
+    remove_partial_files(directory_.path());
+    write_manifest(result);
+    return result;
   }
-  write_atomically(directory.file("tables", "tables.md"), markdown);
-  write_atomically(directory.file("tables", "tables.tex"), latex);
-}
+
+  /// Tasks that nobody has finished, by their indices.
+  std::vector<std::size_t> missing_tasks() const {
+    std::set<std::size_t> missing_runs;
+    bool fit_is_missing = false;
+    for (std::size_t i = 0; i < plan_.size(); ++i) {
+      if (is_recorded(request_.experiment, plan_[i], directory_)) continue;
+      missing_runs.insert(i);
+      fit_is_missing = fit_is_missing || plan_[i].role == RunRole::fit;
+    }
+    std::vector<std::size_t> missing;
+    for (std::size_t t = 0; t < tasks_.size(); ++t) {
+      const ListeningTask& task = tasks_[t];
+      if (fit_is_missing || missing_runs.contains(task.run) ||
+          !saved_.read(SavedListening::name(plan_[task.run], task.seed))) {
+        missing.push_back(t);
+      }
+    }
+    return missing;
+  }
+
+ private:
+  bool going_on() const { return stop_ == nullptr || !*stop_; }
+
+  /// Plays or reads the runs that the tasks from `begin` to `end` listen to, and those that their
+  /// estimators are fitted to.
+  void simulate(std::size_t begin, std::size_t end, MissingRun missing) {
+    std::set<std::size_t> heard;
+    std::set<std::string> simulators;
+    for (std::size_t t = begin; t < end; ++t) {
+      heard.insert(tasks_[t].run);
+      simulators.insert(plan_[tasks_[t].run].simulator);
+    }
+    std::vector<PlannedRun> needed;
+    run_of_.assign(plan_.size(), std::nullopt);
+    for (std::size_t i = 0; i < plan_.size(); ++i) {
+      const bool is_needed = plan_[i].role == RunRole::fit ? simulators.contains(plan_[i].simulator)
+                                                           : heard.contains(i);
+      if (!is_needed) continue;
+      run_of_[i] = needed.size();
+      needed.push_back(plan_[i]);
+    }
+    const PhaseTimer timer(provenance_, "simulate");
+    Progress progress("simulating", "runs", static_cast<std::int64_t>(needed.size()));
+    runs_ = play_runs(
+        request_.experiment, needed, directory_,
+        [&] {
+          progress.advance();
+          return going_on();
+        },
+        [&] { return going_on(); }, missing);
+  }
+
+  void fit() {
+    if (scored_runs(runs_).empty()) return;
+    // A shard may have runs of one engine only.
+    Experiment experiment = request_.experiment;
+    std::erase_if(experiment.simulators, [&](const std::string& simulator) {
+      return std::none_of(runs_.begin(), runs_.end(),
+                          [&](const PlayedRun& run) { return run.plan.simulator == simulator; });
+    });
+    const PhaseTimer timer(provenance_, "fit");
+    models_ = fit_models(experiment, touchdown::heard(runs_, RunRole::fit));
+    if (!going_on()) throw Stopped();
+  }
+
+  std::size_t listen_to(std::size_t begin, std::size_t end) {
+    const PhaseTimer timer(provenance_, "listen");
+    Progress progress("listening", "parts", static_cast<std::int64_t>(end - begin));
+    std::atomic<std::size_t> computed = 0;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 1), [&](const auto& range) {
+      for (std::size_t t = range.begin(); t < range.end(); ++t) {
+        if (!going_on()) throw Stopped();
+        if (listen_to(tasks_[t])) {
+          ++computed;
+          progress.advance();
+        } else {
+          progress.skip();
+        }
+      }
+    });
+    return computed;
+  }
+
+  /// Whether there was anything left to compute.
+  bool listen_to(const ListeningTask& task) {
+    const std::string name = SavedListening::name(plan_[task.run], task.seed);
+    if (saved_.read(name)) return false;
+    const PlayedRun& run = runs_[*run_of_[task.run]];
+    Heard heard;
+    if (!is_failure(run.report.outcome)) {
+      heard = listen(request_.experiment, cells_, run.heard, task.seed, models_,
+                     [&] { return going_on(); });
+    }
+    saved_.write(name, heard);
+    return true;
+  }
+
+  std::string what_is_saved() const {
+    std::size_t recordings = 0;
+    for (const PlannedRun& run : plan_) {
+      recordings += is_recorded(request_.experiment, run, directory_) ? 1U : 0U;
+    }
+    std::size_t parts = 0;
+    for (const ListeningTask& task : tasks_) {
+      parts += saved_.read(SavedListening::name(plan_[task.run], task.seed)) ? 1U : 0U;
+    }
+    return fmt::format(
+        "stopped; {} of {} recordings and {} of {} parts of the listening are saved in {}; the "
+        "same command goes on from there",
+        recordings, plan_.size(), parts, tasks_.size(), directory_.path().string());
+  }
+
+  RunRequest request_;
+  RunDirectory directory_;
+  const std::atomic<bool>* stop_;
+  int threads_;
+  tbb::global_control limit_;
+  std::vector<NoiseCell> cells_;
+  std::vector<PlannedRun> plan_;
+  std::vector<ListeningTask> tasks_;
+  SavedListening saved_;
+  Provenance provenance_;
+  std::vector<PlayedRun> runs_;
+  std::vector<std::optional<std::size_t>> run_of_;  ///< by plan, where in `runs_`
+  FittedModels models_;
+};
 
 }  // namespace
 
@@ -163,112 +261,61 @@ std::vector<const HeardRun*> scored_runs(const std::vector<PlayedRun>& runs) {
 }
 
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options) {
-  const int threads = experiment.workers > 0
-                          ? experiment.workers
-                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  const auto going_on = [&] { return options.stop == nullptr || !*options.stop; };
+  RunRequest request = request_of(experiment);
+  RunDirectory directory(experiment.name, request.id, options.out);
+  write_request(request, directory, true);
+  remove_partial_files(directory.path());
+  Execution execution(std::move(request), std::move(directory), options);
+  execution.compute(0, execution.tasks().size());
+  return execution.assemble(options.command);
+}
 
-  const std::vector<NamedScenario> scenarios = load_scenarios(experiment);
-  const std::string id = id_of(experiment, scenarios);
-  ExperimentResult result{experiment,
-                          id,
-                          RunDirectory(experiment.name, id, options.out),
-                          {},
-                          {},
-                          noise_cells(experiment.noise),
-                          {},
-                          {},
-                          {},
-                          {options.command, threads, {}}};
-  discard_results_of_other_builds(result.directory);
-  write_atomically(result.directory.path() / "config.yaml", to_yaml(experiment));
+ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
+  RunRequest request = request_of(experiment);
+  RunDirectory directory(experiment.name, request.id, options.out);
+  write_request(request, directory, false);
+  note_shard(directory.path(), shard);
+  Execution execution(std::move(request), std::move(directory), options);
+  const std::size_t begin = shard.begin(execution.tasks().size());
+  const std::size_t end = shard.end(execution.tasks().size());
+  ShardReport report{execution.directory(), end - begin, 0, {}};
+  if (begin == end) return report;
+  report.computed = execution.compute(begin, end);
+  for (const PlayedRun& run : execution.runs()) {
+    if (is_failure(run.report.outcome)) report.failed_runs.push_back(run);
+  }
+  return report;
+}
 
-  const std::vector<PlannedRun> plan = plan_runs(experiment, scenarios);
-  {
-    const PhaseTimer timer(result.provenance, "simulate");
-    Progress progress("simulating", "runs", static_cast<std::int64_t>(plan.size()));
-    result.runs = play_runs(experiment, plan, result.directory, [&] {
-      progress.advance();
-      return going_on();
-    });
+ExperimentResult merge_run(const std::filesystem::path& directory, const RunOptions& options) {
+  RunRequest request = read_request(directory);
+  const std::string name = request.experiment.name;
+  const std::string id = request.id;
+  Execution execution(std::move(request), RunDirectory(name, id, directory), options);
+  const std::vector<std::size_t> missing = execution.missing_tasks();
+  if (!missing.empty()) {
+    const int count = noted_shards(directory);
+    std::vector<std::string> shards;
+    for (int index = 1; index <= count; ++index) {
+      const Shard shard{index, count};
+      const auto first =
+          std::lower_bound(missing.begin(), missing.end(), shard.begin(execution.tasks().size()));
+      if (first == missing.end() || *first >= shard.end(execution.tasks().size())) continue;
+      shards.push_back(to_text(shard));
+    }
+    throw InputError(fmt::format(
+        "{}: {} of {} parts are missing: finish shard{} {} first, by 'touchdown run {} --out {} "
+        "--shard {}'",
+        directory.string(), missing.size(), execution.tasks().size(), shards.size() == 1 ? "" : "s",
+        fmt::join(shards, ", "), (directory / "config.yaml").string(), directory.string(),
+        shards.front()));
   }
-  result.directory.write_table("runs.csv", runs_table(result.runs));
-  const std::vector<const HeardRun*> test_runs = scored_runs(result.runs);
-  if (test_runs.empty()) throw Error("no test run stayed upright: there is nothing to score");
-  {
-    const PhaseTimer timer(result.provenance, "fit");
-    result.models = fit_models(experiment, heard(result.runs, RunRole::fit));
-    write_models(result.models, result.directory);
-  }
-  {
-    const PhaseTimer timer(result.provenance, "listen");
-    const std::vector<Condition> conditions = own_engine_conditions(experiment);
-    Progress progress("listening", "runs × noise",
-                      sweep_size(experiment, conditions, result.cells, test_runs));
-    const std::vector<ConditionCounts> counts = sweep(
-        experiment, conditions, result.cells, test_runs, result.models, [&](std::int64_t cells) {
-          progress.advance(cells);
-          return going_on();
-        });
-    result.summaries = summarise(counts, result.cells, experiment.intervals.bootstrap);
-  }
-  {
-    const PhaseTimer timer(result.provenance, "score");
-    score_highlights(result, test_runs, going_on);
-  }
-  result.directory.write_table("success.csv", success_table(result.summaries));
-  result.directory.write_table("classification.csv", classification_table(result.summaries));
-  write_score_tables(result);
-  write_manifest(result);
-  return result;
+  return execution.assemble(options.command);
 }
 
 void write_manifest(const ExperimentResult& result) {
   write_atomically(result.directory.path() / "manifest.json",
                    manifest(result.experiment, result.id, result.runs, result.provenance));
-}
-
-std::string summary_text(const ExperimentResult& result) {
-  const Experiment& experiment = result.experiment;
-  std::string text;
-  for (const std::string& simulator : experiment.simulators) {
-    int scored = 0;
-    for (const HeardRun* run : scored_runs(result.runs)) {
-      scored += run->info.simulator == simulator ? 1 : 0;
-    }
-    for (const NoiseCell& cell : experiment.highlights) {
-      text += fmt::format(
-          "\n{}: {} test runs × {} noise seeds, torque noise {} N·m, "
-          "accelerometer noise {} m/s²\n\n",
-          simulator, scored, experiment.noise.seeds, cell.torque, cell.accelerometer);
-      text += to_text(cell_text_table(result.summaries, simulator, cell));
-    }
-    if (result.cells.size() > 1) {
-      const std::string& first = experiment.estimators.front();
-      text += fmt::format(
-          "\n{}: success rate of {} by torque and accelerometer noise "
-          "(* no better than always contact)\n\n",
-          simulator, estimator_entry(first).title);
-      text += to_text(grid_text_table(result.summaries, simulator, first, experiment.noise));
-    }
-  }
-  if (experiment.paper_tables) {
-    for (const CaptionedTable& table : paper_tables(result)) text += '\n' + to_text(table);
-  }
-  text += fmt::format(
-      "\nBoth wheels; contact: normal force > {} N, states under {} ms merged; first {} ms not "
-      "scored; {:.0f} % bootstrap intervals over {}s.\n",
-      experiment.labels.force_threshold, 1e3 * experiment.labels.debounce,
-      1e3 * experiment.scoring.skip, 100.0 * experiment.intervals.bootstrap.level,
-      experiment.intervals.over == SampleUnit::run ? "run" : "drop");
-  for (const PlayedRun& run : result.runs) {
-    if (!is_failure(run.report.outcome)) continue;
-    text += fmt::format("Not used: {} ({} after {:.1f} s)\n", run.plan.file,
-                        to_text(run.report.outcome), run.report.duration);
-  }
-  return text;
 }
 
 }  // namespace touchdown

@@ -11,6 +11,7 @@
 #include "experiments/metrics.hpp"
 #include "experiments/run_directory.hpp"
 #include "experiments/run_plan.hpp"
+#include "experiments/shard.hpp"
 #include "experiments/success_tables.hpp"
 
 namespace touchdown {
@@ -36,16 +37,33 @@ struct ExperimentResult {
   Provenance provenance;
 };
 
-/// Simulates, fits, listens, scores and writes tables. What an earlier attempt of the same program
-/// left complete in the run directory is used and not computed again.
-/// Errors: `InputError` for a wrong request, `Stopped`, `Error` when no run can be scored.
+/// Simulates, fits, listens, scores and writes tables. What an earlier attempt of the same program,
+/// whole or in shards, left complete in the run directory is used and not computed again.
+/// Errors: `InputError` for a wrong request; `Stopped`, saying what is saved; `Error` when no run
+/// can be scored.
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options);
+
+/// What one shard did.
+struct ShardReport {
+  RunDirectory directory;
+  std::size_t tasks = 0;     ///< of the shard
+  std::size_t computed = 0;  ///< of these; the others were there already
+  std::vector<PlayedRun> failed_runs;
+};
+
+/// Computes one shard of an experiment: the recordings that it needs and its share of the
+/// listening, as files in the run directory, which other shards may be writing to at the same time,
+/// also from other machines. Errors: as above.
+ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options);
+
+/// Puts together what shards left in a run directory: the result and the files are those of
+/// `run_experiment`, to the byte. Simulates and listens to nothing.
+/// Errors: `InputError` when there is no run, when it is another build's, or naming the shards that
+/// are not finished.
+ExperimentResult merge_run(const std::filesystem::path& directory, const RunOptions& options);
 
 /// The test runs that are scored: all but those that fell or diverged.
 std::vector<const HeardRun*> scored_runs(const std::vector<PlayedRun>& runs);
-
-/// What a terminal should show.
-std::string summary_text(const ExperimentResult& result);
 
 /// Writes `manifest.json`; again when there are more timings to tell.
 void write_manifest(const ExperimentResult& result);

@@ -7,8 +7,13 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "experiments/fingerprint.hpp"
+#include "experiments/manifest.hpp"
 #include "experiments/reserved_seeds.hpp"
 #include "experiments/resources.hpp"
+#include "experiments/saved_state.hpp"
 #include "experiments/stopped.hpp"
 #include "recordings/recording_file.hpp"
 #include "scenarios/engine.hpp"
@@ -40,12 +45,84 @@ std::uint64_t seed_of(const Experiment& experiment, RunRole role) {
   return role == RunRole::fit ? fit_seed(experiment.seed) : experiment.seed;
 }
 
-Recording play_or_read(const Experiment& experiment, const PlannedRun& run,
-                       const std::filesystem::path& file) {
-  if (std::filesystem::exists(file)) return read_recording(file);
-  Recording recording = play(run.scenario, run.simulator, seed_of(experiment, run.role), run.run);
+/// What a recording is made from, and by which build. The robot counts by its content: where its
+/// file is found depends on where one stands.
+std::string key_of(const Experiment& experiment, const PlannedRun& run) {
+  Scenario scenario = run.scenario;
+  scenario.robot.clear();
+  return Fingerprint()
+      .add(build_fingerprint())
+      .add(to_yaml(scenario))
+      .add(read_file(run.scenario.robot))
+      .add(run.simulator)
+      .add(fmt::format("{} {}", seed_of(experiment, run.role), run.run))
+      .text();
+}
+
+/// The two files that say whether a recording can be used: its checksum, or why there is none.
+std::filesystem::path stamp_of(const PlannedRun& run, const RunDirectory& directory) {
+  return directory.file("state/recordings", run.file + ".sum");
+}
+std::filesystem::path failure_of(const PlannedRun& run, const RunDirectory& directory) {
+  return directory.file("state/recordings", run.file + ".failed");
+}
+
+bool is_whole(const PlannedRun& run, const RunDirectory& directory, const std::string& key) {
+  const std::optional<std::string> stamp = read_state(stamp_of(run, directory), key);
+  if (!stamp) return false;
+  const auto sum = file_checksum(directory.file("recordings", run.file));
+  return sum && *stamp == fmt::format("{:016x}", *sum);
+}
+
+/// A run that could not be simulated.
+PlayedRun failed(const PlannedRun& plan, const std::string& why) {
+  PlayedRun run{plan, {.outcome = Outcome::diverged, .error = why}, {}};
+  run.heard.info.simulator = plan.simulator;
+  run.heard.info.run = plan.run;
+  return run;
+}
+
+struct PlayRequest {
+  const Experiment& experiment;
+  const RunDirectory& directory;
+  const std::function<bool()>& going_on;
+  MissingRun missing;
+};
+
+PlayedRun heard_of(const Recording& recording, const PlannedRun& run,
+                   const Experiment& experiment) {
+  HeardRun heard =
+      hear(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
+  const RunReport how = report(recording, heard, experiment.scoring);
+  return {run, how, std::move(heard)};
+}
+
+PlayedRun play_or_read(const PlannedRun& run, const PlayRequest& request) {
+  const auto file = request.directory.file("recordings", run.file);
+  const std::string key = key_of(request.experiment, run);
+  if (is_whole(run, request.directory, key)) {
+    return heard_of(read_recording(file), run, request.experiment);
+  }
+  if (request.missing == MissingRun::refuse) {
+    if (const auto why = read_state(failure_of(run, request.directory), key)) {
+      return failed(run, *why);
+    }
+    throw Error(fmt::format("{}: is missing or not whole", file.string()));
+  }
+  Recording recording;
+  try {
+    recording = play(run.scenario, run.simulator, seed_of(request.experiment, run.role), run.run,
+                     [&](double /*time*/) { return !request.going_on || request.going_on(); });
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    write_state(failure_of(run, request.directory), key, error.what());
+    return failed(run, error.what());
+  }
+  if (request.going_on && !request.going_on()) throw Stopped();
   write_recording(recording, file);
-  return recording;
+  write_state(stamp_of(run, request.directory), key, fmt::format("{:016x}", *file_checksum(file)));
+  return heard_of(recording, run, request.experiment);
 }
 
 }  // namespace
@@ -92,20 +169,23 @@ std::vector<PlannedRun> plan_runs(const Experiment& experiment,
 
 std::vector<PlayedRun> play_runs(const Experiment& experiment, const std::vector<PlannedRun>& plan,
                                  const RunDirectory& directory,
-                                 const std::function<bool()>& progress) {
+                                 const std::function<bool()>& progress,
+                                 const std::function<bool()>& going_on, MissingRun missing) {
+  const PlayRequest request{experiment, directory, going_on, missing};
   std::vector<PlayedRun> played(plan.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, plan.size(), 1), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const Recording recording =
-          play_or_read(experiment, plan[i], directory.file("recordings", plan[i].file));
-      HeardRun heard =
-          hear(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
-      const RunReport how = report(recording, heard, experiment.scoring);
-      played[i] = {plan[i], how, std::move(heard)};
+      played[i] = play_or_read(plan[i], request);
       if (!progress()) throw Stopped();
     }
   });
   return played;
+}
+
+bool is_recorded(const Experiment& experiment, const PlannedRun& run,
+                 const RunDirectory& directory) {
+  const std::string key = key_of(experiment, run);
+  return is_whole(run, directory, key) || read_state(failure_of(run, directory), key).has_value();
 }
 
 }  // namespace touchdown

@@ -39,8 +39,9 @@ std::vector<PlannedRun> plan_runs(const Experiment& experiment,
 /// How a planned run went.
 struct RunReport {
   Outcome outcome = Outcome::finished;
-  double duration = 0.0;  ///< s
-  int flights = 0;        ///< with both wheels off the ground, as long as scoring asks for
+  double duration = 0.0;   ///< s
+  int flights = 0;         ///< with both wheels off the ground, as long as scoring asks for
+  std::string error = {};  ///< why there is no recording at all; its outcome is then `diverged`
 };
 
 struct PlayedRun {
@@ -54,10 +55,23 @@ inline bool is_failure(Outcome outcome) {
   return outcome == Outcome::fell || outcome == Outcome::diverged;
 }
 
+/// What happens to runs whose recording is not there.
+enum class MissingRun : int { simulate, refuse };
+
 /// Simulates the planned runs in parallel and writes their recordings, or reads the recordings that
-/// are there already. `progress` is called after each run; returning false ends it with `Stopped`.
+/// are there already: those that this build made of the same scenario, seed and run, and that are
+/// whole. A run that cannot be simulated is a failed run and does not stop the others.
+/// `progress` is called after each run, `going_on` now and then; returning false ends it with
+/// `Stopped`. Errors: `InputError` for a scene that makes no sense; `Error` for a missing recording
+/// that is not to be simulated.
 std::vector<PlayedRun> play_runs(const Experiment& experiment, const std::vector<PlannedRun>& plan,
                                  const RunDirectory& directory,
-                                 const std::function<bool()>& progress);
+                                 const std::function<bool()>& progress,
+                                 const std::function<bool()>& going_on = {},
+                                 MissingRun missing = MissingRun::simulate);
+
+/// Whether `play_runs` would find the run's recording, or the reason why it has none.
+bool is_recorded(const Experiment& experiment, const PlannedRun& run,
+                 const RunDirectory& directory);
 
 }  // namespace touchdown

@@ -5,27 +5,29 @@
 #include "core/random.hpp"
 #include "experiments/estimator_registry.hpp"
 #include "experiments/stopped.hpp"
+#include "experiments/sweep_run.hpp"
 
 namespace touchdown {
 
 namespace {
 
-/// One condition listening to one run under one noise seed.
+/// One run under one noise seed, heard by all conditions that are tested on its engine.
 struct Task {
-  std::size_t condition = 0;
   const HeardRun* run = nullptr;
   int seed = 0;
+  std::vector<std::size_t> conditions;
 };
 
-/// By condition, then run, then seed: the order in which results are added up.
+/// By run, then seed: the order in which results are added up.
 std::vector<Task> tasks_of(const std::vector<Condition>& conditions,
                            const std::vector<const HeardRun*>& runs, int seeds) {
   std::vector<Task> tasks;
-  for (std::size_t c = 0; c < conditions.size(); ++c) {
-    for (const HeardRun* run : runs) {
-      if (run->info.simulator != conditions[c].test_simulator) continue;
-      for (int seed = 0; seed < seeds; ++seed) tasks.push_back({c, run, seed});
+  for (const HeardRun* run : runs) {
+    std::vector<std::size_t> listening;
+    for (std::size_t c = 0; c < conditions.size(); ++c) {
+      if (conditions[c].test_simulator == run->info.simulator) listening.push_back(c);
     }
+    for (int seed = 0; seed < seeds; ++seed) tasks.push_back({run, seed, listening});
   }
   return tasks;
 }
@@ -39,25 +41,13 @@ void in_parallel(std::size_t count, const Work& work) {
 
 /// Adds one task's samples to those of its run: the noise seeds of a run are one sample.
 template <typename Sample>
-void add_samples(std::vector<Sample>& all, const std::vector<Sample>& task, bool first_seed) {
+void add_samples(std::vector<Sample>& all, std::span<const Sample> task, bool first_seed) {
   if (first_seed) {
     all.insert(all.end(), task.begin(), task.end());
     return;
   }
   const std::size_t offset = all.size() - task.size();
   for (std::size_t i = 0; i < task.size(); ++i) all[offset + i] += task[i];
-}
-
-std::vector<Classification> classify_wheels(
-    const HeardRun& run, const std::array<ContactSequence, wheel_count>& decisions,
-    const ScoringConfig& scoring) {
-  std::vector<Classification> samples(run.pieces.size());
-  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
-    const auto pieces = classify(run.contact[wheel], decisions[wheel], run.pieces,
-                                 run.info.control_period_us, scoring);
-    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] += pieces[i];
-  }
-  return samples;
 }
 
 }  // namespace
@@ -101,8 +91,11 @@ std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
 std::int64_t sweep_size(const Experiment& experiment, const std::vector<Condition>& conditions,
                         const std::vector<NoiseCell>& cells,
                         const std::vector<const HeardRun*>& test_runs) {
-  return static_cast<std::int64_t>(tasks_of(conditions, test_runs, experiment.noise.seeds).size() *
-                                   cells.size());
+  std::size_t size = 0;
+  for (const Task& task : tasks_of(conditions, test_runs, experiment.noise.seeds)) {
+    size += task.conditions.size() * cells.size();
+  }
+  return static_cast<std::int64_t>(size);
 }
 
 std::vector<ConditionCounts> sweep(const Experiment& experiment,
@@ -111,19 +104,16 @@ std::vector<ConditionCounts> sweep(const Experiment& experiment,
                                    const std::vector<const HeardRun*>& test_runs,
                                    const FittedModels& models, const SweepProgress& progress) {
   const std::vector<Task> tasks = tasks_of(conditions, test_runs, experiment.noise.seeds);
-  // By task, then cell, then statistical sample.
-  std::vector<std::vector<std::vector<Classification>>> counts(tasks.size());
+  std::vector<std::vector<Classification>> counts(tasks.size());
   in_parallel(tasks.size(), [&](std::size_t t) {
     const Task& task = tasks[t];
+    std::vector<Condition> listening;
+    for (const std::size_t c : task.conditions) listening.push_back(conditions[c]);
     const UnitNoise noise =
         unit_noise(*task.run, noise_key(experiment, task.seed, task.run->info.run));
-    const auto estimator =
-        make_estimator(conditions[task.condition], models, task.run->info.control_period_us);
-    for (const NoiseCell& cell : cells) {
-      counts[t].push_back(classify_wheels(
-          *task.run, decide(*estimator, *task.run, noise, cell.levels()), experiment.scoring));
-    }
-    if (!progress(static_cast<std::int64_t>(cells.size()))) throw Stopped();
+    counts[t] = sweep_run(listening, cells, *task.run, noise, models, experiment.scoring,
+                          [&] { return progress(0); });
+    if (!progress(static_cast<std::int64_t>(listening.size() * cells.size()))) throw Stopped();
   });
 
   std::vector<ConditionCounts> result;
@@ -131,8 +121,13 @@ std::vector<ConditionCounts> sweep(const Experiment& experiment,
     result.push_back({condition, std::vector<std::vector<Classification>>(cells.size())});
   }
   for (std::size_t t = 0; t < tasks.size(); ++t) {
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      add_samples(result[tasks[t].condition].samples[c], counts[t][c], tasks[t].seed == 0);
+    std::span<const Classification> rest = counts[t];
+    const std::size_t pieces = tasks[t].run->pieces.size();
+    for (const std::size_t c : tasks[t].conditions) {
+      for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+        add_samples(result[c].samples[cell], rest.first(pieces), tasks[t].seed == 0);
+        rest = rest.subspan(pieces);
+      }
     }
   }
   return result;
@@ -145,20 +140,25 @@ std::vector<ConditionScores> score_conditions(const Experiment& experiment,
                                               const FittedModels& models,
                                               const SweepProgress& progress) {
   const std::vector<Task> tasks = tasks_of(conditions, test_runs, seeds);
-  std::vector<std::vector<RobotScore>> scores(tasks.size());
+  // By task, then condition of the task.
+  std::vector<std::vector<std::vector<RobotScore>>> scores(tasks.size());
   in_parallel(tasks.size(), [&](std::size_t t) {
     const HeardRun& run = *tasks[t].run;
     const UnitNoise noise = unit_noise(run, noise_key(experiment, tasks[t].seed, run.info.run));
-    const auto estimator =
-        make_estimator(conditions[tasks[t].condition], models, run.info.control_period_us);
-    scores[t] = score(run.contact, predict(*estimator, run, noise, cell.levels()), run.pieces,
-                      run.info.control_period_us, experiment.scoring);
-    if (!progress(1)) throw Stopped();
+    for (const std::size_t c : tasks[t].conditions) {
+      const auto estimator = make_estimator(conditions[c], models, run.info.control_period_us);
+      scores[t].push_back(score(run.contact, predict(*estimator, run, noise, cell.levels()),
+                                run.pieces, run.info.control_period_us, experiment.scoring));
+      if (!progress(1)) throw Stopped();
+    }
   });
   std::vector<ConditionScores> result;
   for (const Condition& condition : conditions) result.push_back({condition, {}});
   for (std::size_t t = 0; t < tasks.size(); ++t) {
-    add_samples(result[tasks[t].condition].samples, scores[t], tasks[t].seed == 0);
+    for (std::size_t i = 0; i < tasks[t].conditions.size(); ++i) {
+      const std::vector<RobotScore>& samples = scores[t][i];
+      add_samples<RobotScore>(result[tasks[t].conditions[i]].samples, samples, tasks[t].seed == 0);
+    }
   }
   return result;
 }

@@ -40,7 +40,8 @@ struct ConditionCounts {
   std::vector<std::vector<Classification>> samples;
 };
 
-/// Called after a task with the number of noise cells that it evaluated; false stops the work.
+/// Called with the number of noise cells that were evaluated since, which may be none; false stops
+/// the work.
 using SweepProgress = std::function<bool(std::int64_t cells)>;
 
 /// Lets every condition listen to every test run through every noise cell and seed. Recordings and

@@ -1,0 +1,39 @@
+#include <memory>
+#include <string>
+
+#include "cli/show_result.hpp"
+#include "cli/verbs.hpp"
+#include "experiments/run_experiment.hpp"
+
+namespace touchdown {
+
+namespace {
+
+struct MergeFlags {
+  std::string directory;
+  bool no_pictures = false;
+};
+
+void merge(const MergeFlags& flags, const Session& session) {
+  ExperimentResult result =
+      merge_run(flags.directory, {.out = {}, .command = session.command, .stop = session.stop});
+  show(result, session, flags.no_pictures);
+}
+
+}  // namespace
+
+void add_merge(CLI::App& program, Session& session) {
+  CLI::App* verb = program.add_subcommand(
+      "merge",
+      "touchdown merge runs/stairs/latest\n\n"
+      "Puts together what the shards of an experiment left in its run directory.");
+  const auto flags = std::make_shared<MergeFlags>();
+  verb->add_option("directory", flags->directory, "Run directory of all shards")
+      ->required()
+      ->type_name("DIR");
+  verb->add_flag("--no-pictures", flags->no_pictures, "Tables only: no figures, no videos");
+  verb->callback(
+      [flags, &session] { session.action = [flags, &session] { merge(*flags, session); }; });
+}
+
+}  // namespace touchdown
