@@ -1,9 +1,9 @@
 #include "experiments/saved_state.hpp"
 
-#include <array>
-#include <cstring>
 #include <fstream>
+#include <memory>
 #include <vector>
+#include <xxhash.h>
 
 #include <fmt/format.h>
 
@@ -13,47 +13,6 @@ namespace touchdown {
 
 namespace {
 
-/// Takes content in pieces; all but the last are whole blocks.
-class Checksum {
- public:
-  static constexpr std::size_t block = 32;
-
-  void add(std::string_view piece) {
-    size_ += piece.size();
-    while (piece.size() >= block) {
-      mix(piece.data());
-      piece.remove_prefix(block);
-    }
-    if (piece.empty()) return;
-    std::array<char, block> last{};
-    std::memcpy(last.data(), piece.data(), piece.size());
-    mix(last.data());
-  }
-
-  std::uint64_t value() const {
-    std::uint64_t sum = size_;
-    for (const std::uint64_t lane : lanes_) sum = next(sum, lane);
-    return next(sum, sum >> 29U);
-  }
-
- private:
-  static std::uint64_t next(std::uint64_t state, std::uint64_t word) {
-    state = (state ^ word) * 0x9e3779b97f4a7c15ULL;
-    return state ^ (state >> 32U);
-  }
-
-  void mix(const char* bytes) {
-    for (std::size_t i = 0; i < lanes_.size(); ++i) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes + i * sizeof word, sizeof word);
-      lanes_[i] = next(lanes_[i], word);
-    }
-  }
-
-  std::array<std::uint64_t, 4> lanes_ = {1, 2, 3, 4};
-  std::uint64_t size_ = 0;
-};
-
 std::string head(std::string_view key, std::string_view content) {
   return fmt::format("touchdown state\n{}\n{} {:016x}\n", key, content.size(), checksum(content));
 }
@@ -61,23 +20,23 @@ std::string head(std::string_view key, std::string_view content) {
 }  // namespace
 
 std::uint64_t checksum(std::string_view content) {
-  Checksum sum;
-  sum.add(content);
-  return sum.value();
+  return XXH3_64bits(content.data(), content.size());
 }
 
 std::optional<std::uint64_t> file_checksum(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> sum(XXH3_createState(),
+                                                                     XXH3_freeState);
+  if (!sum) return std::nullopt;
+  XXH3_64bits_reset(sum.get());
   std::vector<char> piece(std::size_t{1} << 20U);
-  static_assert((std::size_t{1} << 20U) % Checksum::block == 0);
-  Checksum sum;
   do {
     file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    sum.add({piece.data(), static_cast<std::size_t>(file.gcount())});
+    XXH3_64bits_update(sum.get(), piece.data(), static_cast<std::size_t>(file.gcount()));
   } while (file);
   if (file.bad()) return std::nullopt;
-  return sum.value();
+  return XXH3_64bits_digest(sum.get());
 }
 
 void write_state(const std::filesystem::path& path, std::string_view key,

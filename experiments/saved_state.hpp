@@ -8,8 +8,7 @@
 
 namespace touchdown {
 
-/// A number that tells contents apart quickly: eight bytes at a time, in four interleaved sums.
-/// Equal on every machine of the same byte order.
+/// A number that tells contents apart quickly (XXH3), the same on every machine.
 std::uint64_t checksum(std::string_view content);
 /// Of a file, read in pieces. Nothing if it cannot be read.
 std::optional<std::uint64_t> file_checksum(const std::filesystem::path& path);
