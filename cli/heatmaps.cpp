@@ -1,6 +1,9 @@
 #include "cli/heatmaps.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -10,28 +13,45 @@ namespace touchdown {
 
 namespace {
 
+/// Where a summary's cell lies on a map.
+using Place = std::function<std::array<double, 2>(const NoiseCell&)>;
+
 HeatmapPanel panel_of(const ExperimentResult& result, const std::string& simulator,
-                      const std::string& estimator) {
-  const NoiseGridConfig& noise = result.experiment.noise;
+                      const std::string& estimator, const Heatmap& heatmap, const Place& place) {
   HeatmapPanel panel;
   panel.title = estimator_entry(estimator).title;
   for (auto* rows : {&panel.value, &panel.low, &panel.high}) {
-    rows->assign(noise.torque.size(), std::vector<double>(noise.accelerometer.size(), NAN));
+    rows->assign(heatmap.y.size(), std::vector<double>(heatmap.x.size(), NAN));
   }
+  panel.marked.assign(heatmap.y.size(), std::vector<bool>(heatmap.x.size(), false));
   for (const CellSummary& summary : result.summaries) {
     const Condition& who = summary.condition;
     if (who.test_simulator != simulator || who.estimator != estimator) continue;
-    const auto place = [](const std::vector<double>& levels, double level) {
-      return static_cast<std::size_t>(std::find(levels.begin(), levels.end(), level) -
-                                      levels.begin());
-    };
-    const std::size_t row = place(noise.torque, summary.cell.torque);
-    const std::size_t column = place(noise.accelerometer, summary.cell.accelerometer);
+    const auto [x, y] = place(summary.cell);
+    const auto column = static_cast<std::size_t>(std::find(heatmap.x.begin(), heatmap.x.end(), x) -
+                                                 heatmap.x.begin());
+    const auto row = static_cast<std::size_t>(std::find(heatmap.y.begin(), heatmap.y.end(), y) -
+                                              heatmap.y.begin());
+    if (column == heatmap.x.size() || row == heatmap.y.size()) continue;
     panel.value[row][column] = summary.success.estimate;
     panel.low[row][column] = summary.success.low;
     panel.high[row][column] = summary.success.high;
+    panel.marked[row][column] = summary.loses();
   }
   return panel;
+}
+
+/// The widest interval of all panels, for maps whose cells are too many to say their own.
+double widest_interval(const Heatmap& heatmap) {
+  double widest = 0.0;
+  for (const HeatmapPanel& panel : heatmap.panels) {
+    for (std::size_t row = 0; row < panel.value.size(); ++row) {
+      for (std::size_t column = 0; column < panel.value[row].size(); ++column) {
+        widest = std::fmax(widest, panel.high[row][column] - panel.low[row][column]);
+      }
+    }
+  }
+  return widest;
 }
 
 double always_contact(const ExperimentResult& result, const std::string& simulator) {
@@ -39,6 +59,35 @@ double always_contact(const ExperimentResult& result, const std::string& simulat
     if (summary.condition.test_simulator == simulator) return summary.always_contact;
   }
   return NAN;
+}
+
+/// Panels, captions and lines common to both maps; axes are set already.
+void fill(Heatmap& heatmap, const ExperimentResult& result, const std::string& simulator,
+          const Place& place) {
+  const Experiment& experiment = result.experiment;
+  heatmap.value_label = "success rate";
+  for (const std::string& estimator : experiment.estimators) {
+    if (estimator == always_contact_name) continue;
+    heatmap.panels.push_back(panel_of(result, simulator, estimator, heatmap, place));
+  }
+  const auto runs = scored_runs(result.runs);
+  const auto scored = std::count_if(runs.begin(), runs.end(), [&](const HeardRun* run) {
+    return run->info.simulator == simulator;
+  });
+  heatmap.caption = fmt::format(
+      "{} test runs × {} noise seeds; contact: normal force > {} N, states under {} ms merged; "
+      "always contact scores {:.3f}: crossed cells do not beat it.",
+      scored, experiment.noise.seeds, experiment.labels.force_threshold,
+      1e3 * experiment.labels.debounce, always_contact(result, simulator));
+  constexpr std::size_t most_cells_with_intervals = 64;
+  if (heatmap.x.size() * heatmap.y.size() > most_cells_with_intervals) {
+    heatmap.caption += fmt::format(" The widest {:.0f} % interval over {}s is {:.3f}.",
+                                   100.0 * experiment.intervals.bootstrap.level,
+                                   experiment.intervals.over == SampleUnit::run ? "run" : "drop",
+                                   widest_interval(heatmap));
+    for (HeatmapPanel& panel : heatmap.panels) panel.low = panel.high = {};
+  }
+  heatmap.iso_levels = {0.9, 0.95, 0.98};
 }
 
 }  // namespace
@@ -50,22 +99,31 @@ Heatmap success_heatmap(const ExperimentResult& result, const std::string& simul
       fmt::format("Success rate under sensor noise: {}, {}", experiment.name, simulator);
   heatmap.x_label = "accelerometer noise (m/s²)";
   heatmap.y_label = "torque noise (N·m)";
-  heatmap.value_label = "success rate";
   heatmap.x = experiment.noise.accelerometer;
   heatmap.y = experiment.noise.torque;
-  for (const std::string& estimator : experiment.estimators) {
-    heatmap.panels.push_back(panel_of(result, simulator, estimator));
-  }
-  const auto runs = scored_runs(result.runs);
-  const auto scored = std::count_if(runs.begin(), runs.end(), [&](const HeardRun* run) {
-    return run->info.simulator == simulator;
+  fill(heatmap, result, simulator, [](const NoiseCell& cell) {
+    return std::array{cell.accelerometer, cell.torque};
   });
-  heatmap.caption = fmt::format(
-      "{} test runs × {} noise seeds; contact: normal force > {} N, states under {} ms merged; "
-      "always contact scores {:.3f}",
-      scored, experiment.noise.seeds, experiment.labels.force_threshold,
-      1e3 * experiment.labels.debounce, always_contact(result, simulator));
-  heatmap.iso_levels = {0.9, 0.95, 0.98};
+  return heatmap;
+}
+
+std::optional<Heatmap> knee_wheel_heatmap(const ExperimentResult& result,
+                                          const std::string& simulator) {
+  const Experiment& experiment = result.experiment;
+  const KneeWheelGridConfig& grid = experiment.noise.knee_wheel;
+  if (grid.knee.empty()) return std::nullopt;
+  Heatmap heatmap;
+  heatmap.title =
+      fmt::format("Success rate under torque noise, {} m/s² on the accelerometer: {}, {}",
+                  grid.accelerometer, experiment.name, simulator);
+  heatmap.x_label = "wheel torque noise (N·m)";
+  heatmap.y_label = "knee torque noise (N·m)";
+  heatmap.x = grid.wheel;
+  heatmap.y = grid.knee;
+  fill(heatmap, result, simulator, [&](const NoiseCell& cell) {
+    return cell.accelerometer == grid.accelerometer ? std::array{cell.wheel, cell.knee}
+                                                    : std::array<double, 2>{NAN, NAN};
+  });
   return heatmap;
 }
 

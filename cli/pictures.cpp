@@ -65,6 +65,12 @@ std::vector<Picture> draw_pictures(ExperimentResult& result, const Session& sess
                                          result.directory.file("figures", "success_" + simulator));
       pictures.push_back({"heatmap", figure.png});
       pictures.push_back({"", figure.svg});
+      if (const auto map = knee_wheel_heatmap(result, simulator)) {
+        const Figure apart =
+            draw_heatmap(*map, result.directory.file("figures", "knee_wheel_" + simulator));
+        pictures.push_back({"heatmap", apart.png});
+        pictures.push_back({"", apart.svg});
+      }
     }
   }
   if (result.experiment.video.enabled) {

@@ -20,6 +20,7 @@ class MeasurementOnly : public ContactEstimator {
   const Belief& update(const Signals& signals) noexcept override;
 
   [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
+  [[nodiscard]] const BayesFilterConfig& config() const noexcept { return config_; }
   [[nodiscard]] const MeasurementDiagnostics& measurement(Side side) const noexcept {
     return measurement_[static_cast<std::size_t>(side)];
   }

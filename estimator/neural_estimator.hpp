@@ -39,6 +39,10 @@ class NeuralEstimator : public ContactEstimator {
   /// Of the IMU, in the base frame (m/s), at the network's last step; zero before the first.
   [[nodiscard]] const Eigen::Vector3d& body_velocity() const noexcept { return velocity_; }
   [[nodiscard]] const NeuralEstimatorConfig& config() const noexcept { return config_; }
+  /// Shared with all who use the same one.
+  [[nodiscard]] std::shared_ptr<const NeuralNetwork> network() const noexcept {
+    return forward_.shared_network();
+  }
 
  private:
   void step() noexcept;

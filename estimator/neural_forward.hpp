@@ -30,6 +30,9 @@ class NeuralForward {
 
   [[nodiscard]] Eigen::Index lanes() const noexcept { return hidden_.cols(); }
   [[nodiscard]] const NeuralNetwork& network() const noexcept { return *network_; }
+  [[nodiscard]] std::shared_ptr<const NeuralNetwork> shared_network() const noexcept {
+    return network_;
+  }
 
  private:
   std::shared_ptr<const NeuralNetwork> network_;

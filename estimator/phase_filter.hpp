@@ -7,6 +7,7 @@
 #include "estimator/phase_filter_config.hpp"
 #include "estimator/phase_model.hpp"
 #include "estimator/phase_noise.hpp"
+#include "estimator/phase_recursion.hpp"
 #include "estimator/phase_tables.hpp"
 #include "estimator/signal_guard.hpp"
 
@@ -38,14 +39,12 @@ class PhaseFilter : public ContactEstimator {
   [[nodiscard]] PhaseNoise noise() const noexcept;
 
  private:
-  using Lanes = std::array<double, phase_lanes>;
-
   void forget(double elapsed) noexcept;
   void listen_to_noise(const Signals& signals, bool acceleration_good) noexcept;
-  void predict_and_correct(const Lanes& log_likelihood) noexcept;
   void conclude() noexcept;
 
   PhaseFilterConfig config_;
+  PhaseRecursion recursion_;
   PhaseTorqueTables torque_;
   PhaseAccelerationTables acceleration_;
   SignalGuard guard_;
@@ -54,8 +53,7 @@ class PhaseFilter : public ContactEstimator {
   // By rung of the estimates; of one entry each if the noise is known.
   std::vector<PhaseNoiseLevel> torque_levels_;
   std::vector<PhaseNoiseLevel> acceleration_levels_;
-  alignas(64) std::array<Lanes, phase_count> transition_{};  // from row to column
-  alignas(64) Lanes alpha_{};
+  alignas(64) PhaseRecursion::Lanes alpha_{};
   Belief belief_;
 };
 

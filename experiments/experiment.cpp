@@ -64,6 +64,16 @@ NoiseGridConfig noise_from_yaml(YamlMap map) {
   NoiseGridConfig noise;
   read_levels(map, "torque", noise.torque);
   read_levels(map, "accelerometer", noise.accelerometer);
+  if (map.has("knee_wheel")) {
+    YamlMap grid = map.child("knee_wheel");
+    for (const char* joint : {"knee", "wheel"}) {
+      if (!grid.has(joint)) grid.fail(joint, "is missing");
+    }
+    read_levels(grid, "knee", noise.knee_wheel.knee);
+    read_levels(grid, "wheel", noise.knee_wheel.wheel);
+    grid.read("accelerometer", noise.knee_wheel.accelerometer, 0.0, 1e3);
+    grid.finish();
+  }
   map.read("seeds", noise.seeds, 1, 100'000);
   map.finish();
   return noise;
@@ -73,6 +83,11 @@ YAML::Node to_node(const NoiseGridConfig& noise) {
   YAML::Node node;
   node["torque"] = noise.torque;
   node["accelerometer"] = noise.accelerometer;
+  if (const KneeWheelGridConfig& grid = noise.knee_wheel; !grid.knee.empty()) {
+    node["knee_wheel"]["knee"] = grid.knee;
+    node["knee_wheel"]["wheel"] = grid.wheel;
+    node["knee_wheel"]["accelerometer"] = grid.accelerometer;
+  }
   node["seeds"] = noise.seeds;
   return node;
 }

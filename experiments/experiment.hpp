@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,25 +21,43 @@ struct RunsConfig {
   bool perturbed = true;               ///< drawn from the seed, or the scenario as it stands
 };
 
+/// Noise on knees and wheels apart, at one level of accelerometer noise; empty lists for none.
+struct KneeWheelGridConfig {
+  std::vector<double> knee = {};   ///< N·m
+  std::vector<double> wheel = {};  ///< N·m
+  double accelerometer = 0.0;      ///< on each axis (m/s²)
+};
+
 /// Standard deviations of Gaussian noise on what the estimator hears, as lists to be combined, and
 /// how often each combination is drawn anew.
 struct NoiseGridConfig {
   std::vector<double> torque = {0.0};         ///< on knees and wheels alike (N·m)
   std::vector<double> accelerometer = {0.0};  ///< on each axis (m/s²)
+  KneeWheelGridConfig knee_wheel = {};        ///< a second grid
   int seeds = 1;
 };
 
-/// One noise setting of a sweep.
+/// One noise setting of a sweep: torque noise on knees and wheels alike, or apart.
 struct NoiseCell {
-  double torque = 0.0;         ///< on knees and wheels (N·m)
+  double torque = 0.0;         ///< on knees and wheels (N·m); NaN where they differ
   double accelerometer = 0.0;  ///< on each axis (m/s²)
+  double knee = torque;        ///< N·m
+  double wheel = torque;       ///< N·m
 
   NoiseLevels levels() const {
-    return {.knee_torque = torque, .wheel_torque = torque, .acceleration = accelerometer};
+    return {.knee_torque = knee, .wheel_torque = wheel, .acceleration = accelerometer};
   }
 
-  friend bool operator==(const NoiseCell&, const NoiseCell&) = default;
+  friend bool operator==(const NoiseCell& a, const NoiseCell& b) {
+    return a.knee == b.knee && a.wheel == b.wheel && a.accelerometer == b.accelerometer;
+  }
 };
+
+/// A cell of a knee × wheel grid.
+inline NoiseCell knee_wheel_cell(double knee, double wheel, double accelerometer) {
+  const double alike = knee == wheel ? knee : std::numeric_limits<double>::quiet_NaN();
+  return {alike, accelerometer, knee, wheel};
+}
 
 /// What a bootstrap interval takes as its sample.
 enum class SampleUnit : int { run, drop };

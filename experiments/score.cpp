@@ -7,17 +7,17 @@ namespace touchdown {
 
 namespace {
 
-std::size_t first_scored_step(std::int64_t period_us, const ScoringConfig& config) {
-  return static_cast<std::size_t>(
-      std::llround(config.skip / (1e-6 * static_cast<double>(period_us))));
-}
-
 std::size_t piece_of(std::size_t step, const std::vector<std::size_t>& pieces) {
   const auto after = std::upper_bound(pieces.begin(), pieces.end(), step);
   return static_cast<std::size_t>(after - pieces.begin()) - 1;
 }
 
 }  // namespace
+
+std::size_t first_scored_step(std::int64_t period_us, const ScoringConfig& config) {
+  return static_cast<std::size_t>(
+      std::llround(config.skip / (1e-6 * static_cast<double>(period_us))));
+}
 
 Score& Score::operator+=(const Score& other) {
   points += other.points;

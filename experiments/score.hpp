@@ -29,6 +29,9 @@ struct Score {
   Score& operator+=(const Score& other);
 };
 
+/// The first step that is scored.
+std::size_t first_scored_step(std::int64_t period_us, const ScoringConfig& config);
+
 /// Compares a track with the truth. `pieces` holds the first step of each piece the run is cut into
 /// (`{0}` for the whole run, `drop_pieces` for one per drop); the result has one score per piece. A
 /// point belongs to the piece it lies in, a transition to the piece of its true event.

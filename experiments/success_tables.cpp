@@ -56,13 +56,16 @@ std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
 }
 
 Table success_table(const std::vector<CellSummary>& summaries) {
-  Table table{{"simulator", "estimator", "torque_noise_nm", "accelerometer_noise_mps2", "success",
-               "success_low", "success_high", "always_contact_success"},
-              {}};
+  Table table{
+      {"simulator", "estimator", "torque_noise_nm", "accelerometer_noise_mps2", "success",
+       "success_low", "success_high", "always_contact_success", "knee_noise_nm", "wheel_noise_nm"},
+      {}};
   for (const CellSummary& summary : summaries) {
     std::vector<std::string> row = setting(summary);
     append(row, summary.success);
     row.push_back(metric(summary.always_contact));
+    row.push_back(exact(summary.cell.knee));
+    row.push_back(exact(summary.cell.wheel));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -76,12 +79,15 @@ Table classification_table(const std::vector<CellSummary>& summaries) {
       table.header.push_back(std::string(name) + suffix);
     }
   }
+  table.header.insert(table.header.end(), {"knee_noise_nm", "wheel_noise_nm"});
   for (const CellSummary& summary : summaries) {
     std::vector<std::string> row = setting(summary);
     append(row, summary.contact_precision);
     append(row, summary.contact_recall);
     append(row, summary.no_contact_precision);
     append(row, summary.no_contact_recall);
+    row.push_back(exact(summary.cell.knee));
+    row.push_back(exact(summary.cell.wheel));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -115,9 +121,12 @@ Table grid_text_table(const std::vector<CellSummary>& summaries, const std::stri
     const Condition& who = summary.condition;
     if (who.test_simulator != simulator || who.estimator != estimator) continue;
     const auto row = std::find(noise.torque.begin(), noise.torque.end(), summary.cell.torque);
-    const bool loses = summary.success.estimate <= summary.always_contact;
+    const bool on_grid = row != noise.torque.end() &&
+                         std::find(noise.accelerometer.begin(), noise.accelerometer.end(),
+                                   summary.cell.accelerometer) != noise.accelerometer.end();
+    if (!on_grid) continue;
     table.rows[static_cast<std::size_t>(row - noise.torque.begin())].push_back(
-        fmt::format("{:.3f}{}", summary.success.estimate, loses ? "*" : ""));
+        fmt::format("{:.3f}{}", summary.success.estimate, summary.loses() ? "*" : ""));
   }
   return table;
 }

@@ -19,6 +19,9 @@ struct CellSummary {
   Interval no_contact_precision;
   Interval no_contact_recall;
   double always_contact = 0.0;  ///< success rate of "always contact" in the same runs
+
+  /// Whether one does no worse with "always contact".
+  bool loses() const { return success.estimate <= always_contact; }
 };
 
 /// By condition, then cell.

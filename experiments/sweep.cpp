@@ -1,5 +1,7 @@
 #include "experiments/sweep.hpp"
 
+#include <algorithm>
+
 #include <tbb/parallel_for.h>
 
 #include "core/random.hpp"
@@ -56,6 +58,13 @@ std::vector<NoiseCell> noise_cells(const NoiseGridConfig& noise) {
   std::vector<NoiseCell> cells;
   for (const double torque : noise.torque) {
     for (const double accelerometer : noise.accelerometer) cells.push_back({torque, accelerometer});
+  }
+  const KneeWheelGridConfig& grid = noise.knee_wheel;
+  for (const double knee : grid.knee) {
+    for (const double wheel : grid.wheel) {
+      const NoiseCell cell = knee_wheel_cell(knee, wheel, grid.accelerometer);
+      if (std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
+    }
   }
   return cells;
 }

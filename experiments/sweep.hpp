@@ -19,7 +19,8 @@ struct Condition {
   std::string estimator;
 };
 
-/// Every combination of the experiment's noise levels: torque by torque, accelerometer within.
+/// Every combination of the experiment's noise levels: torque by torque, accelerometer within; then
+/// knee by knee, wheel within, without those that were there already.
 std::vector<NoiseCell> noise_cells(const NoiseGridConfig& noise);
 
 /// The experiment's estimators on the engine they were fitted on, "always contact" last.

@@ -17,6 +17,8 @@ struct NoiseLevels {
   double acceleration = 0.0;    ///< m/s², each axis of the accelerometer
   double joint_position = 0.0;  ///< rad, each servo's encoder
   double joint_velocity = 0.0;  ///< rad/s, each servo's encoder
+
+  bool operator==(const NoiseLevels&) const = default;
 };
 
 /// What noisy sensors report at `step` of a run. The accelerometer's noise is in its own frame and

@@ -19,6 +19,10 @@ void check(const Heatmap& heatmap) {
     throw InputError("a heatmap without cells");
   }
   for (const HeatmapPanel& panel : heatmap.panels) {
+    if (!panel.marked.empty() && panel.marked.size() != heatmap.y.size()) {
+      throw InputError(
+          fmt::format("heatmap '{}': expected {} rows of marks", panel.title, heatmap.y.size()));
+    }
     for (const Matrix* matrix : {&panel.value, &panel.low, &panel.high}) {
       const bool optional = matrix != &panel.value && matrix->empty();
       const bool fits = matrix->size() == heatmap.y.size() &&
@@ -66,7 +70,24 @@ std::string cell_text(const HeatmapPanel& panel, std::size_t row, std::size_t co
   return text;
 }
 
-/// One block per panel (gnuplot's `index`), then one per panel with its iso-lines.
+/// Both diagonals of every marked cell, as lines of a data block.
+std::string crosses(const HeatmapPanel& panel) {
+  std::string text;
+  for (std::size_t row = 0; row < panel.marked.size(); ++row) {
+    for (std::size_t column = 0; column < panel.marked[row].size(); ++column) {
+      if (!panel.marked[row][column]) continue;
+      const auto x = static_cast<double>(column), y = static_cast<double>(row);
+      for (const double slope : {0.5, -0.5}) {
+        fmt::format_to(std::back_inserter(text), "{}\t{}\n{}\t{}\n\n", x - 0.5, y - slope, x + 0.5,
+                       y + slope);
+      }
+    }
+  }
+  return text.empty() ? "NaN\tNaN\n\n" : text;
+}
+
+/// One block per panel (gnuplot's `index`), then one per panel with its iso-lines, then one per
+/// panel with its crosses.
 std::string table(const Heatmap& heatmap, const Range& range) {
   std::string text = "#column\trow\tvalue\tlabel\tlabel_colour\n";
   for (const HeatmapPanel& panel : heatmap.panels) {
@@ -93,6 +114,7 @@ std::string table(const Heatmap& heatmap, const Range& range) {
     }
     text += any ? "\n" : "NaN\tNaN\tNaN\n\n\n";
   }
+  for (const HeatmapPanel& panel : heatmap.panels) text += crosses(panel) + "\n";
   return text;
 }
 
@@ -168,11 +190,12 @@ Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
     commands += fmt::format(
         "plot '{0}.dat' index {1} using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 "
         "with boxxyerror fillcolor palette, \\\n"
+        "     '' index {3} using 1:2 with lines lw 0.7 lc rgb '#808890' dt 1, \\\n"
         "     '' index {2} using 1:2 with lines lw 2.4 lc rgb '#ffffff' dt 1, \\\n"
         "     '' index {2} using 1:2 with lines lw 1.2 lc rgb '#c0392b' dt 1, \\\n"
         "     '' index {1} using 1:2:4:5 with labels font ',8.5' textcolor rgb variable\n"
         "unset label 1\nunset label 2\n",
-        name, i, panels + i);
+        name, i, panels + i, 2 * panels + i);
   }
   commands += "unset multiplot\nreset\nload 'style.gp'\n";
   return draw_figure(stem, static_cast<int>(std::ceil(width)), static_cast<int>(std::ceil(height)),

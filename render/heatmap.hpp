@@ -10,11 +10,13 @@
 namespace touchdown {
 
 /// One map: `value[row][column]` for the figure's y[row] and x[column]; NaN where unknown. `low`
-/// and `high`, the ends of each cell's interval, may be empty.
+/// and `high`, the ends of each cell's interval, may be empty, and so may `marked`, the cells that
+/// are crossed.
 struct HeatmapPanel {
   std::string title;
   std::vector<std::vector<double>> value;
   std::vector<std::vector<double>> low = {}, high = {};
+  std::vector<std::vector<bool>> marked = {};
 };
 
 /// Maps over the same two quantities, side by side, with one colour scale. Every cell says its
