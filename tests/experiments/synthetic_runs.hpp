@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "experiments/experiment.hpp"
+#include "experiments/heard_run.hpp"
+#include "noise/gaussian.hpp"
+
+namespace touchdown {
+
+/// A run with a flight in every second, as estimators might hear one, without a simulator: the
+/// right wheel lags a little behind the left one. Two statistical pieces.
+inline HeardRun synthetic_run(std::int64_t number, std::size_t steps = 4000) {
+  HeardRun run;
+  run.info.scenario = "synthetic";
+  run.info.simulator = "mujoco";
+  run.info.seed = 1;
+  run.info.run = number;
+  run.pieces = {0, steps / 2 + 100};
+  const NoiseKey key{.seed = 99, .run = static_cast<std::uint64_t>(number)};
+  for (std::size_t k = 0; k < steps; ++k) {
+    const double phase = std::fmod(0.001 * static_cast<double>(k), 1.0);
+    Signals s;
+    s.time = 0.001 * static_cast<double>(k);
+    const bool falls = phase >= 0.6 && phase < 0.8;
+    const double shock = phase >= 0.8 ? std::exp(-(phase - 0.8) / 0.02) : 0.0;
+    const double jitter = 0.2 * standard_normal(key, NoiseChannel::left_hip_position, k);
+    s.vertical_acceleration =
+        falls ? -9.81 + jitter : 60.0 * shock * std::cos(900.0 * phase) + jitter;
+    s.linear_acceleration = {0.1 * jitter, 0.0, -s.vertical_acceleration};
+    for (std::size_t side = 0; side < wheel_count; ++side) {
+      const double lag = side == 0 ? 0.0 : 0.008;
+      const bool air = phase >= 0.6 + lag && phase < 0.8;
+      const double sign = side == 0 ? 1.0 : -1.0;
+      LegSignals& leg = s.leg[side];
+      leg.knee.torque = sign * (air ? 0.05 : 1.3 + 4.0 * shock) + 0.02 * jitter;
+      leg.wheel.torque = sign * (air ? 0.01 : 0.3 - 0.5 * shock) + 0.01 * jitter;
+      leg.wheel.position = sign * 10.0 * s.time;
+      leg.wheel.velocity = sign * (10.0 + (air ? 30.0 * (phase - 0.6) : 0.0)) + 0.1 * jitter;
+      run.contact[side].push_back(air ? 0 : 1);
+    }
+    run.signals.push_back(s);
+    run.up_in_imu.emplace_back(0.1, 0.0, -std::sqrt(0.99));
+  }
+  return run;
+}
+
+/// An experiment on such runs that listens with every estimator there is.
+inline Experiment synthetic_experiment(const std::vector<std::string>& estimators) {
+  Experiment experiment;
+  experiment.name = "synthetic";
+  experiment.simulators = {"mujoco"};
+  experiment.estimators = estimators;
+  experiment.noise.torque = {0.0, 0.5, 2.0};
+  experiment.noise.accelerometer = {0.0, 3.0, 8.0};
+  experiment.noise.knee_wheel = {{0.0, 1.0}, {0.0, 0.5}, 1.5};
+  experiment.noise.seeds = 2;
+  return experiment;
+}
+
+}  // namespace touchdown
