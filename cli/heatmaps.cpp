@@ -61,6 +61,20 @@ double always_contact(const ExperimentResult& result, const std::string& simulat
   return NAN;
 }
 
+/// One estimator that fails everywhere must not take the colours from all others.
+void limit_colours(Heatmap& heatmap) {
+  constexpr double floor = 0.8;
+  for (const HeatmapPanel& panel : heatmap.panels) {
+    for (const auto& row : panel.value) {
+      if (std::none_of(row.begin(), row.end(), [](double value) { return value < floor; }))
+        continue;
+      heatmap.low = floor;
+      heatmap.caption += fmt::format(" Below {} all is one colour.", floor);
+      return;
+    }
+  }
+}
+
 /// Panels, captions and lines common to both maps; axes are set already.
 void fill(Heatmap& heatmap, const ExperimentResult& result, const std::string& simulator,
           const Place& place) {
@@ -88,6 +102,7 @@ void fill(Heatmap& heatmap, const ExperimentResult& result, const std::string& s
     for (HeatmapPanel& panel : heatmap.panels) panel.low = panel.high = {};
   }
   heatmap.iso_levels = {0.9, 0.95, 0.98};
+  limit_colours(heatmap);
 }
 
 }  // namespace
