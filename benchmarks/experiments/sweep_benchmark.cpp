@@ -1,0 +1,90 @@
+#include <thread>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+
+#include "experiments/estimator_registry.hpp"
+#include "experiments/sweep.hpp"
+#include "experiments/sweep_run.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+
+namespace touchdown {
+namespace {
+
+constexpr std::size_t run_steps = 13'000;
+
+/// The default study's grids: 13 × 13 torque × accelerometer, 9 × 9 knee × wheel.
+Experiment study(const std::vector<std::string>& estimators) {
+  const YamlDocument document =
+      YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/noise_study.yaml");
+  Experiment experiment = experiment_from_yaml(document);
+  experiment.simulators = {"mujoco"};
+  experiment.estimators = estimators;
+  return experiment;
+}
+
+double cell_updates(const Experiment& experiment, const std::vector<NoiseCell>& cells) {
+  return static_cast<double>(experiment.estimators.size() * cells.size() * run_steps);
+}
+
+/// One run heard through one noise realisation in every cell, by one estimator, on one core. The
+/// rate counts one estimator's step in one cell as one update.
+void one_task(benchmark::State& state, const std::string& estimator,
+              const decltype(&sweep_run)& sweep_it) {
+  const Experiment experiment = study({estimator});
+  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const HeardRun run = synthetic_run(0, run_steps);
+  const UnitNoise noise = unit_noise(run, noise_key(experiment, 0, 0));
+  const std::vector<NoiseCell> cells = noise_cells(experiment.noise);
+  const std::vector<Condition> conditions = {{"mujoco", "mujoco", estimator}};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        sweep_it(conditions, cells, run, noise, models, experiment.scoring, [] { return true; }));
+  }
+  state.counters["cell_updates"] = benchmark::Counter(
+      cell_updates(experiment, cells), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+/// All estimators, several runs and seeds, on so many threads; wall-clock time. Divide the rates by
+/// the threads for the parallel efficiency.
+void on_threads(benchmark::State& state) {
+  const auto threads = static_cast<std::size_t>(state.range(0));
+  if (threads > std::thread::hardware_concurrency()) {
+    state.SkipWithError("fewer cores than threads");
+    return;
+  }
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  Experiment experiment = study(estimator_names());
+  std::erase(experiment.estimators, always_contact_name);
+  experiment.noise.seeds = 4;
+  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const std::vector<HeardRun> runs = {synthetic_run(0, run_steps), synthetic_run(1, run_steps)};
+  const std::vector<const HeardRun*> heard = {&runs[0], &runs[1]};
+  const std::vector<NoiseCell> cells = noise_cells(experiment.noise);
+  const std::vector<Condition> conditions = own_engine_conditions(experiment);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(sweep(experiment, conditions, cells, heard, models,
+                                   [](std::int64_t /*cells*/) { return true; }));
+  }
+  state.counters["cell_updates"] = benchmark::Counter(
+      8.0 * cell_updates(experiment, cells), benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(on_threads)->Arg(1)->Arg(2)->Arg(4)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// Every estimator in lanes, and one by one as far as that ends soon.
+const bool registered = [] {
+  for (const std::string& name : estimator_names()) {
+    benchmark::RegisterBenchmark(("lanes/" + name).c_str(), one_task, name, &sweep_run)
+        ->Unit(benchmark::kMillisecond);
+  }
+  for (const char* name : {"robust", "measurement_only", "phase", "nmn"}) {
+    benchmark::RegisterBenchmark((std::string("one_by_one/") + name).c_str(), one_task,
+                                 std::string(name), &sweep_run_one_by_one)
+        ->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace touchdown
