@@ -188,4 +188,8 @@ bool is_recorded(const Experiment& experiment, const PlannedRun& run,
   return is_whole(run, directory, key) || read_state(failure_of(run, directory), key).has_value();
 }
 
+bool has_stamp(const Experiment& experiment, const PlannedRun& run, const RunDirectory& directory) {
+  return read_state(stamp_of(run, directory), key_of(experiment, run)).has_value();
+}
+
 }  // namespace touchdown

@@ -74,4 +74,7 @@ std::vector<PlayedRun> play_runs(const Experiment& experiment, const std::vector
 bool is_recorded(const Experiment& experiment, const PlannedRun& run,
                  const RunDirectory& directory);
 
+/// Whether the run's recording was finished, without reading it.
+bool has_stamp(const Experiment& experiment, const PlannedRun& run, const RunDirectory& directory);
+
 }  // namespace touchdown
