@@ -1,5 +1,6 @@
 #include "experiments/run_directory.hpp"
 
+#include <random>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -15,7 +16,9 @@ namespace fs = std::filesystem;
 
 /// Points `link` to `target`, replacing what it pointed to in one step.
 void point(const fs::path& link, const fs::path& target) {
-  const fs::path temporary = link.parent_path() / fmt::format(".latest.{}", ::getpid());
+  // Shards start at the same time, some of them on other machines.
+  const fs::path temporary =
+      link.parent_path() / fmt::format(".latest.{}.{:08x}", ::getpid(), std::random_device{}());
   std::error_code ignored;
   fs::remove(temporary, ignored);
   fs::create_directory_symlink(target, temporary);
