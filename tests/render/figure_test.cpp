@@ -69,6 +69,17 @@ TEST_F(FigureFiles, AreDrawnAgainByTheScriptBesideThem) {
   EXPECT_TRUE(read_file(folder_ / "heatmap.png") == before);
 }
 
+TEST_F(FigureFiles, HeatmapCrossesTheMarkedCellsOnly) {
+  Heatmap heatmap = success_heatmap();
+  heatmap.panels[1].marked = {{false, false, false}, {false, false, true}};
+  draw_heatmap(heatmap, folder_ / "heatmap");
+  const std::string data = read_file(folder_ / "heatmap.dat");
+  EXPECT_THAT(data, HasSubstr("1.5\t0.5\n2.5\t1.5\n\n1.5\t1.5\n2.5\t0.5\n"));
+  EXPECT_EQ(data.find("1.5\t0.5\n"), data.rfind("1.5\t0.5\n"));
+  heatmap.panels[1].marked = {{true}};
+  EXPECT_THROW(draw_heatmap(heatmap, folder_ / "heatmap"), InputError);
+}
+
 /// An unknown cell must stay white, and must not move the cells after it.
 TEST_F(FigureFiles, HeatmapCellsHaveTheirOwnColours) {
   Heatmap heatmap = success_heatmap();
