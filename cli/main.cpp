@@ -53,6 +53,7 @@ int run_command_line(int argc, char** argv) {
   add_merge(program, session);
   add_simulate(program, session);
   add_render(program, session);
+  add_report(program, session);
   add_train(program, session);
   add_list(program, session);
 

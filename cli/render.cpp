@@ -3,40 +3,81 @@
 
 #include <fmt/format.h>
 
-#include "cli/belief_track.hpp"
+#include "cli/filmed_run.hpp"
 #include "cli/verbs.hpp"
+#include "core/error.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/stopped.hpp"
-#include "recordings/recording_file.hpp"
 
 namespace touchdown {
 
 namespace {
 
 struct RenderFlags {
-  std::string log;
+  std::vector<std::string> inputs;
   std::string output;
   VideoOptions video;
   std::string quality = "draft";
+  std::string layout;
+  bool poster = false;
 };
 
-void render(const RenderFlags& flags, const Session& session) {
+/// What is to be seen: one run, or two beside each other.
+std::vector<FilmedRun> runs_of(const RenderFlags& flags) {
+  std::vector<FilmedRun> runs;
   std::vector<std::string> warnings;
-  const Recording recording = read_recording(flags.log, &warnings);
+  for (const std::string& input : flags.inputs) {
+    if (!is_run_directory(input)) {
+      runs.push_back(filmed_recording(input, warnings));
+      continue;
+    }
+    std::vector<FilmedRun> filmed = filmed_runs(input);
+    if (filmed.empty()) {
+      throw InputError(fmt::format("{}: has no recording of the run that it films", input));
+    }
+    const bool beside = flags.layout == "side-by-side" && flags.inputs.size() == 1;
+    for (std::size_t i = 0; i < (beside ? filmed.size() : 1); ++i) {
+      runs.push_back(std::move(filmed[i]));
+    }
+  }
   for (const std::string& warning : warnings) fmt::print(stderr, "touchdown: {}\n", warning);
+  const std::size_t wanted = flags.layout == "side-by-side" || flags.inputs.size() > 1 ? 2 : 1;
+  if (runs.size() != wanted || (flags.layout == "single" && wanted != 1)) {
+    throw InputError(fmt::format("render: layout '{}' shows {}, not {}",
+                                 flags.layout.empty() ? "side-by-side" : flags.layout,
+                                 flags.layout == "single" ? "one run" : "two runs", runs.size()));
+  }
+  return runs;
+}
 
+void render(const RenderFlags& flags, const Session& session) {
+  const std::vector<FilmedRun> runs = runs_of(flags);
   VideoOptions options = flags.video;
   options.quality = flags.quality == "page" ? VideoQuality::page : VideoQuality::draft;
-  const double end = static_cast<double>(recording.steps()) * recording.period();
+  options.labels = runs.front().labels;
+  std::vector<VideoSource> sources;
+  double end = 0.0;
+  for (const FilmedRun& run : runs) {
+    sources.push_back(run.source());
+    end = std::max(end, static_cast<double>(run.recording.steps()) * run.recording.period());
+  }
+  if (flags.poster) {
+    render_poster(sources, options, options.from > 0.0 ? options.from : NAN, flags.output);
+    fmt::print("{}\n", flags.output);
+    return;
+  }
   const double shown = std::max(0.0, std::min(options.to, end) - options.from) / options.speed;
   VideoStatistics statistics;
   {
-    Progress progress("filming", "frames", static_cast<std::int64_t>(shown * options.fps));
+    Progress progress("filming", "frames", static_cast<std::int64_t>(shown * options.fps) + 1);
     options.progress = [&](int /*done*/, int /*of*/) {
       progress.advance();
       if (*session.stop) throw Stopped();
     };
-    statistics = render_video(robot_of(recording), recording, {}, options, flags.output);
+    statistics = sources.size() == 2
+                     ? render_side_by_side(sources[0], sources[1], options, flags.output)
+                     : render_video(runs[0].robot, runs[0].recording, runs[0].beliefs, options,
+                                    flags.output);
   }
   fmt::print("{}: {} frames, {:.1f} frames/s\n", flags.output, statistics.frames, statistics.fps());
 }
@@ -47,12 +88,20 @@ void add_render(CLI::App& program, Session& session) {
   CLI::App* verb = program.add_subcommand(
       "render",
       "touchdown render stairs.mpack -o stairs.mp4\n\n"
-      "Films a simulated run: the robot on its terrain, contact and torques below it.");
+      "Films a simulated run: the robot on its terrain, contact and torques below it. A run\n"
+      "directory stands for the run that its experiment films, with what the estimators believed.");
   const auto flags = std::make_shared<RenderFlags>();
-  verb->add_option("log", flags->log, "Recording of a simulated run")->required();
-  verb->add_option("-o,--output", flags->output, "Video to write")
+  verb->add_option("input", flags->inputs,
+                   "Recording of a simulated run, or an experiment's run directory; two of them "
+                   "are shown side by side")
+      ->required()
+      ->expected(1, 2);
+  verb->add_option("-o,--output", flags->output, "Video to write; a picture with --poster")
       ->type_name("FILE.mp4")
       ->required();
+  verb->add_option("--layout", flags->layout,
+                   "single, or side-by-side: two runs, or both engines of a run directory")
+      ->check(CLI::IsMember({"single", "side-by-side"}));
   verb->add_option("--from", flags->video.from, "Begin at this time of the run (s)");
   verb->add_option("--to", flags->video.to, "End at this time of the run (s)");
   verb->add_option("--speed", flags->video.speed, "0.1 is ten times slower than life")
@@ -63,6 +112,8 @@ void add_render(CLI::App& program, Session& session) {
   verb->add_option("--quality", flags->quality, "draft, or page: anti-aliased and slower")
       ->check(CLI::IsMember({"draft", "page"}))
       ->capture_default_str();
+  verb->add_flag("--poster", flags->poster,
+                 "One picture (PNG, or JPEG by its name) at --from, or else in the first flight");
   verb->add_option("--workers", flags->video.workers, "Processes that draw; 0: one per core");
   verb->callback(
       [flags, &session] { session.action = [flags, &session] { render(*flags, session); }; });

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/pictures.hpp"
+#include "cli/report.hpp"
 #include "experiments/result_files.hpp"
 
 namespace touchdown {
@@ -19,6 +20,7 @@ void show(ExperimentResult& result, const Session& session, bool no_pictures) {
     fmt::print("{:<9} {}\n", picture.kind, picture.path.string());
   }
   write_manifest(result);
+  fmt::print("{:<9} {}\n", "report", make_report(result.directory.path(), true, session).string());
 }
 
 }  // namespace touchdown

@@ -20,6 +20,7 @@ void add_run(CLI::App& program, Session& session);
 void add_merge(CLI::App& program, Session& session);
 void add_simulate(CLI::App& program, Session& session);
 void add_render(CLI::App& program, Session& session);
+void add_report(CLI::App& program, Session& session);
 void add_train(CLI::App& program, Session& session);
 void add_list(CLI::App& program, Session& session);
 

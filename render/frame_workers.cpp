@@ -1,77 +1,23 @@
 #include "render/frame_workers.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <new>
 #include <semaphore.h>
 #include <string>
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
-#include <vector>
 
-#include <fmt/format.h>
 #include <opencv2/core.hpp>
 
 #include "core/error.hpp"
+#include "render/frame_lanes.hpp"
+#include "render/worker_processes.hpp"
 
 namespace touchdown {
 namespace {
-
-/// Frames that a worker may be ahead of the consumer.
-constexpr std::size_t slots = 4;
-
-/// One worker's side of the shared memory; the frames follow all of these.
-struct Lane {
-  sem_t free;   ///< slots that may be painted into
-  sem_t ready;  ///< slots that may be consumed
-  std::atomic<bool> failed;
-  std::array<char, 512> message;
-};
-
-class SharedLanes {
- public:
-  SharedLanes(std::size_t count, std::size_t frame_bytes)
-      : count_(count), frame_bytes_((frame_bytes + 63) / 64 * 64) {
-    size_ = header() + count * slots * frame_bytes_;
-    void* const memory =
-        ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) {
-      throw Error(fmt::format("no memory for {} MB of frames", size_ / 1'000'000));
-    }
-    memory_ = static_cast<std::uint8_t*>(memory);
-    for (std::size_t i = 0; i < count; ++i) {
-      Lane* const fresh = new (memory_ + i * sizeof(Lane)) Lane{};
-      ::sem_init(&fresh->free, 1, slots);
-      ::sem_init(&fresh->ready, 1, 0);
-    }
-  }
-  ~SharedLanes() { ::munmap(memory_, size_); }
-  SharedLanes(const SharedLanes&) = delete;
-  SharedLanes& operator=(const SharedLanes&) = delete;
-
-  Lane& lane(std::size_t worker) {
-    return *std::launder(reinterpret_cast<Lane*>(memory_ + worker * sizeof(Lane)));
-  }
-  std::uint8_t* slot(std::size_t worker, std::size_t number) {
-    return memory_ + header() + (worker * slots + number % slots) * frame_bytes_;
-  }
-
- private:
-  std::size_t header() const { return (count_ * sizeof(Lane) + 63) / 64 * 64; }
-
-  std::size_t count_;
-  std::size_t frame_bytes_;
-  std::size_t size_ = 0;
-  std::uint8_t* memory_ = nullptr;
-};
 
 /// A worker's life: never returns.
 [[noreturn]] void work(std::size_t worker, std::size_t workers, int frames, SharedLanes& lanes,
@@ -97,50 +43,6 @@ class SharedLanes {
   }
   ::_exit(0);
 }
-
-/// Forked processes that are gone when this is gone.
-class Workers {
- public:
-  Workers() = default;
-  ~Workers() {
-    for (const pid_t pid : pids_) {
-      if (pid > 0) ::kill(pid, SIGKILL);
-    }
-    for (const pid_t pid : pids_) {
-      if (pid > 0) ::waitpid(pid, nullptr, 0);
-    }
-  }
-  Workers(const Workers&) = delete;
-  Workers& operator=(const Workers&) = delete;
-
-  /// False when the system has no process left to give.
-  template <typename Work>
-  bool start(const Work& work_in_child) {
-    const pid_t parent = ::getpid();
-    const pid_t pid = ::fork();
-    if (pid < 0) return false;
-    if (pid == 0) {
-      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-      if (::getppid() != parent) ::_exit(1);
-      work_in_child();
-    }
-    pids_.push_back(pid);
-    return true;
-  }
-
-  /// Whether a worker is gone; remembers it.
-  bool gone(std::size_t worker) {
-    if (pids_[worker] < 0) return true;
-    if (::waitpid(pids_[worker], nullptr, WNOHANG) == 0) return false;
-    pids_[worker] = -1;
-    return true;
-  }
-
-  std::size_t count() const { return pids_.size(); }
-
- private:
-  std::vector<pid_t> pids_;
-};
 
 void wait_for_frame(Lane& lane, Workers& workers, std::size_t worker) {
   while (true) {

@@ -35,6 +35,7 @@ struct VideoOptions {
   double from = 0.0;                                    ///< of the recording (s)
   double to = std::numeric_limits<double>::infinity();  ///< of the recording (s)
   double speed = 1.0;                                   ///< 0.1: ten times slower than life
+  int crf = 21;                                         ///< of H.264: higher is smaller and worse
   int workers = 0;                                      ///< processes; 0: one per core
   LabelConfig labels = {};                              ///< what counts as true contact
   /// Called after every frame; may be empty.
@@ -73,10 +74,15 @@ VideoStatistics render_video(const RobotModel& robot, const Recording& recording
 VideoStatistics render_side_by_side(const VideoSource& left, const VideoSource& right,
                                     const VideoOptions& options, const std::filesystem::path& path);
 
-/// The video's picture at `time` of the recording (s) as a PNG; NaN: at the middle of the first
-/// flight. Its quality is `page`, whatever `options` says.
+/// The video's picture at `time` of the recording (s) as a PNG, or as a JPEG where the path says
+/// `.jpg`; NaN: at the middle of the first run's first flight. Its quality is `page`, whatever
+/// `options` says.
 void render_poster(const RobotModel& robot, const Recording& recording,
                    const std::vector<BeliefTrack>& beliefs, const VideoOptions& options,
+                   double time, const std::filesystem::path& path);
+
+/// The same of one run or of two beside each other.
+void render_poster(const std::vector<VideoSource>& sources, const VideoOptions& options,
                    double time, const std::filesystem::path& path);
 
 /// The robot on its terrain alone, without labels and plots, as a PNG: the scene of a run.

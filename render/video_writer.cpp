@@ -10,13 +10,12 @@ extern "C" {
 #include <libavutil/opt.h>
 }
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "render/memory_file.hpp"
+#include "render/writable.hpp"
 
 namespace touchdown {
 namespace {
@@ -35,22 +34,6 @@ struct FreeFrame {
 };
 struct FreePacket {
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-
-/// A file without a name, in memory: gone with the process, however that ends.
-class MemoryFile {
- public:
-  MemoryFile() : descriptor_(::memfd_create("touchdown-video", MFD_CLOEXEC)) {
-    if (descriptor_ < 0) throw Error("no memory for a video");
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
-
- private:
-  int descriptor_;
 };
 
 void check(int result, const char* what) {
@@ -86,7 +69,7 @@ struct VideoWriter::Streams {
   }
 };
 
-VideoWriter::VideoWriter(std::filesystem::path path, int width, int height, int fps)
+VideoWriter::VideoWriter(std::filesystem::path path, int width, int height, int fps, int crf)
     : path_(std::move(path)), streams_(std::make_unique<Streams>()) {
   require_writable(path_);
   if (width % 2 != 0 || height % 2 != 0) {
@@ -116,7 +99,7 @@ VideoWriter::VideoWriter(std::filesystem::path path, int width, int height, int 
   if (format->oformat->flags & AVFMT_GLOBALHEADER) codec.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   format->flags |= AVFMT_FLAG_BITEXACT;
   check(av_opt_set(codec.priv_data, "preset", "veryfast", 0), "preset");
-  check(av_opt_set(codec.priv_data, "crf", "21", 0), "quality");
+  check(av_opt_set(codec.priv_data, "crf", std::to_string(crf).c_str(), 0), "quality");
   // x264's macroblock tree reads memory that it never wrote: the same frames, other bytes.
   check(av_opt_set(codec.priv_data, "x264-params", "mbtree=0", 0), "parameters");
   check(avcodec_open2(&codec, encoder, nullptr), "cannot start the encoder");
@@ -165,28 +148,6 @@ void VideoWriter::finish() {
   check(avio_closep(&streams_->format->pb), "cannot finish the file");
   write_atomically(path_, read_file(streams_->file.path()));
   streams_.reset();
-}
-
-void require_writable(const std::filesystem::path& path) {
-  const std::filesystem::path absolute = std::filesystem::absolute(path);
-  if (!absolute.has_filename() || std::filesystem::is_directory(absolute)) {
-    throw Error(fmt::format("{}: cannot be written: it is a folder", path.string()));
-  }
-  // The nearest folder that exists decides.
-  std::error_code ignored;
-  std::filesystem::path folder = absolute.parent_path();
-  while (!folder.empty() && folder != folder.root_path() &&
-         std::filesystem::status(folder, ignored).type() == std::filesystem::file_type::not_found) {
-    folder = folder.parent_path();
-  }
-  if (!std::filesystem::is_directory(folder, ignored)) {
-    throw Error(
-        fmt::format("{}: cannot be written: {} is not a folder", path.string(), folder.string()));
-  }
-  if (::access(folder.c_str(), W_OK) != 0) {
-    throw Error(
-        fmt::format("{}: cannot be written: no permission in {}", path.string(), folder.string()));
-  }
 }
 
 }  // namespace touchdown

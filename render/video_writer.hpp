@@ -4,17 +4,19 @@
 #include <filesystem>
 #include <memory>
 
+#include "render/writable.hpp"
+
 namespace touchdown {
 
-/// Encodes frames into an H.264 mp4 that browsers play while it loads (x264 veryfast, crf 21,
-/// 4:2:0, a key frame every 2 s, index in front). The file is made in memory and appears, whole,
-/// with `finish`; without it nothing is left behind. The same frames give the same bytes. Errors:
-/// `Error` for a missing encoder or a path that cannot be written; the latter is noticed when the
-/// writer is made.
+/// Encodes frames into an H.264 mp4 that browsers play while it loads (x264 veryfast, crf 21 by
+/// default, 4:2:0, a key frame every 2 s, index in front). The file is made in memory and appears,
+/// whole, with `finish`; without it nothing is left behind. The same frames give the same bytes.
+/// Errors: `Error` for a missing encoder or a path that cannot be written; the latter is noticed
+/// when the writer is made.
 class VideoWriter {
  public:
   /// Width and height must be even.
-  VideoWriter(std::filesystem::path path, int width, int height, int fps);
+  VideoWriter(std::filesystem::path path, int width, int height, int fps, int crf = 21);
   ~VideoWriter();
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;
@@ -28,8 +30,5 @@ class VideoWriter {
   std::filesystem::path path_;
   std::unique_ptr<Streams> streams_;
 };
-
-/// Throws `Error` if no file can be made at `path`: better before an hour of work than after.
-void require_writable(const std::filesystem::path& path);
 
 }  // namespace touchdown

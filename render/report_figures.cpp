@@ -1,0 +1,78 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "render/html.hpp"
+#include "render/report_parts.hpp"
+
+namespace touchdown {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Pictures beyond this would make the page slow to open (bytes).
+constexpr std::uintmax_t largest_picture = 2'000'000;
+
+/// What the figure's script calls it, for people who cannot see it: the longest of its titles and
+/// captions (`set title '…'`, `set label … '…'`), or its name.
+std::string description(const fs::path& figure) {
+  std::string name = figure.stem().string();
+  std::replace(name.begin(), name.end(), '_', ' ');
+  const fs::path script = fs::path(figure).replace_extension(".gp");
+  std::error_code ignored;
+  if (!fs::is_regular_file(script, ignored)) return name;
+  const std::string text = read_file(script);
+  std::string best;
+  for (const std::string word : {"set title '", "set multiplot", "set label"}) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      const std::size_t line_end = text.find('\n', at);
+      const std::size_t open = text.find('\'', at);
+      const std::size_t close = text.find('\'', open + 1);
+      if (open == std::string::npos || close == std::string::npos || close > line_end) continue;
+      if (close - open - 1 > best.size()) best = text.substr(open + 1, close - open - 1);
+    }
+  }
+  return best.empty() ? name : name + ": " + best;
+}
+
+}  // namespace
+
+ReportSection figures_section(const ReportSubject& subject) {
+  ReportSection section{"figures", "Figures", {}};
+  const fs::path folder = subject.directory / "figures";
+  std::error_code ignored;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const fs::path& path = entry.path();
+    const bool drawn = path.extension() == ".svg";
+    const bool painted = path.extension() == ".png" &&
+                         !fs::exists(fs::path(path).replace_extension(".svg"), ignored);
+    if (drawn || painted) files.push_back(path);
+  }
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    fs::path shown = file;
+    const fs::path painted = fs::path(file).replace_extension(".png");
+    if (fs::file_size(file, ignored) > largest_picture && fs::exists(painted, ignored)) {
+      shown = painted;
+    }
+    if (fs::file_size(shown, ignored) > largest_picture) continue;
+    const std::string text = description(file);
+    section.html += fmt::format(
+        "<figure><img loading=\"lazy\" alt=\"{}\" src=\"{}\">\n<figcaption>{}.", escaped(text),
+        data_uri(shown.extension() == ".svg" ? "image/svg+xml" : "image/png", shown),
+        escaped(text));
+    for (const char* kind : {".pdf", ".gp", ".dat", ".csv"}) {
+      const fs::path beside = fs::path(file).replace_extension(kind);
+      if (!fs::exists(beside, ignored)) continue;
+      section.html += fmt::format(" <a href=\"figures/{0}\">{1}</a>",
+                                  escaped(beside.filename().string()), kind + 1);
+    }
+    section.html += "</figcaption></figure>\n";
+  }
+  if (!section.html.empty()) section.html = "<div class=\"gallery\">\n" + section.html + "</div>\n";
+  return section;
+}
+
+}  // namespace touchdown

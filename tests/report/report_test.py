@@ -1,0 +1,171 @@
+"""Runs a small experiment and opens its report in a headless Chromium, wide and as a phone, light
+and dark: nothing complains, everything is loaded, the heatmap answers, drops seek the video.
+
+    report_test.py TOUCHDOWN [--report REPORT.html] [--screenshots FOLDER]
+
+Exit code 77: there is no Chromium here.
+"""
+
+import argparse
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import browser
+
+SCENARIO = """name: step
+terrain:
+  pieces:
+    - flat: {length: 3.0}
+    - stairs: {count: 1, run: 3.0, rise: 0.25, nosing_radius: 0.025}
+start: {x: 0.7}
+velocity: [{time: 0.3, velocity: 0.5}]
+end: {duration: 2.5}
+perturbation: {velocity: 0.1, yaw: 0.05}
+"""
+EXPERIMENT = """name: "tiny"
+seed: 3
+simulators: [mujoco, bullet]
+estimators: [robust, measurement_only]
+fit: {scenarios: [step.yaml]}
+test: {scenarios: [step.yaml], runs: 2}
+noise: {torque: [0.0, 1.0], accelerometer: [0.0, 5.0]}
+highlights: [{torque: 1.0, accelerometer: 5.0}]
+intervals: {resamples: 50}
+video: {enabled: true, estimators: [robust, measurement_only]}
+"""
+
+LOADED = """
+const waits = [];
+for (const image of document.images) { image.loading = 'eager'; waits.push(image.decode()); }
+for (const video of document.querySelectorAll('video')) {
+  if (video.readyState < 2) waits.push(new Promise((good, bad) => {
+    video.addEventListener('loadeddata', good); video.addEventListener('error', () => bad(video.error.message));
+  }));
+}
+Promise.all(waits).then(() => done('loaded'), (error) => done(String(error)));
+"""
+
+ACCESSIBLE = """
+const wrong = [];
+for (const image of document.images) if (!image.alt) wrong.push('image without alternative text');
+for (const table of document.querySelectorAll('table')) {
+  if (!table.caption) wrong.push('table without caption');
+  for (const header of table.querySelectorAll('th')) if (!header.scope) wrong.push('header without scope');
+  for (const row of table.tBodies[0].rows) if (!row.querySelector('th')) wrong.push('row without header');
+}
+const ids = [...document.querySelectorAll('[id]')].map((element) => element.id);
+if (new Set(ids).size !== ids.length) wrong.push('an id twice');
+for (const link of document.querySelectorAll('a[href^="#"]'))
+  if (!document.getElementById(link.hash.slice(1))) wrong.push('a link to nowhere: ' + link.hash);
+if (document.querySelectorAll('h1').length !== 1) wrong.push('not one main heading');
+return wrong;
+"""
+
+# The contrast of every text with what lies behind it (WCAG: 4.5 for normal text).
+CONTRAST = """
+const canvas = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
+const rgb = (colour) => { canvas.clearRect(0, 0, 1, 1); canvas.fillStyle = colour; canvas.fillRect(0, 0, 1, 1);
+  return [...canvas.getImageData(0, 0, 1, 1).data]; };
+const light = (c) => c.slice(0, 3).map((v) => v / 255).map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+  .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+const behind = (element) => { for (let e = element; e; e = e.parentElement) {
+  const c = rgb(getComputedStyle(e).backgroundColor); if (c[3] > 0) return c; } return [255, 255, 255, 255]; };
+const poor = new Set();
+for (const element of document.querySelectorAll('p, a, h1, h2, h3, th, td, dt, dd, caption span, figcaption, button, small, summary, label, code, .interval, text')) {
+  const cell = element.closest('.number');
+  const style = getComputedStyle(element);
+  const a = light(rgb(element instanceof SVGElement ? style.fill : style.color));
+  const b = light(cell ? rgb(cell.getAttribute('stroke')) : behind(element));
+  const contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+  if (contrast < 4.5) poor.add(element.tagName + '.' + element.getAttribute('class') + ' ' + contrast.toFixed(2));
+}
+return [...poor];
+"""
+
+SEEK = """
+const film = document.querySelector('.film'), video = film.querySelector('video'), drop = film.querySelector('.drop');
+video.addEventListener('seeked', () => done([video.currentTime, Number(drop.dataset.seek), video.duration]), {once: true});
+drop.click();
+"""
+
+
+def check(condition, message):
+    if not condition:
+        raise AssertionError(message)
+
+
+def check_page(page, report, name, width, height, dark, touch, screenshots):
+    page.open(report, width, height, dark, touch)
+    check(page.run(LOADED) == "loaded", "not everything was loaded")
+    check(page.run("return document.images.length") > 0, "no figure")
+    check(page.run("return document.querySelectorAll('.film video').length") == 1, "no video")
+    check(page.run(ACCESSIBLE) == [], page.run(ACCESSIBLE))
+    check(page.run(CONTRAST) == [], f"poor contrast: {page.run(CONTRAST)}")
+    overflow = page.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
+    check(overflow <= 0, f"the page is {overflow} pixels wider than the window")
+
+    readout = "return document.querySelector('.readout').textContent"
+    before = page.run(readout)
+    cell = "figure:not([hidden]) svg.map .cell"
+    if touch:
+        page.click(cell)
+    else:
+        page.hover(cell)
+    said = page.run(readout)
+    check(said != before and "success rate 0." in said and "[" in said, f"the heatmap said '{said}'")
+    page.keys("figure:not([hidden]) svg.map", "\ue014")  # arrow right
+    check(page.run(readout) not in (said, before), "the arrow keys chose nothing")
+    hidden = "return [...document.querySelectorAll('[data-estimator]')].filter((map) => map.hidden).length"
+    maps = page.run("return document.querySelectorAll('[data-estimator]').length")
+    check(0 < page.run(hidden) < maps, "not one estimator is shown")
+    page.click(".choice label:nth-of-type(2)")
+    shown = page.run("return document.querySelector('[data-estimator]:not([hidden])').dataset.estimator")
+    chosen = page.run("return document.querySelector('.choice input:checked').value")
+    check(shown == chosen, f"{chosen} is chosen and {shown} is shown")
+    page.click(".choice label:nth-of-type(1)")
+
+    at, asked, duration = page.run(SEEK)
+    check(abs(at - asked) < 0.5 and 0 < asked < duration, f"seek to {asked} of {duration} s ended at {at} s")
+    page.run("document.querySelector('video').pause()")
+    if screenshots:
+        page.run("scrollTo(0, 0)")
+        page.screenshot(screenshots / f"report_{name}.png")
+    messages = page.console()
+    check(not messages, f"{name}: the console says {messages}")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("touchdown", type=pathlib.Path)
+    parser.add_argument("--report", type=pathlib.Path)
+    parser.add_argument("--screenshots", type=pathlib.Path)
+    asked = parser.parse_args()
+    if not browser.available():
+        print("skipped: chromium and chromium-driver are not installed")
+        return 77
+    with tempfile.TemporaryDirectory(prefix="touchdown_") as scratch:
+        folder = pathlib.Path(scratch)
+        report = asked.report
+        if report is None:
+            (folder / "step.yaml").write_text(SCENARIO)
+            (folder / "tiny.yaml").write_text(EXPERIMENT)
+            subprocess.run(
+                [asked.touchdown.resolve(), "run", "tiny.yaml", "--out", "run"], cwd=folder, check=True
+            )
+            report = folder / "run" / "report.html"
+        with browser.Browser(folder / "profile") as page:
+            for name, width, height, dark, touch in [
+                ("desktop_light", 1280, 900, False, False),
+                ("desktop_dark", 1280, 900, True, False),
+                ("phone_light", 390, 844, False, True),
+                ("phone_dark", 390, 844, True, True),
+            ]:
+                check_page(page, report.resolve(), name, width, height, dark, touch, asked.screenshots)
+                print(name, "is good")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
