@@ -80,7 +80,8 @@ struct FramePainter::Show {
 FramePainter::FramePainter(const std::vector<VideoSource>& sources, const FrameLayout& layout,
                            const LabelConfig& labels)
     : layout_(layout),
-      strip_height_(layout.strip ? layout.height * 220 / 720 / 2 * 2 : 0),
+      strip_height_(layout.strip ? layout.height * (layout.width < 1000 ? 300 : 220) / 720 / 2 * 2
+                                 : 0),
       gl_(layout.width * layout.supersampling,
           (layout.height - strip_height_) * layout.supersampling) {
   for (const VideoSource& source : sources) {
