@@ -61,6 +61,10 @@ FilmedRun filmed_run(const fs::path& directory, const Experiment& experiment,
 }  // namespace
 
 std::vector<FilmedRun> filmed_runs(const fs::path& run_directory) {
+  if (!fs::exists(run_directory / "config.yaml")) {
+    throw InputError(fmt::format("{}: no run directory of an experiment: it has no config.yaml",
+                                 run_directory.string()));
+  }
   const Experiment experiment =
       experiment_from_yaml(YamlDocument::load(run_directory / "config.yaml"));
   std::vector<FilmedRun> runs;
