@@ -89,7 +89,7 @@ fs::path write_report(const fs::path& run_directory, const std::vector<ReportFil
       "default-src 'none'; img-src data:; media-src data:; style-src {}; script-src {}; "
       "base-uri 'none'; form-action 'none'",
       policy_source(report_style.sha256), policy_source(report_script.sha256));
-  const fs::path path = run_directory / "report.html";
+  fs::path path = run_directory / "report.html";
   write_atomically(path, filled(report_page.content,
                                 {{"policy", policy},
                                  {"title", escaped(subject.experiment.name) + " – touchdown"},

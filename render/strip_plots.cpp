@@ -97,7 +97,7 @@ StripPlots::StripPlots(const std::vector<StripRow>& rows, std::vector<PlotArea> 
                        int height, double seconds)
     : rows_(rows), areas_(std::move(areas)), width_(width), height_(height), seconds_(seconds) {}
 
-void StripPlots::copy_window(double from, cv::Mat image) {
+void StripPlots::copy_window(double from, const cv::Mat& image) {
   const int begin = static_cast<int>(std::lround(from * width_ * oversampling / seconds_));
   const int first = floor_div(begin, oversampling);
   const int half_pixels = begin - first * oversampling;

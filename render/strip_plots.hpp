@@ -27,7 +27,7 @@ class StripPlots {
              double seconds);
 
   /// Copies the window that begins at time `from` (s) into `image` (8UC3, width·height).
-  void copy_window(double from, cv::Mat image);
+  void copy_window(double from, const cv::Mat& image);
 
  private:
   const cv::Mat& tile(int number, int half_pixels);
