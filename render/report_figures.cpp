@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -33,7 +34,19 @@ std::string description(const fs::path& figure) {
       if (close - open - 1 > best.size()) best = text.substr(open + 1, close - open - 1);
     }
   }
+  while (best.ends_with('.')) best.pop_back();
   return best.empty() ? name : name + ": " + best;
+}
+
+/// Whether a drawing is so wide that it needs the whole width of the page.
+bool is_wide(const fs::path& svg) {
+  if (svg.extension() != ".svg") return false;
+  const std::string text = read_file(svg);
+  const std::size_t box = text.find("viewBox=\"");
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
+  if (box == std::string::npos) return false;
+  std::istringstream(text.substr(box + 9, 80)) >> left >> top >> width >> height;
+  return width > 1.7 * height;
 }
 
 }  // namespace
@@ -59,11 +72,12 @@ ReportSection figures_section(const ReportSubject& subject) {
     }
     if (fs::file_size(shown, ignored) > largest_picture) continue;
     const std::string text = description(file);
-    section.html += fmt::format(
-        "<figure><img loading=\"lazy\" alt=\"{}\" src=\"{}\">\n<figcaption>{}.", escaped(text),
-        data_uri(shown.extension() == ".svg" ? "image/svg+xml" : "image/png", shown),
-        escaped(text));
-    for (const char* kind : {".pdf", ".gp", ".dat", ".csv"}) {
+    section.html +=
+        fmt::format("<figure{}><img loading=\"lazy\" alt=\"{}\" src=\"{}\">\n<figcaption>{}.",
+                    is_wide(file) ? " class=\"wide\"" : "", escaped(text),
+                    data_uri(shown.extension() == ".svg" ? "image/svg+xml" : "image/png", shown),
+                    escaped(text));
+    for (const char* kind : {".svg", ".png", ".pdf", ".gp", ".dat", ".csv"}) {
       const fs::path beside = fs::path(file).replace_extension(kind);
       if (!fs::exists(beside, ignored)) continue;
       section.html += fmt::format(" <a href=\"figures/{0}\">{1}</a>",

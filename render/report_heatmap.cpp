@@ -89,7 +89,8 @@ std::string map_svg(const ReportMap& map) {
   const int width = left + columns * cell_width + 2;
   const int height = top + rows * cell_height + bottom;
   std::string svg = fmt::format(
-      "<svg class=\"map\" viewBox=\"0 0 {} {}\" data-columns=\"{}\" tabindex=\"0\" role=\"group\" "
+      "<div class=\"pan\"><svg class=\"map\" viewBox=\"0 0 {} {}\" data-columns=\"{}\" "
+      "tabindex=\"0\" role=\"group\" "
       "aria-label=\"{}. Rows: {}; columns: {}. The arrow keys choose a cell.\">\n",
       width, height, columns, escaped(map.title), escaped(map.y_label), escaped(map.x_label));
   for (int r = 0; r < rows; ++r) {
@@ -120,7 +121,7 @@ std::string map_svg(const ReportMap& map) {
   }
   svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", left + columns * cell_width / 2,
                      height - 8, escaped(map.x_label));
-  svg += fmt::format("<text transform=\"translate(14 {}) rotate(-90)\">{}</text>\n</svg>\n",
+  svg += fmt::format("<text transform=\"translate(14 {}) rotate(-90)\">{}</text>\n</svg></div>\n",
                      top + rows * cell_height / 2, escaped(map.y_label));
   return svg;
 }

@@ -29,6 +29,11 @@ std::vector<double> levels(const std::vector<TableRow>& rows, const std::string&
   return {values.begin(), values.end()};
 }
 
+bool is_among(const std::vector<double>& levels, double level) {
+  return std::any_of(levels.begin(), levels.end(),
+                     [&](double one) { return std::abs(one - level) < 1e-9; });
+}
+
 std::string says(const TableRow& row, const NoiseGrid& grid) {
   std::string text = fmt::format(
       "{}, {}: {} {:.4g} {}, {} {:.4g} {}: success rate {}", engine_title(row.text("simulator")),
@@ -76,11 +81,17 @@ std::vector<std::string> distinct(const std::vector<TableRow>& rows, const std::
 /// One grid: a choice of estimators, a map per engine and estimator, a line that reads out a cell.
 std::string grid_html(const std::vector<TableRow>& rows, const NoiseGrid& grid,
                       const std::string& name) {
-  double least = 1.0;
-  for (const TableRow& row : rows) least = std::fmin(least, row.number("success"));
+  // Below what a constant answer earns, how bad it is does not matter: keep the colours for above.
+  double least = 1.0, constant = 1.0;
+  for (const TableRow& row : rows) {
+    least = std::fmin(least, row.number("success"));
+    constant = std::fmin(constant, row.number("always_contact_success"));
+  }
+  if (constant < 1.0) least = std::max(least, constant);
   const double low = std::floor(least * 20.0 - 1e-9) / 20.0;
+  const bool fine = levels(rows, grid.x_column).size() > 8;
   std::string choice = "<fieldset class=\"choice\"><legend>Estimator</legend>\n",
-              maps = "<div class=\"maps\">\n";
+              maps = fmt::format("<div class=\"maps{}\">\n", fine ? " fine" : "");
   bool first = true;
   for (const std::string& estimator : distinct(rows, "estimator")) {
     if (estimator == "always_contact") continue;
@@ -105,7 +116,8 @@ std::string grid_html(const std::vector<TableRow>& rows, const NoiseGrid& grid,
       "<div class=\"heatmaps\">\n{}</fieldset>\n<p class=\"readout\" aria-live=\"polite\">Point at "
       "a "
       "cell, tap it, or use the arrow keys: its numbers appear here.</p>\n{}</div>\n<p "
-      "class=\"note\">Colours run from {:.2f} (dark) to 1 (light). Lines: success rates of 0.90, "
+      "class=\"note\">Colours run from {:.2f} and less (dark) to 1 (light). Lines: success rates "
+      "of 0.90, "
       "0.95 "
       "and 0.98. A struck-out cell does no better than always saying “contact”. The same numbers "
       "are in the table “Success” below.</p>\n</div>\n",
@@ -122,13 +134,21 @@ ReportSection heatmap_section(const ReportSubject& subject) {
   double accelerometer = std::numeric_limits<double>::quiet_NaN();
   for (const TableRow& row : rows_of(*success)) {
     if (std::isfinite(row.number("torque_noise_nm"))) {
-      alike.push_back(row);
+      // The other grid's diagonal may have levels that this one does not have.
+      if (is_among(subject.experiment.noise.torque, row.number("torque_noise_nm"))) {
+        alike.push_back(row);
+      }
     } else if (row.has("knee_noise_nm")) {
       accelerometer = row.number("accelerometer_noise_mps2");
     }
   }
   for (const TableRow& row : rows_of(*success)) {
-    if (row.number("accelerometer_noise_mps2") == accelerometer) apart.push_back(row);
+    const KneeWheelGridConfig& grid = subject.experiment.noise.knee_wheel;
+    if (row.number("accelerometer_noise_mps2") == accelerometer &&
+        is_among(grid.knee, row.number("knee_noise_nm")) &&
+        is_among(grid.wheel, row.number("wheel_noise_nm"))) {
+      apart.push_back(row);
+    }
   }
   const std::size_t columns = levels(alike, "accelerometer_noise_mps2").size();
   if (columns * levels(alike, "torque_noise_nm").size() > 1) {
