@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "cli/cross_simulator.hpp"
 #include "cli/show_result.hpp"
 #include "cli/verbs.hpp"
+#include "core/error.hpp"
 #include "experiments/resources.hpp"
 #include "experiments/run_experiment.hpp"
 
@@ -38,8 +40,13 @@ void run(const RunFlags& flags, const Session& session) {
   if (!flags.shard.empty()) shard = shard_from(flags.shard);
   YamlDocument document = YamlDocument::load(find_resource(flags.experiment));
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
-  const Experiment experiment = experiment_from_yaml(document);
   const RunOptions options{.out = flags.out, .command = session.command, .stop = session.stop};
+  if (is_cross_simulator(document)) {
+    if (shard) throw InputError("--shard: a cross_simulator experiment is not cut into shards");
+    check_across_simulators(cross_simulator_from_yaml(document), options, flags.no_pictures);
+    return;
+  }
+  const Experiment experiment = experiment_from_yaml(document);
   if (shard) {
     run_one_shard(experiment, *shard, options);
     return;

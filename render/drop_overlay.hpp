@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/labels.hpp"
+#include "experiments/transitions.hpp"
+#include "recordings/recording.hpp"
+#include "render/gnuplot.hpp"
+
+namespace touchdown {
+
+/// Which drop of a run is drawn, and how flights are found.
+struct DropOverlay {
+  int drop = 0;                  ///< of each run, from 0; a drop is a flight of both wheels
+  LabelConfig labels;            ///< what is contact
+  double minimum_flight = 0.05;  ///< shorter flights are no drops (s)
+  double before = 0.15;          ///< shown before takeoff (s)
+  double after = 0.45;           ///< and after it (s)
+  std::string title;
+};
+
+/// Draws one drop as both engines played it, aligned at takeoff: height of the base, normal force,
+/// knee and wheel torque of the left leg, vertical acceleration. Files as `draw_figure`.
+/// Errors: `InputError` when a run has no such drop; `Error` as `draw_figure`.
+Figure draw_drop_overlay(const Recording& first, const Recording& second, const DropOverlay& what,
+                         const std::filesystem::path& stem);
+
+}  // namespace touchdown
