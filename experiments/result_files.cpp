@@ -7,6 +7,7 @@
 
 #include "core/files.hpp"
 #include "experiments/estimator_registry.hpp"
+#include "experiments/label_sensitivity.hpp"
 #include "experiments/paper_tables.hpp"
 #include "experiments/score_tables.hpp"
 #include "recordings/model_file.hpp"
@@ -74,6 +75,7 @@ void write_score_tables(const ExperimentResult& result) {
   directory.write_table("reliability.csv", reliability_table(result.scores));
   directory.write_table("differences.csv", differences_table(result.differences));
   if (!result.experiment.paper_tables) return;
+  directory.write_table("labels.csv", label_sensitivity_table(result));
   std::string markdown;
   std::string latex;
   for (const CaptionedTable& table : paper_tables(result)) {
