@@ -75,7 +75,11 @@ void write_score_tables(const ExperimentResult& result) {
   directory.write_table("reliability.csv", reliability_table(result.scores));
   directory.write_table("differences.csv", differences_table(result.differences));
   if (!result.experiment.paper_tables) return;
-  directory.write_table("labels.csv", label_sensitivity_table(result));
+  const Table labels = label_sensitivity_table(result);
+  directory.write_table("labels.csv", labels);
+  write_atomically(
+      directory.file("tables", "labels.md"),
+      to_markdown({"Point-wise scores by the definition of contact.", "labels", labels}));
   std::string markdown;
   std::string latex;
   for (const CaptionedTable& table : paper_tables(result)) {
