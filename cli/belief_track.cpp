@@ -15,6 +15,7 @@ BeliefTrack believe(const Condition& condition, const FittedModels& models, cons
   const auto estimator = make_estimator(condition, models, run.info.control_period_us);
   const auto* filter = dynamic_cast<const BayesFilter*>(estimator.get());
   BeliefTrack track;
+  begin(*estimator, run);
   track.name = estimator_entry(condition.estimator).title;
   for (std::size_t k = 0; k < run.steps(); ++k) {
     const Belief& belief = estimator->update(noisy(run, noise, levels, k));

@@ -41,7 +41,9 @@ FittedModel model_of(const fs::path& directory, const std::string& simulator,
 FilmedRun filmed_run(const fs::path& directory, const Experiment& experiment,
                      const std::string& simulator, const fs::path& log) {
   const VideoConfig& video = experiment.video;
-  const NoiseLevels levels = NoiseCell{video.torque_noise, video.accelerometer_noise}.levels();
+  const NoiseLevels levels =
+      with_encoder_noise({video.torque_noise, video.accelerometer_noise}, experiment.noise)
+          .levels();
   const NoiseKey key = noise_key(experiment, 0, video.run);
   Recording recording = read_recording(log);
   const HeardRun heard =

@@ -28,7 +28,9 @@ const PlayedRun* filmed_run(const ExperimentResult& result, const std::string& s
 Picture film(const ExperimentResult& result, const PlayedRun& run, const Session& session) {
   const Experiment& experiment = result.experiment;
   const NoiseLevels levels =
-      NoiseCell{experiment.video.torque_noise, experiment.video.accelerometer_noise}.levels();
+      with_encoder_noise({experiment.video.torque_noise, experiment.video.accelerometer_noise},
+                         experiment.noise)
+          .levels();
   const NoiseKey key = noise_key(experiment, 0, run.plan.run);
   const UnitNoise noise = unit_noise(run.heard, key);
   std::vector<BeliefTrack> beliefs;

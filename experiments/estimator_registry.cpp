@@ -14,6 +14,7 @@
 #include "experiments/always_contact.hpp"
 #include "experiments/fitting.hpp"
 #include "experiments/neural_network_file.hpp"
+#include "experiments/oracle.hpp"
 
 namespace touchdown {
 
@@ -67,6 +68,12 @@ std::unique_ptr<ContactEstimator> make_free_fall(const EstimatorEntry& /*entry*/
   return std::make_unique<FreeFall>(config);
 }
 
+std::unique_ptr<ContactEstimator> make_oracle(const EstimatorEntry& /*entry*/,
+                                              const FittedModel* /*model*/,
+                                              double /*sample_rate*/) {
+  return std::make_unique<Oracle>();
+}
+
 std::unique_ptr<ContactEstimator> make_always_contact(const EstimatorEntry& /*entry*/,
                                                       const FittedModel* /*model*/,
                                                       double /*sample_rate*/) {
@@ -89,6 +96,7 @@ std::span<const EstimatorEntry> estimator_entries() {
       {"nmn", "NMN", std::nullopt, std::nullopt, make_neural_estimator},
       {"upkie_observer", "Upkie's observer", std::nullopt, std::nullopt, make_upkie_observer},
       {"free_fall", "Free fall", std::nullopt, std::nullopt, make_free_fall},
+      {"oracle", "Oracle", std::nullopt, std::nullopt, make_oracle},
       {std::string(always_contact_name), "Always contact", std::nullopt, std::nullopt,
        make_always_contact},
   };

@@ -74,6 +74,8 @@ NoiseGridConfig noise_from_yaml(YamlMap map) {
     grid.read("accelerometer", noise.knee_wheel.accelerometer, 0.0, 1e3);
     grid.finish();
   }
+  map.read("joint_position", noise.joint_position, 0.0, 1e3);
+  map.read("joint_velocity", noise.joint_velocity, 0.0, 1e3);
   map.read("seeds", noise.seeds, 1, 100'000);
   map.finish();
   return noise;
@@ -88,6 +90,8 @@ YAML::Node to_node(const NoiseGridConfig& noise) {
     node["knee_wheel"]["wheel"] = grid.wheel;
     node["knee_wheel"]["accelerometer"] = grid.accelerometer;
   }
+  node["joint_position"] = noise.joint_position;
+  node["joint_velocity"] = noise.joint_velocity;
   node["seeds"] = noise.seeds;
   return node;
 }
@@ -109,6 +113,7 @@ std::vector<NoiseCell> highlights_from_yaml(YamlMap& parent, const NoiseGridConf
     map.finish();
   }
   if (cells.empty()) cells.push_back({noise.torque.front(), noise.accelerometer.front()});
+  for (NoiseCell& cell : cells) cell = with_encoder_noise(cell, noise);
   return cells;
 }
 

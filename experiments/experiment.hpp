@@ -34,18 +34,26 @@ struct NoiseGridConfig {
   std::vector<double> torque = {0.0};         ///< on knees and wheels alike (N·m)
   std::vector<double> accelerometer = {0.0};  ///< on each axis (m/s²)
   KneeWheelGridConfig knee_wheel = {};        ///< a second grid
+  double joint_position = 0.0;                ///< on every encoder, in every cell (rad)
+  double joint_velocity = 0.0;                ///< on every encoder, in every cell (rad/s)
   int seeds = 1;
 };
 
 /// One noise setting of a sweep: torque noise on knees and wheels alike, or apart.
 struct NoiseCell {
-  double torque = 0.0;         ///< on knees and wheels (N·m); NaN where they differ
-  double accelerometer = 0.0;  ///< on each axis (m/s²)
-  double knee = torque;        ///< N·m
-  double wheel = torque;       ///< N·m
+  double torque = 0.0;          ///< on knees and wheels (N·m); NaN where they differ
+  double accelerometer = 0.0;   ///< on each axis (m/s²)
+  double knee = torque;         ///< N·m
+  double wheel = torque;        ///< N·m
+  double joint_position = 0.0;  ///< rad; the same in every cell of an experiment
+  double joint_velocity = 0.0;  ///< rad/s; likewise
 
   NoiseLevels levels() const {
-    return {.knee_torque = knee, .wheel_torque = wheel, .acceleration = accelerometer};
+    return {.knee_torque = knee,
+            .wheel_torque = wheel,
+            .acceleration = accelerometer,
+            .joint_position = joint_position,
+            .joint_velocity = joint_velocity};
   }
 
   friend bool operator==(const NoiseCell& a, const NoiseCell& b) {
@@ -57,6 +65,13 @@ struct NoiseCell {
 inline NoiseCell knee_wheel_cell(double knee, double wheel, double accelerometer) {
   const double alike = knee == wheel ? knee : std::numeric_limits<double>::quiet_NaN();
   return {alike, accelerometer, knee, wheel};
+}
+
+/// The cell with the encoder noise that belongs to every cell of the experiment.
+inline NoiseCell with_encoder_noise(NoiseCell cell, const NoiseGridConfig& noise) {
+  cell.joint_position = noise.joint_position;
+  cell.joint_velocity = noise.joint_velocity;
+  return cell;
 }
 
 /// What a bootstrap interval takes as its sample.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "experiments/oracle.hpp"
 #include "recordings/signals_from.hpp"
 
 namespace touchdown {
@@ -50,14 +51,39 @@ UnitNoise unit_noise(const HeardRun& run, const NoiseKey& key) {
                                noise.acceleration[2][k]);
     noise.vertical_acceleration[k] = run.up_in_imu[k].dot(draw);
   }
+  for (int i = 0; i < servo_count; ++i) {
+    const auto servo = static_cast<Servo>(i);
+    const auto leg = static_cast<std::size_t>(i / 3);
+    const auto joint = static_cast<std::size_t>(i % 3);
+    noise.encoder[leg].position[joint] = column(position_channel(servo));
+    noise.encoder[leg].velocity[joint] = column(velocity_channel(servo));
+  }
   return noise;
+}
+
+void add_encoder_noise(Signals& signals, const UnitNoise& noise, const NoiseLevels& levels,
+                       std::size_t step) {
+  for (std::size_t i = 0; i < wheel_count; ++i) {
+    LegSignals& leg = signals.leg[i];
+    std::size_t joint = 0;
+    for (JointSignals* servo : {&leg.hip, &leg.knee, &leg.wheel}) {
+      servo->position += levels.joint_position * noise.encoder[i].position[joint][step];
+      servo->velocity += levels.joint_velocity * noise.encoder[i].velocity[joint][step];
+      ++joint;
+    }
+  }
+}
+
+void begin(ContactEstimator& estimator, const HeardRun& run) {
+  estimator.reset();
+  if (auto* oracle = dynamic_cast<Oracle*>(&estimator)) oracle->tell(run.contact);
 }
 
 std::array<ContactSequence, wheel_count> decide(ContactEstimator& estimator, const HeardRun& run,
                                                 const UnitNoise& noise, const NoiseLevels& levels) {
   std::array<ContactSequence, wheel_count> contact;
   contact.fill(ContactSequence(run.steps()));
-  estimator.reset();
+  begin(estimator, run);
   for (std::size_t k = 0; k < run.steps(); ++k) {
     const Belief& belief = estimator.update(noisy(run, noise, levels, k));
     contact[0][k] = std::uint8_t{belief.wheel[0].contact};
@@ -71,7 +97,7 @@ Prediction predict(ContactEstimator& estimator, const HeardRun& run, const UnitN
   Prediction prediction;
   prediction.fill(
       {.contact = ContactSequence(run.steps()), .p_contact = std::vector<double>(run.steps())});
-  estimator.reset();
+  begin(estimator, run);
   for (std::size_t k = 0; k < run.steps(); ++k) {
     const Belief& belief = estimator.update(noisy(run, noise, levels, k));
     const bool left = belief.wheel[0].contact;

@@ -31,6 +31,12 @@ struct HeardRun {
 HeardRun hear(const Recording& recording, const LabelConfig& labels, const ScoringConfig& scoring,
               SampleUnit unit);
 
+/// Position and velocity of each joint of one leg, per step: hip, knee, wheel.
+struct EncoderNoise {
+  std::array<std::vector<double>, 3> position;
+  std::array<std::vector<double>, 3> velocity;
+};
+
 /// Unit Gaussian noise on everything that estimators hear in one run, to be scaled by every noise
 /// level of a sweep: the draws are those of `with_noise` with the same key.
 struct UnitNoise {
@@ -38,9 +44,14 @@ struct UnitNoise {
   std::array<std::vector<double>, wheel_count> wheel_torque;
   std::array<std::vector<double>, 3> acceleration;  ///< in the IMU frame
   std::vector<double> vertical_acceleration;        ///< the same, along the world's vertical
+  std::array<EncoderNoise, wheel_count> encoder;
 };
 
 UnitNoise unit_noise(const HeardRun& run, const NoiseKey& key);
+
+/// Most studies leave the encoders exact: `noisy` asks for this only where they are not.
+void add_encoder_noise(Signals& signals, const UnitNoise& noise, const NoiseLevels& levels,
+                       std::size_t step);
 
 /// What is heard at `step` through sensors with this noise.
 inline Signals noisy(const HeardRun& run, const UnitNoise& noise, const NoiseLevels& levels,
@@ -55,8 +66,14 @@ inline Signals noisy(const HeardRun& run, const UnitNoise& noise, const NoiseLev
         levels.acceleration * noise.acceleration[axis][step];
   }
   signals.vertical_acceleration += levels.acceleration * noise.vertical_acceleration[step];
+  if (levels.joint_position > 0.0 || levels.joint_velocity > 0.0) {
+    add_encoder_noise(signals, noise, levels, step);
+  }
   return signals;
 }
+
+/// Resets an estimator for this run. The one that is told the truth, and no other, is told it here.
+void begin(ContactEstimator& estimator, const HeardRun& run);
 
 /// The wheels' decisions of a freshly reset estimator that listens to a whole run through noise.
 std::array<ContactSequence, wheel_count> decide(ContactEstimator& estimator, const HeardRun& run,

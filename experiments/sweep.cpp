@@ -66,6 +66,7 @@ std::vector<NoiseCell> noise_cells(const NoiseGridConfig& noise) {
       if (std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
     }
   }
+  for (NoiseCell& cell : cells) cell = with_encoder_noise(cell, noise);
   return cells;
 }
 

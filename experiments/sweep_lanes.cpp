@@ -14,6 +14,7 @@
 #include "experiments/always_contact.hpp"
 #include "experiments/estimator_registry.hpp"
 #include "experiments/lane_counts.hpp"
+#include "experiments/oracle.hpp"
 #include "experiments/stopped.hpp"
 
 namespace touchdown {
@@ -75,7 +76,8 @@ NoiseLevels heard_part(const ContactEstimator& estimator, const NoiseLevels& lev
     heard = {.wheel_torque = levels.wheel_torque, .joint_velocity = levels.joint_velocity};
   } else if (is(static_cast<const NeuralEstimator*>(nullptr))) {
     heard.knee_torque = heard.wheel_torque = 0.0;
-  } else if (is(static_cast<const AlwaysContact*>(nullptr))) {
+  } else if (is(static_cast<const AlwaysContact*>(nullptr)) ||
+             is(static_cast<const Oracle*>(nullptr))) {
     heard = {};
   }
   return heard;

@@ -40,7 +40,11 @@ TEST(HeardRun, ScaledUnitNoiseIsWhatNoisySensorsReport) {
   const Recording recording = wobbling_run();
   const HeardRun run = hear(recording, {}, {}, SampleUnit::run);
   const NoiseKey key{.seed = 5, .run = 2};
-  const NoiseLevels levels{.knee_torque = 0.5, .wheel_torque = 0.25, .acceleration = 3.0};
+  const NoiseLevels levels{.knee_torque = 0.5,
+                           .wheel_torque = 0.25,
+                           .acceleration = 3.0,
+                           .joint_position = 0.01,
+                           .joint_velocity = 0.4};
   const UnitNoise noise = unit_noise(run, key);
   for (std::size_t k = 0; k < run.steps(); ++k) {
     const Signals scaled = noisy(run, noise, levels, k);
@@ -50,6 +54,14 @@ TEST(HeardRun, ScaledUnitNoiseIsWhatNoisySensorsReport) {
       EXPECT_NEAR(scaled.leg[leg].knee.torque, reported.leg[leg].knee.torque, 1e-12);
       EXPECT_NEAR(scaled.leg[leg].wheel.torque, reported.leg[leg].wheel.torque, 1e-12);
       EXPECT_EQ(scaled.leg[leg].hip.torque, reported.leg[leg].hip.torque);
+      for (const auto joint : {&LegSignals::hip, &LegSignals::knee, &LegSignals::wheel}) {
+        const JointSignals& left = scaled.leg[leg].*joint;
+        const JointSignals& right = reported.leg[leg].*joint;
+        EXPECT_NEAR(left.position, right.position, 1e-12);
+        EXPECT_NEAR(left.velocity, right.velocity, 1e-12);
+        EXPECT_NE(left.position, (run.signals[k].leg[leg].*joint).position);
+        EXPECT_NE(left.velocity, (run.signals[k].leg[leg].*joint).velocity);
+      }
     }
     EXPECT_LT((scaled.linear_acceleration - reported.linear_acceleration).norm(), 1e-12);
     EXPECT_NEAR(scaled.vertical_acceleration, reported.vertical_acceleration, 1e-12);
