@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "estimator/signals.hpp"
 
@@ -21,6 +22,21 @@ enum class SignalStatus : int {
   gap,      ///< time jumped: the window was restarted and the belief relaxed
   frozen,   ///< a sensor repeats itself to the bit: the belief relaxed
 };
+
+/// "good", "invalid", "gap", "frozen".
+constexpr std::string_view to_text(SignalStatus status) noexcept {
+  switch (status) {
+    case SignalStatus::good:
+      return "good";
+    case SignalStatus::invalid:
+      return "invalid";
+    case SignalStatus::gap:
+      return "gap";
+    case SignalStatus::frozen:
+      return "frozen";
+  }
+  return "";
+}
 
 /// What an estimator believes about the robot after one step.
 struct Belief {

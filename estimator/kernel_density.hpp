@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace touchdown {
 /// Throws InputError when there are fewer than two samples, when one is not finite, or when the
 /// result is zero (all samples equal and no floor).
 double scott_bandwidth(std::span<const double> samples, int dimensions, double floor = 0.0);
+
+/// The same from the number of samples and their standard deviation, for samples that nobody keeps.
+double scott_bandwidth(double count, double deviation, int dimensions, double floor);
 
 /// Eq. (5) of the paper in one dimension: the mean of Gaussians of standard deviation `bandwidth`
 /// around the samples, evaluated at every point of the axis. A density: it integrates to one over
@@ -32,5 +36,28 @@ std::vector<double> kernel_density(std::span<const double> x, double bandwidth, 
 std::vector<double> kernel_density(std::span<const double> x, std::span<const double> y,
                                    double x_bandwidth, double y_bandwidth, const Axis& x_axis,
                                    const Axis& y_axis);
+
+/// The same sum for samples that come one by one and are not kept: its memory is that of the grid.
+class KernelDensityGrid {
+ public:
+  /// Throws InputError for a bandwidth that is not positive and finite, or a bad axis.
+  KernelDensityGrid(double x_bandwidth, double y_bandwidth, const Axis& x_axis, const Axis& y_axis);
+  ~KernelDensityGrid();
+  KernelDensityGrid(KernelDensityGrid&&) noexcept;
+  KernelDensityGrid& operator=(KernelDensityGrid&&) noexcept;
+  KernelDensityGrid(const KernelDensityGrid&) = delete;
+  KernelDensityGrid& operator=(const KernelDensityGrid&) = delete;
+
+  /// Throws InputError for a sample that is not finite.
+  void add(double x, double y);
+
+  /// What the function above returns for the samples so far. Throws InputError if there are none.
+  [[nodiscard]] std::vector<double> density();
+
+ private:
+  // Eigen aligns its memory as the processor wants it, which nobody outside should have to know.
+  struct Sums;
+  std::unique_ptr<Sums> sums_;
+};
 
 }  // namespace touchdown
