@@ -26,7 +26,7 @@ struct Descriptor {
 
 }  // namespace
 
-ByteSource file_source(const std::filesystem::path& path) {
+ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop) {
   const std::string name = path.string();
   const int opened =
       name == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT
@@ -34,8 +34,9 @@ ByteSource file_source(const std::filesystem::path& path) {
     throw InputError(fmt::format("{}: cannot be opened: {}", name, std::strerror(errno)));
   }
   const auto descriptor = std::make_shared<Descriptor>(opened);
-  return [descriptor, name](std::span<char> buffer) {
+  return [descriptor, name, stop](std::span<char> buffer) {
     while (true) {
+      if (stop != nullptr && *stop) return std::size_t{0};
       const ssize_t size = ::read(descriptor->number, buffer.data(), buffer.size());
       if (size >= 0) return static_cast<std::size_t>(size);
       if (errno == EINTR) continue;

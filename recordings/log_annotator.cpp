@@ -18,23 +18,33 @@ std::size_t map_header_size(char first) {
   return byte == 0xdfU ? 5 : 0;
 }
 
-void pack(Packer& packer, std::string_view key) {
-  packer.pack_str(static_cast<std::uint32_t>(key.size()));
-  packer.pack_str_body(key.data(), static_cast<std::uint32_t>(key.size()));
+void pack_text(Packer& packer, std::string_view text) {
+  packer.pack_str(static_cast<std::uint32_t>(text.size()));
+  packer.pack_str_body(text.data(), static_cast<std::uint32_t>(text.size()));
 }
 
-/// Packs beliefs as three maps of numbers.
+/// Packs beliefs as three maps.
 class BeliefPacker {
  public:
   BeliefPacker(Packer& packer, msgpack::sbuffer& buffer) : packer_(packer), buffer_(buffer) {}
 
   void group(std::string_view key, std::uint32_t size) {
-    pack(packer_, key);
+    pack_text(packer_, key);
     packer_.pack_map(size);
   }
   void number(std::string_view key, double value) {
-    pack(packer_, key);
+    pack_text(packer_, key);
     pack_float64(buffer_, value);
+  }
+  void wheel(std::string_view key, const WheelBelief& belief) {
+    group(key, 2);
+    number("p_contact", belief.p_contact);
+    pack_text(packer_, "contact");
+    belief.contact ? packer_.pack_true() : packer_.pack_false();
+  }
+  void text(std::string_view key, std::string_view value) {
+    pack_text(packer_, key);
+    pack_text(packer_, value);
   }
 
  private:
@@ -55,9 +65,14 @@ void pack_beliefs(BeliefPacker out, const LogBeliefs& beliefs) {
   out.number("p_landing", beliefs.p_landing);
   out.number("p_landing_p_switch", beliefs.p_landing_p_switch);
   out.number("p_takeoff_p_switch", beliefs.p_takeoff_p_switch);
-  out.group(belief_groups[2], 2);
+  out.group(belief_groups[2], 7);
   out.number("p_contact", beliefs.p_contact);
   out.number("p_contact_smooth", beliefs.p_contact_smooth);
+  out.wheel("left_wheel", beliefs.wheel[0]);
+  out.wheel("right_wheel", beliefs.wheel[1]);
+  out.number("p_any_wheel", beliefs.p_any_wheel);
+  out.number("p_both_wheels", beliefs.p_both_wheels);
+  out.text("status", to_text(beliefs.status));
 }
 
 }  // namespace

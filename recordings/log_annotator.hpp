@@ -1,15 +1,19 @@
 #pragma once
 
+#include <array>
 #include <ostream>
 #include <string_view>
 
 #include <msgpack.hpp>
 
+#include "estimator/contact_estimator.hpp"
 #include "recordings/observation_outline.hpp"
 
 namespace touchdown {
 
-/// What an estimator made of one step, by the names under which the authors' contact_agent logs it.
+/// What an estimator made of one step, by the names under which the authors' contact_agent logs it,
+/// which filters the left leg only; and under `observation.contact_filter`, what we know besides.
+/// NaN for what an estimator does not compute.
 struct LogBeliefs {
   /// `observation.measurement_model`
   double contact_likelihood = 0.0;
@@ -26,6 +30,12 @@ struct LogBeliefs {
   /// `observation.contact_filter`
   double p_contact = 0.0;
   double p_contact_smooth = 0.0;
+  /// `observation.contact_filter.{left,right}_wheel.{p_contact,contact}`
+  std::array<WheelBelief, 2> wheel;
+  double p_any_wheel = 0.0;
+  double p_both_wheels = 0.0;
+  /// `observation.contact_filter.status`
+  SignalStatus status = SignalStatus::good;
 };
 
 /// Copies a log record by record and writes beliefs into it, at a constant memory. Everything else

@@ -21,8 +21,8 @@ constexpr std::size_t rows_for_period = 200;
 
 }  // namespace
 
-LogReader::LogReader(const std::filesystem::path& path)
-    : LogReader(file_source(path), path == "-" ? "standard input" : path.string()) {}
+LogReader::LogReader(const std::filesystem::path& path, const std::atomic<bool>* stop)
+    : LogReader(file_source(path, stop), path == "-" ? "standard input" : path.string()) {}
 
 LogReader::LogReader(std::istream& stream, std::string name)
     : LogReader(stream_source(stream), std::move(name)) {}

@@ -25,8 +25,8 @@ namespace touchdown {
 /// their offset); a log whose records all lack a needed key (all of them named in one message).
 class LogReader {
  public:
-  /// "-" reads standard input.
-  explicit LogReader(const std::filesystem::path& path);
+  /// "-" reads standard input. The log ends early once `stop`, which may be null, is true.
+  explicit LogReader(const std::filesystem::path& path, const std::atomic<bool>* stop = nullptr);
   /// `name` stands in messages. `stream` must outlive the reader.
   LogReader(std::istream& stream, std::string name);
 

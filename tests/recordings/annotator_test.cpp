@@ -17,7 +17,22 @@ using testing::upkie_record;
 
 LogBeliefs beliefs_of(int i) {
   const double x = 0.01 * i;
-  return {x + 1, x + 2, x + 3, x + 4, x + 5, x + 6, x + 7, x + 8, x + 9, x + 10, x + 11, x + 12};
+  return {x + 1,
+          x + 2,
+          x + 3,
+          x + 4,
+          x + 5,
+          x + 6,
+          x + 7,
+          x + 8,
+          x + 9,
+          x + 10,
+          x + 11,
+          x + 12,
+          {{{x + 13, true}, {x + 14, false}}},
+          x + 15,
+          x + 16,
+          SignalStatus::gap};
 }
 
 json expected(json record, int i) {
@@ -32,7 +47,13 @@ json expected(json record, int i) {
                                      {"p_landing", x + 8},
                                      {"p_landing_p_switch", x + 9},
                                      {"p_takeoff_p_switch", x + 10}};
-  observation["contact_filter"] = {{"p_contact", x + 11}, {"p_contact_smooth", x + 12}};
+  observation["contact_filter"] = {{"p_contact", x + 11},
+                                   {"p_contact_smooth", x + 12},
+                                   {"left_wheel", {{"p_contact", x + 13}, {"contact", true}}},
+                                   {"right_wheel", {{"p_contact", x + 14}, {"contact", false}}},
+                                   {"p_any_wheel", x + 15},
+                                   {"p_both_wheels", x + 16},
+                                   {"status", "gap"}};
   return record;
 }
 
