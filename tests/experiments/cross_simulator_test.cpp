@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "noise/gaussian.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
@@ -232,15 +233,7 @@ perturbation: {velocity: 0.1}
 
 class CrossSimulatorRun : public ::testing::Test {
  protected:
-  CrossSimulatorRun() {
-    std::string pattern = (fs::temp_directory_path() / "touchdown_cross_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-    write_atomically(folder_ / "small_step.yaml", small_scene);
-  }
-  ~CrossSimulatorRun() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
+  CrossSimulatorRun() { folder_.write("small_step.yaml", small_scene); }
 
   CrossSimulator read(const std::string& from = "", const std::string& to = "") const {
     std::string text = small_check;
@@ -265,7 +258,7 @@ class CrossSimulatorRun : public ::testing::Test {
     return "nothing";
   }
 
-  fs::path folder_;
+  const ScratchFolder folder_;
 };
 
 TEST_F(CrossSimulatorRun, ComparesTransfersVariesAndJudges) {
