@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "render/gnuplot_style.hpp"
+#include "render/pdf_date.hpp"
 #include "render/video_writer.hpp"
 
 namespace touchdown {
@@ -126,6 +127,7 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
   if (!complaints.empty()) {
     throw Error(fmt::format("{}: gnuplot: {}", stem.string(), first_reason(complaints)));
   }
+  remove_pdf_date(scratch.path() / (name + ".pdf"));
   const std::filesystem::path folder = std::filesystem::absolute(stem).parent_path();
   try {
     for (const std::string& file : files) {
