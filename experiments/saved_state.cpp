@@ -68,11 +68,12 @@ void remove_partial_files(const std::filesystem::path& folder) {
        entry.increment(ignored)) {
     const std::string name = entry->path().filename().string();
     const bool hidden = name.rfind('.', 0) == 0;
-    if (hidden && name.find(".part") != std::string::npos && entry->is_regular_file(ignored)) {
+    if (hidden && name.find(".part") != std::string::npos) {
       partial.push_back(entry->path());
+      entry.disable_recursion_pending();
     }
   }
-  for (const fs::path& path : partial) fs::remove(path, ignored);
+  for (const fs::path& path : partial) fs::remove_all(path, ignored);
 }
 
 }  // namespace touchdown

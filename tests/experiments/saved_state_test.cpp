@@ -64,11 +64,13 @@ TEST(SavedState, RemovesWhatKilledWritersLeft) {
   const ScratchFolder folder;
   folder.write("tables/.success.1234.0abc.part.csv", "half");
   folder.write("state/.part.77.0abc.part", "half");
+  folder.write("figures/.success_mujoco.4321.part/success_mujoco.gp", "half");
   folder.write("tables/success.csv", "whole");
   folder.write("tables/my.parts", "whole");
   remove_partial_files(folder.path());
   EXPECT_FALSE(std::filesystem::exists(folder / "tables/.success.1234.0abc.part.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder / "state/.part.77.0abc.part"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "figures"));
   EXPECT_TRUE(std::filesystem::exists(folder / "tables/success.csv"));
   EXPECT_TRUE(std::filesystem::exists(folder / "tables/my.parts"));
 }
