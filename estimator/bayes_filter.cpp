@@ -89,7 +89,6 @@ const Belief& BayesFilter::update(const Signals& signals) noexcept {
     m.likelihood = model_(m.torque);       // Eq. (6)
     m.likelihood.contact += config_.measurement.contact_floor;
     m.likelihood.no_contact += config_.measurement.no_contact_floor;
-    m.p_measurement = measurement_probability(m.likelihood);  // Eq. (14)
 
     const State predicted = predict(transition_.transition(), bel);  // Eq. (2a)
     bel = correct(m.likelihood, predicted, bel);                     // Eq. (2b) and (3)

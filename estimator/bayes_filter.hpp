@@ -50,16 +50,20 @@ struct BayesFilterConfig {
   bool operator==(const BayesFilterConfig&) const = default;
 };
 
-/// What one wheel's last update was computed from.
-struct MeasurementDiagnostics {
-  TorqueSample torque;         ///< m_t, Eq. (4) (N·m)
-  Likelihoods likelihood;      ///< Eq. (6), floors included
-  double p_measurement = 0.5;  ///< P_τ(S_t = C | m_t), Eq. (14)
-  double p_predicted = 0.5;    ///< bel-bar(S_t = C), Eq. (2a)
-};
-
 /// P_τ(S_t = C | m_t), Eq. (14): 0.5 where both likelihoods are zero.
 double measurement_probability(const Likelihoods& likelihood) noexcept;
+
+/// What one wheel's last update was computed from.
+struct MeasurementDiagnostics {
+  TorqueSample torque;       ///< m_t, Eq. (4) (N·m)
+  Likelihoods likelihood;    ///< Eq. (6), floors included
+  double p_predicted = 0.5;  ///< bel-bar(S_t = C), Eq. (2a)
+
+  /// P_τ(S_t = C | m_t), Eq. (14).
+  [[nodiscard]] double p_measurement() const noexcept {
+    return measurement_probability(likelihood);
+  }
+};
 
 /// The paper's Bayes filter, Eq. (1) to (13), for each wheel of the robot. The two wheels have
 /// their own torques and beliefs; they share the transition model, because there is one

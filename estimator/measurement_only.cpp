@@ -54,8 +54,7 @@ const Belief& MeasurementOnly::update(const Signals& signals) noexcept {
     m.likelihood = model_(m.torque);       // Eq. (6)
     m.likelihood.contact += config_.measurement.contact_floor;
     m.likelihood.no_contact += config_.measurement.no_contact_floor;
-    m.p_measurement = measurement_probability(m.likelihood);  // Eq. (14)
-    wheel.p_contact = m.p_measurement;
+    wheel.p_contact = m.p_measurement();  // Eq. (14)
   }
   conclude(belief_, config_.threshold);
   return belief_;

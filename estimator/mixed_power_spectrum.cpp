@@ -1,75 +1,87 @@
 #include "estimator/mixed_power_spectrum.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace touchdown {
+namespace {
+
+/// How many of sum(1) ≤ sum(2) ≤ … ≤ sum(count − 1) are below `bound`. Halves the candidates
+/// without a branch: where a median is, no processor can predict.
+template <typename Sum>
+int count_below(double bound, int count, const Sum& sum) noexcept {
+  int below = 0;
+  for (int candidates = count; candidates > 1;) {
+    const int half = candidates / 2;
+    below += half * (sum(below + half) < bound ? 1 : 0);
+    candidates -= half;
+  }
+  return below;
+}
+
+}  // namespace
 
 MixedPowerSpectrum::MixedPowerSpectrum(const SlidingDft& dft, bool nyquist)
     : window_(dft.window()),
-      bins_(dft.bins()),
-      even_(dft.window() % 2 == 0),
+      rows_(dft.rows()),
       nyquist_counts_(nyquist),
-      bin_(static_cast<std::size_t>(dft.rows())),
-      within_lane_(bin_.size()) {}
+      within_lane_(3 * (dft.reals().size() + lanes)) {}
 
 void MixedPowerSpectrum::update(const SlidingDft& clean, const SlidingDft& noise) noexcept {
-  Parabolas sum;
-  for (std::size_t r = 0; r < bin_.size(); ++r) {
-    const SlidingDft::Row& x = clean.row(static_cast<int>(r));
-    const SlidingDft::Row& z = noise.row(static_cast<int>(r));
-    Parabolas& bin = bin_[r];
-    for (int i = 0; i < lanes; ++i) {
-      bin.constant[i] = x.squared[i];
-      bin.linear[i] = 2.0 * (x.real[i] * z.real[i] + x.imaginary[i] * z.imaginary[i]);
-      bin.square[i] = z.squared[i];
-      sum.constant[i] += bin.constant[i];
-      sum.linear[i] += bin.linear[i];
-      sum.square[i] += bin.square[i];
-    }
-    within_lane_[r] = sum;
+  SpectrumRow constant = SpectrumRow::Zero();
+  SpectrumRow linear = SpectrumRow::Zero();
+  SpectrumRow square = SpectrumRow::Zero();
+  for (int row = 0; row < rows_; ++row) {
+    const ConstSpectrumRowMap x(clean.reals().data() + row * lanes);
+    const ConstSpectrumRowMap y(clean.imaginaries().data() + row * lanes);
+    const ConstSpectrumRowMap x_noise(noise.reals().data() + row * lanes);
+    const ConstSpectrumRowMap y_noise(noise.imaginaries().data() + row * lanes);
+    constant += x.square() + y.square();
+    linear += 2.0 * (x * x_noise + y * y_noise);
+    square += x_noise.square() + y_noise.square();
+    double* const sums = within_lane_.data() + 3 * (row + 1) * lanes;
+    SpectrumRowMap{sums} = constant;
+    SpectrumRowMap{sums + lanes} = linear;
+    SpectrumRowMap{sums + 2 * lanes} = square;
   }
-  for (int i = 1; i < lanes; ++i) {
-    sum.constant[i] += sum.constant[i - 1];
-    sum.linear[i] += sum.linear[i - 1];
-    sum.square[i] += sum.square[i - 1];
+  constant_ = LaneSums::of(constant);
+  linear_ = LaneSums::of(linear);
+  square_ = LaneSums::of(square);
+  mean_ = {clean.real(0), noise.real(0)};
+  nyquist_ = {clean.nyquist(), noise.nyquist()};
+}
+
+double MixedPowerSpectrum::median(const LaneSums& sums, double nyquist,
+                                  double sigma) const noexcept {
+  const double half = 0.5 * (sums.total() + nyquist);
+  if (sums.total() < half) {
+    return (window_ / 2 - 1) + (half - sums.total()) / nyquist;
   }
-  up_to_lane_ = sum;
+  const auto within = [this, sigma](int row, int lane) {
+    const double* const parabola = within_lane_.data() + 3 * row * lanes + lane;
+    return parabola[0] + sigma * (parabola[lanes] + sigma * parabola[2 * lanes]);
+  };
+  const int lane = count_below(half, lanes, [&](int i) { return sums.before[i]; });
+  const double rest = half - sums.before[lane];
+  const int row = count_below(rest, rows_, [&](int r) { return within(r, lane); });
+  const double below = within(row, lane);
+  const double inside = within(row + 1, lane) - below;
+  const int bin = lane * rows_ + row;
+  if (bin == 0 || !(inside > 0.0)) {
+    return 0.0;
+  }
+  return (bin - 1) + std::min(1.0, (rest - below) / inside);
 }
 
 SpectrumValues MixedPowerSpectrum::operator()(double sigma) const noexcept {
-  const auto rows = static_cast<int>(bin_.size());
-  const double n = window_;
-  const double energy = up_to_lane_.at(lanes - 1, sigma);
-  const double last =
-      even_ ? bin_[static_cast<std::size_t>((bins_ - 1) % rows)].at((bins_ - 1) / rows, sigma)
-            : 0.0;
+  LaneSums sums;
+  for (int i = 0; i <= lanes; ++i) {
+    sums.before[i] = constant_.before[i] + sigma * (linear_.before[i] + sigma * square_.before[i]);
+  }
+  const double nyquist = nyquist_.at(sigma);
   SpectrumValues values;
-  values.mean_square = (2.0 * energy - bin_.front().at(0, sigma) - last) / (n * n);
-  if (!(values.mean_square > SpectrumSummary::negligible_rms * SpectrumSummary::negligible_rms)) {
-    return values;
-  }
-
-  const double half = 0.5 * (nyquist_counts_ ? energy : energy - last);
-  // Counters as wide as the sums, so that eight comparisons are two vectors. The last lane's sum is
-  // the whole, never less than its half.
-  std::int64_t passed_lanes = 0;
-  for (int i = 0; i < lanes; ++i) {
-    passed_lanes += up_to_lane_.at(i, sigma) < half ? 1 : 0;
-  }
-  const int lane = std::min(lanes - 1, static_cast<int>(passed_lanes));
-  const double before = lane > 0 ? up_to_lane_.at(lane - 1, sigma) : 0.0;
-  const double remaining = half - before;
-  int row = 0;
-  for (int r = 0; r < rows - 1; ++r) {
-    row += within_lane_[static_cast<std::size_t>(r)].at(lane, sigma) < remaining ? 1 : 0;
-  }
-  const double below =
-      row > 0 ? within_lane_[static_cast<std::size_t>(row - 1)].at(lane, sigma) : 0.0;
-  const int bin = lane * rows + row;
-  const double inside = bin_[static_cast<std::size_t>(row)].at(lane, sigma);
-  if (bin > 0 && inside > 0.0) {
-    values.median_bin = (bin - 1) + std::min(1.0, (remaining - below) / inside);
+  values.mean_square = mean_square(sums.total(), mean_.at(sigma), nyquist, window_);
+  if (values.mean_square > negligible_mean_square) {
+    values.median_bin = median(sums, nyquist_counts_ ? nyquist * nyquist : 0.0, sigma);
   }
   return values;
 }

@@ -2,9 +2,18 @@
 
 #include <vector>
 
+#include "estimator/spectral_median.hpp"
 #include "estimator/spectrum_summary.hpp"
 
 namespace touchdown {
+
+/// A bin of the window (clean + sigma · noise) that is real.
+struct MixedRealBin {
+  double clean = 0.0;
+  double noise = 0.0;
+
+  [[nodiscard]] double at(double sigma) const noexcept { return clean + sigma * noise; }
+};
 
 /// Power and median frequency of the window (clean + sigma · noise) for many sigmas, cheaper than
 /// one spectrum each: |X + σZ|² = |X|² + σ · 2 Re(X·Z̄) + σ² |Z|², so every cumulative sum over bins
@@ -24,24 +33,18 @@ class MixedPowerSpectrum {
 
  private:
   static constexpr int lanes = SlidingDft::lanes;
-  struct Parabolas {
-    double constant[lanes] = {};
-    double linear[lanes] = {};
-    double square[lanes] = {};
+  double median(const LaneSums& sums, double nyquist, double sigma) const noexcept;
 
-    [[nodiscard]] double at(int lane, double sigma) const noexcept {
-      return constant[lane] + sigma * (linear[lane] + sigma * square[lane]);
-    }
-  };
   int window_;
-  int bins_;
-  bool even_;
+  int rows_;
   bool nyquist_counts_;
-  std::vector<Parabolas> bin_;
-  /// Sums over the rows of a lane, up to and with a row.
-  std::vector<Parabolas> within_lane_;
-  /// Sums over all lanes up to and with a lane.
-  Parabolas up_to_lane_;
+  /// Row r: the sums of each lane's first r bins, one array for each of the three coefficients.
+  std::vector<double> within_lane_;
+  LaneSums constant_{};
+  LaneSums linear_{};
+  LaneSums square_{};
+  MixedRealBin mean_;
+  MixedRealBin nyquist_;
 };
 
 }  // namespace touchdown

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace touchdown {
@@ -34,23 +35,32 @@ class SlidingDft {
 
   /// The compiler's vectors run over `lanes` bins at once, and each lane walks through `rows()`
   /// neighbouring ones: bin k is in lane k / rows(), row k % rows(). So a sum over rows is at once
-  /// the sums over `lanes` contiguous parts of the spectrum. Bins past the last one are zero.
+  /// the sums over `lanes` contiguous parts of the spectrum.
   static constexpr int lanes = 8;
-  struct Row {
-    double real[lanes] = {};
-    double imaginary[lanes] = {};
-    double squared[lanes] = {};
-    double cosine[lanes] = {};
-    double sine[lanes] = {};
-  };
-  [[nodiscard]] int rows() const noexcept { return static_cast<int>(rows_.size()); }
-  [[nodiscard]] const Row& row(int index) const noexcept {
-    return rows_[static_cast<std::size_t>(index)];
-  }
+  [[nodiscard]] int rows() const noexcept { return rows_; }
+  /// Real and imaginary parts of all bins below the Nyquist frequency, row after row. What is
+  /// beyond the last of them is zero.
+  [[nodiscard]] std::span<const double> reals() const noexcept { return real_; }
+  [[nodiscard]] std::span<const double> imaginaries() const noexcept { return imaginary_; }
+  /// X_(N/2) of an even window, which is real and in no row, because 64 bins fill vectors and 65 do
+  /// not; 0 for an odd window, which has none.
+  [[nodiscard]] double nyquist() const noexcept { return nyquist_; }
 
  private:
+  [[nodiscard]] std::size_t place(int bin) const noexcept {
+    return static_cast<std::size_t>(bin % rows_ * lanes + bin / rows_);
+  }
+
   int bins_;
-  std::vector<Row> rows_;
+  int rows_ = 0;
+  /// e^(πi), or 0 without a Nyquist bin.
+  double nyquist_turn_;
+  double nyquist_ = 0.0;
+  std::vector<double> real_;
+  std::vector<double> imaginary_;
+  /// e^(2πik/N).
+  std::vector<double> cosine_;
+  std::vector<double> sine_;
   std::vector<double> samples_;
   std::size_t oldest_ = 0;
 };

@@ -21,39 +21,38 @@ struct SpectrumValues {
   double median_bin = 0.0;
 };
 
+/// Mean square of a window below which its spectrum counts as empty.
+inline constexpr double negligible_mean_square = 1e-18;
+
+/// Parseval's theorem for real samples: `below_nyquist` is Σ |X_k|² over the bins k < N/2. All but
+/// the first and the last bin, which are real, stand for two frequencies, +ω and −ω.
+inline double mean_square(double below_nyquist, double first, double nyquist, double n) noexcept {
+  return (2.0 * below_nyquist - first * first + nyquist * nyquist) / (n * n);
+}
+
 /// Summarises the spectrum of a sliding window. The median is where the cumulative sum over the
 /// bins 0 … ⌊N/2⌋ reaches half of its end, interpolated linearly between bins; it is 0 if bin 0
 /// holds half or more, or if the window holds no more than rounding errors (an RMS below 1e-9).
 class SpectrumSummary {
  public:
-  /// RMS of a window below which its spectrum counts as empty.
-  static constexpr double negligible_rms = 1e-9;
-
   /// With `nyquist` false an even window's last bin, N/2, is left out of the median.
   SpectrumSummary(const SlidingDft& dft, SpectrumKind kind, bool nyquist);
 
   /// `dft` must have the window that was given to the constructor.
   [[nodiscard]] SpectrumValues operator()(const SlidingDft& dft) noexcept;
 
-  /// The same for the window (clean + sigma · noise), from the spectra of both: the transform is
-  /// linear, so that one pair of transforms serves every sigma.
-  [[nodiscard]] SpectrumValues operator()(const SlidingDft& clean, const SlidingDft& noise,
-                                          double sigma) noexcept;
-
  private:
-  struct Weights {
-    double lane[SlidingDft::lanes] = {};
-  };
-  template <typename SquaredRow>
-  SpectrumValues summarise(const SquaredRow& squared_row) noexcept;
+  static constexpr int lanes = SlidingDft::lanes;
+  template <typename Rows>
+  SpectrumValues summarise(Rows rows, const SlidingDft& dft) noexcept;
 
   int window_;
-  int bins_;
+  int rows_;
   bool magnitude_;
-  /// Bin of an even window's Nyquist frequency, or −1.
-  int nyquist_bin_;
   bool nyquist_counts_;
-  std::vector<Weights> weights_;
+  std::vector<double> magnitudes_;
+  /// Row r: the sums of each lane's first r bins.
+  std::vector<double> within_lane_;
 };
 
 }  // namespace touchdown

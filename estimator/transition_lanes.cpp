@@ -13,7 +13,7 @@ TransitionLanes::TransitionLanes(const TransitionConfig& config, double sample_r
       clean_(config.window),
       noise_(config.window),
       magnitude_(config.median_of == SpectrumKind::magnitude),
-      magnitudes_(clean_, SpectrumKind::magnitude, config.nyquist),
+      magnitudes_(clean_, config.nyquist),
       powers_(clean_, config.nyquist),
       sigmas_(sigmas.begin(), sigmas.end()),
       mean_square_(sigmas.size()),
@@ -36,17 +36,25 @@ void TransitionLanes::reset() noexcept {
   std::fill(filtered_median_.begin(), filtered_median_.end(), 0.0);
 }
 
+template <typename MixedSpectrum>
+void TransitionLanes::summarise(MixedSpectrum& spectrum) noexcept {
+  spectrum.update(clean_, noise_);
+  for (std::size_t i = 0; i < sigmas_.size(); ++i) {
+    const SpectrumValues values = spectrum(sigmas_[i]);
+    mean_square_[i] = values.mean_square;
+    median_bin_[i] = values.median_bin;
+  }
+}
+
 void TransitionLanes::update(double vertical_acceleration, double draw) noexcept {
   clean_.push(vertical_acceleration);
   noise_.push(draw);
-  powers_.update(clean_, noise_);
-  const std::size_t count = sigmas_.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const SpectrumValues spectrum =
-        magnitude_ ? magnitudes_(clean_, noise_, sigmas_[i]) : powers_(sigmas_[i]);
-    mean_square_[i] = spectrum.mean_square;
-    median_bin_[i] = spectrum.median_bin;
+  if (magnitude_) {
+    summarise(magnitudes_);
+  } else {
+    summarise(powers_);
   }
+  const std::size_t count = sigmas_.size();
   const double* const mean_square = mean_square_.data();
   const double* const median_bin = median_bin_.data();
   double* const filtered_median = filtered_median_.data();

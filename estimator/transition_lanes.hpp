@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "estimator/mixed_magnitude_spectrum.hpp"
 #include "estimator/mixed_power_spectrum.hpp"
 #include "estimator/transition_model.hpp"
 
@@ -30,11 +31,14 @@ class TransitionLanes {
   [[nodiscard]] std::span<const double> air_to_air() const noexcept { return fly_; }
 
  private:
+  template <typename MixedSpectrum>
+  void summarise(MixedSpectrum& spectrum) noexcept;
+
   TransitionLaw law_;
   SlidingDft clean_;
   SlidingDft noise_;
   bool magnitude_;
-  SpectrumSummary magnitudes_;
+  MixedMagnitudeSpectrum magnitudes_;
   MixedPowerSpectrum powers_;
   std::vector<double> sigmas_;
   std::vector<double> mean_square_;

@@ -15,16 +15,19 @@ void check(bool good, const std::string& message) {
   }
 }
 
+/// y += g (x − y) twice with the same x moves y by 1 − (1 − g)² of the way.
+double gain_of_two_steps(double gain) { return gain * (2.0 - gain); }
+
 }  // namespace
 
 TransitionLaw::TransitionLaw(const TransitionConfig& config, double sample_rate)
-    : switch_sigmoid_(config.switch_sigmoid),
-      landing_sigmoid_(config.landing_sigmoid),
+    : switching_{config.switch_sigmoid.offset, 1.0 / config.switch_sigmoid.slope},
+      landing_{config.landing_sigmoid.offset, 1.0 / config.landing_sigmoid.slope},
       margin_(config.margin),
       highest_(1.0 - config.margin),
       power_scale_(config.power == PowerMeasure::mean_square ? 1.0 : config.window),
       bin_width_(sample_rate / config.window),
-      memory_gain_(low_pass_gain(config.median_memory, 1.0 / sample_rate)),
+      memory_gain_(gain_of_two_steps(low_pass_gain(config.median_memory, 1.0 / sample_rate))),
       memory_(config.median_memory),
       repair_(config.row_stochastic ? 1.0 : 0.0) {
   check(std::isfinite(sample_rate) && sample_rate > 0.0, "the sample rate must be positive (Hz)");

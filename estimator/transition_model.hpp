@@ -76,16 +76,14 @@ class TransitionLaw {
   [[nodiscard]] Transition next(const SpectrumValues& spectrum, double remembered) const noexcept {
     Transition t;
     t.power = power_scale_ * spectrum.mean_square;
-    const Odds switching = odds(switch_sigmoid_, t.power);  // Eq. (11)
+    const Odds switching = odds(switching_, t.power);  // Eq. (11)
     t.p_switch = switching.p;
 
     t.median_frequency = bin_width_ * spectrum.median_bin;
     const double input = t.median_frequency * t.p_switch;
-    double filtered = remembered;
-    filtered += memory_gain_ * (input - filtered);
-    filtered += memory_gain_ * (input - filtered);
+    const double filtered = remembered + memory_gain_ * (input - remembered);
     t.filtered_median_frequency = memory_ > 0.0 ? filtered : t.median_frequency;
-    const Odds landing = odds(landing_sigmoid_, t.filtered_median_frequency);  // Eq. (13)
+    const Odds landing = odds(landing_, t.filtered_median_frequency);  // Eq. (13)
     t.p_landing = landing.p;
 
     t.air_to_contact = landing.p * switching.p;      // Eq. (8)
@@ -101,10 +99,15 @@ class TransitionLaw {
     double p;
     double not_p;
   };
+  /// A sigmoid prepared to be evaluated without a division.
+  struct Steepness {
+    double offset;
+    double inverse_slope;
+  };
   /// A sigmoid and its complement, both to full relative precision: next to certainty 1 − p would
   /// be rounding noise, and that noise the probability to stay.
-  [[nodiscard]] Odds odds(const Sigmoid& sigmoid, double x) const noexcept {
-    const double against = exponential((sigmoid.offset - x) / sigmoid.slope);
+  [[nodiscard]] Odds odds(const Steepness& sigmoid, double x) const noexcept {
+    const double against = exponential((sigmoid.offset - x) * sigmoid.inverse_slope);
     const double p = 1.0 / (1.0 + against);
     return {within_margin(p), within_margin(against * p)};
   }
@@ -113,12 +116,13 @@ class TransitionLaw {
     return above < highest_ ? above : highest_;
   }
 
-  Sigmoid switch_sigmoid_;
-  Sigmoid landing_sigmoid_;
+  Steepness switching_;
+  Steepness landing_;
   double margin_;
   double highest_;
   double power_scale_;
   double bin_width_;
+  /// Of both steps that the low-pass makes at once.
   double memory_gain_;
   double memory_;
   /// 1 if rows are to sum to one, 0 as published.

@@ -89,6 +89,30 @@ TEST_P(NamedLanes, EqualTheScalarFilterInEveryLane) {
 INSTANTIATE_TEST_SUITE_P(Configurations, NamedLanes,
                          testing::Values("paper", "reference", "robust"));
 
+TEST(BayesFilterLanes, EqualTheScalarFilterForAnyWindow) {
+  for (const char* name : {"reference", "robust"}) {
+    for (const int window : {2, 37, 100, 130, 256}) {
+      BayesFilterConfig config = BayesFilterConfig::named(name);
+      config.guard.frozen_after = 0.0;
+      config.transition.window = window;
+      const MeasurementModel model = fitted(config);
+      const std::vector<NoiseLevel> grid = levels();
+      BayesFilterLanes lanes(model, config, grid);
+      std::vector<BayesFilter> filters(grid.size(), BayesFilter(model, config));
+      Normal normal(17);
+      for (const Signals& clean : drops(1500, 1000.0, 31)) {
+        const NoiseDraws draws = draw(normal);
+        lanes.update(clean, draws);
+        for (std::size_t lane = 0; lane < grid.size(); ++lane) {
+          const Belief& belief = filters[lane].update(noisy(clean, draws, grid[lane]));
+          ASSERT_NEAR(belief.wheel[0].p_contact, lanes.p_contact(Side::left)[lane], 1e-12)
+              << name << " window " << window << " lane " << lane << " at " << clean.time;
+        }
+      }
+    }
+  }
+}
+
 TEST(BayesFilterLanes, StartAnewAfterAReset) {
   const BayesFilterConfig config = BayesFilterConfig::robust();
   const MeasurementModel model = fitted(config);

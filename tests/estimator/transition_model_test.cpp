@@ -88,7 +88,23 @@ INSTANTIATE_TEST_SUITE_P(AnySpectrum, TransitionSpectrum,
                                          SpectrumCase{128, SpectrumKind::power, false},
                                          SpectrumCase{101, SpectrumKind::magnitude, true},
                                          SpectrumCase{64, SpectrumKind::magnitude, true},
+                                         SpectrumCase{130, SpectrumKind::magnitude, true},
+                                         SpectrumCase{200, SpectrumKind::power, true},
+                                         SpectrumCase{3, SpectrumKind::magnitude, true},
                                          SpectrumCase{2, SpectrumKind::power, true}));
+
+TEST(TransitionModel, FindsAMedianInTheLastBin) {
+  for (const SpectrumKind kind : {SpectrumKind::power, SpectrumKind::magnitude}) {
+    TransitionConfig config;
+    config.median_of = kind;
+    TransitionModel model(config, 1000.0);
+    for (int t = 0; t < 256; ++t) {
+      model.update(t % 2 == 0 ? 1.0 : -1.0);
+    }
+    EXPECT_NEAR(model.transition().median_frequency, 63.5 * 1000.0 / 128.0, 1e-9);
+    EXPECT_NEAR(model.transition().power, 1.0, 1e-12);
+  }
+}
 
 TEST(TransitionModel, FindsTheFrequencyOfASine) {
   TransitionModel model(TransitionConfig{}, 1000.0);
