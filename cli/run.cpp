@@ -20,6 +20,7 @@ struct RunFlags {
   std::string out;
   std::vector<std::string> overrides;
   std::string shard;
+  bool dry_run = false;
   bool no_pictures = false;
 };
 
@@ -35,6 +36,11 @@ void run_one_shard(const Experiment& experiment, const Shard& shard, const RunOp
              report.directory.path().string());
 }
 
+void outline(const Experiment& experiment, const RunOptions& options) {
+  const RunOutline outline = outline_of(experiment, options);
+  fmt::print("results   {}\nparts     {}\n", outline.directory.string(), outline.tasks);
+}
+
 void run(const RunFlags& flags, const Session& session) {
   std::optional<Shard> shard;
   if (!flags.shard.empty()) shard = shard_from(flags.shard);
@@ -43,10 +49,15 @@ void run(const RunFlags& flags, const Session& session) {
   const RunOptions options{.out = flags.out, .command = session.command, .stop = session.stop};
   if (is_cross_simulator(document)) {
     if (shard) throw InputError("--shard: a cross_simulator experiment is not cut into shards");
+    if (flags.dry_run) throw InputError("--dry-run: not for a cross_simulator experiment");
     check_across_simulators(cross_simulator_from_yaml(document), options, flags.no_pictures);
     return;
   }
   const Experiment experiment = experiment_from_yaml(document);
+  if (flags.dry_run) {
+    outline(experiment, options);
+    return;
+  }
   if (shard) {
     run_one_shard(experiment, *shard, options);
     return;
@@ -73,6 +84,9 @@ void add_run(CLI::App& program, Session& session) {
   verb->add_option("--shard", flags->shard,
                    "Compute one part of n into the run directory, for `touchdown merge`")
       ->type_name("K/N");
+  verb->add_flag("--dry-run", flags->dry_run,
+                 "Only check the experiment, and say where its results go and in how many parts\n"
+                 "it can be computed");
   verb->add_flag("--no-pictures", flags->no_pictures, "Tables only: no figures, no videos");
   verb->callback(
       [flags, &session] { session.action = [flags, &session] { run(*flags, session); }; });

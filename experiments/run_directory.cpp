@@ -10,9 +10,9 @@
 
 namespace touchdown {
 
-namespace {
-
 namespace fs = std::filesystem;
+
+namespace {
 
 /// Points `link` to `target`, replacing what it pointed to in one step.
 void point(const fs::path& link, const fs::path& target) {
@@ -27,9 +27,13 @@ void point(const fs::path& link, const fs::path& target) {
 
 }  // namespace
 
+fs::path run_path(const std::string& experiment, const std::string& id, const fs::path& out) {
+  return out.empty() ? fs::path("runs") / experiment / id : out;
+}
+
 RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,
                            const fs::path& out)
-    : path_(out.empty() ? fs::path("runs") / experiment / id : out) {
+    : path_(run_path(experiment, id, out)) {
   try {
     fs::create_directories(path_);
     if (out.empty()) point(path_.parent_path() / "latest", id);

@@ -8,7 +8,11 @@
 
 namespace touchdown {
 
-/// Where one experiment's results go: `runs/<experiment>/<id>/` with a folder per kind of file.
+/// Where one experiment's results go: `out` if given, or else `runs/<experiment>/<id>`.
+std::filesystem::path run_path(const std::string& experiment, const std::string& id,
+                               const std::filesystem::path& out = {});
+
+/// The directory of one experiment's results, `run_path`, with a folder per kind of file.
 /// Every file appears whole or not at all.
 class RunDirectory {
  public:

@@ -23,6 +23,13 @@ std::vector<const HeardRun*> scored_runs(const std::vector<PlayedRun>& runs) {
   return scored;
 }
 
+RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
+  const RunRequest request = request_of(experiment);
+  const auto plan = plan_runs(request.experiment, request.scenarios);
+  return {run_path(experiment.name, request.id, options.out),
+          listening_tasks(request.experiment, plan).size()};
+}
+
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options) {
   RunRequest request = request_of(experiment);
   RunDirectory directory(experiment.name, request.id, options.out);

@@ -37,6 +37,16 @@ struct ExperimentResult {
   Provenance provenance;
 };
 
+/// What running an experiment would amount to.
+struct RunOutline {
+  std::filesystem::path directory;  ///< where its results go
+  std::size_t tasks = 0;            ///< parts that can be computed apart from each other
+};
+
+/// Checks an experiment and its scenarios; nothing is computed or written.
+/// Errors: `InputError` for a wrong request.
+RunOutline outline_of(const Experiment& experiment, const RunOptions& options);
+
 /// Simulates, fits, listens, scores and writes tables. What an earlier attempt of the same program,
 /// whole or in shards, left complete in the run directory is used and not computed again.
 /// Errors: `InputError` for a wrong request; `Stopped`, saying what is saved; `Error` when no run
