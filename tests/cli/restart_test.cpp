@@ -1,0 +1,143 @@
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "result_files.hpp"
+#include "started_program.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> saved_parts(const fs::path& run_directory) {
+  std::vector<fs::path> parts;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(run_directory / "state" / "listening", ignored)) {
+    if (entry.path().filename().string().rfind('.', 0) != 0) parts.push_back(entry.path());
+  }
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+/// Runs it to its end and returns what it told on the way.
+std::string run_through(const std::string& arguments, const ScratchFolder& folder) {
+  const Ended ended = touchdown_program(arguments, folder.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+  return ended.errors;
+}
+
+TEST(Restart, AfterKillsAtRandomMomentsEndsInTheBytesOfAnUndisturbedRun) {
+  const ScratchFolder folder;
+  const std::string run = "run " + write_tiny_experiment(folder) + " --out ";
+  const auto start = std::chrono::steady_clock::now();
+  run_through(run + "undisturbed", folder);
+  const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - start;
+  const auto expected = result_files(folder / "undisturbed");
+  ASSERT_EQ(expected.count("tables/success.csv"), 1U);
+  std::mt19937 random(20261121);
+  std::uniform_real_distribution<double> moment(0.0, whole.count());
+  int kills = 0;
+  for (const std::string out : {"a", "b", "c"}) {
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      StartedProgram program(run + out, folder.path());
+      program.let_run(moment(random));
+      program.send(SIGKILL);
+      if (program.end().exit_code == -SIGKILL) ++kills;
+    }
+    run_through(run + out, folder);
+    EXPECT_THAT(different_files(result_files(folder / out), expected), IsEmpty()) << out;
+  }
+  EXPECT_GT(kills, 0);
+}
+
+TEST(Restart, DoesNotBelieveWhatIsNotWhole) {
+  const ScratchFolder folder;
+  const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out a";
+  run_through(run, folder);
+  const auto expected = result_files(folder / "a");
+  const std::vector<fs::path> parts = saved_parts(folder / "a");
+  ASSERT_EQ(parts.size(), 12U);
+  fs::resize_file(parts[2], fs::file_size(parts[2]) / 2);
+  std::string content = read_file(parts[7]);
+  content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 4);
+  write_atomically(parts[7], content);
+  const Ended merge = touchdown_program("merge a --no-pictures", folder.path());
+  EXPECT_EQ(merge.exit_code, 2);
+  EXPECT_THAT(merge.errors, HasSubstr("2 of 12 parts are missing"));
+  const fs::path recording = folder / "a/recordings/bullet_step_test_001.mpack";
+  fs::resize_file(recording, fs::file_size(recording) - 1);
+  const std::vector<fs::file_time_type> written = [&] {
+    std::vector<fs::file_time_type> times;
+    for (const fs::path& part : parts) times.push_back(fs::last_write_time(part));
+    return times;
+  }();
+  EXPECT_THAT(run_through(run, folder), HasSubstr("12/12 parts (10 of them were there)"));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    EXPECT_EQ(fs::last_write_time(parts[i]) == written[i], i != 2 && i != 7) << parts[i];
+  }
+  EXPECT_THAT(different_files(result_files(folder / "a"), expected), IsEmpty());
+}
+
+TEST(Interrupt, SaysWhatIsSavedAndTheSameCommandGoesOnFromThere) {
+  const ScratchFolder folder;
+  const std::string run =
+      "run " + write_tiny_experiment(folder) + " --no-pictures --set noise.seeds=60 --out ";
+  std::vector<fs::path> parts;
+  std::vector<fs::file_time_type> written;
+  {
+    StartedProgram program(run + "a --set workers=1", folder.path());
+    while (program.is_running() && saved_parts(folder / "a").size() < 2) program.let_run(0.002);
+    program.send(SIGINT);
+    const Ended ended = program.end();
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.output, "");
+    parts = saved_parts(folder / "a");
+    EXPECT_LT(parts.size(), 360U);
+    EXPECT_THAT(
+        ended.errors,
+        HasSubstr("touchdown: stopped; 8 of 8 recordings and " + std::to_string(parts.size()) +
+                  " of 360 parts of the listening are saved in a; the same command goes "
+                  "on from there\n"));
+  }
+  for (const fs::path& part : parts) written.push_back(fs::last_write_time(part));
+  EXPECT_THAT(run_through(run + "a", folder),
+              HasSubstr("360/360 parts (" + std::to_string(parts.size()) + " of them were there)"));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    EXPECT_EQ(fs::last_write_time(parts[i]), written[i]);
+  }
+  run_through(run + "undisturbed", folder);
+  EXPECT_THAT(different_files(result_files(folder / "a"), result_files(folder / "undisturbed")),
+              IsEmpty());
+}
+
+TEST(Interrupt, BeforeAnythingIsSavedSaysSo) {
+  const ScratchFolder folder;
+  // Half an hour of simulation: it is not over before it is interrupted.
+  folder.write("long.yaml", R"(name: long
+terrain: {pieces: [{flat: {length: 9.0}}]}
+start: {x: 0.7}
+end: {duration: 1800.0}
+)");
+  folder.write("x.yaml",
+               "name: x\nfit: {scenarios: [long.yaml]}\ntest: {scenarios: [long.yaml]}\n");
+  StartedProgram program("run x.yaml --out a", folder.path());
+  while (program.is_running() && !fs::exists(folder / "a/state/key")) program.let_run(0.002);
+  program.let_run(0.05);
+  program.send(SIGINT);
+  const Ended ended = program.end();
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.errors, ContainsRegex("stopped; 0 of [0-9]+ recordings and 0 of [0-9]+ parts"));
+}
+
+}  // namespace
+}  // namespace touchdown

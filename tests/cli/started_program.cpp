@@ -1,0 +1,66 @@
+#include "started_program.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <sstream>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "core/files.hpp"
+
+namespace touchdown {
+
+StartedProgram::StartedProgram(const std::string& arguments, const std::filesystem::path& folder)
+    : out_(folder / ".started.stdout"), err_(folder / ".started.stderr") {
+  std::vector<std::string> words = {TOUCHDOWN_PROGRAM};
+  std::istringstream rest(arguments);
+  for (std::string word; rest >> word;) words.push_back(word);
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  process_ = ::fork();
+  if (process_ != 0) return;
+  // Nothing here may allocate.
+  constexpr int mode = 0600;
+  ::dup2(::open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, mode), STDOUT_FILENO);
+  ::dup2(::open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, mode), STDERR_FILENO);
+  if (::chdir(folder.c_str()) == 0) ::execv(argv.front(), argv.data());
+  ::_exit(127);
+}
+
+StartedProgram::~StartedProgram() {
+  if (!is_running()) return;
+  send(SIGKILL);
+  wait(0);
+}
+
+void StartedProgram::send(int signal) const {
+  if (!ended_) ::kill(process_, signal);
+}
+
+bool StartedProgram::is_running() {
+  wait(WNOHANG);
+  return !ended_;
+}
+
+void StartedProgram::let_run(double seconds) {
+  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (is_running() && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+Ended StartedProgram::end() {
+  wait(0);
+  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_), read_file(out_),
+          read_file(err_)};
+}
+
+void StartedProgram::wait(int flags) {
+  if (!ended_) ended_ = ::waitpid(process_, &status_, flags) == process_;
+}
+
+}  // namespace touchdown
