@@ -1,0 +1,157 @@
+"""A Slurm cluster of one node on loopback: munged, slurmctld and slurmd, in a scratch folder, on
+free ports, without systemd and without touching the machine's own Slurm. Needs to be root."""
+
+import json
+import os
+import pathlib
+import secrets
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+DAEMONS = ('munged', 'slurmctld', 'slurmd')
+COMMANDS = ('sbatch', 'scontrol', 'squeue', 'sinfo')
+
+# An empty SlurmctldParameters is fatal: what has no value is not named. A requeued task waits for
+# as long as a credential lives, two minutes by default.
+CONFIGURATION = """ClusterName=touchdown
+SlurmctldHost=localhost(127.0.0.1)
+SlurmctldPort={controller_port}
+SlurmdPort={node_port}
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge/socket,cred_expire=5
+CredType=cred/munge
+SlurmUser=root
+SlurmdUser=root
+StateSaveLocation={folder}/controller
+SlurmdSpoolDir={folder}/node
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/slurmd.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+SchedulerType=sched/backfill
+SchedulerParameters={scheduling}
+MpiDefault=none
+SwitchType=switch/none
+ReturnToService=2
+SlurmdParameters=config_overrides
+NodeName=here NodeHostname={host} NodeAddr=127.0.0.1 CPUs={cpus} State=UNKNOWN
+PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+"""
+
+
+def missing():
+    """What is needed here and is not there; empty if nothing is."""
+    if os.geteuid() != 0:
+        return 'Slurm\'s daemons need to be started by root'
+    os.environ['PATH'] += ':/usr/sbin:/sbin'
+    absent = [name for name in DAEMONS + COMMANDS if not shutil.which(name)]
+    return f'no {", ".join(absent)} here (Debian packages slurm-wlm and munge)' if absent else ''
+
+
+def free_ports(count):
+    sockets = [socket.socket() for _ in range(count)]
+    try:
+        for each in sockets:
+            each.bind(('127.0.0.1', 0))
+        return [each.getsockname()[1] for each in sockets]
+    finally:
+        for each in sockets:
+            each.close()
+
+
+class Cluster:
+    """To be used with `with`: it runs inside, and nothing of it is left outside."""
+
+    def __init__(self, cpus, scheduling='sched_interval=1,bf_interval=1,batch_sched_delay=0'):
+        self.cpus = cpus
+        self.scheduling = scheduling
+
+    def __enter__(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix='touchdown_slurm_'))
+        self.environment = {name: value for name, value in os.environ.items()
+                            if not name.startswith(('SLURM', 'SBATCH', 'SQUEUE', 'SINFO'))}
+        self.environment['SLURM_CONF'] = str(self.folder / 'slurm.conf')
+        self.guard = subprocess.Popen(
+            [sys.executable, str(pathlib.Path(__file__).with_name('guard.py')), str(self.folder)],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, start_new_session=True,
+            env=self.environment)
+        try:
+            self.folder.chmod(0o755)
+            self.start()
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_):
+        self.guard.stdin.close()
+        self.guard.wait()
+
+    def start(self):
+        munge = self.folder / 'munge'
+        for name in ('munge', 'controller', 'node'):
+            (self.folder / name).mkdir(mode=0o755)
+        (munge / 'key').write_bytes(secrets.token_bytes(128))
+        (munge / 'key').chmod(0o400)
+        self.daemon('munged', '--foreground', '--force', f'--key-file={munge}/key',
+                    f'--socket={munge}/socket', f'--pid-file={munge}/pid',
+                    f'--seed-file={munge}/seed', f'--log-file={munge}/log')
+        self.wait_for('munged', lambda: (munge / 'socket').exists())
+        for _ in range(3):  # another program may have taken a port that was free
+            controller_port, node_port = free_ports(2)
+            (self.folder / 'slurm.conf').write_text(CONFIGURATION.format(
+                folder=self.folder, cpus=self.cpus, host=socket.gethostname().split('.')[0],
+                controller_port=controller_port, node_port=node_port, scheduling=self.scheduling))
+            pids = [self.daemon('slurmctld', '-D'), self.daemon('slurmd', '-D', '-N', 'here')]
+            if self.wait_until_idle(pids):
+                return
+        raise RuntimeError('the cluster does not start\n' + self.logs())
+
+    def daemon(self, name, *arguments):
+        self.guard.stdin.write(json.dumps([shutil.which(name), *arguments]) + '\n')
+        self.guard.stdin.flush()
+        return int(self.guard.stdout.readline())
+
+    def wait_for(self, what, condition, seconds=60.0):
+        end = time.monotonic() + seconds
+        while not condition():
+            if time.monotonic() > end:
+                raise RuntimeError(f'waited in vain for {what}\n' + self.logs())
+            time.sleep(0.02)
+
+    def wait_until_idle(self, pids, seconds=60.0):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if self.run('sinfo', '-h', '-o', '%T', check=False).stdout.strip() == 'idle':
+                return True
+            if not all(pathlib.Path(f'/proc/{pid}').exists() for pid in pids):
+                return False
+            time.sleep(0.05)
+        return False
+
+    def run(self, *arguments, cwd=None, check=True):
+        ended = subprocess.run([str(a) for a in arguments], cwd=cwd or self.folder, text=True,
+                               env=self.environment, capture_output=True)
+        if check and ended.returncode != 0:
+            raise RuntimeError(f'{arguments} failed: {ended.stderr}')
+        return ended
+
+    def job(self, job):
+        """What `scontrol show job` says, by name: of one array task as '12_3'."""
+        shown = self.run('scontrol', '-o', 'show', 'job', job, check=False).stdout
+        return dict(word.split('=', 1) for word in shown.split() if '=' in word)
+
+    def logs(self):
+        parts = []
+        for log in sorted(self.folder.glob('*.log')) + sorted(self.folder.glob('*.out')):
+            parts.append(f'--- {log.name}\n' + log.read_text(errors='replace')[-3000:])
+        return '\n'.join(parts)

@@ -1,0 +1,87 @@
+"""Holds what a test starts, and leaves nothing of it behind.
+
+    guard.py FOLDER
+
+Starts what it is told to, one JSON list of arguments per line on standard input, and answers with
+the process id. When standard input ends, because the test is over or because it was killed, it
+kills everything that descends from what it started, daemons included, and removes FOLDER.
+"""
+
+import ctypes
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+PR_SET_PDEATHSIG = 1
+PR_SET_CHILD_SUBREAPER = 36
+libc = ctypes.CDLL(None, use_errno=True)
+
+
+def start(arguments, folder):
+    """A child that does not outlive the guard, with a log of its own."""
+    log = folder / (pathlib.Path(arguments[0]).name + '.out')
+    with open(log, 'ab') as output:
+        return subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=output, stderr=output,
+                                preexec_fn=lambda: libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL))
+
+
+def descendants():
+    parents = {}
+    for entry in pathlib.Path('/proc').iterdir():
+        if entry.name.isdigit():
+            try:
+                after_name = (entry / 'stat').read_text().rpartition(')')[2].split()
+                parents[int(entry.name)] = int(after_name[1])
+            except OSError:
+                pass  # it is gone
+    found, new = set(), {os.getpid()}
+    while new:
+        new = {pid for pid, parent in parents.items() if parent in new} - found
+        found |= new
+    return found
+
+
+def reap():
+    """Takes note of every child that has ended; whether there are others."""
+    try:
+        while os.waitpid(-1, os.WNOHANG)[0]:
+            pass
+    except ChildProcessError:
+        return False
+    return True
+
+
+def kill_all():
+    """Orphans become the guard's children: when it has none left, nothing is left."""
+    for _ in range(200):
+        for pid in descendants():
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        if not reap():
+            return
+        time.sleep(0.05)
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    libc.prctl(PR_SET_CHILD_SUBREAPER, 1)
+    for hurry in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(hurry, signal.SIG_IGN)  # standard input ends then too
+    signal.signal(signal.SIGCHLD, lambda *_: reap())
+    try:
+        for line in sys.stdin:
+            print(start(json.loads(line), folder).pid, flush=True)
+    finally:
+        kill_all()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,213 @@
+"""Runs a small experiment as an array job on a real Slurm cluster of its own (see cluster.py). In
+the middle of their work one task is killed, one is requeued, and one runs out of time; every file
+has to be that of an undisturbed run without Slurm.
+
+    slurm_test.py TOUCHDOWN
+
+Exit code 77: there is no Slurm here, or this is not root.
+"""
+
+import hashlib
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import cluster
+
+SUBMIT = pathlib.Path(__file__).resolve().parents[2] / 'experiments' / 'slurm' / 'submit.sh'
+SHARDS = 3
+PARTS = 80  # of each shard
+SCENARIO = """name: step
+terrain:
+  pieces:
+    - flat: {length: 3.0}
+    - stairs: {count: 1, run: 3.0, rise: 0.25, nosing_radius: 0.025}
+start: {x: 0.7}
+velocity: [{time: 0.3, velocity: 0.5}]
+end: {duration: 2.5}
+perturbation: {velocity: 0.1, yaw: 0.05}
+"""
+EXPERIMENT = """name: tiny
+seed: 3
+simulators: [mujoco, bullet]
+estimators: [robust, measurement_only, upkie_observer]
+fit: {scenarios: [step.yaml]}
+test: {scenarios: [step.yaml], runs: 3}
+noise: {torque: [0.0, 0.5, 1.0, 1.5, 2.0, 4.0], accelerometer: [0.0, 2.0, 4.0, 6.0, 8.0], seeds: 40}
+highlights: [{torque: 1.0, accelerometer: 4.0}]
+intervals: {resamples: 100}
+video: {enabled: false}
+"""
+# The program, but a shard's first attempt waits for the test before it begins.
+PROGRAM = """#!/bin/sh
+case "${{SLURM_RESTART_COUNT:-first}} $*" in
+  first*--shard*) kill -STOP $$ ;;
+esac
+exec '{program}' "$@"
+"""
+
+
+def check(good, what):
+    if not good:
+        raise AssertionError(what)
+
+
+def results_in(path):
+    """All of a file but how it was computed, which the report tells at its end."""
+    content = path.read_bytes()
+    return content.partition(b'id="reproduce"')[0] if path.name == 'report.html' else content
+
+
+def checksums(directory):
+    """Of all results, by name. The manifest tells times and host, state/ and logs/ of the way."""
+    return {str(path.relative_to(directory)): hashlib.sha256(results_in(path)).hexdigest()
+            for path in directory.rglob('*')
+            if path.is_file() and path.name != 'manifest.json'
+            and path.relative_to(directory).parts[0] not in ('state', 'logs')}
+
+
+def stopped_process_of(shard, folder):
+    """The touchdown in this folder that is to compute this shard and is stopped, or None."""
+    asked = f'\0--shard\0{shard}/{SHARDS}\0'.encode()
+    for entry in pathlib.Path('/proc').iterdir():
+        try:
+            if (entry.name.isdigit() and os.readlink(entry / 'cwd') == str(folder)
+                    and asked in (entry / 'cmdline').read_bytes()
+                    and (entry / 'stat').read_text().rpartition(')')[2].split()[0] == 'T'):
+                return int(entry.name)
+        except OSError:
+            pass  # it is gone
+    return None
+
+
+class Array:
+    """The experiment's array job and its merge job."""
+
+    def __init__(self, slurm, folder):
+        self.slurm, self.folder = slurm, folder
+        said = slurm.run(SUBMIT, 'tiny.yaml', SHARDS, '--cpus-per-task=1', cwd=folder).stdout
+        print(said, end='')
+        self.job, self.merge, results = re.search(
+            rf'^array +(\d+): {SHARDS} tasks, {PARTS} to {PARTS} of 240 parts each\n'
+            r'merge +(\d+):.*\nresults +(\S+)\n', said).groups()
+        self.results = folder / results
+
+    def parts(self, shard):
+        """How many of a shard's parts are saved."""
+        done = {path.name for path in (self.results / 'state' / 'listening').glob('[!.]*')}
+        every = [f'{engine}_step_test_{run:03}_seed_{seed:04}'
+                 for engine in ('mujoco', 'bullet') for run in range(3) for seed in range(40)]
+        return len(done.intersection(every[PARTS * (shard - 1):PARTS * shard]))
+
+    def in_the_middle(self, shard):
+        """Lets a shard's process work until some of it is saved, and stops it there. Returns the
+        process and how much is saved."""
+        self.slurm.wait_for(f'shard {shard}', lambda: stopped_process_of(shard, self.folder))
+        process = stopped_process_of(shard, self.folder)
+        while self.parts(shard) < 2:
+            os.kill(process, signal.SIGCONT)
+            time.sleep(0.05)
+            os.kill(process, signal.SIGSTOP)
+        self.slurm.wait_for('it to stop', lambda: stopped_process_of(shard, self.folder))
+        saved = self.parts(shard)
+        check(saved < PARTS, f'shard {shard} was over before it could be disturbed')
+        return process, saved
+
+    def wait_for_restart(self, shard):
+        task = f'{self.job}_{shard}'
+        self.slurm.wait_for(f'task {task} to be requeued',
+                            lambda: self.slurm.job(task).get('Restarts') == '1')
+
+    def log(self, name):
+        return (self.results / 'logs' / name).read_text()
+
+    def state(self, job):
+        return self.slurm.job(job).get('JobState')
+
+
+def check_errors(slurm, folder):
+    """What is wrong is said in one line, before anything is submitted."""
+    def complaint(*arguments, **environment):
+        ended = subprocess.run([str(a) for a in (SUBMIT, *arguments)], cwd=folder, text=True,
+                               capture_output=True, env={**slurm.environment, **environment})
+        check(ended.returncode in (1, 2) and ended.stderr.count('\n') == 1 and not ended.stdout,
+              f'{arguments}: {ended}')
+        return ended.stderr
+
+    check('expected EXPERIMENT SHARDS' in complaint('tiny.yaml'), 'no shards')
+    check("'0' is no number" in complaint('tiny.yaml', '0'), 'no shards')
+    check('tinny.yaml: no such file' in complaint('tinny.yaml', '2'), 'no experiment')
+    (elsewhere := slurm.folder / 'elsewhere').mkdir()
+    for name in ('bash', 'dirname'):
+        (elsewhere / name).symlink_to(shutil.which(name))
+    check('no sbatch here' in complaint('tiny.yaml', '2', PATH=str(elsewhere)), 'no sbatch')
+    check('build it first' in complaint('tiny.yaml', '2', TOUCHDOWN='/nowhere/x'), 'no program')
+    check(not slurm.run('squeue', '-h').stdout, 'a wrong request was submitted')
+
+
+def test(slurm, touchdown):
+    folder = slurm.folder / 'work'
+    folder.mkdir()
+    (folder / 'step.yaml').write_text(SCENARIO)
+    (folder / 'tiny.yaml').write_text(EXPERIMENT)
+    program = slurm.folder / 'touchdown'
+    program.write_text(PROGRAM.format(program=touchdown))
+    program.chmod(0o755)
+    slurm.environment['TOUCHDOWN'] = str(program)
+    check_errors(slurm, folder)
+
+    array = Array(slurm, folder)
+    stopped = {shard: array.in_the_middle(shard) for shard in (1, 2, 3)}
+    os.kill(stopped[1][0], signal.SIGKILL)
+    # As when its node fails, or a job of more importance takes its place.
+    slurm.run('scontrol', 'requeue', f'{array.job}_2')
+    # What Slurm sends a minute before a task's time is over.
+    slurm.run('scancel', '--batch', '--signal=USR1', f'{array.job}_3')
+    for shard in (2, 3):
+        os.kill(stopped[shard][0], signal.SIGCONT)
+    for shard in stopped:
+        array.wait_for_restart(shard)
+
+    slurm.wait_for('the merge', lambda: array.state(array.merge) not in ('PENDING', 'RUNNING'), 200)
+    logs = {shard: array.log(f'shard_{array.job}_{shard}.txt') for shard in stopped}
+    for shard, (_, saved) in stopped.items():
+        print(f'--- shard {shard}, stopped after {saved} parts\n{logs[shard]}', end='')
+        computed = int(re.search(rf'shard {shard}/3: {PARTS} parts, (\d+) computed', logs[shard])[1])
+        check(0 < computed <= PARTS - saved, f'{computed} were computed, {saved} were saved before')
+    check('killed by signal 9; back to the queue' in logs[1], 'the killed task does not say so')
+    check('out of time; back to the queue' in logs[3], 'the task out of time does not say so')
+    check(array.state(array.merge) == 'COMPLETED', array.log(f'merge_{array.merge}.txt'))
+
+    local = slurm.folder / 'local'
+    subprocess.run([touchdown, 'run', 'tiny.yaml', '--out', local], cwd=folder, check=True,
+                   stdout=subprocess.DEVNULL)
+    ours, theirs = checksums(array.results), checksums(local)
+    check(len(theirs) > 20 and 'tables/success.csv' in theirs, theirs)
+    different = {name for name in ours.keys() | theirs.keys() if ours.get(name) != theirs.get(name)}
+    check(not different, f'not the files of a local run: {sorted(different)}')
+    print(f'{len(ours)} files are those of a local run')
+
+
+def main():
+    if why := cluster.missing():
+        print(f'skipped: {why}')
+        return 77
+    start = time.monotonic()
+    with cluster.Cluster(cpus=3) as slurm:
+        print(f'cluster up after {time.monotonic() - start:.1f} s in {slurm.folder}')
+        try:
+            test(slurm, sys.argv[1])
+        except BaseException:
+            print(slurm.logs())
+            raise
+    print(f'all good after {time.monotonic() - start:.1f} s')
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
