@@ -5,10 +5,9 @@
 #include <fmt/format.h>
 
 #include "cli/belief_track.hpp"
+#include "cli/film_progress.hpp"
 #include "cli/heatmaps.hpp"
 #include "experiments/estimator_registry.hpp"
-#include "experiments/progress.hpp"
-#include "experiments/stopped.hpp"
 #include "recordings/recording_file.hpp"
 
 namespace touchdown {
@@ -42,16 +41,10 @@ Picture film(const ExperimentResult& result, const PlayedRun& run, const Session
       with_noise(read_recording(result.directory.file("recordings", run.plan.file)), key, levels);
   const auto path = result.directory.file(
       "videos", fmt::format("{}_{}.mp4", run.plan.simulator, run.plan.scenario.name));
-  const auto last =
-      static_cast<std::int64_t>(static_cast<double>(recording.steps()) * recording.period() * 30.0);
-  Progress progress(fmt::format("filming {}", run.plan.simulator), "frames", last);
   VideoOptions options;
   options.labels = experiment.labels;
   options.workers = experiment.workers;
-  options.progress = [&](int /*done*/, int /*of*/) {
-    progress.advance();
-    if (*session.stop) throw Stopped();
-  };
+  options.progress = FilmProgress(fmt::format("filming {}", run.plan.simulator), session);
   render_video(robot_of(recording), recording, beliefs, options, path);
   return {"video", path};
 }

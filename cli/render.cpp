@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "cli/film_progress.hpp"
 #include "cli/filmed_run.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
-#include "experiments/progress.hpp"
-#include "experiments/stopped.hpp"
 
 namespace touchdown {
 
@@ -20,6 +19,7 @@ struct RenderFlags {
   std::string quality = "draft";
   std::string layout;
   bool poster = false;
+  bool scene = false;
 };
 
 /// What is to be seen: one run, or two beside each other.
@@ -56,29 +56,23 @@ void render(const RenderFlags& flags, const Session& session) {
   options.quality = flags.quality == "page" ? VideoQuality::page : VideoQuality::draft;
   options.labels = runs.front().labels;
   std::vector<VideoSource> sources;
-  double end = 0.0;
-  for (const FilmedRun& run : runs) {
-    sources.push_back(run.source());
-    end = std::max(end, static_cast<double>(run.recording.steps()) * run.recording.period());
-  }
-  if (flags.poster) {
-    render_poster(sources, options, options.from > 0.0 ? options.from : NAN, flags.output);
+  for (const FilmedRun& run : runs) sources.push_back(run.source());
+  const double moment = options.from > 0.0 ? options.from : NAN;
+  if (flags.scene) {
+    render_scene(runs[0].robot, runs[0].recording, options, moment, flags.output);
     fmt::print("{}\n", flags.output);
     return;
   }
-  const double shown = std::max(0.0, std::min(options.to, end) - options.from) / options.speed;
-  VideoStatistics statistics;
-  {
-    Progress progress("filming", "frames", static_cast<std::int64_t>(shown * options.fps) + 1);
-    options.progress = [&](int /*done*/, int /*of*/) {
-      progress.advance();
-      if (*session.stop) throw Stopped();
-    };
-    statistics = sources.size() == 2
-                     ? render_side_by_side(sources[0], sources[1], options, flags.output)
-                     : render_video(runs[0].robot, runs[0].recording, runs[0].beliefs, options,
-                                    flags.output);
+  if (flags.poster) {
+    render_poster(sources, options, moment, flags.output);
+    fmt::print("{}\n", flags.output);
+    return;
   }
+  options.progress = FilmProgress("filming", session);
+  const VideoStatistics statistics =
+      sources.size() == 2
+          ? render_side_by_side(sources[0], sources[1], options, flags.output)
+          : render_video(runs[0].robot, runs[0].recording, runs[0].beliefs, options, flags.output);
   fmt::print("{}: {} frames, {:.1f} frames/s\n", flags.output, statistics.frames, statistics.fps());
 }
 
@@ -114,6 +108,8 @@ void add_render(CLI::App& program, Session& session) {
       ->capture_default_str();
   verb->add_flag("--poster", flags->poster,
                  "One picture (PNG, or JPEG by its name) at --from, or else in the first flight");
+  verb->add_flag("--scene", flags->scene,
+                 "The same of one run without labels and plots: the robot on its terrain");
   verb->add_option("--workers", flags->video.workers, "Processes that draw; 0: one per core");
   verb->callback(
       [flags, &session] { session.action = [flags, &session] { render(*flags, session); }; });

@@ -6,10 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/film_progress.hpp"
 #include "cli/filmed_run.hpp"
 #include "core/error.hpp"
-#include "experiments/progress.hpp"
-#include "experiments/stopped.hpp"
 #include "render/frame_painter.hpp"
 #include "render/report.hpp"
 
@@ -60,19 +59,12 @@ ReportFilm film(const std::vector<FilmedRun>& runs, const fs::path& directory,
       "wheel.",
       runs.front().recording.info.scenario, engines, runs.size() > 1 ? ", beside each other" : "",
       end > longest_film ? fmt::format(", its first {:.0f} seconds", longest_film) : "");
-  {
-    Progress progress("filming for the report", "frames",
-                      static_cast<std::int64_t>(options.to * options.fps));
-    options.progress = [&](int /*done*/, int /*of*/) {
-      progress.advance();
-      if (*session.stop) throw Stopped();
-    };
-    if (runs.size() > 1) {
-      render_side_by_side(runs[0].source(), runs[1].source(), options, result.video);
-    } else {
-      const FilmedRun& run = runs.front();
-      render_video(run.robot, run.recording, run.beliefs, options, result.video);
-    }
+  options.progress = FilmProgress("filming for the report", session);
+  if (runs.size() > 1) {
+    render_side_by_side(runs[0].source(), runs[1].source(), options, result.video);
+  } else {
+    const FilmedRun& run = runs.front();
+    render_video(run.robot, run.recording, run.beliefs, options, result.video);
   }
   std::vector<VideoSource> sources;
   for (std::size_t i = 0; i < std::min<std::size_t>(runs.size(), 2); ++i) {

@@ -8,6 +8,7 @@
 #include "cli/show_result.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "experiments/file_kind.hpp"
 #include "experiments/resources.hpp"
 #include "experiments/run_experiment.hpp"
 
@@ -46,6 +47,7 @@ void run(const RunFlags& flags, const Session& session) {
   if (!flags.shard.empty()) shard = shard_from(flags.shard);
   YamlDocument document = YamlDocument::load(find_resource(flags.experiment));
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
+  require_kind(document, FileKind::experiment);
   const RunOptions options{.out = flags.out, .command = session.command, .stop = session.stop};
   if (is_cross_simulator(document)) {
     if (shard) throw InputError("--shard: a cross_simulator experiment is not cut into shards");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
+#include "experiments/file_kind.hpp"
 #include "experiments/labels.hpp"
 #include "experiments/progress.hpp"
 #include "experiments/resources.hpp"
@@ -26,6 +27,7 @@ struct SimulateFlags {
 void simulate(const SimulateFlags& flags, const Session& session) {
   YamlDocument document = YamlDocument::load(find_resource(flags.scenario));
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
+  require_kind(document, FileKind::scenario);
   Scenario scenario = scenario_from_yaml(document);
   scenario.robot = find_resource(scenario.robot);
   if (flags.run >= 0) scenario = perturbed(scenario, flags.seed, flags.run);

@@ -55,6 +55,7 @@ CrossSimulator cross_simulator_from_yaml(YamlDocument& document) {
     YamlMap(document).fail("simulators", "expected two engines to compare");
   }
   YamlMap sensitivity = section.child("sensitivity");
+  config.sensitivity_runs = std::min(config.sensitivity_runs, experiment.test.runs);
   sensitivity.read("runs", config.sensitivity_runs, 1, 100'000);
   if (config.sensitivity_runs > experiment.test.runs) {
     sensitivity.fail("runs", fmt::format("expected at most test.runs, {}", experiment.test.runs));

@@ -36,7 +36,7 @@ struct OverlayConfig {
 struct CrossSimulator {
   Experiment experiment;
   std::vector<Factor> factors;
-  int sensitivity_runs = 4;  ///< test runs per engine and value of a factor
+  int sensitivity_runs = 4;  ///< test runs per engine and value of a factor, if so many
   VerdictConfig verdict;
   OverlayConfig overlay;
 };

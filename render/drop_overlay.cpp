@@ -19,8 +19,9 @@ std::size_t takeoff_of(const Recording& recording, const DropOverlay& what) {
     if (flight.takeoff == 0 || length * recording.period() < what.minimum_flight) continue;
     if (found++ == what.drop) return flight.takeoff;
   }
-  throw InputError(fmt::format("overlay.drop: the run in {} has {} drops, none is number {}",
-                               recording.info.simulator, found, what.drop));
+  throw InputError(
+      fmt::format("overlay.drop: the run in {} has {} drops, counted from 0; none is number {}",
+                  recording.info.simulator, found, what.drop));
 }
 
 /// Time since takeoff (ms), then what is drawn. Heights count from that at takeoff.

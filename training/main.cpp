@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "experiments/file_kind.hpp"
 #include "experiments/resources.hpp"
 #include "experiments/stopped.hpp"
 #include "training/sample_efficiency.hpp"
@@ -43,6 +44,7 @@ struct Flags {
 int run(const Flags& flags, const TrainingRequest& request) {
   YamlDocument document = YamlDocument::load(find_resource(flags.file));
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
+  require_kind(document, FileKind::training);
   if (is_sample_efficiency(document)) {
     const auto directory = sample_efficiency(sample_efficiency_from_yaml(document), request);
     fmt::print("results   {}\n", directory.string());

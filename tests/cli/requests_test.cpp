@@ -80,6 +80,15 @@ TEST(WrongRequest, AnUnknownSimulatorSuggestsTheNearestOne) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.mpack"));
 }
 
+TEST(WrongRequest, AFileOfAnotherKindIsSentToItsVerb) {
+  EXPECT_THAT(complaint_about("run experiments/nmn.yaml", {}),
+              HasSubstr("experiments/nmn.yaml: is a training file; try: touchdown train "));
+  EXPECT_THAT(complaint_about("run scenarios/stairs.yaml", {}),
+              HasSubstr("scenarios/stairs.yaml: is a scenario; try: touchdown simulate "));
+  EXPECT_THAT(complaint_about("simulate experiments/stairs.yaml -o x.mpack", {}),
+              HasSubstr("experiments/stairs.yaml: is an experiment; try: touchdown run "));
+}
+
 TEST(WrongRequest, AnUnknownEstimatorSuggestsTheNearestOne) {
   const ScratchFolder folder;
   folder.write("x.yaml", minimal("estimators: [robst]\n"));
