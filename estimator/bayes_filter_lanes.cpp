@@ -78,7 +78,7 @@ void BayesFilterLanes::update(const Signals& clean, const NoiseDraws& draws) noe
     return;
   }
   transition_.update(clean.vertical_acceleration, draws.acceleration);  // Eq. (7) to (13)
-  measurement_.update(clean, draws);                                    // Eq. (4) to (6)
+  measurement_.observe(clean, draws);                                   // Eq. (4) to (6)
   const double* const stay = transition_.contact_to_contact().data();
   const double* const takeoff = transition_.contact_to_air().data();
   const double* const landing = transition_.air_to_contact().data();

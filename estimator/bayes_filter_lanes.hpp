@@ -39,7 +39,9 @@ class BayesFilterLanes {
   /// P_τ(S_t = C | m_t), Eq. (14), of one wheel in one lane: the measurement-only ablation with the
   /// same torques.
   [[nodiscard]] double p_measurement(Side side, std::size_t lane) const noexcept {
-    return measurement_.p_measurement(side)[torque_index_[lane]];
+    const std::uint32_t i = torque_index_[lane];
+    return measurement_probability(
+        {measurement_.contact(side)[i], measurement_.no_contact(side)[i]});
   }
 
  private:

@@ -20,8 +20,11 @@ class MeasurementLanes {
 
   void reset() noexcept;
 
-  /// One step. All inputs must be finite.
+  /// One step, Eq. (4) to (6) and (14). All inputs must be finite.
   void update(const Signals& clean, const NoiseDraws& draws) noexcept;
+
+  /// The same without Eq. (14), for a filter that only needs the likelihoods.
+  void observe(const Signals& clean, const NoiseDraws& draws) noexcept;
 
   /// P(m_t | S_t = C), floor included, per level.
   [[nodiscard]] std::span<const double> contact(Side side) const noexcept {
@@ -31,7 +34,7 @@ class MeasurementLanes {
   [[nodiscard]] std::span<const double> no_contact(Side side) const noexcept {
     return leg_[static_cast<std::size_t>(side)].no_contact;
   }
-  /// P_τ(S_t = C | m_t), Eq. (14), per level.
+  /// P_τ(S_t = C | m_t), Eq. (14), per level, of the last `update`.
   [[nodiscard]] std::span<const double> p_measurement(Side side) const noexcept {
     return leg_[static_cast<std::size_t>(side)].p_measurement;
   }
@@ -40,10 +43,16 @@ class MeasurementLanes {
   struct Leg {
     std::vector<double> knee;
     std::vector<double> wheel;
+    std::vector<int> cell;
+    std::vector<double> knee_weight;
+    std::vector<double> wheel_weight;
     std::vector<double> contact;
     std::vector<double> no_contact;
     std::vector<double> p_measurement;
   };
+  void filter_torques(Leg& leg, const LegSignals& clean, const TorqueSample& draw, double mirror,
+                      double gain) noexcept;
+
   MeasurementModel model_;
   MeasurementConfig config_;
   double gain_;

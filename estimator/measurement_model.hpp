@@ -39,6 +39,14 @@ LikelihoodGrids likelihood_grids(std::span<const double> knee_points,
                                  std::span<const double> no_contact,
                                  GridRows rows = GridRows::wheel);
 
+/// Where a measurement falls on the grid: the corner of its cell that has the lower torques, and
+/// how far it is from there to the next points, as fractions in [0, 1].
+struct GridPosition {
+  int cell = 0;
+  double knee_weight = 0.0;
+  double wheel_weight = 0.0;
+};
+
 /// The paper's measurement model: two densities over (knee torque, wheel torque) on one regular
 /// grid, interpolated bilinearly, extrapolated by constants (a torque outside the grid counts as
 /// the nearest torque on its edge). An immutable value: copies share the grids.
@@ -49,16 +57,27 @@ class MeasurementModel {
 
   /// Both likelihoods at one measurement. Never fails; NaN counts as the lower end of its axis.
   [[nodiscard]] Likelihoods operator()(const TorqueSample& m) const noexcept {
+    return at(place(m));
+  }
+
+  /// The operator in two parts, for loops over many measurements: where on the grid, and what
+  /// there.
+  [[nodiscard]] GridPosition place(const TorqueSample& m) const noexcept {
     const AxisPosition knee = knee_.place(m.knee);
     const AxisPosition wheel = wheel_.place(m.wheel);
-    const Likelihoods* const low = cells_ + wheel.index * row_ + knee.index;
+    return {wheel.index * row_ + knee.index, knee.weight, wheel.weight};
+  }
+  [[nodiscard]] Likelihoods at(const GridPosition& position) const noexcept {
+    const Likelihoods* const low = cells_ + position.cell;
     const Likelihoods* const high = low + row_;
-    const double low_knee = 1.0 - knee.weight;
-    const double low_wheel = 1.0 - wheel.weight;
-    return {low_wheel * (low_knee * low[0].contact + knee.weight * low[1].contact) +
-                wheel.weight * (low_knee * high[0].contact + knee.weight * high[1].contact),
-            low_wheel * (low_knee * low[0].no_contact + knee.weight * low[1].no_contact) +
-                wheel.weight * (low_knee * high[0].no_contact + knee.weight * high[1].no_contact)};
+    const double knee = position.knee_weight;
+    const double wheel = position.wheel_weight;
+    const double low_knee = 1.0 - knee;
+    const double low_wheel = 1.0 - wheel;
+    return {low_wheel * (low_knee * low[0].contact + knee * low[1].contact) +
+                wheel * (low_knee * high[0].contact + knee * high[1].contact),
+            low_wheel * (low_knee * low[0].no_contact + knee * low[1].no_contact) +
+                wheel * (low_knee * high[0].no_contact + knee * high[1].no_contact)};
   }
 
   [[nodiscard]] const Axis& knee_axis() const noexcept { return knee_axis_; }

@@ -3,30 +3,22 @@
 #include <algorithm>
 
 namespace touchdown {
-namespace {
-
-/// How many of sum(1) ≤ sum(2) ≤ … ≤ sum(count − 1) are below `bound`. Halves the candidates
-/// without a branch: where a median is, no processor can predict.
-template <typename Sum>
-int count_below(double bound, int count, const Sum& sum) noexcept {
-  int below = 0;
-  for (int candidates = count; candidates > 1;) {
-    const int half = candidates / 2;
-    below += half * (sum(below + half) < bound ? 1 : 0);
-    candidates -= half;
-  }
-  return below;
-}
-
-}  // namespace
-
 MixedPowerSpectrum::MixedPowerSpectrum(const SlidingDft& dft, bool nyquist)
     : window_(dft.window()),
       rows_(dft.rows()),
       nyquist_counts_(nyquist),
       within_lane_(3 * (dft.reals().size() + lanes)) {}
 
-void MixedPowerSpectrum::update(const SlidingDft& clean, const SlidingDft& noise) noexcept {
+void MixedPowerSpectrum::summarise(const SlidingDft& clean, const SlidingDft& noise,
+                                   std::span<const double> sigmas,
+                                   std::span<SpectrumValues> values) noexcept {
+  cumulate(clean, noise);
+  for (std::size_t i = 0; i < sigmas.size(); ++i) {
+    values[i] = at(sigmas[i]);
+  }
+}
+
+void MixedPowerSpectrum::cumulate(const SlidingDft& clean, const SlidingDft& noise) noexcept {
   SpectrumRow constant = SpectrumRow::Zero();
   SpectrumRow linear = SpectrumRow::Zero();
   SpectrumRow square = SpectrumRow::Zero();
@@ -50,7 +42,8 @@ void MixedPowerSpectrum::update(const SlidingDft& clean, const SlidingDft& noise
   nyquist_ = {clean.nyquist(), noise.nyquist()};
 }
 
-double MixedPowerSpectrum::median(const LaneSums& sums, double nyquist,
+template <typename Rows>
+double MixedPowerSpectrum::median(Rows rows, const LaneSums& sums, double nyquist,
                                   double sigma) const noexcept {
   const double half = 0.5 * (sums.total() + nyquist);
   if (sums.total() < half) {
@@ -62,17 +55,17 @@ double MixedPowerSpectrum::median(const LaneSums& sums, double nyquist,
   };
   const int lane = count_below(half, lanes, [&](int i) { return sums.before[i]; });
   const double rest = half - sums.before[lane];
-  const int row = count_below(rest, rows_, [&](int r) { return within(r, lane); });
+  const int row = count_below(rest, rows, [&](int r) { return within(r, lane); });
   const double below = within(row, lane);
   const double inside = within(row + 1, lane) - below;
-  const int bin = lane * rows_ + row;
+  const int bin = lane * rows + row;
   if (bin == 0 || !(inside > 0.0)) {
     return 0.0;
   }
   return (bin - 1) + std::min(1.0, (rest - below) / inside);
 }
 
-SpectrumValues MixedPowerSpectrum::operator()(double sigma) const noexcept {
+SpectrumValues MixedPowerSpectrum::at(double sigma) const noexcept {
   LaneSums sums;
   for (int i = 0; i <= lanes; ++i) {
     sums.before[i] = constant_.before[i] + sigma * (linear_.before[i] + sigma * square_.before[i]);
@@ -81,7 +74,9 @@ SpectrumValues MixedPowerSpectrum::operator()(double sigma) const noexcept {
   SpectrumValues values;
   values.mean_square = mean_square(sums.total(), mean_.at(sigma), nyquist, window_);
   if (values.mean_square > negligible_mean_square) {
-    values.median_bin = median(sums, nyquist_counts_ ? nyquist * nyquist : 0.0, sigma);
+    values.median_bin = with_rows(rows_, [&](auto rows) {
+      return median(rows, sums, nyquist_counts_ ? nyquist * nyquist : 0.0, sigma);
+    });
   }
   return values;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "estimator/spectral_median.hpp"
@@ -25,15 +26,19 @@ class MixedPowerSpectrum {
   /// For windows like `dft`'s; `nyquist` as in `SpectrumSummary`.
   MixedPowerSpectrum(const SlidingDft& dft, bool nyquist);
 
-  /// Prepare the common sums for the newest window.
-  void update(const SlidingDft& clean, const SlidingDft& noise) noexcept;
-
-  /// The same as `SpectrumSummary` up to rounding.
-  [[nodiscard]] SpectrumValues operator()(double sigma) const noexcept;
+  /// One value per sigma, the same as those of `SpectrumSummary` up to rounding.
+  void summarise(const SlidingDft& clean, const SlidingDft& noise, std::span<const double> sigmas,
+                 std::span<SpectrumValues> values) noexcept;
 
  private:
   static constexpr int lanes = SlidingDft::lanes;
-  double median(const LaneSums& sums, double nyquist, double sigma) const noexcept;
+
+  /// Make the sums that are common to all sigmas.
+  void cumulate(const SlidingDft& clean, const SlidingDft& noise) noexcept;
+  [[nodiscard]] SpectrumValues at(double sigma) const noexcept;
+  template <typename Rows>
+  [[nodiscard]] double median(Rows rows, const LaneSums& sums, double nyquist,
+                              double sigma) const noexcept;
 
   int window_;
   int rows_;

@@ -57,6 +57,19 @@ SpectrumRow cumulate(Rows rows, const RowOf& row_of, double* within) noexcept {
   return sum;
 }
 
+/// How many of sum(1) ≤ sum(2) ≤ … ≤ sum(count − 1) are below `bound`. Halves the candidates
+/// without a branch: where a median is, no processor can predict.
+template <typename Count, typename Sum>
+int count_below(double bound, Count count, const Sum& sum) noexcept {
+  int below = 0;
+  for (int candidates = count; candidates > 1;) {
+    const int half = candidates / 2;
+    below += half * (sum(below + half) < bound ? 1 : 0);
+    candidates -= half;
+  }
+  return below;
+}
+
 /// ω_median, Eq. (12), in bins: where the cumulative sum over a spectrum's bins reaches half of its
 /// end, linear between bins; 0 if bin 0 holds half or more. `within` is what `cumulate` made and
 /// `sums` come from, `nyquist` the value of bin N/2, 0 if that does not count.

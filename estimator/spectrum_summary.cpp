@@ -34,7 +34,7 @@ SpectrumValues SpectrumSummary::summarise(Rows rows, const SlidingDft& dft) noex
   if (magnitude_) {
     square_roots(
         rows * lanes, [=](int i) { return real[i] * real[i] + imaginary[i] * imaginary[i]; },
-        magnitudes_.data());
+        [magnitudes = magnitudes_.data()](int i, double root) { magnitudes[i] = root; });
     const auto magnitude = [this](int row) {
       return ConstSpectrumRowMap(magnitudes_.data() + row * lanes);
     };

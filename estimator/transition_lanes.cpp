@@ -16,8 +16,7 @@ TransitionLanes::TransitionLanes(const TransitionConfig& config, double sample_r
       magnitudes_(clean_, config.nyquist),
       powers_(clean_, config.nyquist),
       sigmas_(sigmas.begin(), sigmas.end()),
-      mean_square_(sigmas.size()),
-      median_bin_(sigmas.size()),
+      spectrum_(sigmas.size()),
       filtered_median_(sigmas.size()),
       stay_(sigmas.size()),
       takeoff_(sigmas.size()),
@@ -36,27 +35,16 @@ void TransitionLanes::reset() noexcept {
   std::fill(filtered_median_.begin(), filtered_median_.end(), 0.0);
 }
 
-template <typename MixedSpectrum>
-void TransitionLanes::summarise(MixedSpectrum& spectrum) noexcept {
-  spectrum.update(clean_, noise_);
-  for (std::size_t i = 0; i < sigmas_.size(); ++i) {
-    const SpectrumValues values = spectrum(sigmas_[i]);
-    mean_square_[i] = values.mean_square;
-    median_bin_[i] = values.median_bin;
-  }
-}
-
 void TransitionLanes::update(double vertical_acceleration, double draw) noexcept {
   clean_.push(vertical_acceleration);
   noise_.push(draw);
   if (magnitude_) {
-    summarise(magnitudes_);
+    magnitudes_.summarise(clean_, noise_, sigmas_, spectrum_);
   } else {
-    summarise(powers_);
+    powers_.summarise(clean_, noise_, sigmas_, spectrum_);
   }
   const std::size_t count = sigmas_.size();
-  const double* const mean_square = mean_square_.data();
-  const double* const median_bin = median_bin_.data();
+  const SpectrumValues* const spectrum = spectrum_.data();
   double* const filtered_median = filtered_median_.data();
   double* const stay = stay_.data();
   double* const takeoff = takeoff_.data();
@@ -68,7 +56,7 @@ void TransitionLanes::update(double vertical_acceleration, double draw) noexcept
 #pragma GCC ivdep
 #endif
   for (std::size_t i = 0; i < count; ++i) {
-    const Transition t = law.next({mean_square[i], median_bin[i]}, filtered_median[i]);
+    const Transition t = law.next(spectrum[i], filtered_median[i]);
     filtered_median[i] = t.filtered_median_frequency;
     stay[i] = t.contact_to_contact;
     takeoff[i] = t.contact_to_air;

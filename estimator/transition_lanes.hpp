@@ -31,9 +31,6 @@ class TransitionLanes {
   [[nodiscard]] std::span<const double> air_to_air() const noexcept { return fly_; }
 
  private:
-  template <typename MixedSpectrum>
-  void summarise(MixedSpectrum& spectrum) noexcept;
-
   TransitionLaw law_;
   SlidingDft clean_;
   SlidingDft noise_;
@@ -41,8 +38,7 @@ class TransitionLanes {
   MixedMagnitudeSpectrum magnitudes_;
   MixedPowerSpectrum powers_;
   std::vector<double> sigmas_;
-  std::vector<double> mean_square_;
-  std::vector<double> median_bin_;
+  std::vector<SpectrumValues> spectrum_;
   std::vector<double> filtered_median_;
   std::vector<double> stay_;
   std::vector<double> takeoff_;
