@@ -26,6 +26,15 @@ std::vector<std::function<double(const Score&)>> functions() {
   return all;
 }
 
+/// The metrics, then the share of contact in each bin of the reliability curve.
+std::vector<std::function<double(const Score&)>> functions_with_reliability() {
+  std::vector<std::function<double(const Score&)>> all = functions();
+  for (std::size_t b = 0; b < Calibration::bins; ++b) {
+    all.emplace_back([b](const Score& s) { return s.calibration.bin[b].contact_frequency(); });
+  }
+  return all;
+}
+
 Difference difference(const ConditionScores& first, const ConditionScores& second,
                       const NoiseCell& cell, const BootstrapConfig& config) {
   const std::vector<Score> a = samples_of(first, 0);
@@ -93,8 +102,12 @@ std::vector<ScoreSummary> summarise(const std::vector<ConditionScores>& scores,
     const std::vector<Score> samples = samples_of(condition, i % views);
     Score total;
     for (const Score& sample : samples) total += sample;
-    summaries[i] = {condition.condition, cell, scored_views()[i % views], total,
-                    bootstrap<Score>(samples, functions(), config)};
+    std::vector<Interval> intervals =
+        bootstrap<Score>(samples, functions_with_reliability(), config);
+    const auto bins = intervals.end() - static_cast<std::ptrdiff_t>(Calibration::bins);
+    summaries[i] = {condition.condition,       cell,
+                    scored_views()[i % views], total,
+                    {intervals.begin(), bins}, {bins, intervals.end()}};
   });
   return summaries;
 }

@@ -33,7 +33,8 @@ struct ScoreSummary {
   NoiseCell cell;
   std::string view;
   Score total;
-  std::vector<Interval> metric;  ///< in the order of `metrics()`
+  std::vector<Interval> metric;             ///< in the order of `metrics()`
+  std::vector<Interval> contact_frequency;  ///< by bin of `total.calibration`
 
   const Interval& operator[](std::string_view name) const { return metric[metric_index(name)]; }
 };

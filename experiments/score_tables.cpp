@@ -68,15 +68,18 @@ Table calibration_table(const std::vector<ScoreSummary>& summaries) {
 
 Table reliability_table(const std::vector<ScoreSummary>& summaries) {
   Table table{{"simulator", "estimator", "torque_noise_nm", "accelerometer_noise_mps2", "view",
-               "bin", "steps", "mean_probability", "contact_frequency"},
+               "bin", "steps", "mean_probability", "contact_frequency", "contact_frequency_low",
+               "contact_frequency_high"},
               {}};
   for (const ScoreSummary& summary : summaries) {
     for (std::size_t b = 0; b < Calibration::bins; ++b) {
       const Calibration::Bin& bin = summary.total.calibration.bin[b];
+      const Interval& frequency = summary.contact_frequency[b];
       table.rows.push_back({summary.condition.test_simulator, summary.condition.estimator,
                             exact(summary.cell.torque), exact(summary.cell.accelerometer),
                             summary.view, std::to_string(b), std::to_string(bin.points),
-                            metric(bin.mean_probability()), metric(bin.contact_frequency())});
+                            metric(bin.mean_probability()), metric(frequency.estimate),
+                            metric(frequency.low), metric(frequency.high)});
     }
   }
   return table;

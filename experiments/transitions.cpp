@@ -140,6 +140,7 @@ void TransitionCounts::add(const JudgedTransition& judged, std::int64_t period_u
   detected += 1;
   latency_us += us;
   latency_us_squared += us * us;
+  latency.add(us);
 }
 
 TransitionCounts& TransitionCounts::operator+=(const TransitionCounts& other) {
@@ -148,6 +149,7 @@ TransitionCounts& TransitionCounts::operator+=(const TransitionCounts& other) {
   false_alarms += other.false_alarms;
   latency_us += other.latency_us;
   latency_us_squared += other.latency_us_squared;
+  latency += other.latency;
   return *this;
 }
 

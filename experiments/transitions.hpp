@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/labels.hpp"
+#include "experiments/latency_histogram.hpp"
 
 namespace touchdown {
 
@@ -43,6 +44,7 @@ struct TransitionCounts {
   std::int64_t false_alarms = 0;
   std::int64_t latency_us = 0;          ///< summed over detected events (µs)
   std::int64_t latency_us_squared = 0;  ///< likewise (µs²)
+  LatencyHistogram latency;             ///< of detected events
 
   void add(const JudgedTransition& judged, std::int64_t period_us);
   TransitionCounts& operator+=(const TransitionCounts& other);

@@ -42,7 +42,7 @@ std::vector<ScoreSummary> scores_in(const ReportSubject& subject, const NoiseCel
                score.condition.estimator == estimator;
       });
       if (found == scores.end()) {
-        scores.push_back({{simulator, simulator, estimator}, cell, "wheels", {}, no_metrics()});
+        scores.push_back({{simulator, simulator, estimator}, cell, "wheels", {}, no_metrics(), {}});
         found = scores.end() - 1;
       }
       for (std::size_t m = 0; m < metrics().size(); ++m) {

@@ -1,5 +1,7 @@
 #include "experiments/transitions.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -132,6 +134,44 @@ TEST(TransitionCounts, AreWhatThePaperCallsPrecisionRecallAndLatency) {
   EXPECT_DOUBLE_EQ(counts.latency_mean(), 0.030);
   // Deviations −20, −10, 30: 1400 / 2 = 700 ms².
   EXPECT_NEAR(counts.latency_deviation(), 1e-3 * std::sqrt(700.0), 1e-15);
+}
+
+TEST(LatencyHistogram, CountsEventsAroundItsCentresAndKeepsWhatLiesBeyond) {
+  LatencyHistogram histogram;
+  const auto bin_of = [](std::int64_t us) {
+    LatencyHistogram one;
+    one.add(us);
+    return static_cast<std::size_t>(std::find(one.events.begin(), one.events.end(), 1) -
+                                    one.events.begin());
+  };
+  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(0)), 0.0);
+  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(2'000)), 0.0);
+  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(-2'000)), 0.0);
+  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(3'000)), 5.0);
+  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(-3'000)), -5.0);
+  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(250'000)), 250.0);
+  EXPECT_EQ(bin_of(-10'000'000), 0u);
+  EXPECT_EQ(bin_of(10'000'000), LatencyHistogram::bins - 1);
+  histogram.add(0);
+  histogram += histogram;
+  EXPECT_EQ(histogram.events[bin_of(0)], 2);
+}
+
+/// The histogram and the sums tell of the same events: only those that were detected.
+TEST(LatencyHistogram, HoldsWhatWasDetected) {
+  TransitionCounts counts;
+  counts.add({EventKind::takeoff, Judgement::detected, 100, 20}, 1000);
+  counts.add({EventKind::takeoff, Judgement::detected, 200, -5}, 1000);
+  counts.add({EventKind::takeoff, Judgement::missed, 300, 0}, 1000);
+  counts.add({EventKind::takeoff, Judgement::false_alarm, 400, 0}, 1000);
+  double sum = 0.0;
+  std::int64_t events = 0;
+  for (std::size_t b = 0; b < LatencyHistogram::bins; ++b) {
+    events += counts.latency.events[b];
+    sum += counts.latency.events[b] * LatencyHistogram::centre_ms(b);
+  }
+  EXPECT_EQ(events, counts.detected);
+  EXPECT_DOUBLE_EQ(sum / 2.0, 1e3 * counts.latency_mean());
 }
 
 TEST(TransitionCounts, WithoutEventsAreNotNumbers) {
