@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/captions.hpp"
 #include "experiments/estimator_registry.hpp"
+#include "render/report_parts.hpp"
 
 namespace touchdown {
 
@@ -84,15 +86,8 @@ void fill(Heatmap& heatmap, const ExperimentResult& result, const std::string& s
     if (estimator == always_contact_name) continue;
     heatmap.panels.push_back(panel_of(result, simulator, estimator, heatmap, place));
   }
-  const auto runs = scored_runs(result.runs);
-  const auto scored = std::count_if(runs.begin(), runs.end(), [&](const HeardRun* run) {
-    return run->info.simulator == simulator;
-  });
-  heatmap.caption = fmt::format(
-      "{} test runs × {} noise seeds; contact: normal force > {} N, states under {} ms merged; "
-      "always contact scores {:.3f}: crossed cells do not beat it.",
-      scored, experiment.noise.seeds, experiment.labels.force_threshold,
-      1e3 * experiment.labels.debounce, always_contact(result, simulator));
+  heatmap.caption = fmt::format("{}; always contact scores {:.3f}: crossed cells do not beat it.",
+                                scored_text(result, simulator), always_contact(result, simulator));
   constexpr std::size_t most_cells_with_intervals = 64;
   if (heatmap.x.size() * heatmap.y.size() > most_cells_with_intervals) {
     heatmap.caption += fmt::format(" The widest {:.0f} % interval over {}s is {:.3f}.",
@@ -110,8 +105,8 @@ void fill(Heatmap& heatmap, const ExperimentResult& result, const std::string& s
 Heatmap success_heatmap(const ExperimentResult& result, const std::string& simulator) {
   const Experiment& experiment = result.experiment;
   Heatmap heatmap;
-  heatmap.title =
-      fmt::format("Success rate under sensor noise: {}, {}", experiment.name, simulator);
+  heatmap.title = fmt::format("Success rate under sensor noise: {}, {}", experiment.name,
+                              engine_title(simulator));
   heatmap.x_label = "accelerometer noise (m/s²)";
   heatmap.y_label = "torque noise (N·m)";
   heatmap.x = experiment.noise.accelerometer;
@@ -130,7 +125,7 @@ std::optional<Heatmap> knee_wheel_heatmap(const ExperimentResult& result,
   Heatmap heatmap;
   heatmap.title =
       fmt::format("Success rate under torque noise, {} m/s² on the accelerometer: {}, {}",
-                  grid.accelerometer, experiment.name, simulator);
+                  grid.accelerometer, experiment.name, engine_title(simulator));
   heatmap.x_label = "wheel torque noise (N·m)";
   heatmap.y_label = "knee torque noise (N·m)";
   heatmap.x = grid.wheel;

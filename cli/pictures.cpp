@@ -7,6 +7,7 @@
 #include "cli/belief_track.hpp"
 #include "cli/film_progress.hpp"
 #include "cli/heatmaps.hpp"
+#include "cli/score_figures.hpp"
 #include "experiments/estimator_registry.hpp"
 #include "recordings/recording_file.hpp"
 
@@ -68,6 +69,7 @@ std::vector<Picture> draw_pictures(ExperimentResult& result, const Session& sess
       }
     }
   }
+  for (Picture& drawn : draw_score_figures(result)) pictures.push_back(std::move(drawn));
   if (result.experiment.video.enabled) {
     for (const std::string& simulator : result.experiment.simulators) {
       const PlayedRun* run = filmed_run(result, simulator);

@@ -13,7 +13,7 @@ namespace touchdown {
 /// Which drop of a run is drawn, and how flights are found.
 struct DropOverlay {
   int drop = 0;                  ///< of each run, from 0; a drop is a flight of both wheels
-  LabelConfig labels;            ///< what is contact
+  LabelConfig labels = {};       ///< what is contact
   double minimum_flight = 0.05;  ///< shorter flights are no drops (s)
   double before = 0.15;          ///< shown before takeoff (s)
   double after = 0.45;           ///< and after it (s)

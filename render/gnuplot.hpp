@@ -2,8 +2,9 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "render/gnuplot_text.hpp"
 
 namespace touchdown {
 
@@ -11,6 +12,14 @@ namespace touchdown {
 struct PlotData {
   std::string name;     ///< file name, beside the script
   std::string content;  ///< columns separated by tabs, `#` begins a comment, NaN is a gap
+};
+
+/// What is said about a figure where it is shown. It stands in the figure's script, as comments,
+/// and the report takes it from there.
+struct FigureText {
+  std::string title;
+  std::string caption;  ///< what is drawn; how many runs and seeds, what counts as contact
+  std::string alt;      ///< for people who cannot see it: what there is to see
 };
 
 /// Where a figure's three files are.
@@ -26,15 +35,10 @@ struct Figure {
 /// Errors: `Error` when gnuplot is not installed or complains (with its first line), or when the
 /// folder cannot be written.
 Figure draw_figure(const std::filesystem::path& stem, int width, int height,
-                   const std::string& commands, const std::vector<PlotData>& data);
+                   const std::string& commands, const std::vector<PlotData>& data,
+                   const FigureText& text = {});
 
-/// `text` as a gnuplot string constant: nothing in it is markup, substitution or the string's end.
-std::string gnuplot_text(std::string_view text);
-
-/// A number for a data file: all digits, NaN as gnuplot reads it.
-std::string number(double value);
-
-/// `text` broken into lines of at most `columns` characters.
-std::string wrapped(std::string_view text, std::size_t columns);
+/// What the script of a figure says about it; empty where it says nothing.
+FigureText figure_text(const std::string& script);
 
 }  // namespace touchdown

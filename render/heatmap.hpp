@@ -19,8 +19,9 @@ struct HeatmapPanel {
   std::vector<std::vector<bool>> marked = {};
 };
 
-/// Maps over the same two quantities, side by side, with one colour scale. Every cell says its
-/// number, and its interval where there is one.
+/// Maps over the same two quantities, side by side, with one colour scale. Every cell of up to 64
+/// says its number, and its interval where there is one; finer maps leave the numbers to the data
+/// file.
 struct Heatmap {
   std::string title;
   std::string x_label, y_label, value_label;  ///< with units

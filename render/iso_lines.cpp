@@ -2,8 +2,69 @@
 
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <utility>
 
 namespace touchdown {
+namespace {
+
+using Point = std::array<double, 2>;
+using Place = std::pair<long long, long long>;
+
+/// Two cells compute the crossing of their common edge from opposite ends.
+Place place_of(const Point& point) {
+  constexpr double resolution = 1e9;
+  return {std::llround(point[0] * resolution), std::llround(point[1] * resolution)};
+}
+
+/// Pieces that nobody has used yet, by their ends.
+class LoosePieces {
+ public:
+  explicit LoosePieces(const std::vector<IsoPiece>& pieces) : pieces_(pieces) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      for (const Point& end : pieces[i]) at_[place_of(end)].push_back(i);
+    }
+  }
+
+  std::size_t count_at(const Point& point) const {
+    const auto found = at_.find(place_of(point));
+    return found == at_.end() ? 0 : found->second.size();
+  }
+
+  /// Takes a piece that ends at `point`; returns its other end.
+  Point follow(const Point& point) {
+    const std::size_t piece = at_.at(place_of(point)).back();
+    for (const Point& end : pieces_[piece]) std::erase(at_[place_of(end)], piece);
+    const IsoPiece& ends = pieces_[piece];
+    return place_of(ends[0]) == place_of(point) ? ends[1] : ends[0];
+  }
+
+ private:
+  const std::vector<IsoPiece>& pieces_;
+  std::map<Place, std::vector<std::size_t>> at_;
+};
+
+}  // namespace
+
+std::vector<IsoLine> joined(const std::vector<IsoPiece>& pieces) {
+  LoosePieces loose(pieces);
+  std::vector<IsoLine> lines;
+  const auto follow_from = [&](const Point& start) {
+    IsoLine line = {start};
+    while (loose.count_at(line.back()) > 0) line.push_back(loose.follow(line.back()));
+    lines.push_back(std::move(line));
+  };
+  // Open lines from their ends, then what is left: closed ones.
+  for (const IsoPiece& piece : pieces) {
+    for (const Point& end : piece) {
+      if (loose.count_at(end) == 1) follow_from(end);
+    }
+  }
+  for (const IsoPiece& piece : pieces) {
+    if (loose.count_at(piece[0]) > 0) follow_from(piece[0]);
+  }
+  return lines;
+}
 
 std::vector<IsoPiece> iso_lines(const std::vector<std::vector<double>>& rows, double level) {
   std::vector<IsoPiece> pieces;

@@ -11,4 +11,9 @@ namespace touchdown {
 using IsoPiece = std::array<std::array<double, 2>, 2>;
 std::vector<IsoPiece> iso_lines(const std::vector<std::vector<double>>& rows, double level);
 
+/// Pieces that share an end, put together into lines from end to end, so that dashes run on along
+/// them. A closed line ends where it begins.
+using IsoLine = std::vector<std::array<double, 2>>;
+std::vector<IsoLine> joined(const std::vector<IsoPiece>& pieces);
+
 }  // namespace touchdown

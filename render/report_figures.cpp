@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "render/gnuplot.hpp"
 #include "render/html.hpp"
 #include "render/report_parts.hpp"
 
@@ -12,30 +13,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string longest_title(const std::string& script) {
+  std::string best;
+  for (const std::string word : {"set title '", "set multiplot", "set label"}) {
+    for (std::size_t at = script.find(word); at != std::string::npos;
+         at = script.find(word, at + 1)) {
+      const std::size_t line_end = script.find('\n', at);
+      const std::size_t open = script.find('\'', at);
+      const std::size_t close = script.find('\'', open + 1);
+      if (open == std::string::npos || close == std::string::npos || close > line_end) continue;
+      if (close - open - 1 > best.size()) best = script.substr(open + 1, close - open - 1);
+    }
+  }
+  while (best.ends_with('.')) best.pop_back();
+  return best.empty() ? best : best + ".";
+}
+
 /// Pictures beyond this would make the page slow to open (bytes).
 constexpr std::uintmax_t largest_picture = 2'000'000;
 
-/// What the figure's script calls it, for people who cannot see it: the longest of its titles and
-/// captions (`set title '…'`, `set label … '…'`), or its name.
-std::string description(const fs::path& figure) {
+/// What the figure's script says about it. Where it says nothing: the figure's name, and the
+/// longest of the titles that it draws (`set title '…'`, `set label … '…'`).
+FigureText text_of(const fs::path& figure) {
   std::string name = figure.stem().string();
   std::replace(name.begin(), name.end(), '_', ' ');
   const fs::path script = fs::path(figure).replace_extension(".gp");
   std::error_code ignored;
-  if (!fs::is_regular_file(script, ignored)) return name;
-  const std::string text = read_file(script);
-  std::string best;
-  for (const std::string word : {"set title '", "set multiplot", "set label"}) {
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-      const std::size_t line_end = text.find('\n', at);
-      const std::size_t open = text.find('\'', at);
-      const std::size_t close = text.find('\'', open + 1);
-      if (open == std::string::npos || close == std::string::npos || close > line_end) continue;
-      if (close - open - 1 > best.size()) best = text.substr(open + 1, close - open - 1);
-    }
+  if (!fs::is_regular_file(script, ignored)) return {name, {}, name};
+  const std::string commands = read_file(script);
+  FigureText said = figure_text(commands);
+  if (said.title.empty()) said.title = name;
+  if (said.caption.empty()) said.caption = longest_title(commands);
+  if (said.alt.empty()) {
+    said.alt = said.caption.empty() ? said.title : said.title + ": " + said.caption;
   }
-  while (best.ends_with('.')) best.pop_back();
-  return best.empty() ? name : name + ": " + best;
+  return said;
 }
 
 /// Whether a drawing is so wide that it needs the whole width of the page.
@@ -71,12 +83,13 @@ ReportSection figures_section(const ReportSubject& subject) {
       shown = painted;
     }
     if (fs::file_size(shown, ignored) > largest_picture) continue;
-    const std::string text = description(file);
-    section.html +=
-        fmt::format("<figure{}><img loading=\"lazy\" alt=\"{}\" src=\"{}\">\n<figcaption>{}.",
-                    is_wide(file) ? " class=\"wide\"" : "", escaped(text),
-                    data_uri(shown.extension() == ".svg" ? "image/svg+xml" : "image/png", shown),
-                    escaped(text));
+    const FigureText text = text_of(file);
+    section.html += fmt::format(
+        "<figure{}><div class=\"pan\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">"
+        "<img loading=\"lazy\" alt=\"{}\" src=\"{}\"></div>\n<figcaption><b>{}.</b> {}",
+        is_wide(file) ? " class=\"wide\"" : "", escaped(text.title), escaped(text.alt),
+        data_uri(shown.extension() == ".svg" ? "image/svg+xml" : "image/png", shown),
+        escaped(text.title), escaped(text.caption));
     for (const char* kind : {".svg", ".png", ".pdf", ".gp", ".dat", ".csv"}) {
       const fs::path beside = fs::path(file).replace_extension(kind);
       if (!fs::exists(beside, ignored)) continue;

@@ -24,11 +24,4 @@ struct ReportMap {
 
 std::string map_svg(const ReportMap& map);
 
-/// The colour (#rrggbb) for a share of the scale, and whether dark text is readable on it.
-struct MapColour {
-  std::string hex;
-  bool light;
-};
-MapColour map_colour(double share);
-
 }  // namespace touchdown

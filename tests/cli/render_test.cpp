@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
@@ -63,8 +64,11 @@ TEST_F(Render, ShowsTwoRecordingsBesideEachOther) {
 TEST_F(Render, MakesPosters) {
   ASSERT_EQ(render("a.mpack -o x.png --poster").exit_code, 0);
   ASSERT_EQ(render("a.mpack -o x.jpg --poster --from 1").exit_code, 0);
+  ASSERT_EQ(render("a.mpack -o scene.png --scene").exit_code, 0);
   EXPECT_EQ(read_file(folder_ / "x.png").substr(1, 3), "PNG");
   EXPECT_EQ(read_file(folder_ / "x.jpg").substr(0, 2), "\xff\xd8");
+  EXPECT_EQ(read_file(folder_ / "scene.png").substr(1, 3), "PNG");
+  EXPECT_NE(read_file(folder_ / "scene.png"), read_file(folder_ / "x.png"));
 }
 
 TEST_F(Render, FilmsRunDirectoriesAndReportsThemAgain) {
@@ -101,6 +105,43 @@ TEST_F(Render, WrongRequestsAreNamed) {
   const Ended report = touchdown_program("report .", folder_.path());
   EXPECT_EQ(report.exit_code, 2);
   EXPECT_THAT(report.errors, HasSubstr("no run directory"));
+}
+
+/// The bytes of `content` with every `from` replaced by a `to` of the same length.
+std::string altered(std::string content, const std::string& from, const std::string& to) {
+  EXPECT_EQ(from.size(), to.size());
+  std::size_t at = content.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  for (; at != std::string::npos; at = content.find(from, at + to.size())) {
+    content.replace(at, from.size(), to);
+  }
+  return content;
+}
+
+TEST_F(Render, RecordingsOfAnotherRobotAreRefusedInOneLine) {
+  const std::string log = read_file(folder_ / "a.mpack");
+  folder_.write("joints.mpack", altered(log, "left_knee", "left_elbw"));
+  const std::string joints = complaint_about("joints.mpack -o x.mp4", 2);
+  EXPECT_THAT(joints, AllOf(HasSubstr("joints.mpack"), HasSubstr("left_knee")));
+  folder_.write("model.mpack", altered(log, "upkie.xml", "other.xml"));
+  const std::string model = complaint_about("model.mpack -o x.mp4", 2);
+  EXPECT_THAT(model, HasSubstr("other.xml"));
+  // A real robot's log says nothing of a terrain.
+  folder_.write("real.mpack", altered(log, "touchdown", "something"));
+  const std::string real = complaint_about("real.mpack -o x.mp4", 2);
+  EXPECT_THAT(real, HasSubstr("terrain"));
+  for (const std::string& errors : {joints, model, real}) {
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+  }
+}
+
+TEST_F(Render, UnwritableOutputsAreRefusedBeforeAnythingIsDrawn) {
+  for (const char* kind : {"a.mpack/x.mp4", "a.mpack/x.png --poster"}) {
+    const std::string errors = complaint_about(std::string("a.mpack -o ") + kind, 1);
+    EXPECT_THAT(errors, HasSubstr("cannot be written"));
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+  }
+  EXPECT_THAT(complaint_about("a.mpack -o .", 1), HasSubstr("cannot be written"));
 }
 
 /// Live children of `parent`, by /proc: zombies do not count.

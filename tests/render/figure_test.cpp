@@ -111,6 +111,35 @@ TEST_F(FigureFiles, TextsCannotBreakOutOfTheScript) {
   EXPECT_THAT(read_file(figure.svg), HasSubstr("{x}_y^z @a"));
 }
 
+TEST_F(FigureFiles, ScriptsSayWhatIsDrawn) {
+  draw_heatmap(success_heatmap(), folder_ / "heatmap");
+  const FigureText text = figure_text(read_file(folder_ / "heatmap.gp"));
+  EXPECT_EQ(text.title, "Success rate");
+  EXPECT_EQ(text.caption, "2 runs");
+  EXPECT_THAT(text.alt, HasSubstr("MuJoCo: 0.990 in the lower left cell"));
+  EXPECT_EQ(figure_text("plot x\n# Title: not at the beginning\n").title, "");
+}
+
+TEST_F(FigureFiles, DescriptionsCannotBreakOutOfTheirComments) {
+  const std::string secret = (folder_ / "broken_out").string();
+  const std::string attack = "x\nsystem 'touch " + secret + "'\r\nplot\\";
+  draw_figure(folder_ / "d", 300, 200, "plot x\n", {}, {attack, attack, attack});
+  EXPECT_FALSE(std::filesystem::exists(secret));
+  EXPECT_THAT(figure_text(read_file(folder_ / "d.gp")).alt, HasSubstr("x system 'touch"));
+}
+
+TEST_F(FigureFiles, FineMapsLeaveTheNumbersToTheDataFile) {
+  Heatmap heatmap = success_heatmap();
+  heatmap.x.assign(13, 0.0);
+  heatmap.y.assign(13, 0.0);
+  heatmap.panels = {{.title = "fine", .value = {13, std::vector<double>(13, 0.5)}}};
+  heatmap.panels[0].value[3][4] = 0.987;
+  heatmap.panels[0].value[4][3] = 1.0;
+  const Figure figure = draw_heatmap(heatmap, folder_ / "fine");
+  EXPECT_EQ(read_file(figure.svg).find("0.987"), std::string::npos);
+  EXPECT_THAT(read_file(folder_ / "fine.dat"), HasSubstr("0.987"));
+}
+
 TEST_F(FigureFiles, LeaveNothingWhenGnuplotComplains) {
   EXPECT_THAT([&] { draw_figure(folder_ / "bad", 300, 200, "plot 'missing.dat'\n", {}); },
               ThrowsMessage<Error>(AllOf(HasSubstr("gnuplot"), HasSubstr("missing.dat"))));
@@ -165,6 +194,26 @@ TEST(IsoLines, LieOnTheLevel) {
     length += std::hypot(piece[0][0] - piece[1][0], piece[0][1] - piece[1][1]);
   }
   EXPECT_NEAR(length, 2.0 * M_PI * 12.3, 0.3);
+}
+
+TEST(IsoLines, AreJoinedFromEndToEnd) {
+  std::vector<std::vector<double>> rows(21, std::vector<double>(21));
+  for (std::size_t r = 0; r < 21; ++r) {
+    for (std::size_t c = 0; c < 21; ++c) {
+      rows[r][c] = std::hypot(static_cast<double>(r) - 10.0, static_cast<double>(c) - 10.0);
+    }
+  }
+  const auto closed = joined(iso_lines(rows, 6.3));
+  ASSERT_EQ(closed.size(), 1u);
+  EXPECT_EQ(closed[0].size(), iso_lines(rows, 6.3).size() + 1);
+  EXPECT_NEAR(closed[0].front()[0], closed[0].back()[0], 1e-9);
+  EXPECT_NEAR(closed[0].front()[1], closed[0].back()[1], 1e-9);
+  const auto corners = joined(iso_lines(rows, 12.2));  // cut off by the border
+  ASSERT_EQ(corners.size(), 4u);
+  std::size_t pieces = 0;
+  for (const IsoLine& line : corners) pieces += line.size() - 1;
+  EXPECT_EQ(pieces, iso_lines(rows, 12.2).size());
+  EXPECT_TRUE(joined({}).empty());
 }
 
 TEST(IsoLines, SeparateTheCornersOfASaddle) {

@@ -9,7 +9,7 @@
 #include "core/files.hpp"
 #include "render/csv_file.hpp"
 #include "render/html.hpp"
-#include "render/report_heatmap.hpp"
+#include "render/map_colour.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown {
@@ -65,7 +65,7 @@ TEST_F(Report, TakesNothingFromFilesForMarkup) {
   EXPECT_THAT(html,
               AllOf(HasSubstr("&lt;b&gt;bold&lt;/b&gt; &amp; &quot;quoted&quot;"),
                     HasSubstr("&lt;script&gt;alert(1)"), HasSubstr("run &lt;x&gt; &amp;&amp; y"),
-                    HasSubstr("alt=\"f: &lt;img onerror=1&gt;\"")));
+                    HasSubstr("alt=\"f: &lt;img onerror=1&gt;.\"")));
   for (const char* markup : {"<b>bold", "<script>alert", "<img src=x", "<img onerror", "<i>"}) {
     EXPECT_THAT(html, Not(HasSubstr(markup)));
   }
