@@ -9,7 +9,7 @@
 #include "render/frame_painter.hpp"
 #include "render/frame_workers.hpp"
 #include "render/video_request.hpp"
-#include "render/video_writer.hpp"
+#include "render/writable.hpp"
 
 namespace touchdown {
 namespace {

@@ -44,7 +44,11 @@ VideoStatistics film(const std::vector<VideoSource>& sources, const VideoOptions
                            .supersampling = options.quality == VideoQuality::page ? 2 : 1,
                            .speed = options.speed};
 
-  VideoWriter writer(path, options.width, options.height, options.fps, options.crf);
+  VideoWriter writer(path, {.width = options.width,
+                            .height = options.height,
+                            .fps = options.fps,
+                            .crf = options.crf,
+                            .encoder = options.encoder});
   VideoStatistics statistics{.frames = frames};
   const auto bytes = static_cast<std::size_t>(options.width * options.height * 3 / 2);
   const auto prepare = [&]() -> PaintFrame {

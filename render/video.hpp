@@ -36,6 +36,7 @@ struct VideoOptions {
   double to = std::numeric_limits<double>::infinity();  ///< of the recording (s)
   double speed = 1.0;                                   ///< 0.1: ten times slower than life
   int crf = 21;                                         ///< of H.264: higher is smaller and worse
+  std::string encoder = "libx264";                      ///< FFmpeg's name of it
   int workers = 0;                                      ///< processes; 0: one per core
   LabelConfig labels = {};                              ///< what counts as true contact
   /// Called after every frame; may be empty.
