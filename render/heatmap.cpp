@@ -61,6 +61,26 @@ std::string tics(const std::vector<double>& values, double room) {
   return "(" + text + ")";
 }
 
+/// What the lines are, in the upper right corner: a panel of its own, because a key that is wider
+/// than its panel is broken into rows.
+std::string line_key(const Heatmap& heatmap, const FigureFrame& frame) {
+  if (heatmap.iso_levels.empty()) return {};
+  std::string commands = frame.panel(0.0, -32.0, frame.width(), 24.0) +
+                         fmt::format(
+                             "unset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\n"
+                             "set key at screen 0.985, screen {} right top horizontal samplen 4\n"
+                             "plot [0:1] [0:1] ",
+                             1.0 - 8.0 / frame.height());
+  for (std::size_t level = 0; level < heatmap.iso_levels.size(); ++level) {
+    commands += fmt::format(
+        "{}NaN with lines lw 1.5 lc rgb '#101418' dt {} title {}", level > 0 ? ", " : "",
+        line_dash(level),
+        gnuplot_text(fmt::format("{}{:.4g}", level == 0 ? heatmap.value_label + " " : "",
+                                 heatmap.iso_levels[level])));
+  }
+  return commands + '\n';
+}
+
 /// Each panel's first and last cell, for people who cannot see it.
 std::string described(const Heatmap& heatmap) {
   std::string text = fmt::format("Maps of {} by {} (across) and {} (up).", heatmap.value_label,
@@ -90,15 +110,13 @@ Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
 
   const std::string name = stem.filename().string();
   std::string commands =
-      frame.begin() +
-      fmt::format(
-          "unset grid\nset border 0\nset tics scale 0\n"
-          "set cbrange [{}:{}]\nset xrange [-0.5:{}]\nset yrange [-0.5:{}]\n"
-          "set xtics {}\nset ytics {}\n"
-          "set key at screen 0.985, screen {} right top horizontal maxrows 1 samplen 4\n",
-          range.low, range.high, static_cast<double>(heatmap.x.size()) - 0.5,
-          static_cast<double>(heatmap.y.size()) - 0.5, tics(heatmap.x, cell.width),
-          tics(heatmap.y, 2.0 * cell.height), 1.0 - 8.0 / frame.height());
+      frame.begin() + fmt::format(
+                          "unset grid\nset border 0\nset tics scale 0\n"
+                          "set cbrange [{}:{}]\nset xrange [-0.5:{}]\nset yrange [-0.5:{}]\n"
+                          "set xtics {}\nset ytics {}\nunset key\n",
+                          range.low, range.high, static_cast<double>(heatmap.x.size()) - 0.5,
+                          static_cast<double>(heatmap.y.size()) - 0.5, tics(heatmap.x, cell.width),
+                          tics(heatmap.y, 2.0 * cell.height));
   for (std::size_t i = 0; i < panels; ++i) {
     const double left = static_cast<double>(i % columns) * (panel_width + gap_x) + gap_x - 8.0;
     const double top = static_cast<double>(i / columns) * (panel_height + gap_y) + 22.0;
@@ -110,10 +128,10 @@ Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
     commands += i == 0 ? frame.colour_bar(width - bar + 16.0, top, 14.0, panel_height) +
                              fmt::format("set cblabel {} offset 0.4,0\nset cbtics format '%.3g'\n",
                                          gnuplot_text(heatmap.value_label))
-                       : "unset colorbox\nunset key\n";
+                       : "unset colorbox\n";
     commands += heatmap_plot(heatmap, name, i, numbers, cell) + FigureFrame::end_panel();
   }
-  commands += FigureFrame::end();
+  commands += line_key(heatmap, frame) + FigureFrame::end();
   return draw_figure(stem, frame.width(), frame.height(), commands,
                      {{name + ".dat", heatmap_data(heatmap, range)}},
                      {heatmap.title, heatmap.caption, described(heatmap)});

@@ -13,6 +13,8 @@ constexpr const char* dashes[] = {"1", "(14,5)", "(4,4)"};
 
 }  // namespace
 
+const char* line_dash(std::size_t level) { return dashes[std::min(level, std::size(dashes) - 1)]; }
+
 std::string heatmap_plot(const Heatmap& heatmap, const std::string& name, std::size_t i,
                          bool numbers, const CellSize& cell) {
   const std::size_t panels = heatmap.panels.size(), levels = heatmap.iso_levels.size();
@@ -22,15 +24,10 @@ std::string heatmap_plot(const Heatmap& heatmap, const std::string& name, std::s
       name, i, panels * (1 + levels) + i);
   for (std::size_t level = 0; level < levels; ++level) {
     const std::size_t index = panels * (1 + level) + i;
-    const char* dash = dashes[std::min(level, std::size(dashes) - 1)];
     text += fmt::format(
         ", \\\n     '' index {0} using 1:2 with lines lw 3.6 lc rgb '#ffffff' dt 1"
         ", \\\n     '' index {0} using 1:2 with lines lw 1.5 lc rgb '#101418' dt {1}",
-        index, dash);
-    if (i > 0) continue;
-    text += fmt::format(
-        ", \\\n     keyentry with lines lw 1.5 lc rgb '#101418' dt {} title {}", dash,
-        gnuplot_text(fmt::format("{} {:.4g}", heatmap.value_label, heatmap.iso_levels[level])));
+        index, line_dash(level));
   }
   if (numbers) {
     constexpr double reach = 1.6;  // pixels

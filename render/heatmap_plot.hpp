@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "render/heatmap.hpp"
@@ -10,6 +11,9 @@ namespace touchdown {
 struct CellSize {
   double width, height;
 };
+
+/// The dashes (gnuplot's `dt`) of the iso-lines, by level: solid, dashed, dotted.
+const char* line_dash(std::size_t level);
 
 /// The commands that draw panel `i` from the blocks of `<name>.dat` (`heatmap_data`): cells,
 /// crosses and lines, then numbers. A number is written first around its place in its cell's

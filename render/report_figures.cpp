@@ -58,7 +58,7 @@ bool is_wide(const fs::path& svg) {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
   if (box == std::string::npos) return false;
   std::istringstream(text.substr(box + 9, 80)) >> left >> top >> width >> height;
-  return width > 1.7 * height;
+  return width > 1.4 * height;
 }
 
 }  // namespace
