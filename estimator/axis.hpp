@@ -39,12 +39,15 @@ class AxisLookup {
  public:
   AxisLookup() = default;
   explicit AxisLookup(const Axis& axis) noexcept
-      : lower_(axis.lower), inverse_step_(1.0 / axis.step()), last_(axis.count - 1) {}
+      : lower_(axis.lower),
+        inverse_step_(1.0 / axis.step()),
+        last_(axis.count - 1),
+        last_cell_(axis.count - 2) {}
 
   [[nodiscard]] AxisPosition place(double value) const noexcept {
     // The order of the comparisons sends NaN to the lower end instead of out of bounds.
     const double steps = std::min(last_, std::max(0.0, (value - lower_) * inverse_step_));
-    const int index = std::min(static_cast<int>(steps), static_cast<int>(last_) - 1);
+    const int index = std::min(static_cast<int>(steps), last_cell_);
     return {index, steps - index};
   }
 
@@ -56,6 +59,7 @@ class AxisLookup {
   double lower_ = 0.0;
   double inverse_step_ = 1.0;
   double last_ = 1.0;
+  int last_cell_ = 0;
 };
 
 }  // namespace touchdown

@@ -91,6 +91,7 @@ double median_bin(const LaneSums& sums, double nyquist, int nyquist_bin, Rows ro
       bin += within[row * lanes + lane] < rest ? 1 : 0;
     }
   }
+  bin = std::min<std::int64_t>(bin, rows * lanes - 1);  // sums of other order may round otherwise
   const std::int64_t lane = bin / rows;
   const double* const median = within + (bin - lane * rows) * lanes + lane;
   const double inside = median[lanes] - median[0];

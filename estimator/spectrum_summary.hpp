@@ -44,7 +44,9 @@ class SpectrumSummary {
  private:
   static constexpr int lanes = SlidingDft::lanes;
   template <typename Rows>
-  SpectrumValues summarise(Rows rows, const SlidingDft& dft) noexcept;
+  SpectrumValues of_power(Rows rows, const SlidingDft& dft) noexcept;
+  template <typename Rows>
+  SpectrumValues of_magnitude(Rows rows, const SlidingDft& dft) noexcept;
 
   int window_;
   int rows_;

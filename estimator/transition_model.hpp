@@ -53,16 +53,18 @@ struct TransitionConfig {
 
 /// P(S_t | S_t−1), and what it was computed from.
 struct Transition {
+  // The matrix first: four neighbours are stored as one vector, and the recursion that waits for
+  // them can load them from it.
+  double contact_to_contact = 1.0;
+  double contact_to_air = 0.0;  ///< takeoff
+  double air_to_contact = 0.0;  ///< landing, Eq. (8)
+  double air_to_air = 1.0;
+
   double power = 0.0;                      ///< m²/s⁴
   double median_frequency = 0.0;           ///< Hz
   double filtered_median_frequency = 0.0;  ///< Hz; equals median_frequency without memory
   double p_switch = 0.0;                   ///< P(S_t ≠ S_t−1), Eq. (11)
   double p_landing = 0.5;                  ///< P(S_t = C | S_t ≠ S_t−1), Eq. (13)
-
-  double contact_to_contact = 1.0;
-  double contact_to_air = 0.0;  ///< takeoff
-  double air_to_contact = 0.0;  ///< landing, Eq. (8)
-  double air_to_air = 1.0;
 };
 
 /// The last part of the transition model, from what the spectrum is like to probabilities, Eq. (7),
