@@ -99,14 +99,15 @@ Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
   const ColourRange range = colour_range(heatmap);
   const std::size_t panels = heatmap.panels.size();
   const std::size_t columns = std::min<std::size_t>(panels, panels == 4 ? 2 : 3);
-  const auto rows = static_cast<double>((panels + columns - 1) / columns);
+  const std::size_t rows = (panels + columns - 1) / columns;
   const bool numbers = heatmap.x.size() * heatmap.y.size() <= most_numbers;
   const CellSize cell = cell_size(heatmap, numbers);
   const double panel_width = cell.width * static_cast<double>(heatmap.x.size());
   const double panel_height = cell.height * static_cast<double>(heatmap.y.size());
   const double gap_x = 74.0, gap_y = 72.0, bar = 92.0;
   const double width = std::max(560.0, static_cast<double>(columns) * (panel_width + gap_x) + bar);
-  const FigureFrame frame(heatmap.title, heatmap.caption, width, rows * (panel_height + gap_y));
+  const FigureFrame frame(heatmap.title, heatmap.caption, width,
+                          static_cast<double>(rows) * (panel_height + gap_y));
 
   const std::string name = stem.filename().string();
   std::string commands =
@@ -119,7 +120,8 @@ Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
                           tics(heatmap.y, 2.0 * cell.height));
   for (std::size_t i = 0; i < panels; ++i) {
     const double left = static_cast<double>(i % columns) * (panel_width + gap_x) + gap_x - 8.0;
-    const double top = static_cast<double>(i / columns) * (panel_height + gap_y) + 22.0;
+    const std::size_t row = i / columns;
+    const double top = static_cast<double>(row) * (panel_height + gap_y) + 22.0;
     commands += frame.panel(left, top, panel_width, panel_height);
     commands += fmt::format(
         "set title {} offset 0,-0.6\nset xlabel {} offset 0,0.4\nset ylabel {} offset 0.6,0\n",
