@@ -11,7 +11,7 @@ inline constexpr const char* scene_mjcf = R"(
   <visual>
     <global fovy="34"/>
     <quality shadowsize="2048" offsamples="0" numslices="36" numstacks="4" numquads="2"/>
-    <map znear="0.1" zfar="60" shadowclip="2.0" haze="0.35"/>
+    <map znear="0.1" zfar="60" shadowclip="1.3" haze="0.35"/>
     <headlight ambient="0.36 0.37 0.40" diffuse="0.16 0.16 0.17" specular="0.05 0.05 0.05"/>
     <rgba haze="0.86 0.89 0.93 1"/>
   </visual>
