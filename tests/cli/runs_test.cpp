@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <map>
 #include <sstream>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -47,6 +49,62 @@ TEST(Run, GivesTheSameBytesInTwoProcessesAndWithOneAndFourThreads) {
     for (const auto& [name, content] : first) {
       EXPECT_TRUE(files.at(name) == content) << name << " differs in " << other;
     }
+  }
+}
+
+/// The cells of a CSV file without quotes, by row.
+std::vector<std::vector<std::string>> cells_of(const fs::path& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(read_file(csv));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+TEST(Run, DrawsFiguresOfWhatItsTablesSay) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  run_tiny(folder, "--out a");
+  const std::string report = read_file(folder / "a/report.html");
+  for (const char* figure : {"success", "densities", "reliability", "latency"}) {
+    for (const char* engine : {"mujoco", "bullet"}) {
+      const std::string name = std::string("a/figures/") + figure + "_" + engine;
+      for (const char* kind : {".png", ".svg", ".pdf", ".gp", ".dat"}) {
+        EXPECT_TRUE(fs::exists(folder / (name + kind))) << name << kind;
+      }
+      EXPECT_THAT(report, HasSubstr(name.substr(2) + ".dat"));
+    }
+    EXPECT_THAT(read_file(folder / (std::string("a/figures/") + figure + "_mujoco.gp")),
+                HasSubstr("contact: normal force > 1 N, states under 5 ms merged"));
+  }
+  EXPECT_THAT(read_file(folder / "a/figures/latency_mujoco.gp"),
+              HasSubstr("# Caption: 3 test runs × 2 noise seeds"));
+  // Where both wheels are pooled, what the figure says was found is what the table counts.
+  const std::string latency = read_file(folder / "a/figures/latency_mujoco.dat");
+  const std::string reliability = read_file(folder / "a/figures/reliability_mujoco.dat");
+  const auto column = [](const std::vector<std::string>& header, const std::string& name) {
+    return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  };
+  const auto found = cells_of(folder / "a/tables/latency.csv");
+  const auto events = cells_of(folder / "a/tables/transitions.csv");
+  int rows = 0;
+  for (std::size_t r = 1; r < found.size(); ++r) {
+    if (found[r][0] != "mujoco" || found[r][4] != "wheels" || found[r][1] == "always_contact") {
+      continue;
+    }
+    for (const std::string kind : {"takeoff", "landing"}) {
+      EXPECT_THAT(latency, HasSubstr(found[r].at(column(found[0], kind + "s_detected")) + " of " +
+                                     events[r].at(column(events[0], kind + "s")) + " found"));
+    }
+    ++rows;
+  }
+  EXPECT_EQ(rows, 3);
+  for (const auto& row : cells_of(folder / "a/tables/reliability.csv")) {
+    if (row[0] != "mujoco" || row[4] != "wheels" || row[1] != "robust" || row[6] == "0") continue;
+    EXPECT_THAT(reliability, HasSubstr("\t" + row[6] + "\n"));
   }
 }
 

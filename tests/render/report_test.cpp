@@ -71,6 +71,18 @@ TEST_F(Report, TakesNothingFromFilesForMarkup) {
   }
 }
 
+TEST_F(Report, ShowsFiguresWithWhatTheirScriptsSay) {
+  folder_.write("figures/a.svg", "<svg viewBox=\"0 0 300 100\"></svg>");
+  folder_.write("figures/a.gp",
+                "# Draws a.png\n# Title: Latency\n# Caption: 4 runs & 2 seeds.\n"
+                "# Alt: A histogram\nplot x\n");
+  folder_.write("figures/a.dat", "1\n");
+  EXPECT_THAT(page(), AllOf(HasSubstr("alt=\"A histogram\""), HasSubstr("<b>Latency.</b>"),
+                            HasSubstr("4 runs &amp; 2 seeds."), HasSubstr("class=\"wide\""),
+                            HasSubstr("href=\"figures/a.dat\""),
+                            HasSubstr("src=\"data:image/svg+xml;base64,")));
+}
+
 TEST_F(Report, SaysEveryCellsNumbersAndStrikesOutWhatAConstantAnswerBeats) {
   folder_.write("tables/success.csv", success);
   const std::string html = page();
