@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "experiments/drop_config.hpp"
 #include "experiments/estimator_registry.hpp"
+#include "experiments/read_names.hpp"
 #include "simulators/simulator.hpp"
 
 namespace touchdown {
@@ -12,26 +14,6 @@ namespace touchdown {
 namespace {
 
 const std::vector<std::string> sample_units = {"run", "drop"};
-
-/// A list of different names, each one of `known`.
-void read_names(YamlMap& map, std::string_view key, const std::vector<std::string>& known,
-                std::vector<std::string>& names) {
-  map.read(key, names);
-  if (names.empty()) map.fail(key, "expected at least one name");
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (std::find(known.begin(), known.end(), names[i]) == known.end()) {
-      std::string message = fmt::format("'{}' is not one of {}", names[i], fmt::join(known, ", "));
-      if (const std::string near = nearest(names[i], known); !near.empty()) {
-        message += fmt::format(" (did you mean '{}'?)", near);
-      }
-      map.fail(key, message);
-    }
-    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
-        names.begin() + static_cast<std::ptrdiff_t>(i)) {
-      map.fail(key, fmt::format("'{}' stands there twice", names[i]));
-    }
-  }
-}
 
 RunsConfig runs_from_yaml(YamlMap map, RunsConfig runs) {
   map.require("scenarios", runs.scenarios);
@@ -230,6 +212,8 @@ Experiment experiment_from_yaml(const YamlDocument& document) {
   experiment.scoring = scoring_from_yaml(map.child("scoring"));
   experiment.intervals = intervals_from_yaml(map.child("intervals"));
   experiment.video = video_from_yaml(map.child("video"), experiment);
+  experiment.detail = detail_from_yaml(map, experiment);
+  experiment.posterior = posterior_from_yaml(map, experiment);
   map.read("paper_tables", experiment.paper_tables);
   map.read("workers", experiment.workers, 0, 4096);
   map.finish();
@@ -250,6 +234,8 @@ std::string to_yaml(const Experiment& experiment) {
   node["scoring"] = to_node(experiment.scoring);
   node["intervals"] = to_node(experiment.intervals);
   node["video"] = to_node(experiment.video);
+  if (experiment.detail) node["detail"] = to_node(*experiment.detail);
+  if (experiment.posterior) node["posterior"] = to_node(*experiment.posterior);
   node["paper_tables"] = experiment.paper_tables;
   YAML::Emitter emitter;
   emitter << node;

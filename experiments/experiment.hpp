@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -91,6 +92,29 @@ struct VideoConfig {
   double accelerometer_noise = 0.0;     ///< m/s²
 };
 
+/// One drop of one test run, and how much of the time around it is shown. Drops are counted from 0,
+/// as `drops` finds them.
+struct DropChoice {
+  int run = 0;
+  int drop = 0;
+  int seed = 0;          ///< of the noise: the realisation that the study hears under this number
+  double before = 0.15;  ///< shown before takeoff (s)
+  double after = 0.45;   ///< and after it (s)
+};
+
+/// What estimators hear and conclude through one drop, drawn for every engine.
+struct DetailConfig {
+  DropChoice choice = {};
+  std::vector<NoiseCell> noise = {{0.25, 1.0}, {1.0, 5.0}};  ///< one column of panels each
+  std::vector<std::string> estimators = {};                  ///< whose probabilities are shown
+};
+
+/// The phase filter's probability of every phase through one drop, drawn for every engine.
+struct PosteriorConfig {
+  DropChoice choice = {};
+  NoiseCell noise = {1.0, 5.0};
+};
+
 /// An experiment file, seen whole: what is simulated, who listens through which noise, what counts.
 struct Experiment {
   std::string name;
@@ -105,6 +129,8 @@ struct Experiment {
   ScoringConfig scoring;
   IntervalConfig intervals;
   VideoConfig video;
+  std::optional<DetailConfig> detail;        ///< drawn if the file has the section
+  std::optional<PosteriorConfig> posterior;  ///< likewise
   bool paper_tables = false;  ///< print the paper's Tables I to III for every highlighted cell
   int workers = 0;            ///< threads; 0: one per core. Never changes a result.
 };
