@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/belief_track.hpp"
+#include "cli/drop_figures.hpp"
 #include "cli/film_progress.hpp"
 #include "cli/heatmaps.hpp"
 #include "cli/score_figures.hpp"
@@ -70,6 +71,7 @@ std::vector<Picture> draw_pictures(ExperimentResult& result, const Session& sess
     }
   }
   for (Picture& drawn : draw_score_figures(result)) pictures.push_back(std::move(drawn));
+  for (Picture& drawn : draw_drop_figures(result)) pictures.push_back(std::move(drawn));
   if (result.experiment.video.enabled) {
     for (const std::string& simulator : result.experiment.simulators) {
       const PlayedRun* run = filmed_run(result, simulator);

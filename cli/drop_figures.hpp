@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "cli/pictures.hpp"
+
+namespace touchdown {
+
+/// Draws the drops that the experiment's sections `detail` and `posterior` ask for, for every
+/// engine. An engine whose run has no such drop gets no figure and one line on the error stream
+/// that says why: the experiment is not lost for it.
+std::vector<Picture> draw_drop_figures(const ExperimentResult& result);
+
+}  // namespace touchdown
