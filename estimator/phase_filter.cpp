@@ -23,14 +23,20 @@ PhaseFilter::PhaseFilter(const PhaseModel& model, const PhaseFilterConfig& confi
                     phase_exponent(config.acceleration_exponent,
                                    phase_stride(model.sample_rate, config.sample_rate))),
       guard_(config.guard, config.sample_rate),
-      torque_noise_(config.noise_floor.torque,
-                    noise_ceiling(model.torque, config.noise_floor.torque), config.noise_gain,
-                    config.noise_warm_up * config.sample_rate),
-      acceleration_noise_(config.noise_floor.acceleration,
-                          noise_ceiling(model.acceleration, config.noise_floor.acceleration),
-                          config.noise_gain, config.noise_warm_up * config.sample_rate) {
-  torque_levels_ = noise_levels(
-      torque_, config.noise ? std::vector{config.noise->torque} : torque_noise_.rungs());
+      knee_noise_(config.noise_floor.knee_torque,
+                  noise_ceiling(model.torque.back().noise.knee, config.noise_floor.knee_torque),
+                  config.noise_gain, config.noise_warm_up * config.sample_rate),
+      wheel_noise_(config.noise_floor.wheel_torque,
+                   noise_ceiling(model.torque.back().noise.wheel, config.noise_floor.wheel_torque),
+                   config.noise_gain, config.noise_warm_up * config.sample_rate),
+      acceleration_noise_(
+          config.noise_floor.acceleration,
+          noise_ceiling(model.acceleration.back().noise, config.noise_floor.acceleration),
+          config.noise_gain, config.noise_warm_up * config.sample_rate) {
+  knee_levels_ = noise_levels(
+      torque_, config.noise ? std::vector{config.noise->knee_torque} : knee_noise_.rungs());
+  wheel_levels_ = noise_levels(
+      torque_, config.noise ? std::vector{config.noise->wheel_torque} : wheel_noise_.rungs());
   acceleration_levels_ =
       noise_levels(acceleration_, config.noise ? std::vector{config.noise->acceleration}
                                                : acceleration_noise_.rungs());
@@ -39,7 +45,8 @@ PhaseFilter::PhaseFilter(const PhaseModel& model, const PhaseFilterConfig& confi
 
 void PhaseFilter::reset() noexcept {
   guard_.reset();
-  torque_noise_.reset();
+  knee_noise_.reset();
+  wheel_noise_.reset();
   acceleration_noise_.reset();
   alpha_ = {};
   std::copy(PhaseRecursion::prior.begin(), PhaseRecursion::prior.end(), alpha_.begin());
@@ -55,7 +62,8 @@ PhaseProbabilities PhaseFilter::phases() const noexcept {
 }
 
 PhaseNoise PhaseFilter::noise() const noexcept {
-  return config_.noise.value_or(PhaseNoise{torque_noise_.sigma(), acceleration_noise_.sigma()});
+  return config_.noise.value_or(
+      PhaseNoise{knee_noise_.sigma(), wheel_noise_.sigma(), acceleration_noise_.sigma()});
 }
 
 const Belief& PhaseFilter::update(const Signals& signals) noexcept {
@@ -69,7 +77,8 @@ const Belief& PhaseFilter::update(const Signals& signals) noexcept {
   }
   const bool usable = verdict.acceleration_good && (torques_good[0] || torques_good[1]);
   if (verdict.restart) {
-    torque_noise_.forget_signals();
+    knee_noise_.forget_signals();
+    wheel_noise_.forget_signals();
     acceleration_noise_.forget_signals();
   }
   if (verdict.restart || !usable) forget(verdict.elapsed);
@@ -79,15 +88,16 @@ const Belief& PhaseFilter::update(const Signals& signals) noexcept {
   }
   if (!config_.noise) listen_to_noise(signals, verdict.acceleration_good);
 
-  const PhaseNoiseLevel torque_level = torque_levels_[config_.noise ? 0 : torque_noise_.rung()];
+  const PhaseNoiseLevel knee_level = knee_levels_[config_.noise ? 0 : knee_noise_.rung()];
+  const PhaseNoiseLevel wheel_level = wheel_levels_[config_.noise ? 0 : wheel_noise_.rung()];
   const PhaseNoiseLevel acceleration_level =
       acceleration_levels_[config_.noise ? 0 : acceleration_noise_.rung()];
   const auto evidence = [&](std::size_t side) {
     const LegSignals& leg = signals.leg[side];
     const double mirror = side == 0 ? 1.0 : -1.0;
-    return torques_good[side]
-               ? torque_(mirror * leg.knee.torque, mirror * leg.wheel.torque, torque_level)
-               : PhaseRow{};
+    return torques_good[side] ? torque_(mirror * leg.knee.torque, mirror * leg.wheel.torque,
+                                        knee_level, wheel_level)
+                              : PhaseRow{};
   };
   const PhaseRow left = evidence(0);
   const PhaseRow right = evidence(1);
@@ -107,8 +117,8 @@ void PhaseFilter::forget(double elapsed) noexcept {
 }
 
 void PhaseFilter::listen_to_noise(const Signals& s, bool acceleration_good) noexcept {
-  torque_noise_.update(
-      {s.leg[0].knee.torque, s.leg[0].wheel.torque, s.leg[1].knee.torque, s.leg[1].wheel.torque});
+  knee_noise_.update({s.leg[0].knee.torque, s.leg[1].knee.torque});
+  wheel_noise_.update({s.leg[0].wheel.torque, s.leg[1].wheel.torque});
   if (acceleration_good) acceleration_noise_.update({s.vertical_acceleration});
 }
 

@@ -48,10 +48,12 @@ class PhaseFilter : public ContactEstimator {
   PhaseTorqueTables torque_;
   PhaseAccelerationTables acceleration_;
   SignalGuard guard_;
-  NoiseEstimate<4> torque_noise_;
+  NoiseEstimate<2> knee_noise_;
+  NoiseEstimate<2> wheel_noise_;
   NoiseEstimate<1> acceleration_noise_;
   // By rung of the estimates; of one entry each if the noise is known.
-  std::vector<PhaseNoiseLevel> torque_levels_;
+  std::vector<PhaseNoiseLevel> knee_levels_;
+  std::vector<PhaseNoiseLevel> wheel_levels_;
   std::vector<PhaseNoiseLevel> acceleration_levels_;
   alignas(64) PhaseRecursion::Lanes alpha_{};
   Belief belief_;

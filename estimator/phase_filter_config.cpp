@@ -47,15 +47,17 @@ void check_phase_filter_config(const PhaseFilterConfig& config) {
   require(config.leave_below >= 0.0 && config.leave_below <= config.return_above &&
               config.return_above <= 1.0,
           "expected 0 ≤ leave_below ≤ return_above ≤ 1");
-  require(positive(config.noise_floor.torque) && positive(config.noise_floor.acceleration),
+  require(positive(config.noise_floor.knee_torque) && positive(config.noise_floor.wheel_torque) &&
+              positive(config.noise_floor.acceleration),
           "noise floors must be positive");
   require(config.noise_gain > 0.0 && config.noise_gain < 1.0, "noise_gain must be in (0, 1)");
   require(config.noise_warm_up >= 0.0 && std::isfinite(config.noise_warm_up),
           "noise_warm_up must not be negative (s)");
   if (config.noise) {
-    require(config.noise->torque >= 0.0 && config.noise->acceleration >= 0.0 &&
-                std::isfinite(config.noise->torque) && std::isfinite(config.noise->acceleration),
-            "known noise must not be negative");
+    for (const double sigma :
+         {config.noise->knee_torque, config.noise->wheel_torque, config.noise->acceleration}) {
+      require(sigma >= 0.0 && std::isfinite(sigma), "known noise must not be negative");
+    }
   }
 }
 

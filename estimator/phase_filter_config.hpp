@@ -16,12 +16,13 @@ struct PhaseFitConfig {
   double torque_bandwidth = 0.1;
   /// Kernel width of the acceleration densities before sensor noise (m/s²).
   double acceleration_bandwidth = 1.0;
-  /// Sensor noise for which densities are prepared, increasing (N·m and m/s²). Between two of them
-  /// the filter interpolates.
-  std::vector<double> torque_noise = {0.0, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4};
+  /// Sensor noise for which densities are prepared, increasing (N·m and m/s²). Torque densities are
+  /// prepared for each of them at the knee with each at the wheel. Between them the filter
+  /// interpolates.
+  std::vector<double> torque_noise = {0.0, 0.17, 0.39, 0.8, 1.6, 3.2, 6.4};
   std::vector<double> acceleration_noise = {0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
   /// Distance of the grids' points in total bandwidths.
-  double grid_step = 0.25;
+  double grid_step = 1.0 / 3.0;
   /// Largest distance of the grids' points (N·m).
   double largest_knee_step = 0.5;
   double largest_wheel_step = 0.5;
@@ -42,7 +43,8 @@ struct PhaseFitConfig {
 
 /// Standard deviations of white sensor noise.
 struct PhaseNoise {
-  double torque = 0.0;        ///< knees and wheels (N·m)
+  double knee_torque = 0.0;   ///< N·m
+  double wheel_torque = 0.0;  ///< N·m
   double acceleration = 0.0;  ///< m/s²
 
   bool operator==(const PhaseNoise&) const = default;
@@ -64,7 +66,7 @@ struct PhaseFilterConfig {
   /// The sensor noise, if it is known; otherwise it is estimated while running.
   std::optional<PhaseNoise> noise;
   /// The estimated noise is never taken for smaller than this.
-  PhaseNoise noise_floor = {0.02, 0.1};
+  PhaseNoise noise_floor = {0.02, 0.02, 0.1};
   /// Relative change of the estimated noise at each step.
   double noise_gain = 0.01;
   /// Until it has run for this long (s), the estimate moves faster, as 1/time.

@@ -98,9 +98,10 @@ class Collector {
 
 }  // namespace
 
-PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, double noise,
+PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, const TorqueSample& noise,
                                       const PhaseFitConfig& config) {
-  const double h = std::hypot(config.torque_bandwidth, noise);
+  const TorqueSample h = {std::hypot(config.torque_bandwidth, noise.knee),
+                          std::hypot(config.torque_bandwidth, noise.wheel)};
   Range knee_range;
   Range wheel_range;
   for (const auto& of_phase : samples.torque) {
@@ -112,13 +113,14 @@ PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, double noise,
   PhaseTorqueDensity result{
       noise,
       h,
-      axis_over(knee_range, h, std::min(config.grid_step * h, config.largest_knee_step)),
-      axis_over(wheel_range, h, std::min(config.grid_step * h, config.largest_wheel_step)),
+      axis_over(knee_range, h.knee, std::min(config.grid_step * h.knee, config.largest_knee_step)),
+      axis_over(wheel_range, h.wheel,
+                std::min(config.grid_step * h.wheel, config.largest_wheel_step)),
       {}};
   result.log_density.resize(static_cast<std::size_t>(result.knee.count) *
                             static_cast<std::size_t>(result.wheel.count) * torque_density_count);
   const double uniform =
-      1.0 / (4.0 * (config.knee_range + 4.0 * h) * (config.wheel_range + 4.0 * h));
+      1.0 / (4.0 * (config.knee_range + 4.0 * h.knee) * (config.wheel_range + 4.0 * h.wheel));
   for (std::size_t phase = 0; phase < torque_density_count; ++phase) {
     const auto kept = thinned(samples.torque[phase], config.largest_sample);
     std::vector<double> knee(kept.size());
@@ -127,7 +129,7 @@ PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, double noise,
     std::transform(kept.begin(), kept.end(), wheel.begin(), [](const auto& s) { return s.wheel; });
     const std::vector<double> density =
         kept.empty() ? std::vector<double>()
-                     : kernel_density(wheel, knee, h, h, result.wheel, result.knee);
+                     : kernel_density(wheel, knee, h.wheel, h.knee, result.wheel, result.knee);
     fill_mixture(density, uniform, config.contamination, phase, torque_density_count,
                  result.log_density);
   }
@@ -172,8 +174,10 @@ PhaseModel fit_phase_model(std::span<const PhaseFitRun> runs, double sample_rate
   model.sample_rate = sample_rate;
   model.transition = transition_probabilities(collector.counts(), config.pseudo_count);
   model.seconds = collector.seconds();
-  for (const double noise : config.torque_noise) {
-    model.torque.push_back(fit_torque_density(collector.samples(), noise, config));
+  for (const double knee : config.torque_noise) {
+    for (const double wheel : config.torque_noise) {
+      model.torque.push_back(fit_torque_density(collector.samples(), {knee, wheel}, config));
+    }
   }
   for (const double noise : config.acceleration_noise) {
     model.acceleration.push_back(fit_acceleration_density(collector.samples(), noise, config));

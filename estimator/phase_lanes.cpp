@@ -36,15 +36,22 @@ PhaseLanes::PhaseLanes(const PhaseModel& model, const PhaseFilterConfig& config,
                     phase_exponent(config.acceleration_exponent,
                                    phase_stride(model.sample_rate, config.sample_rate))) {
   const double warm_up = config.noise_warm_up * config.sample_rate;
-  const NoiseEstimate<4> torque_noise(config.noise_floor.torque,
-                                      noise_ceiling(model.torque, config.noise_floor.torque),
-                                      config.noise_gain, warm_up);
+  const NoiseEstimate<2> knee_noise(
+      config.noise_floor.knee_torque,
+      noise_ceiling(model.torque.back().noise.knee, config.noise_floor.knee_torque),
+      config.noise_gain, warm_up);
+  const NoiseEstimate<2> wheel_noise(
+      config.noise_floor.wheel_torque,
+      noise_ceiling(model.torque.back().noise.wheel, config.noise_floor.wheel_torque),
+      config.noise_gain, warm_up);
   const NoiseEstimate<1> acceleration_noise(
       config.noise_floor.acceleration,
-      noise_ceiling(model.acceleration, config.noise_floor.acceleration), config.noise_gain,
-      warm_up);
-  torque_rungs_ = noise_levels(
-      torque_, config.noise ? std::vector{config.noise->torque} : torque_noise.rungs());
+      noise_ceiling(model.acceleration.back().noise, config.noise_floor.acceleration),
+      config.noise_gain, warm_up);
+  knee_rungs_ = noise_levels(
+      torque_, config.noise ? std::vector{config.noise->knee_torque} : knee_noise.rungs());
+  wheel_rungs_ = noise_levels(
+      torque_, config.noise ? std::vector{config.noise->wheel_torque} : wheel_noise.rungs());
   acceleration_rungs_ =
       noise_levels(acceleration_, config.noise ? std::vector{config.noise->acceleration}
                                                : acceleration_noise.rungs());
@@ -55,7 +62,7 @@ PhaseLanes::PhaseLanes(const PhaseModel& model, const PhaseFilterConfig& config,
         });
     torque_index_.push_back(static_cast<std::uint32_t>(torque - torque_levels_.begin()));
     if (torque == torque_levels_.end()) {
-      torque_levels_.push_back({level.knee_torque, level.wheel_torque, torque_noise});
+      torque_levels_.push_back({level.knee_torque, level.wheel_torque, knee_noise, wheel_noise});
     }
     const auto acceleration = std::find_if(
         acceleration_levels_.begin(), acceleration_levels_.end(),
@@ -75,7 +82,10 @@ PhaseLanes::PhaseLanes(const PhaseModel& model, const PhaseFilterConfig& config,
 }
 
 void PhaseLanes::reset() noexcept {
-  for (TorqueLevel& level : torque_levels_) level.noise.reset();
+  for (TorqueLevel& level : torque_levels_) {
+    level.knee_noise.reset();
+    level.wheel_noise.reset();
+  }
   for (AccelerationLevel& level : acceleration_levels_) level.noise.reset();
   PhaseRecursion::Lanes prior{};
   std::copy(PhaseRecursion::prior.begin(), PhaseRecursion::prior.end(), prior.begin());
@@ -88,16 +98,21 @@ void PhaseLanes::reset() noexcept {
 
 void PhaseLanes::update(const Signals& clean, const NoiseDraws& draws) noexcept {
   for (TorqueLevel& level : torque_levels_) {
-    std::array<double, 4> torque{};
+    std::array<double, 2> knee{};
+    std::array<double, 2> wheel{};
     for (std::size_t side = 0; side < 2; ++side) {
-      torque[2 * side] = clean.leg[side].knee.torque + level.knee_sigma * draws.torque[side].knee;
-      torque[2 * side + 1] =
-          clean.leg[side].wheel.torque + level.wheel_sigma * draws.torque[side].wheel;
+      const LegSignals& leg = clean.leg[side];
+      knee[side] = leg.knee.torque + level.knee_sigma * draws.torque[side].knee;
+      wheel[side] = leg.wheel.torque + level.wheel_sigma * draws.torque[side].wheel;
     }
-    if (!config_.noise) level.noise.update(torque);
-    const PhaseNoiseLevel& rung = torque_rungs_[config_.noise ? 0 : level.noise.rung()];
-    level.left = torque_(torque[0], torque[1], rung);
-    level.right = torque_(-torque[2], -torque[3], rung);
+    if (!config_.noise) {
+      level.knee_noise.update(knee);
+      level.wheel_noise.update(wheel);
+    }
+    const PhaseNoiseLevel& knee_rung = knee_rungs_[config_.noise ? 0 : level.knee_noise.rung()];
+    const PhaseNoiseLevel& wheel_rung = wheel_rungs_[config_.noise ? 0 : level.wheel_noise.rung()];
+    level.left = torque_(knee[0], wheel[0], knee_rung, wheel_rung);
+    level.right = torque_(-knee[1], -wheel[1], knee_rung, wheel_rung);
   }
   for (AccelerationLevel& level : acceleration_levels_) {
     const double acceleration = clean.vertical_acceleration + level.sigma * draws.acceleration;

@@ -46,7 +46,8 @@ class PhaseLanes {
   struct TorqueLevel {
     double knee_sigma;
     double wheel_sigma;
-    NoiseEstimate<4> noise;
+    NoiseEstimate<2> knee_noise;
+    NoiseEstimate<2> wheel_noise;
     PhaseRow left{};
     PhaseRow right{};
   };
@@ -61,7 +62,8 @@ class PhaseLanes {
   PhaseRecursion recursion_;
   PhaseTorqueTables torque_;
   PhaseAccelerationTables acceleration_;
-  std::vector<PhaseNoiseLevel> torque_rungs_;
+  std::vector<PhaseNoiseLevel> knee_rungs_;
+  std::vector<PhaseNoiseLevel> wheel_rungs_;
   std::vector<PhaseNoiseLevel> acceleration_rungs_;
   std::vector<TorqueLevel> torque_levels_;
   std::vector<AccelerationLevel> acceleration_levels_;

@@ -37,29 +37,60 @@ void check_grid(const std::vector<float>& values, std::size_t expected, const ch
   }
 }
 
-template <typename Density>
-void check_levels(const std::vector<Density>& densities, const char* name) {
-  if (densities.empty()) {
+void check_increasing(const std::vector<double>& bandwidths, const char* name) {
+  if (bandwidths.empty()) {
     throw InputError(std::string("phase model: there is no ") + name + " density");
   }
-  for (std::size_t i = 0; i < densities.size(); ++i) {
-    if (!(densities[i].bandwidth > 0.0) || !std::isfinite(densities[i].bandwidth) ||
-        (i > 0 && !(densities[i].bandwidth > densities[i - 1].bandwidth))) {
+  for (std::size_t i = 0; i < bandwidths.size(); ++i) {
+    if (!(bandwidths[i] > 0.0) || !std::isfinite(bandwidths[i]) ||
+        (i > 0 && !(bandwidths[i] > bandwidths[i - 1]))) {
       throw InputError(std::string("phase model: the ") + name +
                        " densities must come with increasing bandwidths");
     }
   }
 }
 
+void check_levels(const std::vector<PhaseTorqueDensity>& densities) {
+  const std::size_t n = torque_level_count(densities);
+  std::vector<double> bandwidths;
+  for (std::size_t i = 0; i < n; ++i) bandwidths.push_back(densities[i].bandwidth.wheel);
+  check_increasing(bandwidths, "torque");
+  for (std::size_t i = 0; i < n * n; ++i) {
+    if (densities[i].bandwidth.knee != bandwidths[i / n] ||
+        densities[i].bandwidth.wheel != bandwidths[i % n]) {
+      throw InputError(
+          "phase model: the torque densities must come knee by knee, wheel by wheel, "
+          "with the same bandwidths at both");
+    }
+  }
+}
+
+void check_levels(const std::vector<PhaseAccelerationDensity>& densities) {
+  std::vector<double> bandwidths;
+  for (const PhaseAccelerationDensity& density : densities) bandwidths.push_back(density.bandwidth);
+  check_increasing(bandwidths, "acceleration");
+}
+
 }  // namespace
+
+std::size_t torque_level_count(std::span<const PhaseTorqueDensity> densities) {
+  const auto n = static_cast<std::size_t>(std::sqrt(static_cast<double>(densities.size())) + 0.5);
+  if (densities.empty()) throw InputError("phase model: there is no torque density");
+  if (n * n != densities.size()) {
+    throw InputError("phase model: " + std::to_string(densities.size()) +
+                     " torque densities are not one for each noise level at the knee and at the "
+                     "wheel");
+  }
+  return n;
+}
 
 void check_phase_model(const PhaseModel& model) {
   if (!(std::isfinite(model.sample_rate) && model.sample_rate > 0.0)) {
     throw InputError("phase model: the sample rate must be positive (Hz)");
   }
   check_transition(model.transition);
-  check_levels(model.torque, "torque");
-  check_levels(model.acceleration, "acceleration");
+  check_levels(model.torque);
+  check_levels(model.acceleration);
   for (const PhaseTorqueDensity& density : model.torque) {
     check_axis(density.knee, "knee torque");
     check_axis(density.wheel, "wheel torque");

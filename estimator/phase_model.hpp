@@ -11,12 +11,13 @@
 
 namespace touchdown {
 
-/// Log densities of (knee, wheel) torque in every phase, through sensors with one level of noise.
+/// Log densities of (knee, wheel) torque in every phase, through sensors with one level of noise at
+/// the knee and one at the wheel.
 /// log_density[(i · knee.count + j) · torque_density_count + phase] belongs to wheel[i], knee[j];
 /// the density's unit is 1/(N·m)².
 struct PhaseTorqueDensity {
-  double noise = 0.0;      ///< N·m
-  double bandwidth = 0.0;  ///< total width of the kernels (N·m)
+  TorqueSample noise;      ///< standard deviations (N·m)
+  TorqueSample bandwidth;  ///< total widths of the kernels (N·m)
   Axis knee;
   Axis wheel;
   std::vector<float> log_density;
@@ -38,14 +39,19 @@ using PhaseTransition = std::array<PhaseProbabilities, phase_count>;
 struct PhaseModel {
   double sample_rate = 1000.0;  ///< Hz, of the transitions
   PhaseTransition transition{};
-  std::vector<PhaseTorqueDensity> torque;              ///< by increasing noise
+  /// n × n, for n levels of noise: torque[i · n + j] belongs to the i-th one at the knee and the
+  /// j-th one at the wheel.
+  std::vector<PhaseTorqueDensity> torque;
   std::vector<PhaseAccelerationDensity> acceleration;  ///< by increasing noise
   std::array<double, phase_count> seconds{};           ///< labelled data behind each phase
 };
 
-/// Throws InputError unless rows of the transition are probabilities and every grid has its axes'
-/// size and finite values.
+/// Throws InputError unless rows of the transition are probabilities, noise levels increase and
+/// every grid has its axes' size and finite values.
 void check_phase_model(const PhaseModel& model);
+
+/// n, for torque densities of n × n noise levels. Throws InputError for any other number of them.
+std::size_t torque_level_count(std::span<const PhaseTorqueDensity> densities);
 
 /// One run to learn from: what was heard, and the truth. The data must outlive the fit.
 struct PhaseFitRun {
@@ -70,7 +76,7 @@ struct PhaseSamples {
 
 /// The mixture of a phase's kernel density and the uniform one, at one level of noise, on grids
 /// that cover all samples. A phase without samples gets the uniform density.
-PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, double noise,
+PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, const TorqueSample& noise,
                                       const PhaseFitConfig& config);
 PhaseAccelerationDensity fit_acceleration_density(const PhaseSamples& samples, double noise,
                                                   const PhaseFitConfig& config);

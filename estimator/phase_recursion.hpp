@@ -84,11 +84,9 @@ int phase_stride(double model_rate, double filter_rate);
 /// independent ones do.
 double phase_exponent(double exponent, int stride);
 
-/// The largest noise that the densities were prepared for, for `NoiseEstimate`.
-template <typename Densities>
-double noise_ceiling(const Densities& densities, double floor) {
-  return std::max(2.0 * floor, densities.back().noise);
-}
+/// The largest noise that `NoiseEstimate` looks for, given the largest that densities were prepared
+/// for.
+inline double noise_ceiling(double largest, double floor) { return std::max(2.0 * floor, largest); }
 
 /// Where each of these noises lies among the densities of `tables`.
 template <typename Tables>

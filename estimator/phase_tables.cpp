@@ -23,17 +23,22 @@ void add(PhaseRow& sum, float weight, const float* cell) noexcept {
   for (std::size_t k = 0; k < phase_lanes; ++k) sum[k] += weight * cell[k];
 }
 
-template <typename Density>
-std::vector<double> bandwidths_of(std::span<const Density> densities) {
+std::vector<double> bandwidths_of(std::span<const PhaseTorqueDensity> densities) {
   std::vector<double> bandwidths;
-  for (const Density& density : densities) bandwidths.push_back(density.bandwidth);
+  for (const auto& density : densities.first(torque_level_count(densities))) {
+    bandwidths.push_back(density.bandwidth.wheel);
+  }
   return bandwidths;
 }
 
-template <typename Density>
-double kernel_width_of(std::span<const Density> densities) {
-  const Density& first = densities.front();
-  return std::sqrt(std::max(0.0, first.bandwidth * first.bandwidth - first.noise * first.noise));
+std::vector<double> bandwidths_of(std::span<const PhaseAccelerationDensity> densities) {
+  std::vector<double> bandwidths;
+  for (const auto& density : densities) bandwidths.push_back(density.bandwidth);
+  return bandwidths;
+}
+
+double kernel_width(double bandwidth, double noise) {
+  return std::sqrt(std::max(0.0, bandwidth * bandwidth - noise * noise));
 }
 
 }  // namespace
@@ -49,7 +54,9 @@ PhaseNoiseLevel place_noise(double sigma, double kernel_width, std::span<const d
 }
 
 PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densities, double exponent)
-    : bandwidths_(bandwidths_of(densities)), kernel_width_(kernel_width_of(densities)) {
+    : bandwidths_(bandwidths_of(densities)),
+      kernel_width_(
+          kernel_width(densities.front().bandwidth.wheel, densities.front().noise.wheel)) {
   for (const PhaseTorqueDensity& density : densities) {
     tables_.push_back({AxisLookup(density.knee), AxisLookup(density.wheel),
                        phase_lanes * static_cast<std::size_t>(density.knee.count),
@@ -57,8 +64,8 @@ PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densiti
   }
 }
 
-PhaseRow PhaseTorqueTables::operator()(double knee, double wheel,
-                                       const PhaseNoiseLevel& noise) const noexcept {
+PhaseRow PhaseTorqueTables::operator()(double knee, double wheel, const PhaseNoiseLevel& knee_noise,
+                                       const PhaseNoiseLevel& wheel_noise) const noexcept {
   PhaseRow sum{};
   const auto add_level = [&](const Table& table, float weight) {
     const AxisPosition k = table.knee.place(knee);
@@ -74,8 +81,14 @@ PhaseRow PhaseTorqueTables::operator()(double knee, double wheel,
     add(sum, high_weight * (1.0F - knee_weight), high);
     add(sum, high_weight * knee_weight, high + phase_lanes);
   };
-  add_level(tables_[noise.level], 1.0F - noise.weight);
-  if (noise.weight > 0.0F) add_level(tables_[noise.level + 1], noise.weight);
+  const std::size_t levels = bandwidths_.size();
+  const Table* const corner = tables_.data() + knee_noise.level * levels + wheel_noise.level;
+  const float larger = std::max(knee_noise.weight, wheel_noise.weight);
+  const float smaller = std::min(knee_noise.weight, wheel_noise.weight);
+  const std::size_t side = knee_noise.weight > wheel_noise.weight ? levels : 1;
+  add_level(corner[0], 1.0F - larger);
+  if (larger > smaller) add_level(corner[side], larger - smaller);
+  if (smaller > 0.0F) add_level(corner[levels + 1], smaller);
   return sum;
 }
 
@@ -85,7 +98,8 @@ PhaseNoiseLevel PhaseTorqueTables::place(double sigma) const {
 
 PhaseAccelerationTables::PhaseAccelerationTables(
     std::span<const PhaseAccelerationDensity> densities, double exponent)
-    : bandwidths_(bandwidths_of(densities)), kernel_width_(kernel_width_of(densities)) {
+    : bandwidths_(bandwidths_of(densities)),
+      kernel_width_(kernel_width(densities.front().bandwidth, densities.front().noise)) {
   for (const PhaseAccelerationDensity& density : densities) {
     tables_.push_back({AxisLookup(density.axis),
                        padded(density.log_density, acceleration_density_count, exponent)});

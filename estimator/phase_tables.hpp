@@ -27,16 +27,18 @@ struct PhaseNoiseLevel {
 PhaseNoiseLevel place_noise(double sigma, double kernel_width, std::span<const double> bandwidths);
 
 /// The torque densities prepared for lookups: raised to an exponent, side by side for all phases,
-/// bilinear in (knee, wheel) and linear between two noise levels, all in the logarithm. Outside the
-/// grid the nearest edge counts.
+/// bilinear in (knee, wheel) and linear between noise levels, all in the logarithm. Four pairs of
+/// levels surround a pair of noises; the plane through three of them, both ends of the diagonal and
+/// the corner on the pair's side, interpolates. Outside the grid the nearest edge counts.
 class PhaseTorqueTables {
  public:
   PhaseTorqueTables(std::span<const PhaseTorqueDensity> densities, double exponent);
 
   /// Never fails; NaN counts as the lower end of its axis.
-  [[nodiscard]] PhaseRow operator()(double knee, double wheel,
-                                    const PhaseNoiseLevel& noise) const noexcept;
+  [[nodiscard]] PhaseRow operator()(double knee, double wheel, const PhaseNoiseLevel& knee_noise,
+                                    const PhaseNoiseLevel& wheel_noise) const noexcept;
 
+  /// For noise at the knee or at the wheel: their levels are the same.
   [[nodiscard]] PhaseNoiseLevel place(double sigma) const;
 
  private:

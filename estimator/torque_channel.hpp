@@ -10,6 +10,8 @@ namespace touchdown {
 struct TorqueSample {
   double knee = 0.0;
   double wheel = 0.0;
+
+  bool operator==(const TorqueSample&) const = default;
 };
 
 /// What a torque's sign means to the measurement model.

@@ -105,7 +105,9 @@ void write_phase_model(const PhaseModelFile& file, const std::filesystem::path& 
   for (std::size_t i = 0; i < model.torque.size(); ++i) {
     const PhaseTorqueDensity& density = model.torque[i];
     const std::string name = fmt::format("torque_{}_", i);
-    arrays[name + "noise"] = {{2}, {density.noise, density.bandwidth}};
+    arrays[name + "noise"] = {
+        {4},
+        {density.noise.knee, density.noise.wheel, density.bandwidth.knee, density.bandwidth.wheel}};
     arrays[name + "knee"] = ends(density.knee);
     arrays[name + "wheel"] = ends(density.wheel);
     arrays[name + "log_density"] = table(density.log_density, torque_density_count);
@@ -136,9 +138,12 @@ PhaseModelFile read_phase_model(const std::filesystem::path& path) {
   }
   for (int i = 0; reader.has(fmt::format("torque_{}_noise", i)); ++i) {
     const std::string name = fmt::format("torque_{}_", i);
-    const std::vector<double>& noise = reader.take(name + "noise", 2);
-    model.torque.push_back({noise[0], noise[1], reader.axis(name + "knee"),
-                            reader.axis(name + "wheel"), reader.floats(name + "log_density")});
+    const std::vector<double>& noise = reader.take(name + "noise", 4);
+    model.torque.push_back({{noise[0], noise[1]},
+                            {noise[2], noise[3]},
+                            reader.axis(name + "knee"),
+                            reader.axis(name + "wheel"),
+                            reader.floats(name + "log_density")});
   }
   for (int i = 0; reader.has(fmt::format("acceleration_{}_noise", i)); ++i) {
     const std::string name = fmt::format("acceleration_{}_", i);

@@ -72,16 +72,17 @@ class DirectForward {
 
  private:
   double torque_density(int phase, double knee, double wheel) const {
-    const double h2 =
-        config_.fit.torque_bandwidth * config_.fit.torque_bandwidth + noise_.torque * noise_.torque;
-    const double h = std::sqrt(h2);
-    const double uniform = 1.0 / (2.0 * (17.0 + 4.0 * h) * 2.0 * (1.8 + 4.0 * h));
+    const double h2 = config_.fit.torque_bandwidth * config_.fit.torque_bandwidth;
+    const double k = std::sqrt(h2 + noise_.knee_torque * noise_.knee_torque);
+    const double w = std::sqrt(h2 + noise_.wheel_torque * noise_.wheel_torque);
+    const double uniform = 1.0 / (2.0 * (17.0 + 4.0 * k) * 2.0 * (1.8 + 4.0 * w));
     if (torque_[phase].empty()) return uniform;
     double sum = 0.0;
     for (const TorqueSample& s : torque_[phase]) {
-      sum += std::exp(-(std::pow(s.knee - knee, 2) + std::pow(s.wheel - wheel, 2)) / (2.0 * h2));
+      sum +=
+          std::exp(-0.5 * (std::pow((s.knee - knee) / k, 2) + std::pow((s.wheel - wheel) / w, 2)));
     }
-    sum /= static_cast<double>(torque_[phase].size()) * 2.0 * std::numbers::pi * h2;
+    sum /= static_cast<double>(torque_[phase].size()) * 2.0 * std::numbers::pi * k * w;
     return 0.999 * sum + 0.001 * uniform;
   }
 
@@ -116,7 +117,7 @@ double nearest_point(const Axis& axis, double value) {
 TEST(PhaseFilter, IsTheForwardAlgorithmWithKernelDensities) {
   PhaseFilterConfig config;
   config.fit = test::small_phase_fit();
-  config.noise = PhaseNoise{0.4, 2.0};
+  config.noise = PhaseNoise{0.4, 0.0, 2.0};
   const test::PhaseRun run = test::phase_run(2, 11, 25);
   const PhaseModel model = fit_phase_model(std::vector{run.view()}, 1000.0, config.fit);
   ASSERT_GT(model.seconds[index(Phase::right_only)], 0.04);
@@ -124,7 +125,7 @@ TEST(PhaseFilter, IsTheForwardAlgorithmWithKernelDensities) {
   DirectForward direct(run, config, *config.noise);
 
   test::PhaseRun heard = test::phase_run(1, 12, 25, 0.4);
-  const PhaseTorqueDensity& grid = model.torque[1];
+  const PhaseTorqueDensity& grid = model.torque[2];
   for (std::size_t k = 550; k < 1100; ++k) {
     Signals s = heard.signals[k];
     for (int side = 0; side < 2; ++side) {
@@ -148,9 +149,11 @@ TEST(PhaseFilter, IsTheForwardAlgorithmWithKernelDensities) {
   }
 }
 
-TEST(PhaseFilter, InterpolatesCloselyBetweenPointsAndNoiseLevels) {
+class PhaseFilterInNoise : public testing::TestWithParam<PhaseNoise> {};
+
+TEST_P(PhaseFilterInNoise, InterpolatesCloselyBetweenPointsAndNoiseLevels) {
   PhaseFilterConfig config;  // the usual grids and levels
-  config.noise = PhaseNoise{0.3, 1.5};
+  config.noise = GetParam();
   const test::PhaseRun run = test::phase_run(2, 11);
   const PhaseModel model = fit_phase_model(std::vector{run.view()}, 1000.0, config.fit);
   PhaseFilter filter(model, config);
@@ -164,6 +167,32 @@ TEST(PhaseFilter, InterpolatesCloselyBetweenPointsAndNoiseLevels) {
   }
   EXPECT_LT(difference / 550.0, 2e-3);
 }
+INSTANTIATE_TEST_SUITE_P(KneeAndWheel, PhaseFilterInNoise,
+                         testing::Values(PhaseNoise{0.3, 0.3, 1.5}, PhaseNoise{0.3, 0.06, 1.5},
+                                         PhaseNoise{0.1, 0.6, 1.5}, PhaseNoise{0.0, 2.5, 0.0}));
+
+/// Noise on one channel only must not make the filter deaf to the other, nor believe the noisy one.
+TEST(PhaseFilter, TellsNoiseOfTheKneesFromNoiseOfTheWheels) {
+  const test::PhaseRun run = test::phase_run(4, 21);
+  PhaseFilter filter(fit_phase_model(std::vector{test::phase_run(4, 7, 6).view()}, 1000.0, {}));
+  for (const bool noisy_knee : {false, true}) {
+    filter.reset();
+    test::Normal normal(5);
+    int wrong = 0;
+    for (std::size_t k = 0; k < 4000; ++k) {
+      Signals s = run.signals[k];
+      for (LegSignals& leg : s.leg) {
+        (noisy_knee ? leg.knee : leg.wheel).torque += 4.0 * normal();
+      }
+      const Belief& belief = filter.update(s);
+      if (k >= 300) wrong += belief.wheel[0].contact != (run.contact[0][k] != 0) ? 1 : 0;
+    }
+    EXPECT_LT(wrong, 40);
+    const PhaseNoise noise = filter.noise();
+    EXPECT_NEAR(noisy_knee ? noise.knee_torque : noise.wheel_torque, 4.0, 0.5);
+    EXPECT_LT(noisy_knee ? noise.wheel_torque : noise.knee_torque, 0.05);
+  }
+}
 
 TEST(PhaseFilter, FindsFlightsThroughNoiseItWasNotToldAbout) {
   const PhaseModel model = test::small_phase_model();
@@ -175,7 +204,8 @@ TEST(PhaseFilter, FindsFlightsThroughNoiseItWasNotToldAbout) {
     if (k >= 300) wrong += belief.wheel[0].contact != (run.contact[0][k] != 0) ? 1 : 0;
   }
   EXPECT_LT(wrong, 60);
-  EXPECT_NEAR(filter.noise().torque, 0.32, 0.08);
+  EXPECT_NEAR(filter.noise().knee_torque, 0.32, 0.08);
+  EXPECT_NEAR(filter.noise().wheel_torque, 0.32, 0.08);
   EXPECT_NEAR(filter.noise().acceleration, 0.6, 0.2);
 }
 
@@ -317,9 +347,10 @@ TEST(PhaseFilter, RefusesNonsense) {
   EXPECT_THROW(PhaseFilter(model, with([](auto& c) { c.torque_exponent = -1.0; })), InputError);
   EXPECT_THROW(PhaseFilter(model, with([](auto& c) { c.leave_below = 0.9; })), InputError);
   EXPECT_THROW(PhaseFilter(model, with([](auto& c) { c.noise_gain = 0.0; })), InputError);
-  EXPECT_THROW(PhaseFilter(model, with([](auto& c) { c.noise_floor.torque = 0.0; })), InputError);
+  EXPECT_THROW(PhaseFilter(model, with([](auto& c) { c.noise_floor.knee_torque = 0.0; })),
+               InputError);
   EXPECT_THROW(PhaseFilter(model, with([](auto& c) {
-                             c.noise = PhaseNoise{-1.0, 0.0};
+                             c.noise = PhaseNoise{0.0, -1.0, 0.0};
                            })),
                InputError);
   PhaseModel empty;

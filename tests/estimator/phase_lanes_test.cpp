@@ -79,7 +79,7 @@ TEST(PhaseLanes, EqualTheScalarFilterInEveryLane) {
 
 TEST(PhaseLanes, EqualTheScalarFilterThatIsToldTheNoise) {
   PhaseFilterConfig config = small_config();
-  config.noise = PhaseNoise{0.5, 1.0};
+  config.noise = PhaseNoise{0.5, 0.2, 1.0};
   expect_equal_to_scalar_filters(config);
 }
 

@@ -42,17 +42,18 @@ TEST(PhaseTransitions, BecomeProbabilitiesWithPseudoCounts) {
 }
 
 /// (1 − ε) · mean of Gaussians + ε · uniform, summed directly.
-double mixture(const std::vector<TorqueSample>& samples, double knee, double wheel, double h,
-               const PhaseFitConfig& c) {
+double mixture(const std::vector<TorqueSample>& samples, double knee, double wheel,
+               const TorqueSample& h, const PhaseFitConfig& c) {
   double sum = 0.0;
   for (const TorqueSample& s : samples) {
-    const double u = (s.knee - knee) / h;
-    const double v = (s.wheel - wheel) / h;
+    const double u = (s.knee - knee) / h.knee;
+    const double v = (s.wheel - wheel) / h.wheel;
     sum += std::exp(-0.5 * (u * u + v * v));
   }
   const double density =
-      sum / (static_cast<double>(samples.size()) * 2.0 * std::numbers::pi * h * h);
-  const double uniform = 1.0 / (2.0 * (c.knee_range + 4.0 * h) * 2.0 * (c.wheel_range + 4.0 * h));
+      sum / (static_cast<double>(samples.size()) * 2.0 * std::numbers::pi * h.knee * h.wheel);
+  const double uniform =
+      1.0 / (2.0 * (c.knee_range + 4.0 * h.knee) * 2.0 * (c.wheel_range + 4.0 * h.wheel));
   return (1.0 - c.contamination) * density + c.contamination * uniform;
 }
 
@@ -66,9 +67,10 @@ TEST(PhaseDensities, AreTheDirectSumWithNoiseInTheBandwidth) {
       samples.torque[phase].push_back({knee[i], wheel[i]});
     }
   }
-  const PhaseTorqueDensity density = fit_torque_density(samples, 0.4, config);
-  const double h = std::sqrt(0.1 * 0.1 + 0.4 * 0.4);
-  EXPECT_NEAR(density.bandwidth, h, 1e-15);
+  const PhaseTorqueDensity density = fit_torque_density(samples, {0.4, 0.2}, config);
+  const TorqueSample h = {std::sqrt(0.1 * 0.1 + 0.4 * 0.4), std::sqrt(0.1 * 0.1 + 0.2 * 0.2)};
+  EXPECT_NEAR(density.bandwidth.knee, h.knee, 1e-15);
+  EXPECT_NEAR(density.bandwidth.wheel, h.wheel, 1e-15);
   for (const int i : {0, density.wheel.count / 2, density.wheel.count - 1}) {
     for (const int j : {0, density.knee.count / 3, density.knee.count - 1}) {
       for (std::size_t phase = 0; phase < torque_density_count; ++phase) {
@@ -136,6 +138,12 @@ TEST(PhaseModel, IsCheckedBeforeUse) {
   EXPECT_THROW(check_phase_model(model), InputError);
   model = test::small_phase_model();
   model.acceleration[1].log_density[3] = HUGE_VALF;
+  EXPECT_THROW(check_phase_model(model), InputError);
+  model = test::small_phase_model();
+  model.torque.pop_back();
+  EXPECT_THROW(check_phase_model(model), InputError);
+  model = test::small_phase_model();
+  std::swap(model.torque[1], model.torque[2]);
   EXPECT_THROW(check_phase_model(model), InputError);
   model = test::small_phase_model();
   model.torque.clear();

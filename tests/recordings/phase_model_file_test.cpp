@@ -26,11 +26,18 @@ PhaseModel model() {
     m.seconds[i] = 0.5 + static_cast<double>(i);
   }
   for (const double noise : {0.0, 0.5}) {
-    PhaseTorqueDensity torque{noise, std::hypot(0.1, noise), {-2.0, 5.0, 4}, {-1.0, 1.0, 3}, {}};
-    for (int i = 0; i < 4 * 3 * 9; ++i) {
-      torque.log_density.push_back(-0.1F * static_cast<float>(i) - static_cast<float>(noise));
+    for (const double wheel_noise : {0.0, 0.5}) {
+      PhaseTorqueDensity torque{{noise, wheel_noise},
+                                {std::hypot(0.1, noise), std::hypot(0.1, wheel_noise)},
+                                {-2.0, 5.0, 4},
+                                {-1.0, 1.0, 3},
+                                {}};
+      for (int i = 0; i < 4 * 3 * 9; ++i) {
+        torque.log_density.push_back(-0.1F * static_cast<float>(i) -
+                                     static_cast<float>(noise + 3.0 * wheel_noise));
+      }
+      m.torque.push_back(torque);
     }
-    m.torque.push_back(torque);
     PhaseAccelerationDensity acceleration{noise, std::hypot(1.0, noise), {-30.0, 100.0, 5}, {}};
     for (int i = 0; i < 5 * 10; ++i) {
       acceleration.log_density.push_back(-0.3F * static_cast<float>(i));
@@ -49,14 +56,16 @@ TEST(PhaseModelFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(file.model.sample_rate, 500.0);
   EXPECT_EQ(file.model.transition, model().transition);
   EXPECT_EQ(file.model.seconds, model().seconds);
-  ASSERT_EQ(file.model.torque.size(), 2U);
+  ASSERT_EQ(file.model.torque.size(), 4U);
   ASSERT_EQ(file.model.acceleration.size(), 2U);
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(file.model.torque[i].noise, model().torque[i].noise);
     EXPECT_EQ(file.model.torque[i].bandwidth, model().torque[i].bandwidth);
     EXPECT_EQ(file.model.torque[i].knee, model().torque[i].knee);
     EXPECT_EQ(file.model.torque[i].wheel, model().torque[i].wheel);
     EXPECT_EQ(file.model.torque[i].log_density, model().torque[i].log_density);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(file.model.acceleration[i].axis, model().acceleration[i].axis);
     EXPECT_EQ(file.model.acceleration[i].log_density, model().acceleration[i].log_density);
   }
