@@ -19,25 +19,26 @@ enum class Phase : std::uint8_t {
   impact_2,     ///< … 15 to 60 ms ago
   impact_3,     ///< … 60 to 150 ms ago
   held,         ///< neither wheel touches, but the robot does not fall: hung or lifted
+  carried,      ///< both wheels touch, but something else carries most of the robot
   left_only,    ///< only the left wheel touches
   right_only,   ///< only the right wheel touches
 };
 
-inline constexpr std::size_t phase_count = 11;
+inline constexpr std::size_t phase_count = 12;
 
 /// Phases with a torque density of their own. The two single-wheel phases borrow: rolling for the
 /// leg that touches, flight for the other one.
-inline constexpr std::size_t torque_density_count = 9;
+inline constexpr std::size_t torque_density_count = 10;
 
 /// Phases with an acceleration density of their own; the two single-wheel phases share the last.
-inline constexpr std::size_t acceleration_density_count = 10;
+inline constexpr std::size_t acceleration_density_count = 11;
 
 constexpr std::size_t index(Phase phase) noexcept { return static_cast<std::size_t>(phase); }
 
 /// By `Phase`.
 inline constexpr std::array<std::string_view, phase_count> phase_names = {
     "rolling",  "unloading_1", "unloading_2", "unloading_3", "flight",    "impact_1",
-    "impact_2", "impact_3",    "held",        "left_only",   "right_only"};
+    "impact_2", "impact_3",    "held",        "carried",     "left_only", "right_only"};
 
 constexpr bool left_touches(Phase phase) noexcept {
   return phase != Phase::flight && phase != Phase::held && phase != Phase::right_only;

@@ -13,13 +13,13 @@ struct PhaseFitConfig {
   /// How the fitted runs are cut into phases.
   PhaseLabelConfig labels;
   /// Kernel width of the torque densities before sensor noise (N·m).
-  double torque_bandwidth = 0.1;
+  double torque_bandwidth = 0.15;
   /// Kernel width of the acceleration densities before sensor noise (m/s²).
   double acceleration_bandwidth = 1.0;
   /// Sensor noise for which densities are prepared, increasing (N·m and m/s²). Torque densities are
   /// prepared for each of them at the knee with each at the wheel. Between them the filter
   /// interpolates.
-  std::vector<double> torque_noise = {0.0, 0.17, 0.39, 0.8, 1.6, 3.2, 6.4};
+  std::vector<double> torque_noise = {0.0, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4};
   std::vector<double> acceleration_noise = {0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
   /// Distance of the grids' points in total bandwidths.
   double grid_step = 1.0 / 3.0;
@@ -61,8 +61,8 @@ struct PhaseFilterConfig {
   double torque_exponent = 0.5;
   double acceleration_exponent = 0.5;
   /// A wheel leaves contact when P(contact) falls below this, and returns above that.
-  double leave_below = 0.2;
-  double return_above = 0.8;
+  double leave_below = 0.25;
+  double return_above = 0.75;
   /// The sensor noise, if it is known; otherwise it is estimated while running.
   std::optional<PhaseNoise> noise;
   /// The estimated noise is never taken for smaller than this.

@@ -62,7 +62,12 @@ class Collector {
     }
     std::vector<std::uint8_t> held;
     if (run.may_be_held) held = held_steps(run.signals, sample_rate_, labels_);
-    const std::vector<Phase> phases = label_phases(run.contact, held, sample_rate_, labels_);
+    std::vector<std::uint8_t> carried;
+    if (run.may_be_held && !run.normal_force[0].empty()) {
+      carried = carried_steps(run.normal_force, held, sample_rate_, labels_);
+    }
+    const std::vector<Phase> phases =
+        label_phases(run.contact, held, sample_rate_, labels_, carried);
     const std::size_t skip = std::min(run.skip, steps);
     const PhaseTransition counts = count_transitions(std::span(phases).subspan(skip));
     for (std::size_t i = 0; i < phase_count; ++i) {

@@ -75,10 +75,11 @@ void check_phase_labels(const PhaseLabelConfig& config) {
   if (!(i[0] >= 0.0 && i[0] <= i[1] && i[1] <= i[2] && std::isfinite(i[2]))) {
     throw InputError("phase labels: impact times must increase and not be negative (s)");
   }
-  if (!(config.shortest_flight >= 0.0 && config.held_low_pass >= 0.0 &&
-        config.held_margin >= 0.0)) {
+  if (!(config.shortest_flight >= 0.0 && config.held_low_pass >= 0.0 && config.held_margin >= 0.0 &&
+        config.carried_load >= 0.0 && config.carried_low_pass >= 0.0)) {
     throw InputError(
-        "phase labels: shortest_flight, held_low_pass and held_margin must not be negative");
+        "phase labels: shortest_flight, held_low_pass, held_margin, carried_load and "
+        "carried_low_pass must not be negative");
   }
 }
 
@@ -95,13 +96,33 @@ std::vector<std::uint8_t> held_steps(std::span<const Signals> signals, double sa
   return held;
 }
 
+std::vector<std::uint8_t> carried_steps(const std::array<std::span<const double>, 2>& normal_force,
+                                        std::span<const std::uint8_t> held, double sample_rate,
+                                        const PhaseLabelConfig& config) {
+  const std::size_t steps = held.size();
+  if (normal_force[0].size() != steps || normal_force[1].size() != steps) {
+    throw InputError("phase labels: normal forces and `held` must be equally long");
+  }
+  const double gain = low_pass_gain(config.carried_low_pass, 1.0 / sample_rate);
+  std::vector<std::uint8_t> carried(steps);
+  double filtered = steps == 0 ? 0.0 : normal_force[0][0] + normal_force[1][0];
+  for (std::size_t k = 0; k < steps; ++k) {
+    filtered += gain * (normal_force[0][k] + normal_force[1][k] - filtered);
+    carried[k] = held[k] != 0 && filtered < config.carried_load ? 1 : 0;
+  }
+  return carried;
+}
+
 std::vector<Phase> label_phases(const std::array<WheelContact, 2>& contact,
                                 std::span<const std::uint8_t> held, double sample_rate,
-                                const PhaseLabelConfig& config) {
+                                const PhaseLabelConfig& config,
+                                std::span<const std::uint8_t> carried) {
   check_phase_labels(config);
   const std::size_t steps = contact[0].size();
-  if (contact[1].size() != steps || !(held.empty() || held.size() == steps)) {
-    throw InputError("phase labels: contact of both wheels and `held` must be equally long");
+  if (contact[1].size() != steps || !(held.empty() || held.size() == steps) ||
+      !(carried.empty() || carried.size() == steps)) {
+    throw InputError(
+        "phase labels: contact of both wheels, `held` and `carried` must be equally long");
   }
   const auto shortest =
       static_cast<std::size_t>(std::llround(config.shortest_flight * sample_rate));
@@ -117,7 +138,9 @@ std::vector<Phase> label_phases(const std::array<WheelContact, 2>& contact,
   std::vector<Phase> phases(steps);
   for (std::size_t k = 0; k < steps; ++k) {
     if (left[k] != 0 && right[k] != 0) {
-      phases[k] = phase_on_the_ground(after[k], before[k], sample_rate, config);
+      phases[k] = !carried.empty() && carried[k] != 0
+                      ? Phase::carried
+                      : phase_on_the_ground(after[k], before[k], sample_rate, config);
     } else if (left[k] != 0) {
       phases[k] = Phase::left_only;
     } else if (right[k] != 0) {

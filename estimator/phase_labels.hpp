@@ -23,6 +23,11 @@ struct PhaseLabelConfig {
   double held_margin = 3.0;
   /// … with this time constant of the low-pass (s).
   double held_low_pass = 0.05;
+  /// A robot that does not fall is carried, though its wheels touch, while they push with less than
+  /// this together (N, low-passed): less than most of Upkie's weight of 52 N …
+  double carried_load = 40.0;
+  /// … with this time constant of the low-pass (s).
+  double carried_low_pass = 0.02;
 
   bool operator==(const PhaseLabelConfig&) const = default;
 };
@@ -39,11 +44,20 @@ using WheelContact = std::span<const std::uint8_t>;
 std::vector<std::uint8_t> held_steps(std::span<const Signals> signals, double sample_rate,
                                      const PhaseLabelConfig& config);
 
+/// At which steps of such a run the robot is carried (1), from the normal force of both wheels (N)
+/// and what `held_steps` says. Meaningful only where both wheels touch. Throws InputError for
+/// sequences of different lengths.
+std::vector<std::uint8_t> carried_steps(const std::array<std::span<const double>, 2>& normal_force,
+                                        std::span<const std::uint8_t> held, double sample_rate,
+                                        const PhaseLabelConfig& config);
+
 /// The phase of every step from the truth about both wheels. Between a landing and a takeoff that
-/// are close together, the nearer one decides (the takeoff, at the same distance). `held` may be
-/// empty: nothing ever holds the robot. Throws InputError for sequences of different lengths.
+/// are close together, the nearer one decides (the takeoff, at the same distance). `held` and
+/// `carried` may be empty: nothing ever holds the robot, nothing ever carries it. Throws InputError
+/// for sequences of different lengths.
 std::vector<Phase> label_phases(const std::array<WheelContact, 2>& contact,
                                 std::span<const std::uint8_t> held, double sample_rate,
-                                const PhaseLabelConfig& config);
+                                const PhaseLabelConfig& config,
+                                std::span<const std::uint8_t> carried = {});
 
 }  // namespace touchdown

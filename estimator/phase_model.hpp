@@ -58,7 +58,9 @@ struct PhaseFitRun {
   std::span<const Signals> signals;     ///< one per step, free of sensor noise
   std::array<WheelContact, 2> contact;  ///< left, right wheel
   bool may_be_held = false;             ///< something besides the ground may carry the robot
-  std::size_t skip = 0;                 ///< steps at the beginning that are not used
+  /// Of each wheel (N); where it is not known, nobody is labelled carried.
+  std::array<std::span<const double>, 2> normal_force;
+  std::size_t skip = 0;  ///< steps at the beginning that are not used
 };
 
 /// How often phase j followed phase i. Every transition is counted with its mirror image, so that

@@ -43,7 +43,7 @@ class PhaseRecursion {
         static_cast<double>(left[touching] + right[free] + single);
     log_likelihood[index(Phase::right_only)] =
         static_cast<double>(left[free] + right[touching] + single);
-    log_likelihood[phase_count] = impossible;
+    for (std::size_t k = phase_count; k < phase_lanes; ++k) log_likelihood[k] = impossible;
     return log_likelihood;
   }
 

@@ -12,6 +12,12 @@ HeardRun hear(const Recording& recording, const LabelConfig& labels, const Scori
   HeardRun run;
   run.info = recording.info;
   run.contact = contact_labels(recording, labels);
+  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+    run.normal_force[wheel].reserve(recording.steps());
+    for (const GroundTruth& truth : recording.truth) {
+      run.normal_force[wheel].push_back(truth.wheel_normal_force[wheel]);
+    }
+  }
   run.pieces = {0};
   if (unit == SampleUnit::drop) {
     run.pieces =

@@ -22,7 +22,8 @@ struct HeardRun {
   std::vector<Signals> signals;                      ///< noiseless
   std::vector<Eigen::Vector3d> up_in_imu;            ///< the world's vertical in the IMU frame
   std::array<ContactSequence, wheel_count> contact;  ///< labels
-  std::vector<std::size_t> pieces;                   ///< first steps of the statistical samples
+  std::array<std::vector<double>, wheel_count> normal_force;  ///< truth, per wheel (N)
+  std::vector<std::size_t> pieces;  ///< first steps of the statistical samples
 
   std::size_t steps() const { return signals.size(); }
 };

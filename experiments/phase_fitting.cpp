@@ -47,6 +47,7 @@ PhaseModel fit_phases(std::span<const HeardRun* const> runs, const PhaseFitConfi
     pieces.push_back({run->signals,
                       {WheelContact(run->contact[0]), WheelContact(run->contact[1])},
                       may_be_held(run->info),
+                      {run->normal_force[0], run->normal_force[1]},
                       skipped_steps(*run, skip)});
   }
   return fit_phase_model(pieces, 1.0 / period_of(*runs.front()), config);

@@ -52,6 +52,19 @@ void print_cells(const Fitted& own, const Runs& runs) {
   }
 }
 
+/// Noise on the knees or on the wheels alone.
+void print_knees_and_wheels(const Fitted& own, const Runs& runs) {
+  fmt::print("\n\nTorque noise (knee, wheel):");
+  for (const NoiseLevels& noise : {NoiseLevels{.knee_torque = 4.0, .wheel_torque = 0.0},
+                                   NoiseLevels{.knee_torque = 0.0, .wheel_torque = 4.0}}) {
+    fmt::print("\n  ({}, {}):", noise.knee_torque, noise.wheel_torque);
+    for (const char* name : compared) {
+      fmt::print(" {} {:.4f}", name, success(sum(score_runs(own.make.at(name), runs, noise))));
+    }
+  }
+  fmt::print("\n");
+}
+
 void print_scenes(const Fitted& own, const std::string& engine, std::uint64_t seed) {
   for (const char* scene : {"hang", "lift", "roam"}) {
     const Runs runs = play_all(scene, engine, seed, 0, test_runs);
@@ -59,9 +72,11 @@ void print_scenes(const Fitted& own, const std::string& engine, std::uint64_t se
     for (const char* name : compared) {
       fmt::print("\n  {}:", name);
       for (std::size_t i = 0; i < study_torques.size(); ++i) {
-        const RunScore all = sum(
-            score_runs(own.make.at(name), runs, levels(study_torques[i], study_accelerations[i])));
-        fmt::print(" {:.4f} ({:.2f} false takeoffs/min)", success(all),
+        const auto scores =
+            score_runs(own.make.at(name), runs, levels(study_torques[i], study_accelerations[i]));
+        const RunScore all = sum(scores);
+        fmt::print("\n    {} (without light contact {:.4f}, {:.2f} false takeoffs/min)",
+                   success_with_bounds(scores), all.but_light.success(),
                    static_cast<double>(all.takeoff.false_alarms) / (2.0 * all.seconds / 60.0));
       }
     }
@@ -94,7 +109,7 @@ void print_disturbed(const Fitted& own, const Runs& runs) {
 
 void print_learning_curve(const std::string& engine, const Runs& runs) {
   fmt::print("\n\nLearning curve (grid mean):");
-  for (const int n : {1, 2, 8}) {
+  for (const int n : {3, 6, 12, 48}) {
     const Fitted part = fit_on(engine, n, 1e9);
     fmt::print(" {:.0f} s {:.4f};", part.seconds,
                grid_mean(score_grid(part.make.at("phase"), runs)));
@@ -106,7 +121,7 @@ void study(std::uint64_t seed) {
   std::map<std::string, Fitted> fitted;
   std::map<std::string, Runs> stairs;
   for (const std::string engine : {"mujoco", "bullet"}) {
-    fitted[engine] = fit_on(engine, 4, 60.0);
+    fitted[engine] = fit_on(engine, 24, 60.0);
     stairs[engine] = play_all("stairs", engine, seed, 0, test_runs);
   }
   fmt::print("# Phase filter, test runs of seed {}\n", seed);
@@ -118,6 +133,7 @@ void study(std::uint64_t seed) {
                own.seconds, runs.size(), study_noise_seeds);
     print_grids(own, fitted[other], other, runs);
     print_cells(own, runs);
+    print_knees_and_wheels(own, runs);
     print_scenes(own, engine, seed);
     print_disturbed(own, runs);
     print_learning_curve(engine, runs);

@@ -18,8 +18,9 @@ struct Fitted {
   double seconds = 0.0;
 };
 
-/// Fits every estimator of the study to so many stairs runs of an engine, some hanging and some
-/// lifting; the network comes as it is shipped. Errors: `Error` for more than `most_seconds`.
+/// Fits the phase filter to 1.9 s of each of so many stairs runs of an engine, 5 s of hanging and
+/// 7 s of lifting, and the others to four whole stairs runs; the network comes as it is shipped.
+/// Errors: `Error` for more than `most_seconds`.
 Fitted fit_on(const std::string& engine, int stairs_runs, double most_seconds);
 
 }  // namespace touchdown

@@ -63,8 +63,12 @@ RunScore judge(const HeardRun& run, const Prediction& prediction) {
     result.landing += counts.landing;
     result.calibration += counts.calibration;
     const std::vector<bool> near = near_events(truth);
+    constexpr double light = 10.0;
     for (std::size_t k = 300; k < truth.size(); ++k) {
-      if (!near[k]) result.away_from_events.add(truth[k] != 0, prediction[w].contact[k] != 0);
+      const bool touches = truth[k] != 0;
+      const bool predicted = prediction[w].contact[k] != 0;
+      if (!near[k]) result.away_from_events.add(touches, predicted);
+      if (!touches || run.normal_force[w][k] >= light) result.but_light.add(touches, predicted);
     }
     for (const JudgedTransition& judged :
          judge_transitions(truth, prediction[w].contact, 1e-3, scoring)) {

@@ -26,6 +26,7 @@ struct Disturbance {
 struct RunScore {
   Classification points;
   Classification away_from_events;  ///< without ±20 ms of takeoffs and ±5 ms of landings
+  Classification but_light;         ///< without contact of less than 10 N
   TransitionCounts takeoff;
   TransitionCounts landing;
   Calibration calibration;
@@ -35,6 +36,7 @@ struct RunScore {
   RunScore& operator+=(const RunScore& o) {
     points += o.points;
     away_from_events += o.away_from_events;
+    but_light += o.but_light;
     takeoff += o.takeoff;
     landing += o.landing;
     calibration += o.calibration;

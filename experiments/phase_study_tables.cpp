@@ -95,6 +95,10 @@ void print_details(const std::string& name, double torque, double acceleration,
       1e3 * all.landing.latency_deviation(), all.calibration.brier());
 }
 
+std::string success_with_bounds(const std::vector<RunScore>& scores) {
+  return with_bounds(scores, success);
+}
+
 std::string difference(const std::vector<RunScore>& first, const std::vector<RunScore>& second) {
   std::vector<Paired<RunScore>> pairs;
   for (std::size_t i = 0; i < first.size(); ++i) pairs.push_back({first[i], second[i]});

@@ -27,6 +27,9 @@ void print_details_header();
 void print_details(const std::string& name, double torque, double acceleration,
                    const std::vector<RunScore>& scores);
 
+/// Success with its interval over runs.
+std::string success_with_bounds(const std::vector<RunScore>& scores);
+
 /// Success of the first less that of the second, paired by run, with its interval.
 std::string difference(const std::vector<RunScore>& first, const std::vector<RunScore>& second);
 

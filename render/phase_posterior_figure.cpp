@@ -33,6 +33,7 @@ constexpr std::array<PhaseStyle, phase_count> styles = {{
     {"impact, 15–60 ms", "#2fa884"},
     {"impact, 60–150 ms", "#b5dfd0"},
     {"held", "#cc79a7"},
+    {"carried", "#ead0de"},
     {"left wheel only", "#56b4e9"},
     {"right wheel only", "#a9d8f3"},
 }};

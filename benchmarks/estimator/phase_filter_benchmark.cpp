@@ -19,7 +19,7 @@ const PhaseModel& phase_model() {
     const std::vector<Signals> stream = bench::signals(30'000);
     std::vector<std::uint8_t> contact;
     for (const Signals& s : stream) contact.push_back(std::fmod(s.time, 1.0) > 0.8 ? 0 : 1);
-    const std::vector<PhaseFitRun> runs = {{stream, {contact, contact}, false, 0}};
+    const std::vector<PhaseFitRun> runs = {{stream, {contact, contact}, false, {}, 0}};
     return fit_phase_model(runs, 1000.0, {});
   }();
   return model;

@@ -22,8 +22,8 @@ class DirectForward {
     const auto phases =
         label_phases({WheelContact(run.contact[0]), WheelContact(run.contact[1])},
                      held_steps(run.signals, 1000.0, config.fit.labels), 1000.0, config.fit.labels);
-    double count[11][11] = {};
-    const auto mirror = [](int i) { return i == 9 ? 10 : (i == 10 ? 9 : i); };
+    double count[12][12] = {};
+    const auto mirror = [](int i) { return i == 10 ? 11 : (i == 11 ? 10 : i); };
     for (std::size_t k = 0; k < phases.size(); ++k) {
       const int j = static_cast<int>(phases[k]);
       if (k > 0) {
@@ -32,35 +32,35 @@ class DirectForward {
         count[mirror(i)][mirror(j)] += 0.5;
       }
       const Signals& s = run.signals[k];
-      acceleration_[std::min(j, 9)].push_back(s.vertical_acceleration);
-      if (j < 9) {
+      acceleration_[std::min(j, 10)].push_back(s.vertical_acceleration);
+      if (j < 10) {
         torque_[j].push_back({s.leg[0].knee.torque, s.leg[0].wheel.torque});
         torque_[j].push_back({-s.leg[1].knee.torque, -s.leg[1].wheel.torque});
       }
     }
-    for (int i = 0; i < 11; ++i) {
+    for (int i = 0; i < 12; ++i) {
       double sum = 0.0;
-      for (int j = 0; j < 11; ++j) sum += count[i][j] + config.fit.pseudo_count;
-      for (int j = 0; j < 11; ++j) a_[i][j] = (count[i][j] + config.fit.pseudo_count) / sum;
+      for (int j = 0; j < 12; ++j) sum += count[i][j] + config.fit.pseudo_count;
+      for (int j = 0; j < 12; ++j) a_[i][j] = (count[i][j] + config.fit.pseudo_count) / sum;
     }
-    alpha_ = {0.5, 0, 0, 0, 0.25, 0, 0, 0, 0.25, 0, 0};
+    alpha_ = {0.5, 0, 0, 0, 0.25, 0, 0, 0, 0.25, 0, 0, 0};
   }
 
   void update(const Signals& s) {
     const double knee[2] = {s.leg[0].knee.torque, -s.leg[1].knee.torque};
     const double wheel[2] = {s.leg[0].wheel.torque, -s.leg[1].wheel.torque};
-    std::array<double, 11> next{};
+    std::array<double, 12> next{};
     double sum = 0.0;
-    for (int j = 0; j < 11; ++j) {
-      const int left = j == 9 ? 0 : (j == 10 ? 4 : j);
-      const int right = j == 9 ? 4 : (j == 10 ? 0 : j);
-      for (int i = 0; i < 11; ++i) {
+    for (int j = 0; j < 12; ++j) {
+      const int left = j == 10 ? 0 : (j == 11 ? 4 : j);
+      const int right = j == 10 ? 4 : (j == 11 ? 0 : j);
+      for (int i = 0; i < 12; ++i) {
         next[static_cast<std::size_t>(j)] += alpha_[static_cast<std::size_t>(i)] * a_[i][j];
       }
       next[static_cast<std::size_t>(j)] *=
           std::pow(torque_density(left, knee[0], wheel[0]), config_.torque_exponent) *
           std::pow(torque_density(right, knee[1], wheel[1]), config_.torque_exponent) *
-          std::pow(acceleration_density(std::min(j, 9), s.vertical_acceleration),
+          std::pow(acceleration_density(std::min(j, 10), s.vertical_acceleration),
                    config_.acceleration_exponent);
       sum += next[static_cast<std::size_t>(j)];
     }
@@ -68,7 +68,7 @@ class DirectForward {
     alpha_ = next;
   }
 
-  [[nodiscard]] const std::array<double, 11>& alpha() const { return alpha_; }
+  [[nodiscard]] const std::array<double, 12>& alpha() const { return alpha_; }
 
  private:
   double torque_density(int phase, double knee, double wheel) const {
@@ -101,10 +101,10 @@ class DirectForward {
 
   PhaseFilterConfig config_;
   PhaseNoise noise_;
-  std::vector<TorqueSample> torque_[9];
-  std::vector<double> acceleration_[10];
-  double a_[11][11] = {};
-  std::array<double, 11> alpha_{};
+  std::vector<TorqueSample> torque_[10];
+  std::vector<double> acceleration_[11];
+  double a_[12][12] = {};
+  std::array<double, 12> alpha_{};
 };
 
 double nearest_point(const Axis& axis, double value) {
@@ -142,10 +142,10 @@ TEST(PhaseFilter, IsTheForwardAlgorithmWithKernelDensities) {
       ASSERT_NEAR(phases[i], direct.alpha()[i], 1e-4) << "step " << k << " " << phase_names[i];
     }
     const auto& a = direct.alpha();
-    ASSERT_NEAR(belief.wheel[0].p_contact, 1.0 - a[4] - a[8] - a[10], 1e-4);
-    ASSERT_NEAR(belief.wheel[1].p_contact, 1.0 - a[4] - a[8] - a[9], 1e-4);
+    ASSERT_NEAR(belief.wheel[0].p_contact, 1.0 - a[4] - a[8] - a[11], 1e-4);
+    ASSERT_NEAR(belief.wheel[1].p_contact, 1.0 - a[4] - a[8] - a[10], 1e-4);
     ASSERT_NEAR(belief.p_any_wheel, 1.0 - a[4] - a[8], 1e-4);
-    ASSERT_NEAR(belief.p_both_wheels, 1.0 - a[4] - a[8] - a[9] - a[10], 1e-4);
+    ASSERT_NEAR(belief.p_both_wheels, 1.0 - a[4] - a[8] - a[10] - a[11], 1e-4);
   }
 }
 
@@ -239,9 +239,9 @@ TEST(PhaseFilter, DecidesWithHysteresis) {
   int between = 0;
   for (const Signals& s : run.signals) {
     const WheelBelief& wheel = filter.update(s).wheel[0];
-    if (wheel.p_contact < 0.2) contact = false;
-    if (wheel.p_contact > 0.8) contact = true;
-    between += wheel.p_contact > 0.2 && wheel.p_contact < 0.8 ? 1 : 0;
+    if (wheel.p_contact < 0.25) contact = false;
+    if (wheel.p_contact > 0.75) contact = true;
+    between += wheel.p_contact > 0.25 && wheel.p_contact < 0.75 ? 1 : 0;
     ASSERT_EQ(wheel.contact, contact);
   }
   EXPECT_GT(between, 10);

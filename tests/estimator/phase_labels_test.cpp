@@ -23,11 +23,12 @@ Contact contact_but(std::size_t steps,
   return contact;
 }
 
-std::vector<Phase> labels(const Contact& left, const Contact& right, const Contact& held = {}) {
+std::vector<Phase> labels(const Contact& left, const Contact& right, const Contact& held = {},
+                          const Contact& carried = {}) {
   PhaseLabelConfig config;
   config.unloading = {0.100, 0.040, 0.015};
   config.impact = {0.015, 0.060, 0.150};
-  return label_phases({WheelContact(left), WheelContact(right)}, held, 1000.0, config);
+  return label_phases({WheelContact(left), WheelContact(right)}, held, 1000.0, config, carried);
 }
 
 TEST(PhaseLabels, FollowTheClockAroundAFlight) {
@@ -100,10 +101,36 @@ TEST(PhaseLabels, HeldIsFarFromFreeFall) {
   EXPECT_EQ(held[999], 1);
 }
 
+TEST(PhaseLabels, CallItCarriedWhereWheelsTouchLightlyWithoutFalling) {
+  // A hand takes the weight off both wheels at step 100, and off the ground at step 200.
+  const Contact both = contact_but(400, {{200, 300}});
+  Contact held(400, 1);
+  std::fill(held.begin() + 300, held.end(), std::uint8_t{0});
+  std::vector<double> left(400, 26.0);
+  std::fill(left.begin() + 100, left.end(), 3.0);
+  const std::vector<double> right = left;
+  const Contact carried = carried_steps({left, right}, held, 1000.0, {});
+  // 52 N fall towards 6 N by a twentieth per step: 6 + 46·0.95^n < 40 first at n = 6.
+  EXPECT_EQ(carried[104], 0);
+  EXPECT_EQ(carried[105], 1);
+  EXPECT_EQ(carried[299], 1);
+  EXPECT_EQ(carried[300], 0);  // light wheels of a falling robot are not carried
+  const std::vector<Phase> phases = labels(both, both, held, carried);
+  EXPECT_EQ(phases[104], Phase::unloading_1);
+  EXPECT_EQ(phases[105], Phase::carried);
+  EXPECT_EQ(phases[199], Phase::carried);
+  EXPECT_EQ(phases[200], Phase::held);
+  EXPECT_EQ(phases[300], Phase::impact_1);
+}
+
 TEST(PhaseLabels, TakeEmptyRunsAndRefuseUnequalOnes) {
   EXPECT_TRUE(labels({}, {}).empty());
   EXPECT_THROW(labels(Contact(3, 1), Contact(4, 1)), InputError);
   EXPECT_THROW(labels(Contact(3, 1), Contact(3, 1), Contact(2, 0)), InputError);
+  EXPECT_THROW(labels(Contact(3, 1), Contact(3, 1), Contact(3, 0), Contact(4, 0)), InputError);
+  EXPECT_TRUE(carried_steps({}, {}, 1000.0, {}).empty());
+  const std::vector<double> force(2, 1.0);
+  EXPECT_THROW(carried_steps({force, force}, Contact(3, 1), 1000.0, {}), InputError);
   PhaseLabelConfig config;
   config.unloading = {0.01, 0.02, 0.03};
   EXPECT_THROW(check_phase_labels(config), InputError);

@@ -35,10 +35,10 @@ TEST(PhaseTransitions, BecomeProbabilitiesWithPseudoCounts) {
   counts[0][0] = 97.8;
   counts[0][4] = 10.0;
   const PhaseTransition p = transition_probabilities(counts, 0.2);
-  EXPECT_NEAR(p[0][0], 98.0 / 110.0, 1e-15);  // 97.8 + 10 + 11 · 0.2 = 110
-  EXPECT_NEAR(p[0][4], 10.2 / 110.0, 1e-15);
-  EXPECT_NEAR(p[0][1], 0.2 / 110.0, 1e-15);
-  EXPECT_NEAR(p[3][7], 1.0 / 11.0, 1e-15);  // never seen: anything may follow
+  EXPECT_NEAR(p[0][0], 98.0 / 110.2, 1e-15);  // 97.8 + 10 + 12 · 0.2 = 110.2
+  EXPECT_NEAR(p[0][4], 10.2 / 110.2, 1e-15);
+  EXPECT_NEAR(p[0][1], 0.2 / 110.2, 1e-15);
+  EXPECT_NEAR(p[3][7], 1.0 / 12.0, 1e-15);  // never seen: anything may follow
 }
 
 /// (1 − ε) · mean of Gaussians + ε · uniform, summed directly.
@@ -68,7 +68,8 @@ TEST(PhaseDensities, AreTheDirectSumWithNoiseInTheBandwidth) {
     }
   }
   const PhaseTorqueDensity density = fit_torque_density(samples, {0.4, 0.2}, config);
-  const TorqueSample h = {std::sqrt(0.1 * 0.1 + 0.4 * 0.4), std::sqrt(0.1 * 0.1 + 0.2 * 0.2)};
+  const double own = config.torque_bandwidth;
+  const TorqueSample h = {std::sqrt(own * own + 0.4 * 0.4), std::sqrt(own * own + 0.2 * 0.2)};
   EXPECT_NEAR(density.bandwidth.knee, h.knee, 1e-15);
   EXPECT_NEAR(density.bandwidth.wheel, h.wheel, 1e-15);
   for (const int i : {0, density.wheel.count / 2, density.wheel.count - 1}) {
@@ -105,6 +106,24 @@ TEST(PhaseModel, FitsItsOwnLabels) {
   EXPECT_NEAR(model.seconds[index(Phase::impact_2)], 3 * 0.045 + 0.035, 1e-9);
   EXPECT_GT(model.seconds[index(Phase::held)], 0.45);
   EXPECT_GT(model.transition[index(Phase::flight)][index(Phase::impact_1)], 0.004);
+}
+
+TEST(PhaseModel, LearnsBeingCarriedOnlyWhereForcesAreKnown) {
+  const test::PhaseRun run = test::phase_run(2, 1);
+  EXPECT_EQ(fit_phase_model(std::vector{run.view()}, 1000.0, test::small_phase_fit())
+                .seconds[index(Phase::carried)],
+            0.0);
+  // Light wheels on the ground for the first 0.4 s.
+  std::vector<double> force(run.signals.size(), 26.0);
+  std::fill(force.begin(), force.begin() + 400, 5.0);
+  PhaseFitRun view = run.view();
+  view.normal_force = {force, force};
+  const PhaseModel model = fit_phase_model(std::vector{view}, 1000.0, test::small_phase_fit());
+  EXPECT_NEAR(model.seconds[index(Phase::carried)], 0.4, 0.03);
+  view.may_be_held = false;
+  EXPECT_EQ(fit_phase_model(std::vector{view}, 1000.0, test::small_phase_fit())
+                .seconds[index(Phase::carried)],
+            0.0);
 }
 
 TEST(PhaseModel, RefusesWhatItCannotLearnFrom) {

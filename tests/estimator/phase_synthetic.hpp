@@ -15,7 +15,7 @@ struct PhaseRun {
   std::array<std::vector<std::uint8_t>, 2> contact;
 
   [[nodiscard]] PhaseFitRun view() const {
-    return {signals, {WheelContact(contact[0]), WheelContact(contact[1])}, true, 0};
+    return {signals, {WheelContact(contact[0]), WheelContact(contact[1])}, true, {}, 0};
   }
 };
 

@@ -32,14 +32,14 @@ PhaseModel model() {
                                 {-2.0, 5.0, 4},
                                 {-1.0, 1.0, 3},
                                 {}};
-      for (int i = 0; i < 4 * 3 * 9; ++i) {
+      for (int i = 0; i < 4 * 3 * static_cast<int>(torque_density_count); ++i) {
         torque.log_density.push_back(-0.1F * static_cast<float>(i) -
                                      static_cast<float>(noise + 3.0 * wheel_noise));
       }
       m.torque.push_back(torque);
     }
     PhaseAccelerationDensity acceleration{noise, std::hypot(1.0, noise), {-30.0, 100.0, 5}, {}};
-    for (int i = 0; i < 5 * 10; ++i) {
+    for (int i = 0; i < 5 * static_cast<int>(acceleration_density_count); ++i) {
       acceleration.log_density.push_back(-0.3F * static_cast<float>(i));
     }
     m.acceleration.push_back(acceleration);
