@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <memory>
+#include <poll.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -24,6 +25,15 @@ struct Descriptor {
   }
 };
 
+/// Waits until there is something to read or `stop` is true. A signal may come right before the
+/// wait begins, so no wait is long.
+void wait_for_bytes(int descriptor, const std::atomic<bool>& stop) {
+  constexpr int milliseconds = 100;
+  pollfd wait{descriptor, POLLIN, 0};
+  while (!stop && ::poll(&wait, 1, milliseconds) == 0) {
+  }
+}
+
 }  // namespace
 
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop) {
@@ -36,6 +46,7 @@ ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool
   const auto descriptor = std::make_shared<Descriptor>(opened);
   return [descriptor, name, stop](std::span<char> buffer) {
     while (true) {
+      if (stop != nullptr) wait_for_bytes(descriptor->number, *stop);
       if (stop != nullptr && *stop) return std::size_t{0};
       const ssize_t size = ::read(descriptor->number, buffer.data(), buffer.size());
       if (size >= 0) return static_cast<std::size_t>(size);

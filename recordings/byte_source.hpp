@@ -12,9 +12,9 @@ namespace touchdown {
 /// returns how many; 0 at the end.
 using ByteSource = std::function<std::size_t(std::span<char>)>;
 
-/// A file, or standard input for "-". A signal that interrupts a wait for bytes ends the stream if
-/// `stop` (which may be null, and must outlive the source) is true by then.
-/// Errors: `InputError` when it cannot be opened or read.
+/// A file, or standard input for "-". The stream ends, within 0.1 s even if it waits for bytes,
+/// once `stop` (which may be null, and must outlive the source) is true. Errors: `InputError` when
+/// it cannot be opened or read.
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop = nullptr);
 
 /// Any stream, which must outlive the source.

@@ -29,6 +29,10 @@ class LogReader {
   explicit LogReader(const std::filesystem::path& path, const std::atomic<bool>* stop = nullptr);
   /// `name` stands in messages. `stream` must outlive the reader.
   LogReader(std::istream& stream, std::string name);
+  LogReader(ByteSource source, std::string name);
+
+  /// The file's, or the one that was given.
+  const std::string& name() const { return name_; }
 
   /// The next row, or nothing at the end of the log.
   std::optional<LogRow> next();
@@ -60,7 +64,6 @@ class LogReader {
     std::string skipped;
   };
 
-  LogReader(ByteSource source, std::string name);
   void read_entry(Entry& entry);
   bool parse_record();
   bool refill();
