@@ -113,7 +113,7 @@ void MixedMagnitudeSpectrum::set_medians(Rows rows, MixedRealBin nyquist,
     }
     if (passed[i] == lanes) {  // in the Nyquist bin
       values[i].median_bin =
-          (window_ / 2 - 1) + (half[i] - total[i]) / std::abs(nyquist.at(sigma[i]));
+          0.5 * window_ - 1.0 + (half[i] - total[i]) / std::abs(nyquist.at(sigma[i]));
       continue;
     }
     const int first = static_cast<int>(passed[i]) * rows;

@@ -47,7 +47,7 @@ double MixedPowerSpectrum::median(Rows rows, const LaneSums& sums, double nyquis
                                   double sigma) const noexcept {
   const double half = 0.5 * (sums.total() + nyquist);
   if (sums.total() < half) {
-    return (window_ / 2 - 1) + (half - sums.total()) / nyquist;
+    return 0.5 * window_ - 1.0 + (half - sums.total()) / nyquist;
   }
   const auto within = [this, sigma](int row, int lane) {
     const double* const parabola = within_lane_.data() + 3 * row * lanes + lane;
