@@ -39,8 +39,9 @@ std::string plot(const DensityRow& row, const std::string& file, std::size_t blo
   const bool empty =
       (value == 3 && peaks.contact == 0.0) || (value == 4 && peaks.no_contact == 0.0);
   if (empty) {
-    return "set label 'all its torques lie\\noutside the model''s axes' at graph 0.5, graph 0.55 "
-           "center textcolor rgb '#40464e'\nplot NaN\n";
+    return fmt::format(
+        "set label {} at graph 0.5, graph 0.55 center textcolor rgb '#40464e'\nplot NaN\n",
+        gnuplot_text("all its torques lie\noutside the model's axes"));
   }
   std::string text = fmt::format("plot {0} index {1} using 1:2:{2} with image", file, block, value);
   if (value == 5) {

@@ -63,8 +63,9 @@ ReliabilityFigure reliability() {
     ReliabilityCurve curve{name, {}, {}};
     const double power = 0.5 + 0.5 * static_cast<double>(figure.panels[0].curves.size());
     for (int i = 0; i < 1000; ++i) {
+      const int draw = i / 100;
       const double p = (i % 100 + 0.5) / 100.0;
-      curve.calibration.add((i / 100 + 0.5) / 10.0 < std::pow(p, power), p);
+      curve.calibration.add((draw + 0.5) / 10.0 < std::pow(p, power), p);
     }
     for (const Calibration::Bin& bin : curve.calibration.bin) {
       const double frequency = bin.contact_frequency();
