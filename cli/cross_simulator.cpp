@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/captions.hpp"
 #include "core/error.hpp"
 #include "experiments/cross_simulator_tables.hpp"
 #include "recordings/recording_file.hpp"
@@ -30,8 +31,10 @@ Figure draw_overlay(const CrossSimulatorResult& result) {
       .drop = overlay.drop,
       .labels = experiment.labels,
       .minimum_flight = experiment.scoring.minimum_flight,
-      .title = fmt::format("{}, run {}, drop {} in both engines", experiment.test.scenarios.front(),
-                           overlay.run, overlay.drop)};
+      .title = fmt::format("One drop in both engines: {}", experiment.test.scenarios.front()),
+      .caption = fmt::format("Test run {}, drop {} (of both wheels), seed {}; left wheel and leg, "
+                             "aligned at takeoff, without noise; {}.",
+                             overlay.run, overlay.drop, experiment.seed, labels_text(experiment))};
   return draw_drop_overlay(recording_of(result, experiment.simulators[0]),
                            recording_of(result, experiment.simulators[1]), what,
                            result.directory.file("figures", "drop_overlay"));

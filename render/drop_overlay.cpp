@@ -6,18 +6,19 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "render/panel_grid.hpp"
+#include "render/report_parts.hpp"
 
 namespace touchdown {
 
 namespace {
 
-/// The step of the drop's takeoff.
-std::size_t takeoff_of(const Recording& recording, const DropOverlay& what) {
+Flight flight_of(const Recording& recording, const DropOverlay& what) {
   int found = 0;
   for (const Flight& flight : flights(any_wheel(contact_labels(recording, what.labels)))) {
     const auto length = static_cast<double>(flight.landing - flight.takeoff);
     if (flight.takeoff == 0 || length * recording.period() < what.minimum_flight) continue;
-    if (found++ == what.drop) return flight.takeoff;
+    if (found++ == what.drop) return flight;
   }
   throw InputError(
       fmt::format("overlay.drop: the run in {} has {} drops, counted from 0; none is number {}",
@@ -26,7 +27,7 @@ std::size_t takeoff_of(const Recording& recording, const DropOverlay& what) {
 
 /// Time since takeoff (ms), then what is drawn. Heights count from that at takeoff.
 std::string columns(const Recording& recording, const DropOverlay& what) {
-  const std::size_t takeoff = takeoff_of(recording, what);
+  const std::size_t takeoff = flight_of(recording, what).takeoff;
   const auto steps = [&](double seconds) {
     return static_cast<std::size_t>(std::llround(seconds / recording.period()));
   };
@@ -51,13 +52,26 @@ std::string columns(const Recording& recording, const DropOverlay& what) {
   return text;
 }
 
+/// For people who cannot see it.
+std::string described(const std::array<const Recording*, 2>& recordings, const DropOverlay& what) {
+  std::string text = "Height, normal force, torques and acceleration through one drop.";
+  for (const Recording* recording : recordings) {
+    const Flight flight = flight_of(*recording, what);
+    const auto steps = static_cast<double>(flight.landing - flight.takeoff);
+    text += fmt::format(" {}: {:.0f} ms in the air.", engine_title(recording->info.simulator),
+                        1e3 * steps * recording->period());
+  }
+  return text;
+}
+
 }  // namespace
 
 Figure draw_drop_overlay(const Recording& first, const Recording& second, const DropOverlay& what,
                          const std::filesystem::path& stem) {
-  constexpr std::array<const char*, 5> labels = {"base height (m)", "normal force (N)",
-                                                 "knee torque (N·m)", "wheel torque (N·m)",
-                                                 "vertical acc. (m/s²)"};
+  constexpr std::array<const char*, 5> labels = {"base height\n(m)", "normal force\n(N)",
+                                                 "knee torque\n(N·m)", "wheel torque\n(N·m)",
+                                                 "vertical acc.\n(m/s²)"};
+  constexpr std::array<double, labels.size()> tics = {0.1, 500.0, 5.0, 1.0, 100.0};
   const std::string name = stem.filename().string();
   const std::array<const Recording*, 2> recordings = {&first, &second};
   std::vector<PlotData> data;
@@ -65,26 +79,26 @@ Figure draw_drop_overlay(const Recording& first, const Recording& second, const 
     data.push_back(
         {fmt::format("{}_{}.dat", name, recording->info.simulator), columns(*recording, what)});
   }
-  std::string commands = fmt::format(
-      "set multiplot layout 5,1 title {} font ',11' margins 0.1,0.97,0.07,0.93 spacing 0,0.018\n"
-      "set xrange [{}:{}]\nset arrow 1 from 0,graph 0 to 0,graph 1 nohead back lc rgb '#9aa1a8'\n"
-      "set ytics nomirror autofreq\nset format x ''\nset key top left horizontal\n",
-      gnuplot_text(what.title), -1e3 * what.before, 1e3 * what.after);
+  PanelGrid::Layout layout;
+  layout.row_heights.assign(labels.size(), 124.0);
+  layout.panel_width = 860.0;
+  layout.right = 130.0;
+  const PanelGrid grid(layout, what.title, what.caption);
+  std::string commands =
+      grid.begin(-1e3 * what.before, 1e3 * what.after) +
+      "set arrow 1 from 0,graph 0 to 0,graph 1 nohead back lc rgb '#6b747d' lw 1.2 dt 1\n";
   for (std::size_t panel = 0; panel < labels.size(); ++panel) {
-    if (panel == 1) commands += "unset key\n";
-    if (panel + 1 == labels.size()) {
-      commands += "set format x '%g'\nset xlabel 'time since takeoff (ms), left wheel and leg'\n";
-    }
-    commands += fmt::format("set ylabel {} offset 1,0\nplot ", gnuplot_text(labels[panel]));
+    commands += grid.panel(panel, 0, labels[panel]) + (panel == 0 ? grid.key(0) : "") +
+                fmt::format("set ytics {}\nplot ", tics[panel]);
     for (std::size_t i = 0; i < recordings.size(); ++i) {
       commands += fmt::format("{}{} using 1:{} with lines lt {} title {}", i == 0 ? "" : ", ",
                               gnuplot_text(data[i].name), panel + 2, i + 1,
-                              gnuplot_text(recordings[i]->info.simulator));
+                              gnuplot_text(engine_title(recordings[i]->info.simulator)));
     }
     commands += '\n';
   }
-  commands += "unset multiplot\n";
-  return draw_figure(stem, 900, 1000, commands, data);
+  return draw_figure(stem, grid.width(), grid.height(), commands + grid.end(), data,
+                     {what.title, what.caption, described(recordings, what)});
 }
 
 }  // namespace touchdown

@@ -18,6 +18,7 @@ struct DropOverlay {
   double before = 0.15;          ///< shown before takeoff (s)
   double after = 0.45;           ///< and after it (s)
   std::string title;
+  std::string caption;  ///< which runs, what is contact
 };
 
 /// Draws one drop as both engines played it, aligned at takeoff: height of the base, normal force,
