@@ -74,7 +74,8 @@ void check_levels(const std::vector<PhaseAccelerationDensity>& densities) {
 }  // namespace
 
 std::size_t torque_level_count(std::span<const PhaseTorqueDensity> densities) {
-  const auto n = static_cast<std::size_t>(std::sqrt(static_cast<double>(densities.size())) + 0.5);
+  const auto n =
+      static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(densities.size()))));
   if (densities.empty()) throw InputError("phase model: there is no torque density");
   if (n * n != densities.size()) {
     throw InputError("phase model: " + std::to_string(densities.size()) +
