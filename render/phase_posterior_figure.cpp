@@ -1,7 +1,6 @@
 #include "render/phase_posterior_figure.hpp"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -21,22 +20,37 @@ struct PhaseStyle {
   const char* colour;
 };
 
-/// By `Phase`: grey on the ground, orange towards a takeoff, blue in the air, green after a
-/// landing; darker the nearer the event.
-constexpr std::array<PhaseStyle, phase_count> styles = {{
-    {"rolling", "#d4d7da"},
-    {"unloading, 150–60 ms", "#fde0b0"},
-    {"unloading, 60–20 ms", "#f2ae3d"},
-    {"unloading, 20–0 ms", "#b86b00"},
-    {"flight", "#0a5a9c"},
-    {"impact, 0–15 ms", "#00563f"},
-    {"impact, 15–60 ms", "#2fa884"},
-    {"impact, 60–150 ms", "#b5dfd0"},
-    {"held", "#cc79a7"},
-    {"carried", "#ead0de"},
-    {"left wheel only", "#56b4e9"},
-    {"right wheel only", "#a9d8f3"},
-}};
+/// Grey on the ground, orange towards a takeoff, blue in the air, green after a landing; darker the
+/// nearer the event.
+PhaseStyle style_of(Phase phase) {
+  switch (phase) {
+    case Phase::rolling:
+      return {"rolling", "#d4d7da"};
+    case Phase::unloading_1:
+      return {"unloading, 150–60 ms", "#fde0b0"};
+    case Phase::unloading_2:
+      return {"unloading, 60–20 ms", "#f2ae3d"};
+    case Phase::unloading_3:
+      return {"unloading, 20–0 ms", "#b86b00"};
+    case Phase::flight:
+      return {"flight", "#0a5a9c"};
+    case Phase::impact_1:
+      return {"impact, 0–15 ms", "#00563f"};
+    case Phase::impact_2:
+      return {"impact, 15–60 ms", "#2fa884"};
+    case Phase::impact_3:
+      return {"impact, 60–150 ms", "#b5dfd0"};
+    case Phase::held:
+      return {"held", "#8d3b72"};
+    case Phase::carried:
+      return {"carried", "#dba3c4"};
+    case Phase::left_only:
+      return {"left wheel only", "#56b4e9"};
+    case Phase::right_only:
+      return {"right wheel only", "#a9d8f3"};
+  }
+  return {"", "#000000"};
+}
 
 unsigned colour_number(const char* colour) {
   return static_cast<unsigned>(std::stoul(std::string(colour).substr(1), nullptr, 16));
@@ -78,7 +92,7 @@ std::string truth_text(const DropPosterior& drop) {
          stretches(time, drop.contact[0], 1.1, 1.9, touches) +
          stretches(time, drop.contact[1], 0.1, 0.9, touches) + "\n\n" +
          stretches(time, drop.truth, 0.0, 1.0,
-                   [](Phase phase) { return colour_number(styles[index(phase)].colour); });
+                   [](Phase phase) { return colour_number(style_of(phase).colour); });
 }
 
 std::string boxes(const std::string& file, int block) {
@@ -112,10 +126,11 @@ std::string column_commands(const DropPosterior& drop, const PanelGrid& grid, st
   text += "set ytics 0,0.5,1 scale 0.5\nset grid\nplot ";
   // From the whole downwards, each painted over the ones above: no seams between neighbours.
   for (std::size_t phase = phase_count; phase-- > 0;) {
+    const PhaseStyle style = style_of(static_cast<Phase>(phase));
     text += fmt::format(
         "'{}' using 1:(sum [c=2:{}] column(c)) with filledcurves y1=0 fillcolor rgb "
         "'{}' title '{}'{}",
-        data, phase + 2, styles[phase].colour, styles[phase].title, phase > 0 ? ", " : "\n");
+        data, phase + 2, style.colour, style.title, phase > 0 ? ", " : "\n");
   }
   text += panel(belief, "P(contact)");
   text += fmt::format(
