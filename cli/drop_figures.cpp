@@ -47,8 +47,8 @@ Figure draw_detail(const ExperimentResult& result, const std::string& simulator)
   const FigureText text{
       fmt::format("One drop in detail: {}, {}", experiment.name, engine_title(simulator)),
       fmt::format("{} Left wheel and leg. Spectra, power and median frequency are those of the "
-                  "{:.0f} ms that end at each instant; they and the switch probabilities are the "
-                  "transition model's of {}. Dashed verticals: the left wheel leaves or lands.",
+                  "{:.0f} ms that end at each instant; they and the switch probabilities come from "
+                  "the transition model of {}. Dashed verticals: the left wheel leaves or lands.",
                   which_drop(experiment, config.choice), 1e3 / detail.bin_width,
                   detail.transition_of),
       fmt::format(

@@ -13,10 +13,13 @@ namespace {
 
 std::vector<Phase> true_phases(const HeardRun& run, const PhaseLabelConfig& config) {
   const double rate = 1e6 / static_cast<double>(run.info.control_period_us);
-  std::vector<std::uint8_t> held;
-  if (may_be_held(run.info)) held = held_steps(run.signals, rate, config);
+  std::vector<std::uint8_t> held, carried;
+  if (may_be_held(run.info)) {
+    held = held_steps(run.signals, rate, config);
+    carried = carried_steps({run.normal_force[0], run.normal_force[1]}, held, rate, config);
+  }
   return label_phases({WheelContact(run.contact[0]), WheelContact(run.contact[1])}, held, rate,
-                      config);
+                      config, carried);
 }
 
 }  // namespace

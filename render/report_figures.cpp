@@ -58,7 +58,20 @@ bool is_wide(const fs::path& svg) {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
   if (box == std::string::npos) return false;
   std::istringstream(text.substr(box + 9, 80)) >> left >> top >> width >> height;
-  return width > 1.4 * height;
+  return width > 1.4 * height || width >= 1200.0;
+}
+
+/// Data files that bear the figure's name and more: `<figure>_….dat`.
+std::vector<std::string> more_data_of(const fs::path& figure) {
+  const std::string beginning = figure.stem().string() + "_";
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(figure.parent_path())) {
+    const std::string name = entry.path().filename().string();
+    const bool is_its_own = fs::exists(fs::path(entry.path()).replace_extension(".svg"));
+    if (name.starts_with(beginning) && name.ends_with(".dat") && !is_its_own) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace
@@ -95,6 +108,9 @@ ReportSection figures_section(const ReportSubject& subject) {
       if (!fs::exists(beside, ignored)) continue;
       section.html += fmt::format(" <a href=\"figures/{0}\">{1}</a>",
                                   escaped(beside.filename().string()), kind + 1);
+    }
+    for (const std::string& name : more_data_of(file)) {
+      section.html += fmt::format(" <a href=\"figures/{0}\">{0}</a>", escaped(name));
     }
     section.html += "</figcaption></figure>\n";
   }

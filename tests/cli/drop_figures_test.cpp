@@ -49,6 +49,7 @@ TEST(DropFigures, AreDrawnForBothEnginesWhoeverComputesTheExperiment) {
   const std::string report = read_file(folder.path() / "a/report.html");
   EXPECT_THAT(report, HasSubstr("One drop in detail: tiny, Bullet"));
   EXPECT_THAT(report, HasSubstr("The phase filter through one drop"));
+  EXPECT_THAT(report, HasSubstr("href=\"figures/detail_bullet_spectrum_2.dat\""));
 
   for (const char* shard : {"1/2", "2/2"}) {
     const Ended part = touchdown_program(
