@@ -55,6 +55,8 @@ int run_command_line(int argc, char** argv) {
   add_render(program, session);
   add_report(program, session);
   add_train(program, session);
+  add_fit(program, session);
+  add_estimate(program, session);
   add_list(program, session);
 
   if (argc < 2) {

@@ -22,6 +22,8 @@ void add_simulate(CLI::App& program, Session& session);
 void add_render(CLI::App& program, Session& session);
 void add_report(CLI::App& program, Session& session);
 void add_train(CLI::App& program, Session& session);
+void add_fit(CLI::App& program, Session& session);
+void add_estimate(CLI::App& program, Session& session);
 void add_list(CLI::App& program, Session& session);
 
 }  // namespace touchdown

@@ -1,0 +1,279 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/fitting.hpp"
+#include "experiments/score.hpp"
+#include "program.hpp"
+#include "recordings/model_file.hpp"
+#include "recordings/recording_file.hpp"
+#include "recordings/signals_from.hpp"
+#include "synthetic_log.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+using Lines = std::vector<std::vector<std::string>>;
+
+/// The cells of a CSV without quotes, line by line, after the header.
+Lines lines_of(const std::string& csv) {
+  Lines lines;
+  std::istringstream stream(csv);
+  std::string line;
+  std::getline(stream, line);
+  EXPECT_EQ(line,
+            "time_s,p_contact_left,p_contact_right,contact_left,contact_right,p_any_wheel,"
+            "p_both_wheels,p_takeoff,p_landing,status");
+  while (std::getline(stream, line)) {
+    std::istringstream cells(line);
+    lines.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) lines.back().push_back(cell);
+    EXPECT_EQ(lines.back().size(), 10U) << line;
+  }
+  return lines;
+}
+
+class Estimate : public ::testing::Test {
+ protected:
+  Estimate() {
+    const Recording fitted = test::synthetic_log(3.0);
+    const HeardRun run = hear(fitted, {}, {}, SampleUnit::run);
+    const std::vector<const HeardRun*> heard = {&run};
+    MeasurementConfig config = BayesFilterConfig::robust().measurement;
+    config.fit.knee_count = config.fit.wheel_count = 60;
+    write_measurement_model(fit(heard, config, {}), folder_ / "m.npz");
+  }
+
+  void log(const std::string& name, const Recording& recording) const {
+    write_recording(recording, folder_ / name);
+  }
+
+  std::string estimate(const std::string& arguments) const {
+    const Ended ended = touchdown_program("estimate " + arguments, folder_.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    EXPECT_EQ(ended.errors, "");
+    return ended.output;
+  }
+
+  Lines table(const std::string& name) const { return lines_of(read_file(folder_ / name)); }
+
+  std::string complaint_about(const std::string& arguments) const {
+    const Ended ended = touchdown_program("estimate " + arguments, folder_.path());
+    EXPECT_EQ(ended.exit_code, 2) << ended.errors;
+    EXPECT_EQ(ended.output, "");
+    EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
+    return ended.errors;
+  }
+
+  BayesFilter filter(double rate, int window) const {
+    BayesFilterConfig config = BayesFilterConfig::robust();
+    config.sample_rate = rate;
+    config.transition.window = window;
+    return BayesFilter(read_measurement_model(folder_ / "m.npz"), config);
+  }
+
+  void expect_beliefs(const Lines& lines, const Recording& heard, BayesFilter filter) const {
+    ASSERT_EQ(lines.size(), heard.steps());
+    double command = 0.0;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const Belief& b = filter.update(signals_from(heard.observation[k], command));
+      command = ground_velocity_command(heard.action[k]);
+      const std::vector<double> expected = {heard.observation[k].time,
+                                            b.wheel[0].p_contact,
+                                            b.wheel[1].p_contact,
+                                            b.wheel[0].contact ? 1.0 : 0.0,
+                                            b.wheel[1].contact ? 1.0 : 0.0,
+                                            b.p_any_wheel,
+                                            b.p_both_wheels,
+                                            filter.transition().contact_to_air,
+                                            filter.transition().air_to_contact};
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_EQ(std::stod(lines[k][i]), expected[i]) << "line " << k << ", column " << i;
+      }
+      ASSERT_EQ(lines[k][9], to_text(b.status));
+    }
+  }
+
+  const ScratchFolder folder_;
+};
+
+TEST_F(Estimate, WritesWhatTheLibrarysFilterBelieves) {
+  const Recording heard = test::synthetic_log(2.0);
+  log("a.mpack", heard);
+  EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
+              AllOf(StartsWith("a.mpack: 2000 steps, 2.000 s at 1000 Hz, Bayes filter (robust)"),
+                    HasSubstr("signals      all good")));
+  expect_beliefs(table("b.csv"), heard, filter(1000.0, 128));
+}
+
+TEST_F(Estimate, OfASlowerLogHearsAWindowOfTheSameLength) {
+  const Recording heard = test::synthetic_log(2.0, 5000);
+  log("a.mpack", heard);
+  EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
+              HasSubstr("400 steps, 2.000 s at 200 Hz"));
+  expect_beliefs(table("b.csv"), heard, filter(200.0, 26));
+}
+
+TEST_F(Estimate, TakesAJitteringClockForTheRateItMeans) {
+  Recording heard = test::robot_log(1.0);
+  for (std::size_t k = 0; k < heard.steps(); ++k) {
+    heard.observation[k].time = 1.0007e-3 * static_cast<double>(k) + (k % 3 == 1 ? 4e-6 : 0.0);
+  }
+  log("a.mpack", heard);
+  EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"), HasSubstr("at 1000 Hz"));
+  expect_beliefs(table("b.csv"), read_recording(folder_ / "a.mpack"), filter(1000.0, 128));
+  EXPECT_THAT(estimate("a.mpack --estimator nmn"), HasSubstr("NMN"));
+}
+
+TEST_F(Estimate, CountsAgainstTheTruthAsExperimentsDo) {
+  const Recording heard = test::synthetic_log(3.0);
+  log("a.mpack", heard);
+  const HeardRun run = hear(heard, {}, {}, SampleUnit::run);
+  BayesFilter scored = filter(1000.0, 128);
+  const RobotScore score =
+      touchdown::score(run.contact, predict(scored, run, unit_noise(run, {}), {}), {0}, 1000, {})
+          .front();
+  const Score wheels = score.wheels();
+  const std::string summary = estimate("a.mpack --model m.npz");
+  EXPECT_THAT(summary, HasSubstr(fmt::format("success {:.4f},", wheels.points.success())));
+  EXPECT_THAT(summary, HasSubstr(fmt::format("Brier {:.4f}", wheels.calibration.brier())));
+  EXPECT_THAT(summary, HasSubstr("takeoffs 6 of 6 found"));
+  EXPECT_THAT(summary, HasSubstr("left wheel   takeoffs at (s) 0.6"));
+  log("robot.mpack", test::robot_log(1.0));
+  EXPECT_THAT(estimate("robot.mpack --model m.npz"), ::testing::Not(HasSubstr("truth")));
+}
+
+TEST_F(Estimate, WritesBeliefsIntoTheLogAndKeepsTheRest) {
+  log("a.mpack", test::synthetic_log(0.5));
+  estimate("a.mpack --model m.npz -o b.mpack -o b.csv");
+  const Lines lines = table("b.csv");
+  std::istringstream before(read_file(folder_ / "a.mpack"));
+  std::istringstream after(read_file(folder_ / "b.mpack"));
+  for (const auto& line : lines) {
+    const auto old = nlohmann::json::from_msgpack(before, false);
+    auto record = nlohmann::json::from_msgpack(after, false);
+    const auto filter = record["observation"]["contact_filter"];
+    EXPECT_EQ(filter["p_contact"].get<double>(), std::stod(line[1]));
+    EXPECT_EQ(filter["right_wheel"]["p_contact"].get<double>(), std::stod(line[2]));
+    EXPECT_EQ(record["observation"]["transition_model"]["p_takeoff_p_switch"].get<double>(),
+              std::stod(line[7]));
+    for (const char* key : {"contact_filter", "measurement_model", "transition_model"}) {
+      EXPECT_EQ(record["observation"].erase(key), 1U);
+    }
+    // As bytes, because NaN is not equal to itself.
+    EXPECT_EQ(nlohmann::json::to_msgpack(record), nlohmann::json::to_msgpack(old));
+  }
+  EXPECT_EQ(after.peek(), std::char_traits<char>::eof());
+}
+
+TEST_F(Estimate, SaysWhichSignalsCouldNotBeUsed) {
+  Recording broken = test::synthetic_log(1.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 400; k < 410; ++k) broken.observation[k].servo[1].torque = nan;
+  broken.observation[420].imu.linear_acceleration.z() = nan;
+  for (std::size_t k = 700; k < broken.steps(); ++k) broken.observation[k].time += 0.5;
+  log("a.mpack", broken);
+  EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
+              HasSubstr("11 invalid, 1 gap of 1000 steps"));
+  const Lines lines = table("b.csv");
+  ASSERT_EQ(lines.size(), 1000U);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const bool invalid = (k >= 400 && k < 410) || k == 420;
+    EXPECT_EQ(lines[k][9], invalid ? "invalid" : k == 700 ? "gap" : "good") << k;
+    for (std::size_t i = 0; i < 9; ++i) EXPECT_TRUE(std::isfinite(std::stod(lines[k][i])));
+  }
+}
+
+TEST_F(Estimate, OfATruncatedLogKeepsWhatWasReadAndSaysWhereItEnds) {
+  log("whole.mpack", test::synthetic_log(0.5));
+  const std::string whole = read_file(folder_ / "whole.mpack");
+  folder_.write("cut.mpack", whole.substr(0, whole.size() - 10));
+  estimate("whole.mpack --model m.npz -o whole.csv");
+  const Ended ended =
+      touchdown_program("estimate cut.mpack --model m.npz -o cut.csv", folder_.path());
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.errors, AllOf(HasSubstr("cut.mpack: byte "), HasSubstr("cut off")));
+  EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1);
+  Lines expected = table("whole.csv");
+  expected.pop_back();
+  EXPECT_EQ(table("cut.csv"), expected);
+}
+
+TEST_F(Estimate, OfSeveralLogsNamesEachResultAfterItsLog) {
+  log("a.mpack", test::synthetic_log(0.4));
+  log("b.mpack", test::synthetic_log(0.5));
+  estimate("a.mpack b.mpack --model m.npz -o out/x.csv");
+  EXPECT_EQ(table("out/a_x.csv").size(), 400U);
+  EXPECT_EQ(table("out/b_x.csv").size(), 500U);
+}
+
+TEST_F(Estimate, TellsAPhaseModelFromAGrid) {
+  log("a.mpack", test::synthetic_log(2.0));
+  ASSERT_EQ(touchdown_program("fit a.mpack -o p.npz --estimator phase", folder_.path()).exit_code,
+            0);
+  EXPECT_THAT(estimate("a.mpack --model p.npz -o b.csv"), HasSubstr("Phase filter"));
+  EXPECT_EQ(table("b.csv").back()[7], "nan");
+  EXPECT_THAT(complaint_about("a.mpack --model p.npz --estimator paper"),
+              HasSubstr("did you mean --estimator phase?"));
+  EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator phase"),
+              HasSubstr("did you mean --estimator robust?"));
+}
+
+TEST_F(Estimate, DrawsThePartOfTheLogThatWasAskedFor) {
+  log("a.mpack", test::synthetic_log(1.0));
+  EXPECT_THAT(estimate("a.mpack --model m.npz --figure fig.png --from 0.4999 --to 0.7001"),
+              HasSubstr("figure       fig.png"));
+  const std::string data = read_file(folder_ / "fig.dat");
+  EXPECT_EQ(std::count(data.begin(), data.end(), '\n'), 202);  // 0.5, 0.501, …, 0.7 and a header
+  EXPECT_TRUE(fs::exists(folder_ / "fig.svg"));
+  EXPECT_THAT(complaint_about("a.mpack --model m.npz --figure none.png --from 5"),
+              HasSubstr("no step between"));
+}
+
+TEST_F(Estimate, AnswersWrongRequestsInOneLine) {
+  log("a.mpack", test::synthetic_log(0.1));
+  log("slow.mpack", test::synthetic_log(2.0, 20000));
+  folder_.write("b.mpack", "name: stairs\n");
+  EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator robst"),
+              HasSubstr("did you mean 'robust'?"));
+  EXPECT_THAT(complaint_about("a.mpack"), HasSubstr("--model is missing"));
+  EXPECT_THAT(complaint_about("a.mpack --model x.npz"), HasSubstr("x.npz"));
+  EXPECT_THAT(complaint_about("a.mpack --model a.mpack"), HasSubstr("a.mpack"));
+  EXPECT_THAT(complaint_about("a.mpack --estimator free_fall --model m.npz"),
+              HasSubstr("takes none"));
+  EXPECT_THAT(complaint_about("a.mpack --estimator oracle"), HasSubstr("ground truth"));
+  EXPECT_THAT(complaint_about("a.mpack --model m.npz -o b.txt"), HasSubstr(".csv"));
+  EXPECT_THAT(complaint_about("a.mpack --model m.npz -o b.csv -o c.csv"), HasSubstr("one kind"));
+  EXPECT_THAT(complaint_about("a.mpack --model m.npz -o a.mpack"), HasSubstr("the log itself"));
+  EXPECT_THAT(complaint_about("a.mpack a.mpack --model m.npz -o b.csv"), HasSubstr("two logs"));
+  EXPECT_THAT(complaint_about("a.mpack --model m.npz --figure b.jpg"), HasSubstr(".png"));
+  EXPECT_THAT(complaint_about("a.mpack - --model m.npz"), HasSubstr("alone"));
+  EXPECT_THAT(complaint_about("missing.mpack --model m.npz"), HasSubstr("missing.mpack"));
+  EXPECT_THAT(complaint_about("b.mpack --model m.npz -o b.csv"), HasSubstr("b.mpack: byte 0"));
+  EXPECT_THAT(complaint_about("slow.mpack --model m.npz"),
+              HasSubstr("slow.mpack: 50 steps per second: expected 100 to 20000"));
+  EXPECT_THAT(complaint_about("a.mpack --modle m.npz"), HasSubstr("did you mean '--model'?"));
+  EXPECT_FALSE(fs::exists(folder_ / "b.csv"));
+}
+
+TEST_F(Estimate, ExplainsItselfWithALineToCopy) {
+  const Ended ended = touchdown_program("estimate --help", folder_.path());
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.output, ::testing::StartsWith("touchdown estimate "));
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/estimator_registry.hpp"
+#include "experiments/fitting.hpp"
+#include "experiments/phase_fitting.hpp"
+#include "program.hpp"
+#include "recordings/model_file.hpp"
+#include "recordings/recording_file.hpp"
+#include "synthetic_log.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+namespace fs = std::filesystem;
+
+class Fit : public ::testing::Test {
+ protected:
+  fs::path log(const std::string& name, const Recording& recording) const {
+    write_recording(recording, folder_ / name);
+    return folder_ / name;
+  }
+
+  std::string fit(const std::string& arguments) const {
+    const Ended ended = touchdown_program("fit " + arguments, folder_.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    return ended.output;
+  }
+
+  /// The one line that a wrong request is answered with; no model is written.
+  std::string complaint_about(const std::string& arguments) const {
+    const Ended ended = touchdown_program("fit " + arguments, folder_.path());
+    EXPECT_EQ(ended.exit_code, 2) << ended.errors;
+    EXPECT_EQ(ended.output, "");
+    EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
+    EXPECT_FALSE(fs::exists(folder_ / "m.npz"));
+    return ended.errors;
+  }
+
+  const ScratchFolder folder_;
+};
+
+void expect_same(const MeasurementModel& a, const MeasurementModel& b) {
+  const LikelihoodGrids x = a.grids();
+  const LikelihoodGrids y = b.grids();
+  EXPECT_NEAR(x.knee.upper, y.knee.upper, 1e-9);
+  EXPECT_NEAR(x.wheel.lower, y.wheel.lower, 1e-9);
+  ASSERT_EQ(x.contact.size(), y.contact.size());
+  const double largest = *std::max_element(y.contact.begin(), y.contact.end()) +
+                         *std::max_element(y.no_contact.begin(), y.no_contact.end());
+  for (std::size_t i = 0; i < x.contact.size(); ++i) {
+    ASSERT_NEAR(x.contact[i], y.contact[i], 1e-9 * largest) << i;
+    ASSERT_NEAR(x.no_contact[i], y.no_contact[i], 1e-9 * largest) << i;
+  }
+}
+
+TEST_F(Fit, OfLabelledLogsIsTheFitThatExperimentsMake) {
+  log("a.mpack", test::synthetic_log(4.0));
+  log("b.mpack", test::synthetic_log(2.5));
+  for (const std::string name : {"robust", "reference", "paper", "measurement_only"}) {
+    EXPECT_THAT(fit("a.mpack b.mpack -o m.npz --estimator " + name), HasSubstr("2 logs"));
+    std::vector<HeardRun> runs;
+    for (const char* file : {"a.mpack", "b.mpack"}) {
+      runs.push_back(hear(read_recording(folder_ / file), {}, {}, SampleUnit::run));
+    }
+    const std::vector<const HeardRun*> heard = {&runs[0], &runs[1]};
+    expect_same(read_measurement_model(folder_ / "m.npz"),
+                touchdown::fit(heard, estimator_entry(name).config->measurement, {}));
+  }
+}
+
+TEST_F(Fit, OfLogsThatAreOneClassTakesTheirWordForIt) {
+  const Recording rolling = test::one_class_log(2.0, true);
+  const Recording hanging = test::one_class_log(1.0, false);
+  log("rolling.mpack", rolling);
+  log("hanging.mpack", hanging);
+  fit("--contact rolling.mpack --no-contact hanging.mpack -o m.npz --grid 80 60 --skip 0.1");
+  MeasurementConfig config = BayesFilterConfig::robust().measurement;
+  config.fit.knee_count = 80;
+  config.fit.wheel_count = 60;
+  const auto samples = [&](const Recording& recording) {
+    std::vector<TorqueSample> all;
+    for (const Side side : {Side::left, Side::right}) {
+      TorqueChannel channel(config.torque, side, 1000.0);
+      for (std::size_t k = 0; k < recording.steps(); ++k) {
+        const auto& servo = recording.observation[k].servo;
+        const std::size_t first = side == Side::left ? 0 : 3;
+        const TorqueSample sample = channel.update(
+            {{}, {0.0, 0.0, servo[first + 1].torque}, {0.0, 0.0, servo[first + 2].torque}});
+        if (k >= 100) all.push_back(sample);
+      }
+    }
+    return all;
+  };
+  expect_same(read_measurement_model(folder_ / "m.npz"),
+              fit_measurement_model(samples(rolling), samples(hanging), config.fit));
+}
+
+TEST_F(Fit, OfThePhaseFilterIsTheOneThatExperimentsMake) {
+  log("a.mpack", test::synthetic_log(3.0));
+  EXPECT_THAT(fit("a.mpack -o m.npz --estimator phase"), HasSubstr("2.700 s of 1 log"));
+  const HeardRun run = hear(read_recording(folder_ / "a.mpack"), {}, {}, SampleUnit::run);
+  const std::vector<const HeardRun*> heard = {&run};
+  const PhaseModel expected = fit_phases(heard, PhaseFilterConfig{}.fit, 0.3);
+  const PhaseModelFile written = read_phase_model(folder_ / "m.npz");
+  EXPECT_EQ(written.model.transition, expected.transition);
+  ASSERT_EQ(written.model.torque.size(), expected.torque.size());
+  EXPECT_EQ(written.model.torque[2].log_density, expected.torque[2].log_density);
+  EXPECT_EQ(written.provenance.at("scenarios"), "synthetic");
+  EXPECT_EQ(written.provenance.at("seed:run"), "5:0");
+}
+
+TEST_F(Fit, LeavesOutTorquesThatAreNotFinite) {
+  Recording broken = test::synthetic_log(3.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 1000; k < 1010; ++k) broken.observation[k].servo[1].torque = nan;
+  broken.observation[2000].servo[5].torque = std::numeric_limits<double>::infinity();
+  log("a.mpack", broken);
+  const Ended ended = touchdown_program("fit a.mpack -o m.npz", folder_.path());
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.errors, HasSubstr("11 samples of a leg are not finite"));
+  EXPECT_THAT(ended.output, HasSubstr("samples of both legs"));
+  read_measurement_model(folder_ / "m.npz");  // throws if a number in it is none
+  EXPECT_THAT(touchdown_program("fit a.mpack -o p.npz --estimator phase", folder_.path()).errors,
+              HasSubstr("a.mpack: at 1.000 s: a torque or the acceleration is not finite"));
+}
+
+TEST_F(Fit, OfATruncatedLogUsesWhatThereIs) {
+  log("a.mpack", test::synthetic_log(3.0));
+  const std::string whole = read_file(folder_ / "a.mpack");
+  folder_.write("cut.mpack", whole.substr(0, whole.size() - 100));
+  const Ended ended = touchdown_program("fit cut.mpack -o m.npz", folder_.path());
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.errors, AllOf(HasSubstr("cut.mpack: byte "), HasSubstr("cut off")));
+  EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1);
+  EXPECT_THAT(ended.output, HasSubstr("2.699 s of 1 log"));
+}
+
+TEST_F(Fit, RefusesRunsOfReservedSeeds) {
+  Recording reserved = test::synthetic_log(2.0);
+  reserved.info.seed = 900'000'001;
+  log("a.mpack", reserved);
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz"), HasSubstr("reserved"));
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator phase"), HasSubstr("reserved"));
+  EXPECT_THAT(complaint_about("--contact a.mpack -o m.npz"), HasSubstr("reserved"));
+}
+
+TEST_F(Fit, NeedsBothClassesAndSomebodyWhoKnowsThem) {
+  log("robot.mpack", test::robot_log(1.0));
+  log("rolling.mpack", test::one_class_log(1.0, true));
+  log("short.mpack", test::synthetic_log(0.5));
+  EXPECT_THAT(complaint_about("robot.mpack -o m.npz"),
+              AllOf(HasSubstr("robot.mpack: at 0.000 s: no ground truth"), HasSubstr("--contact")));
+  EXPECT_THAT(complaint_about("--contact rolling.mpack -o m.npz"),
+              HasSubstr("no step of the logs is without contact"));
+  EXPECT_THAT(complaint_about("--no-contact rolling.mpack -o m.npz"),
+              HasSubstr("no step of the logs is in contact"));
+  EXPECT_THAT(complaint_about("short.mpack -o m.npz --estimator phase"),
+              HasSubstr("learns from takeoffs"));
+  EXPECT_THAT(complaint_about("--contact rolling.mpack -o m.npz --estimator phase"),
+              HasSubstr("ground truth"));
+}
+
+TEST_F(Fit, AnswersWrongRequestsInOneLine) {
+  log("a.mpack", test::synthetic_log(1.0));
+  folder_.write("b.mpack", "name: stairs\n");
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator robst"),
+              HasSubstr("did you mean 'robust'?"));
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator free_fall"), HasSubstr("not fitted"));
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator nmn"), HasSubstr("touchdown train"));
+  EXPECT_THAT(complaint_about("-o m.npz"), HasSubstr("a log is missing"));
+  EXPECT_THAT(complaint_about("a.mpack"), HasSubstr("--output"));
+  EXPECT_THAT(complaint_about("missing.mpack -o m.npz"), HasSubstr("missing.mpack"));
+  EXPECT_THAT(complaint_about("b.mpack -o m.npz"), HasSubstr("b.mpack: byte 0"));
+  EXPECT_THAT(complaint_about("- -o m.npz"), HasSubstr("cannot be read again"));
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz --knee-range 3 1"), HasSubstr("--knee-range"));
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz --bandwidth -1 1"), HasSubstr("--bandwidth"));
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz --gird 3 3"), HasSubstr("did you mean '--grid'?"));
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator phase --grid 9 9"),
+              AllOf(HasSubstr("phase filter"), Not(HasSubstr("takeoffs"))));
+}
+
+TEST_F(Fit, ExplainsItselfWithALineToCopy) {
+  const Ended ended = touchdown_program("fit --help", folder_.path());
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.output, ::testing::StartsWith("touchdown fit "));
+}
+
+}  // namespace
+}  // namespace touchdown

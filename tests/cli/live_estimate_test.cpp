@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <sstream>
+#include <string_view>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+#include "recordings/log_writer.hpp"
+#include "recordings/recording_file.hpp"
+#include "synthetic_log.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// `touchdown estimate - --estimator free_fall` with both its ends in our hands.
+class LiveEstimate : public ::testing::Test {
+ protected:
+  LiveEstimate() {
+    std::array<int, 2> in = {};
+    std::array<int, 2> out = {};
+    if (::pipe(in.data()) != 0 || ::pipe(out.data()) != 0) return;
+    program_ = ::fork();
+    if (program_ == 0) {
+      ::dup2(in[0], STDIN_FILENO);
+      ::dup2(out[1], STDOUT_FILENO);
+      for (const int end : {in[0], in[1], out[0], out[1]}) ::close(end);
+      if (::freopen(errors().c_str(), "w", stderr) == nullptr) ::_exit(126);
+      ::execl(TOUCHDOWN_PROGRAM, "touchdown", "estimate", "-", "--estimator", "free_fall", nullptr);
+      ::_exit(127);
+    }
+    ::close(in[0]);
+    ::close(out[1]);
+    to_ = in[1];
+    from_ = out[0];
+  }
+  LiveEstimate(const LiveEstimate&) = delete;
+  LiveEstimate& operator=(const LiveEstimate&) = delete;
+  ~LiveEstimate() override {
+    if (program_ > 0) ::kill(program_, SIGKILL);
+    close_input();
+    ::close(from_);
+    if (program_ > 0) ::waitpid(program_, nullptr, 0);
+  }
+
+  std::string errors() const { return (folder_ / "errors").string(); }
+
+  void say(std::string_view bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(to_, bytes.data(), bytes.size());
+      ASSERT_GT(written, 0);
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+  void close_input() {
+    if (to_ >= 0) ::close(to_);
+    to_ = -1;
+  }
+
+  /// Waits until so many lines were printed in all, or until the program's end.
+  const std::string& heard(std::ptrdiff_t lines) {
+    std::array<char, 4096> buffer = {};
+    while (std::count(output_.begin(), output_.end(), '\n') < lines) {
+      const ssize_t size = ::read(from_, buffer.data(), buffer.size());
+      if (size <= 0) break;
+      output_.append(buffer.data(), static_cast<std::size_t>(size));
+    }
+    return output_;
+  }
+
+  int exit_code() {
+    int status = 0;
+    ::waitpid(program_, &status, 0);
+    program_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  const ScratchFolder folder_;
+  pid_t program_ = -1;
+  int to_ = -1;
+  int from_ = -1;
+  std::string output_;
+};
+
+/// Records one by one.
+std::vector<std::string> records(const Recording& log) {
+  std::ostringstream stream;
+  LogWriter writer(stream, log.info, false);
+  std::vector<std::string> all;
+  for (std::size_t k = 0; k < log.steps(); ++k) {
+    writer.write(log.observation[k], log.action[k], nullptr);
+    all.push_back(stream.str());
+    stream.str("");
+  }
+  return all;
+}
+
+constexpr std::ptrdiff_t everything = 1'000'000;
+
+TEST_F(LiveEstimate, PrintsALineForEveryRecordAsSoonAsItIsThere) {
+  const std::vector<std::string> log = records(test::robot_log(0.3));
+  // The rate is measured first, over 200 records.
+  for (std::size_t k = 0; k < 200; ++k) say(log[k]);
+  std::ptrdiff_t lines = 201;
+  heard(lines);
+  for (std::size_t k = 200; k < 210; ++k) {
+    say(std::string_view(log[k]).substr(0, 100));
+    say(std::string_view(log[k]).substr(100));
+    const std::string& output = heard(++lines);
+    ASSERT_EQ(std::count(output.begin(), output.end(), '\n'), lines) << "after record " << k;
+    EXPECT_THAT(output, HasSubstr(fmt::format("\n{},", 0.001 * static_cast<double>(k))));
+  }
+  close_input();
+  heard(everything);
+  EXPECT_EQ(exit_code(), 0);
+  EXPECT_THAT(read_file(errors()), HasSubstr("standard input: 210 steps"));
+}
+
+TEST_F(LiveEstimate, EndsInOrderOnCtrlC) {
+  const std::vector<std::string> log = records(test::robot_log(0.25));
+  for (const std::string& record : log) say(record);
+  heard(251);
+  ::kill(program_, SIGINT);
+  const std::string& output = heard(everything);
+  EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 251);
+  EXPECT_EQ(output.back(), '\n');
+  EXPECT_EQ(exit_code(), 0);
+  EXPECT_THAT(read_file(errors()),
+              AllOf(HasSubstr("standard input: 250 steps"), HasSubstr("left wheel")));
+}
+
+TEST_F(LiveEstimate, SaysWhatItHeardBeforeGarbage) {
+  const std::vector<std::string> log = records(test::robot_log(0.25));
+  for (const std::string& record : log) say(record);
+  say("garbage");
+  close_input();
+  const std::string& output = heard(everything);
+  EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 251);
+  EXPECT_EQ(exit_code(), 2);
+  EXPECT_THAT(read_file(errors()), HasSubstr("standard input: byte "));
+}
+
+TEST_F(LiveEstimate, SaysTheSameAsFromAFile) {
+  const Recording log = test::robot_log(0.7);
+  std::ptrdiff_t said = 0;
+  for (const std::string& record : records(log)) {
+    say(record);
+    if (++said >= 200) heard(said + 1);  // or its full pipe would stop it, and it us
+  }
+  close_input();
+  const std::string printed = heard(everything);
+  EXPECT_EQ(exit_code(), 0);
+  write_recording(log, folder_ / "a.mpack");
+  touchdown_program("estimate a.mpack --estimator free_fall -o a.csv", folder_.path());
+  EXPECT_EQ(printed, read_file(folder_ / "a.csv"));
+}
+
+}  // namespace
+}  // namespace touchdown
