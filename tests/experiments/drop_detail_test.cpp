@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "estimator/bayes_filter.hpp"
+#include "estimator/phase_filter_config.hpp"
 #include "experiments/sweep_run.hpp"
 #include "synthetic_runs.hpp"
 
@@ -50,10 +51,13 @@ struct Study {
 
 /// What an estimator decides from its probabilities: the phase filter with hysteresis.
 ContactSequence decisions(const BeliefTrace& trace) {
+  const PhaseFilterConfig phase;
   ContactSequence contact;
   bool touches = true;
   for (const double p : trace.p_contact) {
-    touches = trace.estimator == "phase" ? (touches ? p >= 0.2 : p > 0.8) : p >= 0.8;
+    touches = trace.estimator == "phase"
+                  ? (touches ? p >= phase.leave_below : p > phase.return_above)
+                  : p >= 0.8;
     contact.push_back(std::uint8_t{touches});
   }
   return contact;
