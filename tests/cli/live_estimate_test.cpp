@@ -42,9 +42,8 @@ class LiveEstimate : public ::testing::Test {
     to_ = in[1];
     from_ = out[0];
   }
-  LiveEstimate(const LiveEstimate&) = delete;
-  LiveEstimate& operator=(const LiveEstimate&) = delete;
-  ~LiveEstimate() override {
+
+  void TearDown() override {
     if (program_ > 0) ::kill(program_, SIGKILL);
     close_input();
     ::close(from_);
