@@ -67,7 +67,7 @@ template <typename SignalsAt>
 TorqueTrace trace_torque(const DropWindow& window, const SignalsAt& signals_at) {
   TorqueTrace trace;
   for (std::size_t k = window.begin; k < window.end; ++k) {
-    const Signals signals = signals_at(k);
+    const Signals& signals = signals_at(k);
     trace.knee.push_back(signals.leg[left].knee.torque);
     trace.wheel.push_back(signals.leg[left].wheel.torque);
   }

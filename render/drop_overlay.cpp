@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "experiments/drops.hpp"
 #include "render/panel_grid.hpp"
 #include "render/report_parts.hpp"
 
@@ -14,15 +15,13 @@ namespace touchdown {
 namespace {
 
 Flight flight_of(const Recording& recording, const DropOverlay& what) {
-  int found = 0;
-  for (const Flight& flight : flights(any_wheel(contact_labels(recording, what.labels)))) {
-    const auto length = static_cast<double>(flight.landing - flight.takeoff);
-    if (flight.takeoff == 0 || length * recording.period() < what.minimum_flight) continue;
-    if (found++ == what.drop) return flight;
-  }
+  const std::vector<Flight> found =
+      drops(contact_labels(recording, what.labels), recording.period(), what.minimum_flight);
+  const auto number = static_cast<std::size_t>(what.drop);
+  if (number < found.size()) return found[number];
   throw InputError(
       fmt::format("overlay.drop: the run in {} has {} drops, counted from 0; none is number {}",
-                  recording.info.simulator, found, what.drop));
+                  recording.info.simulator, found.size(), what.drop));
 }
 
 /// Time since takeoff (ms), then what is drawn. Heights count from that at takeoff.
