@@ -163,7 +163,8 @@ void Execution::fit() {
                         [&](const PlayedRun& run) { return run.plan.simulator == simulator; });
   });
   const PhaseTimer timer(provenance_, "fit");
-  models_ = fit_models(experiment, touchdown::heard(runs_, RunRole::fit));
+  models_ =
+      fit_models(experiment, touchdown::heard(runs_, RunRole::fit), [&] { return going_on(); });
   if (!going_on()) throw Stopped();
 }
 

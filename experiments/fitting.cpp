@@ -11,6 +11,7 @@
 #include "experiments/estimator_registry.hpp"
 #include "experiments/phase_fitting.hpp"
 #include "experiments/reserved_seeds.hpp"
+#include "experiments/stopped.hpp"
 
 namespace touchdown {
 
@@ -77,9 +78,11 @@ MeasurementModel fit(std::span<const HeardRun* const> runs, const MeasurementCon
   return fit_measurement_model(torques.contact, torques.no_contact, config.fit);
 }
 
-FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun>& fit_runs) {
+FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun>& fit_runs,
+                        const std::function<bool()>& going_on) {
   std::vector<Job> jobs = jobs_of(experiment);
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+    if (going_on && !going_on()) throw Stopped();
     std::vector<const HeardRun*> runs;
     for (const HeardRun& run : fit_runs) {
       if (run.info.simulator == jobs[i].simulator) runs.push_back(&run);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -41,6 +42,8 @@ struct FittedModel {
 using FittedModels = std::map<std::string, std::map<std::string, FittedModel>>;
 
 /// Fits what the experiment's estimators need, for each engine on its own runs, in parallel.
-FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun>& fit_runs);
+/// `going_on` is asked before each model; false ends it with `Stopped`.
+FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun>& fit_runs,
+                        const std::function<bool()>& going_on = {});
 
 }  // namespace touchdown
