@@ -100,6 +100,15 @@ LikelihoodGrids likelihood_grids(std::span<const double> knee_points,
   return grids;
 }
 
+std::vector<double> contact_probability(const LikelihoodGrids& grids) {
+  std::vector<double> probability(grids.contact.size());
+  for (std::size_t i = 0; i < probability.size(); ++i) {
+    const double sum = grids.contact[i] + grids.no_contact[i];
+    probability[i] = sum > 0.0 ? grids.contact[i] / sum : 0.5;
+  }
+  return probability;
+}
+
 MeasurementModel::MeasurementModel(const LikelihoodGrids& grids)
     : knee_axis_(grids.knee), wheel_axis_(grids.wheel), row_(grids.knee.count) {
   check_axis(grids.knee, "knee torque");

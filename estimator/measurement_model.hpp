@@ -39,6 +39,10 @@ LikelihoodGrids likelihood_grids(std::span<const double> knee_points,
                                  std::span<const double> no_contact,
                                  GridRows rows = GridRows::wheel);
 
+/// P(contact) at every grid point with a flat prior: contact / (contact + no contact), one half
+/// where both are zero.
+std::vector<double> contact_probability(const LikelihoodGrids& grids);
+
 /// Where a measurement falls on the grid: the corner of its cell that has the lower torques, and
 /// how far it is from there to the next points, as fractions in [0, 1].
 struct GridPosition {

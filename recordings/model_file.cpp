@@ -26,15 +26,6 @@ NpyArray points(const Axis& axis) {
   return array;
 }
 
-std::vector<double> contact_probability(const LikelihoodGrids& grids) {
-  std::vector<double> probability(grids.contact.size());
-  for (std::size_t i = 0; i < probability.size(); ++i) {
-    const double sum = grids.contact[i] + grids.no_contact[i];
-    probability[i] = sum > 0.0 ? grids.contact[i] / sum : 0.5;
-  }
-  return probability;
-}
-
 }  // namespace
 
 MeasurementModel read_measurement_model(const std::filesystem::path& path) {

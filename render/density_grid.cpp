@@ -73,15 +73,6 @@ GridWindow window_of(const LikelihoodGrids& grids, double share) {
   return window;
 }
 
-std::vector<double> contact_probability(const LikelihoodGrids& grids) {
-  std::vector<double> probability(grids.contact.size());
-  for (std::size_t i = 0; i < probability.size(); ++i) {
-    const double sum = grids.contact[i] + grids.no_contact[i];
-    probability[i] = sum > 0.0 ? grids.contact[i] / sum : 0.5;
-  }
-  return probability;
-}
-
 std::vector<std::vector<double>> rows_of(const std::vector<double>& grid, int row_length,
                                          const GridWindow& window) {
   std::vector<std::vector<double>> rows;

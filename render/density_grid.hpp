@@ -26,9 +26,6 @@ struct DensityPeaks {
 };
 DensityPeaks peaks_of(const LikelihoodGrids& grids);
 
-/// f_C / (f_C + f_¬C) at every point; ½ where both are zero.
-std::vector<double> contact_probability(const LikelihoodGrids& grids);
-
 /// A grid's window as nested rows, for `iso_lines`.
 std::vector<std::vector<double>> rows_of(const std::vector<double>& grid, int row_length,
                                          const GridWindow& window);

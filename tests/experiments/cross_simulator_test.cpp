@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "noise/gaussian.hpp"
+#include "small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown {
@@ -221,19 +222,9 @@ cross_simulator:
   overlay: {drop: 0}
 )";
 
-constexpr const char* small_scene = R"(name: small_step
-terrain:
-  pieces:
-    - flat: {length: 3.0}
-    - step: {drop: 0.2, nosing_radius: 0.025}
-velocity: [{time: 0.3, velocity: 0.6}]
-end: {duration: 6.0, x: 1.5, settle: 0.3}
-perturbation: {velocity: 0.1}
-)";
-
 class CrossSimulatorRun : public ::testing::Test {
  protected:
-  CrossSimulatorRun() { folder_.write("small_step.yaml", small_scene); }
+  CrossSimulatorRun() { folder_.write("small_step.yaml", small_step_scene); }
 
   CrossSimulator read(const std::string& from = "", const std::string& to = "") const {
     std::string text = small_check;

@@ -7,20 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "recordings/recording_file.hpp"
+#include "small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown {
 namespace {
-
-constexpr const char* scene = R"(name: small_step
-terrain:
-  pieces:
-    - flat: {length: 3.0}
-    - step: {drop: 0.2, nosing_radius: 0.025}
-velocity: [{time: 0.3, velocity: 0.6}]
-end: {duration: 6.0, x: 1.5, settle: 0.3}
-perturbation: {velocity: 0.1}
-)";
 
 class LabelSensitivity : public ::testing::Test {
  protected:
@@ -29,7 +20,7 @@ class LabelSensitivity : public ::testing::Test {
     experiment.name = "labels";
     experiment.simulators = {"mujoco"};
     experiment.estimators = {"oracle"};
-    const std::string file = folder_.write("small_step.yaml", scene).string();
+    const std::string file = folder_.write("small_step.yaml", small_step_scene).string();
     experiment.fit.scenarios = {file};
     experiment.test.scenarios = {file};
     experiment.test.runs = 2;
