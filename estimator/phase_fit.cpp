@@ -163,7 +163,8 @@ PhaseAccelerationDensity fit_acceleration_density(const PhaseSamples& samples, d
 }
 
 PhaseModel fit_phase_model(std::span<const PhaseFitRun> runs, double sample_rate,
-                           const PhaseFitConfig& config) {
+                           const PhaseFitConfig& config,
+                           const std::function<void()>& before_density) {
   check_phase_fit_config(config);
   if (!(std::isfinite(sample_rate) && sample_rate > 0.0)) {
     throw InputError("phase fit: the sample rate must be positive (Hz)");
@@ -181,10 +182,12 @@ PhaseModel fit_phase_model(std::span<const PhaseFitRun> runs, double sample_rate
   model.seconds = collector.seconds();
   for (const double knee : config.torque_noise) {
     for (const double wheel : config.torque_noise) {
+      if (before_density) before_density();
       model.torque.push_back(fit_torque_density(collector.samples(), {knee, wheel}, config));
     }
   }
   for (const double noise : config.acceleration_noise) {
+    if (before_density) before_density();
     model.acceleration.push_back(fit_acceleration_density(collector.samples(), noise, config));
   }
   return model;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -83,9 +84,11 @@ PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, const TorqueS
 PhaseAccelerationDensity fit_acceleration_density(const PhaseSamples& samples, double noise,
                                                   const PhaseFitConfig& config);
 
-/// Fits everything. Throws InputError for runs without rolling or without flight, sequences of
+/// Fits everything. `before_density` is called before each of the many densities: what it throws
+/// ends the fit. Throws InputError for runs without rolling or without flight, sequences of
 /// different lengths, values that are not finite, or a bad configuration.
 PhaseModel fit_phase_model(std::span<const PhaseFitRun> runs, double sample_rate,
-                           const PhaseFitConfig& config);
+                           const PhaseFitConfig& config,
+                           const std::function<void()>& before_density = {});
 
 }  // namespace touchdown

@@ -81,8 +81,11 @@ MeasurementModel fit(std::span<const HeardRun* const> runs, const MeasurementCon
 FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun>& fit_runs,
                         const std::function<bool()>& going_on) {
   std::vector<Job> jobs = jobs_of(experiment);
-  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+  const auto or_stop = [&] {
     if (going_on && !going_on()) throw Stopped();
+  };
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+    or_stop();
     std::vector<const HeardRun*> runs;
     for (const HeardRun& run : fit_runs) {
       if (run.info.simulator == jobs[i].simulator) runs.push_back(&run);
@@ -92,7 +95,7 @@ FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun
         jobs[i].model.measurement = fit(runs, *jobs[i].measurement, experiment.scoring);
       } else {
         jobs[i].model.phase = std::make_shared<PhaseModelFile>(
-            PhaseModelFile{fit_phases(runs, *jobs[i].phase, experiment.scoring.skip),
+            PhaseModelFile{fit_phases(runs, *jobs[i].phase, experiment.scoring.skip, or_stop),
                            provenance_of(runs, experiment.scoring.skip)});
       }
     } catch (const InputError& error) {

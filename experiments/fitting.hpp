@@ -42,7 +42,7 @@ struct FittedModel {
 using FittedModels = std::map<std::string, std::map<std::string, FittedModel>>;
 
 /// Fits what the experiment's estimators need, for each engine on its own runs, in parallel.
-/// `going_on` is asked before each model; false ends it with `Stopped`.
+/// `going_on` is asked before each density; false ends it with `Stopped`.
 FittedModels fit_models(const Experiment& experiment, const std::vector<HeardRun>& fit_runs,
                         const std::function<bool()>& going_on = {});
 

@@ -36,7 +36,7 @@ bool may_be_held(const RecordingInfo& info) {
 }
 
 PhaseModel fit_phases(std::span<const HeardRun* const> runs, const PhaseFitConfig& config,
-                      double skip) {
+                      double skip, const std::function<void()>& before_density) {
   if (runs.empty()) throw InputError("phase filter: there is no run to fit to");
   std::vector<PhaseFitRun> pieces;
   for (const HeardRun* run : runs) {
@@ -50,7 +50,7 @@ PhaseModel fit_phases(std::span<const HeardRun* const> runs, const PhaseFitConfi
                       {run->normal_force[0], run->normal_force[1]},
                       skipped_steps(*run, skip)});
   }
-  return fit_phase_model(pieces, 1.0 / period_of(*runs.front()), config);
+  return fit_phase_model(pieces, 1.0 / period_of(*runs.front()), config, before_density);
 }
 
 ModelProvenance provenance_of(std::span<const HeardRun* const> runs, double skip) {

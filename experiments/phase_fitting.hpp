@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "estimator/phase_model.hpp"
@@ -13,9 +14,9 @@ bool may_be_held(const RecordingInfo& info);
 
 /// The phase filter's model from noiseless runs, each without its first `skip` seconds.
 /// Errors: `InputError` for runs of reserved seeds, of different control periods, or without
-/// rolling or flight.
+/// rolling or flight; what `before_density` throws, as `fit_phase_model` says.
 PhaseModel fit_phases(std::span<const HeardRun* const> runs, const PhaseFitConfig& config,
-                      double skip);
+                      double skip, const std::function<void()>& before_density = {});
 
 /// What such a model was fitted to: scenarios, simulators, seeds, runs and seconds.
 ModelProvenance provenance_of(std::span<const HeardRun* const> runs, double skip);
