@@ -47,6 +47,10 @@ NodeName=here NodeHostname={host} NodeAddr=127.0.0.1 CPUs={cpus} State=UNKNOWN
 PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
 
+# Nothing here uses control groups, but slurmd looks for a file system of them and refuses to start
+# where there is none, as in a bare chroot. Told which version, it does not look.
+CGROUPS = 'CgroupPlugin=cgroup/v1\n'
+
 
 def missing():
     """What is needed here and is not there; empty if nothing is."""
@@ -66,6 +70,10 @@ def free_ports(count):
     finally:
         for each in sockets:
             each.close()
+
+
+class DoesNotStart(Exception):
+    """Slurm's daemons are installed, but do not run in this environment."""
 
 
 class Cluster:
@@ -111,10 +119,11 @@ class Cluster:
             (self.folder / 'slurm.conf').write_text(CONFIGURATION.format(
                 folder=self.folder, cpus=self.cpus, host=socket.gethostname().split('.')[0],
                 controller_port=controller_port, node_port=node_port, scheduling=self.scheduling))
+            (self.folder / 'cgroup.conf').write_text(CGROUPS)
             pids = [self.daemon('slurmctld', '-D'), self.daemon('slurmd', '-D', '-N', 'here')]
             if self.wait_until_idle(pids):
                 return
-        raise RuntimeError('the cluster does not start\n' + self.logs())
+        raise DoesNotStart('Slurm does not start here\n' + self.logs())
 
     def daemon(self, name, *arguments):
         self.guard.stdin.write(json.dumps([shutil.which(name), *arguments]) + '\n')
