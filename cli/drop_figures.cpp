@@ -89,10 +89,7 @@ void or_say_why_not(const Draw& draw) {
 std::vector<Picture> draw_drop_figures(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   std::vector<Picture> pictures;
-  const auto add = [&](const Figure& figure) {
-    pictures.push_back({"figure", figure.png});
-    pictures.push_back({"", figure.svg});
-  };
+  const auto add = [&](const Figure& figure) { add_figure(pictures, "figure", figure); };
   if (experiment.detail) {
     for (const std::string& simulator : experiment.simulators) {
       or_say_why_not([&] { add(draw_detail(result, simulator)); });

@@ -53,20 +53,22 @@ Picture film(const ExperimentResult& result, const PlayedRun& run, const Session
 
 }  // namespace
 
+void add_figure(std::vector<Picture>& pictures, const std::string& kind, const Figure& figure) {
+  pictures.push_back({kind, figure.png});
+  pictures.push_back({"", figure.svg});
+}
+
 std::vector<Picture> draw_pictures(ExperimentResult& result, const Session& session) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<Picture> pictures;
   if (result.cells.size() > 1) {
     for (const std::string& simulator : result.experiment.simulators) {
-      const Figure figure = draw_heatmap(success_heatmap(result, simulator),
-                                         result.directory.file("figures", "success_" + simulator));
-      pictures.push_back({"heatmap", figure.png});
-      pictures.push_back({"", figure.svg});
+      add_figure(pictures, "heatmap",
+                 draw_heatmap(success_heatmap(result, simulator),
+                              result.directory.file("figures", "success_" + simulator)));
       if (const auto map = knee_wheel_heatmap(result, simulator)) {
-        const Figure apart =
-            draw_heatmap(*map, result.directory.file("figures", "knee_wheel_" + simulator));
-        pictures.push_back({"heatmap", apart.png});
-        pictures.push_back({"", apart.svg});
+        add_figure(pictures, "heatmap",
+                   draw_heatmap(*map, result.directory.file("figures", "knee_wheel_" + simulator)));
       }
     }
   }

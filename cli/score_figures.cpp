@@ -120,10 +120,7 @@ std::optional<LatencyFigure> latency_figure(const ExperimentResult& result,
 
 std::vector<Picture> draw_score_figures(const ExperimentResult& result) {
   std::vector<Picture> pictures;
-  const auto add = [&](const Figure& figure) {
-    pictures.push_back({"figure", figure.png});
-    pictures.push_back({"", figure.svg});
-  };
+  const auto add = [&](const Figure& figure) { add_figure(pictures, "figure", figure); };
   for (const std::string& simulator : result.experiment.simulators) {
     const auto stem = [&](const char* name) {
       return result.directory.file("figures", fmt::format("{}_{}", name, simulator));

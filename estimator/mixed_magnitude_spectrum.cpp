@@ -44,21 +44,13 @@ void MixedMagnitudeSpectrum::summarise(const SlidingDft& clean, const SlidingDft
 
 void MixedMagnitudeSpectrum::set_energies(const SlidingDft& clean,
                                           const SlidingDft& noise) noexcept {
-  SpectrumRow constant = SpectrumRow::Zero();
-  SpectrumRow linear = SpectrumRow::Zero();
-  SpectrumRow square = SpectrumRow::Zero();
+  MixedEnergy energy;
   for (int row = 0; row < rows_; ++row) {
-    const ConstSpectrumRowMap x(clean.reals().data() + row * lanes);
-    const ConstSpectrumRowMap y(clean.imaginaries().data() + row * lanes);
-    const ConstSpectrumRowMap x_noise(noise.reals().data() + row * lanes);
-    const ConstSpectrumRowMap y_noise(noise.imaginaries().data() + row * lanes);
-    constant += x.square() + y.square();
-    linear += 2.0 * (x * x_noise + y * y_noise);
-    square += x_noise.square() + y_noise.square();
+    energy.add_row(clean, noise, row);
   }
-  constant_ = constant.sum();
-  linear_ = linear.sum();
-  square_ = square.sum();
+  constant_ = energy.constant.sum();
+  linear_ = energy.linear.sum();
+  square_ = energy.square.sum();
 }
 
 void MixedMagnitudeSpectrum::cumulate(const SlidingDft& clean, const SlidingDft& noise) noexcept {

@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "estimator/mixed_power_spectrum.hpp"
+#include "estimator/mixed_bins.hpp"
+#include "estimator/spectrum_summary.hpp"
 
 namespace touchdown {
 

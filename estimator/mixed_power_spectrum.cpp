@@ -19,25 +19,17 @@ void MixedPowerSpectrum::summarise(const SlidingDft& clean, const SlidingDft& no
 }
 
 void MixedPowerSpectrum::cumulate(const SlidingDft& clean, const SlidingDft& noise) noexcept {
-  SpectrumRow constant = SpectrumRow::Zero();
-  SpectrumRow linear = SpectrumRow::Zero();
-  SpectrumRow square = SpectrumRow::Zero();
+  MixedEnergy energy;
   for (int row = 0; row < rows_; ++row) {
-    const ConstSpectrumRowMap x(clean.reals().data() + row * lanes);
-    const ConstSpectrumRowMap y(clean.imaginaries().data() + row * lanes);
-    const ConstSpectrumRowMap x_noise(noise.reals().data() + row * lanes);
-    const ConstSpectrumRowMap y_noise(noise.imaginaries().data() + row * lanes);
-    constant += x.square() + y.square();
-    linear += 2.0 * (x * x_noise + y * y_noise);
-    square += x_noise.square() + y_noise.square();
+    energy.add_row(clean, noise, row);
     double* const sums = within_lane_.data() + 3 * (row + 1) * lanes;
-    SpectrumRowMap{sums} = constant;
-    SpectrumRowMap{sums + lanes} = linear;
-    SpectrumRowMap{sums + 2 * lanes} = square;
+    SpectrumRowMap{sums} = energy.constant;
+    SpectrumRowMap{sums + lanes} = energy.linear;
+    SpectrumRowMap{sums + 2 * lanes} = energy.square;
   }
-  constant_ = LaneSums::of(constant);
-  linear_ = LaneSums::of(linear);
-  square_ = LaneSums::of(square);
+  constant_ = LaneSums::of(energy.constant);
+  linear_ = LaneSums::of(energy.linear);
+  square_ = LaneSums::of(energy.square);
   mean_ = {clean.real(0), noise.real(0)};
   nyquist_ = {clean.nyquist(), noise.nyquist()};
 }

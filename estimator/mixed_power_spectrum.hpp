@@ -3,18 +3,11 @@
 #include <span>
 #include <vector>
 
+#include "estimator/mixed_bins.hpp"
 #include "estimator/spectral_median.hpp"
 #include "estimator/spectrum_summary.hpp"
 
 namespace touchdown {
-
-/// A bin of the window (clean + sigma · noise) that is real.
-struct MixedRealBin {
-  double clean = 0.0;
-  double noise = 0.0;
-
-  [[nodiscard]] double at(double sigma) const noexcept { return clean + sigma * noise; }
-};
 
 /// Power and median frequency of the window (clean + sigma · noise) for many sigmas, cheaper than
 /// one spectrum each: |X + σZ|² = |X|² + σ · 2 Re(X·Z̄) + σ² |Z|², so every cumulative sum over bins

@@ -105,15 +105,10 @@ Prediction predict(ContactEstimator& estimator, const HeardRun& run, const UnitN
       {.contact = ContactSequence(run.steps()), .p_contact = std::vector<double>(run.steps())});
   begin(estimator, run);
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    const Belief& belief = estimator.update(noisy(run, noise, levels, k));
-    const bool left = belief.wheel[0].contact;
-    const bool right = belief.wheel[1].contact;
-    const std::array<bool, view_count> contact = {left, right, left || right, left && right};
-    const std::array<double, view_count> p = {belief.wheel[0].p_contact, belief.wheel[1].p_contact,
-                                              belief.p_any_wheel, belief.p_both_wheels};
+    const auto views = views_of(estimator.update(noisy(run, noise, levels, k)));
     for (std::size_t v = 0; v < view_count; ++v) {
-      prediction[v].contact[k] = std::uint8_t{contact[v]};
-      prediction[v].p_contact[k] = p[v];
+      prediction[v].contact[k] = std::uint8_t{views[v].contact};
+      prediction[v].p_contact[k] = views[v].p_contact;
     }
   }
   return prediction;

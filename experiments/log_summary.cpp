@@ -59,8 +59,8 @@ void LogSummary::add(double time, const Belief& belief) {
   ++status_[static_cast<std::size_t>(belief.status)];
   const std::array<bool, 2> now = {belief.wheel[0].contact, belief.wheel[1].contact};
   if (steps_ >= skipped_) {
-    const std::array<bool, view_count> views = {now[0], now[1], now[0] || now[1], now[0] && now[1]};
-    for (std::size_t v = 0; v < view_count; ++v) contact_[v] += views[v] ? 1 : 0;
+    const auto views = views_of(belief);
+    for (std::size_t v = 0; v < view_count; ++v) contact_[v] += views[v].contact ? 1 : 0;
     for (std::size_t wheel = 0; wheel < 2 && steps_ > skipped_; ++wheel) {
       if (now[wheel] == was_in_contact_[wheel]) continue;
       (now[wheel] ? landings_ : takeoffs_)[wheel].add(time);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "estimator/contact_estimator.hpp"
 #include "experiments/calibration.hpp"
 #include "experiments/classification.hpp"
 #include "experiments/labels.hpp"
@@ -49,6 +50,22 @@ enum class View : int { left_wheel, right_wheel, any_wheel, both_wheels };
 inline constexpr std::size_t view_count = 4;
 inline constexpr std::array<std::string_view, view_count> view_names = {"left_wheel", "right_wheel",
                                                                         "any_wheel", "both_wheels"};
+
+/// What a belief says of one view at one step.
+struct ViewBelief {
+  bool contact;      ///< its decision
+  double p_contact;  ///< its probability
+};
+
+/// In the order of `View`.
+inline std::array<ViewBelief, view_count> views_of(const Belief& belief) {
+  const WheelBelief& left = belief.wheel[0];
+  const WheelBelief& right = belief.wheel[1];
+  return {{{left.contact, left.p_contact},
+           {right.contact, right.p_contact},
+           {left.contact || right.contact, belief.p_any_wheel},
+           {left.contact && right.contact, belief.p_both_wheels}}};
+}
 
 /// What an estimator said about a run, in the order of `View`.
 using Prediction = std::array<Track, view_count>;

@@ -47,14 +47,10 @@ ScoreStream::ScoreStream(std::int64_t period_us, const LabelConfig& labels,
 }
 
 void ScoreStream::add(const std::array<double, wheel_count>& normal_force, const Belief& belief) {
-  const bool left = belief.wheel[0].contact;
-  const bool right = belief.wheel[1].contact;
-  const std::array<bool, view_count> contact = {left, right, left || right, left && right};
-  const std::array<double, view_count> p = {belief.wheel[0].p_contact, belief.wheel[1].p_contact,
-                                            belief.p_any_wheel, belief.p_both_wheels};
+  const auto views = views_of(belief);
   for (std::size_t v = 0; v < view_count; ++v) {
-    prediction_[v].contact.push_back(std::uint8_t{contact[v]});
-    prediction_[v].p_contact.push_back(p[v]);
+    prediction_[v].contact.push_back(std::uint8_t{views[v].contact});
+    prediction_[v].p_contact.push_back(views[v].p_contact);
   }
   for (std::size_t wheel = 0; wheel < labels_.size(); ++wheel) {
     labels_[wheel].add(normal_force[wheel]);
