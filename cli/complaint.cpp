@@ -7,7 +7,7 @@
 
 #include "core/yaml.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 namespace {
 
@@ -58,4 +58,4 @@ std::string complaint(const CLI::App& program, int argc, char** argv,
   return fmt::format("{}: {}", verb, first_line(error.what()));
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace touchdown {
+namespace touchdown::cli {
 
 /// One line about what is wrong with a command line, with the nearest verb or flag that exists.
 std::string complaint(const CLI::App& program, int argc, char** argv, const CLI::ParseError& error);
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

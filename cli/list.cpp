@@ -1,15 +1,13 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
 #include "core/files.hpp"
-#include "experiments/estimator_registry.hpp"
-#include "experiments/resources.hpp"
-#include "experiments/table.hpp"
-#include "simulators/simulator.hpp"
+#include "core/resources.hpp"
+#include "core/table.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "simulators/registry.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 namespace {
 
@@ -29,31 +27,30 @@ void print_files(const char* title, const char* folder) {
   fmt::print("{}\n", to_text(table, 2));
 }
 
-void print_names(const char* title, const std::vector<std::string>& names) {
-  fmt::print("{}\n", title);
-  for (const std::string& name : names) fmt::print("  {}\n", name);
-  fmt::print("\n");
+/// What a registry says about each of its entries.
+template <typename Entries>
+std::string described(const Entries& entries) {
+  Table table{{}, {}};
+  for (const auto& entry : entries) {
+    table.rows.push_back({entry.name, entry.title, entry.summary});
+  }
+  return to_text(table, 3);
 }
 
 void list() {
   print_files("experiments", "experiments");
   print_files("scenarios", "scenarios");
-  print_names("simulators", simulator_names());
-  fmt::print("estimators\n");
-  Table table{{}, {}};
-  for (const EstimatorEntry& entry : estimator_entries()) {
-    table.rows.push_back({entry.name, entry.title});
-  }
-  fmt::print("{}", to_text(table, 2));
+  fmt::print("simulators\n{}\n", described(simulators::simulator_entries()));
+  fmt::print("estimators\n{}", described(experiments::estimator_entries()));
 }
 
 }  // namespace
 
-void add_list(CLI::App& program, Session& session) {
+void add_list(CLI::App& program, CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "list",
       "touchdown list\n\nShows the experiments, scenarios, simulators and estimators at hand.");
   verb->callback([&session] { session.action = list; });
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -1,32 +1,16 @@
-#include <atomic>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "cli/complaint.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
-
-// Signal handlers can reach nothing but globals.
-std::atomic<bool> stop_requested = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void request_stop(int /*signal*/) { stop_requested = true; }
-
-/// The first Ctrl-C asks to stop, the second one kills.
-void stop_on_interrupt() {
-  struct sigaction action = {};
-  action.sa_handler = request_stop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
-}
 
 int complain(const std::string& message, ExitCode code) {
   fmt::print(stderr, "touchdown: {}\n", message);
@@ -40,7 +24,7 @@ std::string joined(int argc, char** argv) {
 }
 
 int run_command_line(int argc, char** argv) {
-  Session session{joined(argc, argv), &stop_requested, {}};
+  CliSession session{joined(argc, argv), nullptr, {}};
   CLI::App program(
       "touchdown run experiments/stairs.yaml\n\n"
       "Simulates wheeled bipeds in two physics engines, injects sensor noise, and\n"
@@ -71,7 +55,7 @@ int run_command_line(int argc, char** argv) {
     return complain(complaint(program, argc, argv, error), wrong_request);
   }
   try {
-    stop_on_interrupt();
+    session.stop = &stop_on_interrupt();
     session.action();
     return good;
   } catch (const InputError& error) {
@@ -82,6 +66,6 @@ int run_command_line(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli
 
-int main(int argc, char** argv) { return touchdown::run_command_line(argc, argv); }
+int main(int argc, char** argv) { return touchdown::cli::run_command_line(argc, argv); }

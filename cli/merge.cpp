@@ -5,7 +5,7 @@
 #include "cli/verbs.hpp"
 #include "experiments/run_experiment.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 namespace {
 
@@ -14,15 +14,15 @@ struct MergeFlags {
   bool no_pictures = false;
 };
 
-void merge(const MergeFlags& flags, const Session& session) {
-  ExperimentResult result =
-      merge_run(flags.directory, {.out = {}, .command = session.command, .stop = session.stop});
+void merge(const MergeFlags& flags, const CliSession& session) {
+  experiments::ExperimentResult result = experiments::merge_run(
+      flags.directory, {.out = {}, .command = session.command, .stop = session.stop});
   show(result, session, flags.no_pictures);
 }
 
 }  // namespace
 
-void add_merge(CLI::App& program, Session& session) {
+void add_merge(CLI::App& program, CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "merge",
       "touchdown merge runs/stairs/latest\n\n"
@@ -36,4 +36,4 @@ void add_merge(CLI::App& program, Session& session) {
       [flags, &session] { session.action = [flags, &session] { merge(*flags, session); }; });
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -1,21 +1,23 @@
-#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "cli/film_progress.hpp"
-#include "cli/filmed_run.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "render/film/poster.hpp"
+#include "render/pictures/film_progress.hpp"
+#include "render/pictures/filmed_run.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 namespace {
 
 struct RenderFlags {
   std::vector<std::string> inputs;
   std::string output;
-  VideoOptions video;
+  render::VideoOptions video;
   std::string quality = "draft";
   std::string layout;
   bool poster = false;
@@ -23,15 +25,16 @@ struct RenderFlags {
 };
 
 /// What is to be seen: one run, or two beside each other.
-std::vector<FilmedRun> runs_of(const RenderFlags& flags) {
-  std::vector<FilmedRun> runs;
+std::vector<render::FilmedRun> runs_of(const RenderFlags& flags) {
+  std::vector<render::FilmedRun> runs;
   std::vector<std::string> warnings;
+  std::error_code ignored;
   for (const std::string& input : flags.inputs) {
-    if (!is_run_directory(input)) {
-      runs.push_back(filmed_recording(input, warnings));
+    if (!std::filesystem::is_directory(input, ignored)) {
+      runs.push_back(render::filmed_recording(input, warnings));
       continue;
     }
-    std::vector<FilmedRun> filmed = filmed_runs(input);
+    std::vector<render::FilmedRun> filmed = render::filmed_runs(render::read_subject(input));
     if (filmed.empty()) {
       throw InputError(fmt::format("{}: has no recording of the run that it films", input));
     }
@@ -50,35 +53,32 @@ std::vector<FilmedRun> runs_of(const RenderFlags& flags) {
   return runs;
 }
 
-void render(const RenderFlags& flags, const Session& session) {
-  const std::vector<FilmedRun> runs = runs_of(flags);
-  VideoOptions options = flags.video;
-  options.quality = flags.quality == "page" ? VideoQuality::page : VideoQuality::draft;
+void render(const RenderFlags& flags, const CliSession& session) {
+  const std::vector<render::FilmedRun> runs = runs_of(flags);
+  render::VideoOptions options = flags.video;
+  options.quality =
+      flags.quality == "page" ? render::VideoQuality::page : render::VideoQuality::draft;
   options.labels = runs.front().labels;
-  std::vector<VideoSource> sources;
-  for (const FilmedRun& run : runs) sources.push_back(run.source());
+  std::vector<render::VideoSource> sources;
+  for (const render::FilmedRun& run : runs) sources.push_back(run.source());
   const double moment = options.from > 0.0 ? options.from : NAN;
-  if (flags.scene) {
-    render_scene(runs[0].robot, runs[0].recording, options, moment, flags.output);
+  if (flags.scene || flags.poster) {
+    if (flags.scene) {
+      render::render_scene(runs[0].robot, runs[0].recording, options, moment, flags.output);
+    } else {
+      render::render_poster(sources, options, moment, flags.output);
+    }
     fmt::print("{}\n", flags.output);
     return;
   }
-  if (flags.poster) {
-    render_poster(sources, options, moment, flags.output);
-    fmt::print("{}\n", flags.output);
-    return;
-  }
-  options.progress = FilmProgress("filming", session);
-  const VideoStatistics statistics =
-      sources.size() == 2
-          ? render_side_by_side(sources[0], sources[1], options, flags.output)
-          : render_video(runs[0].robot, runs[0].recording, runs[0].beliefs, options, flags.output);
+  options.progress = render::FilmProgress("filming", session.stop);
+  const render::VideoStatistics statistics = render::render_video(sources, options, flags.output);
   fmt::print("{}: {} frames, {:.1f} frames/s\n", flags.output, statistics.frames, statistics.fps());
 }
 
 }  // namespace
 
-void add_render(CLI::App& program, Session& session) {
+void add_render(CLI::App& program, CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "render",
       "touchdown render stairs.mpack -o stairs.mp4\n\n"
@@ -115,4 +115,4 @@ void add_render(CLI::App& program, Session& session) {
       [flags, &session] { session.action = [flags, &session] { render(*flags, session); }; });
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

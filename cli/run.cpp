@@ -4,15 +4,14 @@
 
 #include <fmt/format.h>
 
-#include "cli/cross_simulator.hpp"
 #include "cli/show_result.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
-#include "experiments/file_kind.hpp"
-#include "experiments/resources.hpp"
+#include "core/resources.hpp"
+#include "experiments/config/yaml_kind.hpp"
 #include "experiments/run_experiment.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 namespace {
 
@@ -25,37 +24,34 @@ struct RunFlags {
   bool no_pictures = false;
 };
 
-void run_one_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
-  const ShardReport report = run_shard(experiment, shard, options);
-  for (const PlayedRun& run : report.failed_runs) {
-    fmt::print("Not used: {} ({})\n", run.plan.file,
-               run.report.error.empty() ? to_text(run.report.outcome) : run.report.error);
+void run_one_shard(const experiments::Experiment& experiment, const experiments::Shard& shard,
+                   const experiments::RunOptions& options) {
+  const experiments::ShardReport report = experiments::run_shard(experiment, shard, options);
+  for (const experiments::PlayedRun& run : report.failed_runs) {
+    fmt::print(
+        "Not used: {} ({})\n", run.plan.file,
+        run.report.error.empty() ? recordings::to_text(run.report.outcome) : run.report.error);
   }
-  fmt::print("shard {}: {} parts, {} computed now\n", to_text(shard), report.tasks,
+  fmt::print("shard {}: {} parts, {} computed now\n", experiments::to_text(shard), report.tasks,
              report.computed);
   fmt::print("when all {} are done: touchdown merge {}\n", shard.count,
              report.directory.path().string());
 }
 
-void outline(const Experiment& experiment, const RunOptions& options) {
-  const RunOutline outline = outline_of(experiment, options);
+void outline(const experiments::Experiment& experiment, const experiments::RunOptions& options) {
+  const experiments::RunOutline outline = experiments::outline_of(experiment, options);
   fmt::print("results   {}\nparts     {}\n", outline.directory.string(), outline.tasks);
 }
 
-void run(const RunFlags& flags, const Session& session) {
-  std::optional<Shard> shard;
-  if (!flags.shard.empty()) shard = shard_from(flags.shard);
+void run(const RunFlags& flags, const CliSession& session) {
+  std::optional<experiments::Shard> shard;
+  if (!flags.shard.empty()) shard = experiments::shard_from(flags.shard);
   YamlDocument document = YamlDocument::load(find_resource(flags.experiment));
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
-  require_kind(document, FileKind::experiment);
-  const RunOptions options{.out = flags.out, .command = session.command, .stop = session.stop};
-  if (is_cross_simulator(document)) {
-    if (shard) throw InputError("--shard: a cross_simulator experiment is not cut into shards");
-    if (flags.dry_run) throw InputError("--dry-run: not for a cross_simulator experiment");
-    check_across_simulators(cross_simulator_from_yaml(document), options, flags.no_pictures);
-    return;
-  }
-  const Experiment experiment = experiment_from_yaml(document);
+  experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
+  const experiments::RunOptions options{
+      .out = flags.out, .command = session.command, .stop = session.stop};
+  const experiments::Experiment experiment = experiments::experiment_from_yaml(document);
   if (flags.dry_run) {
     outline(experiment, options);
     return;
@@ -64,13 +60,13 @@ void run(const RunFlags& flags, const Session& session) {
     run_one_shard(experiment, *shard, options);
     return;
   }
-  ExperimentResult result = run_experiment(experiment, options);
+  experiments::ExperimentResult result = experiments::run_experiment(experiment, options);
   show(result, session, flags.no_pictures);
 }
 
 }  // namespace
 
-void add_run(CLI::App& program, Session& session) {
+void add_run(CLI::App& program, CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "run",
       "touchdown run experiments/stairs.yaml\n\n"
@@ -94,4 +90,4 @@ void add_run(CLI::App& program, Session& session) {
       [flags, &session] { session.action = [flags, &session] { run(*flags, session); }; });
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

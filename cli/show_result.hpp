@@ -3,9 +3,9 @@
 #include "cli/verbs.hpp"
 #include "experiments/run_experiment.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 /// Prints an experiment's result and where it is, and draws its pictures unless told not to.
-void show(ExperimentResult& result, const Session& session, bool no_pictures);
+void show(experiments::ExperimentResult& result, const CliSession& session, bool no_pictures);
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

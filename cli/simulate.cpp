@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
-#include "experiments/file_kind.hpp"
-#include "experiments/labels.hpp"
-#include "experiments/progress.hpp"
-#include "experiments/resources.hpp"
-#include "experiments/stopped.hpp"
-#include "recordings/recording_file.hpp"
+#include "core/error.hpp"
+#include "core/progress.hpp"
+#include "core/resources.hpp"
+#include "experiments/config/yaml_kind.hpp"
+#include "recordings/log/recording_file.hpp"
 #include "scenarios/engine.hpp"
+#include "scoring/labels.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 namespace {
 
@@ -24,39 +24,40 @@ struct SimulateFlags {
   std::int64_t run = -1;
 };
 
-void simulate(const SimulateFlags& flags, const Session& session) {
+void simulate(const SimulateFlags& flags, const CliSession& session) {
   YamlDocument document = YamlDocument::load(find_resource(flags.scenario));
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
-  require_kind(document, FileKind::scenario);
-  Scenario scenario = scenario_from_yaml(document);
+  experiments::require_yaml_kind(document, experiments::YamlKind::scenario);
+  scenarios::Scenario scenario = scenarios::scenario_from_yaml(document);
   scenario.robot = find_resource(scenario.robot);
-  if (flags.run >= 0) scenario = perturbed(scenario, flags.seed, flags.run);
+  if (flags.run >= 0) scenario = scenarios::perturbed(scenario, flags.seed, flags.run);
 
-  Recording recording;
+  recordings::Recording recording;
   {
     constexpr double ticks_per_second = 1000.0;
     Progress progress("simulating", "ms",
                       static_cast<std::int64_t>(ticks_per_second * scenario.end.duration));
     std::int64_t shown = 0;
-    recording = play(scenario, flags.simulator, flags.seed, std::max(flags.run, std::int64_t{0}),
-                     [&](double time) {
-                       const auto ticks = static_cast<std::int64_t>(ticks_per_second * time);
-                       progress.advance(ticks - shown);
-                       shown = ticks;
-                       return !*session.stop;
-                     });
+    recording = scenarios::play(scenario, flags.simulator, flags.seed,
+                                std::max(flags.run, std::int64_t{0}), [&](double time) {
+                                  const auto ticks =
+                                      static_cast<std::int64_t>(ticks_per_second * time);
+                                  progress.advance(ticks - shown);
+                                  shown = ticks;
+                                  return !*session.stop;
+                                });
   }
   if (*session.stop) throw Stopped();
-  write_recording(recording, flags.output);
-  const auto all = flights(any_wheel(contact_labels(recording, {})));
+  recordings::write_recording(recording, flags.output);
+  const auto all = scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, {})));
   fmt::print("{}: {} {} after {:.3f} s, {} flights\n", flags.output, recording.info.scenario,
-             to_text(*recording.info.outcome),
+             recordings::to_text(*recording.info.outcome),
              static_cast<double>(recording.steps()) * recording.period(), all.size());
 }
 
 }  // namespace
 
-void add_simulate(CLI::App& program, Session& session) {
+void add_simulate(CLI::App& program, CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "simulate",
       "touchdown simulate scenarios/stairs.yaml --simulator bullet -o stairs.mpack\n\n"
@@ -79,4 +80,4 @@ void add_simulate(CLI::App& program, Session& session) {
       [flags, &session] { session.action = [flags, &session] { simulate(*flags, session); }; });
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

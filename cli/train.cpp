@@ -8,7 +8,7 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 namespace {
 
@@ -33,7 +33,7 @@ namespace {
 
 }  // namespace
 
-void add_train(CLI::App& program, Session& session) {
+void add_train(CLI::App& program, CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "train",
       "touchdown train experiments/nmn.yaml\n\n"
@@ -45,4 +45,4 @@ void add_train(CLI::App& program, Session& session) {
   });
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -10,9 +10,11 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
+# What ccache has to be told before it keeps objects that were compiled with a precompiled header.
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
 # Warnings are errors for us; `cmake --compile-no-warning-as-error` is for other people's compilers.
@@ -35,25 +37,76 @@ target_compile_options(touchdown_flags INTERFACE
   $<$<AND:$<BOOL:${TOUCHDOWN_NATIVE}>,$<BOOL:${TOUCHDOWN_HOST_IS_X86_64_V3}>>:-march=x86-64-v3>)
 target_include_directories(touchdown_flags INTERFACE ${PROJECT_SOURCE_DIR})
 
-# touchdown_library(<folder> SOURCES <file>... DEPENDS <target>...)
-# makes the static library touchdown_<folder>, known as touchdown::<folder>.
-function(touchdown_library folder)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
-  add_library(touchdown_${folder} STATIC ${ARG_SOURCES})
-  add_library(touchdown::${folder} ALIAS touchdown_${folder})
-  target_link_libraries(touchdown_${folder} PUBLIC ${ARG_DEPENDS} PRIVATE $<BUILD_INTERFACE:touchdown_flags>)
-  target_include_directories(touchdown_${folder} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+# Reading headers takes most of a source's compile time; these, which most sources include, are read
+# once for all of them. A source still includes what it uses: lint compiles without this.
+# touchdown_precompile(<target> [<owner>]): a target whose options differ from touchdown_flags reads
+# them for itself, and is the owner for others that are compiled like it.
+set(TOUCHDOWN_PRECOMPILED
+  <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span>
+  <string> <string_view> <vector> <Eigen/Core> <Eigen/Geometry>)
+function(touchdown_precompile target)
+  if(TOUCHDOWN_ESTIMATOR_ONLY)
+    return()
+  endif()
+  # Programs, too, are compiled as position-independent as the libraries that share the headers.
+  target_compile_options(${target} PRIVATE -fpch-preprocess -fPIC)
+  if("${ARGV1}" STREQUAL "${target}")
+    target_precompile_headers(${target} PRIVATE ${TOUCHDOWN_PRECOMPILED})
+  elseif(ARGC GREATER 1)
+    target_precompile_headers(${target} REUSE_FROM ${ARGV1})
+  else()
+    target_precompile_headers(${target} REUSE_FROM touchdown_precompiled)
+    # Definitions that the headers were read with must be the same wherever they are reused.
+    target_compile_definitions(${target} PRIVATE
+      $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
+  endif()
+endfunction()
+if(NOT TOUCHDOWN_ESTIMATOR_ONLY)
+  find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+  find_package(fmt REQUIRED)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "")
+  add_library(touchdown_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+  target_link_libraries(touchdown_precompiled PRIVATE touchdown_flags Eigen3::Eigen fmt::fmt)
+  target_compile_options(touchdown_precompiled PRIVATE -fpch-preprocess)
+  target_precompile_headers(touchdown_precompiled PRIVATE ${TOUCHDOWN_PRECOMPILED} <fmt/format.h>)
+endif()
+
+# touchdown_library(<name> ROOMS <folder>... DEPENDS <target>...)
+# makes the static library touchdown_<name>, known as touchdown::<name>, of every .cpp that stands in
+# the rooms, folders below this one; without ROOMS, of those that stand here. PRECOMPILED: the owner
+# of its precompiled headers.
+function(touchdown_library name)
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "ROOMS;SOURCES;DEPENDS" ${ARGN})
+  touchdown_sources(sources "${ARG_ROOMS}")
+  add_library(touchdown_${name} STATIC ${sources} ${ARG_SOURCES})
+  add_library(touchdown::${name} ALIAS touchdown_${name})
+  target_link_libraries(touchdown_${name} PUBLIC ${ARG_DEPENDS} PRIVATE $<BUILD_INTERFACE:touchdown_flags>)
+  target_include_directories(touchdown_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  touchdown_precompile(touchdown_${name} ${ARG_PRECOMPILED})
+endfunction()
+
+# Every .cpp of the rooms. Looked up again at each build, so that a new file needs no line anywhere.
+function(touchdown_sources result rooms)
+  if(NOT rooms)
+    set(rooms .)
+  endif()
+  list(TRANSFORM rooms APPEND /*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${rooms})
+  set(${result} ${sources} PARENT_SCOPE)
 endfunction()
 
 set(TOUCHDOWN_REFERENCE_DATA ${PROJECT_SOURCE_DIR}/../shared/data CACHE PATH
     "Where the paper's reference data is; tests that need it are skipped where it is not")
 
-# touchdown_test(<folder> SOURCES <file>... DEPENDS <target>...)
-# makes the program test_<folder>; every TEST in it becomes one CTest test.
+# touchdown_test(<folder> DEPENDS <target>...)
+# makes the program test_<folder> of every .cpp below this folder; every TEST in it becomes one CTest
+# test.
 function(touchdown_test folder)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
-  add_executable(test_${folder} ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+  add_executable(test_${folder} ${sources})
   target_link_libraries(test_${folder} PRIVATE touchdown_flags ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
+  touchdown_precompile(test_${folder})
   target_compile_definitions(test_${folder} PRIVATE
     TOUCHDOWN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TOUCHDOWN_REFERENCE_DATA="${TOUCHDOWN_REFERENCE_DATA}")

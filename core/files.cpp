@@ -69,4 +69,42 @@ std::string read_file(const std::filesystem::path& path) {
   return std::move(content).str();
 }
 
+void require_writable(const std::filesystem::path& path) {
+  const std::filesystem::path absolute = std::filesystem::absolute(path);
+  if (!absolute.has_filename() || std::filesystem::is_directory(absolute)) {
+    throw Error(fmt::format("{}: cannot be written: it is a folder", path.string()));
+  }
+  // The nearest folder that exists decides.
+  std::error_code ignored;
+  std::filesystem::path folder = absolute.parent_path();
+  while (!folder.empty() && folder != folder.root_path() &&
+         std::filesystem::status(folder, ignored).type() == std::filesystem::file_type::not_found) {
+    folder = folder.parent_path();
+  }
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    throw Error(
+        fmt::format("{}: cannot be written: {} is not a folder", path.string(), folder.string()));
+  }
+  if (::access(folder.c_str(), W_OK) != 0) {
+    throw Error(
+        fmt::format("{}: cannot be written: no permission in {}", path.string(), folder.string()));
+  }
+}
+
+PartFolder::PartFolder(const std::filesystem::path& stem) {
+  try {
+    const std::filesystem::path parent = std::filesystem::absolute(stem).parent_path();
+    std::filesystem::create_directories(parent);
+    path_ = parent / fmt::format(".{}.{}.part", stem.filename().string(), ::getpid());
+    std::filesystem::create_directory(path_);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw Error(fmt::format("{}: cannot be written: {}", stem.string(), error.code().message()));
+  }
+}
+
+PartFolder::~PartFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
 }  // namespace touchdown

@@ -151,11 +151,8 @@ std::size_t YamlMap::choose(std::string_view key, const std::vector<std::string>
   const auto text = convert<std::string>(node, key);
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end()) {
-    std::string message = fmt::format("expected one of {}", fmt::join(names, ", "));
-    if (const std::string near = nearest(text, names); !near.empty()) {
-      message += fmt::format(" (did you mean '{}'?)", near);
-    }
-    fail(node, key, message);
+    fail(node, key,
+         fmt::format("expected one of {}{}", fmt::join(names, ", "), did_you_mean(text, names)));
   }
   return static_cast<std::size_t>(found - names.begin());
 }
@@ -181,13 +178,10 @@ void YamlMap::finish() const {
   for (const auto& entry : node_) {
     const auto key = entry.first.as<std::string>();
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    std::string message = "unknown key";
-    if (const std::string near = nearest(key, known_); !near.empty()) {
-      message += fmt::format(" (did you mean '{}'?)", near);
-    } else if (!known_.empty()) {
-      message += fmt::format(" (known: {})", fmt::join(known_, ", "));
-    }
-    fail(entry.first, key, message);
+    std::string hint = did_you_mean(key, known_);
+    if (hint.empty() && !known_.empty())
+      hint = fmt::format(" (known: {})", fmt::join(known_, ", "));
+    fail(entry.first, key, "unknown key" + hint);
   }
 }
 
@@ -221,6 +215,11 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     }
   }
   return best;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string near = nearest(word, candidates);
+  return near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near);
 }
 
 }  // namespace touchdown

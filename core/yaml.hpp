@@ -131,4 +131,7 @@ class YamlMap {
 /// The entry of `candidates` that is fewest edits away from `word`, or empty if none is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
+/// " (did you mean 'nearest'?)", or nothing if none is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+
 }  // namespace touchdown

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string_view>
 
 #include "estimator/signals.hpp"
@@ -49,6 +50,41 @@ struct Belief {
   SignalStatus status = SignalStatus::good;
 };
 
+/// From the wheels' probabilities to their decisions and to the robot's probabilities, for an
+/// estimator whose wheels are independent of each other: then their probabilities multiply.
+inline void conclude(Belief& belief, double threshold) noexcept {
+  for (WheelBelief& wheel : belief.wheel) wheel.contact = wheel.p_contact >= threshold;
+  const double left = belief.wheel[0].p_contact;
+  const double right = belief.wheel[1].p_contact;
+  belief.p_both_wheels = left * right;
+  belief.p_any_wheel = left + (1.0 - left) * right;
+}
+
+/// What a belief was computed from; NaN for what an estimator does not compute.
+struct Evidence {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  /// Of the last measurement of one wheel.
+  struct Measurement {
+    double contact_likelihood = unknown;     ///< P(m_t | S_t = C)
+    double no_contact_likelihood = unknown;  ///< P(m_t | S_t = ¬C)
+    double p_contact = unknown;              ///< by these two alone
+  };
+  /// Of the last transition, common to both wheels.
+  struct Transition {
+    double power = unknown;                      ///< m²/s⁴
+    double median_frequency = unknown;           ///< Hz
+    double filtered_median_frequency = unknown;  ///< Hz
+    double p_switch = unknown;                   ///< P(S_t ≠ S_t−1)
+    double p_landing_if_switch = unknown;        ///< P(S_t = C | S_t ≠ S_t−1)
+    double p_takeoff = unknown;                  ///< P(S_t = ¬C | S_t−1 = C)
+    double p_landing = unknown;                  ///< P(S_t = C | S_t−1 = ¬C)
+  };
+
+  std::array<Measurement, 2> wheel;  ///< left, right
+  Transition transition;
+};
+
 /// The seam for contact estimators. One call of `update` per time step; neither call allocates,
 /// locks or throws, so that it can run in a robot's control loop.
 class ContactEstimator {
@@ -60,6 +96,9 @@ class ContactEstimator {
 
   /// Take one step of signals and return the new belief.
   virtual const Belief& update(const Signals& signals) noexcept = 0;
+
+  /// What the last belief was computed from, for those who log or draw it.
+  [[nodiscard]] virtual Evidence evidence() const noexcept { return {}; }
 };
 
 }  // namespace touchdown

@@ -4,19 +4,38 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Programs write <touchdown/estimator/…>, the headers among themselves "estimator/…".
+# Programs write <touchdown/estimator.hpp> or <touchdown/estimator/…>, the headers among themselves
+# "estimator/…".
+set(public
+  contact_estimator free_fall signal_guard signals torque_channel upkie_observer
+  bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
+  bayes/transition_model
+  neural/estimator neural/input neural/network
+  phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
+# What these hold by value. Not for programs, and not promised to stay.
+set(detail
+  neural/forward numerics/axis numerics/exponential phase/noise phase/recursion phase/senses
+  phase/tables spectrum/sliding_dft spectrum/summary)
+set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 target_include_directories(touchdown_estimator PUBLIC
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/touchdown>)
+  $<INSTALL_INTERFACE:${include_dir}>
+  $<INSTALL_INTERFACE:${include_dir}/detail>)
 set_target_properties(touchdown_estimator PROPERTIES EXPORT_NAME estimator)
 
 install(TARGETS touchdown_estimator EXPORT touchdownTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchdown/estimator
-        FILES_MATCHING PATTERN "*.hpp")
+install(FILES estimator.hpp DESTINATION ${include_dir})
+foreach(header ${public})
+  cmake_path(GET header PARENT_PATH room)
+  install(FILES ${header}.hpp DESTINATION ${include_dir}/estimator/${room})
+endforeach()
+foreach(header ${detail})
+  cmake_path(GET header PARENT_PATH room)
+  install(FILES ${header}.hpp DESTINATION ${include_dir}/detail/estimator/${room})
+endforeach()
 install(FILES ${CMAKE_CURRENT_SOURCE_DIR}/../core/error.hpp
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchdown/core)
+        DESTINATION ${include_dir}/core)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/touchdown)
 install(EXPORT touchdownTargets NAMESPACE touchdown:: DESTINATION ${package_dir})

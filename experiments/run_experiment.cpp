@@ -1,33 +1,133 @@
 #include "experiments/run_experiment.hpp"
 
 #include <algorithm>
-
-#include <fmt/format.h>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/execution.hpp"
-#include "experiments/run_request.hpp"
-#include "experiments/saved_state.hpp"
-#include "experiments/shard_log.hpp"
+#include "experiments/cross_simulator/check.hpp"
+#include "experiments/cross_simulator/tables.hpp"
+#include "experiments/phase_study/fit.hpp"
+#include "experiments/phase_study/tables.hpp"
+#include "experiments/run_directory/saved_state.hpp"
+#include "experiments/run_directory/shard_log.hpp"
+#include "experiments/tables/manifest.hpp"
+#include "experiments/tables/result_files.hpp"
 
-namespace touchdown {
+namespace touchdown::experiments {
 
-std::vector<const HeardRun*> scored_runs(const std::vector<PlayedRun>& runs) {
-  std::vector<const HeardRun*> scored;
-  for (const PlayedRun& run : runs) {
-    if (run.plan.role == RunRole::test && !is_failure(run.report.outcome)) {
-      scored.push_back(&run.heard);
-    }
-  }
-  return scored;
+namespace {
+
+bool is_any_scored(const PlayedRuns& runs) {
+  return std::any_of(runs.begin(), runs.end(), [](const auto& entry) {
+    return entry.second.plan.role == RunRole::test && !entry.second.failed();
+  });
 }
+
+/// What the estimators need that listen to these runs; nothing when none can be scored.
+FittedModels fit(const RunningExperiment& running, const PlayedRuns& runs) {
+  if (!is_any_scored(runs)) return {};
+  Experiment experiment = running.request.experiment;
+  std::set<std::string> played;
+  std::vector<RunSignals> fitted;
+  for (const auto& [index, run] : runs) {
+    played.insert(run.plan.simulator);
+    if (run.failed()) continue;
+    if (run.plan.role == RunRole::fit && run.plan.group == 0) fitted.push_back(run.signals);
+  }
+  // A shard may have runs of one engine only.
+  std::erase_if(experiment.simulators,
+                [&](const std::string& simulator) { return !played.contains(simulator); });
+  if (experiment.phase_study) std::erase(experiment.estimators, "phase");
+  FittedModels models = fit_models(experiment, fitted, running.going_on);
+  if (experiment.phase_study) fit_to_pieces(experiment, runs, running.going_on, models);
+  if (!running.going_on()) throw Stopped();
+  return models;
+}
+
+struct Computed {
+  PlayedRuns runs;
+  FittedModels models;
+  std::size_t tasks = 0;  ///< that were not saved already
+};
+
+/// The first half of the way: play → fit → listen. What is saved is read.
+Computed compute(RunningExperiment& running, const TaskRange& tasks, MissingRun missing) {
+  const Experiment& experiment = running.request.experiment;
+  try {
+    Computed done;
+    done.runs = timed(running, "simulate", [&] {
+      return play_runs(experiment, running.plan, runs_for(running.plan, tasks), running.directory,
+                       missing, running.going_on);
+    });
+    done.models = timed(running, "fit", [&] { return fit(running, done.runs); });
+    done.tasks = timed(running, "listen", [&] {
+      return listen(running.plan, tasks, done.runs, experiment.scoring, done.models, running.saved,
+                    running.going_on);
+    });
+    return done;
+  } catch (const Stopped&) {
+    throw Stopped(what_is_saved(running));
+  }
+}
+
+/// Full scores in one highlighted cell.
+void add_scores(const std::vector<ConditionScores>& counts, const noise::NoiseCell& cell,
+                const scoring::BootstrapConfig& bootstrap, ExperimentResult& result) {
+  const std::vector<ScoreSummary> scores = summarise(counts, cell, bootstrap);
+  const std::vector<Difference> compared = differences(counts, cell, bootstrap);
+  result.scores.insert(result.scores.end(), scores.begin(), scores.end());
+  result.differences.insert(result.differences.end(), compared.begin(), compared.end());
+}
+
+/// The second half: score → tables. Listens to nothing.
+ExperimentResult conclude(RunningExperiment& running, Computed done) {
+  const Experiment& experiment = running.request.experiment;
+  const Plan& plan = running.plan;
+  ExperimentResult result{
+      experiment, running.request.id, running.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  result.models = std::move(done.models);
+  result.cells = plan.groups.front().counted;
+  timed(running, "score", [&] {
+    if (!is_any_scored(done.runs)) {
+      throw Error("no test run stayed upright: there is nothing to score");
+    }
+    const CollectedCounts counts = collect(plan, plan.runs_in(0), running.saved);
+    result.summaries = summarise(counts.own(), result.cells, experiment.intervals.bootstrap);
+    for (std::size_t i = 0; i < experiment.highlights.size(); ++i) {
+      add_scores(counts.scored[i], experiment.highlights[i], experiment.intervals.bootstrap,
+                 result);
+    }
+    if (experiment.cross_simulator) {
+      const CrossSimulatorResult check =
+          check_across_simulators(running.request, plan, done.runs, counts, running.saved);
+      write_tables(check, running.directory);
+      result.studies.push_back(report_text(check));
+      result.failed_demands = failed_demands(check.verdicts);
+    }
+    if (experiment.phase_study) {
+      result.studies.push_back(
+          phase_study_text(running.request, plan, done.runs, counts, running.saved));
+      write_atomically(running.directory.file("tables", "phase_study.md"), result.studies.back());
+    }
+    return 0;
+  });
+  for (auto& [index, run] : done.runs) {
+    if (run.plan.group == 0) result.runs.push_back(std::move(run));
+  }
+  result.provenance = running.provenance;
+  write_result_files(result);
+  remove_shard_notes(running.directory.path());
+  remove_partial_files(running.directory.path());
+  write_manifest(result);
+  return result;
+}
+
+}  // namespace
 
 RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
   const RunRequest request = request_of(experiment);
-  const auto plan = plan_runs(request.experiment, request.scenarios);
-  return {run_path(experiment.name, request.id, options.out),
-          listening_tasks(request.experiment, plan).size()};
+  return {run_path(experiment.name, request.id, options.out), whole_plan(request).tasks.size()};
 }
 
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options) {
@@ -35,9 +135,8 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& 
   RunDirectory directory(experiment.name, request.id, options.out);
   write_request(request, directory, true);
   remove_partial_files(directory.path());
-  Execution execution(std::move(request), std::move(directory), options);
-  execution.compute(0, execution.tasks().size());
-  return execution.assemble(options.command);
+  RunningExperiment running = start(std::move(request), std::move(directory), options);
+  return conclude(running, compute(running, running.plan.all_tasks(), MissingRun::simulate));
 }
 
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
@@ -45,47 +144,25 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
   RunDirectory directory(experiment.name, request.id, options.out);
   write_request(request, directory, false);
   note_shard(directory.path(), shard);
-  Execution execution(std::move(request), std::move(directory), options);
-  const std::size_t begin = shard.begin(execution.tasks().size());
-  const std::size_t end = shard.end(execution.tasks().size());
-  ShardReport report{execution.directory(), end - begin, 0, {}};
-  if (begin == end) return report;
-  report.computed = execution.compute(begin, end);
-  for (const PlayedRun& run : execution.runs()) {
-    if (is_failure(run.report.outcome)) report.failed_runs.push_back(run);
+  RunningExperiment running = start(std::move(request), std::move(directory), options);
+  const std::size_t all = running.plan.tasks.size();
+  const TaskRange tasks{shard.begin(all), shard.end(all)};
+  ShardReport report{running.directory, tasks.size(), 0, {}};
+  if (tasks.size() == 0) return report;
+  const Computed done = compute(running, tasks, MissingRun::simulate);
+  report.computed = done.tasks;
+  for (const auto& [index, run] : done.runs) {
+    if (run.failed()) report.failed_runs.push_back(run);
   }
   return report;
 }
 
-ExperimentResult merge_run(const std::filesystem::path& directory, const RunOptions& options) {
-  RunRequest request = read_request(directory);
-  const std::string name = request.experiment.name;
-  const std::string id = request.id;
-  Execution execution(std::move(request), RunDirectory(name, id, directory), options);
-  const std::vector<std::size_t> missing = execution.missing_tasks();
-  if (!missing.empty()) {
-    const int count = noted_shards(directory);
-    std::vector<std::string> shards;
-    for (int index = 1; index <= count; ++index) {
-      const Shard shard{index, count};
-      const auto first =
-          std::lower_bound(missing.begin(), missing.end(), shard.begin(execution.tasks().size()));
-      if (first == missing.end() || *first >= shard.end(execution.tasks().size())) continue;
-      shards.push_back(to_text(shard));
-    }
-    throw InputError(fmt::format(
-        "{}: {} of {} parts are missing: finish shard{} {} first, by 'touchdown run {} --out {} "
-        "--shard {}'",
-        directory.string(), missing.size(), execution.tasks().size(), shards.size() == 1 ? "" : "s",
-        fmt::join(shards, ", "), (directory / "config.yaml").string(), directory.string(),
-        shards.front()));
-  }
-  return execution.assemble(options.command);
+ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& options) {
+  RunRequest request = read_request(path);
+  RunDirectory directory(request.experiment.name, request.id, path);
+  RunningExperiment running = start(std::move(request), std::move(directory), options);
+  require_all_shards(running);
+  return conclude(running, compute(running, running.plan.all_tasks(), MissingRun::refuse));
 }
 
-void write_manifest(const ExperimentResult& result) {
-  write_atomically(result.directory.path() / "manifest.json",
-                   manifest(result.experiment, result.id, result.runs, result.provenance));
-}
-
-}  // namespace touchdown
+}  // namespace touchdown::experiments

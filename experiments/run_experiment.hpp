@@ -1,41 +1,13 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "experiments/experiment.hpp"
-#include "experiments/fitting.hpp"
-#include "experiments/manifest.hpp"
-#include "experiments/metrics.hpp"
-#include "experiments/run_directory.hpp"
-#include "experiments/run_plan.hpp"
-#include "experiments/shard.hpp"
-#include "experiments/success_tables.hpp"
+#include "experiments/run_directory/shard.hpp"
+#include "experiments/running_experiment.hpp"
 
-namespace touchdown {
-
-/// How an experiment is run; none of it changes a result.
-struct RunOptions {
-  std::filesystem::path out;                ///< run directory; empty: by the experiment's content
-  std::string command;                      ///< what was typed, for the manifest
-  const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user asks to stop
-};
-
-/// What an experiment found out. The same is in the run directory's files.
-struct ExperimentResult {
-  Experiment experiment;
-  std::string id;
-  RunDirectory directory;
-  std::vector<PlayedRun> runs;
-  FittedModels models;
-  std::vector<NoiseCell> cells;
-  std::vector<CellSummary> summaries;   ///< of every noise cell
-  std::vector<ScoreSummary> scores;     ///< of the highlighted ones
-  std::vector<Difference> differences;  ///< likewise
-  Provenance provenance;
-};
+namespace touchdown::experiments {
 
 /// What running an experiment would amount to.
 struct RunOutline {
@@ -72,10 +44,4 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
 /// are not finished.
 ExperimentResult merge_run(const std::filesystem::path& directory, const RunOptions& options);
 
-/// The test runs that are scored: all but those that fell or diverged.
-std::vector<const HeardRun*> scored_runs(const std::vector<PlayedRun>& runs);
-
-/// Writes `manifest.json`; again when there are more timings to tell.
-void write_manifest(const ExperimentResult& result);
-
-}  // namespace touchdown
+}  // namespace touchdown::experiments

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
-namespace touchdown {
+#include "core/error.hpp"
+
+namespace touchdown::models {
 namespace {
 
 /// Heights that differ by less are the same height: sums of rises do not cancel exactly.
@@ -49,7 +51,7 @@ struct Pen {
 
 Profile::Edge rounded_edge(const Profile::Segment& segment, double bottom, double radius) {
   const double slope = segment.slope();
-  const double stretch = std::hypot(1.0, slope);
+  const double stretch = segment.stretch();
   return {.x = segment.x1,
           .top = segment.z1,
           .bottom = bottom,
@@ -91,6 +93,13 @@ Profile::Profile(const Terrain& terrain) {
   }
 }
 
+const Profile::Edge* Profile::edge_after(std::size_t i) const {
+  for (const Edge& edge : edges_) {
+    if (edge.segment == i) return &edge;
+  }
+  return nullptr;
+}
+
 double Profile::height(double x) const {
   for (const Segment& segment : segments_) {
     if (x < segment.x0 || x >= segment.x1) continue;
@@ -105,4 +114,4 @@ double Profile::height(double x) const {
   return 0.0;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::models

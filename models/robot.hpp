@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace touchdown {
+namespace touchdown::models {
 
 /// The six servos of a wheeled biped, in the order that every array, file and column uses.
 enum class Servo : int { left_hip, left_knee, left_wheel, right_hip, right_knee, right_wheel };
@@ -100,4 +100,4 @@ inline double vertical_acceleration(const ImuReading& imu) {
   return -(imu.orientation * imu.linear_acceleration).z();
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::models

@@ -13,7 +13,7 @@
 #include "core/files.hpp"
 #include "models/scene_mjcf.hpp"
 
-namespace touchdown {
+namespace touchdown::models {
 namespace {
 
 /// MuJoCo's own handlers wait for a key press, or write MUJOCO_LOG.TXT into the working directory.
@@ -177,4 +177,16 @@ RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Te
   return robot;
 }
 
-}  // namespace touchdown
+void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
+                const Eigen::Quaterniond& orientation,
+                const std::array<double, servo_count>& joint_position, mjtNum* qpos) {
+  mjtNum* const base = qpos + robot.base_qpos();
+  std::copy_n(position.data(), 3, base);
+  base[3] = orientation.w();
+  base[4] = orientation.x();
+  base[5] = orientation.y();
+  base[6] = orientation.z();
+  for (std::size_t i = 0; i < servo_count; ++i) qpos[robot.qpos_address[i]] = joint_position[i];
+}
+
+}  // namespace touchdown::models

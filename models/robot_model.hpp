@@ -11,7 +11,7 @@
 #include "models/terrain.hpp"
 #include "models/terrain_mjcf.hpp"
 
-namespace touchdown {
+namespace touchdown::models {
 
 struct MjModelDeleter {
   void operator()(mjModel* model) const { mj_deleteModel(model); }
@@ -40,6 +40,10 @@ struct RobotModel {
   std::array<int, wheel_count> tyre_geom = {};     ///< left, right
   double wheel_radius = 0.0;                       ///< of the tyres (m)
   std::array<double, servo_count> effort = {};     ///< torque limit of each servo's motor (N·m)
+
+  /// Of the base's free joint in mjData::qpos (x y z, then w x y z) and mjData::qvel.
+  int base_qpos() const { return mj->jnt_qposadr[mj->body_jntadr[base_body]]; }
+  int base_dof() const { return mj->jnt_dofadr[mj->body_jntadr[base_body]]; }
 };
 
 /// Compile a robot's MJCF together with a terrain.
@@ -51,4 +55,9 @@ struct RobotModel {
 RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain,
                                const ContactParameters& contact = {});
 
-}  // namespace touchdown
+/// Writes where the base is and how the joints stand into mjData::qpos.
+void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
+                const Eigen::Quaterniond& orientation,
+                const std::array<double, servo_count>& joint_position, mjtNum* qpos);
+
+}  // namespace touchdown::models

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace touchdown {
+namespace touchdown::models {
 
 /// What every robot gets, whoever's it is: solver settings, light, sky, and how things are drawn.
 /// MJCF text to stand after the robot's own sections, which it overrides.
@@ -33,4 +33,4 @@ inline constexpr const char* scene_mjcf = R"(
   </worldbody>
 )";
 
-}  // namespace touchdown
+}  // namespace touchdown::models

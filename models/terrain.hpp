@@ -3,9 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/yaml.hpp"
-
-namespace touchdown {
+namespace touchdown::models {
 
 /// Level ground (m).
 struct Flat {
@@ -56,30 +54,4 @@ struct Terrain {
   double friction = 1.0;  ///< sliding friction of every robot–terrain contact
 };
 
-/// Reads
-///
-///     start_x: -2
-///     width: 3
-///     friction: 1
-///     repeat: 1
-///     pieces:
-///       - flat: {length: 3}
-///       - stairs: {count: 7, run: 1, rise: 0.25, nosing_radius: 0.025}
-///       - ramp: {incline: 8, rise: 0.15}
-///       - platform: {length: 1, height: 0.25, nosing_radius: 0.025}
-///       - step: {drop: 0.12, nosing_radius: 0.025}
-///
-/// strictly; every key has the default of its struct. Errors: `InputError`.
-Terrain terrain_from_yaml(YamlMap&& map);
-
-/// The same terrain, every value spelled out: `terrain_from_yaml` reads it back.
-YAML::Node to_yaml(const Terrain& terrain);
-
-/// Height of the ground's surface at x, with its rounded edges (m). At a drop itself: the lower
-/// side. Errors: `InputError` if the pieces do not fit together (see `Profile`).
-double height_at(const Terrain& terrain, double x);
-
-/// The x of every edge that one drops from, in order (m). Errors: as `height_at`.
-std::vector<double> edges(const Terrain& terrain);
-
-}  // namespace touchdown
+}  // namespace touchdown::models

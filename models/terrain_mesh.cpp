@@ -1,9 +1,9 @@
-#include <array>
+#include "models/terrain_mesh.hpp"
+
 #include <cmath>
+#include <utility>
 
-#include "models/terrain_mjcf.hpp"
-
-namespace touchdown {
+namespace touchdown::models {
 namespace {
 
 /// A point of the side view, with the surface normal there.
@@ -20,13 +20,9 @@ constexpr int nosing_faces = 10;
 
 void add_segment(const Profile& profile, std::size_t i, std::vector<OutlineFace>& outline) {
   const Profile::Segment& segment = profile.segments()[i];
-  const double stretch = std::hypot(1.0, segment.slope());
-  const double nx = -segment.slope() / stretch;
-  const double nz = 1.0 / stretch;
-  const Profile::Edge* edge = nullptr;
-  for (const Profile::Edge& candidate : profile.edges()) {
-    if (candidate.segment == i) edge = &candidate;
-  }
+  const double nx = segment.nx();
+  const double nz = segment.nz();
+  const Profile::Edge* edge = profile.edge_after(i);
   const double x1 = edge ? edge->tangent_x : segment.x1;
   const double z1 = edge ? segment.z(x1) : segment.z1;
   outline.push_back({{segment.x0, segment.z0, nx, nz}, {x1, z1, nx, nz}});
@@ -155,4 +151,4 @@ std::vector<Mesh> visual_meshes(const Profile& profile, double width) {
   return meshes;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::models

@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
-namespace touchdown {
+#include "models/profile.hpp"
+#include "models/terrain_mesh.hpp"
+
+namespace touchdown::models {
 namespace {
 
 /// A riser stands this far back from its nosing, so that a wheel meets the nosing alone.
@@ -32,7 +35,7 @@ class Composer {
         "    <geom name=\"touchdown_floor\" type=\"plane\" size=\"{0} {0} 20\" "
         "material=\"touchdown_floor\" group=\"1\" {1}/>\n",
         70.0 + std::abs(reach), contact_);
-    for (const Profile::Segment& segment : profile_.segments()) add_ground(segment);
+    for (std::size_t i = 0; i < profile_.segments().size(); ++i) add_ground(i);
     for (const Profile::Edge& edge : profile_.edges()) add_edge(edge);
     const std::vector<Mesh> meshes = visual_meshes(profile_, terrain_.width);
     for (std::size_t i = 0; i < meshes.size(); ++i) add_mesh(meshes[i], i);
@@ -41,13 +44,6 @@ class Composer {
 
  private:
   double half_width() const { return 0.5 * terrain_.width; }
-
-  const Profile::Edge* edge_after(const Profile::Segment& segment) const {
-    for (const Profile::Edge& edge : profile_.edges()) {
-      if (&profile_.segments()[edge.segment] == &segment) return &edge;
-    }
-    return nullptr;
-  }
 
   void add_collider(const std::string& attributes) {
     geoms_ += fmt::format("    <geom name=\"touchdown_terrain_{}\" {} group=\"3\" {}/>\n",
@@ -60,8 +56,9 @@ class Composer {
                              0.5 * height, 0.5 * (x1 - x0), half_width(), 0.5 * height));
   }
 
-  void add_ground(const Profile::Segment& segment) {
-    const Profile::Edge* edge = edge_after(segment);
+  void add_ground(std::size_t i) {
+    const Profile::Segment& segment = profile_.segments()[i];
+    const Profile::Edge* edge = profile_.edge_after(i);
     const double x1 = edge ? edge->tangent_x : segment.x1;
     if (segment.z0 == segment.z1) {
       add_box(segment.x0, x1, segment.z0);
@@ -70,15 +67,14 @@ class Composer {
     // A slope is the top of a slab. Its upper end leans forward below the surface; it must not
     // reach through the face of a drop.
     const double slope = segment.slope();
-    const double stretch = std::hypot(1.0, slope);
     double thickness = 0.05;
     if (edge && slope > 0.0) {
-      thickness = std::clamp((edge->x - x1) * stretch / slope, 0.01, thickness);
+      thickness = std::clamp((edge->x - x1) * segment.stretch() / slope, 0.01, thickness);
     }
-    const double length = (x1 - segment.x0) * stretch;
+    const double length = (x1 - segment.x0) * segment.stretch();
     const double x = 0.5 * (segment.x0 + x1);
-    const double nx = -slope / stretch;
-    const double nz = 1.0 / stretch;
+    const double nx = segment.nx();
+    const double nz = segment.nz();
     add_collider(fmt::format("type=\"box\" pos=\"{} 0 {}\" size=\"{} {} {}\" zaxis=\"{} 0 {}\"",
                              x - 0.5 * thickness * nx, segment.z(x) - 0.5 * thickness * nz,
                              0.5 * length, half_width(), 0.5 * thickness, nx, nz));
@@ -94,14 +90,12 @@ class Composer {
     } else if (segment.z0 != segment.z1) {
       add_box(edge.x - 0.01, edge.x, edge.top - 0.01);
     }
-    const double slope = segment.slope();
-    const double stretch = std::hypot(1.0, slope);
     const double x = edge.tangent_x - 0.03;
     if (x - 0.012 < segment.x0) return;
     geoms_ += fmt::format(
         "    <geom type=\"plane\" pos=\"{} 0 {}\" zaxis=\"{} 0 {}\" size=\"0.012 {} 1\" "
         "material=\"touchdown_edge\" group=\"1\" contype=\"0\" conaffinity=\"0\"/>\n",
-        x, segment.z(x) + stripe_height, -slope / stretch, 1.0 / stretch, half_width());
+        x, segment.z(x) + stripe_height, segment.nx(), segment.nz(), half_width());
   }
 
   void add_mesh(const Mesh& mesh, std::size_t number) {
@@ -137,4 +131,4 @@ std::string terrain_mjcf(const Terrain& terrain, const ContactParameters& contac
   return Composer(terrain, contact).compose();
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::models

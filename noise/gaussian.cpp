@@ -11,7 +11,7 @@
 // library to the next, and they do not vectorise. Additions, multiplications, divisions and square
 // roots are exact to the bit everywhere.
 
-namespace touchdown {
+namespace touchdown::noise {
 
 namespace {
 
@@ -144,4 +144,4 @@ void fill_standard_normal(const NoiseKey& key, NoiseChannel channel, std::uint64
   if (done < draws.size()) draws[done] = standard_normal(key, channel, first_step + done);
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::noise

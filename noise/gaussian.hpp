@@ -5,7 +5,7 @@
 
 #include "models/robot.hpp"
 
-namespace touchdown {
+namespace touchdown::noise {
 
 /// Which run of which experiment the noise belongs to.
 struct NoiseKey {
@@ -37,11 +37,11 @@ enum class NoiseChannel : std::uint16_t {
   right_wheel_velocity = 37,
 };
 
-constexpr NoiseChannel position_channel(Servo servo) {
+constexpr NoiseChannel position_channel(models::Servo servo) {
   return static_cast<NoiseChannel>(16 + static_cast<int>(servo));
 }
 
-constexpr NoiseChannel velocity_channel(Servo servo) {
+constexpr NoiseChannel velocity_channel(models::Servo servo) {
   return static_cast<NoiseChannel>(32 + static_cast<int>(servo));
 }
 
@@ -55,4 +55,4 @@ double standard_normal(const NoiseKey& key, NoiseChannel channel, std::uint64_t 
 void fill_standard_normal(const NoiseKey& key, NoiseChannel channel, std::uint64_t first_step,
                           std::span<double> draws);
 
-}  // namespace touchdown
+}  // namespace touchdown::noise

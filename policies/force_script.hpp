@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 
-#include "core/yaml.hpp"
-
 namespace touchdown {
+class Fields;
+}
+
+namespace touchdown::policies {
 
 /// A constant force on the robot's base for a while: a push, a lift.
 struct TimedForce {
@@ -28,9 +30,6 @@ using ForceScript = std::vector<TimedForce>;
 /// The force in the world frame (N) on a robot that heads for `yaw` (rad).
 Eigen::Vector3d force_in_world(const TimedForce& force, double yaw);
 
-/// A list of `{time, duration, force: [x, y, z], point_in_base: [x, y, z], along_heading}`.
-/// Errors: `InputError`.
-ForceScript force_script_from_yaml(YamlMap& parent, std::string_view key);
-YAML::Node to_yaml(const ForceScript& script);
+void describe(Fields& fields, TimedForce& force);
 
-}  // namespace touchdown
+}  // namespace touchdown::policies

@@ -2,9 +2,9 @@
 
 #include "policies/vector_yaml.hpp"
 
-namespace touchdown {
+namespace touchdown::policies {
 
-Eigen::Vector3d guide_force(const Guide& guide, const GroundTruth& robot) {
+Eigen::Vector3d guide_force(const Guide& guide, const models::GroundTruth& robot) {
   const Eigen::Vector3d lever = robot.base_orientation * guide.point_in_base;
   const Eigen::Vector3d place = robot.base_position + lever;
   const Eigen::Vector3d velocity =
@@ -14,25 +14,12 @@ Eigen::Vector3d guide_force(const Guide& guide, const GroundTruth& robot) {
   return {force.x(), force.y(), 0.0};
 }
 
-Guide guide_from_yaml(YamlMap map) {
-  Guide guide;
-  map.read("x", guide.x, -1e3, 1e3);
-  map.read("y", guide.y, -1e3, 1e3);
-  read_vector(map, "point_in_base", guide.point_in_base);
-  map.read("stiffness", guide.stiffness, 0.0, 1e6);
-  map.read("damping", guide.damping, 0.0, 1e5);
-  map.finish();
-  return guide;
+void describe(Fields& fields, Guide& guide) {
+  fields("x", guide.x, -1e3, 1e3);
+  fields("y", guide.y, -1e3, 1e3);
+  describe_vector(fields, "point_in_base", guide.point_in_base);
+  fields("stiffness", guide.stiffness, 0.0, 1e6);
+  fields("damping", guide.damping, 0.0, 1e5);
 }
 
-YAML::Node to_yaml(const Guide& guide) {
-  YAML::Node node;
-  node["x"] = guide.x;
-  node["y"] = guide.y;
-  node["point_in_base"] = to_node(guide.point_in_base);
-  node["stiffness"] = guide.stiffness;
-  node["damping"] = guide.damping;
-  return node;
-}
-
-}  // namespace touchdown
+}  // namespace touchdown::policies

@@ -2,10 +2,13 @@
 
 #include <Eigen/Core>
 
-#include "core/yaml.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown {
+class Fields;
+}
+
+namespace touchdown::policies {
 
 /// A hand at the robot's handle that keeps it above one place without carrying anything: a level
 /// spring and damper.
@@ -18,9 +21,8 @@ struct Guide {
 };
 
 /// The force on the robot at `point_in_base`, in the world frame (N): level.
-Eigen::Vector3d guide_force(const Guide& guide, const GroundTruth& robot);
+Eigen::Vector3d guide_force(const Guide& guide, const models::GroundTruth& robot);
 
-Guide guide_from_yaml(YamlMap map);
-YAML::Node to_yaml(const Guide& guide);
+void describe(Fields& fields, Guide& guide);
 
-}  // namespace touchdown
+}  // namespace touchdown::policies

@@ -2,7 +2,7 @@
 
 #include "models/robot.hpp"
 
-namespace touchdown {
+namespace touchdown::policies {
 
 /// The seam for controllers: from what the robot observes to what its servos should do. A policy
 /// never sees ground truth; contact, if it needs it, comes from an estimator fed by observations.
@@ -11,10 +11,10 @@ class Policy {
   virtual ~Policy() = default;
 
   /// Called once before the first step, with the observation at rest.
-  virtual void reset(const Observation& observation) = 0;
+  virtual void reset(const models::Observation& observation) = 0;
 
   /// Called once per control step.
-  virtual Action act(const Observation& observation) = 0;
+  virtual models::Action act(const models::Observation& observation) = 0;
 };
 
-}  // namespace touchdown
+}  // namespace touchdown::policies

@@ -4,9 +4,9 @@
 
 #include "policies/vector_yaml.hpp"
 
-namespace touchdown {
+namespace touchdown::policies {
 
-Eigen::Vector3d tether_force(const Tether& tether, const GroundTruth& robot) {
+Eigen::Vector3d tether_force(const Tether& tether, const models::GroundTruth& robot) {
   const Eigen::Vector3d lever = robot.base_orientation * tether.point_in_base;
   const Eigen::Vector3d rope = tether.anchor - (robot.base_position + lever);
   const double distance = rope.norm();
@@ -18,25 +18,12 @@ Eigen::Vector3d tether_force(const Tether& tether, const GroundTruth& robot) {
   return std::max(0.0, pull) * direction;
 }
 
-Tether tether_from_yaml(YamlMap map) {
-  Tether tether;
-  read_vector(map, "anchor", tether.anchor);
-  read_vector(map, "point_in_base", tether.point_in_base);
-  map.read("length", tether.length, 0.0, 100.0);
-  map.read("stiffness", tether.stiffness, 0.0, 1e6);
-  map.read("damping", tether.damping, 0.0, 1e5);
-  map.finish();
-  return tether;
+void describe(Fields& fields, Tether& tether) {
+  describe_vector(fields, "anchor", tether.anchor);
+  describe_vector(fields, "point_in_base", tether.point_in_base);
+  fields("length", tether.length, 0.0, 100.0);
+  fields("stiffness", tether.stiffness, 0.0, 1e6);
+  fields("damping", tether.damping, 0.0, 1e5);
 }
 
-YAML::Node to_yaml(const Tether& tether) {
-  YAML::Node node;
-  node["anchor"] = to_node(tether.anchor);
-  node["point_in_base"] = to_node(tether.point_in_base);
-  node["length"] = tether.length;
-  node["stiffness"] = tether.stiffness;
-  node["damping"] = tether.damping;
-  return node;
-}
-
-}  // namespace touchdown
+}  // namespace touchdown::policies

@@ -2,10 +2,13 @@
 
 #include <Eigen/Core>
 
-#include "core/yaml.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown {
+class Fields;
+}
+
+namespace touchdown::policies {
 
 /// A rope from a fixed point in the world to the robot's handle: a spring that only pulls, with
 /// damping along its length.
@@ -18,9 +21,8 @@ struct Tether {
 };
 
 /// The force on the robot at `point_in_base`, in the world frame (N); zero when slack.
-Eigen::Vector3d tether_force(const Tether& tether, const GroundTruth& robot);
+Eigen::Vector3d tether_force(const Tether& tether, const models::GroundTruth& robot);
 
-Tether tether_from_yaml(YamlMap map);
-YAML::Node to_yaml(const Tether& tether);
+void describe(Fields& fields, Tether& tether);
 
-}  // namespace touchdown
+}  // namespace touchdown::policies

@@ -4,12 +4,11 @@
 
 #include <Eigen/Core>
 
-#include "core/yaml.hpp"
+#include "core/fields.hpp"
 
-namespace touchdown {
+namespace touchdown::policies {
 
-/// A point or force as a list of three numbers. Errors: `InputError` for any other length.
-void read_vector(YamlMap& map, std::string_view key, Eigen::Vector3d& value);
-YAML::Node to_node(const Eigen::Vector3d& value);
+/// A point or force as a list of three numbers.
+void describe_vector(Fields& fields, std::string_view key, Eigen::Vector3d& value);
 
-}  // namespace touchdown
+}  // namespace touchdown::policies

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-namespace touchdown {
+#include "core/fields.hpp"
+
+namespace touchdown::policies {
 
 VelocityCommand command_at(const VelocityScript& script, double time) {
   const auto later =
@@ -11,32 +13,13 @@ VelocityCommand command_at(const VelocityScript& script, double time) {
   return later == script.begin() ? VelocityCommand{} : *std::prev(later);
 }
 
-VelocityScript velocity_script_from_yaml(YamlMap& parent, std::string_view key) {
-  VelocityScript script;
-  for (YamlMap& map : parent.children(key)) {
-    VelocityCommand command;
-    map.read("time", command.time, 0.0, 1e6);
-    map.read("velocity", command.velocity, -3.0, 3.0);
-    map.read("yaw_rate", command.yaw_rate, -10.0, 10.0);
-    map.finish();
-    if (!script.empty() && command.time <= script.back().time) {
-      map.fail("time", "expected a later time than the command before");
-    }
-    script.push_back(command);
-  }
-  return script;
+void describe(Fields& fields, VelocityCommand& command, const VelocityScript& script) {
+  fields("time", command.time, 0.0, 1e6);
+  fields("velocity", command.velocity, -3.0, 3.0);
+  fields("yaw_rate", command.yaw_rate, -10.0, 10.0);
+  fields.finish();
+  fields.check(script.size() < 2 || command.time > script[script.size() - 2].time, "time",
+               "expected a later time than the command before");
 }
 
-YAML::Node to_yaml(const VelocityScript& script) {
-  YAML::Node list(YAML::NodeType::Sequence);
-  for (const VelocityCommand& command : script) {
-    YAML::Node node;
-    node["time"] = command.time;
-    node["velocity"] = command.velocity;
-    node["yaw_rate"] = command.yaw_rate;
-    list.push_back(node);
-  }
-  return list;
-}
-
-}  // namespace touchdown
+}  // namespace touchdown::policies

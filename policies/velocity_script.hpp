@@ -2,9 +2,11 @@
 
 #include <vector>
 
-#include "core/yaml.hpp"
-
 namespace touchdown {
+class Fields;
+}
+
+namespace touchdown::policies {
 
 /// From `time` on, drive at these velocities.
 struct VelocityCommand {
@@ -20,8 +22,7 @@ using VelocityScript = std::vector<VelocityCommand>;
 /// The command in force at `time`.
 VelocityCommand command_at(const VelocityScript& script, double time);
 
-/// A list of `{time, velocity, yaw_rate}`. Errors: `InputError`, also for times out of order.
-VelocityScript velocity_script_from_yaml(YamlMap& parent, std::string_view key);
-YAML::Node to_yaml(const VelocityScript& script);
+/// One command of a script; while it is read, the last one so far, which must be the latest.
+void describe(Fields& fields, VelocityCommand& command, const VelocityScript& script);
 
-}  // namespace touchdown
+}  // namespace touchdown::policies

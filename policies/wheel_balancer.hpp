@@ -1,11 +1,14 @@
 #pragma once
 
-#include "core/yaml.hpp"
-#include "estimator/wheel_contact_observer.hpp"
+#include "estimator/upkie_observer.hpp"
 #include "policies/policy.hpp"
 #include "policies/velocity_script.hpp"
 
 namespace touchdown {
+class Fields;
+}
+
+namespace touchdown::policies {
 
 /// Gains of the balancer. Errors are target − measurement.
 struct WheelBalancerConfig {
@@ -28,8 +31,7 @@ struct WheelBalancerConfig {
   double leg_kd_scale = 2.0;        ///< of the hips and knees
 };
 
-WheelBalancerConfig wheel_balancer_from_yaml(YamlMap map);
-YAML::Node to_yaml(const WheelBalancerConfig& config);
+void describe(Fields& fields, WheelBalancerConfig& config);
 
 /// Keeps a wheeled biped upright on its wheels while it follows a velocity script, with its legs
 /// stiff in the posture they had at the reset: Upkie's PI law on pitch and position, plus feedback
@@ -41,27 +43,27 @@ class WheelBalancer : public Policy {
   WheelBalancer(const WheelBalancerConfig& config, VelocityScript script, double wheel_radius,
                 double period);
 
-  void reset(const Observation& observation) override;
-  Action act(const Observation& observation) override;
+  void reset(const models::Observation& observation) override;
+  models::Action act(const models::Observation& observation) override;
 
   /// What the last action asked of the wheels (m/s).
   double ground_velocity_command() const { return ground_velocity_; }
 
  private:
   void follow_script(double time);
-  void update_odometry(const Observation& observation);
-  bool in_the_air(const Observation& observation);
-  void update_ground_velocity(const Observation& observation);
-  double yaw_torque(const Observation& observation) const;
-  double rolled_distance(const Observation& observation) const;
+  void update_odometry(const models::Observation& observation);
+  bool in_the_air(const models::Observation& observation);
+  void update_ground_velocity(const models::Observation& observation);
+  double yaw_torque(const models::Observation& observation) const;
+  double rolled_distance(const models::Observation& observation) const;
 
   WheelBalancerConfig config_;
   VelocityScript script_;
   double wheel_radius_;
   double period_;
-  std::array<WheelContactObserver, wheel_count> contact_;
+  std::array<WheelContactObserver, models::wheel_count> contact_;
 
-  std::array<double, servo_count> posture_ = {};
+  std::array<double, models::servo_count> posture_ = {};
   double target_velocity_ = 0.0;
   double target_position_ = 0.0;
   double target_yaw_ = 0.0;
@@ -74,4 +76,4 @@ class WheelBalancer : public Policy {
   double ground_velocity_ = 0.0;
 };
 
-}  // namespace touchdown
+}  // namespace touchdown::policies

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 
-namespace touchdown {
+namespace touchdown::recordings {
 
 namespace {
 constexpr std::array<std::string_view, 4> outcome_texts = {"finished", "timed_out", "fell",
@@ -25,4 +25,4 @@ Outcome outcome_from_text(std::string_view text) {
                                fmt::join(outcome_texts, ", ")));
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::recordings

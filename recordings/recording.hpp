@@ -8,7 +8,7 @@
 
 #include "models/robot.hpp"
 
-namespace touchdown {
+namespace touchdown::recordings {
 
 /// How a run ended.
 enum class Outcome : int {
@@ -39,12 +39,12 @@ struct RecordingInfo {
 /// answered it; `truth` has as many rows for simulated runs and none for a robot's log.
 struct Recording {
   RecordingInfo info;
-  std::vector<Observation> observation;
-  std::vector<Action> action;
-  std::vector<GroundTruth> truth;
+  std::vector<models::Observation> observation;
+  std::vector<models::Action> action;
+  std::vector<models::GroundTruth> truth;
 
   std::size_t steps() const { return observation.size(); }
   double period() const { return 1e-6 * static_cast<double>(info.control_period_us); }
 };
 
-}  // namespace touchdown
+}  // namespace touchdown::recordings

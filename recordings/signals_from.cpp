@@ -1,27 +1,30 @@
 #include "recordings/signals_from.hpp"
 
-namespace touchdown {
+namespace touchdown::recordings {
 
-double ground_velocity_command(const Action& action, double wheel_radius) {
-  const double left = action.servo[index(Servo::left_wheel)].velocity;
-  const double right = action.servo[index(Servo::right_wheel)].velocity;
+double ground_velocity_command(const models::Action& action, double wheel_radius) {
+  const double left = action.servo[models::index(models::Servo::left_wheel)].velocity;
+  const double right = action.servo[models::index(models::Servo::right_wheel)].velocity;
   return 0.5 * wheel_radius * (left - right);
 }
 
-Signals signals_from(const Observation& observation, double previous_ground_velocity_command) {
-  const auto joint = [&](Servo servo) {
-    const ServoReading& reading = observation.servo[index(servo)];
+Signals signals_from(const models::Observation& observation,
+                     double previous_ground_velocity_command) {
+  const auto joint = [&](models::Servo servo) {
+    const models::ServoReading& reading = observation.servo[models::index(servo)];
     return JointSignals{reading.position, reading.velocity, reading.torque};
   };
   Signals signals;
   signals.time = observation.time;
-  signals.leg[0] = {joint(Servo::left_hip), joint(Servo::left_knee), joint(Servo::left_wheel)};
-  signals.leg[1] = {joint(Servo::right_hip), joint(Servo::right_knee), joint(Servo::right_wheel)};
+  signals.leg[0] = {joint(models::Servo::left_hip), joint(models::Servo::left_knee),
+                    joint(models::Servo::left_wheel)};
+  signals.leg[1] = {joint(models::Servo::right_hip), joint(models::Servo::right_knee),
+                    joint(models::Servo::right_wheel)};
   signals.linear_acceleration = observation.imu.linear_acceleration;
   signals.angular_velocity = observation.imu.angular_velocity;
-  signals.vertical_acceleration = vertical_acceleration(observation.imu);
+  signals.vertical_acceleration = models::vertical_acceleration(observation.imu);
   signals.ground_velocity_command = previous_ground_velocity_command;
   return signals;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::recordings

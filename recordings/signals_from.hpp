@@ -3,17 +3,19 @@
 #include "estimator/signals.hpp"
 #include "models/robot.hpp"
 
-namespace touchdown {
+namespace touchdown::recordings {
 
 /// Radius of Upkie's wheels (m), which turns wheel velocities into ground velocities.
 inline constexpr double upkie_wheel_radius = 0.05;
 
 /// Ground velocity that an action asks the wheels for (m/s), positive forward: the mean of the left
 /// wheel's and the reversed right wheel's velocity target.
-double ground_velocity_command(const Action& action, double wheel_radius = upkie_wheel_radius);
+double ground_velocity_command(const models::Action& action,
+                               double wheel_radius = upkie_wheel_radius);
 
 /// What a contact estimator hears at one step. The command is the one of the previous step, since
 /// this step's action answers this observation.
-Signals signals_from(const Observation& observation, double previous_ground_velocity_command);
+Signals signals_from(const models::Observation& observation,
+                     double previous_ground_velocity_command);
 
-}  // namespace touchdown
+}  // namespace touchdown::recordings

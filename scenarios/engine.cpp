@@ -1,70 +1,72 @@
 #include "scenarios/engine.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "policies/wheel_balancer.hpp"
 #include "scenarios/external_forces.hpp"
 #include "scenarios/start_pose.hpp"
+#include "simulators/registry.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 
 namespace {
 
-bool tipped_over(const GroundTruth& truth, double limit) {
+bool tipped_over(const models::GroundTruth& truth, double limit) {
   const double cosine = (truth.base_orientation * Eigen::Vector3d::UnitZ()).z();
   return cosine < std::cos(limit);
 }
 
 /// Scales mass and inertia alike, so that the robot keeps its shape.
-void scale_mass(RobotModel& model, double scale) {
+void scale_mass(models::RobotModel& model, double scale) {
   for (int body = 1; body < model.mj->nbody; ++body) {
     model.mj->body_mass[body] *= scale;
     for (int axis = 0; axis < 3; ++axis) model.mj->body_inertia[3 * body + axis] *= scale;
   }
-  const MjDataPtr data(mj_makeData(model.mj.get()));
+  const models::MjDataPtr data(mj_makeData(model.mj.get()));
   mj_setConst(model.mj.get(), data.get());
 }
 
 /// Watches a run for its end.
 class Referee {
  public:
-  Referee(const End& end, double start_of_run) : end_(end), time_over_(start_of_run) {}
+  explicit Referee(const End& end) : end_(end) {}
 
   /// The outcome once there is one.
-  std::optional<Outcome> judge(const Simulator& simulator) {
+  std::optional<recordings::Outcome> judge(const simulators::Simulator& simulator) {
     const double time = simulator.observation().time;
-    const GroundTruth& truth = simulator.ground_truth();
-    if (!simulator.healthy()) return Outcome::diverged;
-    if (truth.body_touches_terrain || tipped_over(truth, end_.fall_tilt)) return Outcome::fell;
-    if (!past_the_end_ && truth.base_position.x() > end_.x) {
-      past_the_end_ = true;
-      time_over_ = time;
-    }
-    if (past_the_end_ && time - time_over_ >= end_.settle) return Outcome::finished;
+    const models::GroundTruth& truth = simulator.ground_truth();
+    if (!simulator.healthy()) return recordings::Outcome::diverged;
+    if (truth.body_touches_terrain || tipped_over(truth, end_.fall_tilt))
+      return recordings::Outcome::fell;
+    if (truth.base_position.x() > end_.x) passed_ = std::min(passed_, time);
+    if (time - passed_ >= end_.settle) return recordings::Outcome::finished;
     if (time >= end_.duration) {
-      return std::isinf(end_.x) ? Outcome::finished : Outcome::timed_out;
+      return std::isinf(end_.x) ? recordings::Outcome::finished : recordings::Outcome::timed_out;
     }
     return std::nullopt;
   }
 
  private:
   const End& end_;
-  bool past_the_end_ = false;
-  double time_over_;
+  double passed_ = std::numeric_limits<double>::infinity();  ///< when the base was past the end (s)
 };
 
 }  // namespace
 
-std::unique_ptr<Simulator> make_simulator(const Scenario& scenario, std::string_view name) {
-  auto model = std::make_shared<RobotModel>(compile_robot_model(scenario.robot, scenario.terrain));
+std::unique_ptr<simulators::Simulator> make_simulator(const Scenario& scenario,
+                                                      std::string_view name) {
+  auto model = std::make_shared<models::RobotModel>(
+      models::compile_robot_model(scenario.robot, scenario.terrain));
   if (scenario.mass_scale != 1.0) scale_mass(*model, scenario.mass_scale);
-  return make_simulator(name, model, scenario.simulation);
+  return simulators::make_simulator(name, model, scenario.simulation);
 }
 
-Recording play(const Scenario& scenario, Simulator& simulator, std::uint64_t seed, std::int64_t run,
-               const PlayProgress& progress) {
-  Recording recording;
+recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
+                           std::uint64_t seed, std::int64_t run, const PlayProgress& progress) {
+  recordings::Recording recording;
   recording.info = {.scenario = scenario.name,
                     .simulator = std::string(simulator.name()),
                     .seed = seed,
@@ -78,11 +80,11 @@ Recording play(const Scenario& scenario, Simulator& simulator, std::uint64_t see
   recording.action.reserve(most_steps);
   recording.truth.reserve(most_steps);
 
-  WheelBalancer policy(scenario.balancer, scenario.velocity, simulator.model().wheel_radius,
-                       simulator.control_period());
+  policies::WheelBalancer policy(scenario.balancer, scenario.velocity,
+                                 simulator.model().wheel_radius, simulator.control_period());
   simulator.reset(start_pose(simulator.model(), scenario.terrain, scenario.start));
   policy.reset(simulator.observation());
-  Referee referee(scenario.end, 0.0);
+  Referee referee(scenario.end);
   ExternalForces forces(scenario);
   for (std::size_t step = 0;; ++step) {
     recording.observation.push_back(simulator.observation());
@@ -98,9 +100,9 @@ Recording play(const Scenario& scenario, Simulator& simulator, std::uint64_t see
   }
 }
 
-Recording play(const Scenario& scenario, std::string_view simulator, std::uint64_t seed,
-               std::int64_t run, const PlayProgress& progress) {
+recordings::Recording play(const Scenario& scenario, std::string_view simulator, std::uint64_t seed,
+                           std::int64_t run, const PlayProgress& progress) {
   return play(scenario, *make_simulator(scenario, simulator), seed, run, progress);
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

@@ -9,24 +9,27 @@
 #include "scenarios/scenario.hpp"
 #include "simulators/simulator.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 
 /// Called now and then with the simulated time (s); returning false stops the run early.
 using PlayProgress = std::function<bool(double time)>;
 
 /// The scene of `scenario`, robot and terrain, in the engine called `name` ("mujoco", "bullet").
 /// Errors: `InputError` for an unknown engine or a robot that breaks the naming contract.
-std::unique_ptr<Simulator> make_simulator(const Scenario& scenario, std::string_view name);
+std::unique_ptr<simulators::Simulator> make_simulator(const Scenario& scenario,
+                                                      std::string_view name);
 
 /// Play `scenario` exactly as it stands (no draws) and record every control step. Falling, running
 /// out of time and diverging are outcomes, not errors. The recording's info carries `seed` and
 /// `run` for the record. `simulator` is one that `make_simulator` made for a scenario with the same
 /// robot, terrain, mass and simulation; it is reset first, so that it can be played again.
-Recording play(const Scenario& scenario, Simulator& simulator, std::uint64_t seed = 0,
-               std::int64_t run = 0, const PlayProgress& progress = {});
+recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
+                           std::uint64_t seed = 0, std::int64_t run = 0,
+                           const PlayProgress& progress = {});
 
 /// As above, in a simulator of its own.
-Recording play(const Scenario& scenario, std::string_view simulator, std::uint64_t seed = 0,
-               std::int64_t run = 0, const PlayProgress& progress = {});
+recordings::Recording play(const Scenario& scenario, std::string_view simulator,
+                           std::uint64_t seed = 0, std::int64_t run = 0,
+                           const PlayProgress& progress = {});
 
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

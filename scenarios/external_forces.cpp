@@ -1,23 +1,25 @@
 #include "scenarios/external_forces.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 
-std::span<const ExternalWrench> ExternalForces::on(const Simulator& simulator) {
+std::span<const simulators::ExternalWrench> ExternalForces::on(
+    const simulators::Simulator& simulator) {
   wrenches_.clear();
   if (scenario_.tether) {
-    wrenches_.push_back({tether_force(*scenario_.tether, simulator.ground_truth()),
+    wrenches_.push_back({policies::tether_force(*scenario_.tether, simulator.ground_truth()),
                          scenario_.tether->point_in_base});
   }
-  for (const Guide& guide : scenario_.guides) {
-    wrenches_.push_back({guide_force(guide, simulator.ground_truth()), guide.point_in_base});
+  for (const policies::Guide& guide : scenario_.guides) {
+    wrenches_.push_back(
+        {policies::guide_force(guide, simulator.ground_truth()), guide.point_in_base});
   }
-  const Observation& now = simulator.observation();
-  for (const TimedForce& force : scenario_.forces) {
+  const models::Observation& now = simulator.observation();
+  for (const policies::TimedForce& force : scenario_.forces) {
     if (force.acts_at(now.time)) {
-      wrenches_.push_back({force_in_world(force, now.yaw), force.point_in_base});
+      wrenches_.push_back({policies::force_in_world(force, now.yaw), force.point_in_base});
     }
   }
   return wrenches_;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

@@ -6,7 +6,7 @@
 #include "scenarios/scenario.hpp"
 #include "simulators/simulator.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 
 /// What pulls at the robot from outside while a scenario is played: its tether, its
 /// guides and its timed forces. Keeps a reference to the scenario.
@@ -15,11 +15,11 @@ class ExternalForces {
   explicit ExternalForces(const Scenario& scenario) : scenario_(scenario) {}
 
   /// The forces of the coming control step; valid until the next call.
-  std::span<const ExternalWrench> on(const Simulator& simulator);
+  std::span<const simulators::ExternalWrench> on(const simulators::Simulator& simulator);
 
  private:
   const Scenario& scenario_;
-  std::vector<ExternalWrench> wrenches_;
+  std::vector<simulators::ExternalWrench> wrenches_;
 };
 
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

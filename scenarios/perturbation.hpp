@@ -2,10 +2,9 @@
 
 #include <optional>
 
-#include "core/yaml.hpp"
 #include "scenarios/random_scripts.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 
 /// What a scenario lets vary from run to run, each uniformly within ± its half width around the
 /// scenario's own value (`*_scale`: a factor within 1 ± the half width).
@@ -23,7 +22,6 @@ struct Perturbation {
   std::optional<RandomLifts> lift;   ///< besides the scenario's own forces
 };
 
-Perturbation perturbation_from_yaml(YamlMap map);
-YAML::Node to_yaml(const Perturbation& perturbation);
+void describe(Fields& fields, Perturbation& perturbation);
 
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

@@ -5,7 +5,7 @@
 #include "core/random.hpp"
 #include "policies/vector_yaml.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 
 namespace {
 
@@ -35,70 +35,35 @@ enum Stream : std::uint64_t {
   lift_force
 };
 
-void read_range(YamlMap& map, std::string_view key, Range& range, double low, double high) {
+void describe_range(Fields& fields, std::string_view key, Range& range, double low, double high) {
   std::vector<double> ends = {range.low, range.high};
-  map.read(key, ends);
-  if (ends.size() != 2 || !(low <= ends[0] && ends[0] <= ends[1] && ends[1] <= high)) {
-    map.fail(key, fmt::format("expected [low, high] within {} to {}", low, high));
-  }
+  fields.in_line(key, ends);
+  fields.check(ends.size() == 2 && low <= ends[0] && ends[0] <= ends[1] && ends[1] <= high, key,
+               fmt::format("expected [low, high] within {} to {}", low, high));
   range = {ends[0], ends[1]};
-}
-
-YAML::Node to_node(const Range& range) {
-  YAML::Node node;
-  node.push_back(range.low);
-  node.push_back(range.high);
-  node.SetStyle(YAML::EmitterStyle::Flow);
-  return node;
 }
 
 }  // namespace
 
-RandomDrive random_drive_from_yaml(YamlMap map) {
-  RandomDrive drive;
-  map.read("velocity", drive.velocity, 0.0, 3.0);
-  map.read("yaw_rate", drive.yaw_rate, 0.0, 10.0);
-  map.read("standing", drive.standing, 0.0, 1.0);
-  read_range(map, "hold", drive.hold, 0.01, 1e4);
-  map.read("start", drive.start, 0.0, 1e4);
-  map.finish();
-  return drive;
+void describe(Fields& fields, RandomDrive& drive) {
+  fields("velocity", drive.velocity, 0.0, 3.0);
+  fields("yaw_rate", drive.yaw_rate, 0.0, 10.0);
+  fields("standing", drive.standing, 0.0, 1.0);
+  describe_range(fields, "hold", drive.hold, 0.01, 1e4);
+  fields("start", drive.start, 0.0, 1e4);
 }
 
-RandomLifts random_lifts_from_yaml(YamlMap map) {
-  RandomLifts lifts;
-  read_range(map, "force", lifts.force, 0.0, 1e4);
-  read_range(map, "hold", lifts.hold, 0.001, 1e4);
-  read_range(map, "pause", lifts.pause, 0.001, 1e4);
-  map.read("start", lifts.start, 0.0, 1e4);
-  read_vector(map, "point_in_base", lifts.point_in_base);
-  map.finish();
-  return lifts;
+void describe(Fields& fields, RandomLifts& lifts) {
+  describe_range(fields, "force", lifts.force, 0.0, 1e4);
+  describe_range(fields, "hold", lifts.hold, 0.001, 1e4);
+  describe_range(fields, "pause", lifts.pause, 0.001, 1e4);
+  fields("start", lifts.start, 0.0, 1e4);
+  policies::describe_vector(fields, "point_in_base", lifts.point_in_base);
 }
 
-YAML::Node to_yaml(const RandomDrive& drive) {
-  YAML::Node node;
-  node["velocity"] = drive.velocity;
-  node["yaw_rate"] = drive.yaw_rate;
-  node["standing"] = drive.standing;
-  node["hold"] = to_node(drive.hold);
-  node["start"] = drive.start;
-  return node;
-}
-
-YAML::Node to_yaml(const RandomLifts& lifts) {
-  YAML::Node node;
-  node["force"] = to_node(lifts.force);
-  node["hold"] = to_node(lifts.hold);
-  node["pause"] = to_node(lifts.pause);
-  node["start"] = lifts.start;
-  node["point_in_base"] = to_node(lifts.point_in_base);
-  return node;
-}
-
-VelocityScript random_drive(const RandomDrive& drive, double duration, std::uint64_t seed,
-                            std::int64_t run) {
-  VelocityScript script;
+policies::VelocityScript random_drive(const RandomDrive& drive, double duration, std::uint64_t seed,
+                                      std::int64_t run) {
+  policies::VelocityScript script;
   double time = drive.start;
   for (std::uint64_t entry = 0; time < duration; ++entry) {
     const Draw draw(seed, run, entry);
@@ -111,9 +76,9 @@ VelocityScript random_drive(const RandomDrive& drive, double duration, std::uint
   return script;
 }
 
-ForceScript random_lifts(const RandomLifts& lifts, double duration, std::uint64_t seed,
-                         std::int64_t run) {
-  ForceScript script;
+policies::ForceScript random_lifts(const RandomLifts& lifts, double duration, std::uint64_t seed,
+                                   std::int64_t run) {
+  policies::ForceScript script;
   double time = lifts.start;
   for (std::uint64_t entry = 0; time < duration; ++entry) {
     const Draw draw(seed, run, entry);
@@ -126,4 +91,4 @@ ForceScript random_lifts(const RandomLifts& lifts, double duration, std::uint64_
   return script;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

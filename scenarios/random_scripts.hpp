@@ -2,11 +2,10 @@
 
 #include <cstdint>
 
-#include "core/yaml.hpp"
 #include "policies/force_script.hpp"
 #include "policies/velocity_script.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 
 /// A quantity drawn uniformly between two values; `[low, high]` in YAML.
 struct Range {
@@ -33,16 +32,13 @@ struct RandomLifts {
   Eigen::Vector3d point_in_base = {0.0, 0.0, 0.06};
 };
 
-/// Keys: the names above. Errors: `InputError`.
-RandomDrive random_drive_from_yaml(YamlMap map);
-RandomLifts random_lifts_from_yaml(YamlMap map);
-YAML::Node to_yaml(const RandomDrive& drive);
-YAML::Node to_yaml(const RandomLifts& lifts);
+void describe(Fields& fields, RandomDrive& drive);
+void describe(Fields& fields, RandomLifts& lifts);
 
 /// The script of one run, until `duration` (s): a pure function of its arguments.
-VelocityScript random_drive(const RandomDrive& drive, double duration, std::uint64_t seed,
-                            std::int64_t run);
-ForceScript random_lifts(const RandomLifts& lifts, double duration, std::uint64_t seed,
-                         std::int64_t run);
+policies::VelocityScript random_drive(const RandomDrive& drive, double duration, std::uint64_t seed,
+                                      std::int64_t run);
+policies::ForceScript random_lifts(const RandomLifts& lifts, double duration, std::uint64_t seed,
+                                   std::int64_t run);
 
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

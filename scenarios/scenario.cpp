@@ -2,104 +2,62 @@
 
 #include <cmath>
 
+#include "core/fields.hpp"
 #include "core/random.hpp"
+#include "core/resources.hpp"
+#include "models/terrain_yaml.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 
-namespace {
-
-Start start_from_yaml(YamlMap map) {
-  Start start;
-  map.read("x", start.x, -1e3, 1e3);
-  map.read("y", start.y, -1e3, 1e3);
-  map.read("yaw", start.yaw, -3.2, 3.2);
-  map.read("hip", start.hip, -1.26, 1.26);
-  map.read("knee", start.knee, -2.51, 2.51);
-  map.read("clearance", start.clearance, 0.0, 100.0);
-  map.finish();
-  return start;
+static void describe(Fields& fields, Start& start) {
+  fields("x", start.x, -1e3, 1e3);
+  fields("y", start.y, -1e3, 1e3);
+  fields("yaw", start.yaw, -3.2, 3.2);
+  fields("hip", start.hip, -1.26, 1.26);
+  fields("knee", start.knee, -2.51, 2.51);
+  fields("clearance", start.clearance, 0.0, 100.0);
 }
 
-YAML::Node to_yaml(const Start& start) {
-  YAML::Node node;
-  node["x"] = start.x;
-  node["y"] = start.y;
-  node["yaw"] = start.yaw;
-  node["hip"] = start.hip;
-  node["knee"] = start.knee;
-  node["clearance"] = start.clearance;
-  return node;
+static void describe(Fields& fields, End& end) {
+  fields("duration", end.duration, 1e-3, 1e5);
+  if (fields.reading() || std::isfinite(end.x)) fields("x", end.x);
+  fields("settle", end.settle, 0.0, 1e3);
+  fields("fall_tilt", end.fall_tilt, 0.1, 3.2);
 }
 
-End end_from_yaml(YamlMap map) {
-  End end;
-  map.read("duration", end.duration, 1e-3, 1e5);
-  map.read("x", end.x);
-  map.read("settle", end.settle, 0.0, 1e3);
-  map.read("fall_tilt", end.fall_tilt, 0.1, 3.2);
-  map.finish();
-  return end;
+static void describe(Fields& fields, Scenario& scenario) {
+  fields.require("name", scenario.name);
+  std::string robot = scenario.robot.string();
+  fields("robot", robot);
+  scenario.robot = robot;
+  fields.section("terrain", scenario.terrain);
+  fields.section("start", scenario.start);
+  fields.section("balancer", scenario.balancer);
+  fields.list("velocity", scenario.velocity, scenario.velocity);
+  fields.section("tether", scenario.tether);
+  fields.list_if_any("guides", scenario.guides);
+  fields.list_if_any("forces", scenario.forces);
+  fields("mass_scale", scenario.mass_scale, 0.01, 100.0);
+  fields.section("simulation", scenario.simulation);
+  fields.section("end", scenario.end);
+  fields.section("perturbation", scenario.perturbation);
 }
-
-YAML::Node to_yaml(const End& end) {
-  YAML::Node node;
-  node["duration"] = end.duration;
-  if (std::isfinite(end.x)) node["x"] = end.x;
-  node["settle"] = end.settle;
-  node["fall_tilt"] = end.fall_tilt;
-  return node;
-}
-
-}  // namespace
 
 Scenario scenario_from_yaml(const YamlDocument& document) {
-  YamlMap map(document);
-  Scenario scenario;
-  map.require("name", scenario.name);
-  std::string robot = scenario.robot.string();
-  map.read("robot", robot);
-  scenario.robot = robot;
-  scenario.terrain = terrain_from_yaml(map.child("terrain"));
-  scenario.start = start_from_yaml(map.child("start"));
-  scenario.balancer = wheel_balancer_from_yaml(map.child("balancer"));
-  scenario.velocity = velocity_script_from_yaml(map, "velocity");
-  if (map.has("tether")) scenario.tether = tether_from_yaml(map.child("tether"));
-  for (YamlMap& guide : map.children("guides")) {
-    scenario.guides.push_back(guide_from_yaml(std::move(guide)));
-  }
-  scenario.forces = force_script_from_yaml(map, "forces");
-  map.read("mass_scale", scenario.mass_scale, 0.01, 100.0);
-  scenario.simulation = simulator_options_from_yaml(map.child("simulation"));
-  scenario.end = end_from_yaml(map.child("end"));
-  scenario.perturbation = perturbation_from_yaml(map.child("perturbation"));
-  map.finish();
-  return scenario;
+  return from_yaml<Scenario>(YamlMap(document));
 }
 
 Scenario load_scenario(const std::filesystem::path& path) {
   return scenario_from_yaml(YamlDocument::load(path));
 }
 
-std::string to_yaml(const Scenario& scenario) {
-  YAML::Node node;
-  node["name"] = scenario.name;
-  node["robot"] = scenario.robot.string();
-  node["terrain"] = to_yaml(scenario.terrain);
-  node["start"] = to_yaml(scenario.start);
-  node["balancer"] = to_yaml(scenario.balancer);
-  node["velocity"] = to_yaml(scenario.velocity);
-  if (scenario.tether) node["tether"] = to_yaml(*scenario.tether);
-  for (const Guide& guide : scenario.guides) node["guides"].push_back(to_yaml(guide));
-  if (!scenario.forces.empty()) node["forces"] = to_yaml(scenario.forces);
-  node["mass_scale"] = scenario.mass_scale;
-  node["simulation"] = to_yaml(scenario.simulation);
-  node["end"] = to_yaml(scenario.end);
-  node["perturbation"] = to_yaml(scenario.perturbation);
-  YAML::Emitter out;
-  out.SetDoublePrecision(17);
-  out << node;
-  return std::string(out.c_str()) + "\n";
+Scenario find_scenario(const std::filesystem::path& path) {
+  Scenario scenario = load_scenario(find_resource(path));
+  scenario.robot = find_resource(scenario.robot);
+  return scenario;
 }
+
+std::string to_yaml(const Scenario& scenario) { return YAML::Dump(to_node(scenario)) + "\n"; }
 
 Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t run) {
   // The numbers of the streams are part of what a seed means: append, never renumber.
@@ -113,7 +71,7 @@ Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t ru
   varied.start.y += draw(y, p.y);
   varied.start.yaw += draw(yaw, p.yaw);
   const double faster = draw(velocity, p.velocity);
-  for (VelocityCommand& command : varied.velocity) {
+  for (policies::VelocityCommand& command : varied.velocity) {
     if (command.velocity != 0.0) command.velocity += faster;
   }
   const double deeper = draw(crouch, p.crouch);
@@ -127,15 +85,15 @@ Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t ru
   varied.balancer.leg_kp_scale *= stiffer;
   varied.balancer.leg_kd_scale *= stiffer;
   const double stronger = 1.0 + draw(force, p.force_scale);
-  for (TimedForce& timed : varied.forces) timed.force *= stronger;
+  for (policies::TimedForce& timed : varied.forces) timed.force *= stronger;
   const double duration = scenario.end.duration;
   if (p.drive) varied.velocity = random_drive(*p.drive, duration, seed, run);
   if (p.lift) {
-    const ForceScript lifts = random_lifts(*p.lift, duration, seed, run);
+    const policies::ForceScript lifts = random_lifts(*p.lift, duration, seed, run);
     varied.forces.insert(varied.forces.end(), lifts.begin(), lifts.end());
   }
   varied.perturbation = {};
   return varied;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

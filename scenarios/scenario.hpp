@@ -17,7 +17,7 @@
 #include "scenarios/perturbation.hpp"
 #include "simulators/options.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 
 /// Where and how the robot stands when the run begins.
 struct Start {
@@ -42,15 +42,15 @@ struct End {
 struct Scenario {
   std::string name;
   std::filesystem::path robot = "models/upkie.xml";
-  Terrain terrain;
+  models::Terrain terrain;
   Start start;
-  WheelBalancerConfig balancer;
-  VelocityScript velocity;
-  std::optional<Tether> tether;
-  std::vector<Guide> guides;
-  ForceScript forces;
+  policies::WheelBalancerConfig balancer;
+  policies::VelocityScript velocity;
+  std::optional<policies::Tether> tether;
+  std::vector<policies::Guide> guides;
+  policies::ForceScript forces;
   double mass_scale = 1.0;  ///< on the mass and inertia of every body of the robot
-  SimulatorOptions simulation;
+  simulators::SimulatorOptions simulation;
   End end;
   Perturbation perturbation;
 };
@@ -58,6 +58,9 @@ struct Scenario {
 /// Read a scenario strictly. Errors: `InputError` with file:line:column.
 Scenario scenario_from_yaml(const YamlDocument& document);
 Scenario load_scenario(const std::filesystem::path& path);
+/// The scenario that something else names: its file and its robot's are where `find_resource` finds
+/// them.
+Scenario find_scenario(const std::filesystem::path& path);
 
 /// The scenario as YAML that `scenario_from_yaml` reads back to the same scenario.
 std::string to_yaml(const Scenario& scenario);
@@ -66,4 +69,4 @@ std::string to_yaml(const Scenario& scenario);
 /// quantity from its own stream, so that adding one changes no other.
 Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t run);
 
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 namespace {
 
@@ -29,8 +29,8 @@ bool collides(const mjModel& model, int geom) {
   return model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0;
 }
 
-MjModelPtr collision_model(const mjModel& model) {
-  MjModelPtr copy(mj_copyModel(nullptr, &model));
+models::MjModelPtr collision_model(const mjModel& model) {
+  models::MjModelPtr copy(mj_copyModel(nullptr, &model));
   if (!copy) throw Error("MuJoCo could not copy the model: out of memory");
   std::vector<int> kept;
   for (int body = 0; body < model.nbody; ++body) {
@@ -56,4 +56,4 @@ MjModelPtr collision_model(const mjModel& model) {
   return copy;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

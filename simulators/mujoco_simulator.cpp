@@ -4,14 +4,16 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "models/mujoco_arrays.hpp"
 #include "simulators/collision_model.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 namespace {
 
-MjModelPtr copy_with_options(const RobotModel& model, const SimulatorOptions& options) {
-  MjModelPtr mj = collision_model(*model.mj);
+models::MjModelPtr copy_with_options(const models::RobotModel& model,
+                                     const SimulatorOptions& options) {
+  models::MjModelPtr mj = collision_model(*model.mj);
   mj->opt.timestep = 1e-6 * static_cast<double>(options.steps.physics_us);
   for (int geom = 0; geom < mj->ngeom; ++geom) {
     mj->geom_solref[mjNREF * geom] = options.contact.solref_time_constant;
@@ -29,15 +31,14 @@ bool gave_up(const mjData& data) {
 
 }  // namespace
 
-MujocoSimulator::MujocoSimulator(const std::shared_ptr<const RobotModel>& model,
+MujocoSimulator::MujocoSimulator(const std::shared_ptr<const models::RobotModel>& model,
                                  const SimulatorOptions& options)
     : Simulator(model, options),
       mj_(copy_with_options(*model, options)),
-      data_(mj_makeData(mj_.get())) {
+      data_(mj_makeData(mj_.get())),
+      base_com_(models::vector_at(mj_->body_ipos, model->base_body)) {
   if (!data_) throw Error("MuJoCo could not make its data: out of memory");
-  const mjtNum* com = &mj_->body_ipos[3 * model->base_body];
-  base_com_ = {com[0], com[1], com[2]};
-  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     const char* name = mj_id2name(model->mj.get(), mjOBJ_GEOM, model->tyre_geom[wheel]);
     tyre_geom_[wheel] = mj_name2id(mj_.get(), mjOBJ_GEOM, name);
   }
@@ -45,29 +46,22 @@ MujocoSimulator::MujocoSimulator(const std::shared_ptr<const RobotModel>& model,
 
 void MujocoSimulator::place(const RobotState& start) {
   mj_resetData(mj_.get(), data_.get());
-  const auto joint = static_cast<std::size_t>(mj_->body_jntadr[model().base_body]);
-  mjtNum* q = &data_->qpos[mj_->jnt_qposadr[joint]];
-  mjtNum* v = &data_->qvel[mj_->jnt_dofadr[joint]];
+  models::write_pose(model(), start.position, start.orientation, start.joint_position, data_->qpos);
   // A free joint turns in its own frame but moves in the world's.
   const Eigen::Vector3d omega = start.orientation.conjugate() * start.angular_velocity;
+  mjtNum* v = &data_->qvel[model().base_dof()];
   for (int i = 0; i < 3; ++i) {
-    q[i] = start.position[i];
     v[i] = start.linear_velocity[i];
     v[3 + i] = omega[i];
   }
-  q[3] = start.orientation.w();
-  q[4] = start.orientation.x();
-  q[5] = start.orientation.y();
-  q[6] = start.orientation.z();
-  for (std::size_t i = 0; i < servo_count; ++i) {
-    data_->qpos[model().qpos_address[i]] = start.joint_position[i];
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
     data_->qvel[model().dof_address[i]] = start.joint_velocity[i];
   }
 }
 
 void MujocoSimulator::advance(const JointTorques& torques,
                               std::span<const ExternalWrench> wrenches) {
-  for (std::size_t i = 0; i < servo_count; ++i) {
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
     data_->qfrc_applied[model().dof_address[i]] = torques[i];
   }
   Eigen::Map<Eigen::Matrix<mjtNum, 6, 1>> applied(
@@ -87,14 +81,13 @@ void MujocoSimulator::read(RobotState& state) const {
     state.linear_velocity.fill(nan);
     return;
   }
-  const auto joint = static_cast<std::size_t>(mj_->body_jntadr[model().base_body]);
-  const mjtNum* q = &data_->qpos[mj_->jnt_qposadr[joint]];
-  const mjtNum* v = &data_->qvel[mj_->jnt_dofadr[joint]];
-  state.position = {q[0], q[1], q[2]};
-  state.orientation = Eigen::Quaterniond(q[3], q[4], q[5], q[6]);
-  state.linear_velocity = {v[0], v[1], v[2]};
-  state.angular_velocity = state.orientation * Eigen::Vector3d(v[3], v[4], v[5]);
-  for (std::size_t i = 0; i < servo_count; ++i) {
+  const mjtNum* q = &data_->qpos[model().base_qpos()];
+  const mjtNum* v = &data_->qvel[model().base_dof()];
+  state.position = models::vector_at(q, 0);
+  state.orientation = models::quaternion_at(q + 3, 0);
+  state.linear_velocity = models::vector_at(v, 0);
+  state.angular_velocity = state.orientation * models::vector_at(v, 1);
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
     state.joint_position[i] = data_->qpos[model().qpos_address[i]];
     state.joint_velocity[i] = data_->qvel[model().dof_address[i]];
   }
@@ -119,4 +112,4 @@ void MujocoSimulator::read(ContactForces& forces) const {
   }
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

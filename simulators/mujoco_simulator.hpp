@@ -5,12 +5,13 @@
 
 #include "simulators/simulator.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 /// MuJoCo behind the `Simulator` seam: it steps a copy of the compiled model.
 class MujocoSimulator : public Simulator {
  public:
-  MujocoSimulator(const std::shared_ptr<const RobotModel>& model, const SimulatorOptions& options);
+  MujocoSimulator(const std::shared_ptr<const models::RobotModel>& model,
+                  const SimulatorOptions& options);
 
   std::string_view name() const override { return "mujoco"; }
 
@@ -26,10 +27,10 @@ class MujocoSimulator : public Simulator {
   void read(ContactForces& forces) const override;
 
  private:
-  MjModelPtr mj_;
-  MjDataPtr data_;
-  std::array<int, wheel_count> tyre_geom_ = {};  ///< in `mj_`: left, right
+  models::MjModelPtr mj_;
+  models::MjDataPtr data_;
+  std::array<int, models::wheel_count> tyre_geom_ = {};  ///< in `mj_`: left, right
   Eigen::Vector3d base_com_;  ///< centre of mass of the base body in its frame (m)
 };
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 
-#include "core/yaml.hpp"
-
 namespace touchdown {
+class Fields;
+}
+
+namespace touchdown::simulators {
 
 /// How finely time is cut, as whole microseconds so that no step is ever rounded.
 struct StepSizes {
@@ -31,8 +33,6 @@ struct SimulatorOptions {
   ContactModel contact;
 };
 
-/// Keys: `physics_step_us`, `control_step_us`, `contact`. Errors: `InputError`.
-SimulatorOptions simulator_options_from_yaml(YamlMap map);
-YAML::Node to_yaml(const SimulatorOptions& options);
+void describe(Fields& fields, SimulatorOptions& options);
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

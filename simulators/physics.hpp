@@ -7,10 +7,10 @@
 
 #include "models/robot.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 /// One number per joint, in servo order.
-using JointTorques = std::array<double, servo_count>;
+using JointTorques = std::array<double, models::servo_count>;
 
 /// The configuration and velocity of the robot: all that an engine needs to start from.
 /// World frame: x forward, y left, z up.
@@ -24,8 +24,8 @@ struct RobotState {
   /// In the world (rad/s).
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
   /// Joint angles (rad) and velocities (rad/s), in servo order.
-  std::array<double, servo_count> joint_position = {};
-  std::array<double, servo_count> joint_velocity = {};
+  std::array<double, models::servo_count> joint_position = {};
+  std::array<double, models::servo_count> joint_velocity = {};
 };
 
 /// A force on the base from outside the robot, held over one control step.
@@ -46,9 +46,9 @@ inline Eigen::Vector3d torque_about(const Eigen::Vector3d& pivot_in_base,
 /// What touched what during one physics step.
 struct ContactForces {
   /// Normal force on each tyre from the terrain (N).
-  std::array<double, wheel_count> wheel_normal_force = {0.0, 0.0};
+  std::array<double, models::wheel_count> wheel_normal_force = {0.0, 0.0};
   /// Anything but a tyre touches the terrain.
   bool body_touches_terrain = false;
 };
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

@@ -1,26 +1,57 @@
+#include "simulators/registry.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "simulators/bullet_simulator.hpp"
+#include "core/yaml.hpp"
+#include "simulators/bullet/simulator.hpp"
 #include "simulators/mujoco_simulator.hpp"
-#include "simulators/simulator.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
+
+namespace {
+
+template <typename Engine>
+std::unique_ptr<Simulator> make(const std::shared_ptr<const models::RobotModel>& model,
+                                const SimulatorOptions& options) {
+  return std::make_unique<Engine>(model, options);
+}
+
+}  // namespace
+
+std::span<const SimulatorEntry> simulator_entries() {
+  static const std::vector<SimulatorEntry> entries = {
+      {"mujoco", "MuJoCo", "soft contacts by convex optimisation", make<MujocoSimulator>},
+      {"bullet", "Bullet", "the paper's engine: contacts by impulses", make<BulletSimulator>},
+  };
+  return entries;
+}
 
 const std::vector<std::string>& simulator_names() {
-  static const std::vector<std::string> names = {"mujoco", "bullet"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const SimulatorEntry& entry : simulator_entries()) all.push_back(entry.name);
+    return all;
+  }();
   return names;
 }
 
-std::unique_ptr<Simulator> make_simulator(std::string_view name,
-                                          const std::shared_ptr<const RobotModel>& model,
-                                          const SimulatorOptions& options) {
-  if (name == "mujoco") return std::make_unique<MujocoSimulator>(model, options);
-  if (name == "bullet") return std::make_unique<BulletSimulator>(model, options);
-  const std::string near = nearest(name, simulator_names());
-  throw InputError(fmt::format("unknown simulator '{}': expected one of {}{}", name,
-                               fmt::join(simulator_names(), ", "),
-                               near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+std::string simulator_title(const std::string& name) {
+  for (const SimulatorEntry& entry : simulator_entries()) {
+    if (entry.name == name) return entry.title;
+  }
+  return name;
 }
 
-}  // namespace touchdown
+std::unique_ptr<Simulator> make_simulator(std::string_view name,
+                                          const std::shared_ptr<const models::RobotModel>& model,
+                                          const SimulatorOptions& options) {
+  for (const SimulatorEntry& entry : simulator_entries()) {
+    if (entry.name == name) return entry.make(model, options);
+  }
+  throw InputError(fmt::format("unknown simulator '{}': expected one of {}{}", name,
+                               fmt::join(simulator_names(), ", "),
+                               did_you_mean(name, simulator_names())));
+}
+
+}  // namespace touchdown::simulators

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchdown {
+namespace touchdown::simulators {
 
-double servo_torque(const ServoCommand& command, double position, double velocity, double effort) {
+double servo_torque(const models::ServoCommand& command, double position, double velocity,
+                    double effort) {
   double torque =
       command.feedforward_torque + servo_kd * command.kd_scale * (command.velocity - velocity);
   if (!std::isnan(command.position)) {
@@ -15,4 +16,4 @@ double servo_torque(const ServoCommand& command, double position, double velocit
   return std::clamp(torque, -limit, limit);
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

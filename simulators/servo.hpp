@@ -2,7 +2,7 @@
 
 #include "models/robot.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 /// The gains of the servos that scales of one stand for, as Upkie's spine sets them.
 inline constexpr double servo_kp = 20.0;  ///< N·m/rad
@@ -12,6 +12,7 @@ inline constexpr double servo_kd = 1.0;   ///< N·m·s/rad
 ///     clamp(feedforward + kd·kd_scale·(ω* − ω) + kp·kp_scale·(q* − q), ± limit),
 /// where a NaN target position q* drops the position term and the limit is the smaller of the
 /// command's maximum torque and the motor's effort.
-double servo_torque(const ServoCommand& command, double position, double velocity, double effort);
+double servo_torque(const models::ServoCommand& command, double position, double velocity,
+                    double effort);
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

@@ -2,9 +2,10 @@
 
 #include <cmath>
 
+#include "models/mujoco_arrays.hpp"
 #include "simulators/servo.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 namespace {
 
@@ -18,16 +19,13 @@ double rolling_torque(double coefficient, double normal_force, double wheel_velo
 
 }  // namespace
 
-Simulator::Simulator(std::shared_ptr<const RobotModel> model, const SimulatorOptions& options)
-    : model_(std::move(model)), options_(options) {
-  const auto site = static_cast<std::size_t>(model_->imu_site);
-  const mjtNum* position = &model_->mj->site_pos[3 * site];
-  const mjtNum* quaternion = &model_->mj->site_quat[4 * site];
-  imu_position_in_base_ = {position[0], position[1], position[2]};
-  imu_rotation_in_base_ =
-      Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3])
-          .toRotationMatrix();
-}
+Simulator::Simulator(std::shared_ptr<const models::RobotModel> model,
+                     const SimulatorOptions& options)
+    : model_(std::move(model)),
+      options_(options),
+      imu_position_in_base_(models::vector_at(model_->mj->site_pos, model_->imu_site)),
+      imu_rotation_in_base_(
+          models::quaternion_at(model_->mj->site_quat, model_->imu_site).toRotationMatrix()) {}
 
 void Simulator::reset(const RobotState& start) {
   step_count_ = 0;
@@ -37,20 +35,20 @@ void Simulator::reset(const RobotState& start) {
   observe(Eigen::Vector3d::Zero(), {});
 }
 
-void Simulator::step(const Action& action, std::span<const ExternalWrench> wrenches) {
+void Simulator::step(const models::Action& action, std::span<const ExternalWrench> wrenches) {
   const Eigen::Vector3d velocity_before = imu_velocity();
   const std::int64_t substeps = options_.steps.control_us / options_.steps.physics_us;
-  std::array<double, wheel_count> force_sum = {0.0, 0.0};
+  std::array<double, models::wheel_count> force_sum = {0.0, 0.0};
   bool body_touched = false;
   JointTorques measured = {};
   for (std::int64_t substep = 0; substep < substeps; ++substep) {
-    for (std::size_t i = 0; i < servo_count; ++i) {
+    for (std::size_t i = 0; i < models::servo_count; ++i) {
       measured[i] = servo_torque(action.servo[i], state_.joint_position[i],
                                  state_.joint_velocity[i], model_->effort[i]);
     }
     JointTorques applied = measured;
-    for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
-      const std::size_t servo = index(wheel_servos[wheel]);
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      const std::size_t servo = models::index(models::wheel_servos[wheel]);
       applied[servo] +=
           rolling_torque(options_.contact.rolling_resistance, forces_.wheel_normal_force[wheel],
                          state_.joint_velocity[servo]);
@@ -58,14 +56,14 @@ void Simulator::step(const Action& action, std::span<const ExternalWrench> wrenc
     advance(applied, wrenches);
     read(state_);
     read(forces_);
-    for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       force_sum[wheel] += forces_.wheel_normal_force[wheel];
     }
     body_touched = body_touched || forces_.body_touches_terrain;
   }
   ++step_count_;
   observe((imu_velocity() - velocity_before) / control_period(), measured);
-  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     truth_.wheel_normal_force[wheel] = force_sum[wheel] / static_cast<double>(substeps);
   }
   truth_.body_touches_terrain = body_touched;
@@ -80,11 +78,10 @@ void Simulator::observe(const Eigen::Vector3d& imu_acceleration,
                         const JointTorques& measured_torques) {
   const Eigen::Matrix3d base_to_world = state_.orientation.toRotationMatrix();
   const Eigen::Matrix3d imu_to_world = base_to_world * imu_rotation_in_base_;
-  const mjtNum* g = model_->mj->opt.gravity;
-  const Eigen::Vector3d gravity(g[0], g[1], g[2]);
+  const Eigen::Vector3d gravity = models::vector_at(model_->mj->opt.gravity, 0);
 
   observation_.time = static_cast<double>(step_count_) * control_period();
-  for (std::size_t i = 0; i < servo_count; ++i) {
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
     observation_.servo[i] = {state_.joint_position[i], state_.joint_velocity[i],
                              measured_torques[i]};
   }
@@ -116,11 +113,11 @@ bool Simulator::healthy() const {
            within(state_.linear_velocity[i], largest_velocity) &&
            within(state_.angular_velocity[i], largest_velocity);
   }
-  for (std::size_t i = 0; i < servo_count; ++i) {
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
     good = good && std::isfinite(state_.joint_position[i]) &&
            within(state_.joint_velocity[i], 10.0 * largest_velocity);
   }
   return good;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

@@ -4,9 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -15,7 +13,7 @@
 #include "simulators/options.hpp"
 #include "simulators/physics.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 /// The seam for physics engines: a robot on a terrain, stepped by actions.
 ///
@@ -34,13 +32,15 @@ class Simulator {
   void reset(const RobotState& start);
 
   /// Apply `action` and what pulls at the robot from outside for one control step.
-  void step(const Action& action, std::span<const ExternalWrench> wrenches = {});
-  void step(const Action& action, const ExternalWrench& wrench) { step(action, {&wrench, 1}); }
+  void step(const models::Action& action, std::span<const ExternalWrench> wrenches = {});
+  void step(const models::Action& action, const ExternalWrench& wrench) {
+    step(action, {&wrench, 1});
+  }
 
-  const Observation& observation() const { return observation_; }
-  const GroundTruth& ground_truth() const { return truth_; }
+  const models::Observation& observation() const { return observation_; }
+  const models::GroundTruth& ground_truth() const { return truth_; }
   const RobotState& state() const { return state_; }
-  const RobotModel& model() const { return *model_; }
+  const models::RobotModel& model() const { return *model_; }
   const SimulatorOptions& options() const { return options_; }
   /// Seconds per call of `step`.
   double control_period() const { return 1e-6 * static_cast<double>(options_.steps.control_us); }
@@ -49,7 +49,7 @@ class Simulator {
   bool healthy() const;
 
  protected:
-  Simulator(std::shared_ptr<const RobotModel> model, const SimulatorOptions& options);
+  Simulator(std::shared_ptr<const models::RobotModel> model, const SimulatorOptions& options);
   double physics_period() const { return 1e-6 * static_cast<double>(options_.steps.physics_us); }
 
   /// Place the robot; called with a state of finite numbers.
@@ -65,25 +65,15 @@ class Simulator {
   Eigen::Vector3d imu_velocity() const;
   void observe(const Eigen::Vector3d& imu_acceleration, const JointTorques& measured_torques);
 
-  std::shared_ptr<const RobotModel> model_;
+  std::shared_ptr<const models::RobotModel> model_;
   SimulatorOptions options_;
   std::int64_t step_count_ = 0;
   RobotState state_;
   ContactForces forces_;
   Eigen::Vector3d imu_position_in_base_;
   Eigen::Matrix3d imu_rotation_in_base_;
-  Observation observation_;
-  GroundTruth truth_;
+  models::Observation observation_;
+  models::GroundTruth truth_;
 };
 
-/// The engines that `make_simulator` knows.
-const std::vector<std::string>& simulator_names();
-
-/// The engine called `name`, with `model` in it. The model's contact and time step are taken from
-/// `options`, not from the MJCF.
-/// Errors: `InputError` naming the nearest engine; a model that the engine cannot represent.
-std::unique_ptr<Simulator> make_simulator(std::string_view name,
-                                          const std::shared_ptr<const RobotModel>& model,
-                                          const SimulatorOptions& options);
-
-}  // namespace touchdown
+}  // namespace touchdown::simulators

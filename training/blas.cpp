@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace touchdown {
+namespace touchdown::training {
 
 BlasReport judge_blas(const std::string& library) {
   BlasReport report{library, ""};
@@ -33,4 +33,4 @@ BlasReport blas_in_use() {
   return judge_blas(ignored ? info.dli_fname : path.string());
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::training

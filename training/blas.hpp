@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace touchdown {
+namespace touchdown::training {
 
 /// Which BLAS the dynamic linker gave to libtorch.
 struct BlasReport {
@@ -17,4 +17,4 @@ BlasReport blas_in_use();
 /// The same for a given library.
 BlasReport judge_blas(const std::string& library);
 
-}  // namespace touchdown
+}  // namespace touchdown::training

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace touchdown {
+namespace touchdown::training {
 
 /// Labelled episodes of many environments side by side, ready for the network: step by step, then
 /// environment by environment.
@@ -21,4 +21,4 @@ struct EpisodeBatch {
   double seconds(double period) const { return period * steps * environments; }
 };
 
-}  // namespace touchdown
+}  // namespace touchdown::training

@@ -4,7 +4,7 @@
 
 #include "core/random.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 
 namespace {
 
@@ -67,4 +67,4 @@ NeuralNetwork initial_network(const NetworkSize& size, std::uint64_t seed, const
   return network;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::training

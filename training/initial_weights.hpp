@@ -2,11 +2,11 @@
 
 #include <cstdint>
 
-#include "estimator/neural_network.hpp"
+#include "estimator/neural/network.hpp"
+#include "training/config.hpp"
 #include "training/rollout.hpp"
-#include "training/training_config.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 
 /// A network to begin with: weights and biases uniform within ±1/√n as is usual, n being the hidden
 /// size for the GRU and the number of inputs for the other layers. A function of the seed alone.
@@ -15,4 +15,4 @@ namespace touchdown {
 NeuralNetwork initial_network(const NetworkSize& size, std::uint64_t seed, const EpisodeBatch& data,
                               double period);
 
-}  // namespace touchdown
+}  // namespace touchdown::training

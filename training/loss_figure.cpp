@@ -1,16 +1,12 @@
 #include "training/loss_figure.hpp"
 
-#include <array>
-#include <spawn.h>
 #include <string>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
-#include "core/files.hpp"
+#include "render/gnuplot/process.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 
 namespace {
 
@@ -35,28 +31,12 @@ plot "{data}" using "iteration":"training_loss" with linespoints pt 7 ps 0.8 \
 
 }  // namespace
 
-bool run_gnuplot(const std::filesystem::path& script) {
-  std::string program = "gnuplot";
-  std::string file = script.filename().string();
-  const std::array<char*, 3> arguments = {program.data(), file.data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addchdir_np(&actions, script.parent_path().c_str());
-  pid_t child = 0;
-  const int error = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  int status = 0;
-  return error == 0 && ::waitpid(child, &status, 0) == child && WIFEXITED(status) &&
-         WEXITSTATUS(status) == 0;
-}
-
 std::filesystem::path draw_losses(const std::filesystem::path& history,
                                   const std::filesystem::path& folder, int chosen_iteration) {
-  const auto script = folder / "training.gp";
-  write_atomically(
-      script, fmt::format(script_text, fmt::arg("chosen", chosen_iteration),
-                          fmt::arg("data", std::filesystem::relative(history, folder).string())));
-  return run_gnuplot(script) ? folder / "training.png" : std::filesystem::path();
+  return render::try_gnuplot(
+      folder / "training.gp",
+      fmt::format(script_text, fmt::arg("chosen", chosen_iteration),
+                  fmt::arg("data", std::filesystem::relative(history, folder).string())));
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::training

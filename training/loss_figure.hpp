@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace touchdown {
+namespace touchdown::training {
 
 /// Draws training and validation loss by iteration from a history's table, the chosen iteration
 /// marked. Writes `training.gp` into `folder`, a gnuplot script for anybody who wants another
@@ -10,7 +10,4 @@ namespace touchdown {
 std::filesystem::path draw_losses(const std::filesystem::path& history,
                                   const std::filesystem::path& folder, int chosen_iteration);
 
-/// Runs a gnuplot script in its folder. Returns whether it went well.
-bool run_gnuplot(const std::filesystem::path& script);
-
-}  // namespace touchdown
+}  // namespace touchdown::training

@@ -7,14 +7,13 @@
 #include <tbb/parallel_for.h>
 
 #include "core/error.hpp"
-#include "estimator/neural_input.hpp"
-#include "experiments/resources.hpp"
-#include "experiments/stopped.hpp"
+#include "core/resources.hpp"
+#include "estimator/neural/input.hpp"
 #include "noise/sensor_noise.hpp"
 #include "recordings/signals_from.hpp"
 #include "scenarios/engine.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 
 namespace {
 
@@ -49,36 +48,40 @@ struct Stretch {
   }
 };
 
-ContactSequence robot_contact(const Recording& recording, const RolloutConfig& config) {
-  const auto wheels = contact_labels(recording, config.labels);
-  return config.contact == RobotContact::any_wheel ? any_wheel(wheels) : both_wheels(wheels);
+scoring::ContactSequence robot_contact(const recordings::Recording& recording,
+                                       const RolloutConfig& config) {
+  const auto wheels = scoring::contact_labels(recording, config.labels);
+  return config.contact == RobotContact::any_wheel ? scoring::any_wheel(wheels)
+                                                   : scoring::both_wheels(wheels);
 }
 
 /// Writes a recording's rows from `first` on into the stretch from `step` on, whole sequences only.
 /// Returns the step behind the last one.
-int write_rows(const Recording& recording, int first, const RolloutConfig& config, int step,
-               Stretch& stretch) {
+int write_rows(const recordings::Recording& recording, int first, const RolloutConfig& config,
+               int step, Stretch& stretch) {
   const int rows = std::min(static_cast<int>(recording.steps()) - first, stretch.steps() - step);
   const int whole = rows / config.sequence * config.sequence;
   if (whole <= 0) return step;
-  const ContactSequence contact = robot_contact(recording, config);
-  const NoiseKey key{.seed = recording.info.seed,
-                     .run = static_cast<std::uint64_t>(recording.info.run)};
+  const scoring::ContactSequence contact = robot_contact(recording, config);
+  const noise::NoiseKey key{.seed = recording.info.seed,
+                            .run = static_cast<std::uint64_t>(recording.info.run)};
   stretch.begin_run(step);
   for (int i = 0; i < whole; ++i) {
     const std::size_t k = size(first + i);
-    const double command = k > 0 ? ground_velocity_command(recording.action[k - 1]) : 0.0;
-    const Observation heard = with_noise(recording.observation[k], key, k, config.noise);
-    const GroundTruth& truth = recording.truth[k];
-    stretch.write(step + i, neural_input(signals_from(heard, command)), contact[k] != 0,
+    const double command =
+        k > 0 ? recordings::ground_velocity_command(recording.action[k - 1]) : 0.0;
+    const models::Observation heard =
+        noise::with_noise(recording.observation[k], key, k, config.noise);
+    const models::GroundTruth& truth = recording.truth[k];
+    stretch.write(step + i, neural_input(recordings::signals_from(heard, command)), contact[k] != 0,
                   truth.base_orientation.conjugate() * truth.imu_linear_velocity);
   }
   return step + whole;
 }
 
-void roll_out_run(const RolloutConfig& config, const Scenario& scenario, std::uint64_t seed,
-                  std::int64_t number, Stretch stretch) {
-  const double period = 1e-6 * static_cast<double>(config.control_step_us);
+void roll_out_run(const RolloutConfig& config, const scenarios::Scenario& scenario,
+                  std::uint64_t seed, std::int64_t number, Stretch stretch) {
+  const double period = config.period();
   const int skip = static_cast<int>(std::lround(config.skip / period));
   int step = 0;
   for (std::int64_t attempt = 0; step < stretch.steps(); ++attempt) {
@@ -87,28 +90,29 @@ void roll_out_run(const RolloutConfig& config, const Scenario& scenario, std::ui
                                    most_tries, period * stretch.steps()));
     }
     const std::int64_t run = number * draws_per_run + attempt;
-    Scenario drawn = perturbed(scenario, seed, run);
+    scenarios::Scenario drawn = scenarios::perturbed(scenario, seed, run);
     drawn.end.duration = (skip + stretch.steps() - step) * period;
-    const Recording recording = play(drawn, config.simulator, seed, run);
-    if (recording.info.outcome == Outcome::diverged) continue;
+    const recordings::Recording recording = scenarios::play(drawn, config.simulator, seed, run);
+    if (recording.info.outcome == recordings::Outcome::diverged) continue;
     step = write_rows(recording, skip, config, step, stretch);
   }
 }
 
 }  // namespace
 
-int episodes_per_run(const RolloutConfig& config, const Scenario& scenario) {
-  const double episode = 1e-6 * static_cast<double>(config.control_step_us) * config.steps;
+int episodes_per_run(const RolloutConfig& config, const scenarios::Scenario& scenario) {
+  const double episode = config.period() * config.steps;
   return std::max(1, static_cast<int>((scenario.end.duration - config.skip) / episode + 1e-6));
 }
 
-int runs_for(const RolloutConfig& config, const Scenario& scenario, int environments) {
+int runs_for(const RolloutConfig& config, const scenarios::Scenario& scenario, int environments) {
   const int each = episodes_per_run(config, scenario);
   return (environments + each - 1) / each;
 }
 
-EpisodeBatch roll_out(const RolloutConfig& config, const Scenario& scenario, std::uint64_t seed,
-                      std::int64_t first_run, int environments, const RolloutProgress& progress) {
+EpisodeBatch roll_out(const RolloutConfig& config, const scenarios::Scenario& scenario,
+                      std::uint64_t seed, std::int64_t first_run, int environments,
+                      const RolloutProgress& progress) {
   EpisodeBatch batch;
   batch.steps = config.steps;
   batch.environments = environments;
@@ -127,9 +131,8 @@ EpisodeBatch roll_out(const RolloutConfig& config, const Scenario& scenario, std
   return batch;
 }
 
-Scenario rollout_scenario(const RolloutConfig& config) {
-  Scenario scenario = load_scenario(find_resource(config.scenario));
-  scenario.robot = find_resource(scenario.robot);
+scenarios::Scenario rollout_scenario(const RolloutConfig& config) {
+  scenarios::Scenario scenario = scenarios::find_scenario(config.scenario);
   scenario.simulation.steps.control_us = config.control_step_us;
   if (config.control_step_us % scenario.simulation.steps.physics_us != 0) {
     throw InputError(fmt::format("{}: control_step_us: expected a multiple of physics_step_us, {}",
@@ -138,4 +141,4 @@ Scenario rollout_scenario(const RolloutConfig& config) {
   return scenario;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::training

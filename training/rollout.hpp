@@ -4,10 +4,10 @@
 #include <functional>
 
 #include "scenarios/scenario.hpp"
+#include "training/config.hpp"
 #include "training/episode_batch.hpp"
-#include "training/training_config.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 
 /// Called after each run; returning false ends the rollout with `Stopped`.
 using RolloutProgress = std::function<bool()>;
@@ -17,19 +17,20 @@ using RolloutProgress = std::function<bool()>;
 /// rest comes from another run, from the next sequence on. What happens in run n depends on (seed,
 /// n) and nothing else, so that neither threads nor other runs matter.
 /// Errors: `InputError` for a scenario in which the robot falls over and over again; `Stopped`.
-EpisodeBatch roll_out(const RolloutConfig& config, const Scenario& scenario, std::uint64_t seed,
-                      std::int64_t first_run, int environments, const RolloutProgress& progress);
+EpisodeBatch roll_out(const RolloutConfig& config, const scenarios::Scenario& scenario,
+                      std::uint64_t seed, std::int64_t first_run, int environments,
+                      const RolloutProgress& progress);
 
 /// As many episodes as fit into the scenario's duration, at least one.
-int episodes_per_run(const RolloutConfig& config, const Scenario& scenario);
+int episodes_per_run(const RolloutConfig& config, const scenarios::Scenario& scenario);
 
 /// Runs that `environments` episodes come from.
-int runs_for(const RolloutConfig& config, const Scenario& scenario, int environments);
+int runs_for(const RolloutConfig& config, const scenarios::Scenario& scenario, int environments);
 
 /// Runs of the validation set are numbered from here.
 inline constexpr std::int64_t first_validation_run = std::int64_t{1} << 40;
 
 /// The scenario that a rollout plays: found, read, and set to the rollout's control step.
-Scenario rollout_scenario(const RolloutConfig& config);
+scenarios::Scenario rollout_scenario(const RolloutConfig& config);
 
-}  // namespace touchdown
+}  // namespace touchdown::training

@@ -2,7 +2,7 @@
 
 #include <torch/nn/functional/activation.h>
 
-namespace touchdown {
+namespace touchdown::training {
 
 namespace {
 
@@ -90,4 +90,4 @@ void TorchNetwork::share_parameters_of(const TorchNetwork& other) {
   }
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::training

@@ -4,9 +4,9 @@
 #include <torch/nn/modules/linear.h>
 #include <torch/nn/modules/rnn.h>
 
-#include "estimator/neural_network.hpp"
+#include "estimator/neural/network.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 
 /// The neural measurement network as libtorch trains it: the same numbers as `NeuralNetwork`, with
 /// gradients.
@@ -40,4 +40,4 @@ class TorchNetwork : public torch::nn::Module {
   torch::nn::Linear heads_;
 };
 
-}  // namespace touchdown
+}  // namespace touchdown::training

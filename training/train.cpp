@@ -1,27 +1,25 @@
 #include "training/train.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
-#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/fingerprint.hpp"
-#include "experiments/neural_network_file.hpp"
-#include "experiments/progress.hpp"
-#include "experiments/run_directory.hpp"
-#include "experiments/stopped.hpp"
+#include "core/fingerprint.hpp"
+#include "core/progress.hpp"
+#include "experiments/run_directory/directory.hpp"
+#include "recordings/models/neural_network.hpp"
 #include "training/blas.hpp"
 #include "training/initial_weights.hpp"
 #include "training/loss_figure.hpp"
+#include "training/manifest.hpp"
 #include "training/rollout.hpp"
-#include "training/training_manifest.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 
 namespace {
 
@@ -33,13 +31,14 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// One training, from its beginning or from where it was stopped.
-class Session {
+class TrainingSession {
  public:
-  Session(const TrainingConfig& config, const TrainingRequest& request)
+  TrainingSession(const TrainingConfig& config, const TrainingRequest& request)
       : config_(config),
         request_(request),
         scenario_(rollout_scenario(config.rollout)),
-        directory_(config.name, Fingerprint().add(to_yaml(config)).add(to_yaml(scenario_)).text(),
+        directory_(config.name,
+                   Fingerprint().add(to_yaml(config)).add(scenarios::to_yaml(scenario_)).text(),
                    request.out),
         history_file_(directory_.file("tables", "training.csv")) {
     write_atomically(directory_.path() / "config.yaml", to_yaml(config));
@@ -62,14 +61,12 @@ class Session {
            stopped_improving(history_, config_.optimiser.patience);
   }
 
-  bool stop_asked() const { return request_.stop != nullptr && *request_.stop; }
-
   EpisodeBatch episodes(const std::string& what, std::int64_t first, int count) {
     const auto start = Clock::now();
     Progress progress(what, "runs", runs_for(config_.rollout, scenario_, count));
     EpisodeBatch batch = roll_out(config_.rollout, scenario_, config_.seed, first, count, [&] {
       progress.advance();
-      return !stop_asked();
+      return !request_.wants_stop();
     });
     times_.rollout += seconds_since(start);
     times_.rollout_steps += std::int64_t{batch.steps} * batch.environments;
@@ -91,12 +88,12 @@ class Session {
     if (history_.empty()) {
       first_batch_ = std::make_unique<EpisodeBatch>(training_episodes(1));
       trainer_ = std::make_unique<Trainer>(
-          initial_network(config_.network, config_.seed, *first_batch_, config_.period()),
+          initial_network(config_.network, config_.seed, *first_batch_, config_.rollout.period()),
           config_.optimiser);
       return;
     }
-    trainer_ = std::make_unique<Trainer>(read_neural_network(directory_.file("models", "nmn.npz")),
-                                         config_.optimiser);
+    trainer_ = std::make_unique<Trainer>(
+        recordings::read_neural_network(directory_.file("models", "nmn.npz")), config_.optimiser);
     trainer_->load(checkpoint(history_.size()));
     fmt::print(stderr, "going on after iteration {}\n", history_.size());
   }
@@ -108,7 +105,7 @@ class Session {
     first_batch_.reset();
     IterationRecord record;
     record.iteration = iteration;
-    record.data_seconds = iteration * batch.seconds(config_.period());
+    record.data_seconds = iteration * batch.seconds(config_.rollout.period());
     const auto start = Clock::now();
     {
       const std::int64_t steps = std::int64_t{batch.steps} * batch.environments;
@@ -117,7 +114,7 @@ class Session {
         record.training = trainer_->train_epoch(batch);
         progress.advance(steps);
         times_.training_steps += steps;
-        if (stop_asked()) throw Stopped();
+        if (request_.wants_stop()) throw Stopped();
       }
     }
     record.validation = trainer_->evaluate(validation_);
@@ -130,7 +127,7 @@ class Session {
   void save() {
     const bool best = best_iteration(history_) + 1 == history_.size();
     if (best) {
-      write_neural_network(trainer_->network(), directory_.file("models", "nmn.npz"));
+      recordings::write_neural_network(trainer_->network(), directory_.file("models", "nmn.npz"));
     }
     write_atomically(checkpoint(history_.size()),
                      [&](const fs::path& temporary) { trainer_->save(temporary); });
@@ -166,8 +163,8 @@ class Session {
 
   const TrainingConfig& config_;
   const TrainingRequest& request_;
-  Scenario scenario_;
-  RunDirectory directory_;
+  scenarios::Scenario scenario_;
+  experiments::RunDirectory directory_;
   fs::path history_file_;
   TrainingHistory history_;
   EpisodeBatch validation_;
@@ -178,19 +175,14 @@ class Session {
 
 }  // namespace
 
-int threads_of(const TrainingRequest& request) {
-  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-  return request.threads > 0 ? request.threads : static_cast<int>(cores);
-}
-
 TrainingResult train(const TrainingConfig& config, const TrainingRequest& request) {
   if (const BlasReport blas = blas_in_use(); !blas.warning.empty()) {
     fmt::print(stderr, "touchdown: warning: {}\n", blas.warning);
   }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads_of(request)));
-  set_training_threads(threads_of(request));
-  return Session(config, request).run();
+                                  static_cast<std::size_t>(request.thread_count()));
+  set_training_threads(request.thread_count());
+  return TrainingSession(config, request).run();
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::training

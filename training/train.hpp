@@ -1,33 +1,9 @@
 #pragma once
 
-#include <atomic>
-#include <filesystem>
-#include <string>
+#include "training/config.hpp"
+#include "training/request.hpp"
 
-#include "training/training_config.hpp"
-#include "training/training_history.hpp"
-
-namespace touchdown {
-
-/// How a training is run; nothing in it changes the weights.
-struct TrainingRequest {
-  std::filesystem::path out;                ///< run directory; empty: runs/<name>/<id>
-  std::filesystem::path network;            ///< also write the chosen weights here; may be empty
-  std::string command;                      ///< what was typed, for the manifest
-  int threads = 0;                          ///< 0: one per core
-  const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to stop
-};
-
-/// The number of threads that a request asks for.
-int threads_of(const TrainingRequest& request);
-
-struct TrainingResult {
-  std::filesystem::path directory;
-  std::filesystem::path network;  ///< the weights of the chosen iteration
-  std::filesystem::path figure;   ///< empty if it could not be drawn
-  TrainingHistory history;
-  std::size_t chosen = 0;  ///< index into the history
-};
+namespace touchdown::training {
 
 /// Trains a neural measurement network from nothing to a file: rolls out every iteration's data,
 /// trains on it, and keeps the weights with the smallest validation loss. A training that was
@@ -36,4 +12,4 @@ struct TrainingResult {
 /// `figures/training.png` into the run directory. Errors: `Stopped`; as `roll_out`.
 TrainingResult train(const TrainingConfig& config, const TrainingRequest& request);
 
-}  // namespace touchdown
+}  // namespace touchdown::training

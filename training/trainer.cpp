@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "training/torch_network.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 
 namespace {
 
@@ -27,6 +27,16 @@ struct Part {
   Tensor contact;
   Tensor velocity;
   Tensor keep;
+  std::int64_t sequence = 1;  ///< steps of a sequence
+
+  Tensor rows(const Tensor& all, std::int64_t s) const {
+    return all.narrow(0, s * sequence, sequence);
+  }
+  /// Outputs and next hidden state over sequence `s`.
+  std::pair<Tensor, Tensor> forward(TorchNetwork& network, const Tensor& hidden,
+                                    std::int64_t s) const {
+    return network.forward(rows(input, s), hidden * keep[s].unsqueeze(0));
+  }
 };
 
 /// Tensors do not know constness; nobody writes to these.
@@ -47,7 +57,8 @@ std::vector<Part> split(const EpisodeBatch& batch, int most_parts) {
     const std::int64_t first = p * lanes / parts;
     const std::int64_t count = (p + 1) * lanes / parts - first;
     split.push_back({first, count, input.narrow(1, first, count), contact.narrow(1, first, count),
-                     velocity.narrow(1, first, count), keep.narrow(1, first, count)});
+                     velocity.narrow(1, first, count), keep.narrow(1, first, count),
+                     batch.sequence});
   }
   return split;
 }
@@ -74,11 +85,13 @@ struct SequenceLoss {
   LossSum sum;
 };
 
-SequenceLoss loss_of(const Tensor& outputs, const Tensor& contact, const Tensor& velocity) {
+/// Of sequence `s` of a part.
+SequenceLoss loss_of(const Tensor& outputs, const Part& part, std::int64_t s) {
   const Tensor logit = outputs.narrow(2, 0, 1);
+  const Tensor contact = part.rows(part.contact, s);
   SequenceLoss loss;
   loss.contact = functional::binary_cross_entropy_with_logits(logit, contact);
-  loss.velocity = functional::mse_loss(outputs.narrow(2, 1, 3), velocity);
+  loss.velocity = functional::mse_loss(outputs.narrow(2, 1, 3), part.rows(part.velocity, s));
   const auto steps = static_cast<double>(logit.numel());
   loss.sum.contact = steps * loss.contact.item<double>();
   loss.sum.velocity = steps * loss.velocity.item<double>();
@@ -124,17 +137,14 @@ struct Trainer::Impl {
   }
 
   /// One optimiser step on one sequence of all parts.
-  LossSum step(const std::vector<Part>& parts, std::vector<Tensor>& hidden, std::int64_t sequence,
-               std::int64_t length, std::int64_t lanes) {
+  LossSum step(const std::vector<Part>& parts, std::vector<Tensor>& hidden, std::int64_t s,
+               std::int64_t lanes) {
     std::vector<LossSum> sums(parts.size());
     for_each_part(parts.size(), [&](std::size_t p) {
       const Part& part = parts[p];
-      const auto [outputs, next] =
-          networks[p]->forward(part.input.narrow(0, sequence * length, length),
-                               hidden[p] * part.keep[sequence].unsqueeze(0));
+      const auto [outputs, next] = part.forward(*networks[p], hidden[p], s);
       hidden[p] = next.detach();
-      const SequenceLoss loss = loss_of(outputs, part.contact.narrow(0, sequence * length, length),
-                                        part.velocity.narrow(0, sequence * length, length));
+      const SequenceLoss loss = loss_of(outputs, part, s);
       sums[p] = loss.sum;
       networks[p]->zero_grad();
       const double share = static_cast<double>(part.lanes) / static_cast<double>(lanes);
@@ -185,7 +195,7 @@ Loss Trainer::train_epoch(const EpisodeBatch& batch) {
   for (const Part& part : parts) hidden.push_back(impl_->networks[0]->no_memory(part.lanes));
   LossSum sum;
   for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
-    sum += impl_->step(parts, hidden, s, batch.sequence, batch.environments);
+    sum += impl_->step(parts, hidden, s, batch.environments);
   }
   return impl_->mean(sum);
 }
@@ -198,13 +208,9 @@ Loss Trainer::evaluate(const EpisodeBatch& batch) const {
     const Part& part = parts[p];
     Tensor hidden = impl_->networks[p]->no_memory(part.lanes);
     for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
-      const std::int64_t first = s * batch.sequence;
-      const auto [outputs, next] = impl_->networks[p]->forward(
-          part.input.narrow(0, first, batch.sequence), hidden * part.keep[s].unsqueeze(0));
+      const auto [outputs, next] = part.forward(*impl_->networks[p], hidden, s);
       hidden = next;
-      sums[p] += loss_of(outputs, part.contact.narrow(0, first, batch.sequence),
-                         part.velocity.narrow(0, first, batch.sequence))
-                     .sum;
+      sums[p] += loss_of(outputs, part, s).sum;
     }
   });
   LossSum sum;
@@ -218,8 +224,7 @@ std::vector<float> Trainer::outputs(const EpisodeBatch& batch) const {
   Tensor hidden = impl_->networks[0]->no_memory(all.lanes);
   std::vector<float> result;
   for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
-    auto [outputs, next] = impl_->networks[0]->forward(
-        all.input.narrow(0, s * batch.sequence, batch.sequence), hidden * all.keep[s].unsqueeze(0));
+    auto [outputs, next] = all.forward(*impl_->networks[0], hidden, s);
     hidden = next;
     const Tensor numbers = outputs.contiguous();
     result.insert(result.end(), numbers.data_ptr<float>(),
@@ -263,4 +268,4 @@ void Trainer::load(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::training

@@ -8,10 +8,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "estimator/bayes_filter.hpp"
-#include "estimator/bayes_filter_lanes.hpp"
-#include "estimator/measurement_only.hpp"
+#include "estimator/bayes/filter.hpp"
+#include "estimator/bayes/measurement_only.hpp"
+#include "experiments/lanes/bayes.hpp"
 #include "signals_for_benchmarks.hpp"
+#include "tests/estimator/named_config.hpp"
 
 namespace touchdown {
 namespace {
@@ -40,7 +41,7 @@ std::unique_ptr<ContactEstimator> estimator(const char* name) {
   if (std::string(name) == "measurement_only") {
     return std::make_unique<MeasurementOnly>(bench::model(BayesFilterConfig::robust()));
   }
-  const BayesFilterConfig config = BayesFilterConfig::named(name);
+  const BayesFilterConfig config = test::named(name);
   return std::make_unique<BayesFilter>(bench::model(config), config);
 }
 
@@ -93,8 +94,8 @@ BENCHMARK_CAPTURE(latency, reference, "reference")->Iterations(250);
 /// A sweep over `torques` × `accelerations` noise levels; the time per item is that of one lane's
 /// update, which covers both wheels.
 void lanes_update(benchmark::State& state, const char* name, int torques, int accelerations) {
-  const BayesFilterConfig config = BayesFilterConfig::named(name);
-  std::vector<NoiseLevel> levels;
+  const BayesFilterConfig config = test::named(name);
+  std::vector<experiments::LaneNoise> levels;
   for (int i = 0; i < torques; ++i) {
     for (int j = 0; j < accelerations; ++j) {
       levels.push_back({0.5 * i, 0.5 * i, 2.0 * j});
@@ -105,12 +106,12 @@ void lanes_update(benchmark::State& state, const char* name, int torques, int ac
       levels.push_back({0.1 * i, 0.1 * i, 0.3 * i});
     }
   }
-  BayesFilterLanes lanes(bench::model(config), config, levels);
+  experiments::BayesFilterLanes lanes(bench::model(config), config, levels);
   const std::vector<Signals> stream = bench::signals(stream_length);
   const std::vector<Signals> noise = bench::signals(stream_length + 7);
   std::size_t i = 0;
   for (auto _ : state) {
-    NoiseDraws draws;
+    experiments::NoiseStep draws;
     draws.acceleration = noise[i + 7].leg[0].knee.torque;
     for (std::size_t side = 0; side < 2; ++side) {
       draws.torque[side] = {noise[i].leg[side].knee.torque, noise[i].leg[side].wheel.torque};

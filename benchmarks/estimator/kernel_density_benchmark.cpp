@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "estimator/kernel_density.hpp"
+#include "estimator/numerics/kernel_density.hpp"
 
 namespace touchdown {
 namespace {

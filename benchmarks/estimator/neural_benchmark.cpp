@@ -4,8 +4,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "estimator/neural_estimator.hpp"
-#include "estimator/neural_lanes.hpp"
+#include "estimator/neural/estimator.hpp"
+#include "experiments/lanes/neural.hpp"
 #include "signals_for_benchmarks.hpp"
 
 namespace touchdown {
@@ -68,7 +68,7 @@ BENCHMARK(neural_update);
 void neural_lanes_update(benchmark::State& state) {
   std::vector<double> sigmas;
   for (std::int64_t i = 0; i < state.range(0); ++i) sigmas.push_back(0.3 * static_cast<double>(i));
-  NeuralLanes lanes(network(), {}, sigmas);
+  experiments::NeuralLanes lanes(network(), {}, sigmas);
   const std::vector<Signals> stream = bench::signals(stream_length);
   std::size_t i = 0;
   for (auto _ : state) {

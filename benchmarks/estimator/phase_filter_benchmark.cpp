@@ -6,7 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "estimator/phase_filter.hpp"
+#include "estimator/phase/filter.hpp"
+#include "estimator/phase/fit.hpp"
 #include "signals_for_benchmarks.hpp"
 
 namespace touchdown {

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "estimator/bayes_filter.hpp"
+#include "estimator/bayes/filter.hpp"
 
 namespace touchdown::bench {
 

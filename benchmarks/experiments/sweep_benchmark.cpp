@@ -3,13 +3,16 @@
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 
-#include "experiments/estimator_registry.hpp"
-#include "experiments/sweep.hpp"
-#include "experiments/sweep_run.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/fitting.hpp"
+#include "experiments/listening/sweep_run.hpp"
+#include "experiments/plan/condition.hpp"
+#include "noise/grid.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
-namespace touchdown {
+namespace touchdown::experiments {
 namespace {
 
 constexpr std::size_t run_steps = 13'000;
@@ -24,7 +27,7 @@ Experiment study(const std::vector<std::string>& estimators) {
   return experiment;
 }
 
-double cell_updates(const Experiment& experiment, const std::vector<NoiseCell>& cells) {
+double cell_updates(const Experiment& experiment, const std::vector<noise::NoiseCell>& cells) {
   return static_cast<double>(experiment.estimators.size() * cells.size() * run_steps);
 }
 
@@ -34,9 +37,9 @@ void one_task(benchmark::State& state, const std::string& estimator,
               const decltype(&sweep_run)& sweep_it) {
   const Experiment experiment = study({estimator});
   const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
-  const HeardRun run = synthetic_run(0, run_steps);
-  const UnitNoise noise = unit_noise(run, noise_key(experiment, 0, 0));
-  const std::vector<NoiseCell> cells = noise_cells(experiment.noise);
+  const RunSignals run = synthetic_run(0, run_steps);
+  const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 0));
+  const std::vector<noise::NoiseCell> cells = noise::noise_cells(experiment.noise);
   const std::vector<Condition> conditions = {{"mujoco", "mujoco", estimator}};
   for (auto _ : state) {
     benchmark::DoNotOptimize(
@@ -59,13 +62,18 @@ void on_threads(benchmark::State& state) {
   std::erase(experiment.estimators, always_contact_name);
   experiment.noise.seeds = 4;
   const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
-  const std::vector<HeardRun> runs = {synthetic_run(0, run_steps), synthetic_run(1, run_steps)};
-  const std::vector<const HeardRun*> heard = {&runs[0], &runs[1]};
-  const std::vector<NoiseCell> cells = noise_cells(experiment.noise);
+  const std::vector<RunSignals> runs = {synthetic_run(0, run_steps), synthetic_run(1, run_steps)};
+  const std::vector<noise::NoiseCell> cells = noise::noise_cells(experiment.noise);
   const std::vector<Condition> conditions = own_engine_conditions(experiment);
+  const std::size_t tasks = runs.size() * static_cast<std::size_t>(experiment.noise.seeds);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(sweep(experiment, conditions, cells, heard, models,
-                                   [](std::int64_t /*cells*/) { return true; }));
+    tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+      const RunSignals& run = runs[task % runs.size()];
+      const auto seed = static_cast<int>(task / runs.size());
+      const NoiseRun noise = noise_run(run, noise_key(experiment, seed, run.info.run));
+      benchmark::DoNotOptimize(sweep_run(conditions, cells, run, noise, models, experiment.scoring,
+                                         [] { return true; }));
+    });
   }
   state.counters["cell_updates"] = benchmark::Counter(
       8.0 * cell_updates(experiment, cells), benchmark::Counter::kIsIterationInvariantRate);
@@ -87,4 +95,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::experiments

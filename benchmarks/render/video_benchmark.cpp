@@ -4,12 +4,12 @@
 
 #include <benchmark/benchmark.h>
 
-#include "render/video.hpp"
+#include "render/film/video.hpp"
 #include "tests/render/staged_run.hpp"
 
 // End to end: painting in forked workers, encoding here, one file in the end. 1280x720 at 30 fps.
 
-namespace touchdown {
+namespace touchdown::render {
 namespace {
 
 constexpr double seconds = 8.0;
@@ -31,26 +31,26 @@ VideoOptions options(benchmark::State& state) {
 }
 
 void film(benchmark::State& state) {
-  const RobotModel robot = compile_robot_model(upkie_mjcf, staged_terrain());
-  const Recording run = staged_run(seconds);
+  const models::RobotModel robot = models::compile_robot_model(upkie_mjcf, staged_terrain());
+  const recordings::Recording run = staged_run(seconds);
   const std::vector<BeliefTrack> beliefs = {staged_beliefs(run, "robust")};
   const auto path = std::filesystem::temp_directory_path() / "touchdown-bench.mp4";
   VideoStatistics statistics;
-  for (auto _ : state) statistics = render_video(robot, run, beliefs, options(state), path);
+  for (auto _ : state) statistics = render_video({{robot, run, beliefs}}, options(state), path);
   std::filesystem::remove(path);
   report(state, statistics);
 }
 
 void film_side_by_side(benchmark::State& state) {
-  const RobotModel robot = compile_robot_model(upkie_mjcf, staged_terrain());
-  const Recording left = staged_run(seconds, "mujoco");
-  const Recording right = staged_run(seconds, "bullet");
+  const models::RobotModel robot = models::compile_robot_model(upkie_mjcf, staged_terrain());
+  const recordings::Recording left = staged_run(seconds, "mujoco");
+  const recordings::Recording right = staged_run(seconds, "bullet");
   const std::vector<BeliefTrack> beliefs = {staged_beliefs(left, "robust")};
   const auto path = std::filesystem::temp_directory_path() / "touchdown-bench.mp4";
   VideoStatistics statistics;
   for (auto _ : state) {
     statistics =
-        render_side_by_side({robot, left, beliefs}, {robot, right, beliefs}, options(state), path);
+        render_video({{robot, left, beliefs}, {robot, right, beliefs}}, options(state), path);
   }
   std::filesystem::remove(path);
   report(state, statistics);
@@ -70,4 +70,4 @@ BENCHMARK(film_side_by_side)
     ->UseRealTime();
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::render

@@ -10,28 +10,35 @@
 
 #include "scenarios/engine.hpp"
 #include "scenarios/start_pose.hpp"
-#include "simulators/bullet_simulator.hpp"
-#include "simulators/bullet_world.hpp"
+#include "simulators/bullet/simulator.hpp"
+#include "simulators/bullet/world.hpp"
 #include "simulators/mujoco_simulator.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 namespace {
 
-Scenario stairs() {
-  Scenario scenario = load_scenario(TOUCHDOWN_SOURCE_DIR "/scenarios/stairs.yaml");
+scenarios::Scenario stairs() {
+  scenarios::Scenario scenario =
+      scenarios::load_scenario(TOUCHDOWN_SOURCE_DIR "/scenarios/stairs.yaml");
   scenario.robot = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
   return scenario;
 }
 
+std::shared_ptr<models::RobotModel> compiled(const scenarios::Scenario& scenario) {
+  return std::make_shared<models::RobotModel>(
+      models::compile_robot_model(scenario.robot, scenario.terrain));
+}
+
 /// Every torque that acted on a joint, step by step: the servo's and the rolling resistance.
-std::vector<JointTorques> torques_of(const Recording& recording, double rolling_resistance) {
+std::vector<JointTorques> torques_of(const recordings::Recording& recording,
+                                     double rolling_resistance) {
   std::vector<JointTorques> torques(recording.steps() - 1);
   for (std::size_t k = 0; k + 1 < recording.steps(); ++k) {
-    for (std::size_t i = 0; i < servo_count; ++i) {
+    for (std::size_t i = 0; i < models::servo_count; ++i) {
       torques[k][i] = recording.observation[k + 1].servo[i].torque;
     }
-    for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
-      const std::size_t servo = index(wheel_servos[wheel]);
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      const std::size_t servo = models::index(models::wheel_servos[wheel]);
       torques[k][servo] += -rolling_resistance * recording.truth[k].wheel_normal_force[wheel] *
                            std::tanh(recording.observation[k].servo[servo].velocity);
     }
@@ -44,19 +51,19 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 /// MuJoCo alone: `mj_step` with the torques written into its own array.
-double bare_mujoco(const Scenario& scenario, const std::vector<JointTorques>& torques,
+double bare_mujoco(const scenarios::Scenario& scenario, const std::vector<JointTorques>& torques,
                    Eigen::Vector3d& end) {
-  const auto simulator = make_simulator(scenario, "mujoco");
-  simulator->reset(start_pose(simulator->model(), scenario.terrain, scenario.start));
-  const auto& mujoco = dynamic_cast<const MujocoSimulator&>(*simulator);
+  const std::shared_ptr<models::RobotModel> robot = compiled(scenario);
+  MujocoSimulator mujoco(robot, scenario.simulation);
+  mujoco.reset(scenarios::start_pose(*robot, scenario.terrain, scenario.start));
   const mjModel& model = mujoco.engine_model();
-  const MjDataPtr data(mj_makeData(&model));
+  const models::MjDataPtr data(mj_makeData(&model));
   mju_copy(data->qpos, mujoco.engine_data().qpos, model.nq);
   mju_copy(data->qvel, mujoco.engine_data().qvel, model.nv);
   const auto start = std::chrono::steady_clock::now();
   for (const JointTorques& torque : torques) {
-    for (std::size_t i = 0; i < servo_count; ++i) {
-      data->qfrc_applied[simulator->model().dof_address[i]] = torque[i];
+    for (std::size_t i = 0; i < models::servo_count; ++i) {
+      data->qfrc_applied[robot->dof_address[i]] = torque[i];
     }
     mj_step(&model, data.get());
   }
@@ -72,11 +79,12 @@ class BareBullet : public BulletSimulator {
 
   double run(const std::vector<JointTorques>& torques, Eigen::Vector3d& end) {
     btMultiBody& robot = bullet().robot();
-    std::array<int, servo_count> link = {};
-    for (std::size_t i = 0; i < servo_count; ++i) link[i] = bullet().link_of(i);
+    std::array<int, models::servo_count> link = {};
+    for (std::size_t i = 0; i < models::servo_count; ++i) link[i] = bullet().link_of(i);
     const auto start = std::chrono::steady_clock::now();
     for (const JointTorques& torque : torques) {
-      for (std::size_t i = 0; i < servo_count; ++i) robot.addJointTorque(link[i], torque[i]);
+      for (std::size_t i = 0; i < models::servo_count; ++i)
+        robot.addJointTorque(link[i], torque[i]);
       bullet().world().stepSimulation(physics_period(), 0);
     }
     const double seconds = seconds_since(start);
@@ -87,19 +95,19 @@ class BareBullet : public BulletSimulator {
   }
 };
 
-double bare_bullet(const Scenario& scenario, const std::vector<JointTorques>& torques,
+double bare_bullet(const scenarios::Scenario& scenario, const std::vector<JointTorques>& torques,
                    Eigen::Vector3d& end) {
-  auto model = std::make_shared<RobotModel>(compile_robot_model(scenario.robot, scenario.terrain));
-  BareBullet simulator(model, scenario.simulation);
-  simulator.reset(start_pose(*model, scenario.terrain, scenario.start));
+  const std::shared_ptr<models::RobotModel> robot = compiled(scenario);
+  BareBullet simulator(robot, scenario.simulation);
+  simulator.reset(scenarios::start_pose(*robot, scenario.terrain, scenario.start));
   return simulator.run(torques, end);
 }
 
 /// Played and bare in turn, so that whatever else the machine does meets both; the fastest counts.
 void step(benchmark::State& state, const char* engine) {
-  const Scenario scenario = stairs();
-  const auto simulator = make_simulator(scenario, engine);
-  const Recording recording = play(scenario, *simulator);
+  const scenarios::Scenario scenario = stairs();
+  const auto simulator = scenarios::make_simulator(scenario, engine);
+  const recordings::Recording recording = scenarios::play(scenario, *simulator);
   const std::vector<JointTorques> torques =
       torques_of(recording, scenario.simulation.contact.rolling_resistance);
   const auto steps = static_cast<double>(torques.size());
@@ -107,7 +115,7 @@ void step(benchmark::State& state, const char* engine) {
   double bare = 1e9;
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
-    const Recording again = play(scenario, *simulator);
+    const recordings::Recording again = scenarios::play(scenario, *simulator);
     const double seconds = seconds_since(start);
     state.SetIterationTime(seconds);
     played = std::min(played, seconds);
@@ -134,11 +142,11 @@ BENCHMARK_CAPTURE(step, bullet, "bullet")
 
 /// Robot and terrain compiled and put into an engine: once per run, or once per many.
 void compile_scene(benchmark::State& state, const char* engine) {
-  const Scenario scenario = stairs();
-  for (auto _ : state) benchmark::DoNotOptimize(make_simulator(scenario, engine));
+  const scenarios::Scenario scenario = stairs();
+  for (auto _ : state) benchmark::DoNotOptimize(scenarios::make_simulator(scenario, engine));
 }
 BENCHMARK_CAPTURE(compile_scene, mujoco, "mujoco")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(compile_scene, bullet, "bullet")->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::simulators

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <random>
-#include <touchdown/estimator/bayes_filter.hpp>
+#include <touchdown/estimator.hpp>
 #include <vector>
 
 namespace {

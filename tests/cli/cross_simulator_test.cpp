@@ -4,7 +4,7 @@
 #include "core/files.hpp"
 #include "program.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
@@ -47,4 +47,4 @@ TEST(CrossSimulator, ExitsWithZeroWhenWhatFailsWasNotDemandedOrNothingFails) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -7,7 +7,7 @@
 #include "core/files.hpp"
 #include "program.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 using ::testing::HasSubstr;
@@ -79,4 +79,4 @@ TEST(DropFigures, AMissingDropIsSaidAndDoesNotCostTheExperiment) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli

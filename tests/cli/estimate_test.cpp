@@ -9,15 +9,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/fitting.hpp"
-#include "experiments/score.hpp"
+#include "estimator/bayes/filter.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "program.hpp"
-#include "recordings/model_file.hpp"
-#include "recordings/recording_file.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "recordings/models/measurement_model.hpp"
 #include "recordings/signals_from.hpp"
+#include "scoring/score.hpp"
 #include "synthetic_log.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
@@ -49,16 +50,17 @@ Lines lines_of(const std::string& csv) {
 class Estimate : public ::testing::Test {
  protected:
   Estimate() {
-    const Recording fitted = test::synthetic_log(3.0);
-    const HeardRun run = hear(fitted, {}, {}, SampleUnit::run);
-    const std::vector<const HeardRun*> heard = {&run};
+    const recordings::Recording fitted = test::synthetic_log(3.0);
+    const experiments::RunSignals run =
+        experiments::signals_of(fitted, {}, {}, scoring::SampleUnit::run);
+    const std::vector<const experiments::RunSignals*> heard = {&run};
     MeasurementConfig config = BayesFilterConfig::robust().measurement;
     config.fit.knee_count = config.fit.wheel_count = 60;
-    write_measurement_model(fit(heard, config, {}), folder_ / "m.npz");
+    recordings::write_measurement_model(experiments::fit(heard, config, {}), folder_ / "m.npz");
   }
 
-  void log(const std::string& name, const Recording& recording) const {
-    write_recording(recording, folder_ / name);
+  void log(const std::string& name, const recordings::Recording& recording) const {
+    recordings::write_recording(recording, folder_ / name);
   }
 
   std::string estimate(const std::string& arguments) const {
@@ -82,15 +84,16 @@ class Estimate : public ::testing::Test {
     BayesFilterConfig config = BayesFilterConfig::robust();
     config.sample_rate = rate;
     config.transition.window = window;
-    return BayesFilter(read_measurement_model(folder_ / "m.npz"), config);
+    return BayesFilter(recordings::read_measurement_model(folder_ / "m.npz"), config);
   }
 
-  void expect_beliefs(const Lines& lines, const Recording& heard, BayesFilter filter) const {
+  void expect_beliefs(const Lines& lines, const recordings::Recording& heard,
+                      BayesFilter filter) const {
     ASSERT_EQ(lines.size(), heard.steps());
     double command = 0.0;
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      const Belief& b = filter.update(signals_from(heard.observation[k], command));
-      command = ground_velocity_command(heard.action[k]);
+      const Belief& b = filter.update(recordings::signals_from(heard.observation[k], command));
+      command = recordings::ground_velocity_command(heard.action[k]);
       const std::vector<double> expected = {heard.observation[k].time,
                                             b.wheel[0].p_contact,
                                             b.wheel[1].p_contact,
@@ -111,7 +114,7 @@ class Estimate : public ::testing::Test {
 };
 
 TEST_F(Estimate, WritesWhatTheLibrarysFilterBelieves) {
-  const Recording heard = test::synthetic_log(2.0);
+  const recordings::Recording heard = test::synthetic_log(2.0);
   log("a.mpack", heard);
   EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
               AllOf(StartsWith("a.mpack: 2000 steps, 2.000 s at 1000 Hz, Bayes filter (robust)"),
@@ -120,7 +123,7 @@ TEST_F(Estimate, WritesWhatTheLibrarysFilterBelieves) {
 }
 
 TEST_F(Estimate, OfASlowerLogHearsAWindowOfTheSameLength) {
-  const Recording heard = test::synthetic_log(2.0, 5000);
+  const recordings::Recording heard = test::synthetic_log(2.0, 5000);
   log("a.mpack", heard);
   EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
               HasSubstr("400 steps, 2.000 s at 200 Hz"));
@@ -128,25 +131,29 @@ TEST_F(Estimate, OfASlowerLogHearsAWindowOfTheSameLength) {
 }
 
 TEST_F(Estimate, TakesAJitteringClockForTheRateItMeans) {
-  Recording heard = test::robot_log(1.0);
+  recordings::Recording heard = test::robot_log(1.0);
   for (std::size_t k = 0; k < heard.steps(); ++k) {
     heard.observation[k].time = 1.0007e-3 * static_cast<double>(k) + (k % 3 == 1 ? 4e-6 : 0.0);
   }
   log("a.mpack", heard);
   EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"), HasSubstr("at 1000 Hz"));
-  expect_beliefs(table("b.csv"), read_recording(folder_ / "a.mpack"), filter(1000.0, 128));
+  expect_beliefs(table("b.csv"), recordings::read_recording(folder_ / "a.mpack"),
+                 filter(1000.0, 128));
   EXPECT_THAT(estimate("a.mpack --estimator nmn"), HasSubstr("NMN"));
 }
 
 TEST_F(Estimate, CountsAgainstTheTruthAsExperimentsDo) {
-  const Recording heard = test::synthetic_log(3.0);
+  const recordings::Recording heard = test::synthetic_log(3.0);
   log("a.mpack", heard);
-  const HeardRun run = hear(heard, {}, {}, SampleUnit::run);
+  const experiments::RunSignals run =
+      experiments::signals_of(heard, {}, {}, scoring::SampleUnit::run);
   BayesFilter scored = filter(1000.0, 128);
-  const RobotScore score =
-      touchdown::score(run.contact, predict(scored, run, unit_noise(run, {}), {}), {0}, 1000, {})
+  const scoring::RobotScore score =
+      touchdown::scoring::score(
+          run.contact, experiments::predict(scored, run, experiments::noise_run(run, {}), {}), {0},
+          1000, {})
           .front();
-  const Score wheels = score.wheels();
+  const scoring::Score wheels = score.wheels();
   const std::string summary = estimate("a.mpack --model m.npz");
   EXPECT_THAT(summary, HasSubstr(fmt::format("success {:.4f},", wheels.points.success())));
   EXPECT_THAT(summary, HasSubstr(fmt::format("Brier {:.4f}", wheels.calibration.brier())));
@@ -180,7 +187,7 @@ TEST_F(Estimate, WritesBeliefsIntoTheLogAndKeepsTheRest) {
 }
 
 TEST_F(Estimate, SaysWhichSignalsCouldNotBeUsed) {
-  Recording broken = test::synthetic_log(1.0);
+  recordings::Recording broken = test::synthetic_log(1.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 400; k < 410; ++k) broken.observation[k].servo[1].torque = nan;
   broken.observation[420].imu.linear_acceleration.z() = nan;
@@ -276,4 +283,4 @@ TEST_F(Estimate, ExplainsItselfWithALineToCopy) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli

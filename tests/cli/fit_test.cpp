@@ -4,15 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/estimator_registry.hpp"
-#include "experiments/fitting.hpp"
-#include "experiments/phase_fitting.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/fitting.hpp"
+#include "experiments/fitting/phase_fitting.hpp"
 #include "program.hpp"
-#include "recordings/model_file.hpp"
-#include "recordings/recording_file.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "recordings/models/measurement_model.hpp"
 #include "synthetic_log.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 
 class Fit : public ::testing::Test {
  protected:
-  fs::path log(const std::string& name, const Recording& recording) const {
-    write_recording(recording, folder_ / name);
+  fs::path log(const std::string& name, const recordings::Recording& recording) const {
+    recordings::write_recording(recording, folder_ / name);
     return folder_ / name;
   }
 
@@ -66,26 +66,28 @@ TEST_F(Fit, OfLabelledLogsIsTheFitThatExperimentsMake) {
   log("b.mpack", test::synthetic_log(2.5));
   for (const std::string name : {"robust", "reference", "paper", "measurement_only"}) {
     EXPECT_THAT(fit("a.mpack b.mpack -o m.npz --estimator " + name), HasSubstr("2 logs"));
-    std::vector<HeardRun> runs;
+    std::vector<experiments::RunSignals> runs;
     for (const char* file : {"a.mpack", "b.mpack"}) {
-      runs.push_back(hear(read_recording(folder_ / file), {}, {}, SampleUnit::run));
+      runs.push_back(experiments::signals_of(recordings::read_recording(folder_ / file), {}, {},
+                                             scoring::SampleUnit::run));
     }
-    const std::vector<const HeardRun*> heard = {&runs[0], &runs[1]};
-    expect_same(read_measurement_model(folder_ / "m.npz"),
-                touchdown::fit(heard, estimator_entry(name).config->measurement, {}));
+    const std::vector<const experiments::RunSignals*> heard = {&runs[0], &runs[1]};
+    expect_same(recordings::read_measurement_model(folder_ / "m.npz"),
+                touchdown::experiments::fit(
+                    heard, experiments::estimator_entry(name).config->measurement, {}));
   }
 }
 
 TEST_F(Fit, OfLogsThatAreOneClassTakesTheirWordForIt) {
-  const Recording rolling = test::one_class_log(2.0, true);
-  const Recording hanging = test::one_class_log(1.0, false);
+  const recordings::Recording rolling = test::one_class_log(2.0, true);
+  const recordings::Recording hanging = test::one_class_log(1.0, false);
   log("rolling.mpack", rolling);
   log("hanging.mpack", hanging);
   fit("--contact rolling.mpack --no-contact hanging.mpack -o m.npz --grid 80 60 --skip 0.1");
   MeasurementConfig config = BayesFilterConfig::robust().measurement;
   config.fit.knee_count = 80;
   config.fit.wheel_count = 60;
-  const auto samples = [&](const Recording& recording) {
+  const auto samples = [&](const recordings::Recording& recording) {
     std::vector<TorqueSample> all;
     for (const Side side : {Side::left, Side::right}) {
       TorqueChannel channel(config.torque, side, 1000.0);
@@ -99,17 +101,18 @@ TEST_F(Fit, OfLogsThatAreOneClassTakesTheirWordForIt) {
     }
     return all;
   };
-  expect_same(read_measurement_model(folder_ / "m.npz"),
+  expect_same(recordings::read_measurement_model(folder_ / "m.npz"),
               fit_measurement_model(samples(rolling), samples(hanging), config.fit));
 }
 
 TEST_F(Fit, OfThePhaseFilterIsTheOneThatExperimentsMake) {
   log("a.mpack", test::synthetic_log(3.0));
   EXPECT_THAT(fit("a.mpack -o m.npz --estimator phase"), HasSubstr("2.700 s of 1 log"));
-  const HeardRun run = hear(read_recording(folder_ / "a.mpack"), {}, {}, SampleUnit::run);
-  const std::vector<const HeardRun*> heard = {&run};
-  const PhaseModel expected = fit_phases(heard, PhaseFilterConfig{}.fit, 0.3);
-  const PhaseModelFile written = read_phase_model(folder_ / "m.npz");
+  const experiments::RunSignals run = experiments::signals_of(
+      recordings::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
+  const std::vector<const experiments::RunSignals*> heard = {&run};
+  const PhaseModel expected = experiments::fit_phases(heard, PhaseFilterConfig{}.fit, 0.3).model;
+  const recordings::PhaseModelFile written = recordings::read_phase_model(folder_ / "m.npz");
   EXPECT_EQ(written.model.transition, expected.transition);
   ASSERT_EQ(written.model.torque.size(), expected.torque.size());
   EXPECT_EQ(written.model.torque[2].log_density, expected.torque[2].log_density);
@@ -118,7 +121,7 @@ TEST_F(Fit, OfThePhaseFilterIsTheOneThatExperimentsMake) {
 }
 
 TEST_F(Fit, LeavesOutTorquesThatAreNotFinite) {
-  Recording broken = test::synthetic_log(3.0);
+  recordings::Recording broken = test::synthetic_log(3.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 1000; k < 1010; ++k) broken.observation[k].servo[1].torque = nan;
   broken.observation[2000].servo[5].torque = std::numeric_limits<double>::infinity();
@@ -127,7 +130,7 @@ TEST_F(Fit, LeavesOutTorquesThatAreNotFinite) {
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_THAT(ended.errors, HasSubstr("11 samples of a leg are not finite"));
   EXPECT_THAT(ended.output, HasSubstr("samples of both legs"));
-  read_measurement_model(folder_ / "m.npz");  // throws if a number in it is none
+  recordings::read_measurement_model(folder_ / "m.npz");  // throws if a number in it is none
   EXPECT_THAT(touchdown_program("fit a.mpack -o p.npz --estimator phase", folder_.path()).errors,
               HasSubstr("a.mpack: at 1.000 s: a torque or the acceleration is not finite"));
 }
@@ -144,7 +147,7 @@ TEST_F(Fit, OfATruncatedLogUsesWhatThereIs) {
 }
 
 TEST_F(Fit, RefusesRunsOfReservedSeeds) {
-  Recording reserved = test::synthetic_log(2.0);
+  recordings::Recording reserved = test::synthetic_log(2.0);
   reserved.info.seed = 900'000'001;
   log("a.mpack", reserved);
   EXPECT_THAT(complaint_about("a.mpack -o m.npz"), HasSubstr("reserved"));
@@ -194,4 +197,4 @@ TEST_F(Fit, ExplainsItselfWithALineToCopy) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli

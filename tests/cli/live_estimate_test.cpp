@@ -11,11 +11,11 @@
 #include <gtest/gtest.h>
 
 #include "program.hpp"
-#include "recordings/log_writer.hpp"
-#include "recordings/recording_file.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "recordings/log/writer.hpp"
 #include "synthetic_log.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
@@ -90,9 +90,9 @@ class LiveEstimate : public ::testing::Test {
 };
 
 /// Records one by one.
-std::vector<std::string> records(const Recording& log) {
+std::vector<std::string> records(const recordings::Recording& log) {
   std::ostringstream stream;
-  LogWriter writer(stream, log.info, false);
+  recordings::LogWriter writer(stream, log.info, false);
   std::vector<std::string> all;
   for (std::size_t k = 0; k < log.steps(); ++k) {
     writer.write(log.observation[k], log.action[k], nullptr);
@@ -148,7 +148,7 @@ TEST_F(LiveEstimate, SaysWhatItHeardBeforeGarbage) {
 }
 
 TEST_F(LiveEstimate, SaysTheSameAsFromAFile) {
-  const Recording log = test::robot_log(0.7);
+  const recordings::Recording log = test::robot_log(0.7);
   std::ptrdiff_t said = 0;
   for (const std::string& record : records(log)) {
     say(record);
@@ -157,10 +157,10 @@ TEST_F(LiveEstimate, SaysTheSameAsFromAFile) {
   close_input();
   const std::string printed = heard(everything);
   EXPECT_EQ(exit_code(), 0);
-  write_recording(log, folder_ / "a.mpack");
+  recordings::write_recording(log, folder_ / "a.mpack");
   touchdown_program("estimate a.mpack --estimator free_fall -o a.csv", folder_.path());
   EXPECT_EQ(printed, read_file(folder_ / "a.csv"));
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli

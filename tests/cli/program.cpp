@@ -5,7 +5,7 @@
 
 #include "core/files.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 Ended touchdown_program(const std::string& arguments, const std::filesystem::path& folder) {
   const std::filesystem::path out = folder / ".stdout";
@@ -41,4 +41,4 @@ video: {enabled: false}
   return "tiny.yaml";
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

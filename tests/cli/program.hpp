@@ -5,7 +5,7 @@
 
 #include "tests/scratch_folder.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 /// What a program said and how it ended.
 struct Ended {
@@ -21,4 +21,4 @@ Ended touchdown_program(const std::string& arguments, const std::filesystem::pat
 /// file name.
 std::string write_tiny_experiment(const ScratchFolder& folder);
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -15,7 +15,7 @@
 #include "core/files.hpp"
 #include "program.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
@@ -223,4 +223,4 @@ TEST_P(Interrupted, LeavesNoProcessNoSharedMemoryAndNoPartialFile) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -5,7 +5,7 @@
 
 #include "program.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
@@ -142,4 +142,4 @@ TEST(List, NamesWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -10,7 +10,7 @@
 #include "result_files.hpp"
 #include "started_program.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 using ::testing::ContainsRegex;
@@ -140,4 +140,4 @@ end: {duration: 1800.0}
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -8,7 +8,7 @@
 
 #include "core/files.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 /// Every file of a run directory that must not depend on when, where and in how many attempts it
 /// was computed, hidden ones included, by its path there, and what tells its content apart. The
@@ -39,4 +39,4 @@ inline std::vector<std::string> different_files(const std::map<std::string, std:
   return names;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -9,7 +9,7 @@
 #include "core/files.hpp"
 #include "program.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 using ::testing::HasSubstr;
@@ -172,4 +172,4 @@ TEST(Simulate, RecordsTheSameRunTwice) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -7,7 +7,7 @@
 #include "program.hpp"
 #include "result_files.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
@@ -123,4 +123,4 @@ end: {duration: 2.5}
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::cli

@@ -11,7 +11,7 @@
 
 #include "core/files.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 StartedProgram::StartedProgram(const std::string& arguments, const std::filesystem::path& folder)
     : out_(folder / ".started.stdout"), err_(folder / ".started.stderr") {
@@ -63,4 +63,4 @@ void StartedProgram::wait(int flags) {
   if (!ended_) ended_ = ::waitpid(process_, &status_, flags) == process_;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

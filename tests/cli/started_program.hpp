@@ -6,7 +6,7 @@
 
 #include "program.hpp"
 
-namespace touchdown {
+namespace touchdown::cli {
 
 /// The `touchdown` that was built, at work in `folder` while the test does something else. It does
 /// not outlive this object.
@@ -36,4 +36,4 @@ class StartedProgram {
   int status_ = 0;
 };
 
-}  // namespace touchdown
+}  // namespace touchdown::cli

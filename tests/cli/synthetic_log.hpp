@@ -10,10 +10,10 @@ namespace touchdown::test {
 
 /// A run as a spine might log it, made by formulas instead of a simulator: a flight of 0.2 s in
 /// every second, the right wheel a little later; no two accelerations are equal.
-inline Recording synthetic_log(double seconds, std::int64_t period_us = 1000,
-                               bool with_truth = true) {
-  Recording log;
-  log.info = {"synthetic", "mujoco", 5, 0, period_us, Outcome::finished, ""};
+inline recordings::Recording synthetic_log(double seconds, std::int64_t period_us = 1000,
+                                           bool with_truth = true) {
+  recordings::Recording log;
+  log.info = {"synthetic", "mujoco", 5, 0, period_us, recordings::Outcome::finished, ""};
   const auto steps = static_cast<std::size_t>(1e6 * seconds / static_cast<double>(period_us));
   for (std::size_t k = 0; k < steps; ++k) {
     const double time = static_cast<double>(k) * log.period();
@@ -21,14 +21,14 @@ inline Recording synthetic_log(double seconds, std::int64_t period_us = 1000,
     const double jitter = std::sin(1.7 * static_cast<double>(k * k % 10007));
     const double shock = phase >= 0.8 ? std::exp(-(phase - 0.8) / 0.02) : 0.0;
     const bool falls = phase >= 0.6 && phase < 0.8;
-    Observation o;
+    models::Observation o;
     o.time = time;
     // Upright: turned half about the IMU's y axis.
     o.imu.orientation = Eigen::Quaterniond(0.0, 0.0, 1.0, 0.0);
     o.imu.linear_acceleration = {
         0.1 * jitter, 0.0, 0.2 * jitter + (falls ? -9.81 : 60.0 * shock * std::cos(900.0 * phase))};
-    GroundTruth truth;
-    for (std::size_t side = 0; side < wheel_count; ++side) {
+    models::GroundTruth truth;
+    for (std::size_t side = 0; side < models::wheel_count; ++side) {
       const bool air = phase >= (side == 0 ? 0.6 : 0.606) && phase < 0.8;
       const double sign = side == 0 ? 1.0 : -1.0;
       o.servo[3 * side + 1].torque = sign * (air ? 0.05 : 1.3 + 4.0 * shock) + 0.05 * jitter;
@@ -44,8 +44,8 @@ inline Recording synthetic_log(double seconds, std::int64_t period_us = 1000,
 }
 
 /// The same as a robot logs it: nobody says where it comes from, and nobody knows the truth.
-inline Recording robot_log(double seconds, std::int64_t period_us = 1000) {
-  Recording log = synthetic_log(seconds, period_us, false);
+inline recordings::Recording robot_log(double seconds, std::int64_t period_us = 1000) {
+  recordings::Recording log = synthetic_log(seconds, period_us, false);
   log.info.scenario.clear();
   log.info.simulator.clear();
   log.info.outcome.reset();
@@ -53,11 +53,11 @@ inline Recording robot_log(double seconds, std::int64_t period_us = 1000) {
 }
 
 /// Nothing but rolling, or nothing but hanging.
-inline Recording one_class_log(double seconds, bool contact) {
-  Recording log = robot_log(seconds);
+inline recordings::Recording one_class_log(double seconds, bool contact) {
+  recordings::Recording log = robot_log(seconds);
   for (std::size_t k = 0; k < log.steps(); ++k) {
     const double jitter = std::sin(0.1 * static_cast<double>(k));
-    for (std::size_t side = 0; side < wheel_count; ++side) {
+    for (std::size_t side = 0; side < models::wheel_count; ++side) {
       const double sign = side == 0 ? 1.0 : -1.0;
       log.observation[k].servo[3 * side + 1].torque = sign * (contact ? 1.2 : -0.1) + 0.1 * jitter;
       log.observation[k].servo[3 * side + 2].torque = sign * (contact ? 0.2 : 0.02) * jitter;

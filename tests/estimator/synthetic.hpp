@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "estimator/measurement_model.hpp"
+#include "estimator/bayes/measurement_model.hpp"
 #include "estimator/signals.hpp"
-#include "random.hpp"
+#include "tests/estimator/random.hpp"
 
 namespace touchdown::test {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace touchdown {
+namespace touchdown::experiments {
 
 /// A scenario file of one drop of 0.2 m: the shortest run with a flight.
 inline constexpr const char* small_step_scene = R"(name: small_step
@@ -13,4 +13,4 @@ end: {duration: 6.0, x: 1.5, settle: 0.3}
 perturbation: {velocity: 0.1}
 )";
 
-}  // namespace touchdown
+}  // namespace touchdown::experiments

@@ -3,33 +3,34 @@
 #include <cmath>
 #include <cstdint>
 
-#include "experiments/experiment.hpp"
-#include "experiments/heard_run.hpp"
+#include "experiments/config/experiment.hpp"
+#include "experiments/signals/run_signals.hpp"
 #include "noise/gaussian.hpp"
 
-namespace touchdown {
+namespace touchdown::experiments {
 
 /// A run with a flight in every second, as estimators might hear one, without a simulator: the
 /// right wheel lags a little behind the left one. Two statistical pieces.
-inline HeardRun synthetic_run(std::int64_t number, std::size_t steps = 4000) {
-  HeardRun run;
+inline RunSignals synthetic_run(std::int64_t number, std::size_t steps = 4000) {
+  RunSignals run;
   run.info.scenario = "synthetic";
   run.info.simulator = "mujoco";
   run.info.seed = 1;
   run.info.run = number;
   run.pieces = {0, steps / 2 + 100};
-  const NoiseKey key{.seed = 99, .run = static_cast<std::uint64_t>(number)};
+  const noise::NoiseKey key{.seed = 99, .run = static_cast<std::uint64_t>(number)};
   for (std::size_t k = 0; k < steps; ++k) {
     const double phase = std::fmod(0.001 * static_cast<double>(k), 1.0);
     Signals s;
     s.time = 0.001 * static_cast<double>(k);
     const bool falls = phase >= 0.6 && phase < 0.8;
     const double shock = phase >= 0.8 ? std::exp(-(phase - 0.8) / 0.02) : 0.0;
-    const double jitter = 0.2 * standard_normal(key, NoiseChannel::left_hip_position, k);
+    const double jitter =
+        0.2 * noise::standard_normal(key, noise::NoiseChannel::left_hip_position, k);
     s.vertical_acceleration =
         falls ? -9.81 + jitter : 60.0 * shock * std::cos(900.0 * phase) + jitter;
     s.linear_acceleration = {0.1 * jitter, 0.0, -s.vertical_acceleration};
-    for (std::size_t side = 0; side < wheel_count; ++side) {
+    for (std::size_t side = 0; side < models::wheel_count; ++side) {
       const double lag = side == 0 ? 0.0 : 0.008;
       const bool air = phase >= 0.6 + lag && phase < 0.8;
       const double sign = side == 0 ? 1.0 : -1.0;
@@ -59,4 +60,4 @@ inline Experiment synthetic_experiment(const std::vector<std::string>& estimator
   return experiment;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::experiments

@@ -10,7 +10,7 @@
 #include "models/robot_model.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace touchdown {
+namespace touchdown::models {
 namespace {
 
 using ::testing::AllOf;
@@ -113,4 +113,4 @@ TEST_F(NamingContract, SomebodyElsesRobotWorksWithItsIncludesAndDefaults) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::models

@@ -10,7 +10,7 @@
 
 #include "tests/models/terrains.hpp"
 
-namespace touchdown {
+namespace touchdown::models {
 namespace {
 
 const std::string upkie = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
@@ -199,4 +199,4 @@ TEST(Upkie, AgreesWithTheOfficialDescription) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::models

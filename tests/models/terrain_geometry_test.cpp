@@ -5,9 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "models/robot_model.hpp"
+#include "models/terrain_mesh.hpp"
 #include "tests/models/terrains.hpp"
 
-namespace touchdown {
+namespace touchdown::models {
 namespace {
 
 const std::string upkie = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
@@ -139,4 +140,4 @@ TEST(TerrainGeometry, TerrainDecidesFrictionAndStiffness) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::models

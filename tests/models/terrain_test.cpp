@@ -1,15 +1,14 @@
-#include "models/terrain.hpp"
-
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "models/profile.hpp"
+#include "core/fields.hpp"
+#include "models/terrain_yaml.hpp"
 #include "tests/models/terrains.hpp"
 
-namespace touchdown {
+namespace touchdown::models {
 namespace {
 
 using ::testing::DoubleNear;
@@ -18,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 Terrain read(const std::string& text) {
-  return terrain_from_yaml(YamlMap(YamlDocument::parse(text, "scene.yaml")));
+  return from_yaml<Terrain>(YamlMap(YamlDocument::parse(text, "scene.yaml")));
 }
 
 TEST(Terrain, DefaultFlightHasItsEdgesAtWholeMetres) {
@@ -112,10 +111,10 @@ TEST(TerrainYaml, ReadsEveryKindOfPiece) {
 
 TEST(TerrainYaml, WrittenTerrainReadsBackTheSame) {
   for (const Terrain& terrain : {stairs(), course(), Terrain{}}) {
-    const YAML::Node node = to_yaml(terrain);
+    const YAML::Node node = to_node(terrain);
     const Terrain again = read(YAML::Dump(node));
     EXPECT_EQ(edges(again), edges(terrain));
-    EXPECT_EQ(YAML::Dump(to_yaml(again)), YAML::Dump(node));
+    EXPECT_EQ(YAML::Dump(to_node(again)), YAML::Dump(node));
   }
 }
 
@@ -140,4 +139,4 @@ TEST(TerrainYaml, MistakesAreNamedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::models

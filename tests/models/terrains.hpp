@@ -1,8 +1,17 @@
 #pragma once
 
-#include "models/terrain.hpp"
+#include "models/profile.hpp"
 
-namespace touchdown {
+namespace touchdown::models {
+
+inline double height_at(const Terrain& terrain, double x) { return Profile(terrain).height(x); }
+
+inline std::vector<double> edges(const Terrain& terrain) {
+  std::vector<double> result;
+  const Profile profile(terrain);
+  for (const Profile::Edge& edge : profile.edges()) result.push_back(edge.x);
+  return result;
+}
 
 inline Terrain stairs() { return {.pieces = {Flat{3.0}, StairFlight{}}}; }
 
@@ -14,4 +23,4 @@ inline Terrain course() {
           .repeat = 2};
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::models

@@ -9,7 +9,7 @@
 #include <Random123/philox.h>
 #include <gtest/gtest.h>
 
-namespace touchdown {
+namespace touchdown::noise {
 namespace {
 
 constexpr std::size_t many = 1'000'000;
@@ -174,11 +174,11 @@ TEST(Gaussian, FillingGivesTheSameBitsFromAnyStepAndInAnyPieces) {
 }
 
 TEST(Gaussian, ServoChannelsHaveNumbersOfTheirOwn) {
-  EXPECT_EQ(position_channel(Servo::left_hip), NoiseChannel::left_hip_position);
-  EXPECT_EQ(position_channel(Servo::right_wheel), NoiseChannel::right_wheel_position);
-  EXPECT_EQ(velocity_channel(Servo::left_hip), NoiseChannel::left_hip_velocity);
-  EXPECT_EQ(velocity_channel(Servo::right_wheel), NoiseChannel::right_wheel_velocity);
+  EXPECT_EQ(position_channel(models::Servo::left_hip), NoiseChannel::left_hip_position);
+  EXPECT_EQ(position_channel(models::Servo::right_wheel), NoiseChannel::right_wheel_position);
+  EXPECT_EQ(velocity_channel(models::Servo::left_hip), NoiseChannel::left_hip_velocity);
+  EXPECT_EQ(velocity_channel(models::Servo::right_wheel), NoiseChannel::right_wheel_velocity);
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::noise

@@ -2,11 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/fields.hpp"
 #include "policies/force_script.hpp"
 #include "policies/guide.hpp"
 #include "policies/tether.hpp"
 
-namespace touchdown {
+namespace touchdown::policies {
 namespace {
 
 using ::testing::HasSubstr;
@@ -25,15 +26,15 @@ Tether rope() {
           .damping = 50.0};
 }
 
-GroundTruth robot_at(const Eigen::Vector3d& position) {
-  GroundTruth robot;
+models::GroundTruth robot_at(const Eigen::Vector3d& position) {
+  models::GroundTruth robot;
   robot.base_position = position;
   return robot;
 }
 
 TEST(Tether, IsNothingWhileSlack) {
   EXPECT_EQ(tether_force(rope(), robot_at({0.0, 0.0, 1.5})), Eigen::Vector3d::Zero());
-  GroundTruth leaving = robot_at({0.0, 0.0, 1.01});
+  models::GroundTruth leaving = robot_at({0.0, 0.0, 1.01});
   leaving.base_linear_velocity = {0.0, 0.0, -9.0};
   EXPECT_EQ(tether_force(rope(), leaving), Eigen::Vector3d::Zero());
   EXPECT_EQ(tether_force(rope(), robot_at({0.0, 0.0, 2.0})), Eigen::Vector3d::Zero());
@@ -43,13 +44,13 @@ TEST(Tether, PullsAlongTheRopeByStretchAndLengthening) {
   expect_near(tether_force(rope(), robot_at({0.0, 0.0, 0.9})), {0.0, 0.0, 100.0});
   // 3-4-5: 1.25 m from the anchor.
   expect_near(tether_force(rope(), robot_at({0.75, 0.0, 1.0})), {-250.0 * 0.6, 0.0, 250.0 * 0.8});
-  GroundTruth falling = robot_at({0.0, 0.0, 0.9});
+  models::GroundTruth falling = robot_at({0.0, 0.0, 0.9});
   falling.base_linear_velocity = {5.0, 0.0, -1.0};  // only the way along the rope counts
   expect_near(tether_force(rope(), falling), {0.0, 0.0, 100.0 + 50.0});
 }
 
 TEST(Tether, NeverPushes) {
-  GroundTruth rising = robot_at({0.0, 0.0, 0.9});
+  models::GroundTruth rising = robot_at({0.0, 0.0, 0.9});
   rising.base_linear_velocity = {0.0, 0.0, 10.0};  // the damper alone would push by 500 N
   EXPECT_EQ(tether_force(rope(), rising), Eigen::Vector3d::Zero());
 }
@@ -57,7 +58,7 @@ TEST(Tether, NeverPushes) {
 TEST(Tether, HoldsAPointThatTurnsWithTheRobot) {
   Tether tether = rope();
   tether.point_in_base = {0.0, 0.0, 0.2};
-  GroundTruth robot = robot_at({0.2, 0.0, 0.8});
+  models::GroundTruth robot = robot_at({0.2, 0.0, 0.8});
   robot.base_orientation = Eigen::AngleAxisd(-M_PI / 2.0, Eigen::Vector3d::UnitY());
   // The point is straight below the anchor, and moves down by the turning.
   robot.base_angular_velocity = {0.0, -2.0, 0.0};
@@ -70,7 +71,7 @@ TEST(Guide, IsALevelSpringAndDamper) {
                        .point_in_base = Eigen::Vector3d::Zero(),
                        .stiffness = 100.0,
                        .damping = 10.0};
-  GroundTruth robot = robot_at({1.5, -1.0, 7.0});
+  models::GroundTruth robot = robot_at({1.5, -1.0, 7.0});
   expect_near(guide_force(guide, robot), {-50.0, 0.0, 0.0});
   robot.base_linear_velocity = {1.0, 2.0, 3.0};
   expect_near(guide_force(guide, robot), {-60.0, -20.0, 0.0});
@@ -103,16 +104,18 @@ std::string complaint(F&& read) {
 
 ForceScript forces(const std::string& text) {
   YamlMap map(YamlDocument::parse(text, "forces.yaml"));
-  return force_script_from_yaml(map, "forces");
+  ForceScript script;
+  Fields(map).list("forces", script);
+  return script;
 }
 
 TEST(ForceScript, SurvivesTheRoundTrip) {
-  const ForceScript script = forces(
+  ForceScript script = forces(
       "forces:\n  - {time: 1.5, duration: 0.3, force: [1, 2.5, -3], point_in_base: [0, 0, 0.06], "
       "along_heading: true}\n  - {time: 0}\n");
-  YAML::Node node;
-  node["forces"] = to_yaml(script);
-  const ForceScript again = forces(YAML::Dump(node));
+  Fields written;
+  written.list("forces", script);
+  const ForceScript again = forces(YAML::Dump(written.node()));
   ASSERT_EQ(again.size(), 2U);
   EXPECT_EQ(again[0].time, 1.5);
   EXPECT_EQ(again[0].duration, 0.3);
@@ -137,14 +140,14 @@ TEST(Tether, ReadsWhatItWrites) {
   Tether tether = rope();
   tether.anchor = {0.1, -0.2, 2.5};
   const Tether again =
-      tether_from_yaml(YamlMap(YamlDocument::parse(YAML::Dump(to_yaml(tether)), "tether.yaml")));
+      from_yaml<Tether>(YamlMap(YamlDocument::parse(YAML::Dump(to_node(tether)), "tether.yaml")));
   EXPECT_EQ(again.anchor, tether.anchor);
   EXPECT_EQ(again.point_in_base, tether.point_in_base);
   EXPECT_EQ(again.length, 1.0);
   EXPECT_EQ(again.stiffness, 1000.0);
   EXPECT_EQ(again.damping, 50.0);
   EXPECT_THAT(complaint([] {
-                (void)tether_from_yaml(YamlMap(YamlDocument::parse("lenght: 1", "tether.yaml")));
+                (void)from_yaml<Tether>(YamlMap(YamlDocument::parse("lenght: 1", "tether.yaml")));
               }),
               HasSubstr("tether.yaml:1:1: lenght: unknown key (did you mean 'length'?)"));
 }
@@ -152,7 +155,7 @@ TEST(Tether, ReadsWhatItWrites) {
 TEST(Guide, ReadsWhatItWrites) {
   const Guide guide = {1.0, 2.0, {0.1, 0.2, 0.3}, 4.0, 5.0};
   const Guide again =
-      guide_from_yaml(YamlMap(YamlDocument::parse(YAML::Dump(to_yaml(guide)), "guide.yaml")));
+      from_yaml<Guide>(YamlMap(YamlDocument::parse(YAML::Dump(to_node(guide)), "guide.yaml")));
   EXPECT_EQ(again.x, 1.0);
   EXPECT_EQ(again.y, 2.0);
   EXPECT_EQ(again.point_in_base, guide.point_in_base);
@@ -161,4 +164,4 @@ TEST(Guide, ReadsWhatItWrites) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::policies

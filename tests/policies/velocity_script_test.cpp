@@ -4,15 +4,17 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/fields.hpp"
 
-namespace touchdown {
+namespace touchdown::policies {
 namespace {
 
 using ::testing::HasSubstr;
 
 VelocityScript read(const std::string& text) {
   YamlMap map(YamlDocument::parse(text, "script.yaml"));
-  VelocityScript script = velocity_script_from_yaml(map, "velocity");
+  VelocityScript script;
+  Fields(map).list("velocity", script, script);
   map.finish();
   return script;
 }
@@ -43,14 +45,14 @@ TEST(VelocityScript, AnEmptyOneStands) {
 }
 
 TEST(VelocityScript, SurvivesTheRoundTrip) {
-  const VelocityScript script = read(
+  VelocityScript script = read(
       "velocity:\n  - {time: 0.1, velocity: 0.30000000000000004}\n  - {time: 2, yaw_rate: -0.7}\n");
   ASSERT_EQ(script.size(), 2U);
-  YAML::Node node;
-  node["velocity"] = to_yaml(script);
+  Fields written;
+  written.list("velocity", script, script);
   YAML::Emitter out;
   out.SetDoublePrecision(17);
-  out << node;
+  out << written.node();
   const VelocityScript again = read(out.c_str());
   ASSERT_EQ(again.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -71,4 +73,4 @@ TEST(VelocityScript, ComplainsOnTheLine) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::policies

@@ -7,8 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/fields.hpp"
 
-namespace touchdown {
+namespace touchdown::policies {
 namespace {
 
 using ::testing::HasSubstr;
@@ -17,17 +18,19 @@ constexpr double radius = 0.05;
 constexpr double period = 1e-3;
 
 // What a policy gets is an observation, and there is no ground truth in one.
-static_assert(std::is_same_v<decltype(&Policy::act), Action (Policy::*)(const Observation&)>);
-static_assert(std::is_same_v<decltype(&Policy::reset), void (Policy::*)(const Observation&)>);
+static_assert(
+    std::is_same_v<decltype(&Policy::act), models::Action (Policy::*)(const models::Observation&)>);
+static_assert(
+    std::is_same_v<decltype(&Policy::reset), void (Policy::*)(const models::Observation&)>);
 
 WheelBalancer balancer(VelocityScript script = {}, WheelBalancerConfig config = {}) {
   return {config, std::move(script), radius, period};
 }
 
 /// Torque that each wheel servo would apply to a wheel at rest, along its forward direction.
-std::array<double, 2> forward_torques(const Action& action) {
-  const ServoCommand& left = action.servo[index(Servo::left_wheel)];
-  const ServoCommand& right = action.servo[index(Servo::right_wheel)];
+std::array<double, 2> forward_torques(const models::Action& action) {
+  const models::ServoCommand& left = action.servo[models::index(models::Servo::left_wheel)];
+  const models::ServoCommand& right = action.servo[models::index(models::Servo::right_wheel)];
   return {left.feedforward_torque + left.kd_scale * left.velocity,
           -(right.feedforward_torque + right.kd_scale * right.velocity)};
 }
@@ -44,7 +47,7 @@ TEST(WheelBalancer, RollsTowardsTheSideItFallsTo) {
   for (const double pitch : {0.1, -0.1}) {
     WheelBalancer policy = balancer();
     policy.reset({});
-    Observation seen;
+    models::Observation seen;
     seen.pitch = pitch;
     const auto [left, right] = forward_torques(policy.act(seen));
     EXPECT_GT(left * pitch, 0.0);
@@ -56,16 +59,16 @@ TEST(WheelBalancer, RollsBackFirstWhenItIsToGoForward) {
   // To lean forward, the wheels have to come back; so with a robot ahead of its place, they go on.
   WheelBalancer policy = balancer();
   policy.reset({});
-  Observation seen;
-  seen.servo[index(Servo::left_wheel)].position = -1.0;  // 5 cm behind
-  seen.servo[index(Servo::right_wheel)].position = 1.0;
+  models::Observation seen;
+  seen.servo[models::index(models::Servo::left_wheel)].position = -1.0;  // 5 cm behind
+  seen.servo[models::index(models::Servo::right_wheel)].position = 1.0;
   EXPECT_LT(forward_torques(policy.act(seen))[0], 0.0);
 }
 
 TEST(WheelBalancer, TurnsRightWhenItPointsLeftAndBack) {
   WheelBalancer policy = balancer();
   policy.reset({});
-  Observation seen;
+  models::Observation seen;
   seen.yaw = 0.2;
   const auto [left, right] = forward_torques(policy.act(seen));
   EXPECT_GT(left, 0.0);
@@ -78,11 +81,12 @@ TEST(WheelBalancer, TurnsRightWhenItPointsLeftAndBack) {
 TEST(WheelBalancer, TurnsRightWhenItIsLeftOfTheCourse) {
   WheelBalancer policy = balancer();
   policy.reset({});
-  Observation seen;
+  models::Observation seen;
   seen.yaw = 0.3;
   (void)policy.act(seen);
-  seen.servo[index(Servo::left_wheel)].position = 10.0;  // half a metre on, to the left
-  seen.servo[index(Servo::right_wheel)].position = -10.0;
+  seen.servo[models::index(models::Servo::left_wheel)].position =
+      10.0;  // half a metre on, to the left
+  seen.servo[models::index(models::Servo::right_wheel)].position = -10.0;
   (void)policy.act(seen);
   seen.yaw = 0.0;
   const auto [left, right] = forward_torques(policy.act(seen));
@@ -90,7 +94,7 @@ TEST(WheelBalancer, TurnsRightWhenItIsLeftOfTheCourse) {
 }
 
 TEST(WheelBalancer, StartsAskewAndComesRoundUnlessToldToKeepItsHeading) {
-  Observation askew;
+  models::Observation askew;
   askew.yaw = 0.4;
   WheelBalancer comes_round = balancer();
   comes_round.reset(askew);
@@ -102,7 +106,7 @@ TEST(WheelBalancer, StartsAskewAndComesRoundUnlessToldToKeepItsHeading) {
 
 TEST(WheelBalancer, AHeadingBeyondHalfATurnIsNotASurprise) {
   WheelBalancer policy = balancer({}, {.keep_heading = true});
-  Observation seen;
+  models::Observation seen;
   seen.yaw = 3.1;
   policy.reset(seen);
   seen.yaw = 3.2 - 2.0 * M_PI;  // turned left by 0.1, across the jump
@@ -113,15 +117,15 @@ TEST(WheelBalancer, AHeadingBeyondHalfATurnIsNotASurprise) {
 
 TEST(WheelBalancer, HoldsThePostureOfTheReset) {
   WheelBalancer policy = balancer();
-  Observation crouched;
-  crouched.servo[index(Servo::left_hip)].position = 0.4;
-  crouched.servo[index(Servo::left_knee)].position = -0.7;
+  models::Observation crouched;
+  crouched.servo[models::index(models::Servo::left_hip)].position = 0.4;
+  crouched.servo[models::index(models::Servo::left_knee)].position = -0.7;
   policy.reset(crouched);
-  const Action action = policy.act({});
-  EXPECT_EQ(action.servo[index(Servo::left_hip)].position, 0.4);
-  EXPECT_EQ(action.servo[index(Servo::left_knee)].position, -0.7);
-  EXPECT_EQ(action.servo[index(Servo::right_knee)].position, 0.0);
-  EXPECT_TRUE(std::isnan(action.servo[index(Servo::left_wheel)].position));
+  const models::Action action = policy.act({});
+  EXPECT_EQ(action.servo[models::index(models::Servo::left_hip)].position, 0.4);
+  EXPECT_EQ(action.servo[models::index(models::Servo::left_knee)].position, -0.7);
+  EXPECT_EQ(action.servo[models::index(models::Servo::right_knee)].position, 0.0);
+  EXPECT_TRUE(std::isnan(action.servo[models::index(models::Servo::left_wheel)].position));
 }
 
 /// What it commands over a second of a made-up rocking motion.
@@ -129,15 +133,16 @@ std::vector<double> commands(WheelBalancer& policy) {
   std::vector<double> trace;
   policy.reset({});
   for (int i = 0; i < 1000; ++i) {
-    Observation seen;
+    models::Observation seen;
     seen.time = i * period;
     seen.pitch = 0.05 * std::sin(0.01 * i);
     seen.yaw = 0.1 * std::sin(0.003 * i);
-    seen.servo[index(Servo::left_wheel)] = {0.01 * i, 10.0 + std::sin(0.1 * i), 0.3};
-    seen.servo[index(Servo::right_wheel)] = {-0.01 * i, -10.0, -0.2};
-    const Action action = policy.act(seen);
-    trace.push_back(action.servo[index(Servo::left_wheel)].velocity);
-    trace.push_back(action.servo[index(Servo::right_wheel)].feedforward_torque);
+    seen.servo[models::index(models::Servo::left_wheel)] = {0.01 * i, 10.0 + std::sin(0.1 * i),
+                                                            0.3};
+    seen.servo[models::index(models::Servo::right_wheel)] = {-0.01 * i, -10.0, -0.2};
+    const models::Action action = policy.act(seen);
+    trace.push_back(action.servo[models::index(models::Servo::left_wheel)].velocity);
+    trace.push_back(action.servo[models::index(models::Servo::right_wheel)].feedforward_torque);
   }
   return trace;
 }
@@ -153,7 +158,7 @@ TEST(WheelBalancer, NeverAsksForMoreThanItsLimit) {
   WheelBalancer policy = balancer({{0.0, 3.0, 0.0}});
   policy.reset({});
   for (int i = 0; i < 3000; ++i) {
-    Observation seen;
+    models::Observation seen;
     seen.time = i * period;
     seen.pitch = 1.5;
     (void)policy.act(seen);
@@ -164,13 +169,13 @@ TEST(WheelBalancer, NeverAsksForMoreThanItsLimit) {
 
 TEST(WheelBalancer, ReadsItsGainsStrictly) {
   const auto read = [](const std::string& text) {
-    return wheel_balancer_from_yaml(YamlMap(YamlDocument::parse(text, "gains.yaml")));
+    return from_yaml<WheelBalancerConfig>(YamlMap(YamlDocument::parse(text, "gains.yaml")));
   };
   const WheelBalancerConfig config = read("{pitch_damping: 3, keep_heading: true}");
   EXPECT_EQ(config.pitch_damping, 3.0);
   EXPECT_TRUE(config.keep_heading);
   EXPECT_EQ(config.pitch_stiffness, WheelBalancerConfig{}.pitch_stiffness);
-  EXPECT_EQ(YAML::Dump(to_yaml(read(YAML::Dump(to_yaml(config))))), YAML::Dump(to_yaml(config)));
+  EXPECT_EQ(YAML::Dump(to_node(read(YAML::Dump(to_node(config))))), YAML::Dump(to_node(config)));
   try {
     (void)read("pitch_stifness: 3");
     FAIL() << "no complaint";
@@ -180,4 +185,4 @@ TEST(WheelBalancer, ReadsItsGainsStrictly) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::policies

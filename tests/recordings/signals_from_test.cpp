@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/recordings/sample_recording.hpp"
+#include "tests/recordings/log/sample_recording.hpp"
 
-namespace touchdown {
+namespace touchdown::recordings {
 namespace {
 
 TEST(SignalsFrom, EveryJointLandsOnItsLeg) {
-  const Observation o = testing::sample_recording(1).observation[0];
+  const models::Observation o = testing::sample_recording(1).observation[0];
   const Signals signals = signals_from(o, 0.25);
   EXPECT_EQ(signals.time, o.time);
   EXPECT_EQ(signals.leg[0].hip.position, o.servo[0].position);
@@ -23,7 +23,7 @@ TEST(SignalsFrom, EveryJointLandsOnItsLeg) {
 }
 
 TEST(SignalsFrom, AccelerationIsProjectedUpwards) {
-  Observation o;
+  models::Observation o;
   o.imu.orientation = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY());  // IMU upside down
   o.imu.linear_acceleration = {0.0, 0.0, 2.0};
   // The reference system's z points down; an IMU turned about y has its z up.
@@ -31,12 +31,12 @@ TEST(SignalsFrom, AccelerationIsProjectedUpwards) {
 }
 
 TEST(SignalsFrom, GroundVelocityIsTheMeanOfTheWheelsTargets) {
-  Action action;
-  action.servo[index(Servo::left_wheel)].velocity = 12.0;
-  action.servo[index(Servo::right_wheel)].velocity = -8.0;
+  models::Action action;
+  action.servo[models::index(models::Servo::left_wheel)].velocity = 12.0;
+  action.servo[models::index(models::Servo::right_wheel)].velocity = -8.0;
   EXPECT_DOUBLE_EQ(ground_velocity_command(action), 0.5);
   EXPECT_DOUBLE_EQ(ground_velocity_command(action, 0.1), 1.0);
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::recordings

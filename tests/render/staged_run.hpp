@@ -3,27 +3,30 @@
 #include <cmath>
 #include <string>
 
+#include "models/profile.hpp"
 #include "models/robot_model.hpp"
-#include "models/terrain.hpp"
 #include "recordings/recording.hpp"
-#include "render/video.hpp"
+#include "render/film/video.hpp"
 
-namespace touchdown {
+namespace touchdown::render {
 
 inline const std::string upkie_mjcf = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
 
-inline Terrain staged_terrain() { return {.pieces = {Flat{3.0}, StairFlight{}}}; }
+inline models::Terrain staged_terrain() {
+  return {.pieces = {models::Flat{3.0}, models::StairFlight{}}};
+}
 
 /// A run down the stairs that no physics engine made: constant speed, free fall after each edge.
 /// Pictures of it depend on nothing but the renderer.
-inline Recording staged_run(double seconds, const std::string& simulator = "mujoco") {
+inline recordings::Recording staged_run(double seconds, const std::string& simulator = "mujoco") {
   constexpr double speed = 0.5, period = 1e-3, gravity = 9.81, radius = 0.05;
   constexpr double hip = 0.455, knee = 0.791;
-  Recording recording;
+  recordings::Recording recording;
   recording.info.simulator = simulator;
   recording.info.scenario = "staged";
-  const Terrain terrain = staged_terrain();
-  double z = height_at(terrain, 0.0);
+  const models::Terrain terrain = staged_terrain();
+  const models::Profile profile(terrain);
+  double z = profile.height(0.0);
   double fall_speed = 0.0;
   const auto rows = static_cast<std::size_t>(std::lround(seconds / period)) + 1;
   for (std::size_t k = 0; k < rows; ++k) {
@@ -31,23 +34,23 @@ inline Recording staged_run(double seconds, const std::string& simulator = "mujo
     const double x = speed * time;
     fall_speed -= gravity * period;
     z += fall_speed * period;
-    const double ground = height_at(terrain, x);
+    const double ground = profile.height(x);
     const bool contact = z <= ground;
     if (contact) {
       z = ground;
       fall_speed = 0.0;
     }
-    Observation observation;
+    models::Observation observation;
     observation.time = time;
-    const std::array<double, servo_count> angles = {hip,  -knee, x / radius,
-                                                    -hip, knee,  -x / radius};
-    for (std::size_t i = 0; i < servo_count; ++i) observation.servo[i].position = angles[i];
-    for (const Servo servo : {Servo::left_knee, Servo::right_knee}) {
-      observation.servo[index(servo)].torque =
-          (contact ? 1.3 : 0.1) * (servo == Servo::left_knee ? 1 : -1);
+    const std::array<double, models::servo_count> angles = {hip,  -knee, x / radius,
+                                                            -hip, knee,  -x / radius};
+    for (std::size_t i = 0; i < models::servo_count; ++i) observation.servo[i].position = angles[i];
+    for (const models::Servo servo : {models::Servo::left_knee, models::Servo::right_knee}) {
+      observation.servo[models::index(servo)].torque =
+          (contact ? 1.3 : 0.1) * (servo == models::Servo::left_knee ? 1 : -1);
     }
-    observation.servo[index(Servo::left_wheel)].torque = contact ? 0.1 : -0.05;
-    GroundTruth truth;
+    observation.servo[models::index(models::Servo::left_wheel)].torque = contact ? 0.1 : -0.05;
+    models::GroundTruth truth;
     const double leg = 0.168 * std::cos(hip) + 0.175 * std::cos(hip - knee);
     const double forward = 0.168 * std::sin(hip) + 0.175 * std::sin(hip - knee);
     truth.base_position = {x - forward, 0.0, z + radius + 0.164 + leg};
@@ -60,12 +63,12 @@ inline Recording staged_run(double seconds, const std::string& simulator = "mujo
 }
 
 /// An estimator that follows the truth with a lag.
-inline BeliefTrack staged_beliefs(const Recording& recording, const std::string& name,
+inline BeliefTrack staged_beliefs(const recordings::Recording& recording, const std::string& name,
                                   float gain = 0.05f) {
   BeliefTrack track{.name = name, .p_contact = {}, .p_takeoff = {}, .p_landing = {}};
-  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     float p = 1.0f;
-    for (const GroundTruth& truth : recording.truth) {
+    for (const models::GroundTruth& truth : recording.truth) {
       const float target = truth.wheel_normal_force[wheel] > 1.0 ? 1.0f : 0.0f;
       const float change = gain * (target - p);
       p += change;
@@ -77,4 +80,4 @@ inline BeliefTrack staged_beliefs(const Recording& recording, const std::string&
   return track;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::render

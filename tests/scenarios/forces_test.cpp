@@ -1,13 +1,14 @@
 #include "scenarios/external_forces.hpp"
+#include "simulators/registry.hpp"
 #include "tests/scenarios/runs.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 namespace {
 
 constexpr double g = 9.81;
 constexpr double mass = 5.33922;  // kg
 
-double mean_load(const Recording& recording, double from, double to) {
+double mean_load(const recordings::Recording& recording, double from, double to) {
   double sum = 0.0;
   int count = 0;
   for (std::size_t k = 0; k < recording.steps(); ++k) {
@@ -24,7 +25,7 @@ class ForcesOf : public InEveryEngine {};
 TEST_P(ForcesOf, TheGroundCarriesTheWeightLessTheLift) {
   Scenario lifted = standing(6.0);
   lifted.forces = {{.time = 2.0, .duration = 4.0, .force = {0.0, 0.0, 20.0}}};
-  const Recording recording = play(lifted, GetParam());
+  const recordings::Recording recording = play(lifted, GetParam());
   EXPECT_NEAR(mean_load(recording, 1.0, 2.0), mass * g, 1e-3 * mass * g);
   EXPECT_NEAR(mean_load(recording, 4.0, 6.0), mass * g - 20.0, 1e-3 * mass * g);
 }
@@ -46,7 +47,7 @@ TEST_P(ForcesOf, AForceBeyondTheWeightThrowsTheRobotUpByTheSurplus) {
   Scenario thrown = standing(0.9);
   const double force = 80.0;
   thrown.forces = {{.time = 0.5, .duration = 0.3, .force = {0.0, 0.0, force}}};
-  const Recording recording = play(thrown, GetParam());
+  const recordings::Recording recording = play(thrown, GetParam());
   // The momentum gained is what the force and gravity left over; the ground lets go at once, but
   // for what its springs give back.
   const double rise = recording.truth.back().base_linear_velocity.z();
@@ -58,23 +59,23 @@ TEST_P(ForcesOf, TheTetherCarriesWhatHangsOnIt) {
   Scenario hung = scenario_called("hang");
   hung.end.duration = 6.0;
   hung.velocity.clear();
-  const Recording recording = play(hung, GetParam());
+  const recordings::Recording recording = play(hung, GetParam());
   // At rest the rope's stretch is the weight over its stiffness.
-  const GroundTruth& end = recording.truth.back();
-  const Tether& tether = *hung.tether;
+  const models::GroundTruth& end = recording.truth.back();
+  const policies::Tether& tether = *hung.tether;
   const Eigen::Vector3d held = end.base_position + end.base_orientation * tether.point_in_base;
   EXPECT_NEAR((tether.anchor - held).norm() - tether.length, mass * g / tether.stiffness, 1e-4);
-  EXPECT_NEAR(tether_force(tether, end).norm(), mass * g, 0.3);
+  EXPECT_NEAR(policies::tether_force(tether, end).norm(), mass * g, 0.3);
 }
 
 TEST_P(ForcesOf, ForcesAreGatheredFromAllThatActs) {
   Scenario scenario = standing(1.0);
-  scenario.tether = Tether{.anchor = {0.0, 0.0, 2.0}, .length = 1.0};
-  scenario.guides = {Guide{.x = 1.0}};
+  scenario.tether = policies::Tether{.anchor = {0.0, 0.0, 2.0}, .length = 1.0};
+  scenario.guides = {policies::Guide{.x = 1.0}};
   scenario.forces = {{.time = 0.0, .duration = 1.0, .force = {1.0, 2.0, 3.0}},
                      {.time = 0.5, .duration = 1.0, .force = {9.0, 9.0, 9.0}}};
   const auto simulator = make_simulator(scenario, GetParam());
-  RobotState start;
+  simulators::RobotState start;
   start.position.z() = 0.6;
   simulator->reset(start);
   ExternalForces forces(scenario);
@@ -85,7 +86,8 @@ TEST_P(ForcesOf, ForcesAreGatheredFromAllThatActs) {
   EXPECT_EQ(now[2].force, Eigen::Vector3d(1.0, 2.0, 3.0));
 }
 
-INSTANTIATE_TEST_SUITE_P(Engine, ForcesOf, ::testing::ValuesIn(simulator_names()), engine_name);
+INSTANTIATE_TEST_SUITE_P(Engine, ForcesOf, ::testing::ValuesIn(simulators::simulator_names()),
+                         engine_name);
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

@@ -1,6 +1,7 @@
+#include "simulators/registry.hpp"
 #include "tests/scenarios/runs.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 namespace {
 
 class OutcomeOf : public InEveryEngine {};
@@ -8,8 +9,8 @@ class OutcomeOf : public InEveryEngine {};
 TEST_P(OutcomeOf, ARobotPushedOverIsAFall) {
   Scenario pushed = standing(10.0);
   pushed.forces = {{.time = 0.5, .duration = 0.5, .force = {0.0, 60.0, 0.0}}};
-  const Recording recording = play(pushed, GetParam());
-  EXPECT_EQ(recording.info.outcome, Outcome::fell);
+  const recordings::Recording recording = play(pushed, GetParam());
+  EXPECT_EQ(recording.info.outcome, recordings::Outcome::fell);
   EXPECT_LT(recording.observation.back().time, 3.0);
   EXPECT_GT(recording.observation.back().time, 0.5);
 }
@@ -18,20 +19,20 @@ TEST_P(OutcomeOf, ARobotThatCannotBalanceFalls) {
   Scenario limp = standing(10.0);
   limp.balancer.max_velocity = 0.0;
   limp.forces = {{.time = 0.2, .duration = 0.1, .force = {10.0, 0.0, 0.0}}};
-  EXPECT_EQ(play(limp, GetParam()).info.outcome, Outcome::fell);
+  EXPECT_EQ(play(limp, GetParam()).info.outcome, recordings::Outcome::fell);
 }
 
 TEST_P(OutcomeOf, NotArrivingInTimeIsATimeout) {
   Scenario late = standing(1.0);
   late.end.x = 5.0;
-  const Recording recording = play(late, GetParam());
-  EXPECT_EQ(recording.info.outcome, Outcome::timed_out);
+  const recordings::Recording recording = play(late, GetParam());
+  EXPECT_EQ(recording.info.outcome, recordings::Outcome::timed_out);
   EXPECT_NEAR(recording.observation.back().time, 1.0, 1e-9);
   EXPECT_EQ(recording.steps(), 1001U);
 }
 
 TEST_P(OutcomeOf, OutlastingTheTimeIsTheEndWhereThereIsNoOther) {
-  EXPECT_EQ(play(standing(0.5), GetParam()).info.outcome, Outcome::finished);
+  EXPECT_EQ(play(standing(0.5), GetParam()).info.outcome, recordings::Outcome::finished);
 }
 
 TEST_P(OutcomeOf, TheEndIsSettledBeforeItCounts) {
@@ -39,8 +40,8 @@ TEST_P(OutcomeOf, TheEndIsSettledBeforeItCounts) {
   driving.velocity = {{0.2, 0.5, 0.0}};
   driving.end.x = 0.5;
   driving.end.settle = 0.7;
-  const Recording recording = play(driving, GetParam());
-  EXPECT_EQ(recording.info.outcome, Outcome::finished);
+  const recordings::Recording recording = play(driving, GetParam());
+  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
   std::size_t passed = 0;
   while (recording.truth[passed].base_position.x() <= 0.5) ++passed;
   EXPECT_NEAR(recording.observation.back().time - recording.observation[passed].time, 0.7, 1e-6);
@@ -49,14 +50,14 @@ TEST_P(OutcomeOf, TheEndIsSettledBeforeItCounts) {
 TEST_P(OutcomeOf, AnAbsurdForceIsADivergence) {
   Scenario absurd = standing(5.0);
   absurd.forces = {{.time = 0.1, .duration = 1.0, .force = {0.0, 0.0, 1e9}}};
-  const Recording recording = play(absurd, GetParam());
-  EXPECT_EQ(recording.info.outcome, Outcome::diverged);
+  const recordings::Recording recording = play(absurd, GetParam());
+  EXPECT_EQ(recording.info.outcome, recordings::Outcome::diverged);
   EXPECT_LT(recording.observation.back().time, 0.3);
 }
 
 TEST_P(OutcomeOf, ARunThatWasStoppedHasNone) {
   int reports = 0;
-  const Recording recording = play(standing(10.0), GetParam(), 3, 4, [&](double time) {
+  const recordings::Recording recording = play(standing(10.0), GetParam(), 3, 4, [&](double time) {
     ++reports;
     return time < 1.0;
   });
@@ -70,18 +71,19 @@ TEST_P(OutcomeOf, ARunThatWasStoppedHasNone) {
 TEST_P(OutcomeOf, TheRecordingHoldsAScenarioThatPlaysAgain) {
   Scenario scenario = perturbed(scenario_called("push_off"), 11, 2);
   scenario.end.duration = 2.0;
-  const Recording first = play(scenario, GetParam());
-  const Recording again = play(
+  const recordings::Recording first = play(scenario, GetParam());
+  const recordings::Recording again = play(
       scenario_from_yaml(YamlDocument::parse(first.info.scenario_yaml, "recorded")), GetParam());
   ASSERT_EQ(again.steps(), first.steps());
   EXPECT_EQ(again.truth.back().base_position, first.truth.back().base_position);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engine, OutcomeOf, ::testing::ValuesIn(simulator_names()), engine_name);
+INSTANTIATE_TEST_SUITE_P(Engine, OutcomeOf, ::testing::ValuesIn(simulators::simulator_names()),
+                         engine_name);
 
 TEST(Outcome, AnUnknownEngineIsAnInputError) {
   EXPECT_THROW((void)play(standing(1.0), "gazebo"), InputError);
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

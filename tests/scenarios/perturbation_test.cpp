@@ -1,6 +1,6 @@
 #include "tests/scenarios/runs.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 namespace {
 
 Perturbation all_of_it() {
@@ -98,4 +98,4 @@ TEST(Perturbed, QuantitiesAreIndependent) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

@@ -1,8 +1,9 @@
 #include "scenarios/random_scripts.hpp"
 
+#include "core/fields.hpp"
 #include "tests/scenarios/runs.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 namespace {
 
 using ::testing::HasSubstr;
@@ -14,7 +15,7 @@ TEST(RandomDrive, HoldsEachCommandWithinItsRange) {
   int commands = 0;
   int standing = 0;
   for (int run = 0; run < 50; ++run) {
-    const VelocityScript script = random_drive(drive, 60.0, 3, run);
+    const policies::VelocityScript script = random_drive(drive, 60.0, 3, run);
     ASSERT_FALSE(script.empty());
     EXPECT_EQ(script.front().time, 1.0);
     for (std::size_t i = 0; i < script.size(); ++i) {
@@ -34,9 +35,9 @@ TEST(RandomDrive, HoldsEachCommandWithinItsRange) {
 }
 
 TEST(RandomDrive, IsAFunctionOfSeedAndRunAndALongerOneBeginsTheSame) {
-  const VelocityScript one = random_drive(drive, 20.0, 3, 1);
-  const VelocityScript longer = random_drive(drive, 40.0, 3, 1);
-  const VelocityScript other = random_drive(drive, 20.0, 3, 2);
+  const policies::VelocityScript one = random_drive(drive, 20.0, 3, 1);
+  const policies::VelocityScript longer = random_drive(drive, 40.0, 3, 1);
+  const policies::VelocityScript other = random_drive(drive, 20.0, 3, 2);
   ASSERT_GT(longer.size(), one.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].time, longer[i].time);
@@ -47,7 +48,7 @@ TEST(RandomDrive, IsAFunctionOfSeedAndRunAndALongerOneBeginsTheSame) {
 
 TEST(RandomLifts, LiftAndPauseWithinTheirRanges) {
   const RandomLifts lifts;
-  const ForceScript script = random_lifts(lifts, 60.0, 3, 1);
+  const policies::ForceScript script = random_lifts(lifts, 60.0, 3, 1);
   ASSERT_GT(script.size(), 20U);
   for (std::size_t i = 0; i < script.size(); ++i) {
     EXPECT_EQ(script[i].force.head<2>(), Eigen::Vector2d::Zero());
@@ -76,7 +77,7 @@ TEST(RandomScripts, ReplaceTheSticksAndAddToTheForces) {
 
 std::string complaint(const std::string& perturbation) {
   try {
-    (void)perturbation_from_yaml(YamlMap(YamlDocument::parse(perturbation, "p.yaml")));
+    (void)from_yaml<Perturbation>(YamlMap(YamlDocument::parse(perturbation, "p.yaml")));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -93,4 +94,4 @@ TEST(RandomScripts, ComplainOnTheLine) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

@@ -8,8 +8,9 @@
 
 #include "core/error.hpp"
 #include "scenarios/engine.hpp"
+#include "simulators/registry.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 
 inline Scenario scenario_called(const std::string& name) {
   Scenario scenario = load_scenario(TOUCHDOWN_SOURCE_DIR "/scenarios/" + name + ".yaml");
@@ -26,16 +27,16 @@ inline Scenario standing(double seconds) {
   return scenario;
 }
 
-inline bool in_contact(const GroundTruth& truth, std::size_t wheel) {
+inline bool in_contact(const models::GroundTruth& truth, std::size_t wheel) {
   return truth.wheel_normal_force[wheel] > 1.0;
 }
 
 /// How long each phase without contact of both wheels lasted, from `shortest` on (s).
-inline std::vector<double> flights(const Recording& recording, double shortest) {
+inline std::vector<double> flights(const recordings::Recording& recording, double shortest) {
   std::vector<double> durations;
   std::size_t steps = 0;
   for (std::size_t k = 1; k < recording.steps(); ++k) {  // nothing has acted yet at step 0
-    const GroundTruth& truth = recording.truth[k];
+    const models::GroundTruth& truth = recording.truth[k];
     if (!in_contact(truth, 0) && !in_contact(truth, 1)) {
       ++steps;
     } else {
@@ -53,4 +54,4 @@ inline std::string engine_name(const ::testing::TestParamInfo<std::string>& engi
 
 class InEveryEngine : public ::testing::TestWithParam<std::string> {};
 
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

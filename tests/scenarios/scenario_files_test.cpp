@@ -1,6 +1,7 @@
+#include "simulators/registry.hpp"
 #include "tests/scenarios/runs.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 namespace {
 
 class ScenarioFile : public InEveryEngine {};
@@ -8,25 +9,26 @@ class ScenarioFile : public InEveryEngine {};
 TEST_P(ScenarioFile, StairsAreTakenInSevenFlights) {
   const Scenario stairs = scenario_called("stairs");
   for (int run = 0; run < 8; ++run) {
-    const Recording recording = play(perturbed(stairs, 7, run), GetParam(), 7, run);
-    EXPECT_EQ(recording.info.outcome, Outcome::finished) << "run " << run;
+    const recordings::Recording recording = play(perturbed(stairs, 7, run), GetParam(), 7, run);
+    EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished) << "run " << run;
     EXPECT_EQ(flights(recording, 0.05).size(), 7U) << "run " << run;
     EXPECT_GT(recording.truth.back().base_position.x(), stairs.end.x);
   }
 }
 
 TEST_P(ScenarioFile, TheAuthorsStairsEndInALongerFlight) {
-  const Recording recording =
+  const recordings::Recording recording =
       play(perturbed(scenario_called("stairs_authors"), 7, 0), GetParam(), 7, 0);
-  EXPECT_EQ(recording.info.outcome, Outcome::finished);
+  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
   const std::vector<double> durations = flights(recording, 0.05);
   ASSERT_EQ(durations.size(), 7U);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_LT(durations[i], durations[6] - 0.02);
 }
 
 TEST_P(ScenarioFile, TheCourseGivesTenFlightsInFiveLaps) {
-  const Recording recording = play(perturbed(scenario_called("course"), 7, 0), GetParam(), 7, 0);
-  EXPECT_EQ(recording.info.outcome, Outcome::finished);
+  const recordings::Recording recording =
+      play(perturbed(scenario_called("course"), 7, 0), GetParam(), 7, 0);
+  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
   const std::vector<double> durations = flights(recording, 0.02);
   ASSERT_EQ(durations.size(), 10U);
   for (std::size_t i = 0; i < 10; i += 2) {  // a small drop, a large one
@@ -38,18 +40,19 @@ TEST_P(ScenarioFile, TheCourseGivesTenFlightsInFiveLaps) {
 
 TEST_P(ScenarioFile, HangingIsNeverContact) {
   for (int run = 0; run < 2; ++run) {
-    const Recording recording = play(perturbed(scenario_called("hang"), 7, run), GetParam());
-    EXPECT_EQ(recording.info.outcome, Outcome::finished);
-    for (const GroundTruth& truth : recording.truth) {
+    const recordings::Recording recording =
+        play(perturbed(scenario_called("hang"), 7, run), GetParam());
+    EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+    for (const models::GroundTruth& truth : recording.truth) {
       ASSERT_EQ(truth.wheel_normal_force, (std::array<double, 2>{0.0, 0.0}));
     }
   }
 }
 
 /// Both wheels on the ground, from 0.3 s to the end.
-void expect_contact(const Recording& recording, double longest_gap) {
-  EXPECT_EQ(recording.info.outcome, Outcome::finished);
-  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+void expect_contact(const recordings::Recording& recording, double longest_gap) {
+  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     double gap = 0.0;
     for (std::size_t k = 0; k < recording.steps(); ++k) {
       if (recording.observation[k].time < 0.3) continue;
@@ -76,13 +79,13 @@ TEST_P(ScenarioFile, RoamingIsAlwaysContact) {
 TEST_P(ScenarioFile, PushedOffAskewOneWheelGoesFirst) {
   Scenario askew = scenario_called("push_off");
   askew.start.yaw = 0.5;
-  const Recording recording = play(askew, GetParam());
-  EXPECT_EQ(recording.info.outcome, Outcome::finished);
+  const recordings::Recording recording = play(askew, GetParam());
+  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
   EXPECT_EQ(flights(recording, 0.05).size(), 1U);
   // Heading left, the right wheel comes to the edge first.
   int right_alone_off = 0;
   for (std::size_t k = 1; k < recording.steps(); ++k) {
-    const GroundTruth& truth = recording.truth[k];
+    const models::GroundTruth& truth = recording.truth[k];
     if (!in_contact(truth, 0) && !in_contact(truth, 1)) break;
     right_alone_off += in_contact(truth, 0) && !in_contact(truth, 1) ? 1 : 0;
   }
@@ -90,8 +93,9 @@ TEST_P(ScenarioFile, PushedOffAskewOneWheelGoesFirst) {
 }
 
 TEST_P(ScenarioFile, LiftingTakesTheRobotOffTheFloorAndPutsItBack) {
-  const Recording recording = play(perturbed(scenario_called("lift"), 7, 0), GetParam());
-  EXPECT_EQ(recording.info.outcome, Outcome::finished);
+  const recordings::Recording recording =
+      play(perturbed(scenario_called("lift"), 7, 0), GetParam());
+  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
   EXPECT_EQ(recording.period(), 0.005);
   EXPECT_GE(flights(recording, 0.1).size(), 4U);
   EXPECT_TRUE(in_contact(recording.truth.back(), 0));
@@ -100,20 +104,20 @@ TEST_P(ScenarioFile, LiftingTakesTheRobotOffTheFloorAndPutsItBack) {
 TEST_P(ScenarioFile, TheSameRunGivesTheSameBits) {
   const Scenario run = perturbed(scenario_called("stairs"), 7, 1);
   const auto simulator = make_simulator(run, GetParam());
-  const Recording first = play(run, GetParam());
-  for (const Recording& again :
+  const recordings::Recording first = play(run, GetParam());
+  for (const recordings::Recording& again :
        {play(run, GetParam()), play(run, *simulator), play(run, *simulator)}) {
     EXPECT_EQ(again.info.outcome, first.info.outcome);
     ASSERT_EQ(again.steps(), first.steps());
     for (std::size_t k = 0; k < first.steps(); ++k) {
-      const Observation& a = again.observation[k];
-      const Observation& b = first.observation[k];
+      const models::Observation& a = again.observation[k];
+      const models::Observation& b = first.observation[k];
       ASSERT_EQ(a.time, b.time);
       ASSERT_EQ(a.imu.raw_linear_acceleration, b.imu.raw_linear_acceleration);
       ASSERT_EQ(a.imu.orientation.coeffs(), b.imu.orientation.coeffs());
       ASSERT_EQ(again.truth[k].base_position, first.truth[k].base_position);
       ASSERT_EQ(again.truth[k].wheel_normal_force, first.truth[k].wheel_normal_force);
-      for (std::size_t i = 0; i < servo_count; ++i) {
+      for (std::size_t i = 0; i < models::servo_count; ++i) {
         ASSERT_EQ(a.servo[i].torque, b.servo[i].torque);
         ASSERT_EQ(a.servo[i].velocity, b.servo[i].velocity);
         ASSERT_EQ(again.action[k].servo[i].velocity, first.action[k].servo[i].velocity);
@@ -122,7 +126,8 @@ TEST_P(ScenarioFile, TheSameRunGivesTheSameBits) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engine, ScenarioFile, ::testing::ValuesIn(simulator_names()), engine_name);
+INSTANTIATE_TEST_SUITE_P(Engine, ScenarioFile, ::testing::ValuesIn(simulators::simulator_names()),
+                         engine_name);
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

@@ -3,7 +3,7 @@
 
 #include "tests/scenarios/runs.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 namespace {
 
 using ::testing::HasSubstr;
@@ -67,4 +67,4 @@ TEST(ScenarioYaml, AMissingFileIsOneLine) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

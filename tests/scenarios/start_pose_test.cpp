@@ -2,7 +2,7 @@
 
 #include "tests/scenarios/runs.hpp"
 
-namespace touchdown {
+namespace touchdown::scenarios {
 namespace {
 
 /// Where MuJoCo puts the tyres and the centre of mass in `state`.
@@ -10,14 +10,14 @@ struct Pose {
   Eigen::Vector3d left, right, centre_of_mass;
 };
 
-Pose pose(const RobotModel& model, const RobotState& state) {
-  const MjDataPtr data(mj_makeData(model.mj.get()));
+Pose pose(const models::RobotModel& model, const simulators::RobotState& state) {
+  const models::MjDataPtr data(mj_makeData(model.mj.get()));
   for (int i = 0; i < 3; ++i) data->qpos[i] = state.position[i];
   data->qpos[3] = state.orientation.w();
   data->qpos[4] = state.orientation.x();
   data->qpos[5] = state.orientation.y();
   data->qpos[6] = state.orientation.z();
-  for (std::size_t i = 0; i < servo_count; ++i) {
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
     data->qpos[model.qpos_address[i]] = state.joint_position[i];
   }
   mj_forward(model.mj.get(), data.get());
@@ -29,8 +29,9 @@ Pose pose(const RobotModel& model, const RobotState& state) {
 }
 
 TEST(StartPose, StandsOnItsWheelsWithTheCentreOfMassAboveThem) {
-  const Terrain stairs = {.pieces = {Flat{3.0}, StairFlight{}}};
-  const RobotModel model = compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml", stairs);
+  const models::Terrain stairs = {.pieces = {models::Flat{3.0}, models::StairFlight{}}};
+  const models::RobotModel model =
+      models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml", stairs);
   for (const double hip : {0.0, 0.3, 0.6}) {
     for (const double yaw : {0.0, -0.7, 2.0}) {
       const Start start = {
@@ -50,4 +51,4 @@ TEST(StartPose, StandsOnItsWheelsWithTheCentreOfMassAboveThem) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::scenarios

@@ -2,7 +2,7 @@
 
 #include <map>
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 namespace {
 
@@ -38,14 +38,14 @@ Frame hinged(const mjModel& mj, int body, const Frame& parent, double angle, dou
 
 }  // namespace
 
-Motion motion(const RobotModel& model, const RobotState& state) {
+Motion motion(const models::RobotModel& model, const RobotState& state) {
   const mjModel& mj = *model.mj;
   std::map<int, Frame> frames;
   frames[model.base_body] = {state.position, state.linear_velocity, state.angular_velocity,
                              state.orientation.toRotationMatrix()};
   for (int body = model.base_body + 1; body < mj.nbody; ++body) {
     const int address = mj.jnt_qposadr[mj.body_jntadr[body]];
-    for (std::size_t i = 0; i < servo_count; ++i) {
+    for (std::size_t i = 0; i < models::servo_count; ++i) {
       if (model.qpos_address[i] != address) continue;
       frames[body] = hinged(mj, body, frames.at(mj.body_parentid[body]), state.joint_position[i],
                             state.joint_velocity[i]);
@@ -74,4 +74,4 @@ Motion motion(const RobotModel& model, const RobotState& state) {
   return sum;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

@@ -5,7 +5,7 @@
 #include "models/robot_model.hpp"
 #include "simulators/physics.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 /// What mechanics conserves, summed over the robot's bodies by textbook kinematics from the numbers
 /// of the compiled model: an oracle that shares no code with either engine.
@@ -17,6 +17,6 @@ struct Motion {
   double kinetic_energy = 0.0;                     ///< J
 };
 
-Motion motion(const RobotModel& model, const RobotState& state);
+Motion motion(const models::RobotModel& model, const RobotState& state);
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

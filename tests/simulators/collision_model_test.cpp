@@ -3,15 +3,15 @@
 #include "simulators/mujoco_simulator.hpp"
 #include "tests/simulators/standing.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 namespace {
 
-const Terrain stairs = {.pieces = {Flat{3.0}, StairFlight{}}};
+const models::Terrain stairs = {.pieces = {models::Flat{3.0}, models::StairFlight{}}};
 
 TEST(CollisionModel, KeepsExactlyWhatCanTouch) {
   const auto robot = upkie({}, stairs);
   const mjModel& full = *robot->mj;
-  const MjModelPtr lean = collision_model(full);
+  const models::MjModelPtr lean = collision_model(full);
   int expected = 0;
   for (int geom = 0; geom < full.ngeom; ++geom) {
     if (!collides(full, geom)) continue;
@@ -45,7 +45,7 @@ TEST(CollisionModel, StepsToTheSameBitsAsTheFullModel) {
   start.linear_velocity.x() = 1.5;
   MujocoSimulator simulator(robot, {});
   simulator.reset(start);
-  const MjDataPtr full(mj_makeData(robot->mj.get()));
+  const models::MjDataPtr full(mj_makeData(robot->mj.get()));
   mju_copy(full->qpos, simulator.engine_data().qpos, robot->mj->nq);
   mju_copy(full->qvel, simulator.engine_data().qvel, robot->mj->nv);
   int most_contacts = 0;
@@ -63,4 +63,4 @@ TEST(CollisionModel, StepsToTheSameBitsAsTheFullModel) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::simulators

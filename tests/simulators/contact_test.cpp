@@ -1,7 +1,7 @@
 #include "tests/simulators/bodies.hpp"
 #include "tests/simulators/standing.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 namespace {
 
 class Contact : public EveryEngine {};
@@ -10,7 +10,7 @@ TEST_P(Contact, StandingWheelsCarryTheWeight) {
   const auto simulator = make(upkie());
   simulator->reset(upright());
   stand(*simulator, 3.0);
-  const GroundTruth& truth = simulator->ground_truth();
+  const models::GroundTruth& truth = simulator->ground_truth();
   const double weight = 9.81 * motion(simulator->model(), simulator->state()).mass;
   EXPECT_NEAR(truth.wheel_normal_force[0] + truth.wheel_normal_force[1], weight, 1e-7 * weight);
   EXPECT_NEAR(truth.wheel_normal_force[0], 0.5 * weight, 0.02 * weight);
@@ -31,15 +31,15 @@ TEST_P(Contact, TheForceIsAveragedOverTheControlStep) {
   // Held servos are not the same as refreshed ones, hence limp legs: they fold alike.
   double largest = 0.0;
   for (int i = 0; i < 30; ++i) {
-    std::array<double, wheel_count> sum = {};
+    std::array<double, models::wheel_count> sum = {};
     for (int j = 0; j < 5; ++j) {
       fine->step(torques());
-      for (std::size_t w = 0; w < wheel_count; ++w) {
+      for (std::size_t w = 0; w < models::wheel_count; ++w) {
         sum[w] += fine->ground_truth().wheel_normal_force[w];
       }
     }
     coarse->step(torques());
-    for (std::size_t w = 0; w < wheel_count; ++w) {
+    for (std::size_t w = 0; w < models::wheel_count; ++w) {
       largest = std::max(largest, sum[w]);
       EXPECT_DOUBLE_EQ(coarse->ground_truth().wheel_normal_force[w], sum[w] / 5.0);
     }
@@ -73,7 +73,7 @@ TEST_P(Contact, ATorsoOnTheFloorIsNotAWheel) {
 TEST_P(Contact, FrictionIsTheTerrains) {
   // Sliding on locked wheels: the level force on the robot is friction times load.
   for (const double friction : {0.2, 0.5}) {
-    Terrain terrain;
+    models::Terrain terrain;
     terrain.friction = friction;
     const auto simulator = make(upkie({}, terrain));
     RobotState start = upright();
@@ -83,7 +83,7 @@ TEST_P(Contact, FrictionIsTheTerrains) {
     sliding.linear_velocity.y() += 1.0;  // sideways: wheels neither roll nor tip over the axle
     const auto model = upkie({}, terrain);
     const double before = motion(*model, sliding).momentum.y();
-    const Action hold = locked(simulator->state());
+    const models::Action hold = locked(simulator->state());
     simulator->reset(sliding);
     double impulse = 0.0;
     for (int i = 0; i < 20; ++i) {
@@ -99,8 +99,8 @@ TEST_P(Contact, FrictionIsTheTerrains) {
 /// Wheel speeds after 0.2 s of coasting at `speed`, without and with resistance.
 double slowed_by(const Simulator& plain, const Simulator& resisting) {
   const auto speed = [](const Simulator& s) {
-    return s.state().joint_velocity[index(Servo::left_wheel)] -
-           s.state().joint_velocity[index(Servo::right_wheel)];
+    return s.state().joint_velocity[models::index(models::Servo::left_wheel)] -
+           s.state().joint_velocity[models::index(models::Servo::right_wheel)];
   };
   return 0.5 * (speed(plain) - speed(resisting));
 }
@@ -114,13 +114,14 @@ TEST_P(Contact, RollingResistanceSlowsEitherWayAndIsNotMeasured) {
     const auto resisting = make(upkie(), options);
     RobotState start = upright();
     start.linear_velocity.x() = speed;
-    start.joint_velocity[index(Servo::left_wheel)] = speed / 0.05;
-    start.joint_velocity[index(Servo::right_wheel)] = -speed / 0.05;
+    start.joint_velocity[models::index(models::Servo::left_wheel)] = speed / 0.05;
+    start.joint_velocity[models::index(models::Servo::right_wheel)] = -speed / 0.05;
     for (Simulator* simulator : {plain.get(), resisting.get()}) {
       simulator->reset(start);
       for (int i = 0; i < 200; ++i) {
         simulator->step(stiff_legs(start));
-        ASSERT_EQ(simulator->observation().servo[index(Servo::left_wheel)].torque, 0.0);
+        ASSERT_EQ(simulator->observation().servo[models::index(models::Servo::left_wheel)].torque,
+                  0.0);
       }
     }
     const double slowed = slowed_by(*plain, *resisting);
@@ -135,4 +136,4 @@ TEST_P(Contact, RollingResistanceSlowsEitherWayAndIsNotMeasured) {
 INSTANTIATE_TEST_SUITE_P(Engine, Contact, ::testing::ValuesIn(simulator_names()), engine_name);
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::simulators

@@ -1,7 +1,7 @@
 #include "tests/simulators/bodies.hpp"
 #include "tests/simulators/upkie.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 namespace {
 
 class ExternalWrenchOn : public EveryEngine {};
@@ -36,7 +36,7 @@ TEST_P(ExternalWrenchOn, TheCentreOfMassHoldsARobotAgainstGravity) {
   const RobotState start = at_height(3.0);
   const Motion before = motion(*model, start);
   simulator->reset(start);
-  const Action hold = stiff_legs(start);
+  const models::Action hold = stiff_legs(start);
   for (int i = 0; i < 1000; ++i) {
     const RobotState& state = simulator->state();
     const ExternalWrench wrench = {
@@ -63,4 +63,4 @@ INSTANTIATE_TEST_SUITE_P(Engine, ExternalWrenchOn, ::testing::ValuesIn(simulator
                          engine_name);
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::simulators

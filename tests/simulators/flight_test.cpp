@@ -1,10 +1,10 @@
 #include <numeric>
 
-#include "simulators/bullet_world.hpp"
+#include "simulators/bullet/world.hpp"
 #include "tests/simulators/bodies.hpp"
 #include "tests/simulators/upkie.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 namespace {
 
 constexpr double upkie_mass = 5.33922;  // kg, from the robot's official description
@@ -16,7 +16,7 @@ TEST(Flight, BulletsLinksWeighWhatTheRobotWeighs) {
   for (int link = 0; link < world.robot().getNumLinks(); ++link) {
     mass += world.robot().getLinkMass(link);
   }
-  EXPECT_EQ(world.robot().getNumLinks(), servo_count);
+  EXPECT_EQ(world.robot().getNumLinks(), models::servo_count);
   EXPECT_NEAR(mass, upkie_mass, 1e-5);
 }
 
@@ -94,4 +94,4 @@ TEST_P(Flight, ServosCannotMoveTheCentreOfMass) {
 INSTANTIATE_TEST_SUITE_P(Engine, Flight, ::testing::ValuesIn(simulator_names()), engine_name);
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::simulators

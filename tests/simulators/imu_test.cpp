@@ -1,10 +1,11 @@
 #include <gmock/gmock.h>
 
-#include "simulators/bullet_convert.hpp"
+#include "models/mujoco_arrays.hpp"
+#include "simulators/bullet/convert.hpp"
 #include "tests/simulators/bodies.hpp"
 #include "tests/simulators/standing.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 namespace {
 
 constexpr double g = 9.81;
@@ -20,14 +21,14 @@ TEST_P(Imu, AtRestItFeelsTheGroundPushUp) {
   const auto simulator = make(upkie());
   simulator->reset(upright());
   stand(*simulator, 3.0);
-  const Observation& seen = simulator->observation();
+  const models::Observation& seen = simulator->observation();
   // Its z points down, its x back: a lean forward shows there.
   expect_near(seen.imu.raw_linear_acceleration,
               {g * std::sin(seen.pitch), 0.0, -g * std::cos(seen.pitch)}, 1e-3);
   EXPECT_NEAR(seen.pitch, 0.0, 0.01);
   expect_near(seen.imu.linear_acceleration, Eigen::Vector3d::Zero(), 1e-3);
   expect_near(seen.imu.angular_velocity, Eigen::Vector3d::Zero(), 1e-3);
-  EXPECT_NEAR(vertical_acceleration(seen.imu), 0.0, 1e-3);
+  EXPECT_NEAR(models::vertical_acceleration(seen.imu), 0.0, 1e-3);
 }
 
 TEST_P(Imu, InFreeFallItFeelsNothing) {
@@ -36,14 +37,14 @@ TEST_P(Imu, InFreeFallItFeelsNothing) {
   start.orientation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -0.5).normalized());
   simulator->reset(start);
   for (int i = 0; i < 10; ++i) simulator->step(torques());
-  const ImuReading& imu = simulator->observation().imu;
+  const models::ImuReading& imu = simulator->observation().imu;
   expect_near(imu.raw_linear_acceleration, Eigen::Vector3d::Zero(), 1e-9);
-  EXPECT_NEAR(vertical_acceleration(imu), -g, 1e-9);
+  EXPECT_NEAR(models::vertical_acceleration(imu), -g, 1e-9);
   EXPECT_NEAR(imu.linear_acceleration.norm(), g, 1e-9);
 }
 
 /// A base that nothing turns or slows: it spins about its centre of mass for ever.
-void make_flywheel(RobotModel& robot) {
+void make_flywheel(models::RobotModel& robot) {
   without_gravity(robot);
   robot.mj->body_mass[robot.base_body] = 1e8;
   for (int i = 0; i < 3; ++i) robot.mj->body_inertia[3 * robot.base_body + i] = 1e8;
@@ -52,7 +53,7 @@ void make_flywheel(RobotModel& robot) {
 TEST_P(Imu, FeelsTheCentripetalAccelerationOfItsMount) {
   const auto model = upkie(make_flywheel);
   const auto simulator = make(model, steps_of(100));
-  const Eigen::Vector3d com = vector_at(model->mj->body_ipos, model->base_body);
+  const Eigen::Vector3d com = models::vector_at(model->mj->body_ipos, model->base_body);
   const Eigen::Vector3d omega(0.0, 3.0, 0.0);
   RobotState start = at_height(5.0);
   start.angular_velocity = omega;
@@ -61,7 +62,7 @@ TEST_P(Imu, FeelsTheCentripetalAccelerationOfItsMount) {
   for (int i = 0; i < 100; ++i) simulator->step(torques());
   const Eigen::Vector3d arm = Eigen::Vector3d(0.0, 0.0, -0.1) - com;  // in the base frame
   const Eigen::Vector3d acceleration = omega.cross(omega.cross(arm));
-  const ImuReading& imu = simulator->observation().imu;
+  const models::ImuReading& imu = simulator->observation().imu;
   // The IMU's x points back and its z down. The difference over a step lags by half of it.
   expect_near(imu.linear_acceleration, {-acceleration.x(), acceleration.y(), -acceleration.z()},
               1e-3);
@@ -85,7 +86,7 @@ TEST_P(Imu, LeaningForwardIsPositivePitchAndTurningLeftPositiveYaw) {
   start.orientation = Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()) *
                       Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());
   simulator->reset(start);
-  const Observation& seen = simulator->observation();
+  const models::Observation& seen = simulator->observation();
   EXPECT_NEAR(seen.pitch, 0.3, 1e-12);
   EXPECT_NEAR(seen.yaw, 0.4, 1e-12);
   // Forward and a little down is where the base's x axis, the IMU's −x, points in the world; in the
@@ -106,7 +107,7 @@ TEST_P(Imu, TheAccelerationIsTheVelocitysDifference) {
     const Eigen::Vector3d before = simulator->ground_truth().imu_linear_velocity;
     simulator->step(stiff_legs(start));
     const Eigen::Vector3d after = simulator->ground_truth().imu_linear_velocity;
-    const double up = vertical_acceleration(simulator->observation().imu);
+    const double up = models::vertical_acceleration(simulator->observation().imu);
     ASSERT_NEAR(up, (after - before).z() / 1e-3, 1e-9);
     hardest = std::max(hardest, up);
   }
@@ -116,4 +117,4 @@ TEST_P(Imu, TheAccelerationIsTheVelocitysDifference) {
 INSTANTIATE_TEST_SUITE_P(Engine, Imu, ::testing::ValuesIn(simulator_names()), engine_name);
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::simulators

@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "tests/simulators/standing.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 namespace {
 
 using ::testing::AllOf;
@@ -37,15 +37,20 @@ TEST(Misuse, BulletSaysWhatItCannotRepresent) {
     const auto robot = upkie(change);
     return complaint([&] { (void)make_simulator("bullet", robot, {}); });
   };
-  const auto at = [](const RobotModel& robot, Servo servo) {
-    return robot.dof_address[index(servo)];
+  const auto at = [](const models::RobotModel& robot, models::Servo servo) {
+    return robot.dof_address[models::index(servo)];
   };
-  EXPECT_THAT(make([&](RobotModel& r) { r.mj->dof_armature[at(r, Servo::left_knee)] = 0.01; }),
+  EXPECT_THAT(make([&](models::RobotModel& r) {
+                r.mj->dof_armature[at(r, models::Servo::left_knee)] = 0.01;
+              }),
               AllOf(HasSubstr("'left_knee'"), HasSubstr("armature")));
-  EXPECT_THAT(make([&](RobotModel& r) { r.mj->dof_damping[at(r, Servo::right_hip)] = 0.01; }),
+  EXPECT_THAT(make([&](models::RobotModel& r) {
+                r.mj->dof_damping[at(r, models::Servo::right_hip)] = 0.01;
+              }),
               AllOf(HasSubstr("'right_hip'"), HasSubstr("damping")));
-  EXPECT_THAT(make([&](RobotModel& r) { r.mj->geom_type[r.tyre_geom[0]] = mjGEOM_ELLIPSOID; }),
-              AllOf(HasSubstr("'left_tire'"), HasSubstr("Bullet has no counterpart")));
+  EXPECT_THAT(
+      make([&](models::RobotModel& r) { r.mj->geom_type[r.tyre_geom[0]] = mjGEOM_ELLIPSOID; }),
+      AllOf(HasSubstr("'left_tire'"), HasSubstr("Bullet has no counterpart")));
 }
 
 class Robust : public EveryEngine {};
@@ -77,7 +82,7 @@ TEST_P(Robust, NotANumberIsIllHealthNotACrash) {
     const auto simulator = make(upkie());
     simulator->reset(in_the_air ? at_height(3.0) : upright());
     EXPECT_TRUE(simulator->healthy());
-    Action action = torques();
+    models::Action action = torques();
     action.servo[0].feedforward_torque = nan;
     for (int i = 0; i < 5; ++i) simulator->step(action);
     EXPECT_FALSE(simulator->healthy());
@@ -106,7 +111,7 @@ TEST_P(Robust, AbsurdVelocitiesAreIllHealth) {
   simulator->reset(start);
   EXPECT_FALSE(simulator->healthy());
   start = at_height(3.0);
-  start.joint_velocity[index(Servo::left_wheel)] = 2e4;
+  start.joint_velocity[models::index(models::Servo::left_wheel)] = 2e4;
   simulator->reset(start);
   EXPECT_FALSE(simulator->healthy());
   start = at_height(2e4);
@@ -126,4 +131,4 @@ TEST_P(Robust, AHugePushIsSurvivedOrReported) {
 INSTANTIATE_TEST_SUITE_P(Engine, Robust, ::testing::ValuesIn(simulator_names()), engine_name);
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::simulators

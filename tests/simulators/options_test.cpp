@@ -4,14 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/fields.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 namespace {
 
 using ::testing::HasSubstr;
 
 SimulatorOptions read(const std::string& text) {
-  return simulator_options_from_yaml(YamlMap(YamlDocument::parse(text, "options.yaml")));
+  return from_yaml<SimulatorOptions>(YamlMap(YamlDocument::parse(text, "options.yaml")));
 }
 
 std::string complaint(const std::string& text) {
@@ -38,7 +39,7 @@ TEST(SimulatorOptions, SurvivesTheRoundTrip) {
   options.contact = {0.02, 0.9, 2e4, 500.0, 0.001};
   YAML::Emitter out;
   out.SetDoublePrecision(17);
-  out << to_yaml(options);
+  out << to_node(options);
   const SimulatorOptions again = read(out.c_str());
   EXPECT_EQ(again.steps.physics_us, 250);
   EXPECT_EQ(again.steps.control_us, 2000);
@@ -61,4 +62,4 @@ TEST(SimulatorOptions, ComplainsOnTheLine) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::simulators

@@ -1,24 +1,25 @@
-#include "simulators/bullet_convert.hpp"
+#include "models/mujoco_arrays.hpp"
+#include "simulators/bullet/convert.hpp"
 #include "tests/simulators/upkie.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 namespace {
 
 constexpr double g = 9.81;
 constexpr double heavy = 1e7;  // kg: what the legs pull it about is below every tolerance here
 
-void make_heavy(RobotModel& robot, int body) {
+void make_heavy(models::RobotModel& robot, int body) {
   robot.mj->body_mass[body] = heavy;
   for (int axis = 0; axis < 3; ++axis) robot.mj->body_inertia[3 * body + axis] = heavy;
 }
 
 /// Legs from a base that only a force equal to its weight holds up.
-void hold_base(RobotModel& robot) { make_heavy(robot, robot.base_body); }
+void hold_base(models::RobotModel& robot) { make_heavy(robot, robot.base_body); }
 
-ExternalWrench base_weight(const RobotModel& robot) {
+ExternalWrench base_weight(const models::RobotModel& robot) {
   const int base = robot.base_body;
   return {Eigen::Vector3d(0.0, 0.0, g * robot.mj->body_mass[base]),
-          vector_at(robot.mj->body_ipos, base)};
+          models::vector_at(robot.mj->body_ipos, base)};
 }
 
 TEST(Pendulum, SwingsAlikeInBothEngines) {
@@ -34,7 +35,7 @@ TEST(Pendulum, SwingsAlikeInBothEngines) {
   for (int i = 0; i < 2000; ++i) {
     mujoco->step(torques(), base_weight(*model));
     bullet->step(torques(), base_weight(*model));
-    for (std::size_t j = 0; j < servo_count; ++j) {
+    for (std::size_t j = 0; j < models::servo_count; ++j) {
       const double velocity = mujoco->state().joint_velocity[j];
       largest = std::max(largest, std::abs(velocity - bullet->state().joint_velocity[j]));
       swing = std::max(swing, std::abs(velocity));
@@ -50,16 +51,16 @@ struct CompoundPendulum {
   double stiffness;  ///< g·(m·l of all parts) over the inertia about the knee (1/s²)
   double offset;     ///< angle of the centre of mass ahead of straight down (rad)
 
-  explicit CompoundPendulum(const RobotModel& robot) {
+  explicit CompoundPendulum(const models::RobotModel& robot) {
     const mjModel& mj = *robot.mj;
     const int wheel = mj.geom_bodyid[robot.tyre_geom[0]];
     const int leg = mj.body_parentid[wheel];
-    const Eigen::Vector3d leg_com = vector_at(mj.body_ipos, leg);
+    const Eigen::Vector3d leg_com = models::vector_at(mj.body_ipos, leg);
     const Eigen::Vector3d wheel_com =
-        vector_at(mj.body_pos, wheel) + vector_at(mj.body_ipos, wheel);
-    const Eigen::Matrix3d axes = quaternion_at(mj.body_iquat, leg).toRotationMatrix();
+        models::vector_at(mj.body_pos, wheel) + models::vector_at(mj.body_ipos, wheel);
+    const Eigen::Matrix3d axes = models::quaternion_at(mj.body_iquat, leg).toRotationMatrix();
     const Eigen::Matrix3d own =
-        axes * vector_at(mj.body_inertia, leg).asDiagonal() * axes.transpose();
+        axes * models::vector_at(mj.body_inertia, leg).asDiagonal() * axes.transpose();
     const auto arm2 = [](const Eigen::Vector3d& p) { return p.x() * p.x() + p.z() * p.z(); };
     const double inertia =
         own(1, 1) + mj.body_mass[leg] * arm2(leg_com) + mj.body_mass[wheel] * arm2(wheel_com);
@@ -91,7 +92,7 @@ std::pair<double, double> runge_kutta(const CompoundPendulum& pendulum, double a
 class LowerLeg : public EveryEngine {
  protected:
   /// Base and upper legs held: the upper legs balance on their hips and are too heavy to turn.
-  static void hold_all_above(RobotModel& robot) {
+  static void hold_all_above(models::RobotModel& robot) {
     hold_base(robot);
     for (const int tyre : robot.tyre_geom) {
       const int wheel = robot.mj->geom_bodyid[tyre];
@@ -103,7 +104,7 @@ class LowerLeg : public EveryEngine {
     }
   }
 
-  static ExternalWrench weight(const RobotModel& robot) {
+  static ExternalWrench weight(const models::RobotModel& robot) {
     ExternalWrench wrench = base_weight(robot);
     const Eigen::Vector3d base = wrench.point_in_base;
     // The upper legs hang below the hips: pull at the common centre of mass.
@@ -120,7 +121,7 @@ TEST_P(LowerLeg, SwingsLikeACompoundPendulum) {
   const double seconds = 1.0;
   const auto simulator = make(model, steps_of(20));
   RobotState start = at_height(5.0);
-  start.joint_position[index(Servo::left_knee)] = 0.8;
+  start.joint_position[models::index(models::Servo::left_knee)] = 0.8;
   simulator->reset(start);
   // The same equation by semi-implicit Euler, which is what the engines do.
   double angle = 0.8;
@@ -134,8 +135,9 @@ TEST_P(LowerLeg, SwingsLikeACompoundPendulum) {
     angle += h * rate;
     fastest = std::max(fastest, std::abs(rate));
   }
-  const double swung = simulator->state().joint_position[index(Servo::left_knee)];
-  const double swinging = simulator->state().joint_velocity[index(Servo::left_knee)];
+  const double swung = simulator->state().joint_position[models::index(models::Servo::left_knee)];
+  const double swinging =
+      simulator->state().joint_velocity[models::index(models::Servo::left_knee)];
   EXPECT_NEAR(swung, angle, 1e-6);
   EXPECT_NEAR(swinging, rate, 1e-6 * fastest);
   const auto [exact_angle, exact_rate] = runge_kutta(pendulum, 0.8, seconds);
@@ -146,4 +148,4 @@ TEST_P(LowerLeg, SwingsLikeACompoundPendulum) {
 INSTANTIATE_TEST_SUITE_P(Engine, LowerLeg, ::testing::ValuesIn(simulator_names()), engine_name);
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::simulators

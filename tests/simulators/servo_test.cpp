@@ -2,7 +2,7 @@
 
 #include "tests/simulators/upkie.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -10,7 +10,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Case {
   const char* what;
-  ServoCommand command;
+  models::ServoCommand command;
   double position, velocity, effort, torque;
 };
 
@@ -69,22 +69,22 @@ TEST_P(ServoOf, TheRobotReportsTheTorqueItApplied) {
   simulator->reset(at_height(5.0));
   simulator->step(torques({1.0, -2.0, 9.0, -99.0, 0.5, -0.25}));
   const double expected[] = {1.0, -2.0, 1.7, -16.0, 0.5, -0.25};
-  for (std::size_t i = 0; i < servo_count; ++i) {
-    EXPECT_EQ(simulator->observation().servo[i].torque, expected[i]) << servo_names[i];
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    EXPECT_EQ(simulator->observation().servo[i].torque, expected[i]) << models::servo_names[i];
   }
 }
 
 TEST_P(ServoOf, TheLegsGoWhereTheyAreTold) {
   const auto simulator = make(upkie(without_gravity));
   simulator->reset(at_height(5.0));
-  Action action = torques();
+  models::Action action = torques();
   const double target[] = {0.4, -0.7, 0.0, -0.4, 0.7, 0.0};
   for (const std::size_t i : {0U, 1U, 3U, 4U}) {
     action.servo[i] = {.position = target[i]};
   }
   for (int i = 0; i < 4000; ++i) simulator->step(action);
   for (const std::size_t i : {0U, 1U, 3U, 4U}) {
-    EXPECT_NEAR(simulator->state().joint_position[i], target[i], 1e-3) << servo_names[i];
+    EXPECT_NEAR(simulator->state().joint_position[i], target[i], 1e-3) << models::servo_names[i];
   }
 }
 
@@ -92,11 +92,12 @@ TEST_P(ServoOf, JointLimitsStopTheLegs) {
   const auto simulator = make(upkie(without_gravity));
   simulator->reset(at_height(5.0));
   for (int i = 0; i < 1000; ++i) simulator->step(torques({2.0, 0.0, 0.0, -2.0, 0.0, 0.0}));
-  EXPECT_NEAR(simulator->state().joint_position[index(Servo::left_hip)], 1.26, 0.1);
-  EXPECT_NEAR(simulator->state().joint_position[index(Servo::right_hip)], -1.26, 0.1);
+  EXPECT_NEAR(simulator->state().joint_position[models::index(models::Servo::left_hip)], 1.26, 0.1);
+  EXPECT_NEAR(simulator->state().joint_position[models::index(models::Servo::right_hip)], -1.26,
+              0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Engine, ServoOf, ::testing::ValuesIn(simulator_names()), engine_name);
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::simulators

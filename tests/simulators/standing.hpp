@@ -2,17 +2,17 @@
 
 #include "tests/simulators/upkie.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 /// Upkie with straight legs, its tyres on the floor.
 inline RobotState upright() { return at_height(0.507 + 0.05); }
 
 /// Legs and wheels held at their angles in `state`.
-inline Action locked(const RobotState& state) {
-  Action action = stiff_legs(state);
-  for (const Servo wheel : wheel_servos) {
-    action.servo[index(wheel)] = {
-        .position = state.joint_position[index(wheel)], .kp_scale = 0.5, .kd_scale = 0.1};
+inline models::Action locked(const RobotState& state) {
+  models::Action action = stiff_legs(state);
+  for (const models::Servo wheel : models::wheel_servos) {
+    action.servo[models::index(wheel)] = {
+        .position = state.joint_position[models::index(wheel)], .kp_scale = 0.5, .kd_scale = 0.1};
   }
   return action;
 }
@@ -26,9 +26,9 @@ inline ExternalWrench guide(const RobotState& state) {
 
 /// Stand for `seconds`.
 inline void stand(Simulator& simulator, double seconds) {
-  const Action action = locked(simulator.state());
+  const models::Action action = locked(simulator.state());
   const auto steps = std::lround(seconds / simulator.control_period());
   for (long i = 0; i < steps; ++i) simulator.step(action, guide(simulator.state()));
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

@@ -9,25 +9,27 @@
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
-#include "simulators/simulator.hpp"
+#include "simulators/registry.hpp"
 
-namespace touchdown {
+namespace touchdown::simulators {
 
 inline const std::string upkie_mjcf = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
 
 /// Upkie on a floor, after `change` had its way with the compiled model.
-inline std::shared_ptr<const RobotModel> upkie(const std::function<void(RobotModel&)>& change = {},
-                                               const Terrain& terrain = {}) {
-  auto model = std::make_shared<RobotModel>(compile_robot_model(upkie_mjcf, terrain));
+inline std::shared_ptr<const models::RobotModel> upkie(
+    const std::function<void(models::RobotModel&)>& change = {},
+    const models::Terrain& terrain = {}) {
+  auto model =
+      std::make_shared<models::RobotModel>(models::compile_robot_model(upkie_mjcf, terrain));
   if (change) {
     change(*model);
-    const MjDataPtr data(mj_makeData(model->mj.get()));
+    const models::MjDataPtr data(mj_makeData(model->mj.get()));
     mj_setConst(model->mj.get(), data.get());
   }
   return model;
 }
 
-inline void without_gravity(RobotModel& robot) { robot.mj->opt.gravity[2] = 0.0; }
+inline void without_gravity(models::RobotModel& robot) { robot.mj->opt.gravity[2] = 0.0; }
 
 /// One physics step per control step, of `microseconds`.
 inline SimulatorOptions steps_of(std::int64_t microseconds) {
@@ -37,9 +39,9 @@ inline SimulatorOptions steps_of(std::int64_t microseconds) {
 }
 
 /// An action whose servos are limp but for these torques.
-inline Action torques(const JointTorques& torque = {}) {
-  Action action;
-  for (std::size_t i = 0; i < servo_count; ++i) {
+inline models::Action torques(const JointTorques& torque = {}) {
+  models::Action action;
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
     action.servo[i].feedforward_torque = torque[i];
     action.servo[i].kd_scale = 0.0;
   }
@@ -47,12 +49,12 @@ inline Action torques(const JointTorques& torque = {}) {
 }
 
 /// An action that holds the legs where they are in `state` and lets the wheels roll.
-inline Action stiff_legs(const RobotState& state) {
-  Action action = torques();
-  for (const Servo servo :
-       {Servo::left_hip, Servo::left_knee, Servo::right_hip, Servo::right_knee}) {
-    action.servo[index(servo)] = {
-        .position = state.joint_position[index(servo)], .kp_scale = 10.0, .kd_scale = 2.0};
+inline models::Action stiff_legs(const RobotState& state) {
+  models::Action action = torques();
+  for (const models::Servo servo : {models::Servo::left_hip, models::Servo::left_knee,
+                                    models::Servo::right_hip, models::Servo::right_knee}) {
+    action.servo[models::index(servo)] = {
+        .position = state.joint_position[models::index(servo)], .kp_scale = 10.0, .kd_scale = 2.0};
   }
   return action;
 }
@@ -88,7 +90,7 @@ inline RobotState random_state(Draws& draw) {
   state.orientation = Eigen::AngleAxisd(draw.between(0.0, 3.1), draw.vector(1.0).normalized());
   state.linear_velocity = draw.vector(2.0);
   state.angular_velocity = draw.vector(4.0);
-  for (std::size_t i = 0; i < servo_count; ++i) {
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
     state.joint_position[i] = draw.between(-1.0, 1.0);
     state.joint_velocity[i] = draw.between(-8.0, 8.0);
   }
@@ -98,7 +100,7 @@ inline RobotState random_state(Draws& draw) {
 /// A test that every engine must pass.
 class EveryEngine : public ::testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<Simulator> make(const std::shared_ptr<const RobotModel>& model,
+  std::unique_ptr<Simulator> make(const std::shared_ptr<const models::RobotModel>& model,
                                   const SimulatorOptions& options = {}) const {
     return make_simulator(GetParam(), model, options);
   }
@@ -108,4 +110,4 @@ inline std::string engine_name(const ::testing::TestParamInfo<std::string>& engi
   return engine.param;
 }
 
-}  // namespace touchdown
+}  // namespace touchdown::simulators

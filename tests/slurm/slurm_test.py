@@ -19,7 +19,7 @@ import time
 
 import cluster
 
-SUBMIT = pathlib.Path(__file__).resolve().parents[2] / 'experiments' / 'slurm' / 'submit.sh'
+SUBMIT = pathlib.Path(__file__).resolve().parents[2] / 'scripts' / 'slurm' / 'submit.sh'
 SHARDS = 3
 PARTS = 80  # of each shard
 SCENARIO = """name: step

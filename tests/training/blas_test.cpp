@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace touchdown {
+namespace touchdown::training {
 namespace {
 
 using testing::HasSubstr;
@@ -26,4 +26,4 @@ TEST(Blas, IsContentWithTheOneThatIsAskedFor) {
 TEST(Blas, FindsTheOneThatIsLoaded) { EXPECT_THAT(blas_in_use().library, HasSubstr("blas")); }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::training

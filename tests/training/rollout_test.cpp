@@ -7,10 +7,9 @@
 #include <tbb/global_control.h>
 
 #include "core/error.hpp"
-#include "estimator/neural_network.hpp"
-#include "experiments/stopped.hpp"
+#include "estimator/neural/network.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 namespace {
 
 bool go_on() { return true; }
@@ -22,8 +21,8 @@ RolloutConfig config() {
   return c;
 }
 
-Scenario scene(const RolloutConfig& c, double duration = 2.0) {
-  Scenario scenario = rollout_scenario(c);
+scenarios::Scenario scene(const RolloutConfig& c, double duration = 2.0) {
+  scenarios::Scenario scenario = rollout_scenario(c);
   scenario.end.duration = duration;
   return scenario;
 }
@@ -52,7 +51,7 @@ TEST(Rollout, HasContactAndFlightAndNumbersThatMakeSense) {
 
 TEST(Rollout, CutsEpisodesFromRunsWithoutAGap) {
   const RolloutConfig c = config();
-  const Scenario scenario = scene(c);
+  const scenarios::Scenario scenario = scene(c);
   ASSERT_EQ(episodes_per_run(c, scenario), 4);
   EXPECT_EQ(runs_for(c, scenario, 9), 3);
   const EpisodeBatch batch = roll_out(c, scenario, 1, 0, 4, go_on);
@@ -70,7 +69,7 @@ TEST(Rollout, CutsEpisodesFromRunsWithoutAGap) {
 
 TEST(Rollout, DependsNeitherOnThreadsNorOnOtherRuns) {
   const RolloutConfig c = config();
-  const Scenario scenario = scene(c);
+  const scenarios::Scenario scenario = scene(c);
   const auto rolled = [&](std::size_t threads, std::int64_t first, int environments) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     return roll_out(c, scenario, 3, first, environments, go_on);
@@ -90,7 +89,7 @@ TEST(Rollout, DependsNeitherOnThreadsNorOnOtherRuns) {
 TEST(Rollout, MarksWhereAnotherRunBegins) {
   RolloutConfig c = config();
   c.steps = 200;
-  Scenario scenario = scene(c, 1.0);
+  scenarios::Scenario scenario = scene(c, 1.0);
   scenario.end.fall_tilt = 0.02;  // falls all the time
   const EpisodeBatch batch = roll_out(c, scenario, 1, 0, 4, go_on);
   const auto starts = std::count(batch.keep.begin(), batch.keep.end(), 0.0F);
@@ -100,7 +99,7 @@ TEST(Rollout, MarksWhereAnotherRunBegins) {
 
 TEST(Rollout, GivesUpOnARobotThatCannotStand) {
   const RolloutConfig c = config();
-  Scenario scenario = scene(c);
+  scenarios::Scenario scenario = scene(c);
   scenario.end.fall_tilt = 1e-6;
   EXPECT_THROW(roll_out(c, scenario, 1, 0, 1, go_on), InputError);
 }
@@ -117,4 +116,4 @@ TEST(Rollout, RefusesAControlStepThatCutsPhysicsSteps) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::training

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include "estimator/neural_network.hpp"
+#include "estimator/neural/network.hpp"
 #include "training/rollout.hpp"
 
-namespace touchdown::test {
+namespace touchdown::training::test {
 
 /// Episodes whose labels follow from the inputs by a rule that takes memory to know: contact is
 /// whether the first input was positive three steps ago, velocity is a mix of the present inputs.
@@ -39,4 +39,4 @@ inline EpisodeBatch toy_episodes(int environments, int steps = 40, std::uint32_t
   return batch;
 }
 
-}  // namespace touchdown::test
+}  // namespace touchdown::training::test

@@ -9,11 +9,11 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/fingerprint.hpp"
-#include "experiments/neural_network_file.hpp"
+#include "core/fingerprint.hpp"
+#include "recordings/models/neural_network.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 namespace {
 
 class Train : public testing::Test {
@@ -45,7 +45,7 @@ TEST_F(Train, LeavesWeightsCurvesAndAManifestBehind) {
   const TrainingResult result = run("a");
   ASSERT_EQ(result.history.size(), 3U);
   EXPECT_EQ(result.history[2].data_seconds, 3 * 8 * 50 * 0.005);
-  EXPECT_EQ(read_neural_network(result.network).hidden(), 8);
+  EXPECT_EQ(recordings::read_neural_network(result.network).hidden(), 8);
   EXPECT_EQ(read_history(result.directory / "tables" / "training.csv").size(), 3U);
   EXPECT_TRUE(std::filesystem::exists(result.figure));
   const auto manifest = nlohmann::json::parse(read_file(result.directory / "models" / "nmn.json"));
@@ -92,4 +92,4 @@ TEST_F(Train, StopsEarlyWhenNothingGetsBetter) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::training

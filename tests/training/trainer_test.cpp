@@ -7,12 +7,12 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "estimator/neural_forward.hpp"
+#include "estimator/neural/forward.hpp"
 #include "tests/scratch_folder.hpp"
 #include "toy_episodes.hpp"
 #include "training/initial_weights.hpp"
 
-namespace touchdown {
+namespace touchdown::training {
 namespace {
 
 using testing::HasSubstr;
@@ -146,4 +146,4 @@ TEST_F(Checkpoint, ComplainsOnceAboutWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::training

@@ -1,0 +1,123 @@
+#include "cli/estimate/outputs.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace touchdown::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path named_after(const std::string& log, const fs::path& output) {
+  if (output.empty() || output == "-") return output;
+  const std::string stem = log == "-" ? "stdin" : fs::path(log).stem().string();
+  return output.parent_path() / (stem + "_" + output.filename().string());
+}
+
+EstimateOutputs sorted_by_kind(const std::vector<std::string>& outputs, const std::string& figure) {
+  EstimateOutputs result;
+  const auto take = [](fs::path& place, const std::string& output) {
+    if (!place.empty()) {
+      throw InputError(
+          fmt::format("--output: '{}' and '{}' are of one kind", place.string(), output));
+    }
+    place = output;
+  };
+  for (const std::string& output : outputs) {
+    const fs::path extension = fs::path(output).extension();
+    if (output == "-" || extension == ".csv") {
+      take(result.csv, output);
+    } else if (extension == ".mpack") {
+      take(result.mpack, output);
+    } else {
+      throw InputError(
+          fmt::format("--output: '{}': expected a name that ends with .csv (a table of beliefs) or "
+                      ".mpack (the log with beliefs in it), or - for standard output",
+                      output));
+    }
+  }
+  if (figure.empty()) return result;
+  const fs::path path = figure;
+  const std::set<fs::path> known = {"", ".png", ".svg", ".pdf"};
+  if (!known.contains(path.extension())) {
+    throw InputError(fmt::format(
+        "--figure: '{}': expected a name that ends with .png; .svg and .pdf come with it", figure));
+  }
+  result.figure = path.parent_path() / path.stem();
+  return result;
+}
+
+void check(const fs::path& output, const std::vector<std::string>& logs, std::set<fs::path>& seen) {
+  if (output.empty() || output == "-") return;
+  if (!seen.insert(fs::absolute(output).lexically_normal()).second) {
+    throw InputError(
+        fmt::format("{}: would be written for two logs of that name", output.string()));
+  }
+  for (const std::string& log : logs) {
+    std::error_code ignored;
+    if (fs::equivalent(output, log, ignored)) {
+      throw InputError(fmt::format("{}: is the log itself: name another file", output.string()));
+    }
+  }
+  require_writable(output);
+}
+
+void write_file(const fs::path& path, const std::function<void(std::ostream*)>& use) {
+  if (path.empty()) {
+    use(nullptr);
+  } else if (path == "-") {
+    use(&std::cout);
+  } else {
+    write_atomically(path, [&](const fs::path& temporary) {
+      std::ofstream file(temporary, std::ios::binary);
+      if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
+      use(&file);
+      file.close();
+      if (!file) {
+        throw Error(fmt::format("{}: cannot be written: is the disk full?", path.string()));
+      }
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
+                                              const std::vector<std::string>& outputs,
+                                              const std::string& figure) {
+  EstimateOutputs given = sorted_by_kind(outputs, figure);
+  const bool live = std::find(logs.begin(), logs.end(), "-") != logs.end();
+  if (live && logs.size() > 1) {
+    throw InputError("estimate: '-', a live stream, is estimated alone");
+  }
+  if (live && given.csv.empty()) given.csv = "-";
+  std::vector<EstimateOutputs> all;
+  std::set<fs::path> seen;
+  for (const std::string& log : logs) {
+    EstimateOutputs own = given;
+    if (logs.size() > 1) {
+      own = {named_after(log, given.csv), named_after(log, given.mpack),
+             named_after(log, given.figure)};
+    }
+    for (const fs::path& output : {own.csv, own.mpack, own.figure}) check(output, logs, seen);
+    all.push_back(own);
+  }
+  return all;
+}
+
+void write_outputs(const EstimateOutputs& outputs,
+                   const std::function<void(std::ostream* csv, std::ostream* mpack)>& use) {
+  write_file(outputs.csv, [&](std::ostream* csv) {
+    write_file(outputs.mpack, [&](std::ostream* mpack) { use(csv, mpack); });
+  });
+}
+
+}  // namespace touchdown::cli

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "core/yaml.hpp"
+
+namespace touchdown {
+
+/// The keys of a configuration struct, which the `describe` beside it names once each, with their
+/// members and ranges:
+///
+///     void describe(Fields& fields, LabelConfig& labels) {
+///       fields("force_threshold", labels.force_threshold, 0.0, 1e4);
+///       fields("debounce", labels.debounce, 0.0, 10.0);
+///     }
+///
+/// One description reads the struct, as strictly as `YamlMap` does, and writes it, in the order of
+/// its lines. Whatever a description changes while it writes is changed in a copy.
+class Fields {
+ public:
+  Fields() = default;                            ///< writes
+  explicit Fields(YamlMap& map) : map_(&map) {}  ///< reads
+
+  bool reading() const { return map_ != nullptr; }
+  /// What has been written.
+  const YAML::Node& node() const { return written_; }
+
+  /// Reading: keeps the value where the key is absent.
+  template <typename T>
+  void operator()(std::string_view key, T& value) {
+    if (reading()) {
+      map_->read(key, value);
+    } else {
+      written_[std::string(key)] = value;
+    }
+  }
+
+  /// As above; `low <= value <= high`.
+  template <typename T>
+  void operator()(std::string_view key, T& value, std::type_identity_t<T> low,
+                  std::type_identity_t<T> high) {
+    if (reading()) {
+      map_->read(key, value, low, high);
+    } else {
+      (*this)(key, value);
+    }
+  }
+
+  /// A key that must be there.
+  void require(std::string_view key);
+  template <typename T, typename... Limits>
+  void require(std::string_view key, T& value, Limits... limits) {
+    require(key);
+    (*this)(key, value, limits...);
+  }
+
+  /// An enumerator, or a text, by its name. An enumerator's number is its place among the names.
+  void choose(std::string_view key, const std::vector<std::string>& names, std::string& value);
+  void choose(std::string_view key, const std::vector<std::string>& names, std::size_t& index);
+  template <typename Enum>
+  requires std::is_enum_v<Enum>
+  void choose(std::string_view key, const std::vector<std::string>& names, Enum& value) {
+    auto index = static_cast<std::size_t>(value);
+    choose(key, names, index);
+    value = static_cast<Enum>(index);
+  }
+
+  /// At least one name, all different, each one of `known`.
+  void names(std::string_view key, const std::vector<std::string>& known,
+             std::vector<std::string>& values);
+
+  /// Numbers that are written in one line.
+  void in_line(std::string_view key, std::vector<double>& numbers);
+
+  /// A nested mapping, whose fields `describe_section` names.
+  void within(std::string_view key, const std::function<void(Fields&)>& describe_section);
+
+  /// A nested struct; `context` is handed on to its `describe`.
+  template <typename T, typename... Context>
+  void section(std::string_view key, T& value, const Context&... context) {
+    within(key, [&](Fields& inner) { describe(inner, value, context...); });
+  }
+
+  /// Written, and read, only if it is there.
+  template <typename T>
+  void section(std::string_view key, std::optional<T>& value) {
+    if (!present(key, value.has_value())) return;
+    if (reading()) value.emplace();
+    section(key, *value);
+  }
+
+  /// A list of structs. While one of them is read, it is the list's last.
+  template <typename T, typename... Context>
+  void list(std::string_view key, std::vector<T>& values, const Context&... context) {
+    if (present(key, false)) values.clear();
+    items(key, values.size(), [&](Fields& item, std::size_t i) {
+      if (reading()) values.emplace_back();
+      describe(item, values[i], context...);
+    });
+  }
+
+  /// As `list`, but an empty one is not written.
+  template <typename T, typename... Context>
+  void list_if_any(std::string_view key, std::vector<T>& values, const Context&... context) {
+    if (reading() || !values.empty()) list(key, values, context...);
+  }
+
+  /// Reading: whether the key is there. Writing: `has_value`.
+  bool present(std::string_view key, bool has_value) const;
+  /// Names a key that may be absent, for the suggestions that a misspelt one gets.
+  void know(std::string_view key);
+  /// How many keys there are.
+  std::size_t size() const;
+
+  /// Reading: complains about a key that has not been named. It happens at the end by itself;
+  /// before a check that a misspelt key would fail, it gives the better reason.
+  void finish() const;
+
+  /// Reading: complains about the key's value unless `holds`.
+  void check(bool holds, std::string_view key, const std::string& message) const;
+  /// Reading: an `InputError` of `action` is a complaint about the key's value.
+  void check(std::string_view key, const std::function<void()>& action) const;
+
+ private:
+  void items(std::string_view key, std::size_t count,
+             const std::function<void(Fields&, std::size_t)>& describe_item);
+
+  YamlMap* map_ = nullptr;
+  YAML::Node written_;
+};
+
+/// Reads a struct by its description; what `config` holds are the defaults. Errors: `InputError`
+/// with file:line:column.
+template <typename T>
+T from_yaml(YamlMap map, T config = {}) {
+  Fields fields(map);
+  describe(fields, config);
+  map.finish();
+  return config;
+}
+
+/// The struct with every default written out, which `from_yaml` reads back to the same.
+template <typename T>
+YAML::Node to_node(T config) {
+  Fields fields;
+  describe(fields, config);
+  return fields.node();
+}
+
+}  // namespace touchdown

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace touchdown {
+
+/// An estimate with its interval; NaN where it is not defined.
+struct Interval {
+  double estimate = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+}  // namespace touchdown

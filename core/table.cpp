@@ -1,0 +1,140 @@
+#include "core/table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace touchdown {
+
+namespace {
+
+std::string csv_cell(const std::string& cell) {
+  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+  std::string quoted(1, '"');
+  for (const char c : cell) quoted.append(c == '"' ? 2 : 1, c);
+  quoted.push_back('"');
+  return quoted;
+}
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i > 0) line.push_back(',');
+    line += csv_cell(cells[i]);
+  }
+  return line + "\n";
+}
+
+std::string padded(const std::string& cell, std::size_t to, bool left) {
+  const std::string space(to - width(cell), ' ');
+  return left ? cell + space : space + cell;
+}
+
+}  // namespace
+
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+  }));
+}
+
+std::string to_csv(const Table& table) {
+  std::string text = csv_line(table.header);
+  for (const auto& row : table.rows) text += csv_line(row);
+  return text;
+}
+
+Table from_csv(std::string_view text) {
+  std::vector<std::vector<std::string>> rows(1, std::vector<std::string>(1));
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    std::string& cell = rows.back().back();
+    const char c = text[i];
+    if (quoted) {
+      if (c != '"') {
+        cell += c;
+      } else if (i + 1 < text.size() && text[i + 1] == '"') {
+        cell += text[++i];
+      } else {
+        quoted = false;
+      }
+    } else if (c == '"' && cell.empty()) {
+      quoted = true;
+    } else if (c == ',') {
+      rows.back().emplace_back();
+    } else if (c == '\n') {
+      rows.emplace_back(1);
+    } else if (c != '\r') {
+      cell += c;
+    }
+  }
+  std::erase_if(rows, [](const auto& row) { return row.size() == 1 && row[0].empty(); });
+  Table table;
+  if (rows.empty()) return table;
+  table.header = std::move(rows.front());
+  rows.erase(rows.begin());
+  for (auto& row : rows) row.resize(table.header.size());
+  table.rows = std::move(rows);
+  return table;
+}
+
+std::string to_text(const Table& table, std::size_t text_columns) {
+  std::vector<std::size_t> widths(table.header.size(), 0);
+  const auto measure = [&](const std::vector<std::string>& cells) {
+    widths.resize(std::max(widths.size(), cells.size()), 0);
+    for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], width(cells[i]));
+  };
+  measure(table.header);
+  for (const auto& row : table.rows) measure(row);
+
+  const auto line = [&](const std::vector<std::string>& cells) {
+    std::string text;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      text.append(i == 0 ? 2 : 3, ' ');
+      text += padded(cells[i], widths[i], i < text_columns);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text + "\n";
+  };
+  std::string text;
+  if (!table.header.empty()) {
+    text = line(table.header);
+    std::vector<std::string> rule;
+    for (const std::size_t columns : widths) {
+      std::string dashes;
+      for (std::size_t i = 0; i < columns; ++i) dashes += "─";
+      rule.push_back(dashes);
+    }
+    text += line(rule);
+  }
+  for (const auto& row : table.rows) text += line(row);
+  return text;
+}
+
+std::string exact(double value) { return std::isnan(value) ? "nan" : fmt::format("{}", value); }
+
+std::string metric(double value) {
+  return std::isnan(value) ? "nan" : fmt::format("{:.6f}", value);
+}
+
+void append_interval_columns(std::vector<std::string>& header, const std::string& name,
+                             const std::string& unit) {
+  for (const char* end : {"", "_low", "_high"})
+    header.push_back(fmt::format("{}{}{}", name, end, unit));
+}
+
+void append_interval(std::vector<std::string>& row, const Interval& interval) {
+  for (const double value : {interval.estimate, interval.low, interval.high}) {
+    row.push_back(metric(value));
+  }
+}
+
+std::string with_interval(const Interval& interval, int decimals) {
+  if (std::isnan(interval.estimate)) return "–";
+  if (std::isnan(interval.low)) return fmt::format("{:.{}f}", interval.estimate, decimals);
+  return fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", interval.estimate, decimals, interval.low,
+                     decimals, interval.high, decimals);
+}
+
+}  // namespace touchdown

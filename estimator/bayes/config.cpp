@@ -1,0 +1,64 @@
+#include "estimator/bayes/config.hpp"
+
+#include "core/error.hpp"
+
+namespace touchdown {
+
+BayesFilterConfig BayesFilterConfig::paper() {
+  BayesFilterConfig config;
+  config.measurement.torque = {TorqueSign::absolute, 0.0};
+  config.measurement.fit.knee_range = {0.0, 3.0};
+  config.measurement.fit.wheel_range = {0.0, 0.75};
+  config.transition.power = PowerMeasure::mean_square;
+  config.transition.median_of = SpectrumKind::power;
+  config.transition.nyquist = true;
+  config.transition.switch_sigmoid = {8.0, 1.0};
+  config.transition.landing_sigmoid = {7.5, 2.5};
+  config.transition.margin = 0.0;
+  config.transition.median_memory = 0.0;
+  config.transition.row_stochastic = false;
+  return config;
+}
+
+BayesFilterConfig BayesFilterConfig::reference() {
+  BayesFilterConfig config;
+  config.measurement.torque = {TorqueSign::mirrored, 0.025};
+  config.measurement.fit.knee_range = {0.0, 3.0};
+  config.measurement.fit.wheel_range = {0.0, 0.75};
+  config.measurement.contact_floor = 1e-20;
+  config.transition.power = PowerMeasure::mean_square;
+  config.transition.median_of = SpectrumKind::magnitude;
+  config.transition.nyquist = false;
+  config.transition.switch_sigmoid = {50.0, 5.0};
+  config.transition.landing_sigmoid = {8.0, 3.0};
+  config.transition.margin = 1e-10;
+  config.transition.median_memory = 0.1;
+  config.transition.row_stochastic = false;
+  return config;
+}
+
+BayesFilterConfig BayesFilterConfig::robust() {
+  BayesFilterConfig config = reference();
+  config.measurement.torque.sign = TorqueSign::absolute;
+  config.measurement.fit.knee_range.reset();
+  config.measurement.fit.wheel_range.reset();
+  config.measurement.fit.bandwidth_floor = {0.1, 0.1};
+  config.transition.median_of = SpectrumKind::power;
+  config.transition.nyquist = true;
+  config.transition.row_stochastic = true;
+  return config;
+}
+
+void check_measurement_config(const MeasurementConfig& config, double threshold) {
+  if (!(threshold >= 0.0 && threshold <= 1.0)) {
+    throw InputError("the decision threshold must be in [0, 1]");
+  }
+  if (!(config.contact_floor >= 0.0 && config.no_contact_floor >= 0.0)) {
+    throw InputError("the likelihood floors must not be negative");
+  }
+  if (!(config.torque.low_pass >= 0.0)) {
+    throw InputError("the torque low-pass must not be negative (s)");
+  }
+}
+
+}  // namespace touchdown

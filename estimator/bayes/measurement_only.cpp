@@ -1,0 +1,57 @@
+#include "estimator/bayes/measurement_only.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace touchdown {
+namespace {
+
+SignalGuardConfig without_accelerometer(SignalGuardConfig config) {
+  config.frozen_after = 0.0;
+  return config;
+}
+
+}  // namespace
+
+MeasurementOnly::MeasurementOnly(MeasurementModel model, const BayesFilterConfig& config)
+    : config_(config),
+      model_(std::move(model)),
+      guard_(without_accelerometer(config.guard), config.sample_rate),
+      torque_{TorqueChannel(config.measurement.torque, Side::left, config.sample_rate),
+              TorqueChannel(config.measurement.torque, Side::right, config.sample_rate)} {
+  check_measurement_config(config.measurement, config.threshold);
+  reset();
+}
+
+void MeasurementOnly::reset() noexcept {
+  guard_.reset();
+  for (TorqueChannel& torque : torque_) torque.reset();
+  measurement_ = {};
+  belief_ = Belief{};
+  conclude(belief_, config_.threshold);
+}
+
+const Belief& MeasurementOnly::update(const Signals& signals) noexcept {
+  const SignalGuard::Verdict verdict = guard_.check(signals.time, 0.0);
+  belief_.status = verdict.status;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (verdict.restart) torque_[side].reset();
+    const LegSignals& leg = signals.leg[side];
+    WheelBelief& wheel = belief_.wheel[side];
+    if (!std::isfinite(leg.knee.torque) || !std::isfinite(leg.wheel.torque)) {
+      belief_.status = SignalStatus::invalid;
+      wheel.p_contact = guard_.relaxed(wheel.p_contact, verdict.elapsed);
+      continue;
+    }
+    MeasurementDiagnostics& m = measurement_[side];
+    m.torque = torque_[side].update(leg);  // Eq. (4)
+    m.likelihood = model_(m.torque);       // Eq. (6)
+    m.likelihood.contact += config_.measurement.contact_floor;
+    m.likelihood.no_contact += config_.measurement.no_contact_floor;
+    wheel.p_contact = m.p_measurement();  // Eq. (14)
+  }
+  conclude(belief_, config_.threshold);
+  return belief_;
+}
+
+}  // namespace touchdown

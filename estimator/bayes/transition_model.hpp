@@ -1,0 +1,158 @@
+#pragma once
+
+#include "estimator/numerics/exponential.hpp"
+#include "estimator/spectrum/sliding_dft.hpp"
+#include "estimator/spectrum/summary.hpp"
+
+namespace touchdown {
+
+/// 1 / (1 + exp(−(x − offset) / slope)): half at `offset`, steeper for a smaller `slope` (both in
+/// the unit of x).
+struct Sigmoid {
+  double offset = 0.0;
+  double slope = 1.0;
+
+  [[nodiscard]] double operator()(double x) const noexcept {
+    return 1.0 / (1.0 + exponential((offset - x) / slope));
+  }
+  bool operator==(const Sigmoid&) const = default;
+};
+
+/// The one number that the switch probability takes from a window's spectrum.
+enum class PowerMeasure : int {
+  /// The mean over all bins of A_t(ω), Eq. (10); the same as the window's mean square (m²/s⁴).
+  mean_square,
+  /// ‖â_t‖²/N, the sum over all bins of A_t(ω): N times the mean square (m²/s⁴).
+  energy,
+};
+
+struct TransitionConfig {
+  /// N of Eq. (9): number of accelerometer samples in the sliding window.
+  int window = 128;
+  /// What A_t means in Eq. (11).
+  PowerMeasure power = PowerMeasure::mean_square;
+  /// Which spectrum Eq. (12) takes the median of.
+  SpectrumKind median_of = SpectrumKind::power;
+  /// Whether the median counts the bin of the Nyquist frequency.
+  bool nyquist = true;
+  /// σ_1 of Eq. (11), of the power (m²/s⁴).
+  Sigmoid switch_sigmoid{8.0, 1.0};
+  /// σ_2 of Eq. (13), of the median frequency (Hz).
+  Sigmoid landing_sigmoid{7.5, 2.5};
+  /// Both sigmoids are kept this far from 0 and 1.
+  double margin = 0.0;
+  /// Time constant of the low-pass of (median frequency × P(switch)) that stands in for the median
+  /// frequency in Eq. (13), advanced twice per step as in the authors' code (s); 0 = no memory.
+  double median_memory = 0.0;
+  /// P(stay) = 1 − P(leave), so that each row of the transition matrix sums to one; false: the
+  /// published P(stay) = 1 − P(switch), whose rows sum to less.
+  bool row_stochastic = true;
+
+  bool operator==(const TransitionConfig&) const = default;
+};
+
+/// P(S_t | S_t−1), and what it was computed from.
+struct Transition {
+  // The matrix first: four neighbours are stored as one vector, and the recursion that waits for
+  // them can load them from it.
+  double contact_to_contact = 1.0;
+  double contact_to_air = 0.0;  ///< takeoff
+  double air_to_contact = 0.0;  ///< landing, Eq. (8)
+  double air_to_air = 1.0;
+
+  double power = 0.0;                      ///< m²/s⁴
+  double median_frequency = 0.0;           ///< Hz
+  double filtered_median_frequency = 0.0;  ///< Hz; equals median_frequency without memory
+  double p_switch = 0.0;                   ///< P(S_t ≠ S_t−1), Eq. (11)
+  double p_landing = 0.5;                  ///< P(S_t = C | S_t ≠ S_t−1), Eq. (13)
+};
+
+/// The last part of the transition model, from what the spectrum is like to probabilities, Eq. (7),
+/// (8), (11) and (13). Branch-free enough to run over many noise levels side by side.
+class TransitionLaw {
+ public:
+  /// Throws InputError for a rate, slope, margin or memory that makes no sense.
+  TransitionLaw(const TransitionConfig& config, double sample_rate);
+
+  /// The transition after one whose filtered median frequency was `remembered` (Hz).
+  [[nodiscard]] Transition next(const SpectrumValues& spectrum, double remembered) const noexcept {
+    Transition t;
+    t.power = power_scale_ * spectrum.mean_square;
+    const Odds switching = odds(switching_, t.power);  // Eq. (11)
+    t.p_switch = switching.p;
+
+    t.median_frequency = bin_width_ * spectrum.median_bin;
+    const double input = t.median_frequency * t.p_switch;
+    const double filtered = remembered + memory_gain_ * (input - remembered);
+    t.filtered_median_frequency = memory_ > 0.0 ? filtered : t.median_frequency;
+    const Odds landing = odds(landing_, t.filtered_median_frequency);  // Eq. (13)
+    t.p_landing = landing.p;
+
+    t.air_to_contact = landing.p * switching.p;      // Eq. (8)
+    t.contact_to_air = landing.not_p * switching.p;  // likewise
+    // 1 − P(leave) = P(no switch) + P(switch the other way), without cancellation.
+    t.contact_to_contact = switching.not_p + repair_ * t.air_to_contact;
+    t.air_to_air = switching.not_p + repair_ * t.contact_to_air;
+    return t;
+  }
+
+ private:
+  struct Odds {
+    double p;
+    double not_p;
+  };
+  /// A sigmoid prepared to be evaluated without a division.
+  struct Steepness {
+    double offset;
+    double inverse_slope;
+  };
+  /// A sigmoid and its complement, both to full relative precision: next to certainty 1 − p would
+  /// be rounding noise, and that noise the probability to stay.
+  [[nodiscard]] Odds odds(const Steepness& sigmoid, double x) const noexcept {
+    const double against = exponential((sigmoid.offset - x) * sigmoid.inverse_slope);
+    const double p = 1.0 / (1.0 + against);
+    return {within_margin(p), within_margin(against * p)};
+  }
+  [[nodiscard]] double within_margin(double p) const noexcept {
+    const double above = p > margin_ ? p : margin_;
+    return above < highest_ ? above : highest_;
+  }
+
+  Steepness switching_;
+  Steepness landing_;
+  double margin_;
+  double highest_;
+  double power_scale_;
+  double bin_width_;
+  /// Of both steps that the low-pass makes at once.
+  double memory_gain_;
+  double memory_;
+  /// 1 if rows are to sum to one, 0 as published.
+  double repair_;
+};
+
+/// The paper's transition model: a landing or a takeoff leaves its mark in the vertical
+/// acceleration's spectrum, its power saying that the state switches and its median frequency in
+/// which direction. Common to both legs. No call but the constructor allocates or throws.
+class TransitionModel {
+ public:
+  /// sample_rate in Hz. Throws InputError for a rate, slope, margin or memory that makes no sense.
+  TransitionModel(const TransitionConfig& config, double sample_rate);
+
+  /// Forget all samples: a window of zeros, a robot at rest.
+  void reset() noexcept;
+
+  /// Take the newest vertical acceleration without gravity, γ^z (m/s², finite).
+  const Transition& update(double vertical_acceleration) noexcept;
+
+  [[nodiscard]] const Transition& transition() const noexcept { return transition_; }
+  [[nodiscard]] const SlidingDft& spectrum() const noexcept { return dft_; }
+
+ private:
+  TransitionLaw law_;
+  SlidingDft dft_;
+  SpectrumSummary summary_;
+  Transition transition_;
+};
+
+}  // namespace touchdown

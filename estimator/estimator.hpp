@@ -1,0 +1,16 @@
+#pragma once
+
+/// All that a robot needs: what it measures (`Signals`), what is believed of it (`Belief`), the
+/// estimators, and how those that learn are fitted.
+
+#include "estimator/bayes/config.hpp"
+#include "estimator/bayes/filter.hpp"
+#include "estimator/bayes/measurement_fit.hpp"
+#include "estimator/bayes/measurement_only.hpp"
+#include "estimator/contact_estimator.hpp"
+#include "estimator/free_fall.hpp"
+#include "estimator/neural/estimator.hpp"
+#include "estimator/phase/filter.hpp"
+#include "estimator/phase/fit.hpp"
+#include "estimator/signals.hpp"
+#include "estimator/upkie_observer.hpp"

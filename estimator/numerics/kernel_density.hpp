@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "estimator/numerics/axis.hpp"
+
+namespace touchdown {
+
+/// Scott's rule for one axis of a `dimensions`-dimensional density:
+/// n^(−1/(d+4)) times the sample standard deviation (n − 1 in its denominator), but never less than
+/// `floor`. Same unit as the samples.
+/// Throws InputError when there are fewer than two samples, when one is not finite, or when the
+/// result is zero (all samples equal and no floor).
+double scott_bandwidth(std::span<const double> samples, int dimensions, double floor = 0.0);
+
+/// The same from the number of samples and their standard deviation, for samples that nobody keeps.
+double scott_bandwidth(double count, double deviation, int dimensions, double floor);
+
+/// Eq. (5) of the paper in one dimension: the mean of Gaussians of standard deviation `bandwidth`
+/// around the samples, evaluated at every point of the axis. A density: it integrates to one over
+/// the real line, unit 1/[x].
+std::vector<double> kernel_density(std::span<const double> x, double bandwidth, const Axis& axis);
+
+/// Eq. (5) of the paper in two dimensions with a product kernel (a diagonal bandwidth matrix), in
+/// 1/([x]·[y]), at every point of a regular grid. The result has x_axis.count rows of y_axis.count
+/// values, row after row.
+///
+/// exp(−(u² + v²)/2) = exp(−u²/2)·exp(−v²/2), so the whole grid is the product of two matrices of
+/// one-dimensional kernels. No binning and no truncation: where both likelihoods are tiny, their
+/// ratio still decides.
+///
+/// Throws InputError for no samples, x and y of different lengths, samples that are not finite, or
+/// a bandwidth that is not positive and finite.
+std::vector<double> kernel_density(std::span<const double> x, std::span<const double> y,
+                                   double x_bandwidth, double y_bandwidth, const Axis& x_axis,
+                                   const Axis& y_axis);
+
+/// The same sum for samples that come one by one and are not kept: its memory is that of the grid.
+class KernelDensityGrid {
+ public:
+  /// Throws InputError for a bandwidth that is not positive and finite, or a bad axis.
+  KernelDensityGrid(double x_bandwidth, double y_bandwidth, const Axis& x_axis, const Axis& y_axis);
+  ~KernelDensityGrid();
+  KernelDensityGrid(KernelDensityGrid&&) noexcept;
+  KernelDensityGrid& operator=(KernelDensityGrid&&) noexcept;
+  KernelDensityGrid(const KernelDensityGrid&) = delete;
+  KernelDensityGrid& operator=(const KernelDensityGrid&) = delete;
+
+  /// Throws InputError for a sample that is not finite.
+  void add(double x, double y);
+
+  /// What the function above returns for the samples so far. Throws InputError if there are none.
+  [[nodiscard]] std::vector<double> density();
+
+ private:
+  // Eigen aligns its memory as the processor wants it, which nobody outside should have to know.
+  struct Sums;
+  std::unique_ptr<Sums> sums_;
+};
+
+}  // namespace touchdown

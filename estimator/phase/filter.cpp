@@ -1,0 +1,110 @@
+#include "estimator/phase/filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchdown {
+
+PhaseFilter::PhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config)
+    : config_(config), senses_(model, config), guard_(config.guard, config.sample_rate) {
+  reset();
+}
+
+void PhaseFilter::reset() noexcept {
+  guard_.reset();
+  senses_.knee_noise.reset();
+  senses_.wheel_noise.reset();
+  senses_.acceleration_noise.reset();
+  alpha_ = {};
+  std::copy(PhaseRecursion::prior.begin(), PhaseRecursion::prior.end(), alpha_.begin());
+  belief_ = Belief{};
+  for (WheelBelief& wheel : belief_.wheel) wheel.contact = true;
+  conclude();
+}
+
+PhaseProbabilities PhaseFilter::phases() const noexcept {
+  PhaseProbabilities p{};
+  std::copy_n(alpha_.begin(), phase_count, p.begin());
+  return p;
+}
+
+PhaseNoise PhaseFilter::noise() const noexcept {
+  return config_.noise.value_or(PhaseNoise{senses_.knee_noise.sigma(), senses_.wheel_noise.sigma(),
+                                           senses_.acceleration_noise.sigma()});
+}
+
+const Belief& PhaseFilter::update(const Signals& signals) noexcept {
+  const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
+  belief_.status = verdict.status;
+  std::array<bool, 2> torques_good{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const LegSignals& leg = signals.leg[side];
+    torques_good[side] = std::isfinite(leg.knee.torque) && std::isfinite(leg.wheel.torque);
+    if (!torques_good[side]) belief_.status = SignalStatus::invalid;
+  }
+  const bool usable = verdict.acceleration_good && (torques_good[0] || torques_good[1]);
+  if (verdict.restart) {
+    senses_.knee_noise.forget_signals();
+    senses_.wheel_noise.forget_signals();
+    senses_.acceleration_noise.forget_signals();
+  }
+  if (verdict.restart || !usable) forget(verdict.elapsed);
+  if (!usable) {
+    conclude();
+    return belief_;
+  }
+  if (!config_.noise) estimate_noise(signals, verdict.acceleration_good);
+
+  const PhaseNoiseLevel knee_level =
+      senses_.knee_levels[config_.noise ? 0 : senses_.knee_noise.rung()];
+  const PhaseNoiseLevel wheel_level =
+      senses_.wheel_levels[config_.noise ? 0 : senses_.wheel_noise.rung()];
+  const PhaseNoiseLevel acceleration_level =
+      senses_.acceleration_levels[config_.noise ? 0 : senses_.acceleration_noise.rung()];
+  const auto evidence = [&](std::size_t side) {
+    const LegSignals& leg = signals.leg[side];
+    const double mirror = side == 0 ? 1.0 : -1.0;
+    return torques_good[side] ? senses_.torque(mirror * leg.knee.torque, mirror * leg.wheel.torque,
+                                               knee_level, wheel_level)
+                              : PhaseRow{};
+  };
+  const PhaseRow left = evidence(0);
+  const PhaseRow right = evidence(1);
+  const PhaseRow vertical = senses_.acceleration(signals.vertical_acceleration, acceleration_level);
+
+  senses_.recursion.predict_and_correct(alpha_, PhaseRecursion::evidence(left, right, vertical));
+  conclude();
+  return belief_;
+}
+
+/// The belief after `elapsed` seconds without news.
+void PhaseFilter::forget(double elapsed) noexcept {
+  const double kept = std::exp(-elapsed / config_.guard.relaxation);
+  for (std::size_t k = 0; k < phase_count; ++k) {
+    alpha_[k] = kept * alpha_[k] + (1.0 - kept) * PhaseRecursion::prior[k];
+  }
+}
+
+void PhaseFilter::estimate_noise(const Signals& s, bool acceleration_good) noexcept {
+  senses_.knee_noise.update({s.leg[0].knee.torque, s.leg[1].knee.torque});
+  senses_.wheel_noise.update({s.leg[0].wheel.torque, s.leg[1].wheel.torque});
+  if (acceleration_good) senses_.acceleration_noise.update({s.vertical_acceleration});
+}
+
+void PhaseFilter::conclude() noexcept {
+  const double left_only = alpha_[index(Phase::left_only)];
+  const double right_only = alpha_[index(Phase::right_only)];
+  const double none = alpha_[index(Phase::flight)] + alpha_[index(Phase::held)];
+  const auto bounded = [](double p) { return std::clamp(p, 0.0, 1.0); };
+  const std::array<double, 2> wheels = PhaseRecursion::wheels(alpha_);
+  belief_.wheel[0].p_contact = wheels[0];
+  belief_.wheel[1].p_contact = wheels[1];
+  belief_.p_any_wheel = bounded(1.0 - none);
+  belief_.p_both_wheels = bounded(1.0 - (none + left_only + right_only));
+  for (WheelBelief& wheel : belief_.wheel) {
+    wheel.contact = wheel.contact ? wheel.p_contact >= config_.leave_below
+                                  : wheel.p_contact > config_.return_above;
+  }
+}
+
+}  // namespace touchdown

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "estimator/contact_estimator.hpp"
+#include "estimator/phase/config.hpp"
+#include "estimator/phase/model.hpp"
+#include "estimator/phase/senses.hpp"
+#include "estimator/signal_guard.hpp"
+
+namespace touchdown {
+
+/// A hidden Markov model over the contact phases of both legs, run forward (docs/phase_filter.md).
+/// Where the paper's filter asks whether a wheel touches now, this one asks where the robot is
+/// between rolling and falling, from the signed knee and wheel torques of both legs and the
+/// vertical acceleration, and adds up: P(left wheel touches) is the probability of all phases in
+/// which it does.
+///
+/// `update` never throws, allocates or locks, and never returns NaN. A leg whose torques are not
+/// finite says nothing at that step; without a usable acceleration, or without torques of either
+/// leg, the belief relaxes to the prior (`SignalGuard`), and the status says why.
+class PhaseFilter : public ContactEstimator {
+ public:
+  /// Throws InputError for a bad model or configuration, and for a sample rate that is not the
+  /// model's divided by a whole number.
+  explicit PhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config = {});
+
+  void reset() noexcept override;
+  const Belief& update(const Signals& signals) noexcept override;
+
+  [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
+  [[nodiscard]] const PhaseFilterConfig& config() const noexcept { return config_; }
+  /// P(phase | all signals so far), which sums to one.
+  [[nodiscard]] PhaseProbabilities phases() const noexcept;
+  /// The sensor noise that the last step was judged with.
+  [[nodiscard]] PhaseNoise noise() const noexcept;
+
+ private:
+  void forget(double elapsed) noexcept;
+  void estimate_noise(const Signals& signals, bool acceleration_good) noexcept;
+  void conclude() noexcept;
+
+  PhaseFilterConfig config_;
+  PhaseSenses senses_;
+  SignalGuard guard_;
+  alignas(64) PhaseRecursion::Lanes alpha_{};
+  Belief belief_;
+};
+
+}  // namespace touchdown

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "estimator/phase/config.hpp"
+#include "estimator/phase/model.hpp"
+
+namespace touchdown {
+
+/// One run to learn from: its signals, and the truth. The data must outlive the fit.
+struct PhaseFitRun {
+  std::span<const Signals> signals;     ///< one per step, free of sensor noise
+  std::array<WheelContact, 2> contact;  ///< left, right wheel
+  bool may_be_held = false;             ///< something besides the ground may carry the robot
+  /// Of each wheel (N); where it is not known, nobody is labelled carried.
+  std::array<std::span<const double>, 2> normal_force;
+  std::size_t skip = 0;  ///< steps at the beginning that are not used
+};
+
+/// How often phase j followed phase i. Every transition is counted with its mirror image, so that
+/// left and right are alike.
+PhaseTransition count_transitions(std::span<const Phase> phases);
+
+/// A_ij = (n_ij + c) / Σ_j (n_ij + c).
+PhaseTransition transition_probabilities(const PhaseTransition& counts, double pseudo_count);
+
+/// Torques of both legs in the left leg's sign, and accelerations, by phase.
+struct PhaseSamples {
+  std::array<std::vector<TorqueSample>, torque_density_count> torque;
+  std::array<std::vector<double>, acceleration_density_count> acceleration;
+};
+
+/// The mixture of a phase's kernel density and the uniform one, at one level of noise, on grids
+/// that cover all samples. A phase without samples gets the uniform density.
+PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, const TorqueSample& noise,
+                                      const PhaseFitConfig& config);
+PhaseAccelerationDensity fit_acceleration_density(const PhaseSamples& samples, double noise,
+                                                  const PhaseFitConfig& config);
+
+/// Fits everything. `before_density` is called before each of the many densities: what it throws
+/// ends the fit. Throws InputError for runs without rolling or without flight, sequences of
+/// different lengths, values that are not finite, or a bad configuration.
+PhaseModel fit_phase_model(std::span<const PhaseFitRun> runs, double sample_rate,
+                           const PhaseFitConfig& config,
+                           const std::function<void()>& before_density = {});
+
+}  // namespace touchdown

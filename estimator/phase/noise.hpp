@@ -1,0 +1,98 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace touchdown {
+
+/// The last two samples of one channel, for its second difference.
+class SecondDifference {
+ public:
+  void reset() noexcept { samples_ = 0; }
+
+  /// Takes a sample; returns whether three finite ones in a row make a second difference.
+  bool update(double x) noexcept {
+    if (!std::isfinite(x)) {
+      samples_ = 0;
+      return false;
+    }
+    magnitude_ = std::abs(x - 2.0 * previous_ + before_);
+    before_ = previous_;
+    previous_ = x;
+    samples_ = std::min(samples_ + 1, 3);
+    return samples_ == 3;
+  }
+
+  /// |x_t − 2 x_{t−1} + x_{t−2}|
+  [[nodiscard]] double magnitude() const noexcept { return magnitude_; }
+
+ private:
+  double previous_ = 0.0;
+  double before_ = 0.0;
+  double magnitude_ = 0.0;
+  int samples_ = 0;
+};
+
+/// Estimates the standard deviation of the white noise on `channels` signals that share one. The
+/// second difference of white noise has the standard deviation √6 σ, and half of its magnitudes lie
+/// below 0.6745·√6 σ: the estimate rises by a small factor when one lies above, falls by it when
+/// one lies below, and settles where both happen equally often. Signals much smoother than their
+/// noise, and rare shocks, hardly move it. The estimate climbs a ladder of values whose rungs are
+/// prepared, so that a step costs neither an exponential nor a logarithm. Never fails; skips what
+/// is not finite.
+template <std::size_t channels>
+class NoiseEstimate {
+ public:
+  /// From `floor` up to at least `ceiling` in relative steps of `gain` per update; for the first
+  /// `warm_up` updates in larger ones.
+  NoiseEstimate(double floor, double ceiling, double gain, double warm_up) : warm_up_(warm_up) {
+    const double rung = gain / static_cast<double>(channels);
+    const auto rungs = static_cast<int>(std::ceil(std::log(ceiling / floor) / rung));
+    for (int i = 0; i <= std::max(1, rungs); ++i) sigma_.push_back(floor * std::exp(i * rung));
+  }
+
+  void reset() noexcept {
+    rung_ = 0;
+    updates_ = 0.0;
+    forget_signals();
+  }
+
+  /// The next samples do not follow the last ones; the estimate stays.
+  void forget_signals() noexcept {
+    for (SecondDifference& channel : difference_) channel.reset();
+  }
+
+  void update(const std::array<double, channels>& samples) noexcept {
+    const double median = 0.6744897501960817 * 2.449489742783178 * sigma_[rung_];
+    int direction = 0;
+    bool usable = false;
+    for (std::size_t i = 0; i < channels; ++i) {
+      if (!difference_[i].update(samples[i])) continue;
+      usable = true;
+      direction += difference_[i].magnitude() > median ? 1 : -1;
+    }
+    if (!usable) return;
+    updates_ += 1.0;
+    const int stride = updates_ < warm_up_ ? static_cast<int>(warm_up_ / updates_) : 1;
+    const auto top = static_cast<int>(sigma_.size()) - 1;
+    rung_ =
+        static_cast<std::size_t>(std::clamp(static_cast<int>(rung_) + direction * stride, 0, top));
+  }
+
+  [[nodiscard]] double sigma() const noexcept { return sigma_[rung_]; }
+  [[nodiscard]] std::size_t rung() const noexcept { return rung_; }
+  /// The standard deviation of every rung.
+  [[nodiscard]] const std::vector<double>& rungs() const noexcept { return sigma_; }
+
+ private:
+  std::vector<double> sigma_;
+  double warm_up_;
+  std::size_t rung_ = 0;
+  double updates_ = 0.0;
+  std::array<SecondDifference, channels> difference_;
+};
+
+}  // namespace touchdown

@@ -1,0 +1,128 @@
+#include "estimator/phase/tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchdown {
+namespace {
+
+/// `values` per cell → `phase_lanes` per cell, times the exponent.
+std::vector<float> padded(std::span<const float> log_density, std::size_t values, double exponent) {
+  const std::size_t cells = log_density.size() / values;
+  std::vector<float> result(cells * phase_lanes, 0.0F);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    for (std::size_t k = 0; k < values; ++k) {
+      result[cell * phase_lanes + k] =
+          static_cast<float>(exponent * static_cast<double>(log_density[cell * values + k]));
+    }
+  }
+  return result;
+}
+
+void add(PhaseRow& sum, float weight, const float* cell) noexcept {
+  for (std::size_t k = 0; k < phase_lanes; ++k) sum[k] += weight * cell[k];
+}
+
+std::vector<double> bandwidths_of(std::span<const PhaseTorqueDensity> densities) {
+  std::vector<double> bandwidths;
+  for (const auto& density : densities.first(torque_level_count(densities))) {
+    bandwidths.push_back(density.bandwidth.wheel);
+  }
+  return bandwidths;
+}
+
+std::vector<double> bandwidths_of(std::span<const PhaseAccelerationDensity> densities) {
+  std::vector<double> bandwidths;
+  for (const auto& density : densities) bandwidths.push_back(density.bandwidth);
+  return bandwidths;
+}
+
+double kernel_width(double bandwidth, double noise) {
+  return std::sqrt(std::max(0.0, bandwidth * bandwidth - noise * noise));
+}
+
+}  // namespace
+
+PhaseNoiseLevel place_noise(double sigma, double kernel_width, std::span<const double> bandwidths) {
+  const double bandwidth = std::hypot(sigma, kernel_width);
+  if (bandwidths.size() < 2 || !(bandwidth > bandwidths.front())) return {0, 0.0F};
+  if (bandwidth >= bandwidths.back()) return {bandwidths.size() - 2, 1.0F};
+  const auto above = std::upper_bound(bandwidths.begin(), bandwidths.end(), bandwidth);
+  const auto level = static_cast<std::size_t>(above - bandwidths.begin()) - 1;
+  return {level, static_cast<float>(std::log(bandwidth / bandwidths[level]) /
+                                    std::log(bandwidths[level + 1] / bandwidths[level]))};
+}
+
+PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densities, double exponent)
+    : bandwidths_(bandwidths_of(densities)),
+      kernel_width_(
+          kernel_width(densities.front().bandwidth.wheel, densities.front().noise.wheel)) {
+  for (const PhaseTorqueDensity& density : densities) {
+    tables_.push_back({AxisLookup(density.knee), AxisLookup(density.wheel),
+                       phase_lanes * static_cast<std::size_t>(density.knee.count),
+                       padded(density.log_density, torque_density_count, exponent)});
+  }
+}
+
+PhaseRow PhaseTorqueTables::operator()(double knee, double wheel, const PhaseNoiseLevel& knee_noise,
+                                       const PhaseNoiseLevel& wheel_noise) const noexcept {
+  PhaseRow sum{};
+  const auto add_level = [&](const Table& table, float weight) {
+    const AxisPosition k = table.knee.place(knee);
+    const AxisPosition w = table.wheel.place(wheel);
+    const float* const low = table.cells.data() + static_cast<std::size_t>(w.index) * table.row +
+                             static_cast<std::size_t>(k.index) * phase_lanes;
+    const float* const high = low + table.row;
+    const auto knee_weight = static_cast<float>(k.weight);
+    const float high_weight = weight * static_cast<float>(w.weight);
+    const float low_weight = weight - high_weight;
+    add(sum, low_weight * (1.0F - knee_weight), low);
+    add(sum, low_weight * knee_weight, low + phase_lanes);
+    add(sum, high_weight * (1.0F - knee_weight), high);
+    add(sum, high_weight * knee_weight, high + phase_lanes);
+  };
+  const std::size_t levels = bandwidths_.size();
+  const Table* const corner = tables_.data() + knee_noise.level * levels + wheel_noise.level;
+  const float larger = std::max(knee_noise.weight, wheel_noise.weight);
+  const float smaller = std::min(knee_noise.weight, wheel_noise.weight);
+  const std::size_t side = knee_noise.weight > wheel_noise.weight ? levels : 1;
+  add_level(corner[0], 1.0F - larger);
+  if (larger > smaller) add_level(corner[side], larger - smaller);
+  if (smaller > 0.0F) add_level(corner[levels + 1], smaller);
+  return sum;
+}
+
+PhaseNoiseLevel PhaseTorqueTables::place(double sigma) const {
+  return place_noise(sigma, kernel_width_, bandwidths_);
+}
+
+PhaseAccelerationTables::PhaseAccelerationTables(
+    std::span<const PhaseAccelerationDensity> densities, double exponent)
+    : bandwidths_(bandwidths_of(densities)),
+      kernel_width_(kernel_width(densities.front().bandwidth, densities.front().noise)) {
+  for (const PhaseAccelerationDensity& density : densities) {
+    tables_.push_back({AxisLookup(density.axis),
+                       padded(density.log_density, acceleration_density_count, exponent)});
+  }
+}
+
+PhaseRow PhaseAccelerationTables::operator()(double acceleration,
+                                             const PhaseNoiseLevel& noise) const noexcept {
+  PhaseRow sum{};
+  const auto add_level = [&](const Table& table, float weight) {
+    const AxisPosition a = table.axis.place(acceleration);
+    const float* const low = table.cells.data() + static_cast<std::size_t>(a.index) * phase_lanes;
+    const float high_weight = weight * static_cast<float>(a.weight);
+    add(sum, weight - high_weight, low);
+    add(sum, high_weight, low + phase_lanes);
+  };
+  add_level(tables_[noise.level], 1.0F - noise.weight);
+  if (noise.weight > 0.0F) add_level(tables_[noise.level + 1], noise.weight);
+  return sum;
+}
+
+PhaseNoiseLevel PhaseAccelerationTables::place(double sigma) const {
+  return place_noise(sigma, kernel_width_, bandwidths_);
+}
+
+}  // namespace touchdown

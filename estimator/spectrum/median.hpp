@@ -1,0 +1,105 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+
+#include <Eigen/Core>
+
+#include "estimator/spectrum/sliding_dft.hpp"
+
+namespace touchdown {
+
+/// One row of a spectrum that is laid out as in `SlidingDft`.
+using SpectrumRow = Eigen::Array<double, SlidingDft::lanes, 1>;
+using SpectrumRowMap = Eigen::Map<SpectrumRow>;
+using ConstSpectrumRowMap = Eigen::Map<const SpectrumRow>;
+
+/// Sums over whole lanes: before[i] is the sum of the lanes 0 … i − 1, the last one that of all
+/// bins below the Nyquist frequency.
+struct LaneSums {
+  static constexpr int lanes = SlidingDft::lanes;
+
+  double before[lanes + 1];
+
+  /// From the sum of each lane. By a tree: a chain of additions would wait for each other.
+  static LaneSums of(const SpectrumRow& lane) noexcept {
+    static_assert(lanes == 8);
+    const double s01 = lane[0] + lane[1];
+    const double s23 = lane[2] + lane[3];
+    const double s45 = lane[4] + lane[5];
+    const double s67 = lane[6] + lane[7];
+    const double s0123 = s01 + s23;
+    const double s012345 = s0123 + s45;
+    return {{0.0, lane[0], s01, s01 + lane[2], s0123, s0123 + lane[4], s012345, s012345 + lane[6],
+             s0123 + (s45 + s67)}};
+  }
+  [[nodiscard]] double total() const noexcept { return before[lanes]; }
+};
+
+/// Calls f(rows). The rows of the usual window of 128 samples are a constant that the compiler can
+/// unroll loops by.
+template <typename Function>
+auto with_rows(int rows, const Function& f) noexcept {
+  constexpr std::integral_constant<int, 128 / 2 / SlidingDft::lanes> usual;
+  return rows == usual ? f(usual) : f(rows);
+}
+
+/// Row by row the sums of each lane's first rows: row r of `within` becomes the sum of the rows
+/// 0 … r − 1. Returns the last one.
+template <typename Rows, typename RowOf>
+SpectrumRow cumulate(Rows rows, const RowOf& row_of, double* within) noexcept {
+  SpectrumRow sum = SpectrumRow::Zero();
+  for (int row = 0; row < rows; ++row) {
+    sum += row_of(row);
+    SpectrumRowMap{within + (row + 1)* SlidingDft::lanes} = sum;
+  }
+  return sum;
+}
+
+/// How many of sum(1) ≤ sum(2) ≤ … ≤ sum(count − 1) are below `bound`. Halves the candidates
+/// without a branch: where a median is, no processor can predict.
+template <typename Count, typename Sum>
+int count_below(double bound, Count count, const Sum& sum) noexcept {
+  int below = 0;
+  for (int candidates = count; candidates > 1;) {
+    const int half = candidates / 2;
+    below += half * (sum(below + half) < bound ? 1 : 0);
+    candidates -= half;
+  }
+  return below;
+}
+
+/// ω_median, Eq. (12), in bins: where the cumulative sum over a spectrum's bins reaches half of its
+/// end, linear between bins; 0 if bin 0 holds half or more. `within` is what `cumulate` made and
+/// `sums` come from, `nyquist` the value of bin N/2, 0 if that does not count.
+///
+/// All bins whose cumulative sum is below half are counted. To leave a loop at the median would be
+/// less work and take longer: where the median is, no processor can predict.
+template <typename Rows>
+double median_bin(const LaneSums& sums, double nyquist, int nyquist_bin, Rows rows,
+                  const double* within) noexcept {
+  constexpr int lanes = SlidingDft::lanes;
+  const double half = 0.5 * (sums.total() + nyquist);
+  if (sums.total() < half) {
+    return (nyquist_bin - 1) + (half - sums.total()) / nyquist;
+  }
+  std::int64_t bin = 0;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const double rest = half - sums.before[lane];
+    for (int row = 1; row <= rows; ++row) {
+      bin += within[row * lanes + lane] < rest ? 1 : 0;
+    }
+  }
+  bin = std::min<std::int64_t>(bin, rows * lanes - 1);  // sums of other order may round otherwise
+  const std::int64_t lane = bin / rows;
+  const double* const median = within + (bin - lane * rows) * lanes + lane;
+  const double inside = median[lanes] - median[0];
+  if (bin == 0 || !(inside > 0.0)) {
+    return 0.0;
+  }
+  const double rest = half - sums.before[lane] - median[0];
+  return static_cast<double>(bin - 1) + std::min(1.0, rest / inside);
+}
+
+}  // namespace touchdown

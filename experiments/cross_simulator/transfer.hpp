@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/interval.hpp"
+#include "experiments/listening/tasks.hpp"
+
+namespace touchdown::experiments {
+
+/// An estimator fitted in one engine and tested in one, the same or the other, at one noise
+/// setting.
+struct Transfer {
+  Condition condition;
+  noise::NoiseCell cell;
+  bool is_fitted = true;  ///< false: there is nothing to fit, every fit engine gives the same
+  Interval success;
+  Interval no_contact_recall;
+  /// Success of the same estimator fitted in the test engine, minus this one's, on the same runs.
+  Interval loss;
+  /// Success minus that of always contact on the same runs.
+  Interval gain;
+};
+
+/// Every estimator, fit engine and test engine of the experiment, "always contact" last.
+std::vector<Condition> transfer_conditions(const Experiment& experiment);
+
+/// Losses and gains at every highlighted noise setting, in the order of these conditions, from the
+/// counts in these cells.
+std::vector<Transfer> transfers(const std::vector<ConditionCounts>& counts,
+                                const std::vector<noise::NoiseCell>& cells,
+                                const Experiment& experiment);
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,137 @@
+#include "experiments/cross_simulator/variations.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "scenarios/perturbation.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// The number under a dotted key, list items by number; NaN if there is none.
+double value_at(YAML::Node node, std::string_view key) {
+  while (!key.empty() && node.IsDefined()) {
+    const std::size_t dot = std::min(key.find('.'), key.size());
+    const std::string part(key.substr(0, dot));
+    key.remove_prefix(std::min(dot + 1, key.size()));
+    if (node.IsSequence()) {
+      std::size_t index = 0;
+      const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+      if (error != std::errc{} || index >= node.size()) break;
+      node.reset(node[index]);
+    } else if (node.IsMap() && node[part].IsDefined()) {
+      node.reset(node[part]);
+    } else {
+      break;
+    }
+  }
+  if (!key.empty() || !node.IsScalar()) return std::numeric_limits<double>::quiet_NaN();
+  return node.as<double>(std::numeric_limits<double>::quiet_NaN());
+}
+
+scenarios::Scenario varied(const NamedScenario& named, const Factor& factor, double value) {
+  YamlDocument document = YamlDocument::parse(scenarios::to_yaml(named.scenario), named.file);
+  document.override_value(fmt::format("{}={}", factor.key, exact(value)));
+  return scenarios::scenario_from_yaml(document);
+}
+
+double nominal_of(const NamedScenario& named, const Factor& factor) {
+  return value_at(YAML::Load(scenarios::to_yaml(named.scenario)), factor.key);
+}
+
+/// The runs of one value draw the same perturbations as the experiment's test runs.
+void plan_runs(const RunRequest& request, const Variation& variation, Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  const CrossSimulatorConfig& config = *experiment.cross_simulator;
+  const Factor& factor = config.factors[variation.factor_index];
+  try {
+    const scenarios::Scenario scenario =
+        varied(scenario_of(request, experiment.test.scenarios.front()), factor, variation.value);
+    for (int i = 0; i < config.sensitivity_runs; ++i) {
+      plan.runs.push_back(
+          {RunRole::test, variation.simulator,
+           experiment.test.perturbed ? scenarios::perturbed(scenario, experiment.seed, i)
+                                     : scenario,
+           i,
+           fmt::format("{}_{}_factor_{}_{}_{:03}.mpack", variation.simulator, scenario.name,
+                       variation.factor_index, exact(variation.value), i),
+           experiment.seed, plan.groups.size()});
+    }
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("cross_simulator.sensitivity.factors.{}: {}={}: {}",
+                                 variation.factor_index, factor.key, exact(variation.value),
+                                 error.what()));
+  }
+}
+
+std::string group_name(const Variation& variation) {
+  return fmt::format("factor {} {} {}", variation.factor_index, exact(variation.value),
+                     variation.simulator);
+}
+
+}  // namespace
+
+std::vector<Variation> variations(const RunRequest& request) {
+  const Experiment& experiment = request.experiment;
+  const NamedScenario& named = scenario_of(request, experiment.test.scenarios.front());
+  std::vector<Variation> all;
+  const std::vector<Factor>& factors = experiment.cross_simulator->factors;
+  for (std::size_t f = 0; f < factors.size(); ++f) {
+    const double nominal = nominal_of(named, factors[f]);
+    if (std::isnan(nominal)) {
+      throw InputError(fmt::format("cross_simulator.sensitivity.factors.{}: {} has no number at {}",
+                                   f, named.file, factors[f].key));
+    }
+    std::set<double> values(factors[f].values.begin(), factors[f].values.end());
+    values.insert(nominal);
+    for (const std::string& simulator : factors[f].simulators) {
+      for (const double value : values) {
+        all.push_back({f, factors[f].name, value, nominal, simulator});
+      }
+    }
+  }
+  return all;
+}
+
+void add_cross_simulator(const RunRequest& request, Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  RunGroup& own = plan.groups.front();
+  for (const Condition& condition : transfer_conditions(experiment)) {
+    if (!condition.is_fitted_here()) own.conditions.push_back(condition);
+  }
+  const std::size_t first = plan.runs.size();
+  for (const Variation& variation : variations(request)) {
+    if (variation.is_nominal()) continue;
+    plan_runs(request, variation, plan);
+    plan.groups.push_back({group_name(variation),
+                           tested_on(own_engine_conditions(experiment), variation.simulator),
+                           {experiment.highlights.front()},
+                           {}});
+  }
+  plan_tasks(experiment, first, plan);
+}
+
+std::vector<std::size_t> runs_of(const Variation& variation, const RunRequest& request,
+                                 const Plan& plan) {
+  const auto group = std::find_if(
+      plan.groups.begin(), plan.groups.end(),
+      [&](const RunGroup& candidate) { return candidate.name == group_name(variation); });
+  if (group != plan.groups.end()) {
+    return plan.runs_in(static_cast<std::size_t>(group - plan.groups.begin()));
+  }
+  std::vector<std::size_t> runs = plan.runs_in(0);
+  std::erase_if(runs,
+                [&](std::size_t run) { return plan.runs[run].simulator != variation.simulator; });
+  runs.resize(static_cast<std::size_t>(request.experiment.cross_simulator->sensitivity_runs));
+  return runs;
+}
+
+}  // namespace touchdown::experiments

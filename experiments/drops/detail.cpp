@@ -1,0 +1,125 @@
+#include "experiments/drops/detail.hpp"
+
+#include <cmath>
+
+#include "estimator/bayes/transition_model.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/plan/condition.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+constexpr std::size_t left = 0;
+
+double rate_of(const RunSignals& run) {
+  return 1e6 / static_cast<double>(run.info.control_period_us);
+}
+
+template <typename T>
+std::vector<T> inside(const std::vector<T>& whole, const DropWindow& window) {
+  const auto at = [&](std::size_t k) { return whole.begin() + static_cast<std::ptrdiff_t>(k); };
+  return {at(window.begin), at(window.end)};
+}
+
+/// Whose transition model is shown.
+const EstimatorEntry& spectrum_entry(const std::vector<std::string>& estimators) {
+  for (const std::string& name : estimators) {
+    const EstimatorEntry& entry = estimator_entry(name);
+    if (entry.config) return entry;
+  }
+  return estimator_entry("robust");
+}
+
+std::vector<double> spectrum_now(const SlidingDft& dft) {
+  std::vector<double> column;
+  for (int bin = 0; bin < dft.bins(); ++bin) {
+    column.push_back(dft.squared_magnitude(bin) / dft.window());
+  }
+  return column;
+}
+
+template <typename AccelerationAt>
+SpectrumTrace trace_spectrum(const TransitionConfig& config, double rate, const DropWindow& window,
+                             const AccelerationAt& acceleration_at) {
+  TransitionModel model(config, rate);
+  SpectrumTrace trace;
+  for (std::size_t k = 0; k < window.end; ++k) {
+    const double acceleration = acceleration_at(k);
+    // As the filter does: what is no number is not listened to.
+    if (std::isfinite(acceleration)) model.update(acceleration);
+    const Transition& transition = model.transition();
+    if (k < window.begin) continue;
+    trace.acceleration.push_back(acceleration);
+    trace.power.push_back(transition.power);
+    trace.median_frequency.push_back(transition.median_frequency);
+    trace.p_switch.push_back(transition.p_switch);
+    trace.p_takeoff.push_back(transition.contact_to_air);
+    trace.p_landing.push_back(transition.air_to_contact);
+    if ((k - window.begin) % spectrum_stride == 0) {
+      trace.spectrum.push_back(spectrum_now(model.spectrum()));
+    }
+  }
+  return trace;
+}
+
+template <typename SignalsAt>
+TorqueTrace trace_torque(const DropWindow& window, const SignalsAt& signals_at) {
+  TorqueTrace trace;
+  for (std::size_t k = window.begin; k < window.end; ++k) {
+    const Signals& signals = signals_at(k);
+    trace.knee.push_back(signals.leg[left].knee.torque);
+    trace.wheel.push_back(signals.leg[left].wheel.torque);
+  }
+  return trace;
+}
+
+}  // namespace
+
+DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
+                       const recordings::Recording& recording, const RunSignals& run,
+                       const FittedModels& models) {
+  const DropWindow window =
+      drop_window(run, config.choice, experiment.scoring.minimum_flight, "detail");
+  const double rate = rate_of(run);
+  const EstimatorEntry& entry = spectrum_entry(config.estimators);
+  const TransitionConfig& transition = entry.config->transition;
+
+  DropDetail detail;
+  detail.simulator = run.info.simulator;
+  detail.time = time_since_takeoff(window, 1.0 / rate);
+  detail.contact = inside(run.contact[left], window);
+  const double start = recording.truth[window.drop.takeoff].base_position.z();
+  for (std::size_t k = window.begin; k < window.end; ++k) {
+    detail.height.push_back(recording.truth[k].base_position.z() - start);
+  }
+  detail.bin_width = rate / transition.window;
+  detail.transition_of = entry.name;
+  detail.switch_power = transition.switch_sigmoid.offset;
+
+  const auto clean = [&](std::size_t k) -> const Signals& { return run.signals[k]; };
+  detail.torque = trace_torque(window, clean);
+  detail.spectrum = trace_spectrum(transition, rate, window,
+                                   [&](std::size_t k) { return clean(k).vertical_acceleration; });
+
+  const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));
+  for (const noise::NoiseCell& cell : config.noise) {
+    const noise::SensorNoise levels = cell.levels();
+    const auto heard = [&](std::size_t k) { return noisy(run, noise, levels, k); };
+    NoisyDrop drop{cell, trace_torque(window, heard), {}, {}};
+    drop.spectrum = trace_spectrum(transition, rate, window,
+                                   [&](std::size_t k) { return heard(k).vertical_acceleration; });
+    for (const std::string& name : config.estimators) {
+      const auto estimator =
+          make_estimator({detail.simulator, detail.simulator, name}, models, run);
+      const scoring::Prediction prediction = predict(*estimator, run, noise, levels);
+      drop.beliefs.push_back(
+          {name, estimator_entry(name).title, inside(prediction[left].p_contact, window)});
+    }
+    detail.noisy.push_back(std::move(drop));
+  }
+  return detail;
+}
+
+}  // namespace touchdown::experiments

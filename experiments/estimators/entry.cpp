@@ -1,0 +1,21 @@
+#include "experiments/estimators/entry.hpp"
+
+namespace touchdown::experiments {
+
+noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& levels) {
+  return {.knee_torque = sensors.knee_torque ? levels.knee_torque : 0.0,
+          .wheel_torque = sensors.wheel_torque ? levels.wheel_torque : 0.0,
+          .acceleration = sensors.acceleration ? levels.acceleration : 0.0,
+          .joint_position = sensors.joint_position ? levels.joint_position : 0.0,
+          .joint_velocity = sensors.joint_velocity ? levels.joint_velocity : 0.0};
+}
+
+std::vector<LaneNoise> lane_noise(std::span<const noise::SensorNoise> levels) {
+  std::vector<LaneNoise> lanes;
+  for (const noise::SensorNoise& level : levels) {
+    lanes.push_back({level.knee_torque, level.wheel_torque, level.acceleration});
+  }
+  return lanes;
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "estimator/bayes/config.hpp"
+#include "estimator/contact_estimator.hpp"
+#include "estimator/phase/config.hpp"
+#include "experiments/estimators/fitted_model.hpp"
+#include "experiments/lanes/noise_level.hpp"
+#include "noise/sensor_noise.hpp"
+#include "scoring/labels.hpp"
+
+namespace touchdown::experiments {
+
+/// What an estimator is made for.
+struct EstimatorSetup {
+  double sample_rate = 1000.0;         ///< Hz
+  const FittedModel* model = nullptr;  ///< for those that are fitted
+  /// The labels of the run that it will listen to, for the one that repeats them.
+  const std::array<scoring::ContactSequence, models::wheel_count>* truth = nullptr;
+};
+
+/// Sensors whose noise can change what an estimator decides about the wheels.
+struct Sensors {
+  bool knee_torque = false;
+  bool wheel_torque = false;
+  bool acceleration = false;
+  bool joint_position = false;
+  bool joint_velocity = false;
+};
+
+/// The part of the noise that these sensors have; all else is zero. Levels with the same part need
+/// to be listened to only once.
+noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& levels);
+
+/// An estimator under many noise levels side by side (experiments/lanes), without a signal guard.
+struct EstimatorLanes {
+  std::function<void(const Signals& clean, const NoiseStep& draws)> update;
+  /// Per level, in contact where it reaches the threshold.
+  std::function<std::span<const double>(Side side)> p_contact;
+  double threshold = 0.5;
+};
+
+/// The levels as lanes take them.
+std::vector<LaneNoise> lane_noise(std::span<const noise::SensorNoise> levels);
+
+/// All that an experiment has to know about an estimator. Most have only some of it.
+struct EstimatorEntry {
+  std::string name;     ///< in experiment files
+  std::string title;    ///< for tables and figures
+  std::string summary;  ///< one line: what it does
+  Sensors sensors;
+  /// The configuration whose measurement model it needs, if it needs one.
+  std::optional<BayesFilterConfig> config = {};
+  /// The configuration whose phase model it needs, if it needs one.
+  std::optional<PhaseFilterConfig> phase = {};
+  /// What made its model, if that is neither of the two and no part of an experiment.
+  std::string trained_by = {};
+  /// It is told the labels of the runs it listens to: nothing for logs without.
+  bool needs_truth = false;
+  std::unique_ptr<ContactEstimator> (*make)(const EstimatorEntry& entry,
+                                            const EstimatorSetup& setup) = nullptr;
+  /// Null for an estimator without lanes; nothing where its lanes do not know noise of that kind.
+  std::optional<EstimatorLanes> (*lanes)(const EstimatorEntry& entry, const EstimatorSetup& setup,
+                                         std::span<const noise::SensorNoise> levels) = nullptr;
+
+  /// Which kind of model it is fitted with, if it is.
+  std::optional<ModelKind> fits() const {
+    if (config) return ModelKind::measurement;
+    return phase ? std::optional(ModelKind::phase) : std::nullopt;
+  }
+};
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "estimator/bayes/measurement_model.hpp"
+#include "recordings/models/phase_model.hpp"
+
+namespace touchdown::experiments {
+
+/// What an estimator was fitted with: one of the two.
+struct FittedModel {
+  std::optional<MeasurementModel> measurement;
+  std::shared_ptr<const recordings::PhaseModelFile> phase;
+};
+
+/// Models by engine that was fitted on, then by estimator. Estimators that need the same model
+/// share it.
+using FittedModels = std::map<std::string, std::map<std::string, FittedModel>>;
+
+enum class ModelKind : int { measurement, phase };
+
+/// Which of the two a model file holds; one that is no phase model counts as the other.
+/// Errors: `InputError` for an unreadable one.
+ModelKind kind_of_model_file(const std::filesystem::path& path);
+
+/// Errors: `InputError` for an unreadable file or one of the other kind.
+FittedModel read_fitted_model(ModelKind kind, const std::filesystem::path& path);
+void write_fitted_model(const FittedModel& model, const std::filesystem::path& path);
+
+}  // namespace touchdown::experiments

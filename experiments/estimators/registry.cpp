@@ -1,0 +1,54 @@
+#include "experiments/estimators/registry.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/yaml.hpp"
+#include "experiments/estimators/bayes.hpp"
+#include "experiments/estimators/free_fall.hpp"
+#include "experiments/estimators/measurement_only.hpp"
+#include "experiments/estimators/neural.hpp"
+#include "experiments/estimators/oracle.hpp"
+#include "experiments/estimators/phase.hpp"
+#include "experiments/estimators/upkie_observer.hpp"
+
+namespace touchdown::experiments {
+
+std::span<const EstimatorEntry> estimator_entries() {
+  static const std::vector<EstimatorEntry> entries = {
+      bayes_entry("robust", "the paper's filter, made to stand sensor noise",
+                  BayesFilterConfig::robust()),
+      bayes_entry("reference", "the paper's filter as its authors' robot code has it",
+                  BayesFilterConfig::reference()),
+      bayes_entry("paper", "the paper's filter to the letter", BayesFilterConfig::paper()),
+      measurement_only_entry(),
+      phase_entry(),
+      neural_entry(),
+      upkie_observer_entry(),
+      free_fall_entry(),
+      oracle_entry(),
+      always_contact_entry(),
+  };
+  return entries;
+}
+
+std::vector<std::string> estimator_names() {
+  std::vector<std::string> names;
+  for (const EstimatorEntry& entry : estimator_entries()) names.push_back(entry.name);
+  return names;
+}
+
+const EstimatorEntry& estimator_entry(std::string_view name) {
+  const std::span<const EstimatorEntry> entries = estimator_entries();
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [&](const EstimatorEntry& entry) { return entry.name == name; });
+  if (found != entries.end()) return *found;
+  const std::string near = nearest(name, estimator_names());
+  throw InputError(fmt::format("unknown estimator '{}': expected one of {}{}", name,
+                               fmt::join(estimator_names(), ", "),
+                               near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "experiments/estimators/entry.hpp"
+
+namespace touchdown::experiments {
+
+/// What runs on Upkie.
+EstimatorEntry upkie_observer_entry();
+
+}  // namespace touchdown::experiments

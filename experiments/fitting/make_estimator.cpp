@@ -1,0 +1,23 @@
+#include "experiments/fitting/make_estimator.hpp"
+
+#include "experiments/estimators/registry.hpp"
+
+namespace touchdown::experiments {
+
+EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,
+                        const RunSignals& run) {
+  const FittedModel* model =
+      estimator_entry(condition.estimator).fits()
+          ? &models.at(condition.fit_simulator + condition.fit).at(condition.estimator)
+          : nullptr;
+  return {1e6 / static_cast<double>(run.info.control_period_us), model, &run.contact};
+}
+
+std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
+                                                 const FittedModels& models,
+                                                 const RunSignals& run) {
+  const EstimatorEntry& entry = estimator_entry(condition.estimator);
+  return entry.make(entry, setup_of(condition, models, run));
+}
+
+}  // namespace touchdown::experiments

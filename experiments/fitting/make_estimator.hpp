@@ -1,0 +1,20 @@
+#pragma once
+
+#include <memory>
+
+#include "experiments/estimators/entry.hpp"
+#include "experiments/plan/condition.hpp"
+#include "experiments/signals/run_signals.hpp"
+
+namespace touchdown::experiments {
+
+/// What the condition's estimator is made for when it listens to this run; `models` and `run` must
+/// outlive it.
+EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,
+                        const RunSignals& run);
+
+/// A fresh estimator as the condition wants it, for this run.
+std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
+                                                 const FittedModels& models, const RunSignals& run);
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,76 @@
+#include "experiments/fitting/phase_fitting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <yaml-cpp/yaml.h>
+
+#include "core/error.hpp"
+#include "experiments/signals/reserved_seeds.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+double period_of(const RunSignals& run) {
+  return 1e-6 * static_cast<double>(run.info.control_period_us);
+}
+
+std::size_t skipped_steps(const RunSignals& run, double skip) {
+  return std::min(run.steps(), static_cast<std::size_t>(std::llround(skip / period_of(run))));
+}
+
+recordings::ModelProvenance provenance_of(std::span<const RunSignals* const> runs, double skip) {
+  std::set<std::string> scenarios;
+  std::set<std::string> simulators;
+  std::set<std::string> drawn;
+  double seconds = 0.0;
+  for (const RunSignals* run : runs) {
+    scenarios.insert(run->info.scenario);
+    simulators.insert(run->info.simulator);
+    drawn.insert(fmt::format("{}:{}", run->info.seed, run->info.run));
+    seconds += static_cast<double>(run->steps() - skipped_steps(*run, skip)) * period_of(*run);
+  }
+  return {{"estimator", "phase"},
+          {"scenarios", fmt::format("{}", fmt::join(scenarios, ", "))},
+          {"simulators", fmt::format("{}", fmt::join(simulators, ", "))},
+          {"seed:run", fmt::format("{}", fmt::join(drawn, ", "))},
+          {"seconds", fmt::format("{:.3f}", seconds)}};
+}
+
+}  // namespace
+
+bool may_be_held(const recordings::RecordingInfo& info) {
+  if (info.scenario_yaml.empty()) return false;
+  const YAML::Node scenario = YAML::Load(info.scenario_yaml);
+  return std::any_of(scenario.begin(), scenario.end(), [](const auto& entry) {
+    const auto key = entry.first.template as<std::string>();
+    return key == "tether" || key == "forces";
+  });
+}
+
+recordings::PhaseModelFile fit_phases(std::span<const RunSignals* const> runs,
+                                      const PhaseFitConfig& config, double skip,
+                                      const std::function<void()>& before_density) {
+  if (runs.empty()) throw InputError("phase filter: there is no run to fit to");
+  std::vector<PhaseFitRun> pieces;
+  for (const RunSignals* run : runs) {
+    check_may_be_fitted(run->info);
+    if (run->info.control_period_us != runs.front()->info.control_period_us) {
+      throw InputError("phase filter: fitted runs must share one control period");
+    }
+    pieces.push_back({run->signals,
+                      {WheelContact(run->contact[0]), WheelContact(run->contact[1])},
+                      may_be_held(run->info),
+                      {run->normal_force[0], run->normal_force[1]},
+                      skipped_steps(*run, skip)});
+  }
+  return {fit_phase_model(pieces, 1.0 / period_of(*runs.front()), config, before_density),
+          provenance_of(runs, skip)};
+}
+
+}  // namespace touchdown::experiments

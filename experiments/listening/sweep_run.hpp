@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/play/play.hpp"
+#include "scoring/classification.hpp"
+
+namespace touchdown::experiments {
+
+/// Asked now and then; false stops the work with `Stopped`.
+using GoingOn = std::function<bool()>;
+
+/// Point-wise counts of one run under one noise realisation, both wheels added: by condition, then
+/// cell, then piece of the run (`RunSignals::pieces`). Estimators that can listen to many noise
+/// levels side by side do; noise on a sensor that an estimator does not use costs nothing. Errors:
+/// `Stopped`.
+std::vector<scoring::Classification> sweep_run(std::span<const Condition> conditions,
+                                               std::span<const noise::NoiseCell> cells,
+                                               const RunSignals& run, const NoiseRun& noise,
+                                               const FittedModels& models,
+                                               const scoring::ScoringConfig& scoring,
+                                               const GoingOn& going_on);
+
+/// Of one estimator that listens to one noise level after the other: by level, then piece.
+std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
+                                                  std::span<const noise::SensorNoise> levels,
+                                                  const RunSignals& run, const NoiseRun& noise,
+                                                  const scoring::ScoringConfig& scoring,
+                                                  const GoingOn& going_on);
+
+/// The same as `sweep_run`, one estimator and one cell after the other: what the above has to
+/// equal.
+std::vector<scoring::Classification> sweep_run_one_by_one(
+    std::span<const Condition> conditions, std::span<const noise::NoiseCell> cells,
+    const RunSignals& run, const NoiseRun& noise, const FittedModels& models,
+    const scoring::ScoringConfig& scoring, const GoingOn& going_on);
+
+}  // namespace touchdown::experiments

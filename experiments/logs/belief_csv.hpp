@@ -1,0 +1,31 @@
+#pragma once
+
+#include <ostream>
+
+#include <fmt/format.h>
+
+#include "recordings/log/annotator.hpp"
+
+namespace touchdown::experiments {
+
+/// Writes beliefs as comma-separated values, one line per step: time (s), contact probability and
+/// decision (1 or 0) of either wheel, probability that any and that both touch, P(takeoff) and
+/// P(landing) of the transition model, status. Numbers are the shortest that read back to the same
+/// bits; `nan` for what an estimator does not compute.
+class BeliefCsv {
+ public:
+  /// Writes the header. `stream` must outlive this.
+  explicit BeliefCsv(std::ostream& stream);
+
+  /// Lines are collected; every 64 kB they are written. Errors: `Error` when the stream fails.
+  void write(double time, const recordings::LogBeliefs& beliefs);
+
+  /// Writes what was collected. Errors: as above.
+  void flush();
+
+ private:
+  std::ostream& stream_;
+  fmt::memory_buffer buffer_;
+};
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,52 @@
+#include "experiments/logs/listener.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "recordings/signals_from.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+std::int64_t nominal_period_us(const recordings::RecordingInfo& info) {
+  constexpr std::int64_t raster = 500;
+  const std::int64_t period = info.control_period_us;
+  const std::int64_t nearest = (period + raster / 2) / raster * raster;
+  constexpr std::int64_t percent = 2;
+  const bool jitters = nearest > 0 && 100 * std::abs(period - nearest) <= percent * period;
+  return info.simulator.empty() && jitters ? nearest : period;
+}
+
+std::int64_t usable_period_us(recordings::LogReader& reader) {
+  const std::int64_t period = nominal_period_us(reader.info());
+  constexpr std::int64_t shortest = 50;
+  constexpr std::int64_t longest = 10'000;
+  if (period < shortest || period > longest) {
+    throw InputError(fmt::format("{}: {:.4g} steps per second: expected 100 to 20000",
+                                 reader.name(), 1e6 / static_cast<double>(period)));
+  }
+  return period;
+}
+
+}  // namespace
+
+LogListener::LogListener(recordings::LogReader& reader)
+    : reader_(reader), period_us_(usable_period_us(reader)) {}
+
+const LogStep* LogListener::next() {
+  const std::optional<recordings::LogRow> row = reader_.next();
+  if (!row) return nullptr;
+  step_.signals = recordings::signals_from(row->observation, command_);
+  command_ = recordings::ground_velocity_command(row->action);
+  step_.normal_force.reset();
+  if (row->truth) {
+    const auto& force = row->truth->wheel_normal_force;
+    if (!std::isnan(force[0]) && !std::isnan(force[1])) step_.normal_force = force;
+  }
+  return &step_;
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "estimator/contact_estimator.hpp"
+#include "scoring/score.hpp"
+
+namespace touchdown::experiments {
+
+/// Counts what an estimator made of a log. Only the first takeoffs and landings are kept, so its
+/// memory does not grow with the log. Nothing but the signals' status is counted in the first
+/// `scoring.skip` seconds, in which every estimator comes from its prior.
+class LogSummary {
+ public:
+  /// `period` in seconds.
+  LogSummary(double period, const scoring::ScoringConfig& scoring);
+
+  void add(double time, const Belief& belief);
+
+  std::int64_t steps() const { return steps_; }
+
+  /// A few lines, each with a line end: contact, takeoffs and landings, signals, and the score if
+  /// the log has ground truth.
+  std::string text(const std::optional<scoring::RobotScore>& score) const;
+
+ private:
+  /// One kind of transition of one wheel.
+  struct Events {
+    std::int64_t count = 0;
+    std::vector<double> first;  ///< times (s)
+    void add(double time);
+    std::string text() const;
+  };
+
+  std::string contact_text() const;
+  std::string events_text(std::size_t wheel) const;
+  std::string signals_text() const;
+
+  std::int64_t skipped_;
+  std::int64_t steps_ = 0;
+  std::array<std::int64_t, scoring::view_count> contact_{};
+  std::array<std::int64_t, 4> status_{};
+  std::array<bool, 2> was_in_contact_{};
+  std::array<Events, 2> takeoffs_;
+  std::array<Events, 2> landings_;
+};
+
+}  // namespace touchdown::experiments

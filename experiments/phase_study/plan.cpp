@@ -1,0 +1,108 @@
+#include "experiments/phase_study/plan.hpp"
+
+#include <fmt/format.h>
+
+#include "scenarios/perturbation.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// `count` runs of a scene in every engine, at 1 kHz, from the `first` on.
+void plan_runs(const Experiment& experiment, const std::string& scene, const PlannedRun& like,
+               int first, int count, Plan& plan) {
+  const bool is_fit = like.role == RunRole::fit;
+  scenarios::Scenario scenario = scenarios::find_scenario("scenarios/" + scene + ".yaml");
+  scenario.simulation.steps.control_us = 1000;
+  for (const std::string& simulator : experiment.simulators) {
+    for (int i = first; i < first + count; ++i) {
+      PlannedRun run = like;
+      run.run = (is_fit ? first_fit_run : 0) + i;
+      run.simulator = simulator;
+      run.scenario = scenarios::perturbed(scenario, run.seed, run.run);
+      run.file = recording_name(simulator, scene, to_text(run.role), i);
+      plan.runs.push_back(std::move(run));
+    }
+  }
+}
+
+std::vector<DisturbedCell> disturbed_cells() {
+  const noise::NoiseCell noise{0.25, 1.0};
+  noise::NoiseCell encoders = noise;
+  encoders.joint_position = 0.001;
+  encoders.joint_velocity = 0.1;
+  noise::NoiseCell bad_encoders = noise;
+  bad_encoders.joint_position = 0.01;
+  bad_encoders.joint_velocity = 1.0;
+  return {{noise, {.imu_delay = 10}},
+          {noise, {.imu_delay = 5}},
+          {noise, {.heavy_tails = true}},
+          {noise, {}},
+          {noise, {.torque_bias = 0.2}},
+          {noise, {.torque_gain = 1.2}},
+          {encoders, {}},
+          {bad_encoders, {}}};
+}
+
+}  // namespace
+
+std::string pieces_fit(int pieces) {
+  return pieces == fitted_pieces ? "" : fmt::format("_{}_pieces", pieces);
+}
+
+void add_phase_study(const RunRequest& request, Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  const int most = learning_curve.back();
+  const PlannedRun fitted{.role = RunRole::fit,
+                          .simulator = {},
+                          .scenario = {},
+                          .file = {},
+                          .seed = seed_of_fit(experiment),
+                          .group = 1};
+  plan_runs(experiment, "stairs", fitted, experiment.fit.runs, most - experiment.fit.runs, plan);
+  plan_runs(experiment, "hang", fitted, 0, 1, plan);
+  plan_runs(experiment, "lift", fitted, 0, 1, plan);
+
+  RunGroup& stairs = plan.groups.front();
+  RunGroup scene{.name = {}, .conditions = {}, .counted = {}, .scored = {}};
+  scene.is_looked_at_closely = stairs.is_looked_at_closely = true;
+  stairs.disturbed = disturbed_cells();
+  const noise::NoiseGridConfig& noise = experiment.noise;
+  for (std::size_t i = 0; i < std::min(noise.torque.size(), noise.accelerometer.size()); ++i) {
+    scene.scored.push_back({noise.torque[i], noise.accelerometer[i]});
+  }
+  for (const std::string& simulator : experiment.simulators) {
+    for (const std::string& other : experiment.simulators) {
+      if (other != simulator) stairs.conditions.push_back({other, simulator, "phase"});
+    }
+    for (const int pieces : learning_curve) {
+      stairs.conditions.push_back({simulator, simulator, "phase", pieces_fit(pieces)});
+    }
+    for (const char* estimator : compared_estimators) {
+      scene.conditions.push_back({simulator, simulator, estimator});
+    }
+  }
+  for (const char* name : more_scenes) {
+    scene.name = name;
+    plan_runs(experiment, name,
+              {.role = RunRole::test,
+               .simulator = {},
+               .scenario = {},
+               .file = {},
+               .seed = experiment.seed,
+               .group = plan.groups.size()},
+              0, experiment.test.runs, plan);
+    plan.groups.push_back(scene);
+  }
+
+  // The study has always drawn its noise so.
+  plan.tasks.clear();
+  plan_tasks(experiment, 0, plan);
+  for (Task& task : plan.tasks) {
+    const PlannedRun& run = plan.runs[task.run];
+    task.noise = {.seed = 7000 + static_cast<std::uint64_t>(task.seed),
+                  .run = static_cast<std::uint64_t>(run.run) + 100'000 * run.seed};
+  }
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,31 @@
+#include "experiments/plan/condition.hpp"
+
+#include "core/random.hpp"
+#include "experiments/estimators/registry.hpp"
+
+namespace touchdown::experiments {
+
+std::vector<Condition> own_engine_conditions(const Experiment& experiment) {
+  std::vector<Condition> conditions;
+  for (const std::string& simulator : experiment.simulators) {
+    for (const std::string& estimator : experiment.estimators) {
+      if (estimator != always_contact_name) conditions.push_back({simulator, simulator, estimator});
+    }
+    conditions.push_back({simulator, simulator, std::string(always_contact_name)});
+  }
+  return conditions;
+}
+
+std::vector<Condition> tested_on(std::vector<Condition> conditions, const std::string& simulator) {
+  std::erase_if(conditions, [&](const Condition& c) { return c.test_simulator != simulator; });
+  return conditions;
+}
+
+noise::NoiseKey noise_key(const Experiment& experiment, int noise_seed, std::int64_t run) {
+  constexpr std::uint64_t noise_stream = 0x6e6f697365;  // "noise"
+  const auto bits = philox(experiment.seed, noise_stream, static_cast<std::uint64_t>(noise_seed));
+  return {.seed = (std::uint64_t{bits[0]} << 32U) | bits[1],
+          .run = static_cast<std::uint64_t>(run)};
+}
+
+}  // namespace touchdown::experiments

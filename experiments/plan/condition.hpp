@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/config/experiment.hpp"
+#include "noise/gaussian.hpp"
+
+namespace touchdown::experiments {
+
+/// Who listens to what: an estimator fitted on one engine's runs, tested on another's or the same.
+struct Condition {
+  std::string fit_simulator;
+  std::string test_simulator;
+  std::string estimator;
+  std::string fit = {};  ///< which fit of that engine; empty: the experiment's
+
+  bool is_fitted_here() const { return fit_simulator == test_simulator && fit.empty(); }
+  friend bool operator==(const Condition&, const Condition&) = default;
+};
+
+/// The experiment's estimators on the engine they were fitted on, "always contact" last.
+std::vector<Condition> own_engine_conditions(const Experiment& experiment);
+
+/// Those that are tested on this engine.
+std::vector<Condition> tested_on(std::vector<Condition> conditions, const std::string& simulator);
+
+/// The key of one noise realisation; independent of everything else that the seed decides.
+noise::NoiseKey noise_key(const Experiment& experiment, int noise_seed, std::int64_t run);
+
+}  // namespace touchdown::experiments

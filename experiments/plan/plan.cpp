@@ -1,0 +1,86 @@
+#include "experiments/plan/plan.hpp"
+
+#include "experiments/run_directory/directory.hpp"
+#include "experiments/signals/reserved_seeds.hpp"
+#include "noise/grid.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+void plan_runs(const RunRequest& request, RunRole role, Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  const bool is_fit = role == RunRole::fit;
+  const RunsConfig& runs = is_fit ? experiment.fit : experiment.test;
+  const std::uint64_t seed = is_fit ? seed_of_fit(experiment) : experiment.seed;
+  for (const std::string& simulator : experiment.simulators) {
+    std::int64_t index = is_fit ? first_fit_run : 0;
+    for (const std::string& file : runs.scenarios) {
+      const scenarios::Scenario& scenario = scenario_of(request, file).scenario;
+      for (int i = 0; i < runs.runs; ++i, ++index) {
+        plan.runs.push_back({role, simulator,
+                             runs.perturbed ? perturbed(scenario, seed, index) : scenario, index,
+                             recording_name(simulator, scenario.name, to_text(role),
+                                            is_fit ? index - first_fit_run : index),
+                             seed, 0});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view to_text(RunRole role) { return role == RunRole::fit ? "fit" : "test"; }
+
+std::uint64_t seed_of_fit(const Experiment& experiment) {
+  // Nothing is fitted to runs of reserved seeds.
+  return experiment.fit_seed.value_or(fit_seed(experiment.seed));
+}
+
+std::vector<std::size_t> Plan::runs_in(std::size_t group) const {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].role == RunRole::test && runs[i].group == group) indices.push_back(i);
+  }
+  return indices;
+}
+
+Plan plan_of(const RunRequest& request) {
+  const Experiment& experiment = request.experiment;
+  Plan plan;
+  plan_runs(request, RunRole::fit, plan);
+  plan_runs(request, RunRole::test, plan);
+  plan.groups.push_back({"", own_engine_conditions(experiment),
+                         noise::noise_cells(experiment.noise), experiment.highlights});
+  plan_tasks(experiment, 0, plan);
+  return plan;
+}
+
+std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks) {
+  std::set<std::size_t> runs;
+  std::set<std::string> fitted;
+  for (std::size_t t = tasks.begin; t < tasks.end; ++t) {
+    runs.insert(plan.tasks[t].run);
+    const std::string& simulator = plan.runs[plan.tasks[t].run].simulator;
+    for (const Condition& condition :
+         tested_on(plan.group_of(plan.tasks[t]).conditions, simulator)) {
+      fitted.insert(condition.fit_simulator);
+    }
+  }
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    const PlannedRun& run = plan.runs[i];
+    if (run.role == RunRole::fit && fitted.contains(run.simulator)) runs.insert(i);
+  }
+  return runs;
+}
+
+void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan) {
+  for (std::size_t run = first; run < plan.runs.size(); ++run) {
+    if (plan.runs[run].role != RunRole::test) continue;
+    for (int seed = 0; seed < experiment.noise.seeds; ++seed) {
+      plan.tasks.push_back({run, seed, noise_key(experiment, seed, plan.runs[run].run)});
+    }
+  }
+}
+
+}  // namespace touchdown::experiments

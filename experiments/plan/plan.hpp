@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/plan/condition.hpp"
+#include "experiments/plan/request.hpp"
+#include "noise/disturbance.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace touchdown::experiments {
+
+/// What a run is for.
+enum class RunRole : int { fit, test };
+
+/// "fit", "test".
+std::string_view to_text(RunRole role);
+
+/// One run that an experiment asks for.
+struct PlannedRun {
+  RunRole role = RunRole::test;
+  std::string simulator;
+  scenarios::Scenario scenario;  ///< as it will be played: perturbations drawn
+  std::int64_t run = 0;          ///< its index, different for every run of one engine and group
+  std::string file;              ///< name of its recording
+  std::uint64_t seed = 1;        ///< that its perturbations are drawn with
+  /// Of test runs: index in the plan's groups. Of fitted ones: 0 for what all estimators are fitted
+  /// to, others for what a study fits to them.
+  std::size_t group = 0;
+};
+
+/// A noise setting with something besides noise.
+struct DisturbedCell {
+  noise::NoiseCell cell;
+  noise::Disturbance disturbance;
+};
+
+/// Test runs that are listened to alike. What is more than counts is for the conditions that were
+/// fitted where they are tested.
+struct RunGroup {
+  std::string name;                           ///< empty for the experiment's own test runs
+  std::vector<Condition> conditions;          ///< of all engines
+  std::vector<noise::NoiseCell> counted;      ///< settings in which every condition is counted
+  std::vector<noise::NoiseCell> scored;       ///< settings that are scored in full
+  std::vector<DisturbedCell> disturbed = {};  ///< settings that are counted besides
+  bool is_looked_at_closely = false;          ///< whether scored settings get a `CloseScore` too
+};
+
+/// The unit in which an experiment's listening is computed, saved and spread over machines: one
+/// test run through one noise realisation, heard by all conditions that are tested on its engine.
+struct Task {
+  std::size_t run = 0;  ///< index in the plan
+  int seed = 0;         ///< number of the noise realisation
+  noise::NoiseKey noise;
+};
+
+/// The tasks from `begin` to `end`.
+struct TaskRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  std::size_t size() const { return end - begin; }
+};
+
+/// Everything that an experiment is going to do, before anything is done.
+struct Plan {
+  std::vector<PlannedRun> runs;  ///< by role (fit first), engine, scenario, index
+  std::vector<RunGroup> groups;  ///< the experiment's own test runs first
+  std::vector<Task> tasks;       ///< by test run, in the order of the plan, then noise seed
+
+  TaskRange all_tasks() const { return {0, tasks.size()}; }
+  const RunGroup& group_of(const Task& task) const { return groups[runs[task.run].group]; }
+  /// The test runs of a group, in the order of the plan.
+  std::vector<std::size_t> runs_in(std::size_t group) const;
+};
+
+/// The seed that fitted runs are drawn with.
+std::uint64_t seed_of_fit(const Experiment& experiment);
+
+/// What the file's `fit`, `test`, `noise` and `highlights` ask for.
+Plan plan_of(const RunRequest& request);
+
+/// The runs that these tasks listen to, and those that their estimators are fitted to.
+std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks);
+
+/// Adds the tasks of the runs from index `first` on.
+void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan);
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/config/experiment.hpp"
+#include "experiments/run_directory/directory.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace touchdown::experiments {
+
+/// A scenario as the experiment names it, found and read.
+struct NamedScenario {
+  std::string file;
+  scenarios::Scenario scenario;
+};
+
+/// An experiment with everything that decides its results.
+struct RunRequest {
+  Experiment experiment;
+  std::vector<NamedScenario> scenarios;  ///< in the order of first use
+  std::string id;                        ///< a digest of both
+};
+
+/// Errors: `InputError` for scenario files that are missing or wrong.
+RunRequest request_of(const Experiment& experiment);
+
+/// One of the request's own scenarios.
+const NamedScenario& scenario_of(const RunRequest& request, const std::string& file);
+
+/// The request and the build that a run directory's contents belong to: what state is saved under.
+std::string state_key(const RunRequest& request);
+
+/// Writes the request into a run directory, so that `merge` needs nothing else. What another
+/// request or another build left behind there is removed if `alone`; several processes that share
+/// the directory just do not believe it.
+void write_request(const RunRequest& request, const RunDirectory& directory, bool alone);
+
+/// Reads it back. Errors: `InputError` when the directory holds none, or one of another build.
+RunRequest read_request(const std::filesystem::path& directory);
+
+}  // namespace touchdown::experiments

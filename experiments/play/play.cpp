@@ -1,0 +1,148 @@
+#include "experiments/play/play.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for_each.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/fingerprint.hpp"
+#include "core/progress.hpp"
+#include "experiments/run_directory/saved_state.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "scenarios/engine.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+RunReport report(const recordings::Recording& recording, const RunSignals& signals,
+                 const scoring::ScoringConfig& scoring) {
+  const auto shortest =
+      static_cast<std::size_t>(std::llround(scoring.minimum_flight / recording.period()));
+  const std::vector<scoring::Flight> all = scoring::flights(scoring::any_wheel(signals.contact));
+  return {
+      recording.info.outcome.value_or(recordings::Outcome::finished),
+      static_cast<double>(recording.steps()) * recording.period(),
+      static_cast<int>(std::count_if(all.begin(), all.end(), [&](const scoring::Flight& flight) {
+        return flight.landing - flight.takeoff >= shortest;
+      }))};
+}
+
+/// What a recording is made from, and by which build. The robot counts by its content: where its
+/// file is found depends on where one stands.
+std::string key_of(const PlannedRun& run) {
+  scenarios::Scenario scenario = run.scenario;
+  scenario.robot.clear();
+  return Fingerprint()
+      .add(build_fingerprint())
+      .add(scenarios::to_yaml(scenario))
+      .add(read_file(run.scenario.robot))
+      .add(run.simulator)
+      .add(fmt::format("{} {}", run.seed, run.run))
+      .text();
+}
+
+/// The two files that say whether a recording can be used: its checksum, or why there is none.
+std::filesystem::path stamp_of(const PlannedRun& run, const RunDirectory& directory) {
+  return directory.file("state/recordings", run.file + ".sum");
+}
+std::filesystem::path failure_of(const PlannedRun& run, const RunDirectory& directory) {
+  return directory.file("state/recordings", run.file + ".failed");
+}
+
+bool is_whole(const PlannedRun& run, const RunDirectory& directory, const std::string& key) {
+  const std::optional<std::string> stamp = read_state(stamp_of(run, directory), key);
+  if (!stamp) return false;
+  const auto sum = file_checksum(directory.file("recordings", run.file));
+  return sum && *stamp == fmt::format("{:016x}", *sum);
+}
+
+/// A run that could not be simulated.
+PlayedRun failed(const PlannedRun& plan, const std::string& why) {
+  PlayedRun run{plan, {.outcome = recordings::Outcome::diverged, .error = why}, {}};
+  run.signals.info.simulator = plan.simulator;
+  run.signals.info.run = plan.run;
+  return run;
+}
+
+PlayedRun played(const PlannedRun& run, const recordings::Recording& recording,
+                 const Experiment& experiment) {
+  RunSignals signals =
+      signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
+  const RunReport how = report(recording, signals, experiment.scoring);
+  return {run, how, std::move(signals)};
+}
+
+PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
+                       const RunDirectory& directory, MissingRun missing, const GoingOn& going_on) {
+  const auto file = directory.file("recordings", run.file);
+  const std::string key = key_of(run);
+  if (is_whole(run, directory, key))
+    return played(run, recordings::read_recording(file), experiment);
+  if (missing == MissingRun::refuse) {
+    if (const auto why = read_state(failure_of(run, directory), key)) return failed(run, *why);
+    throw Error(fmt::format("{}: is missing or not whole", file.string()));
+  }
+  recordings::Recording recording;
+  try {
+    recording = scenarios::play(run.scenario, run.simulator, run.seed, run.run,
+                                [&](double /*time*/) { return going_on(); });
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    write_state(failure_of(run, directory), key, error.what());
+    return failed(run, error.what());
+  }
+  if (!going_on()) throw Stopped();
+  recordings::write_recording(recording, file);
+  write_state(stamp_of(run, directory), key, fmt::format("{:016x}", *file_checksum(file)));
+  return played(run, recording, experiment);
+}
+
+}  // namespace
+
+std::vector<const RunSignals*> scored_runs(const std::vector<PlayedRun>& runs) {
+  std::vector<const RunSignals*> scored;
+  for (const PlayedRun& run : runs) {
+    if (run.plan.role == RunRole::test && !run.failed()) scored.push_back(&run.signals);
+  }
+  return scored;
+}
+
+const PlayedRun* test_run(const std::vector<PlayedRun>& runs, const std::string& simulator,
+                          std::int64_t index) {
+  const auto found = std::find_if(runs.begin(), runs.end(), [&](const PlayedRun& run) {
+    return run.plan.role == RunRole::test && run.plan.simulator == simulator &&
+           run.plan.run == index;
+  });
+  return found == runs.end() ? nullptr : &*found;
+}
+
+PlayedRuns play_runs(const Experiment& experiment, const Plan& plan,
+                     const std::set<std::size_t>& needed, const RunDirectory& directory,
+                     MissingRun missing, const GoingOn& going_on) {
+  PlayedRuns runs;
+  for (const std::size_t index : needed) runs.emplace(index, PlayedRun{plan.runs[index], {}, {}});
+  Progress progress("simulating", "runs", static_cast<std::int64_t>(runs.size()));
+  tbb::parallel_for_each(runs, [&](auto& entry) {
+    entry.second = play_or_read(plan.runs[entry.first], experiment, directory, missing, going_on);
+    progress.advance();
+    if (!going_on()) throw Stopped();
+  });
+  return runs;
+}
+
+bool is_recorded(const PlannedRun& run, const RunDirectory& directory) {
+  const std::string key = key_of(run);
+  return is_whole(run, directory, key) || read_state(failure_of(run, directory), key).has_value();
+}
+
+bool has_stamp(const PlannedRun& run, const RunDirectory& directory) {
+  return read_state(stamp_of(run, directory), key_of(run)).has_value();
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,62 @@
+#include "experiments/run_directory/directory.hpp"
+
+#include <random>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace touchdown::experiments {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Points `link` to `target`, replacing what it pointed to in one step.
+void point(const fs::path& link, const fs::path& target) {
+  // Shards start at the same time, some of them on other machines.
+  const fs::path temporary =
+      link.parent_path() / fmt::format(".latest.{}.{:08x}", ::getpid(), std::random_device{}());
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  fs::create_directory_symlink(target, temporary);
+  fs::rename(temporary, link);
+}
+
+}  // namespace
+
+fs::path run_path(const std::string& experiment, const std::string& id, const fs::path& out) {
+  return out.empty() ? fs::path("runs") / experiment / id : out;
+}
+
+std::string recording_name(const std::string& simulator, const std::string& scenario,
+                           std::string_view role, std::int64_t number) {
+  return fmt::format("{}_{}_{}_{:03}.mpack", simulator, scenario, role, number);
+}
+
+std::string model_name(const std::string& simulator, const std::string& estimator) {
+  return fmt::format("{}_{}.npz", simulator, estimator);
+}
+
+std::string video_name(const std::string& simulator, const std::string& scenario) {
+  return fmt::format("{}_{}.mp4", simulator, scenario);
+}
+
+RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,
+                           const fs::path& out)
+    : path_(run_path(experiment, id, out)) {
+  try {
+    fs::create_directories(path_);
+    if (out.empty()) point(path_.parent_path() / "latest", id);
+  } catch (const fs::filesystem_error& error) {
+    throw Error(fmt::format("{}: cannot be made: {}", path_.string(), error.code().message()));
+  }
+}
+
+void RunDirectory::write_table(std::string_view name, const Table& table) const {
+  write_atomically(file("tables", name), to_csv(table));
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/table.hpp"
+
+namespace touchdown::experiments {
+
+/// Where one experiment's results go: `out` if given, or else `runs/<experiment>/<id>`.
+std::filesystem::path run_path(const std::string& experiment, const std::string& id,
+                               const std::filesystem::path& out = {});
+
+/// Names of files in the folders `recordings`, `models` and `videos` of a run directory.
+std::string recording_name(const std::string& simulator, const std::string& scenario,
+                           std::string_view role, std::int64_t number);
+std::string model_name(const std::string& simulator, const std::string& estimator);
+std::string video_name(const std::string& simulator, const std::string& scenario);
+
+/// The directory of one experiment's results, `run_path`, with a folder per kind of file.
+/// Every file appears whole or not at all.
+class RunDirectory {
+ public:
+  /// `runs/<experiment>/<id>` under the current directory; `runs/<experiment>/latest` then points
+  /// to it. A given `out` is used itself, without such a link. Errors: `Error` when it cannot be
+  /// made.
+  RunDirectory(const std::string& experiment, const std::string& id,
+               const std::filesystem::path& out = {});
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path file(std::string_view folder, std::string_view name) const {
+    return path_ / folder / name;
+  }
+
+  void write_table(std::string_view name, const Table& table) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace touchdown::experiments {
+
+/// The part of an experiment that one of `count` processes computes: the `index`-th, from 1.
+struct Shard {
+  int index = 1;
+  int count = 1;
+
+  /// Its share of `size` things in a row is [begin, end); all shards' shares together are all of
+  /// them, and no two shares overlap.
+  std::size_t begin(std::size_t size) const {
+    return size * (static_cast<std::size_t>(index) - 1) / static_cast<std::size_t>(count);
+  }
+  std::size_t end(std::size_t size) const {
+    return size * static_cast<std::size_t>(index) / static_cast<std::size_t>(count);
+  }
+
+  friend bool operator==(const Shard&, const Shard&) = default;
+};
+
+/// "2/3". Errors: `InputError` unless it is k/n with 1 ≤ k ≤ n ≤ 100,000.
+Shard shard_from(std::string_view text);
+std::string to_text(const Shard& shard);
+
+}  // namespace touchdown::experiments

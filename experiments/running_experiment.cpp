@@ -1,0 +1,101 @@
+#include "experiments/running_experiment.hpp"
+
+#include <algorithm>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/cross_simulator/variations.hpp"
+#include "experiments/phase_study/plan.hpp"
+#include "experiments/run_directory/shard_log.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+int threads_of(const Experiment& experiment) {
+  if (experiment.workers > 0) return experiment.workers;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+/// Tasks that nobody has finished, by their indices.
+std::vector<std::size_t> missing_tasks(const RunningExperiment& running) {
+  const Plan& plan = running.plan;
+  std::set<std::size_t> missing_runs;
+  bool fit_is_missing = false;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    if (is_recorded(plan.runs[i], running.directory)) continue;
+    missing_runs.insert(i);
+    fit_is_missing = fit_is_missing || plan.runs[i].role == RunRole::fit;
+  }
+  std::vector<std::size_t> missing;
+  for (std::size_t t = 0; t < plan.tasks.size(); ++t) {
+    if (fit_is_missing || missing_runs.contains(plan.tasks[t].run) ||
+        !running.saved.read(plan, plan.tasks[t])) {
+      missing.push_back(t);
+    }
+  }
+  return missing;
+}
+
+}  // namespace
+
+Plan whole_plan(const RunRequest& request) {
+  Plan plan = plan_of(request);
+  if (request.experiment.cross_simulator) add_cross_simulator(request, plan);
+  if (request.experiment.phase_study) add_phase_study(request, plan);
+  return plan;
+}
+
+RunningExperiment start(RunRequest request, RunDirectory directory, const RunOptions& options) {
+  const int threads = threads_of(request.experiment);
+  Plan plan = whole_plan(request);
+  SavedCounts saved(directory.path() / "state" / "listening", state_key(request));
+  return {std::move(request),
+          std::move(directory),
+          std::move(plan),
+          std::move(saved),
+          [stop = options.stop] { return stop == nullptr || !*stop; },
+          {options.command, threads, {}},
+          tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                              static_cast<std::size_t>(threads))};
+}
+
+std::string what_is_saved(const RunningExperiment& running) {
+  const auto recordings =
+      std::count_if(running.plan.runs.begin(), running.plan.runs.end(),
+                    [&](const PlannedRun& run) { return has_stamp(run, running.directory); });
+  const auto parts =
+      std::count_if(running.plan.tasks.begin(), running.plan.tasks.end(),
+                    [&](const Task& task) { return running.saved.read(running.plan, task); });
+  return fmt::format(
+      "stopped; {} of {} recordings and {} of {} parts of the listening are saved in {}; the "
+      "same command goes on from there",
+      recordings, running.plan.runs.size(), parts, running.plan.tasks.size(),
+      running.directory.path().string());
+}
+
+void require_all_shards(const RunningExperiment& running) {
+  const std::vector<std::size_t> missing = missing_tasks(running);
+  if (missing.empty()) return;
+  const std::filesystem::path& directory = running.directory.path();
+  const std::size_t tasks = running.plan.tasks.size();
+  const int count = noted_shards(directory);
+  std::vector<std::string> shards;
+  for (int index = 1; index <= count; ++index) {
+    const Shard shard{index, count};
+    const auto first = std::lower_bound(missing.begin(), missing.end(), shard.begin(tasks));
+    if (first == missing.end() || *first >= shard.end(tasks)) continue;
+    shards.push_back(to_text(shard));
+  }
+  throw InputError(fmt::format(
+      "{}: {} of {} parts are missing: finish shard{} {} first, by 'touchdown run {} --out {} "
+      "--shard {}'",
+      directory.string(), missing.size(), tasks, shards.size() == 1 ? "" : "s",
+      fmt::join(shards, ", "), (directory / "config.yaml").string(), directory.string(),
+      shards.front()));
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/error.hpp"
+#include "recordings/recording.hpp"
+
+namespace touchdown::experiments {
+
+/// Seeds from here on are kept for reported numbers (docs/protocol.md): nothing is ever fitted to a
+/// run that was drawn with one.
+inline constexpr std::uint64_t first_reserved_seed = 900'000'000;
+
+inline bool is_reserved(std::uint64_t seed) { return seed >= first_reserved_seed; }
+
+/// The seed that fitted runs are drawn with when tested ones are drawn with `seed`.
+inline std::uint64_t fit_seed(std::uint64_t seed) { return is_reserved(seed) ? 1 : seed; }
+
+/// Errors: `InputError` when the run was drawn with a reserved seed.
+inline void check_may_be_fitted(const recordings::RecordingInfo& info) {
+  if (!is_reserved(info.seed)) return;
+  throw InputError("run " + std::to_string(info.run) + " of scenario '" + info.scenario +
+                   "' was drawn with seed " + std::to_string(info.seed) + ": seeds from " +
+                   std::to_string(first_reserved_seed) +
+                   " on are reserved for reporting and must not be fitted to");
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimator/contact_estimator.hpp"
+#include "estimator/signals.hpp"
+#include "noise/sensor_noise.hpp"
+#include "recordings/recording.hpp"
+#include "scoring/labels.hpp"
+#include "scoring/sample_unit.hpp"
+#include "scoring/score.hpp"
+
+namespace touchdown::experiments {
+
+/// What a study keeps of a recording: the signals at every step, and what is true.
+struct RunSignals {
+  recordings::RecordingInfo info;
+  std::vector<Signals> signals;            ///< noiseless
+  std::vector<Eigen::Vector3d> up_in_imu;  ///< the world's vertical in the IMU frame
+  std::array<scoring::ContactSequence, models::wheel_count> contact;  ///< labels
+  std::array<std::vector<double>, models::wheel_count> normal_force;  ///< truth, per wheel (N)
+  std::vector<std::size_t> pieces;  ///< first steps of the statistical samples
+
+  std::size_t steps() const { return signals.size(); }
+};
+
+/// Errors: `InputError` when the recording has no ground truth.
+RunSignals signals_of(const recordings::Recording& recording, const scoring::LabelConfig& labels,
+                      const scoring::ScoringConfig& scoring, scoring::SampleUnit unit);
+
+/// Position and velocity of each joint of one leg, per step: hip, knee, wheel.
+struct EncoderNoise {
+  std::array<std::vector<double>, 3> position;
+  std::array<std::vector<double>, 3> velocity;
+};
+
+/// Unit Gaussian noise on all signals of one run, to be scaled by every noise
+/// level of a sweep: the draws are those of `with_noise` with the same key.
+struct NoiseRun {
+  std::array<std::vector<double>, models::wheel_count> knee_torque;
+  std::array<std::vector<double>, models::wheel_count> wheel_torque;
+  std::array<std::vector<double>, 3> acceleration;  ///< in the IMU frame
+  std::vector<double> vertical_acceleration;        ///< the same, along the world's vertical
+  std::array<EncoderNoise, models::wheel_count> encoder;
+};
+
+NoiseRun noise_run(const RunSignals& run, const noise::NoiseKey& key);
+
+/// Most studies leave the encoders exact: `noisy` asks for this only where they are not.
+void add_encoder_noise(Signals& signals, const NoiseRun& noise, const noise::SensorNoise& levels,
+                       std::size_t step);
+
+/// The signals at `step` through sensors with this noise.
+inline Signals noisy(const RunSignals& run, const NoiseRun& noise, const noise::SensorNoise& levels,
+                     std::size_t step) {
+  Signals signals = run.signals[step];
+  for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
+    signals.leg[leg].knee.torque += levels.knee_torque * noise.knee_torque[leg][step];
+    signals.leg[leg].wheel.torque += levels.wheel_torque * noise.wheel_torque[leg][step];
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    signals.linear_acceleration[static_cast<int>(axis)] +=
+        levels.acceleration * noise.acceleration[axis][step];
+  }
+  signals.vertical_acceleration += levels.acceleration * noise.vertical_acceleration[step];
+  if (levels.joint_position > 0.0 || levels.joint_velocity > 0.0) {
+    add_encoder_noise(signals, noise, levels, step);
+  }
+  return signals;
+}
+
+/// The wheels' decisions of an estimator that, reset, listens to a whole run through noise.
+std::array<scoring::ContactSequence, models::wheel_count> decide(ContactEstimator& estimator,
+                                                                 const RunSignals& run,
+                                                                 const NoiseRun& noise,
+                                                                 const noise::SensorNoise& levels);
+
+/// As above, with probabilities and the robot's views.
+scoring::Prediction predict(ContactEstimator& estimator, const RunSignals& run,
+                            const NoiseRun& noise, const noise::SensorNoise& levels);
+
+}  // namespace touchdown::experiments

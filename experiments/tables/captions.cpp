@@ -1,0 +1,57 @@
+#include "experiments/tables/captions.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiments/estimators/registry.hpp"
+#include "experiments/tables/result.hpp"
+
+namespace touchdown::experiments {
+
+std::string plural(std::size_t count, const std::string& thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+std::string labels_text(const Experiment& experiment) {
+  return fmt::format("contact: normal force > {} N, states under {} ms merged",
+                     experiment.labels.force_threshold, 1e3 * experiment.labels.debounce);
+}
+
+std::string sample_text(const Experiment& experiment) {
+  return experiment.intervals.over == scoring::SampleUnit::run ? "run" : "drop";
+}
+
+std::string intervals_text(const Experiment& experiment) {
+  return fmt::format("{:.0f} % bootstrap intervals over {}s",
+                     100.0 * experiment.intervals.bootstrap.level, sample_text(experiment));
+}
+
+std::string conditions_text(const Experiment& experiment) {
+  return fmt::format("Both wheels; {}; first {} ms not scored; {}.", labels_text(experiment),
+                     1e3 * experiment.scoring.skip, intervals_text(experiment));
+}
+
+std::string noise_text(const noise::NoiseCell& cell) {
+  return fmt::format("torque noise {} N·m, accelerometer noise {} m/s²", cell.torque,
+                     cell.accelerometer);
+}
+
+std::string estimator_title(const std::string& estimator) {
+  for (const EstimatorEntry& entry : estimator_entries()) {
+    if (entry.name == estimator) return entry.title;
+  }
+  return estimator;
+}
+
+std::string scored_text(const ExperimentResult& result, const std::string& simulator) {
+  const auto runs = scored_runs(result.runs);
+  const auto scored = std::count_if(runs.begin(), runs.end(), [&](const RunSignals* run) {
+    return run->info.simulator == simulator;
+  });
+  return fmt::format("{} × {}; {}", plural(static_cast<std::size_t>(scored), "test run"),
+                     plural(static_cast<std::size_t>(result.experiment.noise.seeds), "noise seed"),
+                     labels_text(result.experiment));
+}
+
+}  // namespace touchdown::experiments

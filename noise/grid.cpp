@@ -1,0 +1,94 @@
+#include "noise/grid.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/fields.hpp"
+
+namespace touchdown::noise {
+
+namespace {
+
+/// Sorted without repetition, so that a grid is a grid.
+void describe_levels(Fields& fields, std::string_view key, std::vector<double>& levels) {
+  fields(key, levels);
+  fields.check(!levels.empty(), key, "expected at least one number");
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    fields.check(levels[i] >= 0.0 && levels[i] <= 1e3, key, "expected numbers from 0 to 1000");
+    fields.check(i == 0 || levels[i] > levels[i - 1], key, "expected increasing numbers");
+  }
+}
+
+void describe_level_on(Fields& fields, std::string_view key, double& level,
+                       const std::vector<double>& levels) {
+  fields.require(key, level);
+  fields.check(std::find(levels.begin(), levels.end(), level) != levels.end(), key,
+               fmt::format("expected one of noise.{}: {}", key, fmt::join(levels, ", ")));
+}
+
+}  // namespace
+
+void describe(Fields& fields, NoiseGridConfig& noise) {
+  describe_levels(fields, "torque", noise.torque);
+  describe_levels(fields, "accelerometer", noise.accelerometer);
+  KneeWheelGridConfig& apart = noise.knee_wheel;
+  if (fields.present("knee_wheel", !apart.knee.empty())) {
+    fields.within("knee_wheel", [&](Fields& grid) {
+      grid.require("knee");
+      grid.require("wheel");
+      describe_levels(grid, "knee", apart.knee);
+      describe_levels(grid, "wheel", apart.wheel);
+      grid("accelerometer", apart.accelerometer, 0.0, 1e3);
+    });
+  }
+  fields("joint_position", noise.joint_position, 0.0, 1e3);
+  fields("joint_velocity", noise.joint_velocity, 0.0, 1e3);
+  fields("seeds", noise.seeds, 1, 100'000);
+}
+
+void describe(Fields& fields, NoiseCell& cell) {
+  fields.require("torque", cell.torque, 0.0, 1e3);
+  fields.require("accelerometer", cell.accelerometer, 0.0, 1e3);
+  cell.knee = cell.wheel = cell.torque;
+}
+
+void describe(Fields& fields, NoiseCell& cell, const NoiseGridConfig& noise) {
+  describe_level_on(fields, "torque", cell.torque, noise.torque);
+  describe_level_on(fields, "accelerometer", cell.accelerometer, noise.accelerometer);
+  cell = with_encoder_noise({cell.torque, cell.accelerometer}, noise);
+}
+
+std::size_t cell_index(const std::vector<NoiseCell>& cells, const NoiseCell& wanted) {
+  return static_cast<std::size_t>(std::find(cells.begin(), cells.end(), wanted) - cells.begin());
+}
+
+NoiseCell knee_wheel_cell(double knee, double wheel, double accelerometer) {
+  const double alike = knee == wheel ? knee : std::numeric_limits<double>::quiet_NaN();
+  return {alike, accelerometer, knee, wheel};
+}
+
+NoiseCell with_encoder_noise(NoiseCell cell, const NoiseGridConfig& noise) {
+  cell.joint_position = noise.joint_position;
+  cell.joint_velocity = noise.joint_velocity;
+  return cell;
+}
+
+std::vector<NoiseCell> noise_cells(const NoiseGridConfig& noise) {
+  std::vector<NoiseCell> cells;
+  for (const double torque : noise.torque) {
+    for (const double accelerometer : noise.accelerometer) cells.push_back({torque, accelerometer});
+  }
+  const KneeWheelGridConfig& grid = noise.knee_wheel;
+  for (const double knee : grid.knee) {
+    for (const double wheel : grid.wheel) {
+      const NoiseCell cell = knee_wheel_cell(knee, wheel, grid.accelerometer);
+      if (std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
+    }
+  }
+  for (NoiseCell& cell : cells) cell = with_encoder_noise(cell, noise);
+  return cells;
+}
+
+}  // namespace touchdown::noise

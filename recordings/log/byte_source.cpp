@@ -1,0 +1,69 @@
+#include "recordings/log/byte_source.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <memory>
+#include <poll.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+struct Descriptor {
+  int number;
+  explicit Descriptor(int descriptor) : number(descriptor) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number > STDIN_FILENO) ::close(number);
+  }
+};
+
+/// Waits until there is something to read or `stop` is true. A signal may come right before the
+/// wait begins, so no wait is long.
+void wait_for_bytes(int descriptor, const std::atomic<bool>& stop) {
+  constexpr int milliseconds = 100;
+  pollfd wait{descriptor, POLLIN, 0};
+  while (!stop && ::poll(&wait, 1, milliseconds) == 0) {
+  }
+}
+
+}  // namespace
+
+ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop) {
+  const std::string name = path.string();
+  const int opened =
+      name == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT
+  if (opened < 0) {
+    throw InputError(fmt::format("{}: cannot be opened: {}", name, std::strerror(errno)));
+  }
+  const auto descriptor = std::make_shared<Descriptor>(opened);
+  return [descriptor, name, stop](std::span<char> buffer) {
+    while (true) {
+      if (stop != nullptr) wait_for_bytes(descriptor->number, *stop);
+      if (stop != nullptr && *stop) return std::size_t{0};
+      const ssize_t size = ::read(descriptor->number, buffer.data(), buffer.size());
+      if (size >= 0) return static_cast<std::size_t>(size);
+      if (errno == EINTR) continue;
+      throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+    }
+  };
+}
+
+ByteSource stream_source(std::istream& stream) {
+  return [&stream](std::span<char> buffer) -> std::size_t {
+    // Wait for one byte only: a live stream has its next record when it has it.
+    if (buffer.empty() || !stream.get(buffer[0])) return 0;
+    const std::streamsize more =
+        stream.readsome(buffer.data() + 1, static_cast<std::streamsize>(buffer.size()) - 1);
+    return 1 + static_cast<std::size_t>(more);
+  };
+}
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,67 @@
+#include "recordings/log/info.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+const msgpack::object* find(const msgpack::object& map, std::string_view key) {
+  if (map.type != msgpack::type::MAP) return nullptr;
+  for (const msgpack::object_kv& entry : map.via.map) {
+    if (entry.key.type == msgpack::type::STR &&
+        std::string_view(entry.key.via.str.ptr, entry.key.via.str.size) == key) {
+      return &entry.val;
+    }
+  }
+  return nullptr;
+}
+
+template <typename T>
+void take(const msgpack::object& map, std::string_view key, T& value) {
+  if (const msgpack::object* found = find(map, key)) found->convert(value);
+}
+
+}  // namespace
+
+void pack_info(LogPacker& packer, const RecordingInfo& info) {
+  const auto text = [&](std::string_view value) { pack_text(packer, value); };
+  text("config");
+  packer.pack_map(1);
+  text("touchdown");
+  packer.pack_map(info.outcome ? 7 : 6);
+  text("scenario"), text(info.scenario);
+  text("simulator"), text(info.simulator);
+  text("seed"), packer.pack_uint64(info.seed);
+  text("run"), packer.pack_int64(info.run);
+  text("control_period_us"), packer.pack_int64(info.control_period_us);
+  if (info.outcome) text("outcome"), text(to_text(*info.outcome));
+  text("scenario_yaml"), text(info.scenario_yaml);
+}
+
+std::optional<RecordingInfo> unpack_info(std::string_view record, std::string_view log_name) {
+  try {
+    const msgpack::object_handle handle = msgpack::unpack(record.data(), record.size());
+    const msgpack::object* config = find(handle.get(), "config");
+    const msgpack::object* ours = config == nullptr ? nullptr : find(*config, "touchdown");
+    if (ours == nullptr) return {};
+    RecordingInfo info;
+    take(*ours, "scenario", info.scenario);
+    take(*ours, "simulator", info.simulator);
+    take(*ours, "seed", info.seed);
+    take(*ours, "run", info.run);
+    take(*ours, "control_period_us", info.control_period_us);
+    take(*ours, "scenario_yaml", info.scenario_yaml);
+    std::string outcome;
+    take(*ours, "outcome", outcome);
+    if (!outcome.empty()) info.outcome = outcome_from_text(outcome);
+    if (info.control_period_us <= 0) throw InputError("control_period_us must be positive");
+    return info;
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("{}: config.touchdown: {}", log_name, error.what()));
+  }
+}
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace touchdown::recordings {
+
+/// Where each number of a row stands in `LogValues`: vectors and quaternions (w x y z) take
+/// consecutive places, the six servos follow each other in the order of `Servo`.
+namespace log_slot {
+inline constexpr std::size_t wall_time = 0;
+inline constexpr std::size_t time = 1;
+inline constexpr std::size_t servo = 2;                          // 6 × position, velocity, torque
+inline constexpr std::size_t imu_orientation = servo + 18;       // w x y z
+inline constexpr std::size_t angular_velocity = servo + 22;      // 3
+inline constexpr std::size_t linear_acceleration = servo + 25;   // 3
+inline constexpr std::size_t raw_angular_velocity = servo + 28;  // 3
+inline constexpr std::size_t raw_acceleration = servo + 31;      // 3
+inline constexpr std::size_t pitch = 36;
+inline constexpr std::size_t base_angular_velocity = 37;  // 3, the second is the pitch rate
+inline constexpr std::size_t base_to_world = 40;          // 3×3, row by row
+inline constexpr std::size_t yaw = 49;
+inline constexpr std::size_t yaw_rate = 50;
+inline constexpr std::size_t command = 51;                          // 6 × six parameters
+inline constexpr std::size_t true_position = command + 36;          // 3
+inline constexpr std::size_t true_orientation = command + 39;       // w x y z
+inline constexpr std::size_t true_linear_velocity = command + 43;   // 3
+inline constexpr std::size_t true_angular_velocity = command + 46;  // 3
+inline constexpr std::size_t true_imu_velocity = command + 49;      // 3
+inline constexpr std::size_t normal_force = command + 52;           // left, right
+inline constexpr std::size_t contact_points = command + 54;         // left, right
+inline constexpr std::size_t body_touches_terrain = command + 56;
+inline constexpr std::size_t count = command + 57;
+}  // namespace log_slot
+
+/// All numbers of one control step.
+using LogValues = std::array<double, log_slot::count>;
+
+/// One key of Upkie's log layout that we know.
+struct LogKey {
+  enum class Role {
+    needed,    ///< no estimator can do without it
+    optional,  ///< has a default or can be derived; we write it all the same
+    truth,     ///< ground truth; written for simulated runs
+    alias,     ///< where some version of Upkie keeps it; only ever read
+  };
+  std::string path;  ///< dotted
+  std::size_t slot = 0;
+  std::size_t size = 1;
+  Role role = Role::optional;
+  bool is_flag = false;  ///< true or false rather than a number
+};
+
+/// Every key that we read or write, in the order in which they are written.
+const std::vector<LogKey>& log_keys();
+
+/// Keys as the tree of nested maps that they are in a record. Node 0 is the record itself.
+class LogKeyTree {
+ public:
+  static constexpr int none = -1;
+
+  struct Node {
+    std::string name;
+    std::vector<int> children;
+    const LogKey* key = nullptr;  ///< what stands here; may be null, may have children beside
+  };
+
+  /// `keys` must outlive the tree.
+  explicit LogKeyTree(std::span<const LogKey* const> keys);
+
+  const Node& node(int index) const { return nodes_[static_cast<std::size_t>(index)]; }
+  std::size_t size() const { return nodes_.size(); }
+
+ private:
+  std::vector<Node> nodes_;
+};
+
+}  // namespace touchdown::recordings

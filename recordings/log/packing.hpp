@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include <msgpack.hpp>
+
+namespace touchdown::recordings {
+
+using LogPacker = msgpack::packer<msgpack::sbuffer>;
+
+inline void pack_text(LogPacker& packer, std::string_view text) {
+  const auto size = static_cast<std::uint32_t>(text.size());
+  packer.pack_str(size).pack_str_body(text.data(), size);
+}
+
+/// Bytes before the first key of a map that begins with this byte; 0 if no map does.
+inline std::size_t map_header_size(char first) {
+  const auto byte = static_cast<unsigned char>(first);
+  if ((byte & 0xf0U) == 0x80U) return 1;
+  if (byte == 0xdeU) return 3;
+  return byte == 0xdfU ? 5 : 0;
+}
+
+/// Packs a number as a float 64, always. `msgpack::packer::pack_double` turns whole numbers into
+/// integers, which loses the sign of −0 and gives readers a key whose type changes from row to row.
+inline void pack_float64(msgpack::sbuffer& buffer, double value) {
+  constexpr auto float64 = static_cast<char>(0xcbU);
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  std::array<char, 9> bytes{float64};
+  for (std::size_t i = 0; i < 8; ++i) bytes[i + 1] = static_cast<char>(bits >> (56U - 8U * i));
+  buffer.write(bytes.data(), bytes.size());
+}
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,178 @@
+#include "recordings/log/parser.hpp"
+
+#include <algorithm>
+
+#include "recordings/log/packing.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+std::vector<const LogKey*> all_keys() {
+  std::vector<const LogKey*> keys;
+  for (const LogKey& key : log_keys()) keys.push_back(&key);
+  return keys;
+}
+
+/// A key's header takes one byte, or more where the writer chose a wider one.
+std::size_t string_header_size(const char* text, std::size_t size) {
+  const auto before = [&](int bytes) { return static_cast<unsigned char>(*(text - bytes)); };
+  if (size < 32 && before(1) == (0xa0U | size)) return 1;
+  if (size < 256 && before(1) == size && before(2) == 0xd9U) return 2;
+  return before(3) == 0xdaU ? 3 : 5;
+}
+
+}  // namespace
+
+LogParser::LogParser() : tree_(all_keys()), sequences_(tree_.size()) {
+  for (const LogKey& key : log_keys()) {
+    if (key.size > 1) vectors_.push_back(&key);
+    if (key.role != LogKey::Role::needed) continue;
+    for (std::size_t i = 0; i < key.size; ++i) needed_.set(key.slot + i);
+  }
+}
+
+LogParser::Result LogParser::parse(std::string_view bytes, std::size_t& length) {
+  length = 0;
+  if (bytes.empty()) return Result::incomplete;
+  if (map_header_size(bytes.front()) == 0) return Result::garbage;
+  present_.reset();
+  malformed_.reset();
+  values_.fill(0.0);
+  open_.clear();
+  current_ = 0;
+  element_ = 0;
+  in_key_ = has_config_ = incomplete_ = false;
+  error_offset_ = 0;
+  outline_.header = outline_.entries = 0;
+  outline_.beliefs.clear();
+  record_ = bytes.data();
+  in_observation_ = in_belief_ = false;
+  if (msgpack::parse(bytes.data(), bytes.size(), length, *this)) {
+    end_belief(length);
+    drop_malformed();
+    return Result::record;
+  }
+  if (incomplete_) return Result::incomplete;
+  length = error_offset_;
+  return Result::garbage;
+}
+
+void LogParser::drop_malformed() {
+  present_ &= ~malformed_;
+  for (const LogKey* vector : vectors_) {
+    bool whole = true;
+    for (std::size_t i = 0; i < vector->size; ++i) whole = whole && present_[vector->slot + i];
+    for (std::size_t i = 0; i < vector->size && !whole; ++i) present_.reset(vector->slot + i);
+  }
+}
+
+bool LogParser::has_time() const {
+  return present_[log_slot::time] || present_[log_slot::wall_time];
+}
+
+std::vector<std::string> LogParser::missing() const {
+  std::vector<std::string> paths;
+  if (!has_time()) paths.emplace_back("observation.time");
+  for (const LogKey& key : log_keys()) {
+    if (key.role == LogKey::Role::needed && !present_[key.slot]) paths.push_back(key.path);
+  }
+  return paths;
+}
+
+bool LogParser::number(double value) {
+  if (current_ == LogKeyTree::none) return true;
+  const LogKey* key = tree_.node(current_).key;
+  if (key == nullptr || in_key_) return true;
+  if (element_ < key->size) {
+    values_[key->slot + element_] = value;
+    present_.set(key->slot + element_);
+  } else {
+    for (std::size_t i = 0; i < key->size; ++i) malformed_.set(key->slot + i);
+  }
+  ++element_;
+  return true;
+}
+
+int LogParser::child(int parent, std::string_view name) {
+  if (parent == LogKeyTree::none) return LogKeyTree::none;
+  // Records of a log repeat each other: the key is most likely the one of the record before.
+  KeySequence& before = sequences_[static_cast<std::size_t>(parent)];
+  const std::size_t position = before.position++;
+  if (position < before.keys.size() && before.keys[position].name == name) {
+    return before.keys[position].child;
+  }
+  const std::vector<int>& children = tree_.node(parent).children;
+  const auto found = std::find_if(children.begin(), children.end(),
+                                  [&](int index) { return tree_.node(index).name == name; });
+  const int result = found == children.end() ? LogKeyTree::none : *found;
+  constexpr std::size_t most_remembered = 64;
+  if (position < before.keys.size()) {
+    before.keys[position] = {std::string(name), result};
+  } else if (position < most_remembered) {
+    before.keys.push_back({std::string(name), result});
+  }
+  return result;
+}
+
+bool LogParser::visit_str(const char* text, std::uint32_t size) {
+  if (!in_key_) return true;
+  const std::string_view name(text, size);
+  current_ = child(open_.back(), name);
+  element_ = 0;
+  if (open_.size() <= 2) note_place(name);
+  return true;
+}
+
+void LogParser::note_place(std::string_view key) {
+  // The parser hands out keys as pointers into the record.
+  const auto end = static_cast<std::size_t>(key.data() + key.size() - record_);
+  const std::size_t begin = end - key.size() - string_header_size(key.data(), key.size());
+  if (open_.size() == 1) {
+    end_belief(begin);
+    in_observation_ = key == "observation";
+    if (in_observation_) outline_.header = end;
+    has_config_ = has_config_ || key == "config";
+  } else if (in_observation_) {
+    end_belief(begin);
+    ++outline_.entries;
+    in_belief_ = std::find(belief_groups.begin(), belief_groups.end(), key) != belief_groups.end();
+    if (in_belief_) outline_.beliefs.push_back({begin, begin});
+  }
+}
+
+void LogParser::end_belief(std::size_t offset) {
+  if (in_belief_) outline_.beliefs.back().end = offset;
+  in_belief_ = false;
+}
+
+bool LogParser::start_map(std::uint32_t /*entries*/) {
+  if (current_ != LogKeyTree::none) sequences_[static_cast<std::size_t>(current_)].position = 0;
+  open_.push_back(current_);
+  return true;
+}
+
+bool LogParser::start_map_key() {
+  in_key_ = true;
+  current_ = LogKeyTree::none;
+  return true;
+}
+
+bool LogParser::end_map_key() {
+  in_key_ = false;
+  return true;
+}
+
+bool LogParser::end_map() {
+  current_ = open_.back();
+  open_.pop_back();
+  return true;
+}
+
+void LogParser::parse_error(std::size_t /*parsed*/, std::size_t offset) { error_offset_ = offset; }
+
+void LogParser::insufficient_bytes(std::size_t /*parsed*/, std::size_t /*offset*/) {
+  incomplete_ = true;
+}
+
+}  // namespace touchdown::recordings

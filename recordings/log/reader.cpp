@@ -1,0 +1,163 @@
+#include "recordings/log/reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "recordings/log/info.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+constexpr std::size_t chunk_size = std::size_t{1} << 18U;
+/// Larger than any record; what claims to be longer is garbage that looks like a header.
+constexpr std::size_t largest_record = std::size_t{1} << 23U;
+/// A spine needs a moment until all of its observers run; two seconds are no moment any more.
+constexpr std::uint64_t most_skipped_in_a_row = 2000;
+constexpr std::size_t rows_for_period = 200;
+
+}  // namespace
+
+LogReader::LogReader(const std::filesystem::path& path, const std::atomic<bool>* stop)
+    : LogReader(file_source(path, stop), path == "-" ? "standard input" : path.string()) {}
+
+LogReader::LogReader(std::istream& stream, std::string name)
+    : LogReader(stream_source(stream), std::move(name)) {}
+
+LogReader::LogReader(ByteSource source, std::string name)
+    : source_(std::move(source)), name_(std::move(name)) {}
+
+std::optional<LogRow> LogReader::next() {
+  if (!ahead_.empty()) {
+    current_ = std::move(ahead_.front());
+    ahead_.pop_front();
+  } else {
+    read_entry(current_);
+  }
+  return current_.row;
+}
+
+const RecordingInfo& LogReader::info() {
+  if (!info_) look_ahead(1);
+  if (!info_) info_.emplace();
+  if (!has_period_) {
+    look_ahead(rows_for_period);
+    std::vector<double> differences;
+    for (std::size_t i = 1; i < ahead_.size(); ++i) {
+      if (!ahead_[i].row) break;
+      differences.push_back(ahead_[i].row->observation.time - ahead_[i - 1].row->observation.time);
+    }
+    if (!differences.empty()) {
+      const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+      std::nth_element(differences.begin(), middle, differences.end());
+      const double microseconds = std::round(1e6 * *middle);
+      if (!(microseconds >= 1.0 && microseconds <= 1e9)) {
+        throw InputError(fmt::format("{}: observation.time: expected times that increase", name_));
+      }
+      info_->control_period_us = static_cast<std::int64_t>(microseconds);
+    }
+    has_period_ = true;
+  }
+  return *info_;
+}
+
+double LogReader::period() { return 1e-6 * static_cast<double>(info().control_period_us); }
+
+void LogReader::look_ahead(std::size_t rows) {
+  while (ahead_.size() < rows && (ahead_.empty() || ahead_.back().row)) {
+    Entry entry;
+    read_entry(entry);
+    ahead_.push_back(std::move(entry));
+  }
+}
+
+void LogReader::read_entry(Entry& entry) {
+  entry.row.reset();
+  entry.record.clear();
+  entry.skipped.clear();
+  while (parse_record()) {
+    const std::string_view record(buffer_.data() + begin_, record_size_);
+    begin_ += record_size_;
+    offset_ += record_size_;
+    ++record_count_;
+    if (parser_.has_config() && !info_) info_ = unpack_info(record, name_);
+    if (parser_.is_missing_any()) {
+      ++skipped_count_;
+      if (++skipped_in_a_row_ >= most_skipped_in_a_row) complain_about_missing_keys();
+      entry.skipped += record;
+      continue;
+    }
+    skipped_in_a_row_ = 0;
+    has_rows_ = true;
+    entry.row = to_row(parser_.values(), parser_.present());
+    double& time = entry.row->observation.time;
+    if (!start_time_) start_time_ = info_ ? 0.0 : time;
+    if (*start_time_ != 0.0) time -= *start_time_;
+    if (info_) has_period_ = true;
+    entry.record = record;
+    entry.outline = parser_.outline();
+    return;
+  }
+}
+
+bool LogReader::parse_record() {
+  while (true) {
+    if (begin_ == end_ && !refill()) {
+      finish();
+      return false;
+    }
+    const std::string_view bytes(buffer_.data() + begin_, end_ - begin_);
+    const LogParser::Result result = parser_.parse(bytes, record_size_);
+    if (result == LogParser::Result::record) return true;
+    if (result == LogParser::Result::garbage || bytes.size() > largest_record) {
+      complain_about_garbage(result == LogParser::Result::garbage ? record_size_ : 0);
+    }
+    if (refill()) continue;
+    if (record_count_ == 0) complain_about_garbage(0);
+    warnings_.push_back(
+        fmt::format("{}: byte {}: the last record is cut off after {} bytes and was left out",
+                    name_, offset_, bytes.size()));
+    begin_ = end_;
+    finish();
+    return false;
+  }
+}
+
+bool LogReader::refill() {
+  if (at_end_) return false;
+  std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
+            buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+  end_ -= begin_;
+  begin_ = 0;
+  if (buffer_.size() < end_ + chunk_size) buffer_.resize(2 * (end_ + chunk_size));
+  const std::size_t size = source_(std::span(buffer_).subspan(end_, chunk_size));
+  end_ += size;
+  at_end_ = size == 0;
+  return !at_end_;
+}
+
+void LogReader::finish() {
+  if (record_count_ == 0) throw InputError(fmt::format("{}: the log is empty", name_));
+  // A run of ours may have ended before its first step; a robot's log without a row is useless.
+  if (!has_rows_ && !info_) complain_about_missing_keys();
+  if (skipped_count_ > 0 && has_rows_ && !has_finished_) {
+    warnings_.push_back(fmt::format("{}: {} of {} records lack needed keys and were left out",
+                                    name_, skipped_count_, record_count_));
+  }
+  has_finished_ = true;
+}
+
+void LogReader::complain_about_garbage(std::size_t offset) const {
+  throw InputError(fmt::format("{}: byte {}: expected a MessagePack map, one per control step",
+                               name_, offset_ + offset));
+}
+
+void LogReader::complain_about_missing_keys() const {
+  throw InputError(
+      fmt::format("{}: needed keys are missing: {}", name_, fmt::join(parser_.missing(), ", ")));
+}
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,139 @@
+#include "recordings/log/row.hpp"
+
+#include <limits>
+
+#include "recordings/log/base_attitude.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+void put(LogValues& values, std::size_t slot, double number) { values[slot] = number; }
+
+void put(LogValues& values, std::size_t slot, const Eigen::Vector3d& vector) {
+  for (int i = 0; i < 3; ++i) values[slot + static_cast<std::size_t>(i)] = vector[i];
+}
+
+void put(LogValues& values, std::size_t slot, const Eigen::Quaterniond& q) {
+  values[slot] = q.w();
+  put(values, slot + 1, Eigen::Vector3d(q.vec()));
+}
+
+void take(const LogValues& values, std::size_t slot, double& number) { number = values[slot]; }
+
+void take(const LogValues& values, std::size_t slot, Eigen::Vector3d& vector) {
+  vector = {values[slot], values[slot + 1], values[slot + 2]};
+}
+
+void take(const LogValues& values, std::size_t slot, Eigen::Quaterniond& q) {
+  q = Eigen::Quaterniond(values[slot], values[slot + 1], values[slot + 2], values[slot + 3]);
+}
+
+constexpr std::array<double models::ServoCommand::*, 6> command_members = {
+    &models::ServoCommand::feedforward_torque, &models::ServoCommand::position,
+    &models::ServoCommand::velocity,           &models::ServoCommand::kp_scale,
+    &models::ServoCommand::kd_scale,           &models::ServoCommand::maximum_torque};
+
+constexpr std::array<double models::ServoReading::*, 3> reading_members = {
+    &models::ServoReading::position, &models::ServoReading::velocity,
+    &models::ServoReading::torque};
+
+/// Where writing and reading find what a step must have; `visit` is called with slots and members.
+template <typename Readings, typename Visit>
+void visit_needed(Readings& observation, const Visit& visit) {
+  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    for (std::size_t i = 0; i < reading_members.size(); ++i) {
+      visit(log_slot::servo + 3 * servo + i, observation.servo[servo].*reading_members[i]);
+    }
+  }
+  visit(log_slot::imu_orientation, observation.imu.orientation);
+  visit(log_slot::angular_velocity, observation.imu.angular_velocity);
+  visit(log_slot::linear_acceleration, observation.imu.linear_acceleration);
+}
+
+/// What has a default or can be derived.
+template <typename Readings, typename Commands, typename Visit>
+void visit_optional(Readings& observation, Commands& action, const Visit& visit) {
+  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    for (std::size_t i = 0; i < command_members.size(); ++i) {
+      visit(log_slot::command + 6 * servo + i, action.servo[servo].*command_members[i]);
+    }
+  }
+  visit(log_slot::raw_acceleration, observation.imu.raw_linear_acceleration);
+  visit(log_slot::pitch, observation.pitch);
+  visit(log_slot::base_angular_velocity + 1, observation.pitch_rate);
+  visit(log_slot::yaw, observation.yaw);
+  visit(log_slot::yaw_rate, observation.yaw_rate);
+}
+
+template <typename Truth, typename Visit>
+void visit_truth(Truth& truth, const Visit& visit) {
+  visit(log_slot::true_position, truth.base_position);
+  visit(log_slot::true_orientation, truth.base_orientation);
+  visit(log_slot::true_linear_velocity, truth.base_linear_velocity);
+  visit(log_slot::true_angular_velocity, truth.base_angular_velocity);
+  visit(log_slot::true_imu_velocity, truth.imu_linear_velocity);
+}
+
+double normal_force(const LogValues& values, const LogPresence& present, std::size_t wheel) {
+  if (present[log_slot::normal_force + wheel]) return values[log_slot::normal_force + wheel];
+  if (!present[log_slot::contact_points + wheel]) return std::numeric_limits<double>::quiet_NaN();
+  return values[log_slot::contact_points + wheel] > 0.0 ? std::numeric_limits<double>::infinity()
+                                                        : 0.0;
+}
+
+}  // namespace
+
+LogValues to_values(const models::Observation& observation, const models::Action& action,
+                    const models::GroundTruth* truth) {
+  LogValues values{};
+  const auto write = [&](std::size_t slot, const auto& member) { put(values, slot, member); };
+  write(log_slot::wall_time, observation.time);
+  write(log_slot::time, observation.time);
+  write(log_slot::raw_angular_velocity, observation.imu.angular_velocity);
+  const BaseAttitude attitude = base_attitude(observation.imu);
+  write(log_slot::base_angular_velocity, attitude.angular_velocity);
+  for (int row = 0; row < 3; ++row) {
+    write(log_slot::base_to_world + 3 * static_cast<std::size_t>(row),
+          Eigen::Vector3d(attitude.base_to_world.row(row)));
+  }
+  visit_needed(observation, write);
+  visit_optional(observation, action, write);
+  if (truth == nullptr) return values;
+  visit_truth(*truth, write);
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+    write(log_slot::normal_force + wheel, truth->wheel_normal_force[wheel]);
+  }
+  write(log_slot::body_touches_terrain, truth->body_touches_terrain ? 1.0 : 0.0);
+  return values;
+}
+
+LogRow to_row(const LogValues& values, const LogPresence& present) {
+  const auto read = [&](std::size_t slot, auto& member) { take(values, slot, member); };
+  LogRow row;
+  models::Observation& observation = row.observation;
+  observation.time = values[present[log_slot::time] ? log_slot::time : log_slot::wall_time];
+  visit_needed(observation, read);
+  // Proper acceleration is the acceleration minus gravity, which points to the ARS frame's +z.
+  observation.imu.raw_linear_acceleration =
+      observation.imu.linear_acceleration -
+      observation.imu.orientation.conjugate() * Eigen::Vector3d(0.0, 0.0, 9.81);
+  const BaseAttitude attitude = base_attitude(observation.imu);
+  observation.pitch = attitude.pitch;
+  observation.pitch_rate = attitude.pitch_rate;
+  observation.yaw = attitude.yaw;
+  observation.yaw_rate = attitude.yaw_rate;
+  visit_optional(observation, row.action, [&](std::size_t slot, auto& member) {
+    if (present[slot]) read(slot, member);
+  });
+  if (!present[log_slot::true_position] || !present[log_slot::true_orientation]) return row;
+  models::GroundTruth& truth = row.truth.emplace();
+  visit_truth(truth, read);
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+    truth.wheel_normal_force[wheel] = normal_force(values, present, wheel);
+  }
+  truth.body_touches_terrain = values[log_slot::body_touches_terrain] != 0.0;
+  return row;
+}
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,75 @@
+#include "recordings/log/writer.hpp"
+
+#include "core/error.hpp"
+#include "recordings/log/info.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+std::vector<const LogKey*> written_keys(bool with_truth) {
+  std::vector<const LogKey*> keys;
+  for (const LogKey& key : log_keys()) {
+    if (key.role == LogKey::Role::alias) continue;
+    if (key.role == LogKey::Role::truth && !with_truth) continue;
+    keys.push_back(&key);
+  }
+  return keys;
+}
+
+}  // namespace
+
+LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, bool with_truth)
+    : stream_(stream),
+      info_(std::move(info)),
+      with_truth_(with_truth),
+      tree_(written_keys(with_truth)),
+      packer_(buffer_) {}
+
+void LogWriter::write(const models::Observation& observation, const models::Action& action,
+                      const models::GroundTruth* truth) {
+  if (with_truth_ && truth == nullptr) throw Error("a row of a simulated run has no ground truth");
+  const LogValues values = to_values(observation, action, truth);
+  const LogKeyTree::Node& record = tree_.node(0);
+  packer_.pack_map(static_cast<std::uint32_t>(record.children.size()) + (is_first_ ? 1U : 0U));
+  if (is_first_) pack_info(packer_, info_);
+  is_first_ = false;
+  for (const int child : record.children) pack_node(child, values);
+  flush();
+}
+
+void LogWriter::finish() {
+  if (!is_first_) return;
+  packer_.pack_map(1);
+  pack_info(packer_, info_);
+  is_first_ = false;
+  flush();
+}
+
+void LogWriter::flush() {
+  stream_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  buffer_.clear();
+  if (!stream_) throw Error("the log cannot be written: is the disk full?");
+}
+
+void LogWriter::pack_node(int index, const LogValues& values) {
+  const LogKeyTree::Node& node = tree_.node(index);
+  pack_text(packer_, node.name);
+  if (node.key != nullptr) {
+    pack_value(*node.key, values);
+    return;
+  }
+  packer_.pack_map(static_cast<std::uint32_t>(node.children.size()));
+  for (const int child : node.children) pack_node(child, values);
+}
+
+void LogWriter::pack_value(const LogKey& key, const LogValues& values) {
+  if (key.is_flag) {
+    values[key.slot] != 0.0 ? packer_.pack_true() : packer_.pack_false();
+    return;
+  }
+  if (key.size > 1) packer_.pack_array(static_cast<std::uint32_t>(key.size));
+  for (std::size_t i = 0; i < key.size; ++i) pack_float64(buffer_, values[key.slot + i]);
+}
+
+}  // namespace touchdown::recordings

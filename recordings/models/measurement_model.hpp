@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+#include "estimator/bayes/measurement_model.hpp"
+
+namespace touchdown::recordings {
+
+/// Reads a measurement model from the `.npz` layout of the paper's authors: the axes `wheel_torque`
+/// and `knee_torque` (N·m), and `contact_likelihood` and `no_contact_likelihood` with one row per
+/// wheel torque. `P_contact` may be there, but follows from the others and is not read.
+/// Errors: `InputError`, one line: unreadable file, missing arrays (all of them), wrong shapes,
+/// irregular axes, values that are no likelihoods.
+MeasurementModel read_measurement_model(const std::filesystem::path& path);
+
+/// Writes the same layout, `P_contact` (contact over the sum of both; ½ where both are zero)
+/// included, so that grids travel to the robot's code. Errors: `Error` when it cannot be written.
+void write_measurement_model(const MeasurementModel& model, const std::filesystem::path& path);
+
+}  // namespace touchdown::recordings

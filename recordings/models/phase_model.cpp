@@ -1,0 +1,163 @@
+#include "recordings/models/phase_model.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "recordings/models/npz.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+NpyArray ends(const Axis& axis) {
+  return {{3}, {axis.lower, axis.upper, static_cast<double>(axis.count)}};
+}
+
+NpyArray table(const std::vector<float>& values, std::size_t columns) {
+  return {{values.size() / columns, columns}, {values.begin(), values.end()}};
+}
+
+NpyArray text(const ModelProvenance& provenance) {
+  std::string lines;
+  for (const auto& [key, value] : provenance) lines += fmt::format("{}: {}\n", key, value);
+  NpyArray array{{lines.size()}, {}};
+  for (const char c : lines) array.data.push_back(static_cast<unsigned char>(c));
+  return array;
+}
+
+ModelProvenance provenance_from(const NpyArray& array) {
+  std::string lines;
+  for (const double byte : array.data) lines += static_cast<char>(static_cast<int>(byte) & 0xff);
+  ModelProvenance provenance;
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
+    const std::string line = lines.substr(begin, end - begin);
+    const std::size_t colon = line.find(": ");
+    if (colon != std::string::npos) provenance[line.substr(0, colon)] = line.substr(colon + 2);
+    begin = end + 1;
+  }
+  return provenance;
+}
+
+/// Takes arrays out of a file, and says which one is missing or has the wrong size.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& path)
+      : path_(path.string()), arrays_(read_npz(path)) {}
+
+  bool has(const std::string& name) const { return arrays_.contains(name); }
+
+  const std::vector<double>& take(const std::string& name) const { return array(name).data; }
+
+  const std::vector<double>& take(const std::string& name, std::size_t size) const {
+    const std::vector<double>& data = take(name);
+    if (data.size() != size) {
+      throw InputError(
+          fmt::format("{}: {}: expected {} values, found {}", path_, name, size, data.size()));
+    }
+    return data;
+  }
+
+  Axis axis(const std::string& name) const {
+    const std::vector<double>& data = take(name, 3);
+    constexpr double most = 1e8;
+    if (!(data[2] >= 2.0 && data[2] <= most)) {
+      throw InputError(fmt::format("{}: {}: expected 2 points or more", path_, name));
+    }
+    return {data[0], data[1], static_cast<int>(data[2])};
+  }
+
+  std::vector<float> floats(const std::string& name) const {
+    const std::vector<double>& data = take(name);
+    std::vector<float> result(data.size());
+    std::transform(data.begin(), data.end(), result.begin(),
+                   [](double value) { return static_cast<float>(value); });
+    return result;
+  }
+
+  const NpyArray& array(const std::string& name) const {
+    const auto found = arrays_.find(name);
+    if (found == arrays_.end()) {
+      throw InputError(fmt::format("{}: is no phase model: missing {}", path_, name));
+    }
+    return found->second;
+  }
+
+ private:
+  std::string path_;
+  NpzArrays arrays_;
+};
+
+}  // namespace
+
+void write_phase_model(const PhaseModelFile& file, const std::filesystem::path& path) {
+  const PhaseModel& model = file.model;
+  NpzArrays arrays;
+  arrays["sample_rate"] = {{1}, {model.sample_rate}};
+  arrays["seconds"] = {{phase_count}, {model.seconds.begin(), model.seconds.end()}};
+  NpyArray transition{{phase_count, phase_count}, {}};
+  for (const auto& row : model.transition) {
+    transition.data.insert(transition.data.end(), row.begin(), row.end());
+  }
+  arrays["transition"] = transition;
+  for (std::size_t i = 0; i < model.torque.size(); ++i) {
+    const PhaseTorqueDensity& density = model.torque[i];
+    const std::string name = fmt::format("torque_{}_", i);
+    arrays[name + "noise"] = {
+        {4},
+        {density.noise.knee, density.noise.wheel, density.bandwidth.knee, density.bandwidth.wheel}};
+    arrays[name + "knee"] = ends(density.knee);
+    arrays[name + "wheel"] = ends(density.wheel);
+    arrays[name + "log_density"] = table(density.log_density, torque_density_count);
+  }
+  for (std::size_t i = 0; i < model.acceleration.size(); ++i) {
+    const PhaseAccelerationDensity& density = model.acceleration[i];
+    const std::string name = fmt::format("acceleration_{}_", i);
+    arrays[name + "noise"] = {{2}, {density.noise, density.bandwidth}};
+    arrays[name + "axis"] = ends(density.axis);
+    arrays[name + "log_density"] = table(density.log_density, acceleration_density_count);
+  }
+  arrays["provenance"] = text(file.provenance);
+  write_npz(arrays, path);
+}
+
+PhaseModelFile read_phase_model(const std::filesystem::path& path) {
+  const Reader reader(path);
+  PhaseModelFile file;
+  PhaseModel& model = file.model;
+  model.sample_rate = reader.take("sample_rate", 1)[0];
+  const std::vector<double>& seconds = reader.take("seconds", phase_count);
+  std::copy(seconds.begin(), seconds.end(), model.seconds.begin());
+  const std::vector<double>& transition = reader.take("transition", phase_count * phase_count);
+  for (std::size_t i = 0; i < phase_count; ++i) {
+    for (std::size_t j = 0; j < phase_count; ++j) {
+      model.transition[i][j] = transition[i * phase_count + j];
+    }
+  }
+  for (int i = 0; reader.has(fmt::format("torque_{}_noise", i)); ++i) {
+    const std::string name = fmt::format("torque_{}_", i);
+    const std::vector<double>& noise = reader.take(name + "noise", 4);
+    model.torque.push_back({{noise[0], noise[1]},
+                            {noise[2], noise[3]},
+                            reader.axis(name + "knee"),
+                            reader.axis(name + "wheel"),
+                            reader.floats(name + "log_density")});
+  }
+  for (int i = 0; reader.has(fmt::format("acceleration_{}_noise", i)); ++i) {
+    const std::string name = fmt::format("acceleration_{}_", i);
+    const std::vector<double>& noise = reader.take(name + "noise", 2);
+    model.acceleration.push_back(
+        {noise[0], noise[1], reader.axis(name + "axis"), reader.floats(name + "log_density")});
+  }
+  if (reader.has("provenance")) file.provenance = provenance_from(reader.array("provenance"));
+  try {
+    check_phase_model(model);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+  return file;
+}
+
+}  // namespace touchdown::recordings

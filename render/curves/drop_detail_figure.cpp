@@ -1,0 +1,186 @@
+#include "render/curves/drop_detail_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "render/curves/drop_detail_data.hpp"
+#include "render/gnuplot/panel_grid.hpp"
+#include "render/gnuplot/text.hpp"
+
+namespace touchdown::render {
+namespace {
+
+enum Row : std::size_t { height, knee, wheel, belief, true_spectrum, noisy_spectrum, transition };
+
+constexpr double quietest = -20.0, loudest = 50.0;  ///< of the colours (dB)
+
+struct Axis {
+  double low, high;
+};
+
+/// A little wider than the data, and never without zero.
+Axis range_of(const std::vector<const std::vector<double>*>& all) {
+  Axis axis{0.0, 0.0};
+  for (const std::vector<double>* values : all) {
+    for (const double value : *values) {
+      if (!std::isfinite(value)) continue;
+      axis.low = std::min(axis.low, value);
+      axis.high = std::max(axis.high, value);
+    }
+  }
+  const double margin = std::max(0.01, 0.06 * (axis.high - axis.low));
+  return {axis.low - margin, axis.high + margin};
+}
+
+/// Of all settings, so that columns share their vertical axis.
+Axis range_of(const experiments::DropDetail& detail,
+              std::vector<double> experiments::TorqueTrace::*joint) {
+  std::vector<const std::vector<double>*> all = {&(detail.torque.*joint)};
+  for (const experiments::NoisyDrop& drop : detail.noisy) all.push_back(&(drop.torque.*joint));
+  return range_of(all);
+}
+
+/// One column of panels.
+class DetailColumn {
+ public:
+  DetailColumn(const experiments::DropDetail& detail, const PanelGrid& grid, std::size_t column,
+               const PlotColumns& columns, const std::string& name)
+      : detail_(detail), grid_(grid), column_(column), columns_(columns), name_(name) {}
+
+  std::string commands() const {
+    const std::vector<double> time = in_ms(detail_.time);
+    std::vector<bool> contact(detail_.contact.begin(), detail_.contact.end());
+    std::string text = contact_bands(time, contact);
+    text += panel(height, "height\n(m)");
+    const Axis heights = range_of({&detail_.height});
+    text += fmt::format(
+        "set yrange [{}:{}]\nset ytics -10,0.1\n"
+        "plot NaN with boxes fillcolor rgb '#dceee0' title 'left wheel touches', {}\n"
+        "set ytics autofreq\n",
+        heights.low, heights.high,
+        line("height_m", "lc rgb '#009e73' lw 2.2", "base, above takeoff"));
+    text += torques(knee, "knee torque\n(N·m)", "knee_torque_nm", &experiments::TorqueTrace::knee);
+    text +=
+        torques(wheel, "wheel torque\n(N·m)", "wheel_torque_nm", &experiments::TorqueTrace::wheel);
+    text += beliefs();
+    text += spectrum(true_spectrum, 0, "true acceleration\nfrequency (Hz)", "");
+    text += spectrum(noisy_spectrum, column_ + 1, "noisy acceleration\nfrequency (Hz)", "noisy_");
+    text += panel(transition, "P(switch)\nat one step");
+    text += "set yrange [-0.04:1.04]\nset ytics 0,0.5,1\nplot " +
+            line("p_switch", "lc rgb '#8a9299' lw 1.8", "either way") + ", " +
+            line("p_takeoff", "lc rgb '#e69f00' lw 2.2", "takeoff") + ", " +
+            line("p_landing", "lc rgb '#7b3294' lw 2.2", "landing") + "\n";
+    return text;
+  }
+
+ private:
+  bool last() const { return column_ + 1 == detail_.noisy.size(); }
+
+  std::string panel(Row row, std::string_view label) const {
+    return grid_.panel(row, column_, label) + (last() ? grid_.key(row) : "");
+  }
+
+  std::string line(const std::string& column, const std::string& style,
+                   const std::string& title) const {
+    return fmt::format("'{}_{}.dat' using 1:{} with lines {} dt 1 title {}", name_, column_ + 1,
+                       columns_.number_of(column), style, gnuplot_text(title));
+  }
+
+  std::string torques(Row row, std::string_view label, const std::string& column,
+                      std::vector<double> experiments::TorqueTrace::*joint) const {
+    const Axis axis = range_of(detail_, joint);
+    return panel(row, label) +
+           fmt::format(
+               "set yrange [{}:{}]\nplot {}, {}\n", axis.low, axis.high,
+               line("noisy_" + column, "lc rgb '#8fb9dd' lw 1", row == knee ? "with noise" : ""),
+               line(column, "lc rgb '#08306b' lw 1.8", row == knee ? "true" : ""));
+  }
+
+  std::string beliefs() const {
+    std::string text =
+        panel(belief, "P(contact)") + "set yrange [-0.04:1.04]\nset ytics 0,0.5,1\nplot ";
+    const auto& traces = detail_.noisy[column_].beliefs;
+    for (std::size_t i = 0; i < traces.size(); ++i) {
+      text += (i == 0 ? "" : ", ") +
+              line("p_" + traces[i].estimator, fmt::format("lt {} lw 2", i + 1), traces[i].title);
+    }
+    return text + "\nset ytics autofreq\n";
+  }
+
+  std::string spectrum(Row row, std::size_t file, std::string_view label,
+                       const std::string& which) const {
+    const double first = 1e3 * detail_.time.front();
+    const double step = 1e3 * experiments::spectrum_stride *
+                        (detail_.time.size() > 1 ? detail_.time[1] - detail_.time[0] : 1e-3);
+    std::string text = panel(row, label);
+    text += fmt::format(
+        "set yrange [{}:{}]\nset ytics ('2' 1, '8' 3, '32' 5, '128' 7, '512' 9)\n"
+        "set cbrange [{}:{}]\nset y2range [0.1:1e5]\nset logscale y2\n{}",
+        lowest_octave, highest_octave, quietest, loudest,
+        column_ == 0 ? "" : "set ytics ('' 1, '' 3, '' 5, '' 7, '' 9)\n");
+    if (last()) {
+      text += "set y2tics ('1' 1, '100' 100, '10⁴' 1e4) font ',11' textcolor rgb '#b04a10'\n";
+    }
+    text +=
+        last() && row == noisy_spectrum
+            ? grid_.colour_bar(row, 92.0, 16.0) +
+                  "set cblabel 'dB of m²/s⁴' font ',11' offset 1.2,0\nset cbtics 20 font ',11'\n"
+            : "unset colorbox\n";
+    // A dark edge keeps the lines apart from every colour behind them.
+    const auto edged = [&](const std::string& values, const std::string& axes,
+                           const std::string& colour, const std::string& title) {
+      const std::string from = fmt::format("'{}_{}.dat' using 1:{} axes {} with lines dt 1", name_,
+                                           column_ + 1, values, axes);
+      return fmt::format("{} lc rgb '#101418' lw 3.4 notitle, {} lc rgb '{}' lw 1.8 title {}", from,
+                         from, colour, gnuplot_text(row == true_spectrum ? title : ""));
+    };
+    text += fmt::format(
+        "plot '{}_spectrum_{}.dat' matrix using ({}+{}*$1):({}+$2/{}):3 with image notitle, "
+        "{} axes x1y2 with lines lc rgb '#ffb38a' lw 1.2 dt (6,4) title {}, {}, {}\n",
+        name_, file, first, step, lowest_octave, rows_per_octave, detail_.switch_power,
+        gnuplot_text(row == true_spectrum ? "power at P(switch) = ½" : ""),
+        edged(std::to_string(columns_.number_of(which + "power_m2ps4")), "x1y2", "#ff7b3d",
+              "power (m²/s⁴, right)"),
+        edged(fmt::format("(log(2 > ${0} ? 2 : ${0})/log(2))",
+                          columns_.number_of(which + "median_frequency_hz")),
+              "x1y1", "#56d0ff", "median frequency"));
+    return text + "unset logscale y2\nunset y2tics\nset ytics autofreq\n";
+  }
+
+  const experiments::DropDetail& detail_;
+  const PanelGrid& grid_;
+  std::size_t column_;
+  const PlotColumns& columns_;
+  const std::string& name_;
+};
+
+}  // namespace
+
+Figure draw_drop_detail(const experiments::DropDetail& detail, const FigureText& text,
+                        const std::filesystem::path& stem) {
+  const std::string name = stem.filename().string();
+  PanelGrid::Layout layout;
+  layout.columns = detail.noisy.size();
+  layout.row_heights = {84.0, 118.0, 104.0, 156.0, 150.0, 150.0, 130.0};
+  const PanelGrid grid(layout, text);
+  std::vector<PlotData> data = {
+      {name + "_spectrum_0.dat", spectrum_text(detail.spectrum, detail.bin_width)}};
+  std::string commands = grid.begin(1e3 * detail.time.front(), 1e3 * detail.time.back());
+  for (std::size_t i = 0; i < detail.noisy.size(); ++i) {
+    const experiments::NoisyDrop& drop = detail.noisy[i];
+    commands += grid.column_title(i, fmt::format("noise: torques {} N·m, accelerometer {} m/s²",
+                                                 drop.noise.torque, drop.noise.accelerometer));
+  }
+  for (std::size_t i = 0; i < detail.noisy.size(); ++i) {
+    const PlotColumns columns = detail_columns(detail, detail.noisy[i]);
+    commands += DetailColumn(detail, grid, i, columns, name).commands();
+    data.push_back({fmt::format("{}_{}.dat", name, i + 1), columns.text()});
+    data.push_back({fmt::format("{}_spectrum_{}.dat", name, i + 1),
+                    spectrum_text(detail.noisy[i].spectrum, detail.bin_width)});
+  }
+  return grid.draw(stem, commands, data);
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "recordings/recording.hpp"
+#include "render/gnuplot/figure.hpp"
+#include "scoring/labels.hpp"
+#include "scoring/transitions.hpp"
+
+namespace touchdown::render {
+
+/// Which drop of a run is drawn, and how flights are found.
+struct DropOverlay {
+  int drop = 0;                      ///< of each run, from 0; a drop is a flight of both wheels
+  scoring::LabelConfig labels = {};  ///< what is contact
+  double minimum_flight = 0.05;      ///< shorter flights are no drops (s)
+  double before = 0.15;              ///< shown before takeoff (s)
+  double after = 0.45;               ///< and after it (s)
+  std::string title;
+  std::string caption;  ///< which runs, what is contact
+};
+
+/// Draws one drop as both engines played it, aligned at takeoff: height of the base, normal force,
+/// knee and wheel torque of the left leg, vertical acceleration. Files as `draw_figure`.
+/// Errors: `InputError` when a run has no such drop; `Error` as `draw_figure`.
+Figure draw_drop_overlay(const recordings::Recording& first, const recordings::Recording& second,
+                         const DropOverlay& what, const std::filesystem::path& stem);
+
+}  // namespace touchdown::render

@@ -1,0 +1,153 @@
+#include "render/curves/phase_posterior_figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "render/curves/drop_detail_data.hpp"
+#include "render/gnuplot/columns.hpp"
+#include "render/gnuplot/panel_grid.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+namespace {
+
+enum Row : std::size_t { wheels, label, posterior, belief };
+
+/// How a phase is named and coloured (0xRRGGBB).
+struct PhaseStyle {
+  const char* title;
+  unsigned colour;
+};
+
+/// By `Phase`. Grey on the ground, orange towards a takeoff, blue in the air, green after a
+/// landing; darker the nearer the event.
+constexpr std::array<PhaseStyle, phase_count> styles = {{{"rolling", 0xd4d7da},
+                                                         {"unloading, 150–60 ms", 0xfde0b0},
+                                                         {"unloading, 60–20 ms", 0xf2ae3d},
+                                                         {"unloading, 20–0 ms", 0xb86b00},
+                                                         {"flight", 0x0a5a9c},
+                                                         {"impact, 0–15 ms", 0x00563f},
+                                                         {"impact, 15–60 ms", 0x2fa884},
+                                                         {"impact, 60–150 ms", 0xb5dfd0},
+                                                         {"held", 0x8d3b72},
+                                                         {"carried", 0xdba3c4},
+                                                         {"left wheel only", 0x56b4e9},
+                                                         {"right wheel only", 0xa9d8f3}}};
+
+PlotColumns columns_of(const experiments::DropPosterior& drop) {
+  PlotColumns columns;
+  columns.add("time_ms", in_ms(drop.time));
+  for (std::size_t phase = 0; phase < phase_count; ++phase) {
+    std::vector<double> values;
+    for (const PhaseProbabilities& p : drop.phases) values.push_back(p[phase]);
+    columns.add("p_" + std::string(phase_names[phase]), std::move(values));
+  }
+  columns.add("p_left_wheel", drop.p_contact[0]);
+  columns.add("p_right_wheel", drop.p_contact[1]);
+  return columns;
+}
+
+/// Maximal stretches of one value as rectangles between `low` and `high`: x0, x1, y0, y1, colour.
+template <typename T, typename Colour>
+std::string stretches(const std::vector<double>& time, const std::vector<T>& values, double low,
+                      double high, const Colour& colour) {
+  std::string text;
+  for (std::size_t begin = 0; begin < values.size();) {
+    std::size_t end = begin + 1;
+    while (end < values.size() && values[end] == values[begin]) ++end;
+    fmt::format_to(std::back_inserter(text), "{}\t{}\t{}\t{}\t{}\n", time[begin],
+                   end < time.size() ? time[end] : time.back(), low, high, colour(values[begin]));
+    begin = end;
+  }
+  return text;
+}
+
+/// The block of the wheels, then that of the phases.
+std::string truth_text(const experiments::DropPosterior& drop) {
+  const std::vector<double> time = in_ms(drop.time);
+  const auto touches = [](std::uint8_t contact) { return contact != 0 ? 0x8fcaa0U : 0xffffffU; };
+  return "# from_ms\tto_ms\tlow\thigh\tcolour\n" +
+         stretches(time, drop.contact[0], 1.1, 1.9, touches) +
+         stretches(time, drop.contact[1], 0.1, 0.9, touches) + "\n\n" +
+         stretches(time, drop.truth, 0.0, 1.0,
+                   [](Phase phase) { return styles[index(phase)].colour; });
+}
+
+std::string boxes(const std::string& file, int block) {
+  return fmt::format(
+      "'{}' index {} using (($1+$2)/2):(($3+$4)/2):1:2:3:4:5 with boxxyerror "
+      "linecolor rgb variable fillstyle solid noborder notitle",
+      file, block);
+}
+
+std::string column_commands(const experiments::DropPosterior& drop, const PanelGrid& grid,
+                            std::size_t column, bool last, const PlotColumns& columns,
+                            const std::string& name) {
+  const std::string data = fmt::format("{}_{}.dat", name, column + 1);
+  const std::string truth = fmt::format("{}_truth_{}.dat", name, column + 1);
+  const auto panel = [&](Row row, std::string_view text) {
+    return grid.panel(row, column, text) + (last ? grid.key(row) : "");
+  };
+  std::vector<bool> any;
+  for (std::size_t k = 0; k < drop.time.size(); ++k) {
+    any.push_back(drop.contact[0][k] != 0 || drop.contact[1][k] != 0);
+  }
+  std::string text = contact_bands(in_ms(drop.time), any) + "unset object\n";
+  text += panel(wheels, "truth");
+  text += fmt::format(
+      "set yrange [0:2]\nset ytics ({} 1.5, {} 0.5) scale 0\nunset grid\n"
+      "plot {}, NaN with boxes fillcolor rgb '#8fcaa0' title 'wheel touches'\n",
+      column == 0 ? "'left'" : "''", column == 0 ? "'right'" : "''", boxes(truth, 0));
+  text += panel(label, "");
+  text += fmt::format("set yrange [0:1]\nset ytics ({} 0.5) scale 0\nplot {}\n",
+                      column == 0 ? "'phase'" : "''", boxes(truth, 1));
+  text += panel(posterior, "P(phase)");
+  text += "set ytics 0,0.5,1 scale 0.5\nset grid\nplot ";
+  // From the whole downwards, each painted over the ones above: no seams between neighbours.
+  for (std::size_t phase = phase_count; phase-- > 0;) {
+    text += fmt::format(
+        "'{}' using 1:(sum [c=2:{}] column(c)) with filledcurves y1=0 fillcolor rgb "
+        "'#{:06x}' title '{}'{}",
+        data, phase + 2, styles[phase].colour, styles[phase].title, phase > 0 ? ", " : "\n");
+  }
+  text += panel(belief, "P(contact)");
+  text += fmt::format(
+      "set yrange [-0.04:1.04]\nplot '{0}' using 1:{1} with lines lt 1 lw 2 title 'left wheel', "
+      "'{0}' using 1:{2} with lines lt 2 lw 2 title 'right wheel'\n",
+      data, columns.number_of("p_left_wheel"), columns.number_of("p_right_wheel"));
+  return text;
+}
+
+}  // namespace
+
+Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops,
+                            const FigureText& text, const std::filesystem::path& stem) {
+  const std::string name = stem.filename().string();
+  PanelGrid::Layout layout;
+  layout.columns = drops.size();
+  layout.row_heights = {52.0, 26.0, 290.0, 120.0};
+  layout.left = 104.0;
+  const PanelGrid grid(layout, text);
+  std::vector<PlotData> data;
+  double from = 0.0, to = 0.0;
+  for (const experiments::DropPosterior& drop : drops) {
+    from = std::min(from, 1e3 * drop.time.front());
+    to = std::max(to, 1e3 * drop.time.back());
+  }
+  std::string commands = grid.begin(from, to);
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    commands += grid.column_title(i, simulators::simulator_title(drops[i].simulator));
+  }
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    const PlotColumns columns = columns_of(drops[i]);
+    commands += column_commands(drops[i], grid, i, i + 1 == drops.size(), columns, name);
+    data.push_back({fmt::format("{}_{}.dat", name, i + 1), columns.text()});
+    data.push_back({fmt::format("{}_truth_{}.dat", name, i + 1), truth_text(drops[i])});
+  }
+  return grid.draw(stem, commands, data);
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,145 @@
+#include "render/film/painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "render/film/camera_path.hpp"
+#include "render/film/strip_rows.hpp"
+
+namespace touchdown::render {
+namespace {
+
+constexpr double camera_time_constant = 0.35;  // s
+/// Contact shorter than this is not worth a label that nobody could read (s).
+constexpr double label_debounce = 0.05;
+
+struct Label {
+  const char* text;
+  unsigned colour;
+};
+
+Label state_label(const recordings::Recording& recording, std::size_t row,
+                  const std::vector<std::uint8_t>& contact) {
+  const bool last = row + 1 >= recording.steps();
+  if (last && recording.info.outcome) {
+    switch (*recording.info.outcome) {
+      case recordings::Outcome::fell:
+        return {"FELL", 0xb0304f};
+      case recordings::Outcome::diverged:
+        return {"DIVERGED", 0xb0304f};
+      case recordings::Outcome::timed_out:
+        return {"TIME IS OVER", 0x5c636e};
+      case recordings::Outcome::finished:
+        return {"FINISHED", 0x2f6f4f};
+    }
+  }
+  if (contact.empty()) return {"NO GROUND TRUTH", 0x5c636e};
+  switch (contact[row]) {
+    case 0:
+      return {"IN THE AIR", 0xd9760f};
+    case 1:
+      return {"ON ONE WHEEL", 0x8a6d1d};
+    default:
+      return {"ON THE GROUND", 0x2f6f4f};
+  }
+}
+
+}  // namespace
+
+struct FramePainter::Show {
+  Show(const VideoSource& the_source, const scoring::LabelConfig& labels)
+      : source(the_source), poses(the_source.robot, the_source.recording), view(the_source.robot) {
+    const bool simulated = source.recording.truth.size() >= source.recording.steps();
+    const Eigen::Vector3d above(0.0, 0.0, simulated ? 0.0 : 0.5);
+    std::vector<Eigen::Vector3d> base;
+    for (std::size_t row = 0; row < poses.count(); ++row) {
+      base.push_back(poses.base_position(row) + above);
+    }
+    camera = smoothed(std::move(base), source.recording.period(), camera_time_constant);
+    scoring::LabelConfig readable = labels;
+    readable.debounce = std::max(readable.debounce, label_debounce);
+    contact = wheels_in_contact(source.recording, readable);
+  }
+
+  std::size_t row(double time) const {
+    const double k = std::round(time / source.recording.period());
+    return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(poses.count() - 1)));
+  }
+
+  VideoSource source;
+  Poses poses;
+  SceneView view;
+  std::vector<Eigen::Vector3d> camera;
+  std::vector<std::uint8_t> contact;
+};
+
+FramePainter::FramePainter(const std::vector<VideoSource>& sources, const FrameLayout& layout,
+                           const scoring::LabelConfig& labels)
+    : layout_(layout),
+      strip_height_(layout.strip ? layout.height * (layout.width < 1000 ? 300 : 220) / 720 / 2 * 2
+                                 : 0),
+      gl_(layout.width * layout.supersampling,
+          (layout.height - strip_height_) * layout.supersampling) {
+  for (const VideoSource& source : sources) {
+    shows_.push_back(std::make_unique<Show>(source, labels));
+  }
+  if (layout.strip) {
+    strip_ =
+        std::make_unique<SignalStrip>(strip_rows(sources, labels), layout.width, strip_height_);
+  }
+  picture_.create(layout.height, layout.width, CV_8UC3);
+}
+
+FramePainter::~FramePainter() = default;
+
+const cv::Mat& FramePainter::paint(double time) {
+  const int count = static_cast<int>(shows_.size());
+  const int share = gl_.width() / count;
+  for (int i = 0; i < count; ++i) {
+    Show& show = *shows_[static_cast<std::size_t>(i)];
+    const std::size_t row = show.row(time);
+    show.poses.apply(row, show.view.data());
+    show.view.draw({i * share, 0, share, gl_.height()}, show.camera[row]);
+  }
+  gl_.finish();
+  const cv::Mat drawn(gl_.height(), gl_.width(), CV_8UC4, gl_.pixels());
+  cv::Mat view = picture_.rowRange(0, layout_.height - strip_height_);
+  if (layout_.supersampling == 1) {
+    cv::cvtColor(drawn, view, cv::COLOR_BGRA2BGR);
+  } else {
+    cv::resize(drawn, averaged_, view.size(), 0, 0, cv::INTER_AREA);
+    cv::cvtColor(averaged_, view, cv::COLOR_BGRA2BGR);
+  }
+  if (layout_.labels) {
+    for (int i = 0; i < count; ++i) {
+      const Show& show = *shows_[static_cast<std::size_t>(i)];
+      paint_labels(show, show.row(time), time, i * layout_.width / count);
+    }
+    if (count > 1) {
+      cv::line(picture_, {layout_.width / 2, 0},
+               {layout_.width / 2, layout_.height - strip_height_ - 1}, rgb(0xf7f8fa), 2);
+    }
+  }
+  if (strip_) strip_->draw(picture_.rowRange(layout_.height - strip_height_, layout_.height), time);
+  return picture_;
+}
+
+void FramePainter::paint_labels(const Show& show, std::size_t row, double time, int left) {
+  const int height = std::max(16, layout_.height * 30 / 720);
+  const int gap = height / 3;
+  const int top = height / 2;
+  int x = left + top;
+  x +=
+      gap + pen_.chip(picture_, engine_label(show.source.recording), x, top, height, rgb(0x2b2f36));
+  x += gap + pen_.chip(picture_, fmt::format("t = {:.2f} s", time), x, top, height, rgb(0x5c636e));
+  const Label state = state_label(show.source.recording, row, show.contact);
+  x += gap + pen_.chip(picture_, state.text, x, top, height, rgb(state.colour));
+  if (layout_.speed != 1.0) {
+    pen_.chip(picture_, fmt::format("{:.3g}× speed", layout_.speed), x, top, height, rgb(0x2b2f36));
+  }
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,39 @@
+#include "render/film/request.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace touchdown::render {
+
+void require_drawable(const std::vector<VideoSource>& sources, const VideoOptions& options) {
+  if (options.width < 160 || options.height < 120 || options.width > 7680 ||
+      options.height > 4320 || options.width % 2 != 0 || options.height % 2 != 0) {
+    throw InputError(fmt::format("a video of {}x{}: expected even numbers, 160x120 to 7680x4320",
+                                 options.width, options.height));
+  }
+  if (options.fps < 1 || options.fps > 1000) {
+    throw InputError(fmt::format("{} frames per second: expected 1 to 1000", options.fps));
+  }
+  if (!(options.speed > 0.0) || !std::isfinite(options.speed)) {
+    throw InputError(fmt::format("speed {}: expected a number above 0", options.speed));
+  }
+  for (const VideoSource& source : sources) {
+    if (source.recording.steps() == 0) {
+      throw InputError("the recording is empty: there is nothing to draw");
+    }
+    for (const BeliefTrack& belief : source.beliefs) {
+      for (const auto* wheels : {&belief.p_contact, &belief.p_takeoff, &belief.p_landing}) {
+        for (const std::vector<float>& values : *wheels) {
+          if (values.empty() || values.size() == source.recording.steps()) continue;
+          throw InputError(fmt::format("estimator '{}' has {} values for {} rows of the recording",
+                                       belief.name, values.size(), source.recording.steps()));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,89 @@
+#include "render/film/scene_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace touchdown::render {
+namespace {
+
+/// Distance from which the sun's shadow map is taken (m).
+constexpr double sun_distance = 6.0;
+
+}  // namespace
+
+SceneView::SceneView(const models::RobotModel& robot, const ViewOptions& options)
+    : robot_(robot), options_(options) {
+  const mjModel* model = robot.mj.get();
+  mjv_defaultScene(&scene_);
+  mjv_defaultOption(&visibility_);
+  mjv_defaultCamera(&camera_);
+  mjr_defaultContext(&context_);
+  data_ = mj_makeData(model);
+  if (!data_) throw Error("MuJoCo has no memory for another model");
+  try {
+    mjv_makeScene(model, &scene_, model->ngeom + 64);
+    mjr_makeContext(model, &context_, mjFONTSCALE_100);
+  } catch (...) {
+    mjv_freeScene(&scene_);
+    mj_deleteData(data_);
+    throw;
+  }
+  mjr_setBuffer(mjFB_WINDOW, &context_);
+  std::fill(std::begin(visibility_.sitegroup), std::end(visibility_.sitegroup), mjtByte{0});
+  camera_.type = mjCAMERA_FREE;
+  camera_.azimuth = options.azimuth;
+  camera_.elevation = options.elevation;
+  camera_.distance = options.distance;
+  scene_.flags[mjRND_HAZE] = 1;
+  scene_.flags[mjRND_SHADOW] = 1;
+}
+
+SceneView::~SceneView() {
+  mjr_freeContext(&context_);
+  mjv_freeScene(&scene_);
+  mj_deleteData(data_);
+}
+
+void SceneView::draw(const mjrRect& viewport, const Eigen::Vector3d& target) {
+  const Eigen::Vector3d look_at = target + options_.look_at_offset;
+  std::copy_n(look_at.data(), 3, camera_.lookat);
+  mjv_updateScene(robot_.mj.get(), data_, &visibility_, nullptr, &camera_, mjCAT_ALL, &scene_);
+  place_sun(target);
+  switch_haze_on();
+  mjr_render(viewport, &scene_, &context_);
+}
+
+/// The shadow map covers a box around the sun's axis: the axis goes through the robot. Moving it by
+/// whole texels of the map keeps shadow edges from crawling.
+void SceneView::place_sun(const Eigen::Vector3d& target) {
+  const mjModel& model = *robot_.mj;
+  const double texel = 2.0 * model.vis.map.shadowclip * model.stat.extent /
+                       std::max(1, model.vis.quality.shadowsize);
+  for (int i = 0; i < scene_.nlight; ++i) {
+    mjvLight& light = scene_.lights[i];
+    if (!light.directional || !light.castshadow) continue;
+    const Eigen::Vector3d axis =
+        Eigen::Map<const Eigen::Vector3f>(light.dir).cast<double>().normalized();
+    const Eigen::Vector3d u = axis.cross(Eigen::Vector3d::UnitY()).normalized();
+    const Eigen::Vector3d v = axis.cross(u);
+    const Eigen::Vector3d at = target - sun_distance * axis;
+    const Eigen::Vector3d snapped = std::round(at.dot(u) / texel) * texel * u +
+                                    std::round(at.dot(v) / texel) * texel * v + at.dot(axis) * axis;
+    Eigen::Map<Eigen::Vector3f>(light.pos) = snapped.cast<float>();
+  }
+}
+
+/// The renderer only draws haze if the scene has an infinite plane; this one draws nothing else.
+void SceneView::switch_haze_on() {
+  if (scene_.ngeom >= scene_.maxgeom) return;
+  mjvGeom& plane = scene_.geoms[scene_.ngeom++];
+  const mjtNum size[3] = {0, 0, 0};
+  const float colour[4] = {1, 1, 1, 1};
+  mjv_initGeom(&plane, mjGEOM_PLANE, size, nullptr, nullptr, colour);
+  plane.dataid = -1;
+  plane.category = mjCAT_DECOR;
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/gnuplot/figure.hpp"
+
+namespace touchdown::render {
+
+/// Panels in rows and columns that share their time axis, placed to the pixel, with a title above,
+/// a caption below, and room on the right of every row for its legend. Gives the gnuplot commands
+/// of a figure made for a width of 1280 pixels; texts are large enough to survive a paper's column.
+class PanelGrid {
+ public:
+  struct Layout {
+    std::size_t columns = 1;
+    std::vector<double> row_heights;     ///< px
+    double panel_width = 452.0;          ///< px
+    double left = 104.0, right = 250.0;  ///< beside the panels (px)
+    double gap_x = 22.0, gap_y = 14.0;   ///< between panels (px)
+  };
+
+  PanelGrid(Layout layout, FigureText text);
+
+  std::size_t rows() const { return layout_.row_heights.size(); }
+
+  /// Opens the multiplot: fonts, title and caption, and the time axis from `begin` to `end` (ms).
+  std::string begin(double from, double to) const;
+  /// A line of text above a column.
+  std::string column_title(std::size_t column, std::string_view text) const;
+  /// Places the next plot; tics and label of the time axis appear in the last row, those of the
+  /// vertical axis in the first column. `y_label` may have two lines.
+  std::string panel(std::size_t row, std::size_t column, std::string_view y_label) const;
+  /// Puts the next plot's key right of the row, `offset` px away from the last column.
+  std::string key(std::size_t row, double offset = 14.0) const;
+  /// Puts a colour bar of that width right of the row.
+  std::string colour_bar(std::size_t row, double offset, double width) const;
+  /// Draws the figure of these commands. Files and errors as `draw_figure`.
+  Figure draw(const std::filesystem::path& stem, const std::string& commands,
+              const std::vector<PlotData>& data) const;
+
+ private:
+  int width() const;
+  int height() const;
+  double x(std::size_t column) const;  ///< left edge (px)
+  double y(std::size_t row) const;     ///< upper edge, from above (px)
+  double screen_x(double pixels) const;
+  double screen_y(double pixels_from_above) const;
+
+  Layout layout_;
+  FigureText text_;
+  std::string caption_lines_;  ///< the caption, broken to the figure's width
+  double caption_height_;
+};
+
+}  // namespace touchdown::render

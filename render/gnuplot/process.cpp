@@ -1,0 +1,70 @@
+#include "render/gnuplot/process.hpp"
+
+#include <array>
+#include <cerrno>
+#include <fcntl.h>
+#include <sstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace touchdown::render {
+namespace {
+
+/// Of gnuplot's complaints, the line that says what is wrong.
+std::string first_reason(const std::string& complaints) {
+  std::istringstream lines(complaints);
+  std::string line, last;
+  while (std::getline(lines, line)) {
+    if (line.find("line ") != std::string::npos) return line;
+    if (line.find_first_not_of(" ^\t") != std::string::npos) last = line;
+  }
+  return last;
+}
+
+}  // namespace
+
+std::string gnuplot_complaint(const std::filesystem::path& folder, const std::string& script) {
+  std::array<int, 2> ends = {};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("no pipe for gnuplot");
+  const pid_t pid = ::fork();
+  if (pid < 0) throw Error("no process for gnuplot");
+  if (pid == 0) {
+    ::dup2(ends[1], STDERR_FILENO);
+    ::dup2(::open("/dev/null", O_RDWR), STDIN_FILENO);
+    ::dup2(STDIN_FILENO, STDOUT_FILENO);
+    if (::chdir(folder.c_str()) != 0) ::_exit(126);
+    ::execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  ::close(ends[1]);
+  std::string complaints;
+  std::array<char, 4096> buffer;
+  for (ssize_t got = 0; (got = ::read(ends[0], buffer.data(), buffer.size())) != 0;) {
+    if (got < 0 && errno != EINTR) break;
+    if (got > 0) complaints.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+  ::close(ends[0]);
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
+    throw Error("gnuplot is not installed: the figures need the package gnuplot-nox");
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  return complaints.empty() ? "it failed and did not say why" : first_reason(complaints);
+}
+
+std::filesystem::path try_gnuplot(const std::filesystem::path& script, const std::string& content) {
+  write_atomically(script, content);
+  try {
+    if (!gnuplot_complaint(script.parent_path(), script.filename().string()).empty()) return {};
+  } catch (const Error&) {
+    return {};
+  }
+  return std::filesystem::path(script).replace_extension(".png");
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,138 @@
+#include "render/pictures/drop_figures.hpp"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/drops/detail.hpp"
+#include "experiments/drops/posterior.hpp"
+#include "experiments/tables/captions.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "render/curves/drop_detail_figure.hpp"
+#include "render/curves/drop_overlay.hpp"
+#include "render/curves/phase_posterior_figure.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+/// The chosen run in one engine. Errors: `InputError` when it is not scored.
+const experiments::PlayedRun& chosen_run(const experiments::ExperimentResult& result,
+                                         const std::string& simulator, int run,
+                                         const std::string& key) {
+  const experiments::PlayedRun* found = experiments::test_run(result.runs, simulator, run);
+  if (found == nullptr || experiments::is_failure(found->report.outcome)) {
+    throw InputError(fmt::format("{}.run: run {} in {} is not scored", key, run, simulator));
+  }
+  return *found;
+}
+
+std::string which_drop(const experiments::Experiment& experiment,
+                       const experiments::DropChoice& choice) {
+  return fmt::format(
+      "Test run {}, drop {} of both wheels (from 0), experiment seed {}, noise seed {}; {}.",
+      choice.run, choice.drop, experiment.seed, choice.seed, experiments::labels_text(experiment));
+}
+
+Figure draw_detail(const experiments::ExperimentResult& result, const std::string& simulator) {
+  const experiments::Experiment& experiment = result.experiment;
+  const experiments::DetailConfig& config = *experiment.detail;
+  const experiments::PlayedRun& run = chosen_run(result, simulator, config.choice.run, "detail");
+  const recordings::Recording recording =
+      recordings::read_recording(result.directory.file("recordings", run.plan.file));
+  const experiments::DropDetail detail =
+      experiments::drop_detail(experiment, config, recording, run.signals, result.models);
+  const FigureText text{
+      fmt::format("One drop in detail: {}, {}", experiment.name,
+                  simulators::simulator_title(simulator)),
+      fmt::format("{} Left wheel and leg. Spectra, power and median frequency are those of the "
+                  "{:.0f} ms that end at each instant; they and the switch probabilities come from "
+                  "the transition model of {}. Dashed verticals: the left wheel leaves or lands.",
+                  which_drop(experiment, config.choice), 1e3 / detail.bin_width,
+                  detail.transition_of),
+      fmt::format(
+          "Rows of curves over the time around one drop, {} noise settings beside each "
+          "other: height of the base, knee and wheel torque with and without noise, contact "
+          "probability of {}, spectrograms of the true and of the noisy vertical "
+          "acceleration with their power and median frequency, and the probabilities of a "
+          "takeoff and a landing. The time in which the wheel truly touches is tinted.",
+          config.noise.size(), fmt::join(config.estimators, ", "))};
+  return draw_drop_detail(detail, text, result.directory.file("figures", "detail_" + simulator));
+}
+
+FigureText posterior_text(const experiments::Experiment& experiment,
+                          const experiments::PosteriorConfig& config) {
+  return {
+      fmt::format("The phase filter through one drop: {}", experiment.name),
+      fmt::format("{} Noise: {} N·m on torques, {} m/s² on the accelerometer. True phases look "
+                  "ahead: an unloading is named after the takeoff that follows. Dashed "
+                  "verticals: the last wheel leaves, the first one lands.",
+                  which_drop(experiment, config.choice), config.noise.torque,
+                  config.noise.accelerometer),
+      "Over the time around one drop, for each engine: which wheels truly touch, the true phase, "
+      "the probabilities of all phases stacked upon each other, and the contact probability of "
+      "both wheels."};
+}
+
+/// What an engine's run cannot give is said, not thrown.
+template <typename Draw>
+void or_say_why_not(const Draw& draw) {
+  try {
+    draw();
+  } catch (const InputError& error) {
+    fmt::print(stderr, "touchdown: not drawn: {}\n", error.what());
+  }
+}
+
+/// One drop of one test run in both engines.
+Figure draw_overlay(const experiments::ExperimentResult& result) {
+  const experiments::Experiment& experiment = result.experiment;
+  const experiments::OverlayConfig& overlay = experiment.cross_simulator->overlay;
+  const DropOverlay what{
+      .drop = overlay.drop,
+      .labels = experiment.labels,
+      .minimum_flight = experiment.scoring.minimum_flight,
+      .title = fmt::format("One drop in both engines: {}", experiment.test.scenarios.front()),
+      .caption = fmt::format("Test run {}, drop {} (of both wheels), seed {}; left wheel and leg, "
+                             "aligned at takeoff, without noise; {}.",
+                             overlay.run, overlay.drop, experiment.seed,
+                             experiments::labels_text(experiment))};
+  const auto recording = [&](const std::string& simulator) {
+    const experiments::PlayedRun& run = chosen_run(result, simulator, overlay.run, "overlay");
+    return recordings::read_recording(result.directory.file("recordings", run.plan.file));
+  };
+  return draw_drop_overlay(recording(experiment.simulators[0]), recording(experiment.simulators[1]),
+                           what, result.directory.file("figures", "drop_overlay"));
+}
+
+}  // namespace
+
+std::vector<Picture> draw_drop_figures(const experiments::ExperimentResult& result) {
+  const experiments::Experiment& experiment = result.experiment;
+  std::vector<Picture> pictures;
+  const auto add = [&](const Figure& figure) { pictures.push_back(picture("figure", figure)); };
+  if (experiment.cross_simulator) or_say_why_not([&] { add(draw_overlay(result)); });
+  if (experiment.detail) {
+    for (const std::string& simulator : experiment.simulators) {
+      or_say_why_not([&] { add(draw_detail(result, simulator)); });
+    }
+  }
+  if (!experiment.posterior) return pictures;
+  const experiments::PosteriorConfig& config = *experiment.posterior;
+  std::vector<experiments::DropPosterior> drops;
+  for (const std::string& simulator : experiment.simulators) {
+    or_say_why_not([&] {
+      const experiments::PlayedRun& run =
+          chosen_run(result, simulator, config.choice.run, "posterior");
+      drops.push_back(experiments::drop_posterior(experiment, config, run.signals, result.models));
+    });
+  }
+  if (drops.empty()) return pictures;
+  add(draw_phase_posterior(drops, posterior_text(experiment, config),
+                           result.directory.file("figures", "phase_posterior")));
+  return pictures;
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/tables/result.hpp"
+#include "models/robot_model.hpp"
+#include "recordings/recording.hpp"
+#include "render/film/video.hpp"
+#include "render/report/subject.hpp"
+
+namespace touchdown::render {
+
+/// A run with everything that filming it needs.
+struct FilmedRun {
+  models::RobotModel robot;
+  recordings::Recording recording;
+  std::vector<BeliefTrack> beliefs;
+  scoring::LabelConfig labels;
+
+  VideoSource source() const { return {robot, recording, beliefs}; }
+};
+
+/// The run that an experiment films, for each of its engines: the recording with the noise that the
+/// experiment asks for, and what the estimators made of it. An engine without that recording is
+/// left out. Errors: `InputError` for a recording that is broken.
+std::vector<FilmedRun> filmed_runs(const experiments::ExperimentResult& result);
+/// The same from a run directory, with the models that were fitted then.
+/// Errors: also `InputError` when the directory lacks a model.
+std::vector<FilmedRun> filmed_runs(const ReportSubject& subject);
+
+/// A recording alone. Errors: `InputError` when it does not say on which terrain it was made.
+/// What was wrong with the log but not fatal is added to `warnings`.
+FilmedRun filmed_recording(const std::filesystem::path& log, std::vector<std::string>& warnings);
+
+}  // namespace touchdown::render

@@ -1,0 +1,140 @@
+#include "render/pictures/heatmaps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "experiments/estimators/registry.hpp"
+#include "experiments/tables/captions.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+/// Where a summary's cell lies on a map.
+using Place = std::function<std::array<double, 2>(const noise::NoiseCell&)>;
+
+HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::string& simulator,
+                      const std::string& estimator, const Heatmap& heatmap, const Place& place) {
+  HeatmapPanel panel;
+  panel.title = experiments::estimator_entry(estimator).title;
+  for (auto* rows : {&panel.value, &panel.low, &panel.high}) {
+    rows->assign(heatmap.y.size(), std::vector<double>(heatmap.x.size(), NAN));
+  }
+  panel.marked.assign(heatmap.y.size(), std::vector<bool>(heatmap.x.size(), false));
+  for (const experiments::CellSummary& summary : result.summaries) {
+    const experiments::Condition& who = summary.condition;
+    if (who.test_simulator != simulator || who.estimator != estimator) continue;
+    const auto [x, y] = place(summary.cell);
+    const auto column = static_cast<std::size_t>(std::find(heatmap.x.begin(), heatmap.x.end(), x) -
+                                                 heatmap.x.begin());
+    const auto row = static_cast<std::size_t>(std::find(heatmap.y.begin(), heatmap.y.end(), y) -
+                                              heatmap.y.begin());
+    if (column == heatmap.x.size() || row == heatmap.y.size()) continue;
+    panel.value[row][column] = summary.success.estimate;
+    panel.low[row][column] = summary.success.low;
+    panel.high[row][column] = summary.success.high;
+    panel.marked[row][column] = summary.loses();
+  }
+  return panel;
+}
+
+/// The widest interval of all panels, for maps whose cells are too many to say their own.
+double widest_interval(const Heatmap& heatmap) {
+  double widest = 0.0;
+  for (const HeatmapPanel& panel : heatmap.panels) {
+    for (std::size_t row = 0; row < panel.value.size(); ++row) {
+      for (std::size_t column = 0; column < panel.value[row].size(); ++column) {
+        widest = std::fmax(widest, panel.high[row][column] - panel.low[row][column]);
+      }
+    }
+  }
+  return widest;
+}
+
+double always_contact(const experiments::ExperimentResult& result, const std::string& simulator) {
+  for (const experiments::CellSummary& summary : result.summaries) {
+    if (summary.condition.test_simulator == simulator) return summary.always_contact;
+  }
+  return NAN;
+}
+
+/// One estimator that fails everywhere must not take the colours from all others.
+void limit_colours(Heatmap& heatmap) {
+  constexpr double floor = 0.8;
+  for (const HeatmapPanel& panel : heatmap.panels) {
+    for (const auto& row : panel.value) {
+      if (std::none_of(row.begin(), row.end(), [](double value) { return value < floor; }))
+        continue;
+      heatmap.low = floor;
+      heatmap.caption += fmt::format(" Below {} all is one colour.", floor);
+      return;
+    }
+  }
+}
+
+/// Panels, captions and lines common to both maps; axes are set already.
+void fill(Heatmap& heatmap, const experiments::ExperimentResult& result,
+          const std::string& simulator, const Place& place) {
+  const experiments::Experiment& experiment = result.experiment;
+  heatmap.value_label = "success rate";
+  for (const std::string& estimator : experiment.estimators) {
+    if (estimator == experiments::always_contact_name) continue;
+    heatmap.panels.push_back(panel_of(result, simulator, estimator, heatmap, place));
+  }
+  heatmap.caption =
+      fmt::format("{}; always contact scores {:.3f}: crossed cells do not beat it.",
+                  experiments::scored_text(result, simulator), always_contact(result, simulator));
+  constexpr std::size_t most_cells_with_intervals = 64;
+  if (heatmap.x.size() * heatmap.y.size() > most_cells_with_intervals) {
+    heatmap.caption += fmt::format(" The widest {:.0f} % interval over {}s is {:.3f}.",
+                                   100.0 * experiment.intervals.bootstrap.level,
+                                   experiments::sample_text(experiment), widest_interval(heatmap));
+    for (HeatmapPanel& panel : heatmap.panels) panel.low = panel.high = {};
+  }
+  heatmap.iso_levels = {0.9, 0.95, 0.98};
+  limit_colours(heatmap);
+}
+
+}  // namespace
+
+Heatmap success_heatmap(const experiments::ExperimentResult& result, const std::string& simulator) {
+  const experiments::Experiment& experiment = result.experiment;
+  Heatmap heatmap;
+  heatmap.title = fmt::format("Success rate under sensor noise: {}, {}", experiment.name,
+                              simulators::simulator_title(simulator));
+  heatmap.x_label = "accelerometer noise (m/s²)";
+  heatmap.y_label = "torque noise (N·m)";
+  heatmap.x = experiment.noise.accelerometer;
+  heatmap.y = experiment.noise.torque;
+  fill(heatmap, result, simulator, [](const noise::NoiseCell& cell) {
+    return std::array{cell.accelerometer, cell.torque};
+  });
+  return heatmap;
+}
+
+std::optional<Heatmap> knee_wheel_heatmap(const experiments::ExperimentResult& result,
+                                          const std::string& simulator) {
+  const experiments::Experiment& experiment = result.experiment;
+  const noise::KneeWheelGridConfig& grid = experiment.noise.knee_wheel;
+  if (grid.knee.empty()) return std::nullopt;
+  Heatmap heatmap;
+  heatmap.title =
+      fmt::format("Success rate under torque noise, {} m/s² on the accelerometer: {}, {}",
+                  grid.accelerometer, experiment.name, simulators::simulator_title(simulator));
+  heatmap.x_label = "wheel torque noise (N·m)";
+  heatmap.y_label = "knee torque noise (N·m)";
+  heatmap.x = grid.wheel;
+  heatmap.y = grid.knee;
+  fill(heatmap, result, simulator, [&](const noise::NoiseCell& cell) {
+    return cell.accelerometer == grid.accelerometer ? std::array{cell.wheel, cell.knee}
+                                                    : std::array<double, 2>{NAN, NAN};
+  });
+  return heatmap;
+}
+
+}  // namespace touchdown::render

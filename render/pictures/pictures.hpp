@@ -1,0 +1,18 @@
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "experiments/tables/result.hpp"
+#include "render/pictures/filmed_run.hpp"
+#include "render/pictures/picture.hpp"
+
+namespace touchdown::render {
+
+/// Draws what an experiment's result asks for into its run directory, with a video of each filmed
+/// run, and adds the time it took to the provenance.
+std::vector<Picture> draw_pictures(experiments::ExperimentResult& result,
+                                   const std::vector<FilmedRun>& filmed,
+                                   const std::atomic<bool>* stop);
+
+}  // namespace touchdown::render

@@ -1,0 +1,121 @@
+#include "render/report/figures.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "render/gnuplot/figure.hpp"
+
+namespace touchdown::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string longest_title(const std::string& script) {
+  std::string best;
+  for (const std::string word : {"set title '", "set multiplot", "set label"}) {
+    for (std::size_t at = script.find(word); at != std::string::npos;
+         at = script.find(word, at + 1)) {
+      const std::size_t line_end = script.find('\n', at);
+      const std::size_t open = script.find('\'', at);
+      const std::size_t close = script.find('\'', open + 1);
+      if (open == std::string::npos || close == std::string::npos || close > line_end) continue;
+      if (close - open - 1 > best.size()) best = script.substr(open + 1, close - open - 1);
+    }
+  }
+  while (best.ends_with('.')) best.pop_back();
+  return best.empty() ? best : best + ".";
+}
+
+/// Pictures beyond this would make the page slow to open (bytes).
+constexpr std::uintmax_t largest_picture = 2'000'000;
+
+/// What the figure's script says about it. Where it says nothing: the figure's name, and the
+/// longest of the titles that it draws (`set title '…'`, `set label … '…'`).
+FigureText text_of(const fs::path& figure) {
+  std::string name = figure.stem().string();
+  std::replace(name.begin(), name.end(), '_', ' ');
+  const fs::path script = fs::path(figure).replace_extension(".gp");
+  std::error_code ignored;
+  if (!fs::is_regular_file(script, ignored)) return {name, {}, name};
+  const std::string commands = read_file(script);
+  FigureText said = figure_text(commands);
+  if (said.title.empty()) said.title = name;
+  if (said.caption.empty()) said.caption = longest_title(commands);
+  if (said.alt.empty()) {
+    said.alt = said.caption.empty() ? said.title : said.title + ": " + said.caption;
+  }
+  return said;
+}
+
+/// Whether a drawing is so wide that it needs the whole width of the page.
+bool is_wide(const fs::path& svg) {
+  if (svg.extension() != ".svg") return false;
+  const std::string text = read_file(svg);
+  const std::size_t box = text.find("viewBox=\"");
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
+  if (box == std::string::npos) return false;
+  std::istringstream(text.substr(box + 9, 80)) >> left >> top >> width >> height;
+  return width > 1.4 * height || width >= 1200.0;
+}
+
+/// Data files that bear the figure's name and more: `<figure>_….dat`.
+std::vector<std::string> more_data_of(const fs::path& figure) {
+  const std::string beginning = figure.stem().string() + "_";
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(figure.parent_path())) {
+    const std::string name = entry.path().filename().string();
+    const bool is_its_own = fs::exists(fs::path(entry.path()).replace_extension(".svg"));
+    if (name.starts_with(beginning) && name.ends_with(".dat") && !is_its_own) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+ReportSection figures_section(const ReportSubject& subject) {
+  ReportSection section{"figures", "Figures", {}};
+  const fs::path folder = subject.directory / "figures";
+  std::error_code ignored;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const fs::path& path = entry.path();
+    const bool drawn = path.extension() == ".svg";
+    const bool painted = path.extension() == ".png" &&
+                         !fs::exists(fs::path(path).replace_extension(".svg"), ignored);
+    if (drawn || painted) files.push_back(path);
+  }
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    fs::path shown = file;
+    const fs::path painted = fs::path(file).replace_extension(".png");
+    if (fs::file_size(file, ignored) > largest_picture && fs::exists(painted, ignored)) {
+      shown = painted;
+    }
+    if (fs::file_size(shown, ignored) > largest_picture) continue;
+    const FigureText text = text_of(file);
+    section.html += fmt::format(
+        "<figure{}><div class=\"pan\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">"
+        "<img loading=\"lazy\" alt=\"{}\" src=\"{}\"></div>\n<figcaption><b>{}.</b> {}",
+        is_wide(file) ? " class=\"wide\"" : "", escaped(text.title), escaped(text.alt),
+        data_uri(shown.extension() == ".svg" ? "image/svg+xml" : "image/png", shown),
+        escaped(text.title), escaped(text.caption));
+    for (const char* kind : {".svg", ".png", ".pdf", ".gp", ".dat", ".csv"}) {
+      const fs::path beside = fs::path(file).replace_extension(kind);
+      if (!fs::exists(beside, ignored)) continue;
+      section.html += fmt::format(" <a href=\"figures/{0}\">{1}</a>",
+                                  escaped(beside.filename().string()), kind + 1);
+    }
+    for (const std::string& name : more_data_of(file)) {
+      section.html += fmt::format(" <a href=\"figures/{0}\">{0}</a>", escaped(name));
+    }
+    section.html += "</figcaption></figure>\n";
+  }
+  if (!section.html.empty()) section.html = "<div class=\"gallery\">\n" + section.html + "</div>\n";
+  return section;
+}
+
+}  // namespace touchdown::render

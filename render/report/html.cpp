@@ -1,0 +1,74 @@
+#include "render/report/html.hpp"
+
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+
+namespace touchdown::render {
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&#39;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+std::string base64(std::string_view bytes) {
+  static constexpr std::string_view letters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string result;
+  result.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool padding = i + k > bytes.size();
+      result += padding ? '=' : letters[group >> (18 - 6 * k) & 63U];
+    }
+  }
+  return result;
+}
+
+std::string data_uri(std::string_view media_type, const std::filesystem::path& path) {
+  return fmt::format("data:{};base64,{}", media_type, base64(read_file(path)));
+}
+
+std::string policy_source(std::string_view sha256) {
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < sha256.size(); i += 2) {
+    bytes += static_cast<char>(std::stoi(std::string(sha256.substr(i, 2)), nullptr, 16));
+  }
+  return "'sha256-" + base64(bytes) + "'";
+}
+
+std::string size_text(std::uintmax_t bytes) {
+  const auto count = static_cast<double>(bytes);
+  if (count >= 1e6) return fmt::format("{:.1f} MB", count / 1e6);
+  return fmt::format("{:.0f} kB", count / 1e3);
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "render/report/html.hpp"
+#include "render/report/subject.hpp"
+
+namespace touchdown::render {
+
+/// Maps of the success rate over the study's noise grids; nothing for a single setting.
+ReportSection heatmap_section(const ReportSubject& subject);
+
+}  // namespace touchdown::render

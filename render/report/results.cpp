@@ -1,0 +1,105 @@
+#include "render/report/results.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "experiments/tables/captions.hpp"
+#include "render/report/tables.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+std::vector<std::string> engines_of(const experiments::Experiment& experiment) {
+  std::vector<std::string> engines;
+  for (const std::string& simulator : experiment.simulators) {
+    engines.push_back(simulators::simulator_title(simulator));
+  }
+  return engines;
+}
+
+std::string fact(const std::string& name, const std::string& value) {
+  return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped(name), escaped(value));
+}
+
+}  // namespace
+
+std::string header_html(const ReportSubject& subject) {
+  const experiments::Experiment& experiment = subject.experiment;
+  int test_runs = 0, unusable = 0, flights = 0;
+  for (const experiments::RunSummary& run : subject.summary.runs) {
+    if (run.role != experiments::RunRole::test) continue;
+    const bool scored = !experiments::is_failure(run.outcome);
+    (scored ? test_runs : unusable) += 1;
+    if (scored) flights += run.flights;
+  }
+  std::set<std::array<double, 3>> settings;
+  for (const experiments::CellSummary& score : subject.summary.cells) {
+    settings.insert({score.cell.accelerometer, score.cell.knee, score.cell.wheel});
+  }
+  std::string html = fmt::format(
+      "<p class=\"kicker\">Contact estimation on a wheeled biped</p>\n<h1>{}</h1>\n"
+      "<p class=\"lead\">Does the robot touch the ground? {} answer from joint torques and an "
+      "accelerometer, in {}, through sensor noise.</p>\n<dl class=\"facts\">\n",
+      escaped(experiment.name), experiments::plural(experiment.estimators.size(), "estimator"),
+      escaped(joined(engines_of(experiment))));
+  html += fact("physics engines", std::to_string(experiment.simulators.size()));
+  html += fact("test runs scored", std::to_string(test_runs));
+  html += fact("flights in them", std::to_string(flights));
+  html += fact("noise settings", std::to_string(settings.size()));
+  html += fact("noise seeds each", std::to_string(experiment.noise.seeds));
+  html += "</dl>\n";
+  html += fmt::format("<p class=\"note\">{}", escaped(experiments::conditions_text(experiment)));
+  if (unusable > 0) {
+    html += fmt::format(" {} test {} fell, diverged or could not be simulated and {} not scored.",
+                        unusable, unusable == 1 ? "run" : "runs", unusable == 1 ? "is" : "are");
+  }
+  return html + "</p>\n";
+}
+
+ReportSection results_section(const ReportSubject& subject) {
+  ReportSection section{"results", "Success rates", {}};
+  const std::vector<experiments::CellSummary>& scores = subject.summary.cells;
+  if (scores.empty()) return section;
+  const experiments::Experiment& experiment = subject.experiment;
+  std::vector<noise::NoiseCell> cells = experiment.highlights;
+  if (cells.empty()) cells.push_back(scores.front().cell);
+  for (const noise::NoiseCell& cell : cells) {
+    experiments::CaptionedTable table{
+        fmt::format("Share of steps that are judged rightly, with torque noise of {} N·m and "
+                    "accelerometer noise of {} m/s². “Always contact” is what a constant answer "
+                    "earns.",
+                    cell.torque, cell.accelerometer),
+        fmt::format("success rates at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
+        {{"estimator"}, {}}};
+    for (const std::string& engine : engines_of(experiment)) table.table.header.push_back(engine);
+    for (const std::string& estimator : scored_estimators(scores)) {
+      std::vector<std::string> line = {experiments::estimator_title(estimator)};
+      for (const std::string& simulator : experiment.simulators) {
+        const auto score =
+            std::find_if(scores.begin(), scores.end(), [&](const experiments::CellSummary& s) {
+              return s.condition.test_simulator == simulator &&
+                     s.condition.estimator == estimator && s.cell == cell;
+            });
+        line.push_back(score == scores.end() ? "–" : with_interval(score->success));
+      }
+      table.table.rows.push_back(std::move(line));
+    }
+    section.html += table_html(table, 1);
+  }
+  return section;
+}
+
+}  // namespace touchdown::render

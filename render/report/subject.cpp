@@ -1,0 +1,44 @@
+#include "render/report/subject.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace touchdown::render {
+
+ReportSubject read_subject(const std::filesystem::path& run_directory) {
+  std::error_code ignored;
+  for (const char* file : {"config.yaml", "manifest.json"}) {
+    if (!std::filesystem::is_regular_file(run_directory / file, ignored)) {
+      throw InputError(fmt::format("{}: no run directory of an experiment: it has no {}",
+                                   run_directory.string(), file));
+    }
+  }
+  ReportSubject subject;
+  subject.directory = run_directory;
+  try {
+    subject.manifest = nlohmann::ordered_json::parse(read_file(run_directory / "manifest.json"));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(
+        fmt::format("{}: {}", (run_directory / "manifest.json").string(), error.what()));
+  }
+  subject.experiment =
+      experiments::experiment_from_yaml(YamlDocument::load(run_directory / "config.yaml"));
+  subject.config_text = read_file(run_directory / "config.yaml");
+  subject.summary = experiments::read_summary(run_directory);
+  return subject;
+}
+
+std::vector<std::string> scored_estimators(const std::vector<experiments::CellSummary>& scores) {
+  std::vector<std::string> names;
+  for (const experiments::CellSummary& score : scores) {
+    const std::string& name = score.condition.estimator;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace touchdown::render

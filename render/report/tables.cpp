@@ -1,0 +1,174 @@
+#include "render/report/tables.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "experiments/tables/captions.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_rows = 400;
+
+/// The number in ink, its interval quieter.
+std::string cell_html(const std::string& cell) {
+  const std::size_t interval = cell.find(" [");
+  if (interval == std::string::npos) return escaped(cell);
+  return fmt::format("{} <span class=\"interval\">{}</span>", escaped(cell.substr(0, interval)),
+                     escaped(cell.substr(interval + 1)));
+}
+
+bool is_number(const std::string& cell) {
+  return !cell.empty() && cell.find_first_not_of("0123456789.+-eE") == std::string::npos;
+}
+
+double number(const std::string& cell) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return value;
+}
+
+std::string readable_cell(const std::string& name, const std::string& cell) {
+  if (cell == "nan") return "–";
+  if (name.ends_with("simulator")) return simulators::simulator_title(cell);
+  if (name == "estimator" || name == "first" || name == "second")
+    return experiments::estimator_title(cell);
+  if (is_number(cell) && cell.find('.') != std::string::npos) {
+    return fmt::format("{:.4g}", number(cell));
+  }
+  return cell;
+}
+
+std::string readable_name(std::string name) {
+  static const std::vector<std::pair<std::string, std::string>> units = {
+      {"_nm", " (N·m)"}, {"_mps2", " (m/s²)"}, {"_ms", " (ms)"}, {"_s", " (s)"}};
+  std::string unit;
+  for (const auto& [ending, text] : units) {
+    if (!name.ends_with(ending)) continue;
+    name.resize(name.size() - ending.size());
+    unit = text;
+    break;
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name + unit;
+}
+
+/// Where the end of an interval stands: "latency_ms", "_low" → "latency_low_ms".
+std::string interval_column(const std::string& name, const std::string& end) {
+  if (name.ends_with("_ms")) return name.substr(0, name.size() - 3) + end + "_ms";
+  return name + end;
+}
+
+/// Columns `x`, `x_low`, `x_high` as one; names as people write them.
+Table readable(const Table& table) {
+  const std::vector<std::string>& names = table.header;
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  std::set<std::string> ends;
+  for (const std::string& name : names) {
+    ends.insert({interval_column(name, "_low"), interval_column(name, "_high")});
+  }
+  Table result{{}, std::vector<std::vector<std::string>>(table.rows.size())};
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    if (ends.contains(names[c])) continue;
+    result.header.push_back(readable_name(names[c]));
+    const std::size_t low = column(interval_column(names[c], "_low"));
+    const std::size_t high = column(interval_column(names[c], "_high"));
+    const bool has_interval = low < names.size() && high < names.size();
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      const std::vector<std::string>& row = table.rows[r];
+      result.rows[r].push_back(
+          has_interval ? with_interval({number(row[c]), number(row[low]), number(row[high])},
+                                       names[c].ends_with("_ms") ? 1 : 3)
+                       : readable_cell(names[c], row[c]));
+    }
+  }
+  return result;
+}
+
+std::string title_of(const fs::path& file) {
+  std::string title = file.stem().string();
+  std::replace(title.begin(), title.end(), '_', ' ');
+  if (!title.empty() && title[0] >= 'a' && title[0] <= 'z')
+    title[0] = static_cast<char>(title[0] - 32);
+  return title;
+}
+
+}  // namespace
+
+std::string table_html(const experiments::CaptionedTable& captioned, std::size_t text_columns) {
+  const Table& table = captioned.table;
+  const std::size_t reference_column = static_cast<std::size_t>(
+      std::find_if(table.header.begin(), table.header.end(),
+                   [](const std::string& name) { return name.starts_with("paper"); }) -
+      table.header.begin());
+  std::string html = fmt::format(
+      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\"><table>\n"
+      "<caption><span>{}</span></caption>\n<thead><tr>",
+      escaped(captioned.label), escaped(captioned.caption));
+  for (std::size_t c = 0; c < table.header.size(); ++c) {
+    html += fmt::format("<th scope=\"col\"{}>{}</th>", c < text_columns ? " class=\"name\"" : "",
+                        escaped(table.header[c]));
+  }
+  html += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    html += "<tr>";
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      if (c + 1 == text_columns) {
+        html += fmt::format("<th scope=\"row\" class=\"name\">{}</th>", escaped(row[c]));
+      } else if (c < text_columns) {
+        html += fmt::format("<td class=\"name\">{}</td>", escaped(row[c]));
+      } else if (c == reference_column) {
+        html += fmt::format("<td class=\"reference\">{}</td>", escaped(row[c]));
+      } else {
+        html += "<td>" + cell_html(row[c]) + "</td>";
+      }
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+ReportSection more_tables_section(const ReportSubject& subject) {
+  ReportSection section{"tables", "Every table", {}};
+  std::error_code ignored;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(subject.directory / "tables", ignored)) {
+    if (entry.path().extension() == ".csv" && entry.is_regular_file()) {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    Table table = from_csv(read_file(file));
+    const std::size_t rows = table.rows.size();
+    if (rows == 0) continue;
+    std::string caption = fmt::format("tables/{}, {} rows", file.filename().string(), rows);
+    if (rows > most_rows) {
+      table.rows.resize(most_rows);
+      caption += fmt::format(", the first {} of them", most_rows);
+    }
+    const Table shown = readable(table);
+    std::size_t text_columns = 1;
+    while (text_columns < shown.header.size() && !is_number(shown.rows[0][text_columns]) &&
+           shown.rows[0][text_columns].find_first_of("0123456789") == std::string::npos) {
+      ++text_columns;
+    }
+    section.html +=
+        fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(title_of(file)),
+                    table_html({caption, title_of(file), shown}, text_columns));
+  }
+  return section;
+}
+
+}  // namespace touchdown::render

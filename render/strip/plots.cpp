@@ -1,0 +1,141 @@
+#include "render/strip/plots.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+namespace touchdown::render {
+namespace {
+
+constexpr int oversampling = 2;
+constexpr int shift = 4;  ///< fractional bits of OpenCV's coordinates
+
+const Colour one_wheel = rgb(0xe6f2e8);
+const Colour two_wheels = rgb(0xcfe8d2);
+const Colour grid = rgb(0xdfe3e6);
+
+cv::Point fixed(double x, double y) {
+  return {static_cast<int>(std::lround(x * (1 << shift))),
+          static_cast<int>(std::lround(y * (1 << shift)))};
+}
+
+/// A piece of the run as a picture at twice the size.
+struct Piece {
+  cv::Mat& image;
+  double begin, end;         ///< s
+  double pixels_per_second;  ///< of the picture
+
+  double x(const StripRow& row, std::size_t k) const {
+    return (static_cast<double>(k) * row.period - begin) * pixels_per_second;
+  }
+  static std::size_t row_at(const StripRow& row, double time, std::size_t size) {
+    return static_cast<std::size_t>(std::clamp(time / row.period, 0.0, static_cast<double>(size)));
+  }
+};
+
+/// Green where wheels truly touch the ground.
+void draw_contact(const Piece& piece, const StripRow& row, const PlotArea& area) {
+  const auto& contact = row.wheels_in_contact;
+  for (std::size_t k = Piece::row_at(row, piece.begin, contact.size());
+       k < Piece::row_at(row, piece.end, contact.size());) {
+    std::size_t end = k + 1;
+    while (end < contact.size() && contact[end] == contact[k]) ++end;
+    if (contact[k] > 0) {
+      cv::rectangle(piece.image, fixed(piece.x(row, k), area.top),
+                    fixed(piece.x(row, end), area.bottom - 1),
+                    contact[k] > 1 ? two_wheels : one_wheel, cv::FILLED, cv::LINE_8, shift);
+    }
+    k = end;
+  }
+}
+
+void draw_grid(const Piece& piece, const StripRow& row, const PlotArea& area) {
+  for (const double share : {0.0, 0.5, 1.0}) {
+    const float value = row.low + static_cast<float>(share) * (row.high - row.low);
+    const auto at = static_cast<int>(std::lround(plot_y(row, area, value)));
+    cv::line(piece.image, {0, at}, {piece.image.cols, at}, grid, oversampling);
+  }
+}
+
+void draw_curve(const Piece& piece, const StripRow& row, const PlotArea& area,
+                const StripCurve& curve) {
+  constexpr double margin = 0.1;  // s: a line's end must not show at the picture's edge
+  const std::size_t size = curve.values.size();
+  const std::size_t last = Piece::row_at(row, piece.end + margin, size);
+  const int thickness = oversampling * (curve.emphasis ? 2 : 1);
+  std::vector<cv::Point> line;
+  const auto flush = [&] {
+    if (line.size() > 1) {
+      cv::polylines(piece.image, line, false, curve.colour, thickness, cv::LINE_AA, shift);
+    }
+    line.clear();
+  };
+  for (std::size_t k = Piece::row_at(row, piece.begin - margin, size); k < last; ++k) {
+    if (!std::isfinite(curve.values[k])) {
+      flush();
+      continue;
+    }
+    line.push_back(fixed(piece.x(row, k), plot_y(row, area, curve.values[k])));
+  }
+  flush();
+}
+
+int floor_div(int a, int b) { return a / b - (a % b < 0 ? 1 : 0); }
+
+}  // namespace
+
+float plot_y(const StripRow& row, const PlotArea& area, float value) {
+  const float margin = 2.0f;  // keeps a curve at its limit inside
+  const float share = std::clamp((value - row.low) / (row.high - row.low), 0.0f, 1.0f);
+  const float bottom = static_cast<float>(area.bottom) - margin;
+  const float top = static_cast<float>(area.top) + margin;
+  return bottom - share * (bottom - top);
+}
+
+StripPlots::StripPlots(const std::vector<StripRow>& rows, std::vector<PlotArea> areas, int width,
+                       int height, double seconds)
+    : rows_(rows), areas_(std::move(areas)), width_(width), height_(height), seconds_(seconds) {}
+
+void StripPlots::copy_window(double from, const cv::Mat& image) {
+  const int begin = static_cast<int>(std::lround(from * width_ * oversampling / seconds_));
+  const int first = floor_div(begin, oversampling);
+  const int half_pixels = begin - first * oversampling;
+  for (int number = floor_div(first, width_); number * width_ < first + width_; ++number) {
+    const int left = std::max(first, number * width_);
+    const int right = std::min(first + width_, (number + 1) * width_);
+    tile(number, half_pixels)
+        .colRange(left - number * width_, right - number * width_)
+        .copyTo(image.colRange(left - first, right - first));
+  }
+}
+
+const cv::Mat& StripPlots::tile(int number, int half_pixels) {
+  auto& tiles = tiles_[static_cast<std::size_t>(half_pixels)];
+  if (const auto found = tiles.find(number); found != tiles.end()) return found->second;
+  if (tiles.size() > 3) {
+    for (auto& some : tiles_) some.clear();
+  }
+  const cv::Mat drawn = drawn_tile(number);
+  for (int half = 0; half < oversampling; ++half) {
+    cv::resize(drawn.colRange(half, half + width_ * oversampling),
+               tiles_[static_cast<std::size_t>(half)][number], {width_, height_}, 0, 0,
+               cv::INTER_AREA);
+  }
+  return tiles.at(number);
+}
+
+cv::Mat StripPlots::drawn_tile(int number) const {
+  cv::Mat image(height_ * oversampling, (width_ + 1) * oversampling, CV_8UC3, strip_paper);
+  const Piece piece{image, number * seconds_, (number + 1) * seconds_ + 0.1,
+                    width_ * oversampling / seconds_};
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const PlotArea area{areas_[i].top * oversampling, areas_[i].bottom * oversampling};
+    draw_contact(piece, rows_[i], area);
+    draw_grid(piece, rows_[i], area);
+    for (const StripCurve& curve : rows_[i].curves) draw_curve(piece, rows_[i], area, curve);
+  }
+  return image;
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "render/strip/row.hpp"
+
+namespace touchdown::render {
+
+/// Where a row's plot is (pixels from the strip's top).
+struct PlotArea {
+  int top, bottom;
+};
+
+/// The height at which `area` shows a value; values beyond the row's range run along its edge.
+float plot_y(const StripRow& row, const PlotArea& area, float value);
+
+/// The plots of a whole run as one very wide picture, drawn piece by piece when they are needed: at
+/// twice the size and averaged, once for each half of a pixel that a window may begin at.
+class StripPlots {
+ public:
+  /// Keeps a reference to `rows`. A window is `width` pixels wide and shows `seconds`.
+  StripPlots(const std::vector<StripRow>& rows, std::vector<PlotArea> areas, int width, int height,
+             double seconds);
+
+  /// Copies the window that begins at time `from` (s) into `image` (8UC3, width·height).
+  void copy_window(double from, const cv::Mat& image);
+
+ private:
+  const cv::Mat& tile(int number, int half_pixels);
+  cv::Mat drawn_tile(int number) const;
+
+  const std::vector<StripRow>& rows_;
+  std::vector<PlotArea> areas_;
+  int width_, height_;
+  double seconds_;
+  std::array<std::map<int, cv::Mat>, 2> tiles_;  ///< by half pixel, then number
+};
+
+}  // namespace touchdown::render

@@ -1,0 +1,44 @@
+#include "scoring/bootstrap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/random.hpp"
+
+namespace touchdown::scoring {
+
+namespace {
+
+/// Linear interpolation between order statistics: quantile 0 is the smallest, 1 the largest value.
+double quantile(const std::vector<double>& sorted, double q) {
+  const double place = q * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> resampled_indices(std::size_t samples, const BootstrapConfig& config) {
+  const auto resamples = static_cast<std::size_t>(std::max(config.resamples, 0));
+  std::vector<std::uint32_t> indices(samples * resamples);
+  for (std::size_t r = 0; r < resamples; ++r) {
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double u = uniform01(config.seed, r, i);
+      indices[samples * r + i] = static_cast<std::uint32_t>(u * static_cast<double>(samples));
+    }
+  }
+  return indices;
+}
+
+Interval percentile_interval(double estimate, std::vector<double>& values, double level) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (values.empty() || std::isnan(estimate)) return {estimate, nan, nan};
+  std::sort(values.begin(), values.end());
+  const double tail = 0.5 * (1.0 - level);
+  return {estimate, quantile(values, tail), quantile(values, 1.0 - tail)};
+}
+
+}  // namespace touchdown::scoring

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/interval.hpp"
+
+namespace touchdown::scoring {
+
+struct BootstrapConfig {
+  int resamples = 1000;    ///< how often the samples are drawn anew
+  double level = 0.95;     ///< probability that the interval is meant to cover
+  std::uint64_t seed = 1;  ///< of the draws
+};
+
+/// For every resample, which of `samples` samples it consists of: row r holds `samples` indices,
+/// drawn with replacement and keyed by (seed, r, position), so equal arguments give equal draws.
+std::vector<std::uint32_t> resampled_indices(std::size_t samples, const BootstrapConfig& config);
+
+/// The percentile interval of a statistic's values over the resamples; values that are NaN (the
+/// resample held nothing to divide by) are left out. `values` is reordered.
+Interval percentile_interval(double estimate, std::vector<double>& values, double level);
+
+/// 95 % percentile bootstrap (Efron and Tibshirani 1993, ch. 13) of statistics of a sum over
+/// independent samples: means, ratios of sums (precision, recall), differences of paired ones. A
+/// sample is a run or a drop, never a time step. `Sample` needs a default value and `+=`; each
+/// statistic maps a sum of samples to a number. One interval per statistic; all statistics, and all
+/// calls with as many samples and the same seed, see the same resamples.
+template <typename Sample>
+std::vector<Interval> bootstrap(std::span<const Sample> samples,
+                                const std::vector<std::function<double(const Sample&)>>& statistics,
+                                const BootstrapConfig& config) {
+  const std::vector<std::uint32_t> indices = resampled_indices(samples.size(), config);
+  Sample all{};
+  for (const Sample& sample : samples) all += sample;
+
+  std::vector<std::vector<double>> values(statistics.size());
+  for (std::size_t r = 0; samples.size() * r < indices.size(); ++r) {
+    Sample sum{};
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      sum += samples[indices[samples.size() * r + i]];
+    for (std::size_t s = 0; s < statistics.size(); ++s) values[s].push_back(statistics[s](sum));
+  }
+  std::vector<Interval> result;
+  for (std::size_t s = 0; s < statistics.size(); ++s) {
+    result.push_back(percentile_interval(statistics[s](all), values[s], config.level));
+  }
+  return result;
+}
+
+/// Two methods' results on the same run or drop, so that their difference is resampled as one.
+template <typename Sample>
+struct Paired {
+  Sample first{};
+  Sample second{};
+
+  Paired& operator+=(const Paired& other) {
+    first += other.first;
+    second += other.second;
+    return *this;
+  }
+};
+
+}  // namespace touchdown::scoring

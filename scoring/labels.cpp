@@ -1,0 +1,132 @@
+#include "scoring/labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+
+namespace touchdown::scoring {
+
+namespace {
+
+/// Steps [begin, end) share one state.
+struct Stretch {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  std::uint8_t state = 0;
+
+  std::size_t length() const { return end - begin; }
+};
+
+std::vector<Stretch> stretches(const ContactSequence& contact) {
+  std::vector<Stretch> result;
+  for (std::size_t k = 0; k < contact.size(); ++k) {
+    if (k == 0 || contact[k] != contact[k - 1]) result.push_back({k, k, contact[k]});
+    result.back().end = k + 1;
+  }
+  return result;
+}
+
+ContactSequence combined(const std::array<ContactSequence, models::wheel_count>& wheels,
+                         const std::function<bool(bool, bool)>& rule) {
+  ContactSequence result(wheels[0].size());
+  std::transform(wheels[0].begin(), wheels[0].end(), wheels[1].begin(), result.begin(),
+                 [&](auto left, auto right) { return std::uint8_t{rule(left != 0, right != 0)}; });
+  return result;
+}
+
+}  // namespace
+
+void describe(Fields& fields, LabelConfig& labels) {
+  fields("force_threshold", labels.force_threshold, 0.0, 1e4);
+  fields("debounce", labels.debounce, 0.0, 10.0);
+}
+
+ContactSequence debounced(ContactSequence contact, std::size_t steps) {
+  std::vector<Stretch> parts = stretches(contact);
+  while (parts.size() > 1) {
+    const auto shortest = std::min_element(
+        parts.begin(), parts.end(),
+        [](const Stretch& a, const Stretch& b) { return a.length() < b.length(); });
+    if (shortest->length() >= steps) break;
+    const bool has_left = shortest != parts.begin();
+    const bool has_right = shortest + 1 != parts.end();
+    Stretch merged = *shortest;
+    merged.state = shortest->state == 0 ? 1 : 0;
+    if (has_left) merged.begin = (shortest - 1)->begin;
+    if (has_right) merged.end = (shortest + 1)->end;
+    const auto first = has_left ? shortest - 1 : shortest;
+    *first = merged;
+    parts.erase(first + 1, has_right ? shortest + 2 : shortest + 1);
+  }
+  for (const Stretch& part : parts) {
+    std::fill(contact.begin() + static_cast<std::ptrdiff_t>(part.begin),
+              contact.begin() + static_cast<std::ptrdiff_t>(part.end), part.state);
+  }
+  return contact;
+}
+
+ContactSequence contact_labels(std::span<const double> normal_force, double period,
+                               const LabelConfig& config) {
+  ContactSequence contact(normal_force.size());
+  std::transform(normal_force.begin(), normal_force.end(), contact.begin(),
+                 [&](double force) { return std::uint8_t{force > config.force_threshold}; });
+  return debounced(std::move(contact),
+                   static_cast<std::size_t>(std::llround(config.debounce / period)));
+}
+
+std::array<ContactSequence, models::wheel_count> contact_labels(
+    const recordings::Recording& recording, const LabelConfig& config) {
+  if (recording.truth.size() != recording.steps()) {
+    throw InputError(fmt::format("recording of '{}' has no ground truth to label contact with",
+                                 recording.info.scenario));
+  }
+  std::array<ContactSequence, models::wheel_count> labels;
+  for (std::size_t wheel = 0; wheel < labels.size(); ++wheel) {
+    std::vector<double> force(recording.steps());
+    std::transform(
+        recording.truth.begin(), recording.truth.end(), force.begin(),
+        [&](const models::GroundTruth& truth) { return truth.wheel_normal_force[wheel]; });
+    labels[wheel] = contact_labels(force, recording.period(), config);
+  }
+  return labels;
+}
+
+std::vector<Flight> flights(const ContactSequence& contact) {
+  std::vector<Flight> result;
+  for (const Stretch& part : stretches(contact)) {
+    if (part.state == 0) result.push_back({part.begin, part.end});
+  }
+  return result;
+}
+
+ContactSequence any_wheel(const std::array<ContactSequence, models::wheel_count>& wheels) {
+  return combined(wheels, std::logical_or<>{});
+}
+
+ContactSequence both_wheels(const std::array<ContactSequence, models::wheel_count>& wheels) {
+  return combined(wheels, std::logical_and<>{});
+}
+
+std::vector<std::size_t> drop_pieces(const ContactSequence& both_wheels_in_contact,
+                                     std::size_t hold_off) {
+  std::vector<Flight> drops;
+  for (const Flight& flight : flights(both_wheels_in_contact)) {
+    if (!drops.empty() && flight.takeoff - drops.back().landing <= hold_off) {
+      drops.back().landing = flight.landing;
+    } else {
+      drops.push_back(flight);
+    }
+  }
+  std::vector<std::size_t> starts = {0};
+  for (std::size_t i = 1; i < drops.size(); ++i) {
+    starts.push_back((drops[i - 1].landing + drops[i].takeoff) / 2);
+  }
+  return starts;
+}
+
+}  // namespace touchdown::scoring

@@ -1,0 +1,70 @@
+#include "scoring/metrics.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/yaml.hpp"
+
+namespace touchdown::scoring {
+
+// N_ab: steps in truth a that were told to be b, C contact and F flight. Of transitions: found,
+// missed and false alarms; t: steps from a true event to its detection, negative if early; T: the
+// length of a step.
+const std::vector<Metric>& metrics() {
+  static const std::vector<Metric> all = {
+      // Steps told right: (N_CC + N_FF) / (N_CC + N_CF + N_FC + N_FF).
+      {"success", [](const Score& s) { return s.points.success(); }},
+      // Told contact that is contact: N_CC / (N_CC + N_FC).
+      {"contact_precision", [](const Score& s) { return s.points.contact_precision(); }},
+      // Contact that is told: N_CC / (N_CC + N_CF).
+      {"contact_recall", [](const Score& s) { return s.points.contact_recall(); }},
+      // Told flight that is flight: N_FF / (N_FF + N_CF).
+      {"no_contact_precision", [](const Score& s) { return s.points.no_contact_precision(); }},
+      // Flight that is told: N_FF / (N_FF + N_FC).
+      {"no_contact_recall", [](const Score& s) { return s.points.no_contact_recall(); }},
+      // Announcements that are not false: found / (found + false alarms), of takeoffs, of landings.
+      {"takeoff_precision", [](const Score& s) { return s.takeoff.precision(); }},
+      // True events that are announced in time: found / (found + missed).
+      {"takeoff_recall", [](const Score& s) { return s.takeoff.recall(); }},
+      {"landing_precision", [](const Score& s) { return s.landing.precision(); }},
+      {"landing_recall", [](const Score& s) { return s.landing.recall(); }},
+      // Mean of t·T over found events, and its sample standard deviation (n − 1).
+      {"takeoff_latency_ms", [](const Score& s) { return 1e3 * s.takeoff.latency_mean(); }},
+      {"takeoff_latency_deviation_ms",
+       [](const Score& s) { return 1e3 * s.takeoff.latency_deviation(); }},
+      {"landing_latency_ms", [](const Score& s) { return 1e3 * s.landing.latency_mean(); }},
+      {"landing_latency_deviation_ms",
+       [](const Score& s) { return 1e3 * s.landing.latency_deviation(); }},
+      // Mean squared error of P(contact), p(k), against the truth y(k): Σ (p(k) − y(k))² / N.
+      {"brier", [](const Score& s) { return s.calibration.brier(); }},
+  };
+  return all;
+}
+
+std::size_t metric_index(std::string_view name) {
+  const std::vector<Metric>& all = metrics();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Metric& m) { return m.name == name; });
+  if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
+  std::vector<std::string> names;
+  for (const Metric& metric : all) names.push_back(metric.name);
+  throw InputError(
+      fmt::format("unknown metric '{}' (did you mean '{}'?)", name, nearest(name, names)));
+}
+
+const std::vector<std::string>& scored_views() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = {"wheels"};
+    for (const std::string_view view : view_names) all.emplace_back(view);
+    return all;
+  }();
+  return names;
+}
+
+Score score_of_view(const RobotScore& robot, std::size_t view) {
+  return view == 0 ? robot.wheels() : robot.view[view - 1];
+}
+
+}  // namespace touchdown::scoring

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "scoring/labels.hpp"
+#include "scoring/latency_histogram.hpp"
+
+namespace touchdown::scoring {
+
+/// What is counted when predictions are compared with the truth; docs/metrics.md.
+struct ScoringConfig {
+  double skip = 0.3;             ///< not scored at the beginning of a run (s)
+  double hold_off = 0.25;        ///< after a transition, further ones are irrelevant (s)
+  double takeoff_opens = 0.06;   ///< a takeoff may be announced this much before it happens (s)
+  double landing_opens = 0.02;   ///< a landing, likewise (s)
+  double minimum_flight = 0.05;  ///< shorter flights are no events that must be found (s)
+};
+
+void describe(Fields& fields, ScoringConfig& scoring);
+
+enum class EventKind : int { takeoff, landing };
+enum class Judgement : int { detected, missed, false_alarm };
+
+/// A true event that was detected or missed, or a predicted one that was a false alarm.
+struct JudgedTransition {
+  EventKind kind = EventKind::takeoff;
+  Judgement verdict = Judgement::missed;
+  std::size_t step = 0;      ///< of the true event; of the prediction for a false alarm
+  std::int64_t latency = 0;  ///< steps from the true event to its detection; negative if early
+
+  friend bool operator==(const JudgedTransition&, const JudgedTransition&) = default;
+};
+
+/// Matches predicted transitions with true ones as docs/metrics.md, "Transitions", defines it.
+/// Both sequences have one state per step of `period` seconds. In order of kind, then time.
+std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
+                                                const ContactSequence& predicted, double period,
+                                                const ScoringConfig& config);
+
+/// Counts of one kind of transition over one or many runs; sums, so they add.
+struct TransitionCounts {
+  std::int64_t events = 0;
+  std::int64_t detected = 0;
+  std::int64_t false_alarms = 0;
+  std::int64_t latency_us = 0;          ///< summed over detected events (µs)
+  std::int64_t latency_us_squared = 0;  ///< likewise (µs²)
+  LatencyHistogram latency;             ///< of detected events
+
+  void add(const JudgedTransition& judged, std::int64_t period_us);
+  TransitionCounts& operator+=(const TransitionCounts& other);
+
+  double precision() const;
+  double recall() const;
+  /// Mean and standard deviation of the latency (s); NaN with too few detections.
+  double latency_mean() const;
+  double latency_deviation() const;
+
+  friend bool operator==(const TransitionCounts&, const TransitionCounts&) = default;
+};
+
+}  // namespace touchdown::scoring

@@ -1,0 +1,90 @@
+#include "simulators/bullet/simulator.hpp"
+
+#include "models/mujoco_arrays.hpp"
+#include "simulators/bullet/convert.hpp"
+#include "simulators/bullet/world.hpp"
+
+namespace touchdown::simulators {
+
+BulletSimulator::BulletSimulator(const std::shared_ptr<const models::RobotModel>& model,
+                                 const SimulatorOptions& options)
+    : Simulator(model, options),
+      base_com_(models::vector_at(model->mj->body_ipos, model->base_body)),
+      base_principal_(models::quaternion_at(model->mj->body_iquat, model->base_body)) {
+  place({});
+}
+
+BulletSimulator::~BulletSimulator() = default;
+
+void BulletSimulator::place(const RobotState& start) {
+  world_ = std::make_unique<BulletWorld>(model(), options());
+  btMultiBody& robot = world_->robot();
+  const Eigen::Vector3d com_offset = start.orientation * base_com_;
+  robot.setBasePos(to_bullet(start.position + com_offset));
+  robot.setWorldToBaseRot(to_bullet((start.orientation * base_principal_).conjugate()));
+  robot.setBaseVel(to_bullet(start.linear_velocity + start.angular_velocity.cross(com_offset)));
+  robot.setBaseOmega(to_bullet(start.angular_velocity));
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    robot.setJointPos(world_->link_of(i), start.joint_position[i]);
+    robot.setJointVel(world_->link_of(i), start.joint_velocity[i]);
+  }
+  btAlignedObjectArray<btQuaternion> rotations;
+  btAlignedObjectArray<btVector3> origins;
+  robot.forwardKinematics(rotations, origins);
+  robot.updateCollisionObjectWorldTransforms(rotations, origins);
+}
+
+void BulletSimulator::advance(const JointTorques& torques,
+                              std::span<const ExternalWrench> wrenches) {
+  btMultiBody& robot = world_->robot();
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    robot.addJointTorque(world_->link_of(i), torques[i]);
+  }
+  for (const ExternalWrench& wrench : wrenches) {
+    robot.addBaseForce(to_bullet(wrench.force));
+    robot.addBaseTorque(to_bullet(torque_about(base_com_, wrench, state())));
+  }
+  // Zero sub-steps: one step of exactly this length.
+  world_->world().stepSimulation(physics_period(), 0);
+}
+
+void BulletSimulator::read(RobotState& state) const {
+  const btMultiBody& robot = world_->robot();
+  state.orientation = to_eigen(robot.getWorldToBaseRot()).conjugate() * base_principal_.conjugate();
+  const Eigen::Vector3d com_offset = state.orientation * base_com_;
+  state.angular_velocity = to_eigen(robot.getBaseOmega());
+  state.position = to_eigen(robot.getBasePos()) - com_offset;
+  state.linear_velocity = to_eigen(robot.getBaseVel()) - state.angular_velocity.cross(com_offset);
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    state.joint_position[i] = robot.getJointPos(world_->link_of(i));
+    state.joint_velocity[i] = robot.getJointVel(world_->link_of(i));
+  }
+}
+
+void BulletSimulator::read(ContactForces& forces) const {
+  forces = {};
+  const btDispatcher& dispatcher = *world_->world().getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold =
+        *const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(i);
+    const bool robot_is_first =
+        manifold.getBody0()->getInternalType() == btCollisionObject::CO_FEATHERSTONE_LINK;
+    const btCollisionObject& robot_part =
+        robot_is_first ? *manifold.getBody0() : *manifold.getBody1();
+    for (int p = 0; p < manifold.getNumContacts(); ++p) {
+      const btManifoldPoint& point = manifold.getContactPoint(p);
+      // Contact points linger in the manifold while apart: only an impulse is contact.
+      if (point.getAppliedImpulse() <= 0.0) continue;
+      const int tyre =
+          world_->tyre_of(robot_part, robot_is_first ? point.m_index0 : point.m_index1);
+      if (tyre == BulletWorld::not_a_tyre) {
+        forces.body_touches_terrain = true;
+      } else {
+        forces.wheel_normal_force[static_cast<std::size_t>(tyre)] +=
+            point.getAppliedImpulse() / physics_period();
+      }
+    }
+  }
+}
+
+}  // namespace touchdown::simulators

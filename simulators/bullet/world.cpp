@@ -1,0 +1,183 @@
+#include "simulators/bullet/world.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "models/mujoco_arrays.hpp"
+#include "simulators/bullet/convert.hpp"
+#include "simulators/collision_model.hpp"
+
+namespace touchdown::simulators {
+
+namespace {
+
+constexpr int robot_group = 1;
+constexpr int terrain_group = 2;
+
+/// A body's principal inertia frame in its own body frame: where Bullet puts the link.
+struct InertiaFrame {
+  Eigen::Vector3d position;
+  Eigen::Quaterniond orientation;
+};
+
+InertiaFrame inertia_frame(const mjModel& mj, int body) {
+  return {models::vector_at(mj.body_ipos, body), models::quaternion_at(mj.body_iquat, body)};
+}
+
+/// Place of a geom in the inertia frame of its body.
+btTransform geom_in_link(const mjModel& mj, int geom, const InertiaFrame& frame) {
+  const Eigen::Quaterniond to_frame = frame.orientation.conjugate();
+  return btTransform(to_bullet(to_frame * models::quaternion_at(mj.geom_quat, geom)),
+                     to_bullet(to_frame * (models::vector_at(mj.geom_pos, geom) - frame.position)));
+}
+
+}  // namespace
+
+BulletWorld::BulletWorld(const models::RobotModel& model, const SimulatorOptions& options)
+    : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+  const mjModel& mj = *model.mj;
+  world_.setGravity(to_bullet(models::vector_at(mj.opt.gravity, 0)));
+  build_links(model);
+  world_.addMultiBody(robot_.get());
+  add_joint_limits(model);
+  add_colliders(model, options);
+  add_terrain(mj);
+}
+
+BulletWorld::~BulletWorld() {
+  for (auto& limit : joint_limits_) world_.removeMultiBodyConstraint(limit.get());
+  for (auto& collider : colliders_) world_.removeCollisionObject(collider.get());
+  for (auto& body : terrain_) world_.removeRigidBody(body.get());
+  world_.removeMultiBody(robot_.get());
+}
+
+void BulletWorld::build_links(const models::RobotModel& model) {
+  const mjModel& mj = *model.mj;
+  // Bodies are sorted parents first; the robot's are those below the base.
+  link_of_body_.assign(static_cast<std::size_t>(mj.nbody), -2);
+  std::vector<int> links;
+  for (int body = 1; body < mj.nbody; ++body) {
+    if (mj.body_rootid[body] == model.base_body && body != model.base_body) {
+      link_of_body_[static_cast<std::size_t>(body)] = static_cast<int>(links.size());
+      links.push_back(body);
+    }
+  }
+  link_of_body_[static_cast<std::size_t>(model.base_body)] = -1;
+
+  robot_ = std::make_unique<btMultiBody>(
+      static_cast<int>(links.size()), mj.body_mass[model.base_body],
+      to_bullet(models::vector_at(mj.body_inertia, model.base_body)), false, false);
+  for (const int body : links) {
+    const int parent = mj.body_parentid[body];
+    const InertiaFrame own = inertia_frame(mj, body);
+    const InertiaFrame above = inertia_frame(mj, parent);
+    const Eigen::Quaterniond body_in_parent = models::quaternion_at(mj.body_quat, body);
+    const Eigen::Quaterniond link_in_parent =
+        above.orientation.conjugate() * body_in_parent * own.orientation;
+    const int joint = mj.body_jntadr[body];
+    const Eigen::Vector3d pivot = models::vector_at(mj.jnt_pos, joint);
+    const Eigen::Vector3d axis =
+        own.orientation.conjugate() * models::vector_at(mj.jnt_axis, joint);
+    const Eigen::Vector3d parent_to_pivot =
+        above.orientation.conjugate() *
+        (models::vector_at(mj.body_pos, body) + body_in_parent * pivot - above.position);
+    const Eigen::Vector3d pivot_to_link = own.orientation.conjugate() * (own.position - pivot);
+    robot_->setupRevolute(link_of_body_[static_cast<std::size_t>(body)], mj.body_mass[body],
+                          to_bullet(models::vector_at(mj.body_inertia, body)),
+                          link_of_body_[static_cast<std::size_t>(parent)],
+                          to_bullet(link_in_parent.conjugate()), to_bullet(axis),
+                          to_bullet(parent_to_pivot), to_bullet(pivot_to_link), true);
+  }
+  robot_->finalizeMultiDof();
+  robot_->setLinearDamping(0.0);
+  robot_->setAngularDamping(0.0);
+  robot_->setUseGyroTerm(true);
+  robot_->setHasSelfCollision(false);
+  robot_->setMaxCoordinateVelocity(1e4);
+
+  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    const int dof = model.dof_address[servo];
+    link_of_servo_[servo] =
+        link_of_body_[static_cast<std::size_t>(mj.jnt_bodyid[mj.dof_jntid[dof]])];
+    if (mj.dof_armature[dof] != 0.0 || mj.dof_damping[dof] != 0.0 ||
+        mj.dof_frictionloss[dof] != 0.0) {
+      throw InputError(fmt::format(
+          "joint '{}': Bullet knows no armature, damping or frictionloss; expected them to be zero",
+          models::servo_names[servo]));
+    }
+  }
+}
+
+void BulletWorld::add_joint_limits(const models::RobotModel& model) {
+  const mjModel& mj = *model.mj;
+  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    const int joint = mj.dof_jntid[model.dof_address[servo]];
+    if (mj.jnt_limited[joint] == 0) continue;
+    const mjtNum* range = &mj.jnt_range[2 * joint];
+    auto& limit = joint_limits_.emplace_back(std::make_unique<btMultiBodyJointLimitConstraint>(
+        robot_.get(), link_of_servo_[servo], range[0], range[1]));
+    world_.addMultiBodyConstraint(limit.get());
+  }
+}
+
+void BulletWorld::add_colliders(const models::RobotModel& model, const SimulatorOptions& options) {
+  const mjModel& mj = *model.mj;
+  for (int body = model.base_body; body < mj.nbody; ++body) {
+    const int link = link_of_body_[static_cast<std::size_t>(body)];
+    if (link < -1) continue;
+    const InertiaFrame frame = inertia_frame(mj, body);
+    auto compound = std::make_unique<btCompoundShape>();
+    auto collider = std::make_unique<btMultiBodyLinkCollider>(robot_.get(), link);
+    bool has_tyre = false;
+    for (int geom = mj.body_geomadr[body]; geom < mj.body_geomadr[body] + mj.body_geomnum[body];
+         ++geom) {
+      if (!collides(mj, geom)) continue;
+      for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+        if (geom != model.tyre_geom[wheel]) continue;
+        tyre_collider_[wheel] = collider.get();
+        tyre_child_[wheel] = compound->getNumChildShapes();
+        has_tyre = true;
+      }
+      compound->addChildShape(geom_in_link(mj, geom, frame), make_shape(mj, geom, shapes_));
+    }
+    if (compound->getNumChildShapes() == 0) continue;
+    collider->setCollisionShape(compound.get());
+    shapes_.push_back(std::move(compound));
+    collider->setFriction(1.0);
+    if (has_tyre) {
+      collider->setContactStiffnessAndDamping(options.contact.bullet_stiffness,
+                                              options.contact.bullet_damping);
+    }
+    world_.addCollisionObject(collider.get(), robot_group, terrain_group);
+    if (link < 0) {
+      robot_->setBaseCollider(collider.get());
+    } else {
+      robot_->getLink(link).m_collider = collider.get();
+    }
+    colliders_.push_back(std::move(collider));
+  }
+}
+
+void BulletWorld::add_terrain(const mjModel& mj) {
+  for (int geom = 0; geom < mj.ngeom; ++geom) {
+    if (mj.geom_bodyid[geom] != 0 || !collides(mj, geom)) continue;
+    const btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr,
+                                                        make_shape(mj, geom, shapes_));
+    auto& body = terrain_.emplace_back(std::make_unique<btRigidBody>(info));
+    body->setWorldTransform(btTransform(to_bullet(models::quaternion_at(mj.geom_quat, geom)),
+                                        to_bullet(models::vector_at(mj.geom_pos, geom))));
+    body->setFriction(mj.geom_friction[3 * geom]);
+    world_.addRigidBody(body.get(), terrain_group, robot_group);
+  }
+}
+
+int BulletWorld::tyre_of(const btCollisionObject& object, int child_shape) const {
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+    if (&object == tyre_collider_[wheel] && child_shape == tyre_child_[wheel]) {
+      return static_cast<int>(wheel);
+    }
+  }
+  return not_a_tyre;
+}
+
+}  // namespace touchdown::simulators

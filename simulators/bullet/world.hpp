@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <btBulletDynamicsCommon.h>
+#include <memory>
+#include <vector>
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include "models/robot_model.hpp"
+#include "simulators/bullet/shapes.hpp"
+#include "simulators/options.hpp"
+
+namespace touchdown::simulators {
+
+/// A Bullet world built from the compiled MuJoCo model: the robot as one Featherstone
+/// `btMultiBody`, the terrain as static bodies. Bullet's frames are the bodies' principal inertia
+/// frames, with the base's frame at its centre of mass.
+///
+/// Friction follows the model's rule that the terrain's coefficient counts: Bullet multiplies the
+/// two, so the robot's colliders have one.
+class BulletWorld {
+ public:
+  /// Errors: `InputError` for what Bullet cannot represent (see `make_shape`, armature).
+  BulletWorld(const models::RobotModel& model, const SimulatorOptions& options);
+
+  btMultiBodyDynamicsWorld& world() { return world_; }
+  const btMultiBodyDynamicsWorld& world() const { return world_; }
+  btMultiBody& robot() { return *robot_; }
+  const btMultiBody& robot() const { return *robot_; }
+
+  /// Bullet's link that a servo's joint moves.
+  int link_of(std::size_t servo) const { return link_of_servo_[servo]; }
+
+  /// Which tyre a collision object is: 0, 1, or -1 for anything else; and which geom touched.
+  static constexpr int not_a_tyre = -1;
+  int tyre_of(const btCollisionObject& object, int child_shape) const;
+
+ private:
+  void build_links(const models::RobotModel& model);
+  void add_joint_limits(const models::RobotModel& model);
+  void add_colliders(const models::RobotModel& model, const SimulatorOptions& options);
+  void add_terrain(const mjModel& mj);
+
+  // In the order of construction: the world refers to all above it and must go first.
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+  btDbvtBroadphase broadphase_;
+  btMultiBodyConstraintSolver solver_;
+  BulletShapes shapes_;
+  std::vector<std::unique_ptr<btRigidBody>> terrain_;
+  std::unique_ptr<btMultiBody> robot_;
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
+  std::vector<std::unique_ptr<btMultiBodyJointLimitConstraint>> joint_limits_;
+  std::vector<int> link_of_body_;
+  std::array<int, models::servo_count> link_of_servo_ = {};
+  std::array<const btCollisionObject*, models::wheel_count> tyre_collider_ = {};
+  std::array<int, models::wheel_count> tyre_child_ = {};
+  btMultiBodyDynamicsWorld world_;
+
+ public:
+  ~BulletWorld();
+  BulletWorld(const BulletWorld&) = delete;
+  BulletWorld& operator=(const BulletWorld&) = delete;
+};
+
+}  // namespace touchdown::simulators

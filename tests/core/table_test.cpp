@@ -1,0 +1,51 @@
+#include "core/table.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace touchdown {
+namespace {
+
+TEST(Csv, QuotesWhatWouldBreakALine) {
+  EXPECT_EQ(to_csv({{"a", "b"}, {{"x,y", "say \"hi\""}, {"1", "2"}}}),
+            "a,b\n\"x,y\",\"say \"\"hi\"\"\"\n1,2\n");
+}
+
+TEST(Csv, IsReadAsItWasWritten) {
+  const Table table{{"a", "b,\"c\""}, {{"1", "two\nlines"}, {"", "x"}}};
+  const Table read = from_csv(to_csv(table));
+  EXPECT_EQ(read.header, table.header);
+  EXPECT_EQ(read.rows, table.rows);
+  EXPECT_TRUE(from_csv("").header.empty());
+  EXPECT_EQ(from_csv("x,y\n1.5\n").rows, (std::vector<std::vector<std::string>>{{"1.5", ""}}));
+}
+
+TEST(TextTable, AlignsByCharactersNotBytes) {
+  EXPECT_EQ(to_text({{"name", "v"}, {{"m/s²", "10"}, {"a", "±1"}}}),
+            "  name    v\n  ────   ──\n  m/s²   10\n  a      ±1\n");
+  EXPECT_EQ(to_text({{}, {{"a", "b"}, {"cc", "d"}}}, 2), "  a    b\n  cc   d\n");
+}
+
+TEST(Numbers, ReadBackExactlyAndSayWhatIsUndefined) {
+  EXPECT_EQ(exact(0.25), "0.25");
+  EXPECT_EQ(std::stod(exact(0.1 + 0.2)), 0.1 + 0.2);
+  EXPECT_EQ(metric(2.0 / 3.0), "0.666667");
+  EXPECT_EQ(metric(NAN), "nan");
+  EXPECT_EQ(with_interval({0.5, 0.25, 0.75}, 2), "0.50 [0.25, 0.75]");
+  EXPECT_EQ(with_interval({NAN, NAN, NAN}), "–");
+}
+
+TEST(IntervalColumns, KeepTheUnitLastAndHoldMetrics) {
+  Table table{{"who"}, {{"a"}}};
+  append_interval_columns(table.header, "success");
+  append_interval_columns(table.header, "latency", "_ms");
+  append_interval(table.rows[0], {0.5, 0.25, 0.75});
+  append_interval(table.rows[0], {NAN, NAN, NAN});
+  EXPECT_EQ(to_csv(table),
+            "who,success,success_low,success_high,latency_ms,latency_low_ms,latency_high_ms\n"
+            "a,0.500000,0.250000,0.750000,nan,nan,nan\n");
+}
+
+}  // namespace
+}  // namespace touchdown

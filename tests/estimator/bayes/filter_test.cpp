@@ -1,0 +1,280 @@
+#include "estimator/bayes/filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/estimator/named_config.hpp"
+#include "tests/estimator/synthetic.hpp"
+
+namespace touchdown {
+namespace {
+
+using test::drops;
+using test::in_the_air;
+using test::labelled;
+
+MeasurementModel fitted(const BayesFilterConfig& config) {
+  const auto samples = labelled(drops(8000), config.measurement.torque);
+  return fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit);
+}
+
+/// Beliefs never leave [0, 1], whatever happens.
+void expect_sane(const Belief& belief) {
+  for (const double p : {belief.wheel[0].p_contact, belief.wheel[1].p_contact, belief.p_any_wheel,
+                         belief.p_both_wheels}) {
+    ASSERT_GE(p, 0.0);
+    ASSERT_LE(p, 1.0);
+  }
+}
+
+/// σ(x), or with `against` 1 − σ(x) to full relative precision.
+double clamped_sigmoid(const Sigmoid& sigmoid, double x, double margin, bool against = false) {
+  const double u = (x - sigmoid.offset) / sigmoid.slope;
+  const double p = 1.0 / (1.0 + std::exp(against ? u : -u));
+  return std::min(1.0 - margin, std::max(margin, p));
+}
+
+class NamedBayesFilter : public testing::TestWithParam<const char*> {};
+
+TEST_P(NamedBayesFilter, FollowsTheEquationsStepByStep) {
+  const BayesFilterConfig config = test::named(GetParam());
+  const MeasurementModel model = fitted(config);
+  BayesFilter filter(model, config);
+  TransitionModel transition(config.transition, config.sample_rate);
+  std::array<TorqueChannel, 2> channels{TorqueChannel(config.measurement.torque, Side::left, 1e3),
+                                        TorqueChannel(config.measurement.torque, Side::right, 1e3)};
+  std::array<double, 2> bel{0.5, 0.5};
+  std::array<double, 2> not_bel{0.5, 0.5};
+  for (const Signals& s : drops(3000, 1000.0, 7)) {
+    const Transition& t = transition.update(s.vertical_acceleration);
+    const Belief& belief = filter.update(s);
+    ASSERT_EQ(belief.status, SignalStatus::good);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Likelihoods p = model(channels[i].update(s.leg[i]));
+      // The published matrix says stay = 1 − P(switch), the repaired one stay = 1 − P(leave).
+      const double margin = config.transition.margin;
+      const auto sigmoids = [&](bool no_switch, bool takeoff) {
+        return std::pair{
+            clamped_sigmoid(config.transition.switch_sigmoid, t.power, margin, no_switch),
+            clamped_sigmoid(config.transition.landing_sigmoid, t.filtered_median_frequency, margin,
+                            takeoff)};
+      };
+      const auto [p_switch, p_landing] = sigmoids(false, false);
+      const auto [p_no_switch, p_takeoff] = sigmoids(true, true);
+      const double repair = config.transition.row_stochastic ? p_switch : 0.0;
+      const double prior_contact =
+          (p_no_switch + repair * p_landing) * bel[i] + p_switch * p_landing * not_bel[i];
+      const double prior_air =
+          p_switch * p_takeoff * bel[i] + (p_no_switch + repair * p_takeoff) * not_bel[i];
+      const double contact = (p.contact + config.measurement.contact_floor) * prior_contact;
+      const double air = (p.no_contact + config.measurement.no_contact_floor) * prior_air;
+      if (contact + air > 0.0) {
+        bel[i] = contact / (contact + air);
+        not_bel[i] = air / (contact + air);
+      }
+      ASSERT_NEAR(belief.wheel[i].p_contact, bel[i], 1e-12) << s.time;
+      ASSERT_EQ(belief.wheel[i].contact, belief.wheel[i].p_contact >= 0.8);
+    }
+    ASSERT_NEAR(belief.p_both_wheels, bel[0] * bel[1], 1e-12);
+    ASSERT_NEAR(belief.p_any_wheel, 1.0 - (1.0 - bel[0]) * (1.0 - bel[1]), 1e-12);
+  }
+}
+
+TEST_P(NamedBayesFilter, NeverLeavesProbabilitiesWhateverItIsFed) {
+  const BayesFilterConfig config = test::named(GetParam());
+  BayesFilter filter(fitted(config), config);
+  std::vector<Signals> stream = drops(4000, 1000.0, 9);
+  const double ugly[] = {
+      std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, -1e300, 1e-320, std::numeric_limits<double>::max()};
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    Signals& s = stream[i];
+    const double bad = ugly[i % 7];
+    switch (i % 23) {
+      case 3:
+        s.vertical_acceleration = bad;
+        break;
+      case 5:
+        s.leg[0].knee.torque = bad;
+        break;
+      case 7:
+        s.leg[1].wheel.torque = bad;
+        break;
+      case 11:
+        s.time = bad;
+        break;
+      case 13:
+        s.leg[1].knee.torque = bad;
+        s.vertical_acceleration = bad;
+        break;
+      default:
+        break;
+    }
+    expect_sane(filter.update(s));
+  }
+  // It is as good as new afterwards.
+  for (Signals s : drops(2000, 1000.0, 10)) {
+    s.time += 100.0;
+    expect_sane(filter.update(s));
+  }
+}
+
+TEST_P(NamedBayesFilter, StartsAnewAfterAReset) {
+  const BayesFilterConfig config = test::named(GetParam());
+  const MeasurementModel model = fitted(config);
+  BayesFilter used(model, config);
+  for (const Signals& s : drops(950)) {
+    used.update(s);
+  }
+  used.reset();
+  EXPECT_EQ(used.belief().wheel[0].p_contact, 0.5);
+  EXPECT_EQ(used.belief().wheel[1].p_contact, 0.5);
+  BayesFilter fresh(model, config);
+  for (const Signals& s : drops(1500, 1000.0, 12)) {
+    ASSERT_EQ(used.update(s).wheel[0].p_contact, fresh.update(s).wheel[0].p_contact);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Configurations, NamedBayesFilter,
+                         testing::Values("paper", "reference", "robust"));
+
+TEST(BayesFilter, TellsFlightsFromRolling) {
+  const BayesFilterConfig config = BayesFilterConfig::robust();
+  BayesFilter filter(fitted(config), config);
+  int right = 0;
+  int counted = 0;
+  for (const Signals& s : drops(10'000, 1000.0, 21)) {
+    const Belief& belief = filter.update(s);
+    if (s.time > 0.3) {
+      ++counted;
+      right += belief.wheel[0].contact == !in_the_air(s) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(right, 0.93 * counted);
+}
+
+TEST(BayesFilter, RelaxesToThePriorWithoutAcceleration) {
+  const BayesFilterConfig config = BayesFilterConfig::robust();
+  BayesFilter filter(fitted(config), config);
+  const std::vector<Signals> stream = drops(700);
+  for (const Signals& s : stream) {
+    filter.update(s);
+  }
+  const double before = filter.belief().wheel[0].p_contact;
+  ASSERT_GT(before, 0.99);
+  Signals lost = stream.back();
+  lost.vertical_acceleration = std::nan("");
+  for (int i = 1; i <= 100; ++i) {
+    lost.time = stream.back().time + 0.001 * i;
+    EXPECT_EQ(filter.update(lost).status, SignalStatus::invalid);
+  }
+  EXPECT_NEAR(filter.belief().wheel[0].p_contact, 0.5 + (before - 0.5) * std::exp(-1.0), 1e-9);
+}
+
+TEST(BayesFilter, LosesOnlyTheLegWhoseTorquesAreLost) {
+  const BayesFilterConfig config = BayesFilterConfig::robust();
+  const MeasurementModel model = fitted(config);
+  BayesFilter whole(model, config);
+  BayesFilter half(model, config);
+  for (Signals s : drops(900)) {
+    const double expected = whole.update(s).wheel[0].p_contact;
+    s.leg[1].wheel.torque = std::nan("");
+    const Belief& belief = half.update(s);
+    EXPECT_EQ(belief.status, SignalStatus::invalid);
+    ASSERT_EQ(belief.wheel[0].p_contact, expected);
+    ASSERT_EQ(belief.wheel[1].p_contact, 0.5);
+  }
+}
+
+TEST(BayesFilter, RestartsItsWindowAfterAGap) {
+  const BayesFilterConfig config = BayesFilterConfig::robust();
+  BayesFilter filter(fitted(config), config);
+  std::vector<Signals> stream = drops(900);
+  for (const Signals& s : stream) {
+    filter.update(s);
+  }
+  ASSERT_GT(filter.transition().power, 10.0) << "in free flight";
+  Signals later = stream[500];
+  later.time = stream.back().time + 2.0;
+  EXPECT_EQ(filter.update(later).status, SignalStatus::gap);
+  EXPECT_LT(filter.transition().power, 1.0) << "nothing is left of the flight";
+  later.time += 0.001;
+  EXPECT_EQ(filter.update(later).status, SignalStatus::good);
+}
+
+TEST(BayesFilter, SaysThatItsAccelerometerIsFrozen) {
+  const BayesFilterConfig config = BayesFilterConfig::robust();
+  BayesFilter filter(fitted(config), config);
+  Signals s = drops(501).back();
+  for (int i = 0; i < 400; ++i) {
+    s.time += 0.001;
+    EXPECT_EQ(filter.update(s).status, SignalStatus::good);
+  }
+  for (int i = 0; i < 1200; ++i) {
+    s.time += 0.001;
+    filter.update(s);
+  }
+  EXPECT_EQ(filter.belief().status, SignalStatus::frozen);
+  EXPECT_NEAR(filter.belief().wheel[0].p_contact, 0.5, 1e-3);
+  s.time += 0.001;
+  s.vertical_acceleration += 0.001;
+  EXPECT_EQ(filter.update(s).status, SignalStatus::good);
+}
+
+TEST(BayesFilter, WorksAtOtherRates) {
+  for (const double rate : {200.0, 400.0}) {
+    BayesFilterConfig config = BayesFilterConfig::robust();
+    config.sample_rate = rate;
+    const auto samples = labelled(drops(4000, rate), config.measurement.torque, rate);
+    BayesFilter filter(
+        fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit), config);
+    int right = 0;
+    for (const Signals& s : drops(4000, rate, 5)) {
+      const Belief& belief = filter.update(s);
+      ASSERT_EQ(belief.status, SignalStatus::good);
+      right += belief.wheel[1].contact == !in_the_air(s) ? 1 : 0;
+    }
+    EXPECT_GT(right, 3400) << rate;
+  }
+}
+
+TEST(BayesFilterConfig, HasTheNumbersOfItsSources) {
+  const BayesFilterConfig paper = BayesFilterConfig::paper();
+  EXPECT_EQ(paper.transition.switch_sigmoid, (Sigmoid{8.0, 1.0}));
+  EXPECT_EQ(paper.transition.landing_sigmoid, (Sigmoid{7.5, 2.5}));
+  EXPECT_EQ(paper.threshold, 0.8);
+  EXPECT_FALSE(paper.transition.row_stochastic);
+  const BayesFilterConfig reference = BayesFilterConfig::reference();
+  EXPECT_EQ(reference.transition.switch_sigmoid, (Sigmoid{50.0, 5.0}));
+  EXPECT_EQ(reference.transition.landing_sigmoid, (Sigmoid{8.0, 3.0}));
+  EXPECT_EQ(reference.measurement.contact_floor, 1e-20);
+  EXPECT_EQ(reference.measurement.no_contact_floor, 0.0);
+  const BayesFilterConfig robust = BayesFilterConfig::robust();
+  EXPECT_EQ(robust.measurement.fit.bandwidth_floor, (TorqueBandwidth{0.1, 0.1}));
+  EXPECT_EQ(robust.measurement.torque.low_pass, 0.025);
+  EXPECT_TRUE(robust.transition.row_stochastic);
+}
+
+TEST(BayesFilterConfig, RefusesNonsense) {
+  const MeasurementModel model = fitted(BayesFilterConfig::robust());
+  BayesFilterConfig config;
+  config.threshold = 1.5;
+  EXPECT_THROW(BayesFilter(model, config), InputError);
+  config = {};
+  config.sample_rate = 0.0;
+  EXPECT_THROW(BayesFilter(model, config), InputError);
+  config = {};
+  config.measurement.contact_floor = -1.0;
+  EXPECT_THROW(BayesFilter(model, config), InputError);
+  config = {};
+  config.measurement.torque.low_pass = std::nan("");
+  EXPECT_THROW(BayesFilter(model, config), InputError);
+}
+
+}  // namespace
+}  // namespace touchdown

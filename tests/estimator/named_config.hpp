@@ -1,0 +1,18 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "estimator/bayes/config.hpp"
+
+namespace touchdown::test {
+
+inline BayesFilterConfig named(const std::string& name) {
+  const std::map<std::string, BayesFilterConfig> all = {
+      {"paper", BayesFilterConfig::paper()},
+      {"reference", BayesFilterConfig::reference()},
+      {"robust", BayesFilterConfig::robust()}};
+  return all.at(name);
+}
+
+}  // namespace touchdown::test

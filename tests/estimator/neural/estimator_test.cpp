@@ -1,0 +1,222 @@
+#include "estimator/neural/estimator.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "experiments/lanes/neural.hpp"
+#include "tests/estimator/neural/sample.hpp"
+
+namespace touchdown {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+std::shared_ptr<const NeuralNetwork> network() {
+  return test::shared(test::random_network(24, 16, 12));
+}
+
+/// Signals in which every number that the network hears moves.
+std::vector<Signals> moving_robot(std::size_t steps, double rate = 1000.0) {
+  test::Normal normal(5);
+  std::vector<Signals> stream(steps);
+  for (std::size_t k = 0; k < steps; ++k) {
+    Signals& s = stream[k];
+    s.time = static_cast<double>(k) / rate;
+    for (int i = 0; i < 3; ++i) {
+      s.linear_acceleration[i] = normal();
+      s.angular_velocity[i] = normal();
+    }
+    s.vertical_acceleration = s.linear_acceleration.z();
+    for (LegSignals& leg : s.leg) {
+      for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
+        *joint = {normal(), normal(), normal()};
+      }
+    }
+    s.ground_velocity_command = normal();
+  }
+  return stream;
+}
+
+double logistic(float x) { return 1.0 / (1.0 + std::exp(-double{x})); }
+
+TEST(NeuralInput, HasThePapersOrder) {
+  Signals s;
+  s.linear_acceleration = {1, 2, 3};
+  s.angular_velocity = {4, 5, 6};
+  s.leg[0] = {{7, 13, 99}, {8, 14, 99}, {0.5, 15, 99}};
+  s.leg[1] = {{10, 16, 99}, {11, 17, 99}, {0.25 + 20 * std::numbers::pi, 18, 99}};
+  s.ground_velocity_command = 19;
+  const NeuralInput m = neural_input(s);
+  for (int i = 0; i < neural_input_count; ++i) {
+    const double expected = i == 8 ? std::sin(0.5) : i == 11 ? std::sin(0.25) : i + 1.0;
+    EXPECT_NEAR(m[i], expected, 1e-6) << i;
+  }
+}
+
+TEST(NeuralEstimator, ActsEveryFiveMillisecondsAndHoldsInBetween) {
+  const auto net = network();
+  NeuralEstimator estimator(net);
+  NeuralForward<1> forward(net);
+  const auto stream = moving_robot(200);
+  double expected = 0.5;
+  for (std::size_t k = 0; k < stream.size(); ++k) {
+    if (k % 5 == 0) {
+      // What a robot with 5 ms control steps would have measured: mean acceleration since the last
+      // step, the command that answered it, all else now.
+      Signals slow = stream[k];
+      if (k > 0) {
+        slow.linear_acceleration.setZero();
+        for (std::size_t i = k - 4; i <= k; ++i) {
+          slow.linear_acceleration += 0.2 * stream[i].linear_acceleration;
+        }
+        slow.ground_velocity_command = stream[k - 4].ground_velocity_command;
+      }
+      expected = logistic(forward.step(neural_input(slow))[0]);
+    }
+    const Belief& belief = estimator.update(stream[k]);
+    ASSERT_NEAR(belief.p_any_wheel, expected, 1e-6) << k;
+    ASSERT_EQ(belief.wheel[0].p_contact, belief.wheel[1].p_contact);
+    ASSERT_EQ(belief.p_both_wheels, belief.p_any_wheel);
+    ASSERT_EQ(belief.wheel[0].contact, belief.p_any_wheel >= 0.8);
+    ASSERT_EQ(belief.status, SignalStatus::good);
+  }
+}
+
+TEST(NeuralEstimator, AtItsOwnRateHearsEverySampleAsItIs) {
+  const auto net = network();
+  NeuralEstimator estimator(net, {.sample_rate = 200.0, .threshold = 0.8, .guard = {}});
+  NeuralForward<1> forward(net);
+  for (const Signals& s : moving_robot(100, 200.0)) {
+    const auto& output = forward.step(neural_input(s));
+    ASSERT_NEAR(estimator.update(s).p_any_wheel, logistic(output[0]), 1e-7);
+    ASSERT_NEAR(estimator.body_velocity().y(), output[2], 1e-6);
+  }
+}
+
+TEST(NeuralEstimator, StartsUndecidedAndForgetsOnReset) {
+  NeuralEstimator estimator(network());
+  EXPECT_EQ(estimator.belief().p_any_wheel, 0.5);
+  EXPECT_FALSE(estimator.belief().wheel[0].contact);
+  const auto stream = moving_robot(33);
+  std::vector<double> first;
+  for (const Signals& s : stream) first.push_back(estimator.update(s).p_any_wheel);
+  estimator.reset();
+  EXPECT_EQ(estimator.belief().p_any_wheel, 0.5);
+  for (std::size_t k = 0; k < stream.size(); ++k) {
+    ASSERT_EQ(estimator.update(stream[k]).p_any_wheel, first[k]);
+  }
+}
+
+TEST(NeuralEstimator, RelaxesThroughBadSignalsAndRecovers) {
+  NeuralEstimator estimator(network());
+  auto stream = moving_robot(2000);
+  for (std::size_t k = 500; k < 1500; ++k) {
+    switch (k % 4) {
+      case 0:
+        stream[k].leg[1].wheel.velocity = std::nan("");
+        break;
+      case 1:
+        stream[k].angular_velocity.x() = HUGE_VAL;
+        break;
+      case 2:
+        stream[k].vertical_acceleration = std::nan("");
+        break;
+      default:
+        stream[k].ground_velocity_command = -HUGE_VAL;
+        break;
+    }
+  }
+  for (std::size_t k = 0; k < stream.size(); ++k) {
+    const Belief& belief = estimator.update(stream[k]);
+    ASSERT_TRUE(belief.p_any_wheel >= 0.0 && belief.p_any_wheel <= 1.0) << k;
+    const bool bad = k >= 500 && k < 1500;
+    ASSERT_EQ(belief.status, bad ? SignalStatus::invalid : SignalStatus::good) << k;
+    if (k == 1499) {
+      ASSERT_NEAR(belief.p_any_wheel, 0.5, 1e-3);
+    }
+  }
+  EXPECT_GT(std::abs(estimator.belief().p_any_wheel - 0.5), 1e-3);
+}
+
+TEST(NeuralEstimator, TorquesAndOtherUnheardNumbersMayBeAnything) {
+  NeuralEstimator clean(network());
+  NeuralEstimator deaf(network());
+  for (Signals s : moving_robot(50)) {
+    const double expected = clean.update(s).p_any_wheel;
+    for (LegSignals& leg : s.leg) leg.knee.torque = leg.wheel.torque = std::nan("");
+    EXPECT_EQ(deaf.update(s).p_any_wheel, expected);
+  }
+}
+
+TEST(NeuralEstimator, StartsAnewAfterAGap) {
+  const auto net = network();
+  NeuralEstimator estimator(net);
+  auto stream = moving_robot(43);
+  for (std::size_t k = 0; k < 42; ++k) estimator.update(stream[k]);
+  stream[42].time += 10.0;
+  EXPECT_EQ(estimator.update(stream[42]).status, SignalStatus::gap);
+  NeuralForward<1> fresh(net);
+  EXPECT_NEAR(estimator.belief().p_any_wheel, logistic(fresh.step(neural_input(stream[42]))[0]),
+              1e-7);
+}
+
+TEST(NeuralEstimator, RefusesWhatItCannotRun) {
+  EXPECT_THAT([] { NeuralEstimator(nullptr); }, ThrowsMessage<InputError>(HasSubstr("network")));
+  EXPECT_THAT([] { NeuralEstimator(test::shared({})); },
+              ThrowsMessage<InputError>(HasSubstr("gru")));
+  EXPECT_THAT(
+      [] { NeuralEstimator(network(), {.sample_rate = 300.0, .threshold = 0.8, .guard = {}}); },
+      ThrowsMessage<InputError>(HasSubstr("whole number of samples")));
+  EXPECT_THAT(
+      [] { NeuralEstimator(network(), {.sample_rate = 100.0, .threshold = 0.8, .guard = {}}); },
+      ThrowsMessage<InputError>(HasSubstr("whole number of samples")));
+  EXPECT_THAT(
+      [] { NeuralEstimator(network(), {.sample_rate = 1e3, .threshold = 1.5, .guard = {}}); },
+      ThrowsMessage<InputError>(HasSubstr("threshold")));
+}
+
+TEST(NeuralLanes, EqualEstimatorsThatAreFedEachNoiseLevel) {
+  const auto net = network();
+  const std::vector<double> sigmas = {0.0, 0.23, 5.0, 10.0};
+  experiments::NeuralLanes lanes(net, {}, sigmas);
+  std::vector<NeuralEstimator> estimators(sigmas.size(), NeuralEstimator(net));
+  test::Normal normal(9);
+  for (const bool again : {false, true}) {
+    if (again) {
+      lanes.reset();
+      for (auto& estimator : estimators) estimator.reset();
+    }
+    for (const Signals& clean : moving_robot(300)) {
+      const Eigen::Vector3d draw(normal(), normal(), normal());
+      lanes.update(clean, draw);
+      for (std::size_t i = 0; i < sigmas.size(); ++i) {
+        Signals noisy = clean;
+        noisy.linear_acceleration += sigmas[i] * draw;
+        ASSERT_NEAR(lanes.p_contact()[i], estimators[i].update(noisy).p_any_wheel, 1e-5);
+      }
+    }
+  }
+}
+
+TEST(NeuralLanes, SkipWhatIsNotFiniteAndRefuseBadLevels) {
+  const auto net = network();
+  experiments::NeuralLanes lanes(net, {}, std::vector{1.0});
+  const auto stream = moving_robot(20);
+  for (const Signals& s : stream) lanes.update(s, Eigen::Vector3d::Zero());
+  const double before = lanes.p_contact()[0];
+  Signals bad = stream[0];
+  bad.angular_velocity.y() = std::nan("");
+  for (int k = 0; k < 20; ++k) lanes.update(bad, Eigen::Vector3d::Zero());
+  EXPECT_EQ(lanes.p_contact()[0], before);
+  EXPECT_THROW(experiments::NeuralLanes(net, {}, std::vector<double>{}), InputError);
+  EXPECT_THROW(experiments::NeuralLanes(net, {}, std::vector{-1.0}), InputError);
+  EXPECT_THROW(experiments::NeuralLanes(net, {}, std::vector{std::nan("")}), InputError);
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,162 @@
+// Counts every call of malloc and its siblings, which operator new ends in, by this thread.
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "estimator/bayes/filter.hpp"
+#include "estimator/bayes/measurement_only.hpp"
+#include "estimator/free_fall.hpp"
+#include "estimator/phase/filter.hpp"
+#include "estimator/upkie_observer.hpp"
+#include "experiments/lanes/bayes.hpp"
+#include "tests/estimator/named_config.hpp"
+#include "tests/estimator/phase/synthetic.hpp"
+#include "tests/estimator/synthetic.hpp"
+
+namespace {
+thread_local bool counting = false;
+thread_local int calls = 0;
+[[maybe_unused]] void count() noexcept { calls += counting ? 1 : 0; }
+}  // namespace
+
+// NOLINTBEGIN(readability-identifier-naming): the C library's names
+extern "C" {
+void* __libc_malloc(std::size_t);
+void __libc_free(void*);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+
+#if !defined(__SANITIZE_ADDRESS__)
+void* malloc(std::size_t size) {
+  count();
+  return __libc_malloc(size);
+}
+void free(void* pointer) {
+  count();
+  __libc_free(pointer);
+}
+void* calloc(std::size_t n, std::size_t size) {
+  count();
+  return __libc_calloc(n, size);
+}
+void* realloc(void* pointer, std::size_t size) {
+  count();
+  return __libc_realloc(pointer, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  count();
+  return __libc_memalign(alignment, size);
+}
+#endif
+}
+// NOLINTEND(readability-identifier-naming)
+
+namespace touchdown {
+namespace {
+
+template <typename Function>
+int allocations_of(const Function& function) {
+  calls = 0;
+  counting = true;
+  function();
+  counting = false;
+  return calls;
+}
+
+class RealTime : public testing::Test {
+ protected:
+  void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "AddressSanitizer has its own malloc";
+#endif
+  }
+};
+
+TEST_F(RealTime, TheCountIsNotBlind) {
+  EXPECT_GE(allocations_of([] {
+              std::vector<double> values(1000);
+              const auto pointer = std::make_unique<double>(values.data()[7]);
+              *const_cast<volatile double*>(pointer.get()) = 1.0;
+            }),
+            4);
+}
+
+TEST_F(RealTime, UpdateAndResetAllocateNothing) {
+  auto stream = test::drops(3000);
+  stream[100].vertical_acceleration = std::nan("");
+  stream[200].leg[0].knee.torque = HUGE_VAL;
+  stream[300].time = -5.0;
+  stream[400].time = 1e9;
+  for (const char* name : {"paper", "reference", "robust"}) {
+    const BayesFilterConfig config = test::named(name);
+    const auto samples = test::labelled(test::drops(3000), config.measurement.torque);
+    const MeasurementModel model =
+        fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit);
+    BayesFilter filter(model, config);
+    MeasurementOnly ablation(model, config);
+    UpkieObserver observer;
+    FreeFall free_fall;
+    for (ContactEstimator* const estimator :
+         {static_cast<ContactEstimator*>(&filter), static_cast<ContactEstimator*>(&ablation),
+          static_cast<ContactEstimator*>(&observer), static_cast<ContactEstimator*>(&free_fall)}) {
+      EXPECT_EQ(allocations_of([&] {
+                  for (const Signals& s : stream) {
+                    estimator->update(s);
+                  }
+                  estimator->reset();
+                }),
+                0)
+          << name;
+    }
+  }
+}
+
+TEST_F(RealTime, LanesAllocateNothing) {
+  const auto stream = test::drops(1000);
+  for (const char* name : {"paper", "reference", "robust"}) {
+    const BayesFilterConfig config = test::named(name);
+    const auto samples = test::labelled(test::drops(3000), config.measurement.torque);
+    const std::vector<experiments::LaneNoise> levels{
+        {0.0, 0.0, 0.0}, {1.0, 1.0, 5.0}, {3.0, 3.0, 10.0}};
+    experiments::BayesFilterLanes lanes(
+        fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit), config,
+        levels);
+    EXPECT_EQ(allocations_of([&] {
+                for (const Signals& s : stream) {
+                  lanes.update(s, experiments::NoiseStep{});
+                }
+                lanes.reset();
+              }),
+              0)
+        << name;
+  }
+}
+
+TEST_F(RealTime, ThePhaseFilterAllocatesNothing) {
+  PhaseFilter filter(test::small_phase_model());
+  std::vector<Signals> stream = test::phase_run(2, 3, 20, 0.5).signals;
+  stream[100].vertical_acceleration = std::nan("");
+  stream[200].leg[0].knee.torque = HUGE_VAL;
+  stream[300].time = -5.0;
+  stream[400].time = 1e9;
+  EXPECT_EQ(allocations_of([&] {
+              for (const Signals& s : stream) {
+                filter.update(s);
+              }
+              filter.reset();
+            }),
+            0);
+}
+
+static_assert(noexcept(std::declval<ContactEstimator&>().update(std::declval<Signals>())));
+static_assert(noexcept(std::declval<ContactEstimator&>().reset()));
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,34 @@
+#include "experiments/estimators/registry.hpp"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+TEST(Registry, TellsEstimatorsApartAndSaysWhatTheyDo) {
+  std::set<std::string> names;
+  for (const EstimatorEntry& entry : estimator_entries()) {
+    EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
+    EXPECT_FALSE(entry.title.empty()) << entry.name;
+    EXPECT_FALSE(entry.summary.empty()) << entry.name;
+    EXPECT_NE(entry.make, nullptr) << entry.name;
+    EXPECT_EQ(&estimator_entry(entry.name), &entry);
+  }
+  EXPECT_TRUE(names.contains(std::string(always_contact_name)));
+  EXPECT_THROW(estimator_entry("rubust"), InputError);
+}
+
+TEST(Registry, NoiseCountsOnlyOnTheSensorsThatAreUsed) {
+  const noise::SensorNoise all{1.0, 2.0, 3.0, 4.0, 5.0};
+  EXPECT_EQ(noise_of({}, all), noise::SensorNoise{});
+  EXPECT_EQ(noise_of({true, true, true, true, true}, all), all);
+  EXPECT_EQ(noise_of({.wheel_torque = true, .joint_velocity = true}, all),
+            (noise::SensorNoise{.wheel_torque = 2.0, .joint_velocity = 5.0}));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

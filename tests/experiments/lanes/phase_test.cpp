@@ -1,0 +1,115 @@
+#include "experiments/lanes/phase.hpp"
+
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/phase/filter.hpp"
+#include "tests/estimator/phase/synthetic.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+NoiseStep draw(test::Normal& normal) {
+  NoiseStep draws;
+  draws.acceleration = normal();
+  for (TorqueSample& torque : draws.torque) torque = {normal(), normal()};
+  return draws;
+}
+
+Signals noisy(Signals s, const NoiseStep& draws, const LaneNoise& level) {
+  s.vertical_acceleration += level.acceleration * draws.acceleration;
+  for (std::size_t side = 0; side < 2; ++side) {
+    s.leg[side].knee.torque += level.knee_torque * draws.torque[side].knee;
+    s.leg[side].wheel.torque += level.wheel_torque * draws.torque[side].wheel;
+  }
+  return s;
+}
+
+/// A grid, and torque noise on knees and wheels apart.
+std::vector<LaneNoise> levels() {
+  std::vector<LaneNoise> levels;
+  for (const double torque : {0.0, 0.5, 3.0}) {
+    for (const double acceleration : {0.0, 1.0, 9.0}) {
+      levels.push_back({torque, torque, acceleration});
+    }
+  }
+  levels.push_back({2.0, 0.0, 1.0});
+  levels.push_back({0.0, 2.0, 0.5});
+  return levels;
+}
+
+PhaseFilterConfig small_config() {
+  PhaseFilterConfig config;
+  config.fit = test::small_phase_fit();
+  config.guard.frozen_after = 0.0;
+  return config;
+}
+
+void expect_equal_to_scalar_filters(const PhaseFilterConfig& config) {
+  const PhaseModel model = test::small_phase_model();
+  const std::vector<LaneNoise> grid = levels();
+  PhaseLanes lanes(model, config, grid);
+  ASSERT_EQ(lanes.lanes(), grid.size());
+  std::vector<PhaseFilter> filters(grid.size(), PhaseFilter(model, config));
+  test::Normal normal(17);
+  std::size_t flights = 0;
+  for (const Signals& clean : test::phase_run(6, 31, 4).signals) {
+    const NoiseStep draws = draw(normal);
+    lanes.update(clean, draws);
+    for (std::size_t lane = 0; lane < grid.size(); ++lane) {
+      const Belief& belief = filters[lane].update(noisy(clean, draws, grid[lane]));
+      for (std::size_t side = 0; side < 2; ++side) {
+        ASSERT_NEAR(belief.wheel[side].p_contact, lanes.p_contact(static_cast<Side>(side))[lane],
+                    1e-12)
+            << lane << " at " << clean.time;
+        ASSERT_EQ(belief.wheel[side].contact, lanes.contact(static_cast<Side>(side))[lane] > 0.5);
+        flights += belief.wheel[side].contact ? 0U : 1U;
+      }
+    }
+  }
+  EXPECT_GT(flights, 1000U);
+}
+
+TEST(PhaseLanes, EqualTheScalarFilterInEveryLane) {
+  expect_equal_to_scalar_filters(small_config());
+}
+
+TEST(PhaseLanes, EqualTheScalarFilterThatIsToldTheNoise) {
+  PhaseFilterConfig config = small_config();
+  config.noise = PhaseNoise{0.5, 0.2, 1.0};
+  expect_equal_to_scalar_filters(config);
+}
+
+TEST(PhaseLanes, StartAnewAfterAReset) {
+  const PhaseModel model = test::small_phase_model();
+  const std::vector<LaneNoise> grid = levels();
+  PhaseLanes used(model, small_config(), grid);
+  PhaseLanes fresh(model, small_config(), grid);
+  test::Normal normal(3);
+  for (const Signals& clean : test::phase_run(1, 5).signals) used.update(clean, draw(normal));
+  used.reset();
+  for (const Signals& clean : test::phase_run(1, 6).signals) {
+    const NoiseStep draws = draw(normal);
+    used.update(clean, draws);
+    fresh.update(clean, draws);
+    for (std::size_t lane = 0; lane < grid.size(); ++lane) {
+      ASSERT_EQ(used.p_contact(Side::right)[lane], fresh.p_contact(Side::right)[lane]);
+    }
+  }
+}
+
+TEST(PhaseLanes, RefuseBadLevels) {
+  const PhaseModel model = test::small_phase_model();
+  const auto with = [&](const std::vector<LaneNoise>& bad) {
+    PhaseLanes(model, small_config(), bad);
+  };
+  EXPECT_THROW(with({}), InputError);
+  EXPECT_THROW(with({{-1.0, 0.0, 0.0}}), InputError);
+  EXPECT_THROW(with({{0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}}), InputError);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

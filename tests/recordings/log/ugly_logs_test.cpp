@@ -1,0 +1,225 @@
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <thread>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "recordings/log/reader.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "tests/recordings/log/sample_recording.hpp"
+#include "tests/recordings/log/upkie_log.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::recordings {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::pack;
+using testing::upkie_record;
+
+std::vector<json> upkie_records(int count) {
+  std::vector<json> records;
+  for (int i = 0; i < count; ++i) records.push_back(upkie_record(1e-3 * i));
+  return records;
+}
+
+struct Read {
+  std::size_t rows = 0;
+  std::vector<std::string> warnings;
+  std::string error;
+};
+
+Read read(const std::string& log) {
+  std::istringstream stream(log);
+  LogReader reader(stream, "run.mpack");
+  Read result;
+  try {
+    while (reader.next()) ++result.rows;
+  } catch (const InputError& error) {
+    result.error = error.what();
+  }
+  result.warnings = reader.warnings();
+  return result;
+}
+
+TEST(UglyLogs, ACutLastRecordIsReportedAndTheRestIsUsed) {
+  const std::string whole = pack(upkie_records(3));
+  const std::size_t two = pack(upkie_records(2)).size();
+  for (const std::size_t size : {two + 1, two + 7, whole.size() - 300, whole.size() - 1}) {
+    const Read result = read(whole.substr(0, size));
+    EXPECT_EQ(result.rows, 2U);
+    EXPECT_THAT(result.error, IsEmpty());
+    ASSERT_EQ(result.warnings.size(), 1U);
+    EXPECT_THAT(result.warnings[0],
+                AllOf(HasSubstr("run.mpack"), HasSubstr("byte " + std::to_string(two)),
+                      HasSubstr("cut off")));
+  }
+  EXPECT_THAT(read(whole).warnings, IsEmpty());
+}
+
+TEST(UglyLogs, GarbageIsNamedByItsOffset) {
+  const std::string good = pack(upkie_records(2));
+  for (const std::string& garbage :
+       {std::string("hello"), std::string("\xc1", 1), std::string("\x83\xc1", 2)}) {
+    const Read result = read(good + garbage);
+    EXPECT_EQ(result.rows, 2U);
+    EXPECT_THAT(result.error, HasSubstr("run.mpack: byte "));
+    const std::size_t at = std::stoul(result.error.substr(result.error.find("byte ") + 5));
+    EXPECT_GE(at, good.size());
+    EXPECT_LE(at, good.size() + garbage.size());
+  }
+  EXPECT_THAT(read("name: stairs\n").error, HasSubstr("byte 0"));
+}
+
+TEST(UglyLogs, AFileThatIsNothingButTheBeginningOfARecordIsGarbage) {
+  EXPECT_THAT(read("\x81").error, HasSubstr("byte 0"));
+}
+
+TEST(UglyLogs, AnEmptyLogIsAnError) { EXPECT_THAT(read("").error, HasSubstr("empty")); }
+
+TEST(UglyLogs, AMissingFileIsAnError) {
+  EXPECT_THROW(LogReader("/nonexistent/run.mpack"), InputError);
+  const ScratchFolder folder;
+  EXPECT_THROW(read_recording(folder.path()), InputError) << "a folder is no log";
+}
+
+TEST(UglyLogs, AllMissingKeysAreNamedTogether) {
+  std::vector<json> records = upkie_records(50);
+  for (json& record : records) {
+    record.erase("time");
+    record["observation"].erase("time");
+    record["observation"]["servo"]["left_knee"].erase("torque");
+    record["observation"]["imu"]["linear_acceleration"] = {1.0, 2.0};
+  }
+  const std::string error = read(pack(records)).error;
+  EXPECT_THAT(error,
+              AllOf(HasSubstr("observation.time"), HasSubstr("observation.servo.left_knee.torque"),
+                    HasSubstr("observation.imu.linear_acceleration")));
+  EXPECT_THAT(error, ::testing::Not(HasSubstr("right_knee")));
+  EXPECT_THAT(error, ::testing::Not(HasSubstr("\n")));
+}
+
+TEST(UglyLogs, AnEndlessStreamWithoutNeededKeysIsGivenUp) {
+  json record = upkie_record(0.0);
+  record["observation"].erase("imu");
+  EXPECT_THAT(read(pack(std::vector<json>(2500, record))).error, HasSubstr("observation.imu"));
+}
+
+TEST(UglyLogs, RecordsOfAStartingSpineAreSkippedAndCounted) {
+  std::vector<json> records = upkie_records(5);
+  records[0] = {{"config", {{"bullet", {{"gui", false}}}}}, {"time", 1.0}};
+  records[1]["observation"].erase("servo");
+  const Read result = read(pack(records));
+  EXPECT_EQ(result.rows, 3U);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_THAT(result.warnings[0], HasSubstr("2 of 5 records"));
+}
+
+TEST(UglyLogs, NumbersOfAnotherKindAndUnknownKeysAreTaken) {
+  json record = upkie_record(0.0);
+  record["observation"]["servo"]["left_hip"]["torque"] = -3;
+  record["observation"]["servo"]["left_knee"]["torque"] = 70000;
+  record["observation"]["imu"]["angular_velocity"] = {1, -2, 0};
+  record["extra"] = {{"observation", {{"time", 5.0}}}, {"list", {1, {{"imu", 2}}, "three"}}};
+  record["observation"]["servo"]["tail"] = {{"position", 9.0}};
+  std::istringstream stream(pack({record}));
+  LogReader reader(stream, "log");
+  const models::Observation o = reader.next()->observation;
+  EXPECT_EQ(o.servo[0].torque, -3.0);
+  EXPECT_EQ(o.servo[1].torque, 70000.0);
+  EXPECT_EQ(o.imu.angular_velocity, Eigen::Vector3d(1.0, -2.0, 0.0));
+}
+
+TEST(UglyLogs, TooManyElementsCountAsMissing) {
+  json record = upkie_record(0.0);
+  record["observation"]["imu"]["orientation"] = {1, 0, 0, 0, 0};
+  EXPECT_THAT(read(pack({record})).error, HasSubstr("observation.imu.orientation"));
+}
+
+TEST(UglyLogs, ABrokenConfigOfOursIsAnError) {
+  json record = upkie_record(0.0);
+  record["config"]["touchdown"] = {{"outcome", "exploded"}};
+  EXPECT_THAT(read(pack({record})).error, HasSubstr("exploded"));
+  record["config"]["touchdown"] = {{"seed", "one"}};
+  EXPECT_THAT(read(pack({record})).error, HasSubstr("config.touchdown"));
+  record["config"]["touchdown"] = {{"control_period_us", 0}};
+  EXPECT_THAT(read(pack({record})).error, HasSubstr("control_period_us"));
+}
+
+TEST(UglyLogs, FlippedBytesNeverDoMoreThanAnError) {
+  const std::string good = pack(upkie_records(3));
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::string bad = good;
+    for (int flips = 0; flips < 3; ++flips) {
+      bad[random() % bad.size()] = static_cast<char>(random() % 256);
+    }
+    const Read result = read(bad);
+    EXPECT_LE(result.rows, 4U);
+  }
+}
+
+TEST(UglyLogs, ALiveStreamGivesARowAsSoonAsItIsThere) {
+  // A pipe in place of standard input's: the writer waits for the reader before it goes on.
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const std::string record = pack({upkie_record(0.0)});
+  LogReader reader("/proc/self/fd/" + std::to_string(ends[0]));
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t half = record.size() / 2;
+    ASSERT_EQ(::write(ends[1], record.data(), half), static_cast<ssize_t>(half));
+    ASSERT_EQ(::write(ends[1], record.data() + half, record.size() - half),
+              static_cast<ssize_t>(record.size() - half));
+    EXPECT_TRUE(reader.next().has_value());
+  }
+  ::close(ends[1]);
+  EXPECT_FALSE(reader.next().has_value());
+  EXPECT_FALSE(reader.next().has_value()) << "the end stays the end";
+  ::close(ends[0]);
+}
+
+TEST(UglyLogs, ConsumesALongLogAtAConstantMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "AddressSanitizer keeps freed memory, which is what is measured here";
+#endif
+  const std::string chunk = pack(upkie_records(100));
+  const auto resident_kb = [] {
+    std::ifstream status("/proc/self/statm");
+    long total = 0;
+    long resident = 0;
+    status >> total >> resident;
+    return resident * (::sysconf(_SC_PAGESIZE) / 1024);
+  };
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  std::thread writer([&] {
+    for (int i = 0; i < 300; ++i) {
+      std::size_t done = 0;
+      while (done < chunk.size()) {
+        const ssize_t size = ::write(ends[1], chunk.data() + done, chunk.size() - done);
+        if (size <= 0) break;
+        done += static_cast<std::size_t>(size);
+      }
+    }
+    ::close(ends[1]);
+  });
+  LogReader reader("/proc/self/fd/" + std::to_string(ends[0]));
+  for (int i = 0; i < 1000; ++i) ASSERT_TRUE(reader.next().has_value());
+  const long before = resident_kb();
+  std::size_t rows = 1000;
+  while (reader.next()) ++rows;
+  writer.join();
+  ::close(ends[0]);
+  EXPECT_EQ(rows, 30000U);
+  EXPECT_LT(resident_kb() - before, 2000) << "of about " << 300 * chunk.size() / 1024 << " kB read";
+}
+
+}  // namespace
+}  // namespace touchdown::recordings

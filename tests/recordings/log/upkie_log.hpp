@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace touchdown::recordings::testing {
+
+/// A record as a current spine writes it, built from the facts about Upkie's layout and packed by
+/// another MessagePack library than the one under test.
+nlohmann::json upkie_record(double time);
+
+/// Concatenated MessagePack maps.
+std::string pack(const std::vector<nlohmann::json>& records);
+
+/// The records of a log, by the other library.
+std::vector<nlohmann::json> unpack(const std::string& log);
+
+}  // namespace touchdown::recordings::testing

@@ -1,0 +1,197 @@
+#include "recordings/models/npz.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "tests/recordings/log/sample_recording.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::recordings {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::python_with_numpy;
+
+NpzArrays sample_arrays() {
+  return {{"one", {{3}, {1.0, -0.0, 1e-310}}},
+          {"two", {{2, 3}, {1.5, 2.5, 3.5, 4.5, 5.5, 6.5}}},
+          {"none", {{0}, {}}}};
+}
+
+std::string npy(const std::string& header, const std::string& data) {
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes += static_cast<char>(header.size());
+  bytes += '\0';
+  return bytes + header + data;
+}
+
+template <typename T>
+std::string raw(std::initializer_list<T> values) {
+  std::string bytes(values.size() * sizeof(T), '\0');
+  std::memcpy(bytes.data(), values.begin(), bytes.size());
+  return bytes;
+}
+
+std::string message(const std::string& bytes) {
+  try {
+    from_npy(bytes, "a.npy");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+bool runs(const std::string& script, const ScratchFolder& folder) {
+  std::ofstream(folder / "script.py") << "import numpy as np\n" << script;
+  return std::system(("cd " + folder.path().string() + " && " + python_with_numpy() + " script.py")
+                         .c_str()) == 0;
+}
+
+TEST(Npz, GivesBackWhatWasWritten) {
+  const ScratchFolder folder;
+  write_npz(sample_arrays(), folder / "a.npz");
+  const NpzArrays back = read_npz(folder / "a.npz");
+  ASSERT_EQ(back.size(), 3U);
+  for (const auto& [name, array] : sample_arrays()) {
+    EXPECT_EQ(back.at(name).shape, array.shape);
+    EXPECT_EQ(back.at(name).data, array.data);
+  }
+  EXPECT_TRUE(std::signbit(back.at("one").data[1]));
+}
+
+TEST(Npz, SameArraysGiveTheSameBytesAtAnyTimeAndPlace) {
+  const ScratchFolder folder;
+  ::setenv("TZ", "UTC", 1);
+  write_npz(sample_arrays(), folder / "a.npz");
+  ::setenv("TZ", "Asia/Tokyo", 1);
+  ::tzset();
+  write_npz(sample_arrays(), folder / "b.npz");
+  ::unsetenv("TZ");
+  ::tzset();
+  EXPECT_EQ(read_file(folder / "a.npz"), read_file(folder / "b.npz"));
+}
+
+TEST(Npz, NumPyReadsOursWithNamesShapesAndTypes) {
+  if (python_with_numpy().empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
+  const ScratchFolder folder;
+  write_npz(sample_arrays(), folder / "a.npz");
+  EXPECT_TRUE(runs(R"(
+a = np.load('a.npz')
+assert sorted(a.keys()) == ['none', 'one', 'two']
+assert a['two'].dtype == np.float64 and a['two'].shape == (2, 3) and a['two'].flags.c_contiguous
+assert a['one'].shape == (3,) and a['none'].shape == (0,)
+assert (a['two'] == [[1.5, 2.5, 3.5], [4.5, 5.5, 6.5]]).all()
+)",
+                   folder));
+}
+
+TEST(Npz, ReadsNumPysDeflatedFortranAndSinglePrecision) {
+  if (python_with_numpy().empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
+  const ScratchFolder folder;
+  ASSERT_TRUE(runs(R"(
+two = np.arange(6.0).reshape(2, 3)
+np.savez_compressed('a.npz', fortran=np.asfortranarray(two), single=two.astype('f4'), zeros=np.zeros((500, 400)))
+)",
+                   folder));
+  const NpzArrays arrays = read_npz(folder / "a.npz");
+  EXPECT_THAT(arrays.at("fortran").shape, ElementsAre(2, 3));
+  EXPECT_THAT(arrays.at("fortran").data, ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_THAT(arrays.at("single").data, ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_EQ(arrays.at("zeros").data, std::vector<double>(200000, 0.0));
+}
+
+TEST(Npy, ReadsFortranOrderAndSinglePrecision) {
+  const NpyArray array = from_npy(npy("{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3), }",
+                                      raw<float>({1, 2, 3, 4, 5, 6})),
+                                  "a.npy");
+  EXPECT_THAT(array.shape, ElementsAre(2, 3));
+  EXPECT_THAT(array.data, ElementsAre(1, 3, 5, 2, 4, 6));
+}
+
+TEST(Npy, HeaderIsPaddedAsNumPyAsks) {
+  const std::string bytes = to_npy({{1}, {2.0}});
+  ASSERT_EQ(bytes.size(), 128U + 8U);
+  EXPECT_EQ(bytes[127], '\n');
+}
+
+TEST(Npy, WhatItIsNotSaysSo) {
+  const std::string good = "{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }";
+  EXPECT_THAT(message(""), HasSubstr("a.npy"));
+  EXPECT_THAT(message("\x89PNG and more text"), HasSubstr("not a NumPy array"));
+  EXPECT_THAT(message(npy(good, raw<double>({1}))), HasSubstr("expected 16 bytes"));
+  EXPECT_THAT(message(npy(good, raw<double>({1, 2, 3}))), HasSubstr("expected 16 bytes"));
+  EXPECT_THAT(message(npy(good, "").substr(0, 40)), HasSubstr("cut off"));
+  EXPECT_THAT(message(npy("{'descr': '<i8', 'fortran_order': False, 'shape': (2,), }",
+                          raw<double>({1, 2}))),
+              HasSubstr("'<i8'"));
+  EXPECT_THAT(message(npy("{'descr': '>f8', 'fortran_order': False, 'shape': (2,), }",
+                          raw<double>({1, 2}))),
+              HasSubstr("'>f8'"));
+  EXPECT_THAT(message(npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1, 1), }",
+                          raw<double>({1, 2}))),
+              HasSubstr("one or two axes"));
+  EXPECT_THAT(message(npy("{'descr': '<f8', 'fortran_order': False, 'shape': (999999999999,), }",
+                          raw<double>({1, 2}))),
+              HasSubstr("axis"));
+  EXPECT_THROW(to_npy({{3}, {1.0}}), Error);
+}
+
+TEST(Npz, BrokenFilesAreOneClearError) {
+  const ScratchFolder folder;
+  const auto fails = [&](const std::string& bytes) {
+    std::ofstream(folder / "bad.npz", std::ios::binary) << bytes;
+    try {
+      read_npz(folder / "bad.npz");
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      return text.find("bad.npz") != std::string::npos && text.find('\n') == std::string::npos;
+    }
+    return false;
+  };
+  write_npz(sample_arrays(), folder / "good.npz");
+  const std::string good = read_file(folder / "good.npz");
+  EXPECT_TRUE(fails(""));
+  EXPECT_TRUE(fails("not a zip file at all"));
+  EXPECT_TRUE(fails(good.substr(0, good.size() / 2)));
+  EXPECT_TRUE(fails(good.substr(0, good.size() - 1)));
+  std::string flipped;
+  const std::size_t number = good.find(raw<double>({4.5}));
+  ASSERT_NE(number, std::string::npos);
+  flipped = good;
+  flipped[number] = static_cast<char>(flipped[number] ^ 1);
+  EXPECT_TRUE(fails(flipped)) << "the checksum does not fit";
+  EXPECT_THROW(read_npz(folder / "absent.npz"), InputError);
+  EXPECT_THROW(read_npz(folder.path()), InputError);
+}
+
+TEST(Npz, FlippedBytesNeverDoMoreThanAnError) {
+  const ScratchFolder folder;
+  write_npz(sample_arrays(), folder / "good.npz");
+  const std::string good = read_file(folder / "good.npz");
+  std::mt19937 random(2);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::string bad = good;
+    bad[random() % bad.size()] = static_cast<char>(random() % 256);
+    std::ofstream(folder / "bad.npz", std::ios::binary) << bad;
+    try {
+      EXPECT_LE(read_npz(folder / "bad.npz").size(), 3U);
+    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+    }
+  }
+}
+
+TEST(Npz, LeavesNothingBehindWhereItCannotWrite) {
+  EXPECT_THROW(write_npz(sample_arrays(), "/proc/a.npz"), Error);
+}
+
+}  // namespace
+}  // namespace touchdown::recordings

@@ -1,0 +1,159 @@
+#include "tests/render/film/golden.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "render/curves/latency_figure.hpp"
+#include "render/curves/reliability_figure.hpp"
+#include "render/maps/density_figure.hpp"
+#include "render/maps/heatmap_figure.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::render {
+namespace {
+
+/// Success that falls with both noises.
+Heatmap heatmap() {
+  Heatmap map{.title = "Success rate",
+              .x_label = "accelerometer noise (m/s²)",
+              .y_label = "torque noise (N·m)",
+              .value_label = "success rate",
+              .x = {0, 1, 3, 5, 7},
+              .y = {0, 0.5, 1, 2},
+              .panels = {{.title = "an estimator", .value = {}}},
+              .caption = "4 runs; crossed cells do not beat a constant answer.",
+              .iso_levels = {0.9, 0.95}};
+  for (const double y : map.y) {
+    map.panels[0].value.emplace_back();
+    map.panels[0].marked.emplace_back();
+    for (const double x : map.x) {
+      map.panels[0].value.back().push_back(0.99 - 0.002 * x * x - 0.02 * y * y);
+      map.panels[0].marked.back().push_back(map.panels[0].value.back().back() < 0.9);
+    }
+  }
+  return map;
+}
+
+/// Two Gaussians.
+DensityFigure densities(double width_in_the_air = 0.12) {
+  DensityFigure figure{"Torques", {{"a filter", {}}}, "Two normal distributions."};
+  LikelihoodGrids& grids = figure.rows[0].grids;
+  grids.knee = {0.0, 3.0, 61};
+  grids.wheel = {0.0, 1.0, 41};
+  for (int w = 0; w < grids.wheel.count; ++w) {
+    for (int k = 0; k < grids.knee.count; ++k) {
+      const auto gauss = [&](double knee, double wheel, double knee_width, double wheel_width) {
+        const double u = (grids.knee[k] - knee) / knee_width;
+        const double v = (grids.wheel[w] - wheel) / wheel_width;
+        return std::exp(-0.5 * (u * u + v * v)) / (knee_width * wheel_width);
+      };
+      grids.contact.push_back(gauss(1.6, 0.4, 0.3, 0.12));
+      grids.no_contact.push_back(gauss(0.3, 0.1, width_in_the_air, 0.08));
+    }
+  }
+  return figure;
+}
+
+ReliabilityFigure reliability() {
+  ReliabilityFigure figure{"Reliability", {{"no noise", {}}}, "4 runs."};
+  for (const char* name : {"first", "second", "third"}) {
+    ReliabilityCurve curve{name, {}, {}};
+    const double power = 0.5 + 0.5 * static_cast<double>(figure.panels[0].curves.size());
+    for (int i = 0; i < 1000; ++i) {
+      const int draw = i / 100;
+      const double p = (i % 100 + 0.5) / 100.0;
+      curve.calibration.add((draw + 0.5) / 10.0 < std::pow(p, power), p);
+    }
+    for (const scoring::Calibration::Bin& bin : curve.calibration.bin) {
+      const double frequency = bin.contact_frequency();
+      curve.contact_frequency.push_back({frequency, frequency - 0.04, frequency + 0.04});
+    }
+    figure.panels[0].curves.push_back(std::move(curve));
+  }
+  return figure;
+}
+
+LatencyFigure latencies() {
+  LatencyFigure figure{
+      "Latency", {{"no noise", {{"first", {}, {}}, {"second", {}, {}}}}}, "4 runs."};
+  for (int i = 0; i < 60; ++i) {
+    for (std::size_t row = 0; row < 2; ++row) {
+      LatencyRow& told = figure.panels[0].rows[row];
+      const auto spread = static_cast<std::int64_t>(i % 10 + i % 7 - 8);
+      const auto late = static_cast<std::int64_t>(20 * (1 + row)) + 2 * spread;
+      told.takeoff.add({scoring::EventKind::takeoff, scoring::Judgement::detected, 0, late}, 1000);
+      told.landing.add({scoring::EventKind::landing, scoring::Judgement::detected, 0, spread},
+                       1000);
+    }
+  }
+  return figure;
+}
+
+class Golden : public ::testing::Test {
+ protected:
+  /// How far a figure is from its golden copy.
+  PictureDifference compared(const std::string& name, const Figure& figure) const {
+    const cv::Mat golden = golden_picture(name + ".png", figure.png);
+    EXPECT_FALSE(golden.empty()) << name;
+    return difference(cv::imread(figure.png.string()), golden);
+  }
+  void expect_same(const std::string& name, const Figure& figure) const {
+    const PictureDifference apart = compared(name, figure);
+    EXPECT_TRUE(same_picture(apart)) << name << ": mean " << apart.mean << ", worst tile "
+                                     << apart.worst_tile << ", similarity " << apart.similarity;
+  }
+  std::filesystem::path stem(const char* name) const { return scratch_ / name; }
+
+  const ScratchFolder scratch_;
+};
+
+TEST_F(Golden, FiguresLookLikeTheirCopies) {
+  expect_same("heatmap", draw_heatmap(heatmap(), stem("heatmap")));
+  expect_same("densities", draw_density_figure(densities(), stem("densities")));
+  expect_same("reliability", draw_reliability_figure(reliability(), stem("reliability")));
+  expect_same("latency", draw_latency_figure(latencies(), stem("latency")));
+}
+
+/// The comparison above must be able to fail: what a figure is there to show is left out once.
+TEST_F(Golden, MissingLinesAreNoticed) {
+  if (std::getenv("TOUCHDOWN_UPDATE_GOLDEN") != nullptr) GTEST_SKIP() << "copies are being made";
+  Heatmap without_a_line = heatmap();
+  without_a_line.iso_levels = {0.9};
+  EXPECT_FALSE(same_picture(compared("heatmap", draw_heatmap(without_a_line, stem("line")))));
+  Heatmap another_cell = heatmap();
+  another_cell.panels[0].value[1][1] = 0.95;
+  EXPECT_FALSE(same_picture(compared("heatmap", draw_heatmap(another_cell, stem("cell")))));
+
+  ReliabilityFigure without_a_curve = reliability();
+  ReliabilityCurve& gone = without_a_curve.panels[0].curves[1];
+  gone.calibration = {};
+  for (Interval& interval : gone.contact_frequency) interval = {NAN, NAN, NAN};
+  EXPECT_FALSE(same_picture(
+      compared("reliability", draw_reliability_figure(without_a_curve, stem("curve")))));
+
+  DensityFigure wider = densities(0.16);
+  EXPECT_FALSE(same_picture(compared("densities", draw_density_figure(wider, stem("wider")))));
+
+  LatencyFigure without_a_histogram = latencies();
+  without_a_histogram.panels[0].rows[1].landing = {};
+  EXPECT_FALSE(same_picture(
+      compared("latency", draw_latency_figure(without_a_histogram, stem("histogram")))));
+}
+
+/// Text that another library draws half a pixel further must pass.
+TEST_F(Golden, HalfAPixelIsForgiven) {
+  const cv::Mat picture =
+      cv::imread(draw_reliability_figure(reliability(), stem("reliability")).png.string());
+  const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, 0.4, 0, 1, 0.3);
+  cv::Mat moved;
+  cv::warpAffine(picture, moved, shift, picture.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  const PictureDifference apart = difference(moved, picture);
+  EXPECT_TRUE(same_picture(apart)) << "mean " << apart.mean << ", worst tile " << apart.worst_tile
+                                   << ", similarity " << apart.similarity;
+}
+
+}  // namespace
+}  // namespace touchdown::render

@@ -1,0 +1,245 @@
+#include "render/gnuplot/figure.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "render/maps/heatmap_figure.hpp"
+#include "render/maps/iso_lines.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::render {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+Heatmap success_heatmap() {
+  Heatmap heatmap{.title = "Success rate",
+                  .x_label = "accelerometer noise (m/s²)",
+                  .y_label = "torque noise (N·m)",
+                  .value_label = "success rate",
+                  .x = {0, 1, 5},
+                  .y = {0, 0.5},
+                  .panels = {},
+                  .caption = "2 runs",
+                  .iso_levels = {0.95}};
+  heatmap.panels.push_back({.title = "MuJoCo", .value = {{0.99, 0.98, 0.9}, {0.97, 0.96, 0.8}}});
+  heatmap.panels.push_back({.title = "Bullet", .value = {{0.99, 0.97, NAN}, {0.97, 0.94, 0.7}}});
+  return heatmap;
+}
+
+class FigureFiles : public ::testing::Test {
+ protected:
+  std::vector<std::string> names() const {
+    std::vector<std::string> result;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      result.push_back(entry.path().filename().string());
+    }
+    return result;
+  }
+
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
+};
+
+TEST_F(FigureFiles, AppearTogetherWithScriptAndData) {
+  const Figure figure = draw_heatmap(success_heatmap(), folder_ / "heatmap");
+  EXPECT_THAT(names(), ::testing::UnorderedElementsAre("heatmap.png", "heatmap.svg", "heatmap.pdf",
+                                                       "heatmap.gp", "heatmap.dat", "style.gp"));
+  EXPECT_THAT(read_file(figure.svg), AllOf(HasSubstr("torque noise"), HasSubstr("0.980")));
+  EXPECT_EQ(read_file(figure.pdf).substr(0, 4), "%PDF");
+  EXPECT_GT(cv::imread(figure.png.string()).cols, 500);
+}
+
+TEST_F(FigureFiles, AreDrawnAgainByTheScriptBesideThem) {
+  draw_heatmap(success_heatmap(), folder_ / "heatmap");
+  const std::string before = read_file(folder_ / "heatmap.png");
+  std::filesystem::remove(folder_ / "heatmap.png");
+  const std::string command = "cd '" + folder_.string() + "' && gnuplot heatmap.gp 2>/dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_TRUE(read_file(folder_ / "heatmap.png") == before);
+}
+
+TEST_F(FigureFiles, HeatmapCrossesTheMarkedCellsOnly) {
+  Heatmap heatmap = success_heatmap();
+  heatmap.panels[1].marked = {{false, false, false}, {false, false, true}};
+  draw_heatmap(heatmap, folder_ / "heatmap");
+  const std::string data = read_file(folder_ / "heatmap.dat");
+  EXPECT_THAT(data, HasSubstr("1.5\t0.5\n2.5\t1.5\n\n1.5\t1.5\n2.5\t0.5\n"));
+  EXPECT_EQ(data.find("1.5\t0.5\n"), data.rfind("1.5\t0.5\n"));
+  heatmap.panels[1].marked = {{true}};
+  EXPECT_THROW(draw_heatmap(heatmap, folder_ / "heatmap"), InputError);
+}
+
+/// An unknown cell must stay white, and must not move the cells after it.
+TEST_F(FigureFiles, HeatmapCellsHaveTheirOwnColours) {
+  Heatmap heatmap = success_heatmap();
+  heatmap.panels = {{.title = "", .value = {{0.0, NAN, 1.0}, {1.0, 0.0, 1.0}}}};
+  heatmap.iso_levels.clear();
+  const Figure figure = draw_heatmap(heatmap, folder_ / "cells");
+  const cv::Mat image = cv::imread(figure.png.string());
+  // Cells are 60 x 44 pixels from (66, 60); the first row of values is the lower one.
+  const auto colour = [&](int row, int column) {
+    return image.at<cv::Vec3b>(60 + (1 - row) * 44 + 6, 66 + column * 60 + 6);
+  };
+  const cv::Vec3b low = colour(0, 0), high = colour(0, 2);
+  EXPECT_GT(high[1], 200);  // yellow
+  EXPECT_LT(low[1], 60);    // dark blue
+  EXPECT_EQ(colour(0, 1), cv::Vec3b(255, 255, 255));
+  EXPECT_EQ(colour(1, 0), high);
+  EXPECT_EQ(colour(1, 1), low);
+  EXPECT_EQ(colour(1, 2), high);
+}
+
+TEST_F(FigureFiles, TextsCannotBreakOutOfTheScript) {
+  Heatmap heatmap = success_heatmap();
+  const std::string secret = (folder_ / "broken_out").string();
+  heatmap.title = "it's \"100%\" `touch " + secret + "` {x}_y^z @a \\n # }";
+  heatmap.panels[0].title = "'; system('touch " + secret + "') #";
+  heatmap.caption = "line one\nline two $(touch " + secret + ")";
+  const Figure figure = draw_heatmap(heatmap, folder_ / "heatmap");
+  EXPECT_FALSE(std::filesystem::exists(secret));
+  EXPECT_THAT(read_file(figure.svg), HasSubstr("{x}_y^z @a"));
+}
+
+TEST_F(FigureFiles, ScriptsSayWhatIsDrawn) {
+  draw_heatmap(success_heatmap(), folder_ / "heatmap");
+  const FigureText text = figure_text(read_file(folder_ / "heatmap.gp"));
+  EXPECT_EQ(text.title, "Success rate");
+  EXPECT_EQ(text.caption, "2 runs");
+  EXPECT_THAT(text.alt, HasSubstr("MuJoCo: 0.990 in the lower left cell"));
+  EXPECT_EQ(figure_text("plot x\n# Title: not at the beginning\n").title, "");
+}
+
+TEST_F(FigureFiles, DescriptionsCannotBreakOutOfTheirComments) {
+  const std::string secret = (folder_ / "broken_out").string();
+  const std::string attack = "x\nsystem 'touch " + secret + "'\r\nplot\\";
+  draw_figure(folder_ / "d", 300, 200, "plot x\n", {}, {attack, attack, attack});
+  EXPECT_FALSE(std::filesystem::exists(secret));
+  EXPECT_THAT(figure_text(read_file(folder_ / "d.gp")).alt, HasSubstr("x system 'touch"));
+}
+
+TEST_F(FigureFiles, FineMapsLeaveTheNumbersToTheDataFile) {
+  Heatmap heatmap = success_heatmap();
+  heatmap.x.assign(13, 0.0);
+  heatmap.y.assign(13, 0.0);
+  heatmap.panels = {{.title = "fine", .value = {13, std::vector<double>(13, 0.5)}}};
+  heatmap.panels[0].value[3][4] = 0.987;
+  heatmap.panels[0].value[4][3] = 1.0;
+  const Figure figure = draw_heatmap(heatmap, folder_ / "fine");
+  EXPECT_EQ(read_file(figure.svg).find("0.987"), std::string::npos);
+  EXPECT_THAT(read_file(folder_ / "fine.dat"), HasSubstr("0.987"));
+}
+
+TEST_F(FigureFiles, LeaveNothingWhenGnuplotComplains) {
+  EXPECT_THAT([&] { draw_figure(folder_ / "bad", 300, 200, "plot 'missing.dat'\n", {}); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("gnuplot"), HasSubstr("missing.dat"))));
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(FigureFiles, MissingGnuplotIsOneClearError) {
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  EXPECT_THAT([&] { draw_heatmap(success_heatmap(), folder_ / "heatmap"); },
+              ThrowsMessage<Error>(HasSubstr("gnuplot-nox")));
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(FigureFiles, UnwritableFoldersAreNamed) {
+  std::ofstream(folder_ / "file") << "in the way";
+  EXPECT_THAT([&] { draw_heatmap(success_heatmap(), folder_ / "file/heatmap"); },
+              ThrowsMessage<Error>(HasSubstr("cannot be written")));
+}
+
+TEST_F(FigureFiles, HeatmapsOfTheWrongSizeAreRefused) {
+  Heatmap heatmap = success_heatmap();
+  heatmap.panels[1].value[0].pop_back();
+  EXPECT_THAT([&] { draw_heatmap(heatmap, folder_ / "heatmap"); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("Bullet"), HasSubstr("2 rows of 3"))));
+  EXPECT_THROW(draw_heatmap(Heatmap{}, folder_ / "heatmap"), InputError);
+}
+
+TEST_F(FigureFiles, ConstantAndUnknownHeatmapsCanBeDrawn) {
+  Heatmap heatmap = success_heatmap();
+  heatmap.x = {0};
+  heatmap.y = {0};
+  heatmap.panels = {{.title = "one", .value = {{1.0}}}, {.title = "none", .value = {{NAN}}}};
+  EXPECT_TRUE(std::filesystem::exists(draw_heatmap(heatmap, folder_ / "one").png));
+}
+
+/// A circle's iso-line lies on the circle, up to the error of linear interpolation.
+TEST(IsoLines, LieOnTheLevel) {
+  std::vector<std::vector<double>> rows(41, std::vector<double>(41));
+  for (std::size_t r = 0; r < 41; ++r) {
+    for (std::size_t c = 0; c < 41; ++c) {
+      rows[r][c] = std::hypot(static_cast<double>(r) - 20.0, static_cast<double>(c) - 20.0);
+    }
+  }
+  const auto pieces = iso_lines(rows, 12.3);
+  double length = 0.0;
+  for (const IsoPiece& piece : pieces) {
+    for (const auto& point : piece) {
+      EXPECT_NEAR(std::hypot(point[0] - 20.0, point[1] - 20.0), 12.3, 0.02);
+    }
+    length += std::hypot(piece[0][0] - piece[1][0], piece[0][1] - piece[1][1]);
+  }
+  EXPECT_NEAR(length, 2.0 * M_PI * 12.3, 0.3);
+}
+
+TEST(IsoLines, AreJoinedFromEndToEnd) {
+  std::vector<std::vector<double>> rows(21, std::vector<double>(21));
+  for (std::size_t r = 0; r < 21; ++r) {
+    for (std::size_t c = 0; c < 21; ++c) {
+      rows[r][c] = std::hypot(static_cast<double>(r) - 10.0, static_cast<double>(c) - 10.0);
+    }
+  }
+  const auto closed = joined(iso_lines(rows, 6.3));
+  ASSERT_EQ(closed.size(), 1u);
+  EXPECT_EQ(closed[0].size(), iso_lines(rows, 6.3).size() + 1);
+  EXPECT_NEAR(closed[0].front()[0], closed[0].back()[0], 1e-9);
+  EXPECT_NEAR(closed[0].front()[1], closed[0].back()[1], 1e-9);
+  const auto corners = joined(iso_lines(rows, 12.2));  // cut off by the border
+  ASSERT_EQ(corners.size(), 4u);
+  std::size_t pieces = 0;
+  for (const IsoLine& line : corners) pieces += line.size() - 1;
+  EXPECT_EQ(pieces, iso_lines(rows, 12.2).size());
+  EXPECT_TRUE(joined({}).empty());
+}
+
+TEST(IsoLines, SeparateTheCornersOfASaddle) {
+  // The middle (0.5) is below 0.6: the two high corners are cut off from each other.
+  const auto pieces = iso_lines({{1.0, 0.0}, {0.0, 1.0}}, 0.6);
+  ASSERT_EQ(pieces.size(), 2u);
+  for (const IsoPiece& piece : pieces) {
+    const double x = 0.5 * (piece[0][0] + piece[1][0]), y = 0.5 * (piece[0][1] + piece[1][1]);
+    EXPECT_NEAR(x, y, 1e-12);               // on the diagonal through the high corners
+    EXPECT_LT(std::min(x, 1.0 - x), 0.25);  // close to one of them
+  }
+}
+
+TEST(IsoLines, SkipUnknownCells) {
+  EXPECT_TRUE(iso_lines({{0.0, NAN}, {1.0, 1.0}}, 0.5).empty());
+  EXPECT_TRUE(iso_lines({}, 0.5).empty());
+  EXPECT_TRUE(iso_lines({{0.0, 1.0}}, 0.5).empty());
+}
+
+TEST(FigureText, WrapsByLettersNotBytes) {
+  EXPECT_EQ(wrapped("aaa bbb ccc", 7), "aaa bbb\nccc");
+  EXPECT_EQ(wrapped("äää äää ccc", 7), "äää äää\nccc");
+  EXPECT_EQ(wrapped("", 7), "");
+  EXPECT_EQ(wrapped("averylongword b", 4), "averylongword\nb");
+}
+
+}  // namespace
+}  // namespace touchdown::render

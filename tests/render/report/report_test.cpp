@@ -1,0 +1,178 @@
+#include "render/report/report.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "experiments/tables/summary_file.hpp"
+#include "render/maps/map_colour.hpp"
+#include "render/report/html.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::render {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::ThrowsMessage;
+
+const char* const config = R"(name: study  # <b>bold</b> & "quoted"
+simulators: [mujoco]
+estimators: [robust]
+fit: {scenarios: [scenarios/stairs.yaml]}
+test: {scenarios: [scenarios/stairs.yaml]}
+noise: {torque: [0.0, 1.0], accelerometer: [0.0, 5.0]}
+highlights: [{torque: 1.0, accelerometer: 5.0}]
+)";
+
+/// One engine at this noise.
+experiments::CellSummary cell(const std::string& estimator, double torque, double accelerometer,
+                              const Interval& success) {
+  experiments::CellSummary summary;
+  summary.condition = {"mujoco", "mujoco", estimator};
+  summary.cell = {torque, accelerometer};
+  summary.success = success;
+  summary.always_contact = 0.87;
+  return summary;
+}
+
+const experiments::Summary success = {
+    {},
+    {cell("robust", 0, 0, {0.99, 0.98, 0.995}), cell("robust", 0, 5, {0.97, 0.96, 0.98}),
+     cell("robust", 1, 0, {0.98, 0.97, 0.99}), cell("robust", 1, 5, {0.86, 0.85, 0.875}),
+     cell("<script>alert(1)</script>", 1, 5, {0.5, 0.4, 0.6})},
+    {},
+    {}};
+
+class Report : public ::testing::Test {
+ protected:
+  Report() {
+    folder_.write("config.yaml", config);
+    folder_.write("manifest.json", R"({"command": "touchdown run <x> && y", "id": "abc",
+      "versions": {"touchdown": "0.1.0"}, "seeds": {"experiment": 1}})");
+    experiments::write_summary({}, folder_.path());
+  }
+  std::string page() const { return read_file(write_report(read_subject(folder_.path()), {})); }
+
+  const ScratchFolder folder_;
+};
+
+TEST_F(Report, LeavesOutWhatTheDirectoryLacks) {
+  const std::string html = page();
+  EXPECT_THAT(html, AllOf(HasSubstr("id=\"reproduce\""), Not(HasSubstr("id=\"noise\"")),
+                          Not(HasSubstr("id=\"figures\"")), Not(HasSubstr("<video"))));
+}
+
+TEST_F(Report, TakesNothingFromFilesForMarkup) {
+  experiments::write_summary(success, folder_.path());
+  folder_.write("tables/other.csv", "a,\"b <i>\"\n<img src=x>,\"1,5\"\n");
+  folder_.write("figures/f.png", "not a picture");
+  folder_.write("figures/f.gp", "set title '<img onerror=1>'\n");
+  const std::string html = page();
+  EXPECT_THAT(html,
+              AllOf(HasSubstr("&lt;b&gt;bold&lt;/b&gt; &amp; &quot;quoted&quot;"),
+                    HasSubstr("&lt;script&gt;alert(1)"), HasSubstr("run &lt;x&gt; &amp;&amp; y"),
+                    HasSubstr("alt=\"f: &lt;img onerror=1&gt;.\"")));
+  for (const char* markup : {"<b>bold", "<script>alert", "<img src=x", "<img onerror", "<i>"}) {
+    EXPECT_THAT(html, Not(HasSubstr(markup)));
+  }
+}
+
+TEST_F(Report, ShowsFiguresWithWhatTheirScriptsSay) {
+  folder_.write("figures/a.svg", "<svg viewBox=\"0 0 300 100\"></svg>");
+  folder_.write("figures/a.gp",
+                "# Draws a.png\n# Title: Latency\n# Caption: 4 runs & 2 seeds.\n"
+                "# Alt: A histogram\nplot x\n");
+  folder_.write("figures/a.dat", "1\n");
+  EXPECT_THAT(page(), AllOf(HasSubstr("alt=\"A histogram\""), HasSubstr("<b>Latency.</b>"),
+                            HasSubstr("4 runs &amp; 2 seeds."), HasSubstr("class=\"wide\""),
+                            HasSubstr("href=\"figures/a.dat\""),
+                            HasSubstr("src=\"data:image/svg+xml;base64,")));
+}
+
+TEST_F(Report, SaysEveryCellsNumbersAndStrikesOutWhatAConstantAnswerBeats) {
+  experiments::write_summary(success, folder_.path());
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("torque noise 1 N·m, accelerometer noise 5 m/s²: success rate "
+                              "0.860 [0.850, 0.875]; always contact 0.870"));
+  std::size_t beaten = 0;
+  for (std::size_t at = html.find("class=\"beaten\""); at != std::string::npos;
+       at = html.find("class=\"beaten\"", at + 1)) {
+    ++beaten;
+  }
+  EXPECT_EQ(beaten, 2U);  // the last row of each of the two estimators
+}
+
+TEST_F(Report, PutsThePapersNumbersBesideOurs) {
+  experiments::ScoreSummary score{{"mujoco", "mujoco", "robust"}, {1.0, 5.0}, "wheels", {}, {}, {}};
+  score.metric.assign(scoring::metrics().size(), {NAN, NAN, NAN});
+  score.metric[scoring::metric_index("takeoff_latency_ms")] = {9.5, 2.7, 14.9};
+  score.metric[scoring::metric_index("takeoff_latency_deviation_ms")] = {12.4, NAN, NAN};
+  experiments::write_summary({{}, {}, {score}, {}}, folder_.path());
+  EXPECT_THAT(page(), AllOf(HasSubstr("9.5 ± 12.4"), HasSubstr("[2.7, 14.9]"),
+                            HasSubstr("77.1 ± 31.8 / 17.9 ± 9.1")));
+}
+
+TEST_F(Report, JoinsIntervalsAndSaysWhichNumbersAreNone) {
+  folder_.write("tables/t.csv",
+                "who,x,x_low,x_high,wait_ms,wait_low_ms,wait_high_ms\n"
+                "a,0.5,0.25,0.75,12.34,1,20\nb,word,0,1,nan\n");
+  const std::string html = page();
+  EXPECT_THAT(html, AllOf(HasSubstr(">wait (ms)</th>"), Not(HasSubstr("x low")),
+                          HasSubstr("0.500 <span class=\"interval\">[0.250, 0.750]</span>"),
+                          HasSubstr("12.3 <span class=\"interval\">[1.0, 20.0]</span>"),
+                          HasSubstr(">b</th><td>–</td><td>–</td>")));
+}
+
+TEST_F(Report, RefusesWhatIsNoRunDirectory) {
+  const ScratchFolder empty;
+  EXPECT_THAT([&] { read_subject(empty.path()); },
+              ThrowsMessage<InputError>(HasSubstr("no run directory")));
+  folder_.write("manifest.json", "{\"command\":");
+  EXPECT_THAT([&] { read_subject(folder_.path()); },
+              ThrowsMessage<InputError>(HasSubstr("manifest.json")));
+}
+
+TEST_F(Report, RefusesRunsOfOlderProgramsAndBrokenSummaries) {
+  folder_.write("tables/summary.json", "{\"runs\": []}");
+  EXPECT_THAT([&] { read_subject(folder_.path()); },
+              ThrowsMessage<InputError>(HasSubstr("summary.json")));
+  experiments::write_summary(
+      {{}, {}, {{{"mujoco", "mujoco", "robust"}, {}, "wheels", {}, {}, {}}}, {}}, folder_.path());
+  EXPECT_THAT([&] { read_subject(folder_.path()); },
+              ThrowsMessage<InputError>(HasSubstr("other metrics")));
+  std::filesystem::remove(folder_ / "tables/summary.json");
+  EXPECT_THAT([&] { read_subject(folder_.path()); },
+              ThrowsMessage<InputError>(HasSubstr("`touchdown run` again")));
+}
+
+TEST(Html, EncodesBytesAsRfc4648Does) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe"), "//4=");
+}
+
+TEST(Html, NamesDigestsAsPoliciesDo) {
+  // Of the empty text.
+  EXPECT_EQ(policy_source("e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"),
+            "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='");
+}
+
+TEST(MapColours, RunFromDarkToLightAndStayInside) {
+  EXPECT_EQ(map_colour(0.0).hex, "#00224e");
+  EXPECT_EQ(map_colour(1.0).hex, "#fee838");
+  EXPECT_EQ(map_colour(-3.0).hex, map_colour(0.0).hex);
+  EXPECT_EQ(map_colour(7.0).hex, map_colour(1.0).hex);
+  EXPECT_FALSE(map_colour(0.0).light);
+  EXPECT_TRUE(map_colour(1.0).light);
+}
+
+}  // namespace
+}  // namespace touchdown::render

@@ -1,0 +1,78 @@
+#include "scoring/labels.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace touchdown::scoring {
+namespace {
+
+ContactSequence sequence(std::initializer_list<std::pair<int, int>> state_and_length) {
+  ContactSequence result;
+  for (const auto& [state, length] : state_and_length) {
+    result.insert(result.end(), static_cast<std::size_t>(length), static_cast<std::uint8_t>(state));
+  }
+  return result;
+}
+
+TEST(Debounce, MergesAShortStateIntoBothNeighbours) {
+  EXPECT_EQ(debounced(sequence({{1, 20}, {0, 4}, {1, 20}}), 5), sequence({{1, 44}}));
+}
+
+TEST(Debounce, KeepsAStateOfExactlyTheLimit) {
+  const ContactSequence contact = sequence({{1, 20}, {0, 5}, {1, 20}});
+  EXPECT_EQ(debounced(contact, 5), contact);
+}
+
+TEST(Debounce, MergesTheShortestFirst) {
+  // The 2-step contact splits a flight; it goes first and leaves one flight of 3 + 2 + 4 steps.
+  EXPECT_EQ(debounced(sequence({{1, 20}, {0, 3}, {1, 2}, {0, 4}, {1, 20}}), 5),
+            sequence({{1, 20}, {0, 9}, {1, 20}}));
+}
+
+TEST(Debounce, MergesShortEndsIntoTheirOnlyNeighbour) {
+  EXPECT_EQ(debounced(sequence({{0, 2}, {1, 20}, {0, 3}}), 5), sequence({{1, 25}}));
+}
+
+TEST(Debounce, LeavesEmptyAndSingleStatesAlone) {
+  EXPECT_EQ(debounced({}, 5), ContactSequence{});
+  EXPECT_EQ(debounced({0}, 5), ContactSequence{0});
+  EXPECT_EQ(debounced(sequence({{1, 3}}), 5), sequence({{1, 3}}));
+}
+
+TEST(ContactLabels, NeedForceAboveTheThreshold) {
+  const std::vector<double> force = {0.0, 1.0, 1.1, std::nan(""), 50.0};
+  EXPECT_EQ(contact_labels(force, 1e-3, {.force_threshold = 1.0, .debounce = 0.0}),
+            (ContactSequence{0, 0, 1, 0, 1}));
+}
+
+TEST(ContactLabels, RefuseARecordingWithoutGroundTruth) {
+  recordings::Recording recording;
+  recording.observation.resize(3);
+  EXPECT_THROW(contact_labels(recording, {}), InputError);
+}
+
+TEST(Flights, IncludeThoseAtTheEnds) {
+  EXPECT_EQ(flights(sequence({{0, 2}, {1, 3}, {0, 4}})),
+            (std::vector<Flight>{{.takeoff = 0, .landing = 2}, {.takeoff = 5, .landing = 9}}));
+  EXPECT_TRUE(flights(sequence({{1, 3}})).empty());
+}
+
+TEST(DropPieces, CutMidwayBetweenDropsAndKeepBouncesTogether) {
+  // Drops at [100, 200) with a bounce at [210, 220), and at [1220, 1300).
+  const ContactSequence contact =
+      sequence({{1, 100}, {0, 100}, {1, 10}, {0, 10}, {1, 1000}, {0, 80}, {1, 100}});
+  EXPECT_EQ(drop_pieces(contact, 250), (std::vector<std::size_t>{0, 720}));
+  EXPECT_EQ(drop_pieces(contact, 5).size(), 3U);
+  EXPECT_EQ(drop_pieces({1, 1}, 5), std::vector<std::size_t>{0});
+}
+
+TEST(WheelCombinations, AreOrAndAnd) {
+  const std::array<ContactSequence, 2> wheels = {ContactSequence{0, 0, 1, 1},
+                                                 ContactSequence{0, 1, 0, 1}};
+  EXPECT_EQ(any_wheel(wheels), (ContactSequence{0, 1, 1, 1}));
+  EXPECT_EQ(both_wheels(wheels), (ContactSequence{0, 0, 0, 1}));
+}
+
+}  // namespace
+}  // namespace touchdown::scoring

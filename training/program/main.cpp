@@ -1,0 +1,95 @@
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "core/resources.hpp"
+#include "experiments/config/yaml_kind.hpp"
+#include "training/sample_efficiency/study.hpp"
+#include "training/train.hpp"
+
+namespace touchdown::training {
+
+namespace {
+
+enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
+
+int complain(const std::string& message, ExitCode code) {
+  fmt::print(stderr, "touchdown: {}\n", message);
+  return code;
+}
+
+struct Flags {
+  std::string file;
+  std::vector<std::string> overrides;
+};
+
+int run(const Flags& flags, const TrainingRequest& request) {
+  YamlDocument document = YamlDocument::load(find_resource(flags.file));
+  for (const std::string& assignment : flags.overrides) document.override_value(assignment);
+  experiments::require_yaml_kind(document, experiments::YamlKind::training);
+  if (is_sample_efficiency(document)) {
+    const auto directory = sample_efficiency(sample_efficiency_from_yaml(document), request);
+    fmt::print("results   {}\n", directory.string());
+    return good;
+  }
+  const TrainingResult result = train(training_from_yaml(document), request);
+  const IterationRecord& chosen = result.history[result.chosen];
+  fmt::print("network   {}, of iteration {} of {}, validation loss {:.4f}\n",
+             (request.network.empty() ? result.network : request.network).string(),
+             chosen.iteration, result.history.size(), chosen.validation.total);
+  fmt::print("results   {}\n", result.directory.string());
+  if (!result.figure.empty()) fmt::print("figure    {}\n", result.figure.string());
+  return good;
+}
+
+int run_program(int argc, char** argv) {
+  TrainingRequest request;
+  request.command = "touchdown train";
+  for (int i = 1; i < argc; ++i) request.command += fmt::format(" {}", argv[i]);
+
+  CLI::App program(
+      "touchdown train experiments/nmn.yaml\n\n"
+      "Trains the neural measurement network on simulated data.",
+      "touchdown train");
+  Flags flags;
+  program.add_option("training", flags.file, "Training file")->required();
+  program
+      .add_option("-o,--output", request.network, "Also write the weights here, with a manifest")
+      ->type_name("FILE.npz");
+  program.add_option("--out", request.out, "Run directory (default: runs/<name>/<id>)")
+      ->type_name("DIR");
+  program.add_option("--threads", request.threads, "Threads (default: one per core)")
+      ->check(CLI::PositiveNumber);
+  program
+      .add_option("--set", flags.overrides,
+                  "Change a value of the file, for example optimiser.iterations=20")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help
+    return program.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    return complain(fmt::format("train: {}", error.what()), wrong_request);
+  }
+  try {
+    request.stop = &stop_on_interrupt();
+    return run(flags, request);
+  } catch (const InputError& error) {
+    return complain(error.what(), wrong_request);
+  } catch (const Stopped&) {
+    return complain(
+        "stopped; finished iterations are saved, and the same command goes on from there", failed);
+  } catch (const std::exception& error) {
+    return complain(error.what(), failed);
+  }
+}
+
+}  // namespace
+
+}  // namespace touchdown::training
+
+int main(int argc, char** argv) { return touchdown::training::run_program(argc, argv); }

@@ -1,0 +1,69 @@
+#include "training/sample_efficiency/config.hpp"
+
+#include <algorithm>
+
+#include "core/fields.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::training {
+
+namespace {
+
+void describe_amounts(Fields& fields, std::string_view key, std::vector<double>& amounts) {
+  fields(key, amounts);
+  for (std::size_t i = 0; i < amounts.size(); ++i) {
+    fields.check(amounts[i] >= 0.1 && amounts[i] <= 1e6 && (i == 0 || amounts[i] > amounts[i - 1]),
+                 key, "expected increasing numbers from 0.1 to 1000000 (s)");
+  }
+}
+
+void check_simulator(const Fields& fields, std::string_view key, const std::string& name) {
+  const auto& known = simulators::simulator_names();
+  fields.check(std::find(known.begin(), known.end(), name) != known.end(), key,
+               "unknown physics engine '" + name + "'");
+}
+
+}  // namespace
+
+static void describe(Fields& fields, SampleEfficiencyConfig& config) {
+  fields.require("name", config.name);
+  fields("seed", config.seed);
+  fields("training", config.training);
+  describe_amounts(fields, "network_seconds", config.network_seconds);
+  fields("epochs", config.epochs, 1, 100'000);
+  describe_amounts(fields, "filter_seconds", config.filter_seconds);
+  fields("estimator", config.estimator);
+  fields.check("estimator", [&] {
+    if (!experiments::estimator_entry(config.estimator).config)
+      throw InputError("expected a Bayes filter");
+  });
+  fields("fit_scenarios", config.fit_scenarios);
+  fields.check(!config.fit_scenarios.empty(), "fit_scenarios",
+               "expected at least one scenario file");
+  fields("fit_simulator", config.fit_simulator);
+  check_simulator(fields, "fit_simulator", config.fit_simulator);
+  fields("test_scenario", config.test_scenario);
+  fields("simulators", config.simulators);
+  fields.check(!config.simulators.empty(), "simulators", "expected at least one name");
+  for (const std::string& name : config.simulators) check_simulator(fields, "simulators", name);
+  fields("runs", config.runs, 1, 100'000);
+  fields.within("noise", [&](Fields& noise) {
+    noise("torque", config.noise.torque, 0.0, 1e3);
+    noise("accelerometer", config.noise.accelerometer, 0.0, 1e3);
+  });
+}
+
+bool is_sample_efficiency(const YamlDocument& document) {
+  return document.root().IsMap() && document.root()["network_seconds"].IsDefined();
+}
+
+SampleEfficiencyConfig sample_efficiency_from_yaml(const YamlDocument& document) {
+  return from_yaml<SampleEfficiencyConfig>(YamlMap(document));
+}
+
+std::string to_yaml(const SampleEfficiencyConfig& config) {
+  return YAML::Dump(to_node(config)) + "\n";
+}
+
+}  // namespace touchdown::training

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/yaml.hpp"
+#include "experiments/config/experiment.hpp"
+
+namespace touchdown::training {
+
+/// How well methods tell contact after so much labelled data.
+struct SampleEfficiencyConfig {
+  std::string name = "sample_efficiency";
+  std::uint64_t seed = 1;
+  std::string training = "experiments/nmn.yaml";  ///< how the network is trained
+  /// Labelled data that the network is trained on (s); whole episodes of it. The shipped network
+  /// follows as one more.
+  std::vector<double> network_seconds = {8.0, 40.0, 200.0, 800.0};
+  int epochs = 64;  ///< over the same data, twice the training file's for want of more of it
+  /// Labelled data that the Bayes filter is fitted to (s), in equal parts from `fit_scenarios`.
+  std::vector<double> filter_seconds = {2.0, 8.0, 40.0, 200.0, 800.0};
+  std::string estimator = "robust";  ///< the filter
+  std::vector<std::string> fit_scenarios = {"scenarios/roam.yaml", "scenarios/hang.yaml"};
+  std::string fit_simulator = "bullet";  ///< where both methods' labelled data comes from
+  std::string test_scenario = "scenarios/stairs.yaml";
+  std::vector<std::string> simulators = {"mujoco", "bullet"};
+  int runs = 4;  ///< of the test scenario, in each engine
+  noise::NoiseCell noise;
+};
+
+/// Errors: `InputError`.
+SampleEfficiencyConfig sample_efficiency_from_yaml(const YamlDocument& document);
+std::string to_yaml(const SampleEfficiencyConfig& config);
+
+/// Whether a document describes such a study rather than a training.
+bool is_sample_efficiency(const YamlDocument& document);
+
+}  // namespace touchdown::training

@@ -1,0 +1,192 @@
+#include "training/sample_efficiency/study.hpp"
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/fingerprint.hpp"
+#include "core/progress.hpp"
+#include "core/resources.hpp"
+#include "estimator/neural/estimator.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/fitting.hpp"
+#include "experiments/listening/sweep_run.hpp"
+#include "experiments/run_directory/directory.hpp"
+#include "experiments/signals/run_signals.hpp"
+#include "recordings/models/neural_network.hpp"
+#include "scenarios/engine.hpp"
+#include "training/initial_weights.hpp"
+#include "training/rollout.hpp"
+#include "training/sample_efficiency/figure.hpp"
+#include "training/trainer.hpp"
+
+namespace touchdown::training {
+
+namespace {
+
+/// One play of a scenario file.
+experiments::RunSignals heard(const std::string& file, const std::string& simulator,
+                              std::uint64_t seed, std::int64_t run, double longest) {
+  scenarios::Scenario scenario = scenarios::find_scenario(file);
+  scenario.end.duration = std::min(scenario.end.duration, longest);
+  return experiments::signals_of(
+      scenarios::play(scenarios::perturbed(scenario, seed, run), simulator, seed, run), {}, {},
+      scoring::SampleUnit::run);
+}
+
+constexpr double no_limit = 1e9;
+
+class SampleEfficiencyStudy {
+ public:
+  SampleEfficiencyStudy(const SampleEfficiencyConfig& config, const TrainingRequest& request)
+      : config_(config), request_(request) {
+    tests_.resize(config.simulators.size() * static_cast<std::size_t>(config.runs));
+    Progress progress("test runs", "runs", static_cast<std::int64_t>(tests_.size()));
+    tbb::parallel_for(std::size_t{0}, tests_.size(), [&](std::size_t i) {
+      const auto run = static_cast<std::int64_t>(i / config.simulators.size());
+      tests_[i] = heard(config.test_scenario, config.simulators[i % config.simulators.size()],
+                        config.seed, run, no_limit);
+      progress.advance();
+    });
+  }
+
+  Table run() {
+    for (const double seconds : config_.filter_seconds) fit_filter(seconds);
+    for (const double seconds : config_.network_seconds) train_network(seconds);
+    try_shipped_network();
+    return table_;
+  }
+
+ private:
+  void check_stop() const {
+    if (request_.wants_stop()) throw Stopped();
+  }
+
+  /// Equal parts of every scenario, as many runs as it takes.
+  std::vector<experiments::RunSignals> labelled_runs(double seconds) const {
+    std::vector<experiments::RunSignals> runs;
+    const scoring::ScoringConfig scoring;
+    for (const std::string& file : config_.fit_scenarios) {
+      double missing = seconds / static_cast<double>(config_.fit_scenarios.size());
+      for (std::int64_t run = experiments::first_fit_run; missing > 1e-9; ++run) {
+        check_stop();
+        // What is not used for fitting is no labelled data.
+        runs.push_back(
+            heard(file, config_.fit_simulator, config_.seed, run, missing + scoring.skip));
+        const double used = static_cast<double>(runs.back().steps()) * 1e-6 *
+                                static_cast<double>(runs.back().info.control_period_us) -
+                            scoring.skip;
+        missing -= std::max(used, 0.1);
+      }
+    }
+    return runs;
+  }
+
+  void fit_filter(double seconds) {
+    const std::vector<experiments::RunSignals> runs = labelled_runs(seconds);
+    std::vector<const experiments::RunSignals*> pointers;
+    for (const experiments::RunSignals& run : runs) pointers.push_back(&run);
+    const experiments::EstimatorEntry& entry = experiments::estimator_entry(config_.estimator);
+    try {
+      experiments::FittedModel model;
+      model.measurement = experiments::fit(pointers, entry.config->measurement, {});
+      add(entry.title, seconds, [&] { return entry.make(entry, {test_rate(), &model}); });
+    } catch (const InputError& error) {
+      fmt::print(stderr, "{}, {} s: {}\n", entry.title, seconds, error.what());
+    }
+  }
+
+  void train_network(double seconds) {
+    YamlDocument document = YamlDocument::load(find_resource(config_.training));
+    const TrainingConfig training = training_from_yaml(document);
+    const double episode = training.rollout.period() * training.rollout.steps;
+    const int episodes = std::max(1, static_cast<int>(std::lround(seconds / episode)));
+    const EpisodeBatch data =
+        roll_out(training.rollout, rollout_scenario(training.rollout), training.seed, 0, episodes,
+                 [this] { return !request_.wants_stop(); });
+    Trainer trainer(
+        initial_network(training.network, training.seed, data, training.rollout.period()),
+        training.optimiser);
+    {
+      Progress progress(fmt::format("{:.0f} s of data", episodes * episode), "epochs",
+                        config_.epochs);
+      for (int epoch = 0; epoch < config_.epochs; ++epoch) {
+        check_stop();
+        trainer.train_epoch(data);
+        progress.advance();
+      }
+    }
+    add_network(episodes * episode, std::make_shared<const NeuralNetwork>(trainer.network()));
+  }
+
+  /// The last point: all the data that the shipped network has seen.
+  void try_shipped_network() {
+    const auto network =
+        std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network());
+    const auto manifest = nlohmann::json::parse(read_file(find_resource("models/nmn.json")));
+    add_network(manifest.at("labelled_data_s").get<double>(), network);
+  }
+
+  void add_network(double seconds, const std::shared_ptr<const NeuralNetwork>& network) {
+    add("NMN", seconds, [&] {
+      NeuralEstimatorConfig config;
+      config.sample_rate = test_rate();
+      return std::make_unique<NeuralEstimator>(network, config);
+    });
+  }
+
+  double test_rate() const {
+    return 1e6 / static_cast<double>(tests_.front().info.control_period_us);
+  }
+
+  /// Lets an estimator listen to all test runs and writes a row per engine.
+  template <typename Make>
+  void add(const std::string& method, double seconds, const Make& make) {
+    const noise::SensorNoise level = config_.noise.levels();
+    std::vector<scoring::Classification> counts(tests_.size());
+    tbb::parallel_for(std::size_t{0}, tests_.size(), [&](std::size_t i) {
+      const experiments::RunSignals& run = tests_[i];
+      const experiments::NoiseRun noise = experiments::noise_run(
+          run, {.seed = config_.seed, .run = static_cast<std::uint64_t>(run.info.run)});
+      counts[i] = experiments::sweep_levels(*make(), {&level, 1}, run, noise, {}, [] {
+                    return true;
+                  }).front();
+    });
+    for (std::size_t s = 0; s < config_.simulators.size(); ++s) {
+      scoring::Classification sum;
+      for (std::size_t i = s; i < counts.size(); i += config_.simulators.size()) sum += counts[i];
+      table_.rows.push_back({config_.simulators[s], method, exact(seconds), metric(sum.success()),
+                             metric(sum.no_contact_precision()), metric(sum.no_contact_recall())});
+    }
+  }
+
+  const SampleEfficiencyConfig& config_;
+  const TrainingRequest& request_;
+  std::vector<experiments::RunSignals> tests_;
+  Table table_ = {{"simulator", "method", "labelled_data_s", "success", "no_contact_precision",
+                   "no_contact_recall"},
+                  {}};
+};
+
+}  // namespace
+
+std::filesystem::path sample_efficiency(const SampleEfficiencyConfig& config,
+                                        const TrainingRequest& request) {
+  const experiments::RunDirectory directory(config.name, Fingerprint().add(to_yaml(config)).text(),
+                                            request.out);
+  write_atomically(directory.path() / "config.yaml", to_yaml(config));
+  set_training_threads(request.thread_count());
+  const Table table = SampleEfficiencyStudy(config, request).run();
+  directory.write_table("sample_efficiency.csv", table);
+  fmt::print("{}", to_text(table, 2));
+  draw_sample_efficiency(directory.path(), config.simulators,
+                         experiments::estimator_entry(config.estimator).title);
+  return directory.path();
+}
+
+}  // namespace touchdown::training
