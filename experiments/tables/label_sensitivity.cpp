@@ -57,8 +57,8 @@ Table label_sensitivity_table(const ExperimentResult& result) {
     append_interval_columns(table.header, name);
   }
   for (const std::string& simulator : result.experiment.simulators) {
-    std::vector<Condition> conditions = own_engine_conditions(result.experiment);
-    std::erase_if(conditions, [&](const Condition& c) { return c.test_simulator != simulator; });
+    const std::vector<Condition> conditions =
+        tested_on(own_engine_conditions(result.experiment), simulator);
     std::vector<const PlayedRun*> runs;
     for (const PlayedRun& run : result.runs) {
       if (run.plan.role == RunRole::test && run.plan.simulator == simulator && !run.failed()) {
