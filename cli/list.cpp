@@ -46,11 +46,11 @@ void list() {
 
 }  // namespace
 
-void add_list(CLI::App& program, CliSession& session) {
+void add_list(CLI::App& program, const CliSession& /*session*/) {
   CLI::App* verb = program.add_subcommand(
       "list",
       "touchdown list\n\nShows the experiments, scenarios, simulators and estimators at hand.");
-  verb->callback([&session] { session.action = list; });
+  verb->callback(list);
 }
 
 }  // namespace touchdown::cli

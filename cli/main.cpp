@@ -1,11 +1,12 @@
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
 
-#include "cli/complaint.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/yaml.hpp"
 
 namespace touchdown::cli {
 namespace {
@@ -23,8 +24,53 @@ std::string joined(int argc, char** argv) {
   return line;
 }
 
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = did_you_mean(word, known);
+  return near.empty() ? fmt::format(" (known: {})", fmt::join(known, ", ")) : near;
+}
+
+std::vector<std::string> verbs(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : program.get_subcommands({})) names.push_back(verb->get_name());
+  return names;
+}
+
+std::vector<std::string> flags(const CLI::App& verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+std::string first_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// One line about what is wrong with a command line, with the nearest verb or flag that exists.
+std::string complaint(const CLI::App& program, int argc, char** argv,
+                      const CLI::ParseError& error) {
+  const std::vector<std::string> known = verbs(program);
+  const std::string verb = argc > 1 ? argv[1] : "";
+  if (std::find(known.begin(), known.end(), verb) == known.end()) {
+    if (verb.rfind('-', 0) == 0) {
+      return fmt::format("unknown flag '{}'{}", verb, suggestion(verb, flags(program)));
+    }
+    return fmt::format("unknown command '{}'{}", verb, suggestion(verb, known));
+  }
+  const CLI::App* asked = program.get_subcommand(verb);
+  for (const std::string& rest : asked->remaining(true)) {
+    if (rest.rfind('-', 0) != 0) continue;
+    const std::string flag = rest.substr(0, rest.find('='));
+    return fmt::format("{}: unknown flag '{}'{}", verb, flag, suggestion(flag, flags(*asked)));
+  }
+  return fmt::format("{}: {}", verb, first_line(error.what()));
+}
+
 int run_command_line(int argc, char** argv) {
-  CliSession session{joined(argc, argv), nullptr, {}};
+  const CliSession session{joined(argc, argv), &stop_on_interrupt()};
   CLI::App program(
       "touchdown run experiments/stairs.yaml\n\n"
       "Simulates wheeled bipeds in two physics engines, injects sensor noise, and\n"
@@ -48,16 +94,12 @@ int run_command_line(int argc, char** argv) {
     return wrong_request;
   }
   try {
-    program.parse(argc, argv);
+    program.parse(argc, argv);  // and does what the verb is for
+    return good;
   } catch (const CLI::Success& asked) {  // --help, --version
     return program.exit(asked);
   } catch (const CLI::ParseError& error) {
     return complain(complaint(program, argc, argv, error), wrong_request);
-  }
-  try {
-    session.stop = &stop_on_interrupt();
-    session.action();
-    return good;
   } catch (const InputError& error) {
     return complain(error.what(), wrong_request);
   } catch (const std::exception& error) {

@@ -22,7 +22,7 @@ void merge(const MergeFlags& flags, const CliSession& session) {
 
 }  // namespace
 
-void add_merge(CLI::App& program, CliSession& session) {
+void add_merge(CLI::App& program, const CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "merge",
       "touchdown merge runs/stairs/latest\n\n"
@@ -32,8 +32,7 @@ void add_merge(CLI::App& program, CliSession& session) {
       ->required()
       ->type_name("DIR");
   verb->add_flag("--no-pictures", flags->no_pictures, "Tables only: no figures, no videos");
-  verb->callback(
-      [flags, &session] { session.action = [flags, &session] { merge(*flags, session); }; });
+  verb->callback([flags, &session] { merge(*flags, session); });
 }
 
 }  // namespace touchdown::cli

@@ -6,8 +6,7 @@
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
-#include "render/film/poster.hpp"
-#include "render/pictures/film_progress.hpp"
+#include "render/film/video.hpp"
 #include "render/pictures/filmed_run.hpp"
 
 namespace touchdown::cli {
@@ -71,14 +70,14 @@ void render(const RenderFlags& flags, const CliSession& session) {
     fmt::print("{}\n", flags.output);
     return;
   }
-  options.progress = render::FilmProgress("filming", session.stop);
+  options.progress = render::film_progress("filming", session.stop);
   const render::VideoStatistics statistics = render::render_video(sources, options, flags.output);
   fmt::print("{}: {} frames, {:.1f} frames/s\n", flags.output, statistics.frames, statistics.fps());
 }
 
 }  // namespace
 
-void add_render(CLI::App& program, CliSession& session) {
+void add_render(CLI::App& program, const CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "render",
       "touchdown render stairs.mpack -o stairs.mp4\n\n"
@@ -111,8 +110,7 @@ void add_render(CLI::App& program, CliSession& session) {
   verb->add_flag("--scene", flags->scene,
                  "The same of one run without labels and plots: the robot on its terrain");
   verb->add_option("--workers", flags->video.workers, "Processes that draw; 0: one per core");
-  verb->callback(
-      [flags, &session] { session.action = [flags, &session] { render(*flags, session); }; });
+  verb->callback([flags, &session] { render(*flags, session); });
 }
 
 }  // namespace touchdown::cli

@@ -17,7 +17,7 @@ struct ReportFlags {
 
 }  // namespace
 
-void add_report(CLI::App& program, CliSession& session) {
+void add_report(CLI::App& program, const CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "report",
       "touchdown report runs/stairs/latest\n\n"
@@ -27,12 +27,12 @@ void add_report(CLI::App& program, CliSession& session) {
   verb->add_option("directory", flags->directory, "Run directory")->required();
   verb->add_flag("--no-film", flags->no_film, "Without the video inside");
   verb->callback([flags, &session] {
-    session.action = [flags, &session] {
-      const std::filesystem::path path =
-          render::make_report(flags->directory, !flags->no_film, session.stop);
-      fmt::print("report    {} ({:.1f} MB)\n", path.string(),
-                 static_cast<double>(std::filesystem::file_size(path)) / 1e6);
-    };
+    const render::ReportSubject subject = render::read_subject(flags->directory);
+    std::vector<render::FilmedRun> filmed;
+    if (!flags->no_film && subject.experiment.video.enabled) filmed = render::filmed_runs(subject);
+    const std::filesystem::path path = render::make_report(subject, filmed, session.stop);
+    fmt::print("report    {} ({:.1f} MB)\n", path.string(),
+               static_cast<double>(std::filesystem::file_size(path)) / 1e6);
   });
 }
 

@@ -66,7 +66,7 @@ void run(const RunFlags& flags, const CliSession& session) {
 
 }  // namespace
 
-void add_run(CLI::App& program, CliSession& session) {
+void add_run(CLI::App& program, const CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "run",
       "touchdown run experiments/stairs.yaml\n\n"
@@ -86,8 +86,7 @@ void add_run(CLI::App& program, CliSession& session) {
                  "Only check the experiment, and say where its results go and in how many parts\n"
                  "it can be computed");
   verb->add_flag("--no-pictures", flags->no_pictures, "Tables only: no figures, no videos");
-  verb->callback(
-      [flags, &session] { session.action = [flags, &session] { run(*flags, session); }; });
+  verb->callback([flags, &session] { run(*flags, session); });
 }
 
 }  // namespace touchdown::cli

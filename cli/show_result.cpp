@@ -16,7 +16,9 @@ namespace {
 
 void show_pictures(experiments::ExperimentResult& result, const CliSession& session) {
   std::vector<render::FilmedRun> filmed;
-  if (result.experiment.video.enabled) filmed = render::filmed_runs(result);
+  if (result.experiment.video.enabled) {
+    filmed = render::filmed_runs(render::read_subject(result.directory.path()));
+  }
   for (const render::Picture& picture : render::draw_pictures(result, filmed, session.stop)) {
     std::string kind = picture.kind;
     for (const auto& file : picture.files) {

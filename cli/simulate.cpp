@@ -57,7 +57,7 @@ void simulate(const SimulateFlags& flags, const CliSession& session) {
 
 }  // namespace
 
-void add_simulate(CLI::App& program, CliSession& session) {
+void add_simulate(CLI::App& program, const CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "simulate",
       "touchdown simulate scenarios/stairs.yaml --simulator bullet -o stairs.mpack\n\n"
@@ -76,8 +76,7 @@ void add_simulate(CLI::App& program, CliSession& session) {
                    "Change a value of the scenario, for example end.duration=5")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  verb->callback(
-      [flags, &session] { session.action = [flags, &session] { simulate(*flags, session); }; });
+  verb->callback([flags, &session] { simulate(*flags, session); });
 }
 
 }  // namespace touchdown::cli

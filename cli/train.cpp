@@ -33,16 +33,14 @@ namespace {
 
 }  // namespace
 
-void add_train(CLI::App& program, CliSession& session) {
+void add_train(CLI::App& program, const CliSession& /*session*/) {
   CLI::App* verb = program.add_subcommand(
       "train",
       "touchdown train experiments/nmn.yaml\n\n"
       "Trains the neural measurement network on simulated data (needs libtorch).");
   verb->set_help_flag();  // the trainer has its own
   verb->prefix_command();
-  verb->callback([verb, &session] {
-    session.action = [arguments = verb->remaining()] { become_trainer(arguments); };
-  });
+  verb->callback([verb] { become_trainer(verb->remaining()); });
 }
 
 }  // namespace touchdown::cli

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -12,18 +11,17 @@ namespace touchdown::cli {
 struct CliSession {
   std::string command;                      ///< what was typed
   const std::atomic<bool>* stop = nullptr;  ///< becomes true on Ctrl-C
-  std::function<void()> action;             ///< set by the verb that was asked for
 };
 
-/// Each adds its verb and flags to the program; the verb's callback sets `session.action`.
-void add_run(CLI::App& program, CliSession& session);
-void add_merge(CLI::App& program, CliSession& session);
-void add_simulate(CLI::App& program, CliSession& session);
-void add_render(CLI::App& program, CliSession& session);
-void add_report(CLI::App& program, CliSession& session);
-void add_train(CLI::App& program, CliSession& session);
-void add_fit(CLI::App& program, CliSession& session);
-void add_estimate(CLI::App& program, CliSession& session);
-void add_list(CLI::App& program, CliSession& session);
+/// Each adds its verb and flags to the program. The verb does its work at the end of parsing.
+void add_run(CLI::App& program, const CliSession& session);
+void add_merge(CLI::App& program, const CliSession& session);
+void add_simulate(CLI::App& program, const CliSession& session);
+void add_render(CLI::App& program, const CliSession& session);
+void add_report(CLI::App& program, const CliSession& session);
+void add_train(CLI::App& program, const CliSession& session);
+void add_fit(CLI::App& program, const CliSession& session);
+void add_estimate(CLI::App& program, const CliSession& session);
+void add_list(CLI::App& program, const CliSession& session);
 
 }  // namespace touchdown::cli

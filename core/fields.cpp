@@ -1,18 +1,32 @@
 #include "core/fields.hpp"
 
 #include <algorithm>
-
-#include <fmt/format.h>
+#include <cmath>
 
 namespace touchdown {
+
+namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+Fields::Fields(YAML::Node node, std::string file, std::string path)
+    : reading_(true), node_(node), file_(std::move(file)), path_(std::move(path)) {
+  if (node_ && !node_.IsNull() && !node_.IsMap()) {
+    fail(node_, "", "expected a mapping of keys to values");
+  }
+}
 
 void Fields::require(std::string_view key) { check(present(key, true), key, "is missing"); }
 
 void Fields::choose(std::string_view key, const std::vector<std::string>& names,
                     std::string& value) {
-  if (!reading()) return (*this)(key, value);
-  const auto otherwise = std::find(names.begin(), names.end(), value) - names.begin();
-  value = names.at(map_->choose(key, names, static_cast<std::size_t>(otherwise)));
+  (*this)(key, value);
+  check(contains(names, value), key,
+        fmt::format("expected one of {}{}", fmt::join(names, ", "), did_you_mean(value, names)));
 }
 
 void Fields::choose(std::string_view key, const std::vector<std::string>& names,
@@ -27,7 +41,7 @@ void Fields::names(std::string_view key, const std::vector<std::string>& known,
   (*this)(key, values);
   check(!values.empty(), key, "expected at least one name");
   for (auto name = values.begin(); name != values.end(); ++name) {
-    check(std::find(known.begin(), known.end(), *name) != known.end(), key,
+    check(contains(known, *name), key,
           fmt::format("'{}' is not one of {}{}", *name, fmt::join(known, ", "),
                       did_you_mean(*name, known)));
     check(std::find(values.begin(), name, *name) == name, key,
@@ -37,30 +51,25 @@ void Fields::names(std::string_view key, const std::vector<std::string>& known,
 
 void Fields::in_line(std::string_view key, std::vector<double>& numbers) {
   (*this)(key, numbers);
-  if (!reading()) written_[std::string(key)].SetStyle(YAML::EmitterStyle::Flow);
+  if (!reading()) node_[std::string(key)].SetStyle(YAML::EmitterStyle::Flow);
 }
 
 void Fields::within(std::string_view key, const std::function<void(Fields&)>& describe_section) {
-  if (reading()) {
-    YamlMap map = map_->child(key);
-    Fields inner(map);
-    describe_section(inner);
-    map.finish();
-  } else {
-    Fields inner;
-    describe_section(inner);
-    written_[std::string(key)] = inner.node();
-  }
+  Fields inner = reading() ? Fields(take(key), file_, path_to(key)) : Fields();
+  describe_section(inner);
+  inner.finish();
+  if (!reading()) node_[std::string(key)] = inner.node();
 }
 
 void Fields::items(std::string_view key, std::size_t count,
                    const std::function<void(Fields&, std::size_t)>& describe_item) {
   if (reading()) {
-    std::vector<YamlMap> maps = map_->children(key);
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-      Fields item(maps[i]);
+    const YAML::Node list = take(key);
+    if (list && !list.IsSequence()) fail(key, "expected a list");
+    for (std::size_t i = 0; list && i < list.size(); ++i) {
+      Fields item(list[i], file_, fmt::format("{}.{}", path_to(key), i));
       describe_item(item, i);
-      maps[i].finish();
+      item.finish();
     }
   } else {
     YAML::Node list(YAML::NodeType::Sequence);
@@ -69,29 +78,34 @@ void Fields::items(std::string_view key, std::size_t count,
       describe_item(item, i);
       list.push_back(item.node());
     }
-    written_[std::string(key)] = list;
+    node_[std::string(key)] = list;
   }
 }
 
 bool Fields::present(std::string_view key, bool has_value) const {
-  return reading() ? map_->has(key) : has_value;
+  return reading() ? has(key) : has_value;
 }
 
 void Fields::know(std::string_view key) {
-  if (reading()) (void)map_->take(key);
+  if (reading()) (void)take(key);
 }
 
-std::size_t Fields::size() const {
-  const YAML::Node& node = reading() ? map_->node() : written_;
-  return node.IsMap() ? node.size() : 0;
-}
+std::size_t Fields::size() const { return node_.IsMap() ? node_.size() : 0; }
 
 void Fields::finish() const {
-  if (reading()) map_->finish();
+  if (!reading() || !node_ || !node_.IsMap()) return;
+  for (const auto& entry : node_) {
+    const auto key = entry.first.as<std::string>();
+    if (contains(known_, key)) continue;
+    std::string hint = did_you_mean(key, known_);
+    if (hint.empty() && !known_.empty())
+      hint = fmt::format(" (known: {})", fmt::join(known_, ", "));
+    fail(entry.first, key, fmt::format("unknown key{}", hint));
+  }
 }
 
 void Fields::check(bool holds, std::string_view key, const std::string& message) const {
-  if (reading() && !holds) map_->fail(key, message);
+  if (reading() && !holds) fail(key, message);
 }
 
 void Fields::check(std::string_view key, const std::function<void()>& action) const {
@@ -99,8 +113,40 @@ void Fields::check(std::string_view key, const std::function<void()>& action) co
   try {
     action();
   } catch (const InputError& error) {
-    map_->fail(key, error.what());
+    fail(key, error.what());
   }
+}
+
+bool Fields::has(std::string_view key) const {
+  return node_ && node_.IsMap() && node_[std::string(key)];
+}
+
+YAML::Node Fields::take(std::string_view key) {
+  known_.emplace_back(key);
+  if (!has(key)) return YAML::Node(YAML::NodeType::Undefined);
+  return node_[std::string(key)];
+}
+
+std::string Fields::path_to(std::string_view key) const {
+  return path_.empty() || key.empty() ? path_ + std::string(key) : fmt::format("{}.{}", path_, key);
+}
+
+void Fields::fail(std::string_view key, const std::string& message) const {
+  fail(has(key) ? node_[std::string(key)] : node_, key, message);
+}
+
+void Fields::fail(const YAML::Node& node, std::string_view key, const std::string& message) const {
+  const std::string where = path_to(key);
+  // Values set from the command line have no place in the file.
+  const YAML::Mark mark = node ? node.Mark() : YAML::Mark::null_mark();
+  const std::string place =
+      mark.is_null() ? file_ : fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
+  throw InputError(fmt::format("{}: {}{}{}", place, where, where.empty() ? "" : ": ", message));
+}
+
+std::string Fields::range_text(double low, double high) {
+  if (std::isinf(high) || high >= 1e15) return fmt::format("expected a number of at least {}", low);
+  return fmt::format("expected a number from {} to {}", low, high);
 }
 
 }  // namespace touchdown

@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/yaml.hpp"
 
 namespace touchdown {
@@ -21,24 +23,29 @@ namespace touchdown {
 ///       fields("debounce", labels.debounce, 0.0, 10.0);
 ///     }
 ///
-/// One description reads the struct, as strictly as `YamlMap` does, and writes it, in the order of
-/// its lines. Whatever a description changes while it writes is changed in a copy.
+/// One description reads the struct and writes it, in the order of its lines. It reads strictly:
+/// every key that is there must be named, with the right type and within its range. Whatever a
+/// description changes while it writes is changed in a copy.
 class Fields {
  public:
-  Fields() = default;                            ///< writes
-  explicit Fields(YamlMap& map) : map_(&map) {}  ///< reads
+  Fields() = default;  ///< writes
+  explicit Fields(const YamlDocument& document) : Fields(document.root(), document.name(), "") {}
 
-  bool reading() const { return map_ != nullptr; }
-  /// What has been written.
-  const YAML::Node& node() const { return written_; }
+  bool reading() const { return reading_; }
+  /// What is read, or has been written.
+  const YAML::Node& node() const { return node_; }
 
   /// Reading: keeps the value where the key is absent.
   template <typename T>
   void operator()(std::string_view key, T& value) {
-    if (reading()) {
-      map_->read(key, value);
-    } else {
-      written_[std::string(key)] = value;
+    if (!reading()) {
+      node_[std::string(key)] = value;
+    } else if (const YAML::Node given = take(key)) {
+      try {
+        value = given.as<T>();
+      } catch (const YAML::Exception&) {
+        fail(key, fmt::format("expected {}", type_name<T>()));
+      }
     }
   }
 
@@ -46,10 +53,9 @@ class Fields {
   template <typename T>
   void operator()(std::string_view key, T& value, std::type_identity_t<T> low,
                   std::type_identity_t<T> high) {
-    if (reading()) {
-      map_->read(key, value, low, high);
-    } else {
-      (*this)(key, value);
+    (*this)(key, value);
+    if (reading() && has(key) && !(value >= low && value <= high)) {
+      fail(key, range_text(static_cast<double>(low), static_cast<double>(high)));
     }
   }
 
@@ -119,8 +125,9 @@ class Fields {
   /// How many keys there are.
   std::size_t size() const;
 
-  /// Reading: complains about a key that has not been named. It happens at the end by itself;
-  /// before a check that a misspelt key would fail, it gives the better reason.
+  /// Reading: complains about the first key that has not been named, and suggests the nearest that
+  /// has been. It happens at the end by itself; before a check that a misspelt key would fail, it
+  /// gives the better reason.
   void finish() const;
 
   /// Reading: complains about the key's value unless `holds`.
@@ -129,20 +136,50 @@ class Fields {
   void check(std::string_view key, const std::function<void()>& action) const;
 
  private:
+  Fields(YAML::Node node, std::string file, std::string path);
+
   void items(std::string_view key, std::size_t count,
              const std::function<void(Fields&, std::size_t)>& describe_item);
 
-  YamlMap* map_ = nullptr;
-  YAML::Node written_;
+  bool has(std::string_view key) const;
+  /// The node under `key`, which is known from now on; undefined if absent.
+  YAML::Node take(std::string_view key);
+  /// The dotted path from the document's root to `key`.
+  std::string path_to(std::string_view key) const;
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+  [[noreturn]] void fail(const YAML::Node& node, std::string_view key,
+                         const std::string& message) const;
+
+  template <typename T>
+  static std::string type_name() {
+    if constexpr (std::same_as<T, bool>) {
+      return "true or false";
+    } else if constexpr (std::integral<T>) {
+      return "a whole number";
+    } else if constexpr (std::floating_point<T>) {
+      return "a number";
+    } else if constexpr (std::same_as<T, std::string>) {
+      return "a text";
+    } else {
+      return fmt::format("a list, each item {}", type_name<typename T::value_type>());
+    }
+  }
+  static std::string range_text(double low, double high);
+
+  bool reading_ = false;
+  YAML::Node node_;
+  std::string file_;
+  std::string path_;
+  std::vector<std::string> known_;
 };
 
 /// Reads a struct by its description; what `config` holds are the defaults. Errors: `InputError`
 /// with file:line:column.
 template <typename T>
-T from_yaml(YamlMap map, T config = {}) {
-  Fields fields(map);
+T from_yaml(const YamlDocument& document, T config = {}) {
+  Fields fields(document);
   describe(fields, config);
-  map.finish();
+  fields.finish();
   return config;
 }
 

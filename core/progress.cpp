@@ -16,9 +16,7 @@ constexpr std::int64_t bar_width = 28;
 
 std::string bar(std::int64_t done, std::int64_t total) {
   const std::int64_t full = total > 0 ? bar_width * std::min(done, total) / total : bar_width;
-  std::string text;
-  for (std::int64_t i = 0; i < bar_width; ++i) text += i < full ? "━" : "╌";
-  return text;
+  return fmt::format("{:━<{}}{:╌<{}}", "", full, "", bar_width - full);
 }
 
 std::string duration(double seconds) {

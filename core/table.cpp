@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -18,12 +19,7 @@ std::string csv_cell(const std::string& cell) {
 }
 
 std::string csv_line(const std::vector<std::string>& cells) {
-  std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i > 0) line.push_back(',');
-    line += csv_cell(cells[i]);
-  }
-  return line + "\n";
+  return fmt::format("{}\n", fmt::join(cells | std::views::transform(csv_cell), ","));
 }
 
 std::string padded(const std::string& cell, std::size_t to, bool left) {
@@ -101,11 +97,7 @@ std::string to_text(const Table& table, std::size_t text_columns) {
   if (!table.header.empty()) {
     text = line(table.header);
     std::vector<std::string> rule;
-    for (const std::size_t columns : widths) {
-      std::string dashes;
-      for (std::size_t i = 0; i < columns; ++i) dashes += "─";
-      rule.push_back(dashes);
-    }
+    for (const std::size_t columns : widths) rule.push_back(fmt::format("{:─<{}}", "", columns));
     text += line(rule);
   }
   for (const auto& row : table.rows) text += line(row);
@@ -118,16 +110,29 @@ std::string metric(double value) {
   return std::isnan(value) ? "nan" : fmt::format("{:.6f}", value);
 }
 
-void append_interval_columns(std::vector<std::string>& header, const std::string& name,
-                             const std::string& unit) {
-  for (const char* end : {"", "_low", "_high"})
-    header.push_back(fmt::format("{}{}{}", name, end, unit));
+std::vector<std::string> header_with_intervals(std::vector<std::string> first,
+                                               const std::vector<std::string>& names,
+                                               const std::vector<std::string>& last) {
+  for (const std::string& name : names) {
+    const bool has_unit = name.ends_with("_ms") || name.ends_with("_nm");
+    const std::size_t stem = name.size() - (has_unit ? 3 : 0);
+    for (const char* end : {"", "_low", "_high"})
+      first.push_back(std::string(name).insert(stem, end));
+  }
+  first.insert(first.end(), last.begin(), last.end());
+  return first;
 }
 
-void append_interval(std::vector<std::string>& row, const Interval& interval) {
-  for (const double value : {interval.estimate, interval.low, interval.high}) {
-    row.push_back(metric(value));
+std::vector<std::string> row_with_intervals(std::vector<std::string> first,
+                                            const std::vector<Interval>& intervals,
+                                            const std::vector<std::string>& last) {
+  for (const Interval& interval : intervals) {
+    for (const double value : {interval.estimate, interval.low, interval.high}) {
+      first.push_back(metric(value));
+    }
   }
+  first.insert(first.end(), last.begin(), last.end());
+  return first;
 }
 
 std::string with_interval(const Interval& interval, int decimals) {

@@ -34,11 +34,15 @@ std::size_t width(const std::string& text);
 std::string exact(double value);
 std::string metric(double value);
 
-/// A number with its interval in a table for programs: the columns `name`, `name_low`, `name_high`,
-/// the unit behind (`name_low_ms` of the unit "_ms"), and their cells in a row, as metrics.
-void append_interval_columns(std::vector<std::string>& header, const std::string& name,
-                             const std::string& unit = "");
-void append_interval(std::vector<std::string>& row, const Interval& interval);
+/// A table for programs whose rows are texts, then numbers with their intervals, then texts again.
+/// A number has the columns `name`, `name_low`, `name_high`; a unit (_ms, _nm) stays last:
+/// `name_low_ms`. Its cells are metrics.
+std::vector<std::string> header_with_intervals(std::vector<std::string> first,
+                                               const std::vector<std::string>& names,
+                                               const std::vector<std::string>& last = {});
+std::vector<std::string> row_with_intervals(std::vector<std::string> first,
+                                            const std::vector<Interval>& intervals,
+                                            const std::vector<std::string>& last = {});
 
 /// For people: `0.987 [0.981, 0.992]`; a dash for what is not defined.
 std::string with_interval(const Interval& interval, int decimals = 3);

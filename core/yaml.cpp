@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <fstream>
 #include <numeric>
 #include <set>
 #include <sstream>
 
 #include <fmt/format.h>
+
+#include "core/files.hpp"
 
 namespace touchdown {
 
@@ -75,13 +75,7 @@ YAML::Node descend(YAML::Node parent, const std::string& key, std::string_view a
 }  // namespace
 
 YamlDocument YamlDocument::load(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw InputError(fmt::format("{}: no such file", path.string()));
-  }
-  std::stringstream text;
-  text << file.rdbuf();
-  return parse(text.str(), path.string());
+  return parse(read_file(path), path.string());
 }
 
 YamlDocument YamlDocument::parse(const std::string& text, const std::string& name) {
@@ -123,85 +117,6 @@ void YamlDocument::override_value(std::string_view assignment) {
   } else {
     parent[keys.back()] = value;
   }
-}
-
-YamlMap::YamlMap(const YamlDocument& document) : YamlMap(document.root(), document.name(), "") {}
-
-YamlMap::YamlMap(YAML::Node node, std::string file, std::string path)
-    : node_(node), file_(std::move(file)), path_(std::move(path)) {
-  if (node_ && !node_.IsNull() && !node_.IsMap()) {
-    fail(node_, "", "expected a mapping of keys to values");
-  }
-}
-
-bool YamlMap::has(std::string_view key) const {
-  return node_ && node_.IsMap() && node_[std::string(key)];
-}
-
-YAML::Node YamlMap::take(std::string_view key) {
-  known_.emplace_back(key);
-  if (!has(key)) return YAML::Node(YAML::NodeType::Undefined);
-  return node_[std::string(key)];
-}
-
-std::size_t YamlMap::choose(std::string_view key, const std::vector<std::string>& names,
-                            std::size_t otherwise) {
-  const YAML::Node node = take(key);
-  if (!node) return otherwise;
-  const auto text = convert<std::string>(node, key);
-  const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) {
-    fail(node, key,
-         fmt::format("expected one of {}{}", fmt::join(names, ", "), did_you_mean(text, names)));
-  }
-  return static_cast<std::size_t>(found - names.begin());
-}
-
-YamlMap YamlMap::child(std::string_view key) {
-  return {take(key), file_, path_.empty() ? std::string(key) : path_ + "." + std::string(key)};
-}
-
-std::vector<YamlMap> YamlMap::children(std::string_view key) {
-  const YAML::Node list = take(key);
-  std::vector<YamlMap> maps;
-  if (!list) return maps;
-  if (!list.IsSequence()) fail(list, key, "expected a list");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    maps.emplace_back(list[i], file_,
-                      fmt::format("{}{}.{}", path_.empty() ? "" : path_ + ".", key, i));
-  }
-  return maps;
-}
-
-void YamlMap::finish() const {
-  if (!node_ || !node_.IsMap()) return;
-  for (const auto& entry : node_) {
-    const auto key = entry.first.as<std::string>();
-    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    std::string hint = did_you_mean(key, known_);
-    if (hint.empty() && !known_.empty())
-      hint = fmt::format(" (known: {})", fmt::join(known_, ", "));
-    fail(entry.first, key, "unknown key" + hint);
-  }
-}
-
-void YamlMap::fail(std::string_view key, const std::string& message) const {
-  fail(has(key) ? node_[std::string(key)] : node_, key, message);
-}
-
-void YamlMap::fail(const YAML::Node& node, std::string_view key, const std::string& message) const {
-  std::string where = path_;
-  if (!key.empty()) where += (where.empty() ? "" : ".") + std::string(key);
-  // Values set from the command line have no place in the file.
-  const YAML::Mark mark = node ? node.Mark() : YAML::Mark::null_mark();
-  const std::string place =
-      mark.is_null() ? file_ : fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
-  throw InputError(fmt::format("{}: {}{}{}", place, where, where.empty() ? "" : ": ", message));
-}
-
-std::string YamlMap::range_text(double low, double high) {
-  if (std::isinf(high) || high >= 1e15) return fmt::format("a number of at least {}", low);
-  return fmt::format("a number from {} to {}", low, high);
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {

@@ -25,9 +25,7 @@ SignalGuard::SignalGuard(const SignalGuardConfig& config, double sample_rate)
     throw InputError("signal guard: maximum_gap and frozen_after must not be negative (s)");
   }
   const double steps = std::ceil(config.frozen_after * sample_rate);
-  if (steps > 0.0 && steps < never) {
-    steps_to_frozen_ = static_cast<int>(steps);
-  }
+  if (steps > 0.0 && steps < never) steps_to_frozen_ = static_cast<int>(steps);
 }
 
 void SignalGuard::reset() noexcept {
@@ -45,9 +43,7 @@ SignalGuard::Verdict SignalGuard::check(double time, double vertical_acceleratio
   }
   if (started_) {
     verdict.elapsed = time - time_;
-    if (verdict.elapsed < 0.0) {
-      verdict.elapsed = std::numeric_limits<double>::infinity();
-    }
+    if (verdict.elapsed < 0.0) verdict.elapsed = std::numeric_limits<double>::infinity();
     if (verdict.elapsed > config_.maximum_gap) {
       verdict.status = SignalStatus::gap;
       verdict.restart = true;

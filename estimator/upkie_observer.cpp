@@ -12,9 +12,7 @@ WheelContactObserver::WheelContactObserver(const WheelContactConfig& config) noe
 void WheelContactObserver::reset() noexcept { *this = WheelContactObserver(config_); }
 
 bool WheelContactObserver::update(double torque, double velocity, double time_step) noexcept {
-  if (!std::isfinite(torque) || !std::isfinite(velocity) || !(time_step > 0.0)) {
-    return contact_;
-  }
+  if (!std::isfinite(torque) || !std::isfinite(velocity) || !(time_step > 0.0)) return contact_;
   if (!started_) {
     started_ = true;
     velocity_ = velocity;

@@ -5,12 +5,10 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/cross_simulator/check.hpp"
 #include "experiments/cross_simulator/tables.hpp"
 #include "experiments/phase_study/fit.hpp"
 #include "experiments/phase_study/tables.hpp"
 #include "experiments/run_directory/saved_state.hpp"
-#include "experiments/run_directory/shard_log.hpp"
 #include "experiments/tables/manifest.hpp"
 #include "experiments/tables/result_files.hpp"
 
@@ -71,15 +69,6 @@ Computed compute(RunningExperiment& running, const TaskRange& tasks, MissingRun 
   }
 }
 
-/// Full scores in one highlighted cell.
-void add_scores(const std::vector<ConditionScores>& counts, const noise::NoiseCell& cell,
-                const scoring::BootstrapConfig& bootstrap, ExperimentResult& result) {
-  const std::vector<ScoreSummary> scores = summarise(counts, cell, bootstrap);
-  const std::vector<Difference> compared = differences(counts, cell, bootstrap);
-  result.scores.insert(result.scores.end(), scores.begin(), scores.end());
-  result.differences.insert(result.differences.end(), compared.begin(), compared.end());
-}
-
 /// The second half: score → tables. Listens to nothing.
 ExperimentResult conclude(RunningExperiment& running, Computed done) {
   const Experiment& experiment = running.request.experiment;
@@ -93,21 +82,19 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
       throw Error("no test run stayed upright: there is nothing to score");
     }
     const CollectedCounts counts = collect(plan, plan.runs_in(0), running.saved);
-    result.summaries = summarise(counts.own(), result.cells, experiment.intervals.bootstrap);
-    for (std::size_t i = 0; i < experiment.highlights.size(); ++i) {
-      add_scores(counts.scored[i], experiment.highlights[i], experiment.intervals.bootstrap,
-                 result);
-    }
+    const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
+    result.summaries = summarise(counts.own(), result.cells, bootstrap);
+    result.scores = summarise(counts.scored, experiment.highlights, bootstrap);
+    result.differences = differences(counts.scored, experiment.highlights, bootstrap);
+    const Listened listened{running.request, plan, done.runs, running.saved, counts};
     if (experiment.cross_simulator) {
-      const CrossSimulatorResult check =
-          check_across_simulators(running.request, plan, done.runs, counts, running.saved);
+      const CrossSimulatorResult check = check_across_simulators(listened);
       write_tables(check, running.directory);
       result.studies.push_back(report_text(check));
       result.failed_demands = failed_demands(check.verdicts);
     }
     if (experiment.phase_study) {
-      result.studies.push_back(
-          phase_study_text(running.request, plan, done.runs, counts, running.saved));
+      result.studies.push_back(phase_study_text(listened));
       write_atomically(running.directory.file("tables", "phase_study.md"), result.studies.back());
     }
     return 0;

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "experiments/cross_simulator/variations.hpp"
 #include "experiments/phase_study/plan.hpp"
-#include "experiments/run_directory/shard_log.hpp"
+#include "experiments/run_directory/shard.hpp"
 
 namespace touchdown::experiments {
 

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "models/scene_mjcf.hpp"
+#include "models/terrain_mjcf.hpp"
 
 namespace touchdown::models {
 namespace {
@@ -27,8 +28,7 @@ void install_mujoco_handlers() {
 
 /// The robot's text with the scene and the terrain before its end: MuJoCo reads repeated sections
 /// as one, and the robot's lines keep their numbers for error messages.
-std::string compose(const std::filesystem::path& robot_mjcf, const Terrain& terrain,
-                    const ContactParameters& contact) {
+std::string compose(const std::filesystem::path& robot_mjcf, const Terrain& terrain) {
   const std::string text = read_file(robot_mjcf);
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
@@ -42,7 +42,7 @@ std::string compose(const std::filesystem::path& robot_mjcf, const Terrain& terr
     throw InputError(fmt::format("{}:{}:1: {}: expected a robot in <mujoco>...</mujoco>",
                                  robot_mjcf.string(), root->GetLineNum(), root->Name()));
   }
-  return text.substr(0, end) + scene_mjcf + terrain_mjcf(terrain, contact) + text.substr(end);
+  return text.substr(0, end) + scene_mjcf + terrain_mjcf(terrain) + text.substr(end);
 }
 
 /// MuJoCo's complaint as one line that begins with file:line:column.
@@ -160,11 +160,10 @@ void find_tyres(RobotModel& robot, const Contract& contract) {
 
 }  // namespace
 
-RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain,
-                               const ContactParameters& contact) {
+RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain) {
   install_mujoco_handlers();
   RobotModel robot;
-  robot.mj = compile(robot_mjcf, compose(robot_mjcf, terrain, contact));
+  robot.mj = compile(robot_mjcf, compose(robot_mjcf, terrain));
   const Contract contract(robot_mjcf, *robot.mj);
   robot.name = robot.mj->names;  // the model's own name comes first
   robot.base_body = find_base(*robot.mj, contract);

@@ -5,11 +5,12 @@
 #include <memory>
 #include <string>
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <mujoco/mujoco.h>
 
 #include "models/robot.hpp"
 #include "models/terrain.hpp"
-#include "models/terrain_mjcf.hpp"
 
 namespace touchdown::models {
 
@@ -22,6 +23,15 @@ struct MjDataDeleter {
   void operator()(mjData* data) const { mj_deleteData(data); }
 };
 using MjDataPtr = std::unique_ptr<mjData, MjDataDeleter>;
+
+// Rows of MuJoCo's arrays as Eigen's vectors and quaternions; MuJoCo holds these as w x y z.
+
+inline Eigen::Vector3d vector_at(const mjtNum* x, int row) {
+  return {x[3 * row], x[3 * row + 1], x[3 * row + 2]};
+}
+inline Eigen::Quaterniond quaternion_at(const mjtNum* x, int row) {
+  return {x[4 * row], x[4 * row + 1], x[4 * row + 2], x[4 * row + 3]};
+}
 
 /// A robot standing on a terrain, compiled: the single description that both physics engines and
 /// the renderer are built from.
@@ -52,8 +62,7 @@ struct RobotModel {
 ///
 /// From the first call on, MuJoCo's fatal errors are thrown as `Error` in the whole process, and
 /// its warnings are dropped: its own handlers wait for a key press and write files.
-RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain,
-                               const ContactParameters& contact = {});
+RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain);
 
 /// Writes where the base is and how the joints stand into mjData::qpos.
 void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,

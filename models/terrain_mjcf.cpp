@@ -19,13 +19,14 @@ constexpr double stripe_height = 3e-4;
 
 class Composer {
  public:
-  Composer(const Terrain& terrain, const ContactParameters& contact)
-      : terrain_(terrain), profile_(terrain) {
-    // Everything is spelled out: the robot's defaults must not leak into the terrain.
+  explicit Composer(const Terrain& terrain) : terrain_(terrain), profile_(terrain) {
+    // Everything is spelled out: the robot's defaults must not leak into the terrain. `solref` is
+    // how hard a tyre's contact is: a time constant (s) and a damping ratio. Peak landing
+    // acceleration from 0.25 m: 334, 224, 135 m/s² at 0.005, 0.01, 0.02 s.
     contact_ = fmt::format(
         "contype=\"2\" conaffinity=\"1\" condim=\"3\" priority=\"10\" margin=\"0\" gap=\"0\" "
-        "friction=\"{} 0.005 0.0001\" solref=\"{} {}\" solimp=\"0.9 0.95 0.001 0.5 2\"",
-        terrain.friction, contact.time_constant, contact.damping_ratio);
+        "friction=\"{} 0.005 0.0001\" solref=\"0.01 1\" solimp=\"0.9 0.95 0.001 0.5 2\"",
+        terrain.friction);
   }
 
   std::string compose() {
@@ -127,8 +128,6 @@ class Composer {
 
 }  // namespace
 
-std::string terrain_mjcf(const Terrain& terrain, const ContactParameters& contact) {
-  return Composer(terrain, contact).compose();
-}
+std::string terrain_mjcf(const Terrain& terrain) { return Composer(terrain).compose(); }
 
 }  // namespace touchdown::models

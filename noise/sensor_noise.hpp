@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "models/robot.hpp"
@@ -16,6 +17,14 @@ struct SensorNoise {
   double joint_velocity = 0.0;  ///< rad/s, each servo's encoder
 
   bool operator==(const SensorNoise&) const = default;
+};
+
+/// What may happen to signals between the sensors and an estimator besides white noise.
+struct Disturbance {
+  double torque_bias = 0.0;  ///< N·m on every knee, a quarter of it on every wheel
+  double torque_gain = 1.0;
+  bool heavy_tails = false;   ///< the noise of a tenth of the samples is four times as large
+  std::size_t imu_delay = 0;  ///< steps, of accelerometer and gyroscope
 };
 
 /// What noisy sensors report at `step` of a run. The accelerometer's noise is in its own frame and

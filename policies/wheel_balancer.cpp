@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fields.hpp"
-
 namespace touchdown::policies {
 
 namespace {
@@ -116,26 +114,6 @@ models::Action WheelBalancer::act(const models::Observation& observation) {
                                           .kd_scale = config_.wheel_kd_scale};
   }
   return action;
-}
-
-void describe(Fields& fields, WheelBalancerConfig& config) {
-  fields("pitch_stiffness", config.pitch_stiffness, 0.0, 1e4);
-  fields("pitch_damping", config.pitch_damping, 0.0, 1e4);
-  fields("position_stiffness", config.position_stiffness, 0.0, 1e4);
-  fields("position_damping", config.position_damping, 0.0, 1e4);
-  fields("max_velocity", config.max_velocity, 0.0, 100.0);
-  fields("max_integral", config.max_integral, 0.0, 1e3);
-  fields("max_acceleration", config.max_acceleration, 0.0, 100.0);
-  fields("max_position_error", config.max_position_error, 0.0, 100.0);
-  fields("air_decay_time", config.air_decay_time, 1e-3, 1e3);
-  fields("wheel_kd_scale", config.wheel_kd_scale, 0.0, 100.0);
-  fields("yaw_stiffness", config.yaw_stiffness, 0.0, 100.0);
-  fields("yaw_damping", config.yaw_damping, 0.0, 100.0);
-  fields("lateral_stiffness", config.lateral_stiffness, 0.0, 100.0);
-  fields("max_lateral_error", config.max_lateral_error, 0.0, 100.0);
-  fields("keep_heading", config.keep_heading);
-  fields("leg_kp_scale", config.leg_kp_scale, 0.0, 100.0);
-  fields("leg_kd_scale", config.leg_kd_scale, 0.0, 100.0);
 }
 
 }  // namespace touchdown::policies

@@ -1,37 +1,12 @@
 #pragma once
 
-#include "estimator/upkie_observer.hpp"
-#include "policies/policy.hpp"
-#include "policies/velocity_script.hpp"
+#include <array>
 
-namespace touchdown {
-class Fields;
-}
+#include "estimator/upkie_observer.hpp"
+#include "policies/driving.hpp"
+#include "policies/policy.hpp"
 
 namespace touchdown::policies {
-
-/// Gains of the balancer. Errors are target − measurement.
-struct WheelBalancerConfig {
-  double pitch_stiffness = 32.0;    ///< integral on the pitch error (m/s² per rad)
-  double pitch_damping = 5.5;       ///< proportional on the pitch error (m/s per rad)
-  double position_stiffness = 1.5;  ///< integral on the position error (1/s²)
-  double position_damping = 3.0;    ///< proportional on the position error (1/s)
-  double max_velocity = 2.0;        ///< of the commanded ground velocity (m/s)
-  double max_integral = 10.0;       ///< of the accumulated part of that command (m/s)
-  double max_acceleration = 1.0;    ///< of the target velocity (m/s²)
-  double max_position_error = 1.0;  ///< m
-  double air_decay_time = 1.0;      ///< of the integral while both wheels are in the air (s)
-  double wheel_kd_scale = 0.2;      ///< of the wheels' velocity servo
-  double yaw_stiffness = 1.0;       ///< differential wheel torque (N·m/rad)
-  double yaw_damping = 0.1;         ///< N·m·s/rad
-  double lateral_stiffness = 0.5;   ///< heading asked for per metre beside the course (rad/m)
-  double max_lateral_error = 0.6;   ///< m
-  bool keep_heading = false;        ///< the course is the heading at the reset, not the world's +x
-  double leg_kp_scale = 2.0;        ///< of the hips and knees
-  double leg_kd_scale = 2.0;        ///< of the hips and knees
-};
-
-void describe(Fields& fields, WheelBalancerConfig& config);
 
 /// Keeps a wheeled biped upright on its wheels while it follows a velocity script, with its legs
 /// stiff in the posture they had at the reset: Upkie's PI law on pitch and position, plus feedback

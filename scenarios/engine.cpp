@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "policies/wheel_balancer.hpp"
-#include "scenarios/external_forces.hpp"
 #include "scenarios/start_pose.hpp"
 #include "simulators/registry.hpp"
 
@@ -64,6 +63,26 @@ std::unique_ptr<simulators::Simulator> make_simulator(const Scenario& scenario,
   return simulators::make_simulator(name, model, scenario.simulation);
 }
 
+std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenario,
+                                                          const simulators::Simulator& simulator) {
+  std::vector<simulators::ExternalWrench> wrenches;
+  const models::GroundTruth& truth = simulator.ground_truth();
+  if (scenario.tether) {
+    wrenches.push_back(
+        {policies::tether_force(*scenario.tether, truth), scenario.tether->point_in_base});
+  }
+  for (const policies::Guide& guide : scenario.guides) {
+    wrenches.push_back({policies::guide_force(guide, truth), guide.point_in_base});
+  }
+  const models::Observation& now = simulator.observation();
+  for (const policies::TimedForce& force : scenario.forces) {
+    if (force.acts_at(now.time)) {
+      wrenches.push_back({policies::force_in_world(force, now.yaw), force.point_in_base});
+    }
+  }
+  return wrenches;
+}
+
 recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
                            std::uint64_t seed, std::int64_t run, const PlayProgress& progress) {
   recordings::Recording recording;
@@ -85,7 +104,6 @@ recordings::Recording play(const Scenario& scenario, simulators::Simulator& simu
   simulator.reset(start_pose(simulator.model(), scenario.terrain, scenario.start));
   policy.reset(simulator.observation());
   Referee referee(scenario.end);
-  ExternalForces forces(scenario);
   for (std::size_t step = 0;; ++step) {
     recording.observation.push_back(simulator.observation());
     recording.action.push_back(policy.act(simulator.observation()));
@@ -96,7 +114,7 @@ recordings::Recording play(const Scenario& scenario, simulators::Simulator& simu
     if (progress && step % steps_between_reports == 0 && !progress(simulator.observation().time)) {
       return recording;
     }
-    simulator.step(recording.action.back(), forces.on(simulator));
+    simulator.step(recording.action.back(), external_wrenches(scenario, simulator));
   }
 }
 

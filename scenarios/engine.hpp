@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "recordings/recording.hpp"
 #include "scenarios/scenario.hpp"
@@ -18,6 +19,11 @@ using PlayProgress = std::function<bool(double time)>;
 /// Errors: `InputError` for an unknown engine or a robot that breaks the naming contract.
 std::unique_ptr<simulators::Simulator> make_simulator(const Scenario& scenario,
                                                       std::string_view name);
+
+/// What pulls at the robot from outside during the coming control step: its tether, its guides and
+/// the timed forces that act now.
+std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenario,
+                                                          const simulators::Simulator& simulator);
 
 /// Play `scenario` exactly as it stands (no draws) and record every control step. Falling, running
 /// out of time and diverging are outcomes, not errors. The recording's info carries `seed` and

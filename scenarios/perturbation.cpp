@@ -1,8 +1,65 @@
 #include "scenarios/perturbation.hpp"
 
+#include <fmt/format.h>
+
 #include "core/fields.hpp"
+#include "core/random.hpp"
 
 namespace touchdown::scenarios {
+
+namespace {
+
+/// The draws of one entry of one script. Scripts and quantities have streams of their own, apart
+/// from those of `perturbed`, which leaves the upper half of the counter zero: append to the lists
+/// of streams, never renumber.
+class Draw {
+ public:
+  Draw(std::uint64_t seed, std::int64_t run, std::uint64_t entry)
+      : seed_(seed), run_(static_cast<std::uint64_t>(run)), entry_(entry + 1) {}
+
+  double between(std::uint64_t stream, const Range& range) const {
+    return range.low + (range.high - range.low) * uniform01(seed_, run_, entry_ << 32U | stream);
+  }
+
+ private:
+  std::uint64_t seed_, run_, entry_;
+};
+
+enum Stream : std::uint64_t {
+  drive_hold,
+  drive_velocity,
+  drive_yaw_rate,
+  drive_standing,
+  lift_hold,
+  lift_pause,
+  lift_force
+};
+
+void describe_range(Fields& fields, std::string_view key, Range& range, double low, double high) {
+  std::vector<double> ends = {range.low, range.high};
+  fields.in_line(key, ends);
+  fields.check(ends.size() == 2 && low <= ends[0] && ends[0] <= ends[1] && ends[1] <= high, key,
+               fmt::format("expected [low, high] within {} to {}", low, high));
+  range = {ends[0], ends[1]};
+}
+
+}  // namespace
+
+static void describe(Fields& fields, RandomDrive& drive) {
+  fields("velocity", drive.velocity, 0.0, 3.0);
+  fields("yaw_rate", drive.yaw_rate, 0.0, 10.0);
+  fields("standing", drive.standing, 0.0, 1.0);
+  describe_range(fields, "hold", drive.hold, 0.01, 1e4);
+  fields("start", drive.start, 0.0, 1e4);
+}
+
+static void describe(Fields& fields, RandomLifts& lifts) {
+  describe_range(fields, "force", lifts.force, 0.0, 1e4);
+  describe_range(fields, "hold", lifts.hold, 0.001, 1e4);
+  describe_range(fields, "pause", lifts.pause, 0.001, 1e4);
+  fields("start", lifts.start, 0.0, 1e4);
+  policies::describe_vector(fields, "point_in_base", lifts.point_in_base);
+}
 
 void describe(Fields& fields, Perturbation& perturbation) {
   fields("x", perturbation.x, 0.0, 10.0);
@@ -16,6 +73,36 @@ void describe(Fields& fields, Perturbation& perturbation) {
   fields("force_scale", perturbation.force_scale, 0.0, 1.0);
   fields.section("drive", perturbation.drive);
   fields.section("lift", perturbation.lift);
+}
+
+policies::VelocityScript random_drive(const RandomDrive& drive, double duration, std::uint64_t seed,
+                                      std::int64_t run) {
+  policies::VelocityScript script;
+  double time = drive.start;
+  for (std::uint64_t entry = 0; time < duration; ++entry) {
+    const Draw draw(seed, run, entry);
+    const bool stands = draw.between(drive_standing, {0.0, 1.0}) < drive.standing;
+    const double velocity = draw.between(drive_velocity, {-drive.velocity, drive.velocity});
+    const double yaw_rate = draw.between(drive_yaw_rate, {-drive.yaw_rate, drive.yaw_rate});
+    script.push_back({time, stands ? 0.0 : velocity, stands ? 0.0 : yaw_rate});
+    time += draw.between(drive_hold, drive.hold);
+  }
+  return script;
+}
+
+policies::ForceScript random_lifts(const RandomLifts& lifts, double duration, std::uint64_t seed,
+                                   std::int64_t run) {
+  policies::ForceScript script;
+  double time = lifts.start;
+  for (std::uint64_t entry = 0; time < duration; ++entry) {
+    const Draw draw(seed, run, entry);
+    const double hold = draw.between(lift_hold, lifts.hold);
+    const Eigen::Vector3d force(0.0, 0.0, draw.between(lift_force, lifts.force));
+    script.push_back(
+        {.time = time, .duration = hold, .force = force, .point_in_base = lifts.point_in_base});
+    time += hold + draw.between(lift_pause, lifts.pause);
+  }
+  return script;
 }
 
 }  // namespace touchdown::scenarios

@@ -43,9 +43,7 @@ static void describe(Fields& fields, Scenario& scenario) {
   fields.section("perturbation", scenario.perturbation);
 }
 
-Scenario scenario_from_yaml(const YamlDocument& document) {
-  return from_yaml<Scenario>(YamlMap(document));
-}
+Scenario scenario_from_yaml(const YamlDocument& document) { return from_yaml<Scenario>(document); }
 
 Scenario load_scenario(const std::filesystem::path& path) {
   return scenario_from_yaml(YamlDocument::load(path));

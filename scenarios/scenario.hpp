@@ -4,16 +4,12 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/yaml.hpp"
 #include "models/terrain.hpp"
-#include "policies/force_script.hpp"
-#include "policies/guide.hpp"
-#include "policies/tether.hpp"
-#include "policies/velocity_script.hpp"
-#include "policies/wheel_balancer.hpp"
+#include "policies/forces.hpp"
+#include "policies/driving.hpp"
 #include "scenarios/perturbation.hpp"
 #include "simulators/options.hpp"
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "models/mujoco_arrays.hpp"
 #include "models/profile.hpp"
 
 namespace touchdown::scenarios {

@@ -2,7 +2,7 @@
 
 #include "models/robot_model.hpp"
 #include "scenarios/scenario.hpp"
-#include "simulators/physics.hpp"
+#include "simulators/simulator.hpp"
 
 namespace touchdown::scenarios {
 

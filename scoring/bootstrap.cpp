@@ -4,11 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/fields.hpp"
 #include "core/random.hpp"
 
 namespace touchdown::scoring {
 
 namespace {
+
+const std::vector<std::string> unit_names = {"run", "drop"};
 
 /// Linear interpolation between order statistics: quantile 0 is the smallest, 1 the largest value.
 double quantile(const std::vector<double>& sorted, double q) {
@@ -19,6 +22,15 @@ double quantile(const std::vector<double>& sorted, double q) {
 }
 
 }  // namespace
+
+const std::string& to_text(SampleUnit unit) { return unit_names[static_cast<std::size_t>(unit)]; }
+
+void describe(Fields& fields, IntervalConfig& intervals) {
+  fields.choose("over", unit_names, intervals.over);
+  fields("resamples", intervals.bootstrap.resamples, 10, 1'000'000);
+  fields("level", intervals.bootstrap.level, 0.5, 0.999);
+  fields("seed", intervals.bootstrap.seed);
+}
 
 std::vector<std::uint32_t> resampled_indices(std::size_t samples, const BootstrapConfig& config) {
   const auto resamples = static_cast<std::size_t>(std::max(config.resamples, 0));

@@ -4,17 +4,35 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/interval.hpp"
 
+namespace touchdown {
+class Fields;
+}
+
 namespace touchdown::scoring {
+
+/// What a bootstrap interval takes as its sample.
+enum class SampleUnit : int { run, drop };
+
+/// "run", "drop".
+const std::string& to_text(SampleUnit unit);
 
 struct BootstrapConfig {
   int resamples = 1000;    ///< how often the samples are drawn anew
   double level = 0.95;     ///< probability that the interval is meant to cover
   std::uint64_t seed = 1;  ///< of the draws
 };
+
+struct IntervalConfig {
+  SampleUnit over = SampleUnit::run;
+  BootstrapConfig bootstrap;
+};
+
+void describe(Fields& fields, IntervalConfig& intervals);
 
 /// For every resample, which of `samples` samples it consists of: row r holds `samples` indices,
 /// drawn with replacement and keyed by (seed, r, position), so equal arguments give equal draws.
@@ -23,6 +41,13 @@ std::vector<std::uint32_t> resampled_indices(std::size_t samples, const Bootstra
 /// The percentile interval of a statistic's values over the resamples; values that are NaN (the
 /// resample held nothing to divide by) are left out. `values` is reordered.
 Interval percentile_interval(double estimate, std::vector<double>& values, double level);
+
+template <typename Sample>
+Sample sum(const std::vector<Sample>& samples) {
+  Sample all{};
+  for (const Sample& sample : samples) all += sample;
+  return all;
+}
 
 /// 95 % percentile bootstrap (Efron and Tibshirani 1993, ch. 13) of statistics of a sum over
 /// independent samples: means, ratios of sums (precision, recall), differences of paired ones. A
@@ -63,5 +88,27 @@ struct Paired {
     return *this;
   }
 };
+
+template <typename Sample>
+std::vector<Paired<Sample>> paired(const std::vector<Sample>& first,
+                                   const std::vector<Sample>& second) {
+  std::vector<Paired<Sample>> pairs;
+  for (std::size_t i = 0; i < first.size(); ++i) pairs.push_back({first[i], second[i]});
+  return pairs;
+}
+
+/// Each statistic of the first's samples minus that of the second's on the same runs or drops.
+template <typename Sample>
+std::vector<Interval> bootstrap_differences(
+    const std::vector<Sample>& first, const std::vector<Sample>& second,
+    const std::vector<std::function<double(const Sample&)>>& statistics,
+    const BootstrapConfig& config) {
+  std::vector<std::function<double(const Paired<Sample>&)>> differences;
+  for (const auto& of : statistics) {
+    differences.emplace_back(
+        [of](const Paired<Sample>& pair) { return of(pair.first) - of(pair.second); });
+  }
+  return bootstrap<Paired<Sample>>(paired(first, second), differences, config);
+}
 
 }  // namespace touchdown::scoring

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace touchdown::scoring {
 
@@ -33,8 +34,7 @@ CloseScore& CloseScore::operator+=(const CloseScore& other) {
 }
 
 double CloseScore::takeoff_percentile(double share) const {
-  std::int64_t all = 0;
-  for (const std::int32_t count : takeoff_ms) all += count;
+  const auto all = std::accumulate(takeoff_ms.begin(), takeoff_ms.end(), std::int64_t{0});
   const auto wanted = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(all)));
   std::int64_t passed = 0;
   for (std::size_t i = 0; i < latencies; ++i) {

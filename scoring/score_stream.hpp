@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "estimator/contact_estimator.hpp"
-#include "scoring/label_stream.hpp"
+#include "scoring/labels.hpp"
 #include "scoring/score.hpp"
 
 namespace touchdown::scoring {

@@ -21,50 +21,42 @@ struct Window {
   bool contains(Step step) const { return first <= step && step <= last; }
 };
 
-/// A true event that an estimator should announce within `window`.
+/// An end of a flight, and the steps between its neighbours.
 struct Event {
   Step step = 0;
-  Window window;
+  Window between;
 };
 
 struct Limits {
-  Step skip, hold_off, takeoff_opens, landing_opens, minimum_flight, end;
+  Step skip, hold_off, takeoff_opens, landing_opens, minimum_flight;
+
+  /// Where an estimator should announce an event, its neighbours apart.
+  Window around(EventKind kind, Step step) const {
+    return {step - (kind == EventKind::takeoff ? takeoff_opens : landing_opens), step + hold_off};
+  }
 };
 
-Limits limits_in_steps(const ScoringConfig& config, double period, std::size_t steps) {
+Limits limits_in_steps(const ScoringConfig& config, double period) {
   const auto to_steps = [period](double seconds) { return Step{std::llround(seconds / period)}; };
-  return {to_steps(config.skip),           to_steps(config.hold_off),
-          to_steps(config.takeoff_opens),  to_steps(config.landing_opens),
-          to_steps(config.minimum_flight), static_cast<Step>(steps)};
+  return {to_steps(config.skip), to_steps(config.hold_off), to_steps(config.takeoff_opens),
+          to_steps(config.landing_opens), to_steps(config.minimum_flight)};
 }
 
-/// The true flights that are long enough, with both their ends inside the sequence or at its end.
-std::vector<Flight> true_flights(const ContactSequence& truth, Step minimum) {
-  std::vector<Flight> result = flights(truth);
-  std::erase_if(result, [&](const Flight& flight) {
-    return static_cast<Step>(flight.landing - flight.takeoff) < minimum;
-  });
-  return result;
-}
-
-std::vector<Event> events_of(EventKind kind, const std::vector<Flight>& all, const Limits& limit) {
+/// The ends of these flights that lie inside the sequence of `end` steps.
+std::vector<Event> events_of(EventKind kind, const std::vector<Flight>& all, Step end) {
+  constexpr Step never = std::numeric_limits<Step>::max();
   std::vector<Event> events;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto takeoff = static_cast<Step>(all[i].takeoff);
     const auto landing = static_cast<Step>(all[i].landing);
     if (kind == EventKind::takeoff && takeoff > 0) {
       const Step before = i == 0 ? 0 : static_cast<Step>(all[i - 1].landing);
-      const Step closes = landing < limit.end ? landing - 1 : std::numeric_limits<Step>::max();
-      events.push_back({takeoff,
-                        {std::max(takeoff - limit.takeoff_opens, before),
-                         std::min(takeoff + limit.hold_off, closes)}});
+      events.push_back({takeoff, {before, landing < end ? landing - 1 : never}});
     }
-    if (kind == EventKind::landing && landing < limit.end) {
-      const Step closes = i + 1 < all.size() ? static_cast<Step>(all[i + 1].takeoff) - 1
-                                             : std::numeric_limits<Step>::max();
-      events.push_back({landing,
-                        {std::max(landing - limit.landing_opens, takeoff),
-                         std::min(landing + limit.hold_off, closes)}});
+    if (kind == EventKind::landing && landing < end) {
+      const bool is_last = i + 1 == all.size();
+      const Step next = is_last ? never : static_cast<Step>(all[i + 1].takeoff) - 1;
+      events.push_back({landing, {takeoff, next}});
     }
   }
   return events;
@@ -81,21 +73,6 @@ std::vector<Step> predicted_steps(EventKind kind, const ContactSequence& predict
   return steps;
 }
 
-/// Where a prediction that announces nothing is not held against the estimator: around every true
-/// flight, however short, and for the hold-off after it.
-std::vector<Window> excused(const ContactSequence& truth, const Limits& limit) {
-  std::vector<Window> windows;
-  for (const Flight& flight : flights(truth)) {
-    const auto takeoff = static_cast<Step>(flight.takeoff);
-    const auto landing = static_cast<Step>(flight.landing);
-    if (takeoff > 0) windows.push_back({takeoff - limit.takeoff_opens, takeoff + limit.hold_off});
-    if (landing < limit.end) {
-      windows.push_back({landing - limit.landing_opens, landing + limit.hold_off});
-    }
-  }
-  return windows;
-}
-
 }  // namespace
 
 void describe(Fields& fields, ScoringConfig& scoring) {
@@ -109,18 +86,33 @@ void describe(Fields& fields, ScoringConfig& scoring) {
 std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
                                                 const ContactSequence& predicted, double period,
                                                 const ScoringConfig& config) {
-  const Limits limit = limits_in_steps(config, period, truth.size());
-  const std::vector<Flight> long_flights = true_flights(truth, limit.minimum_flight);
-  const std::vector<Window> forgiving = excused(truth, limit);
+  const Limits limit = limits_in_steps(config, period);
+  const auto end = static_cast<Step>(truth.size());
+  const std::vector<Flight> all_flights = flights(truth);
+  std::vector<Flight> long_flights = all_flights;
+  std::erase_if(long_flights, [&](const Flight& flight) {
+    return static_cast<Step>(flight.landing - flight.takeoff) < limit.minimum_flight;
+  });
+  // Where a prediction that announces nothing is not held against the estimator: around every true
+  // flight, however short, and for the hold-off after it.
+  std::vector<Window> forgiving;
+  for (const EventKind kind : {EventKind::takeoff, EventKind::landing}) {
+    for (const Event& event : events_of(kind, all_flights, end)) {
+      forgiving.push_back(limit.around(kind, event.step));
+    }
+  }
   std::vector<JudgedTransition> judged;
 
   for (const EventKind kind : {EventKind::takeoff, EventKind::landing}) {
     const std::vector<Step> announced = predicted_steps(kind, predicted, limit.skip);
-    for (const Event& event : events_of(kind, long_flights, limit)) {
+    for (const Event& event : events_of(kind, long_flights, end)) {
+      const Window wide = limit.around(kind, event.step);
+      const Window window{std::max(wide.first, event.between.first),
+                          std::min(wide.last, event.between.last)};
       // An event that could not have been found in time is not judged.
-      if (event.window.first < limit.skip || event.window.last >= limit.end) continue;
+      if (window.first < limit.skip || window.last >= end) continue;
       const auto first = std::find_if(announced.begin(), announced.end(),
-                                      [&](Step step) { return event.window.contains(step); });
+                                      [&](Step step) { return window.contains(step); });
       const bool found = first != announced.end();
       judged.push_back({kind, found ? Judgement::detected : Judgement::missed,
                         static_cast<std::size_t>(event.step), found ? *first - event.step : 0});

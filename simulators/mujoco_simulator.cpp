@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "models/mujoco_arrays.hpp"
 #include "simulators/collision_model.hpp"
 
 namespace touchdown::simulators {
@@ -48,12 +47,8 @@ void MujocoSimulator::place(const RobotState& start) {
   mj_resetData(mj_.get(), data_.get());
   models::write_pose(model(), start.position, start.orientation, start.joint_position, data_->qpos);
   // A free joint turns in its own frame but moves in the world's.
-  const Eigen::Vector3d omega = start.orientation.conjugate() * start.angular_velocity;
-  mjtNum* v = &data_->qvel[model().base_dof()];
-  for (int i = 0; i < 3; ++i) {
-    v[i] = start.linear_velocity[i];
-    v[3 + i] = omega[i];
-  }
+  Eigen::Map<Eigen::Matrix<mjtNum, 6, 1>> velocity(&data_->qvel[model().base_dof()]);
+  velocity << start.linear_velocity, start.orientation.conjugate() * start.angular_velocity;
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     data_->qvel[model().dof_address[i]] = start.joint_velocity[i];
   }

@@ -1,8 +1,9 @@
 #include "simulators/simulator.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "models/mujoco_arrays.hpp"
 #include "simulators/servo.hpp"
 
 namespace touchdown::simulators {
@@ -106,18 +107,15 @@ void Simulator::observe(const Eigen::Vector3d& imu_acceleration,
 bool Simulator::healthy() const {
   constexpr double largest_position = 1e4;  // m
   constexpr double largest_velocity = 1e3;  // m/s and rad/s of the base; tenfold for the joints
-  const auto within = [](double x, double limit) { return std::abs(x) <= limit; };  // false if NaN
-  bool good = state_.orientation.coeffs().allFinite();
-  for (int i = 0; i < 3; ++i) {
-    good = good && within(state_.position[i], largest_position) &&
-           within(state_.linear_velocity[i], largest_velocity) &&
-           within(state_.angular_velocity[i], largest_velocity);
-  }
-  for (std::size_t i = 0; i < models::servo_count; ++i) {
-    good = good && std::isfinite(state_.joint_position[i]) &&
-           within(state_.joint_velocity[i], 10.0 * largest_velocity);
-  }
-  return good;
+  const auto within = [](const auto& numbers, double limit) {  // false if one is NaN
+    return std::all_of(numbers.begin(), numbers.end(),
+                       [&](double x) { return std::abs(x) <= limit; });
+  };
+  return state_.orientation.coeffs().allFinite() && within(state_.position, largest_position) &&
+         within(state_.linear_velocity, largest_velocity) &&
+         within(state_.angular_velocity, largest_velocity) &&
+         within(state_.joint_position, std::numeric_limits<double>::max()) &&
+         within(state_.joint_velocity, 10.0 * largest_velocity);
 }
 
 }  // namespace touchdown::simulators

@@ -7,30 +7,30 @@
 
 namespace touchdown::training {
 
-BlasReport judge_blas(const std::string& library) {
-  BlasReport report{library, ""};
+std::string blas_warning(const std::string& library) {
   const auto has = [&](const char* text) { return library.find(text) != std::string::npos; };
   constexpr const char* advice =
       "install the package libopenblas0-openmp, or choose it with "
       "'update-alternatives --config libblas.so.3-x86_64-linux-gnu'";
   if (has("/blas/libblas")) {
-    report.warning = fmt::format(
+    return fmt::format(
         "libtorch uses the reference BLAS ({}): training will take about twenty times as long; {}",
         library, advice);
-  } else if (has("openblas-pthread") || has("openblas-serial")) {
-    report.warning = fmt::format(
-        "libtorch uses {}, which does not share its threads with libtorch; {}", library, advice);
   }
-  return report;
+  if (has("openblas-pthread") || has("openblas-serial")) {
+    return fmt::format("libtorch uses {}, which does not share its threads with libtorch; {}",
+                       library, advice);
+  }
+  return "";
 }
 
-BlasReport blas_in_use() {
+std::string blas_in_use() {
   void* const symbol = ::dlsym(RTLD_DEFAULT, "sgemm_");
   Dl_info info = {};
   if (symbol == nullptr || ::dladdr(symbol, &info) == 0) return {};
   std::error_code ignored;
   const auto path = std::filesystem::canonical(info.dli_fname, ignored);
-  return judge_blas(ignored ? info.dli_fname : path.string());
+  return ignored ? info.dli_fname : path.string();
 }
 
 }  // namespace touchdown::training

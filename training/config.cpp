@@ -49,7 +49,7 @@ static void describe(Fields& fields, TrainingConfig& config) {
 }
 
 TrainingConfig training_from_yaml(const YamlDocument& document) {
-  return from_yaml<TrainingConfig>(YamlMap(document));
+  return from_yaml<TrainingConfig>(document);
 }
 
 std::string to_yaml(const TrainingConfig& config) { return YAML::Dump(to_node(config)) + "\n"; }

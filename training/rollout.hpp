@@ -5,7 +5,6 @@
 
 #include "scenarios/scenario.hpp"
 #include "training/config.hpp"
-#include "training/episode_batch.hpp"
 
 namespace touchdown::training {
 

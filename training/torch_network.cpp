@@ -13,11 +13,6 @@ torch::Tensor to_tensor(const Eigen::MatrixXf& matrix) {
   return torch::from_blob(rows.data(), {matrix.rows(), matrix.cols()}).clone();
 }
 
-torch::Tensor to_tensor(const Eigen::VectorXf& vector) {
-  Eigen::VectorXf copy = vector;
-  return torch::from_blob(copy.data(), {vector.size()}).clone();
-}
-
 Eigen::MatrixXf to_matrix(const torch::Tensor& tensor) {
   const torch::Tensor rows = tensor.detach().contiguous();
   return Eigen::Map<const RowMajor>(rows.data_ptr<float>(), rows.size(0), rows.size(1));
@@ -31,7 +26,7 @@ Eigen::VectorXf to_vector(const torch::Tensor& tensor) {
 void set(const torch::Tensor& weight, const torch::Tensor& bias, const DenseLayer& layer) {
   const torch::NoGradGuard no_grad;
   weight.copy_(to_tensor(layer.weight));
-  bias.copy_(to_tensor(layer.bias));
+  bias.copy_(to_tensor(layer.bias).flatten());
 }
 
 torch::nn::Linear linear(const DenseLayer& layer) {
@@ -48,8 +43,8 @@ DenseLayer layer(const torch::Tensor& weight, const torch::Tensor& bias) {
 
 TorchNetwork::TorchNetwork(const NeuralNetwork& network)
     : period_(network.period),
-      input_mean_(register_buffer("input_mean", to_tensor(network.input_mean))),
-      input_scale_(register_buffer("input_scale", to_tensor(network.input_scale))),
+      input_mean_(register_buffer("input_mean", to_tensor(network.input_mean).flatten())),
+      input_scale_(register_buffer("input_scale", to_tensor(network.input_scale).flatten())),
       gru_(register_module(
           "gru", torch::nn::GRU(torch::nn::GRUOptions(neural_input_count, network.hidden())))),
       first_(register_module("first", linear(network.first))),

@@ -2,8 +2,11 @@
 
 #include <chrono>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <torch/version.h>
 #include <vector>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -15,8 +18,6 @@
 #include "recordings/models/neural_network.hpp"
 #include "training/blas.hpp"
 #include "training/initial_weights.hpp"
-#include "training/loss_figure.hpp"
-#include "training/manifest.hpp"
 #include "training/rollout.hpp"
 
 namespace touchdown::training {
@@ -29,6 +30,27 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+using Json = nlohmann::ordered_json;
+
+Json losses(const Loss& loss) {
+  return {{"total", loss.total},
+          {"contact_nat", loss.contact},
+          {"velocity_m2_per_s2", loss.velocity},
+          {"accuracy", loss.accuracy}};
+}
+
+double per_second(std::int64_t steps, double seconds) {
+  return seconds > 0.0 ? static_cast<double>(steps) / seconds : 0.0;
+}
+
+/// Where the time of a training went, as far as this process took part in it.
+struct TrainingTimes {
+  double rollout = 0.0;   ///< s
+  double training = 0.0;  ///< s, validation included
+  std::int64_t rollout_steps = 0;
+  std::int64_t training_steps = 0;  ///< times epochs
+};
 
 /// One training, from its beginning or from where it was stopped.
 class TrainingSession {
@@ -143,6 +165,33 @@ class TrainingSession {
                now.validation.velocity, best ? ", the best so far" : "");
   }
 
+  /// What should be known about the weights, as JSON: how they were made, on what data, how well
+  /// they did, and the fingerprint of their file.
+  std::string manifest(const TrainingResult& result) const {
+    const IterationRecord& chosen = result.history.at(result.chosen);
+    Json json;
+    json["network"] = config_.name;
+    json["fingerprint"] = Fingerprint().add(read_file(result.network)).text();
+    json["command"] = request_.command;
+    json["finished_at"] = fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::now()));
+    json["config_yaml"] = to_yaml(config_);
+    json["seed"] = config_.seed;
+    json["chosen_iteration"] = chosen.iteration;
+    json["iterations"] = result.history.size();
+    json["labelled_data_s"] = chosen.data_seconds;
+    json["training_loss"] = losses(chosen.training);
+    json["validation_loss"] = losses(chosen.validation);
+    json["threads"] = request_.thread_count();
+    json["timings_s"] = {{"rollout", times_.rollout}, {"training", times_.training}};
+    json["steps_per_s"] = {{"rollout", per_second(times_.rollout_steps, times_.rollout)},
+                           {"training", per_second(times_.training_steps, times_.training)}};
+    json["versions"] = {{"touchdown", TOUCHDOWN_VERSION},
+                        {"compiler", __VERSION__},
+                        {"libtorch", TORCH_VERSION},
+                        {"blas", blas_in_use()}};
+    return json.dump(2) + "\n";
+  }
+
   TrainingResult finish() {
     TrainingResult result;
     result.directory = directory_.path();
@@ -151,12 +200,11 @@ class TrainingSession {
     result.chosen = best_iteration(history_);
     result.figure = draw_losses(history_file_, directory_.path() / "figures",
                                 history_[result.chosen].iteration);
-    const std::string manifest =
-        training_manifest(config_, request_, result, times_, read_file(result.network));
-    write_atomically(directory_.file("models", "nmn.json"), manifest);
+    const std::string about = manifest(result);
+    write_atomically(directory_.file("models", "nmn.json"), about);
     if (!request_.network.empty()) {
       write_atomically(request_.network, read_file(result.network));
-      write_atomically(fs::path(request_.network).replace_extension("json"), manifest);
+      write_atomically(fs::path(request_.network).replace_extension("json"), about);
     }
     return result;
   }
@@ -176,8 +224,8 @@ class TrainingSession {
 }  // namespace
 
 TrainingResult train(const TrainingConfig& config, const TrainingRequest& request) {
-  if (const BlasReport blas = blas_in_use(); !blas.warning.empty()) {
-    fmt::print(stderr, "touchdown: warning: {}\n", blas.warning);
+  if (const std::string warning = blas_warning(blas_in_use()); !warning.empty()) {
+    fmt::print(stderr, "touchdown: warning: {}\n", warning);
   }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(request.thread_count()));

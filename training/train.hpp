@@ -1,9 +1,40 @@
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <thread>
+
 #include "training/config.hpp"
-#include "training/request.hpp"
+#include "training/history.hpp"
 
 namespace touchdown::training {
+
+/// How a training is run; nothing in it changes the weights.
+struct TrainingRequest {
+  std::filesystem::path out;                ///< run directory; empty: runs/<name>/<id>
+  std::filesystem::path network;            ///< also write the chosen weights here; may be empty
+  std::string command;                      ///< what was typed, for the manifest
+  int threads = 0;                          ///< 0: one per core
+  const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to stop
+
+  bool wants_stop() const { return stop != nullptr && *stop; }
+  /// The number of threads that are asked for.
+  int thread_count() const {
+    if (threads > 0) return threads;
+    return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  }
+};
+
+/// What a training leaves behind.
+struct TrainingResult {
+  std::filesystem::path directory;
+  std::filesystem::path network;  ///< the weights of the chosen iteration
+  std::filesystem::path figure;   ///< empty if it could not be drawn
+  TrainingHistory history;
+  std::size_t chosen = 0;  ///< index into the history
+};
 
 /// Trains a neural measurement network from nothing to a file: rolls out every iteration's data,
 /// trains on it, and keeps the weights with the smallest validation loss. A training that was

@@ -95,9 +95,7 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
                                               const std::string& figure) {
   EstimateOutputs given = sorted_by_kind(outputs, figure);
   const bool live = std::find(logs.begin(), logs.end(), "-") != logs.end();
-  if (live && logs.size() > 1) {
-    throw InputError("estimate: '-', a live stream, is estimated alone");
-  }
+  if (live && logs.size() > 1) throw InputError("estimate: '-', a live stream, is estimated alone");
   if (live && given.csv.empty()) given.csv = "-";
   std::vector<EstimateOutputs> all;
   std::set<fs::path> seen;

@@ -1,19 +1,30 @@
+#include <limits>
 #include <memory>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "cli/estimate/listeners.hpp"
 #include "cli/estimate/outputs.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "experiments/logs/belief_csv.hpp"
 #include "experiments/logs/estimator.hpp"
+#include "experiments/logs/listener.hpp"
+#include "experiments/logs/summary.hpp"
+#include "recordings/log/annotator.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "render/curves/log_figure.hpp"
+#include "scoring/score_stream.hpp"
 
 namespace touchdown::cli {
 
 namespace {
+
+/// Which part of a log is drawn (s).
+struct DrawnPart {
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();
+};
 
 struct EstimateFlags {
   std::vector<std::string> logs;
@@ -24,9 +35,82 @@ struct EstimateFlags {
   DrawnPart drawn;
 };
 
+/// All that becomes of the beliefs about one log: table, annotated log, figure, summary.
+class Listeners {
+ public:
+  /// Null for what is not wanted; streams must outlive this.
+  Listeners(std::ostream* csv, std::ostream* mpack, const std::optional<DrawnPart>& drawn)
+      : drawn_(drawn) {
+    if (csv != nullptr) csv_.emplace(*csv);
+    if (mpack != nullptr) annotator_.emplace(*mpack);
+  }
+
+  /// Before the first step, once the log's rate is known.
+  void begin(const experiments::LogListener& log) {
+    summary_.emplace(log.period(), scoring::ScoringConfig{});
+    score_.emplace(log.period_us(), labels_, scoring::ScoringConfig{});
+  }
+
+  /// One step, and what was made of it. `reader` is where it comes from.
+  void listen(const recordings::LogReader& reader, const experiments::LogStep& step,
+              const ContactEstimator& estimator, const Belief& belief) {
+    const double time = step.signals.time;
+    summary_->add(time, belief);
+    // A score needs the truth about every step.
+    if (!step.normal_force) score_.reset();
+    if (score_) score_->add(*step.normal_force, belief);
+    if (!csv_ && !annotator_ && !drawn_) return;
+    const Evidence evidence = estimator.evidence();
+    if (csv_) csv_->write(time, belief, evidence);
+    if (annotator_) {
+      annotator_->copy(reader.skipped());
+      annotator_->annotate(reader.record(), reader.outline(), belief, evidence);
+    }
+    if (drawn_ && time >= drawn_->from && time <= drawn_->to) {
+      draw(step, belief, evidence.transition);
+    }
+  }
+
+  /// Writes what is collected of the table.
+  void flush() {
+    if (csv_) csv_->flush();
+  }
+
+  /// The log is over: returns the summary.
+  std::string finish(const recordings::LogReader& reader) {
+    flush();
+    if (annotator_) annotator_->copy(reader.skipped());
+    const bool has_truth = score_ && steps() > 0;
+    return summary_->text(has_truth ? std::optional(score_->finish()) : std::nullopt);
+  }
+
+  std::int64_t steps() const { return summary_->steps(); }
+  const render::LogTrace& trace() const { return trace_; }
+
+ private:
+  void draw(const experiments::LogStep& step, const Belief& belief,
+            const Evidence::Transition& transition) {
+    render::LogTraceStep drawn =
+        render::log_trace_step(step.signals, belief, transition.p_takeoff, transition.p_landing);
+    if (step.normal_force) {
+      drawn.touches = {(*step.normal_force)[0] > labels_.force_threshold,
+                       (*step.normal_force)[1] > labels_.force_threshold};
+    }
+    trace_.add(drawn);
+  }
+
+  scoring::LabelConfig labels_;
+  std::optional<experiments::BeliefCsv> csv_;
+  std::optional<recordings::LogAnnotator> annotator_;
+  std::optional<DrawnPart> drawn_;
+  std::optional<experiments::LogSummary> summary_;
+  std::optional<scoring::ScoreStream> score_;
+  render::LogTrace trace_;
+};
+
 /// Runs over the log and returns the summary.
 std::string listen(recordings::LogReader& reader, const experiments::LogEstimator& chosen,
-                   EstimateListeners& listeners) {
+                   Listeners& listeners) {
   experiments::LogListener log(reader);
   const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate());
   listeners.begin(log);
@@ -50,8 +134,8 @@ void estimate_log(const std::string& path, const experiments::LogEstimator& esti
                   const CliSession& session) {
   std::string summary;
   write_outputs(outputs, [&](std::ostream* csv, std::ostream* mpack) {
-    EstimateListeners listeners(csv, mpack,
-                                flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
+    Listeners listeners(csv, mpack,
+                        flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
     const bool live = path == "-";
     // Whoever watches a live stream sees every line before the program waits for the next one.
     const recordings::ByteSource source =
@@ -78,9 +162,7 @@ void estimate_log(const std::string& path, const experiments::LogEstimator& esti
   if (!outputs.csv.empty() && !outputs.prints_csv()) {
     summary += fmt::format("{:<12} {}\n", "beliefs", outputs.csv.string());
   }
-  if (!outputs.mpack.empty()) {
-    summary += fmt::format("{:<12} {}\n", "log", outputs.mpack.string());
-  }
+  if (!outputs.mpack.empty()) summary += fmt::format("{:<12} {}\n", "log", outputs.mpack.string());
   fmt::print(outputs.prints_csv() ? stderr : stdout, "{}", summary);
 }
 
@@ -97,7 +179,7 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
 
 }  // namespace
 
-void add_estimate(CLI::App& program, CliSession& session) {
+void add_estimate(CLI::App& program, const CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "estimate",
       "touchdown estimate robot.mpack --model model.npz -o beliefs.csv --figure beliefs.png\n"
@@ -118,8 +200,7 @@ void add_estimate(CLI::App& program, CliSession& session) {
       ->type_name("FILE.png");
   verb->add_option("--from", flags->drawn.from, "The figure begins at this time of the log (s)");
   verb->add_option("--to", flags->drawn.to, "The figure ends at this time of the log (s)");
-  verb->callback(
-      [flags, &session] { session.action = [flags, &session] { estimate(*flags, session); }; });
+  verb->callback([flags, &session] { estimate(*flags, session); });
 }
 
 }  // namespace touchdown::cli

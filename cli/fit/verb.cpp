@@ -1,8 +1,9 @@
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "cli/fit/flags.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
@@ -11,6 +12,111 @@
 namespace touchdown::cli {
 
 namespace {
+
+struct FitFlags {
+  std::vector<std::string> logs;
+  std::vector<std::string> contact;
+  std::vector<std::string> no_contact;
+  std::string output;
+  std::string estimator = "robust";
+  experiments::LogFitConfig config;
+  std::vector<int> grid;
+  std::vector<double> bandwidth;
+  std::vector<double> bandwidth_floor;
+  std::vector<double> knee_range;
+  std::vector<double> wheel_range;
+};
+
+TorqueBandwidth bandwidth_from(const std::vector<double>& values, const char* flag) {
+  if (!(values[0] >= 0.0 && values[1] >= 0.0)) {
+    throw InputError(fmt::format("{}: expected two widths that are not negative (N·m)", flag));
+  }
+  return {values[0], values[1]};
+}
+
+std::pair<double, double> range_from(const std::vector<double>& values, const char* flag) {
+  if (!(values[0] < values[1])) {
+    throw InputError(fmt::format("{}: expected a lower and a higher torque (N·m)", flag));
+  }
+  return {values[0], values[1]};
+}
+
+std::vector<experiments::FitLog> logs_of(const FitFlags& flags) {
+  std::vector<experiments::FitLog> logs;
+  for (const std::string& path : flags.logs) logs.push_back({path, {}});
+  for (const std::string& path : flags.contact) logs.push_back({path, true});
+  for (const std::string& path : flags.no_contact) logs.push_back({path, false});
+  if (logs.empty()) throw InputError("fit: a log is missing: touchdown fit LOG -o model.npz");
+  return logs;
+}
+
+/// Shapes the estimator's densities as the flags say.
+void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) {
+  if (entry.phase) {
+    if (flags.grid.empty() && flags.bandwidth.empty() && flags.bandwidth_floor.empty() &&
+        flags.knee_range.empty() && flags.wheel_range.empty()) {
+      return;
+    }
+    throw InputError(
+        "fit: --grid, --bandwidth, --bandwidth-floor, --knee-range and "
+        "--wheel-range are not for the phase filter");
+  }
+  MeasurementFitConfig& fit = entry.config->measurement.fit;
+  if (!flags.grid.empty()) {
+    fit.knee_count = flags.grid[0];
+    fit.wheel_count = flags.grid[1];
+  }
+  if (!flags.bandwidth.empty()) fit.bandwidth = bandwidth_from(flags.bandwidth, "--bandwidth");
+  if (!flags.bandwidth_floor.empty()) {
+    fit.bandwidth_floor = bandwidth_from(flags.bandwidth_floor, "--bandwidth-floor");
+  }
+  if (!flags.knee_range.empty()) fit.knee_range = range_from(flags.knee_range, "--knee-range");
+  if (!flags.wheel_range.empty()) fit.wheel_range = range_from(flags.wheel_range, "--wheel-range");
+}
+
+/// "robust, reference, … or phase".
+std::string fitted_estimators() {
+  std::vector<std::string> names;
+  for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
+    if (entry.fits()) names.push_back(entry.name);
+  }
+  const std::string last = names.back();
+  names.pop_back();
+  return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
+/// The flags must outlive the verb.
+void add_fit_flags(CLI::App& verb, FitFlags& flags) {
+  verb.add_option("log", flags.logs, "Logs with ground truth: recordings of simulated runs")
+      ->type_name("LOG");
+  verb.add_option("--contact", flags.contact, "Logs in which both wheels touch all the time")
+      ->type_name("LOG");
+  verb.add_option("--no-contact", flags.no_contact, "Logs in which neither wheel ever touches")
+      ->type_name("LOG");
+  verb.add_option("-o,--output", flags.output, "Model to write")->type_name("FILE.npz")->required();
+  verb.add_option("--estimator", flags.estimator, fitted_estimators())->capture_default_str();
+  verb.add_option("--skip", flags.config.skip, "Not used at the beginning of each log (s)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb.add_option("--force-threshold", flags.config.labels.force_threshold,
+                  "Ground truth: a wheel touches above this normal force (N)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb.add_option("--debounce", flags.config.labels.debounce,
+                  "Ground truth: shorter states are merged into their neighbours (s)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb.add_option("--grid", flags.grid, "Points of the grid along knee and wheel (200 200)")
+      ->expected(2)
+      ->check(CLI::Range(2, 5000));
+  verb.add_option("--bandwidth", flags.bandwidth, "Instead of Scott's rule: knee, wheel (N·m)")
+      ->expected(2);
+  verb.add_option("--bandwidth-floor", flags.bandwidth_floor,
+                  "Scott's bandwidth is never smaller: knee, wheel (N·m)")
+      ->expected(2);
+  verb.add_option("--knee-range", flags.knee_range, "Ends of the grid (N·m)")->expected(2);
+  verb.add_option("--wheel-range", flags.wheel_range, "Ends of the grid (N·m)")->expected(2);
+}
 
 void show_samples(const experiments::LogFitReport& report, bool with_bandwidth) {
   for (const bool contact : {true, false}) {
@@ -54,7 +160,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
 
 }  // namespace
 
-void add_fit(CLI::App& program, CliSession& session) {
+void add_fit(CLI::App& program, const CliSession& session) {
   CLI::App* verb = program.add_subcommand(
       "fit",
       "touchdown fit stairs.mpack -o model.npz\n"
@@ -63,8 +169,7 @@ void add_fit(CLI::App& program, CliSession& session) {
       "robot's, each of which is contact or no contact all along.");
   const auto flags = std::make_shared<FitFlags>();
   add_fit_flags(*verb, *flags);
-  verb->callback(
-      [flags, &session] { session.action = [flags, &session] { fit(*flags, session); }; });
+  verb->callback([flags, &session] { fit(*flags, session); });
 }
 
 }  // namespace touchdown::cli

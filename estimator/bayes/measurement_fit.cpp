@@ -23,55 +23,26 @@ double deviation(double squares, std::size_t count) noexcept {
   return std::sqrt(squares / (static_cast<double>(count) - 1.0));
 }
 
-/// What an axis has to cover: one class's samples, by their ends, and its bandwidth.
-struct Extent {
-  double lowest;
-  double highest;
-  double bandwidth;
-};
-
-/// The range that was asked for, or all samples and four bandwidths more, but nothing below zero if
-/// no sample is.
-Axis axis_for(const std::optional<std::pair<double, double>>& range, int count, const Extent& a,
-              const Extent& b) {
-  if (range) return {range->first, range->second, count};
-  const double lower = std::min(a.lowest - 4.0 * a.bandwidth, b.lowest - 4.0 * b.bandwidth);
-  const double upper = std::max(a.highest + 4.0 * a.bandwidth, b.highest + 4.0 * b.bandwidth);
-  return {std::min(a.lowest, b.lowest) >= 0.0 ? 0.0 : lower, upper, count};
-}
-
-/// Samples of one class along each axis, and their bandwidths.
-struct FittedClass {
+/// Scott's rule over samples that are at hand, unless the bandwidth is given.
+TorqueBandwidth bandwidth_for(std::span<const TorqueSample> samples,
+                              const MeasurementFitConfig& config, const char* name) {
   std::vector<double> knee;
   std::vector<double> wheel;
-  TorqueBandwidth bandwidth;
-};
-
-FittedClass fit_class(std::span<const TorqueSample> samples, const MeasurementFitConfig& config,
-                      const char* name) {
-  FittedClass fitted;
   for (const TorqueSample& sample : samples) {
-    fitted.knee.push_back(sample.knee);
-    fitted.wheel.push_back(sample.wheel);
+    knee.push_back(sample.knee);
+    wheel.push_back(sample.wheel);
   }
+  // Scott's rule also checks the samples, so it runs even if its result is not needed.
+  constexpr double smallest = std::numeric_limits<double>::min();
+  const TorqueBandwidth floor =
+      config.bandwidth ? TorqueBandwidth{smallest, smallest} : config.bandwidth_floor;
   try {
-    // Scott's rule also checks the samples, so it runs even if its result is not needed.
-    const double smallest = std::numeric_limits<double>::min();
-    const bool given = config.bandwidth.has_value();
-    const double knee =
-        scott_bandwidth(fitted.knee, 2, given ? smallest : config.bandwidth_floor.knee);
-    const double wheel =
-        scott_bandwidth(fitted.wheel, 2, given ? smallest : config.bandwidth_floor.wheel);
-    fitted.bandwidth = config.bandwidth.value_or(TorqueBandwidth{knee, wheel});
+    const TorqueBandwidth scott = {scott_bandwidth(knee, 2, floor.knee),
+                                   scott_bandwidth(wheel, 2, floor.wheel)};
+    return config.bandwidth.value_or(scott);
   } catch (const InputError& error) {
     throw InputError(std::string(name) + " torques: " + error.what());
   }
-  return fitted;
-}
-
-Extent extent(const std::vector<double>& samples, double bandwidth) {
-  const auto [lowest, highest] = std::minmax_element(samples.begin(), samples.end());
-  return {*lowest, *highest, bandwidth};
 }
 
 }  // namespace
@@ -79,17 +50,15 @@ Extent extent(const std::vector<double>& samples, double bandwidth) {
 MeasurementModel fit_measurement_model(std::span<const TorqueSample> contact,
                                        std::span<const TorqueSample> no_contact,
                                        const MeasurementFitConfig& config) {
-  const FittedClass c = fit_class(contact, config, "contact");
-  const FittedClass n = fit_class(no_contact, config, "no-contact");
-  const Axis knee = axis_for(config.knee_range, config.knee_count, extent(c.knee, c.bandwidth.knee),
-                             extent(n.knee, n.bandwidth.knee));
-  const Axis wheel =
-      axis_for(config.wheel_range, config.wheel_count, extent(c.wheel, c.bandwidth.wheel),
-               extent(n.wheel, n.bandwidth.wheel));
-  return MeasurementModel(LikelihoodGrids{
-      knee, wheel,
-      kernel_density(c.wheel, c.knee, c.bandwidth.wheel, c.bandwidth.knee, wheel, knee),
-      kernel_density(n.wheel, n.knee, n.bandwidth.wheel, n.bandwidth.knee, wheel, knee)});
+  MeasurementFit fit(config);
+  fit.of(true).bandwidth = bandwidth_for(contact, config, "contact");
+  fit.of(false).bandwidth = bandwidth_for(no_contact, config, "no-contact");
+  for (const TorqueSample& sample : contact) fit.survey(true, sample);
+  for (const TorqueSample& sample : no_contact) fit.survey(false, sample);
+  fit.make_grids();
+  for (const TorqueSample& sample : contact) fit.add(true, sample);
+  for (const TorqueSample& sample : no_contact) fit.add(false, sample);
+  return fit.model();
 }
 
 MeasurementFit::MeasurementFit(const MeasurementFitConfig& config) : config_(config) {}
@@ -100,9 +69,7 @@ void TorqueSurvey::add(const TorqueSample& sample) noexcept {
   const auto n = static_cast<double>(count);
   touchdown::add(sample.knee, n, mean.knee, squares.knee);
   touchdown::add(sample.wheel, n, mean.wheel, squares.wheel);
-  if (count == 1) {
-    lowest = highest = sample;
-  }
+  if (count == 1) lowest = highest = sample;
   lowest = {std::min(lowest.knee, sample.knee), std::min(lowest.wheel, sample.wheel)};
   highest = {std::max(highest.knee, sample.knee), std::max(highest.wheel, sample.wheel)};
 }
@@ -136,19 +103,30 @@ void MeasurementFit::choose_bandwidth(Class& of_class, const char* name) const {
 }
 
 void MeasurementFit::prepare() {
-  Class& c = of(true);
-  Class& n = of(false);
-  choose_bandwidth(c, "contact");
-  choose_bandwidth(n, "no-contact");
-  const auto extent_of = [](const Class& one, auto torque, auto width) {
-    return Extent{one.survey.lowest.*torque, one.survey.highest.*torque, one.bandwidth.*width};
-  };
-  knee_ = axis_for(config_.knee_range, config_.knee_count,
-                   extent_of(c, &TorqueSample::knee, &TorqueBandwidth::knee),
-                   extent_of(n, &TorqueSample::knee, &TorqueBandwidth::knee));
-  wheel_ = axis_for(config_.wheel_range, config_.wheel_count,
-                    extent_of(c, &TorqueSample::wheel, &TorqueBandwidth::wheel),
-                    extent_of(n, &TorqueSample::wheel, &TorqueBandwidth::wheel));
+  choose_bandwidth(of(true), "contact");
+  choose_bandwidth(of(false), "no-contact");
+  make_grids();
+}
+
+/// The range that was asked for, or all samples and four bandwidths more, but nothing below zero if
+/// no sample is.
+Axis MeasurementFit::axis_for(const std::optional<std::pair<double, double>>& range, int count,
+                              double TorqueSample::*torque, double TorqueBandwidth::*width) const {
+  if (range) return {range->first, range->second, count};
+  const auto& [n, c] = class_;
+  const double lowest = std::min(n.survey.lowest.*torque, c.survey.lowest.*torque);
+  const double lower = std::min(n.survey.lowest.*torque - 4.0 * n.bandwidth.*width,
+                                c.survey.lowest.*torque - 4.0 * c.bandwidth.*width);
+  const double upper = std::max(n.survey.highest.*torque + 4.0 * n.bandwidth.*width,
+                                c.survey.highest.*torque + 4.0 * c.bandwidth.*width);
+  return {lowest >= 0.0 ? 0.0 : lower, upper, count};
+}
+
+void MeasurementFit::make_grids() {
+  knee_ =
+      axis_for(config_.knee_range, config_.knee_count, &TorqueSample::knee, &TorqueBandwidth::knee);
+  wheel_ = axis_for(config_.wheel_range, config_.wheel_count, &TorqueSample::wheel,
+                    &TorqueBandwidth::wheel);
   for (Class& one : class_) {
     one.density =
         std::make_unique<KernelDensityGrid>(one.bandwidth.wheel, one.bandwidth.knee, wheel_, knee_);

@@ -94,6 +94,13 @@ class MeasurementFit {
   [[nodiscard]] Class& of(bool contact) noexcept { return class_[contact ? 1 : 0]; }
   [[nodiscard]] const Class& of(bool contact) const noexcept { return class_[contact ? 1 : 0]; }
   void choose_bandwidth(Class& of_class, const char* name) const;
+  [[nodiscard]] Axis axis_for(const std::optional<std::pair<double, double>>& range, int count,
+                              double TorqueSample::*torque, double TorqueBandwidth::*width) const;
+  /// Axes and empty densities, by bandwidths and survey.
+  void make_grids();
+  friend MeasurementModel fit_measurement_model(std::span<const TorqueSample>,
+                                                std::span<const TorqueSample>,
+                                                const MeasurementFitConfig&);
 
   MeasurementFitConfig config_;
   std::array<Class, 2> class_;

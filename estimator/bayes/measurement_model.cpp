@@ -35,9 +35,7 @@ std::vector<double> in_wheel_rows(std::span<const double> values, const Axis& kn
   const auto wheels = static_cast<std::size_t>(wheel.count);
   std::vector<double> turned(values.size());
   for (std::size_t i = 0; i < wheels; ++i) {
-    for (std::size_t j = 0; j < knees; ++j) {
-      turned[i * knees + j] = values[j * wheels + i];
-    }
+    for (std::size_t j = 0; j < knees; ++j) turned[i * knees + j] = values[j * wheels + i];
   }
   return turned;
 }
@@ -73,9 +71,7 @@ MeasurementModel::MeasurementModel(const LikelihoodGrids& grids)
   check_grid(grids.contact, count, "contact");
   check_grid(grids.no_contact, count, "no-contact");
   auto cells = std::make_shared<std::vector<Likelihoods>>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    (*cells)[i] = {grids.contact[i], grids.no_contact[i]};
-  }
+  for (std::size_t i = 0; i < count; ++i) (*cells)[i] = {grids.contact[i], grids.no_contact[i]};
   knee_ = AxisLookup(grids.knee);
   wheel_ = AxisLookup(grids.wheel);
   cells_ = cells->data();

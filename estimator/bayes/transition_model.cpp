@@ -10,9 +10,7 @@ namespace touchdown {
 namespace {
 
 void check(bool good, const std::string& message) {
-  if (!good) {
-    throw InputError("transition model: " + message);
-  }
+  if (!good) throw InputError("transition model: " + message);
 }
 
 /// y += g (x − y) twice with the same x moves y by 1 − (1 − g)² of the way.

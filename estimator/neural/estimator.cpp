@@ -9,14 +9,6 @@
 namespace touchdown {
 namespace {
 
-std::shared_ptr<const NeuralNetwork> checked(std::shared_ptr<const NeuralNetwork> network) {
-  if (!network) {
-    throw InputError("neural estimator: needs a network");
-  }
-  check(*network);
-  return network;
-}
-
 /// All that the network hears besides the vertical acceleration, which the guard looks at.
 bool finite(const Signals& s) {
   double sum = s.linear_acceleration.sum() + s.angular_velocity.sum() + s.ground_velocity_command;
@@ -46,7 +38,7 @@ NeuralEstimator::NeuralEstimator(std::shared_ptr<const NeuralNetwork> network,
                                  const NeuralEstimatorConfig& config)
     : config_(config),
       guard_(config.guard, config.sample_rate),
-      forward_(checked(std::move(network))),
+      forward_(std::move(network)),
       sampler_(neural_stride(config.sample_rate, forward_.network().period)),
       input_(neural_input_count) {
   if (!(config.threshold >= 0.0 && config.threshold <= 1.0)) {
@@ -95,9 +87,7 @@ void NeuralEstimator::step() noexcept {
 }
 
 void NeuralEstimator::conclude(double p_contact) noexcept {
-  for (WheelBelief& wheel : belief_.wheel) {
-    wheel = {p_contact, p_contact >= config_.threshold};
-  }
+  for (WheelBelief& wheel : belief_.wheel) wheel = {p_contact, p_contact >= config_.threshold};
   belief_.p_any_wheel = p_contact;
   belief_.p_both_wheels = p_contact;
 }

@@ -2,12 +2,23 @@
 
 #include <utility>
 
+#include "core/error.hpp"
+
 namespace touchdown {
+namespace {
+
+std::shared_ptr<const NeuralNetwork> checked(std::shared_ptr<const NeuralNetwork> network) {
+  if (!network) throw InputError("neural estimator: needs a network");
+  check(*network);
+  return network;
+}
+
+}  // namespace
 
 template <int Lanes>
 NeuralForward<Lanes>::NeuralForward(std::shared_ptr<const NeuralNetwork> network,
                                     Eigen::Index lanes)
-    : network_(std::move(network)),
+    : network_(checked(std::move(network))),
       standardised_(neural_input_count, lanes),
       hidden_(network_->hidden(), lanes),
       from_input_(3 * network_->hidden(), lanes),

@@ -17,7 +17,8 @@ class NeuralForward {
  public:
   using Columns = Eigen::Matrix<float, Eigen::Dynamic, Lanes>;
 
-  /// The network must have passed `check`. `lanes` counts when `Lanes` is dynamic.
+  /// `lanes` counts when `Lanes` is dynamic. Errors: `InputError` for no network or one that does
+  /// not pass `check`.
   explicit NeuralForward(std::shared_ptr<const NeuralNetwork> network,
                          Eigen::Index lanes = Lanes == Eigen::Dynamic ? 0 : Lanes);
 

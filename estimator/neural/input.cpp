@@ -33,9 +33,7 @@ bool NeuralInputSampler::add(const Signals& signals) noexcept {
   ++steps_;
   ++samples_;
   acceleration_sum_ += signals.linear_acceleration;
-  if (started_ && steps_ < stride_) {
-    return false;
-  }
+  if (started_ && steps_ < stride_) return false;
   input_ = neural_input(signals);
   input_.head<3>() = (acceleration_sum_ / samples_).cast<float>();
   input_[neural_input_count - 1] = static_cast<float>(command_);

@@ -17,9 +17,7 @@ void check_vector(const Eigen::VectorXf& vector, const std::string& name, Eigen:
     throw InputError(name + ": expected " + std::to_string(size) + " numbers, found " +
                      std::to_string(vector.size()));
   }
-  if (!vector.allFinite()) {
-    throw InputError(name + ": expected finite numbers");
-  }
+  if (!vector.allFinite()) throw InputError(name + ": expected finite numbers");
 }
 
 void check_layer(const DenseLayer& layer, const std::string& name, Eigen::Index outputs,
@@ -29,9 +27,7 @@ void check_layer(const DenseLayer& layer, const std::string& name, Eigen::Index 
     throw InputError(name + "_weight: expected shape " + shape(outputs, inputs) + ", found " +
                      shape(w.rows(), w.cols()));
   }
-  if (!w.allFinite()) {
-    throw InputError(name + "_weight: expected finite numbers");
-  }
+  if (!w.allFinite()) throw InputError(name + "_weight: expected finite numbers");
   check_vector(layer.bias, name + "_bias", outputs);
 }
 
@@ -39,9 +35,7 @@ void check_layer(const DenseLayer& layer, const std::string& name, Eigen::Index 
 
 void check(const NeuralNetwork& network) {
   const Eigen::Index hidden = network.hidden();
-  if (hidden == 0) {
-    throw InputError("gru_hidden_weight: is empty");
-  }
+  if (hidden == 0) throw InputError("gru_hidden_weight: is empty");
   if (!(std::isfinite(network.period) && network.period > 0.0)) {
     throw InputError("period: expected a positive number (s)");
   }

@@ -8,9 +8,7 @@
 namespace touchdown {
 
 Axis axis_from_points(std::span<const double> points) {
-  if (points.size() < 2) {
-    throw InputError("a grid axis needs at least two points");
-  }
+  if (points.size() < 2) throw InputError("a grid axis needs at least two points");
   const Axis axis{points.front(), points.back(), static_cast<int>(points.size())};
   check_axis(axis, "points");
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -51,10 +51,6 @@ class AxisLookup {
     return {index, steps - index};
   }
 
-  [[nodiscard]] double lower() const noexcept { return lower_; }
-  [[nodiscard]] double inverse_step() const noexcept { return inverse_step_; }
-  [[nodiscard]] double last() const noexcept { return last_; }
-
  private:
   double lower_ = 0.0;
   double inverse_step_ = 1.0;

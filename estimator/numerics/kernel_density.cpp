@@ -51,9 +51,7 @@ void fill_kernels(std::span<const double> samples, double bandwidth, const Eigen
 
 Eigen::ArrayXd points_of(const Axis& axis) {
   Eigen::ArrayXd points(axis.count);
-  for (int i = 0; i < axis.count; ++i) {
-    points[i] = axis[i];
-  }
+  for (int i = 0; i < axis.count; ++i) points[i] = axis[i];
   return points;
 }
 
@@ -85,9 +83,7 @@ std::vector<double> kernel_density(std::span<const double> x, double bandwidth, 
   const Eigen::ArrayXd points = points_of(axis);
   const double scale = std::numbers::sqrt2 / 2.0 / bandwidth;
   Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(axis.count);
-  for (const double sample : x) {
-    sum += (-((points - sample) * scale).square()).exp();
-  }
+  for (const double sample : x) sum += (-((points - sample) * scale).square()).exp();
   sum /= static_cast<double>(x.size()) * bandwidth * std::sqrt(2.0 * std::numbers::pi);
   return {sum.begin(), sum.end()};
 }
@@ -102,9 +98,7 @@ std::vector<double> kernel_density(std::span<const double> x, std::span<const do
   check_samples(x, 1);
   check_samples(y, 1);
   KernelDensityGrid grid(x_bandwidth, y_bandwidth, x_axis, y_axis);
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    grid.add(x[i], y[i]);
-  }
+  for (std::size_t i = 0; i < x.size(); ++i) grid.add(x[i], y[i]);
   return grid.density();
 }
 

@@ -38,9 +38,7 @@ void square_roots(int count, const Square& square, const Sink& sink) noexcept {
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC ivdep
 #endif
-  for (int i = 2 * half; i < count; ++i) {
-    sink(i, square_root(square(i)));
-  }
+  for (int i = 2 * half; i < count; ++i) sink(i, square_root(square(i)));
 }
 
 }  // namespace touchdown

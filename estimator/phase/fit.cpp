@@ -39,15 +39,23 @@ std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t larg
   return kept;
 }
 
-/// log((1 − ε) f + ε u) for one phase, into every `stride`-th value from `first`.
-void fill_mixture(const std::vector<double>& density, double uniform, double contamination,
-                  std::size_t first, std::size_t stride, std::vector<float>& log_density) {
-  const std::size_t cells = log_density.size() / stride;
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    const double mixture =
-        density.empty() ? uniform : (1.0 - contamination) * density[cell] + contamination * uniform;
-    log_density[cell * stride + first] = static_cast<float>(std::log(mixture));
+/// log((1 − ε) f + ε u) at every cell, phase by phase within; f is the `density` of what is kept of
+/// a phase's samples, and nothing for a phase without any.
+template <typename Samples, typename Density>
+std::vector<float> log_mixtures(const Samples& samples, std::size_t cells, double uniform,
+                                const PhaseFitConfig& config, const Density& density) {
+  std::vector<float> log_density(cells * samples.size());
+  for (std::size_t phase = 0; phase < samples.size(); ++phase) {
+    const auto kept = thinned(samples[phase], config.largest_sample);
+    const std::vector<double> f = kept.empty() ? std::vector<double>() : density(kept);
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const double mixture =
+          f.empty() ? uniform
+                    : (1.0 - config.contamination) * f[cell] + config.contamination * uniform;
+      log_density[cell * samples.size() + phase] = static_cast<float>(std::log(mixture));
+    }
   }
+  return log_density;
 }
 
 /// Adds one run's samples, transitions and labelled time.
@@ -144,22 +152,18 @@ PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, const TorqueS
       axis_over(wheel_range, h.wheel,
                 std::min(config.grid_step * h.wheel, config.largest_wheel_step)),
       {}};
-  result.log_density.resize(static_cast<std::size_t>(result.knee.count) *
-                            static_cast<std::size_t>(result.wheel.count) * torque_density_count);
   const double uniform =
       1.0 / (4.0 * (config.knee_range + 4.0 * h.knee) * (config.wheel_range + 4.0 * h.wheel));
-  for (std::size_t phase = 0; phase < torque_density_count; ++phase) {
-    const auto kept = thinned(samples.torque[phase], config.largest_sample);
+  const auto density = [&](const std::vector<TorqueSample>& kept) {
     std::vector<double> knee(kept.size());
     std::vector<double> wheel(kept.size());
     std::transform(kept.begin(), kept.end(), knee.begin(), [](const auto& s) { return s.knee; });
     std::transform(kept.begin(), kept.end(), wheel.begin(), [](const auto& s) { return s.wheel; });
-    const std::vector<double> density =
-        kept.empty() ? std::vector<double>()
-                     : kernel_density(wheel, knee, h.wheel, h.knee, result.wheel, result.knee);
-    fill_mixture(density, uniform, config.contamination, phase, torque_density_count,
-                 result.log_density);
-  }
+    return kernel_density(wheel, knee, h.wheel, h.knee, result.wheel, result.knee);
+  };
+  const auto cells =
+      static_cast<std::size_t>(result.knee.count) * static_cast<std::size_t>(result.wheel.count);
+  result.log_density = log_mixtures(samples.torque, cells, uniform, config, density);
   return result;
 }
 
@@ -171,16 +175,10 @@ PhaseAccelerationDensity fit_acceleration_density(const PhaseSamples& samples, d
     for (const double sample : of_phase) range.include(sample);
   }
   PhaseAccelerationDensity result{noise, h, axis_over(range, h, config.grid_step * h), {}};
-  result.log_density.resize(static_cast<std::size_t>(result.axis.count) *
-                            acceleration_density_count);
   const double uniform = 1.0 / (2.0 * (config.acceleration_range + 4.0 * h));
-  for (std::size_t phase = 0; phase < acceleration_density_count; ++phase) {
-    const auto kept = thinned(samples.acceleration[phase], config.largest_sample);
-    const std::vector<double> density =
-        kept.empty() ? std::vector<double>() : kernel_density(kept, h, result.axis);
-    fill_mixture(density, uniform, config.contamination, phase, acceleration_density_count,
-                 result.log_density);
-  }
+  result.log_density = log_mixtures(
+      samples.acceleration, static_cast<std::size_t>(result.axis.count), uniform, config,
+      [&](const std::vector<double>& kept) { return kernel_density(kept, h, result.axis); });
   return result;
 }
 

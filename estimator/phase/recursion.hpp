@@ -50,9 +50,7 @@ class PhaseRecursion {
   void predict_and_correct(Lanes& alpha, const Lanes& log_likelihood) const noexcept {
     Lanes predicted{};
     for (std::size_t i = 0; i < phase_count; ++i) {
-      for (std::size_t j = 0; j < phase_lanes; ++j) {
-        predicted[j] += alpha[i] * transition_[i][j];
-      }
+      for (std::size_t j = 0; j < phase_lanes; ++j) predicted[j] += alpha[i] * transition_[i][j];
     }
     double largest = log_likelihood[0];
     for (std::size_t k = 1; k < phase_lanes; ++k) largest = std::max(largest, log_likelihood[k]);

@@ -18,11 +18,15 @@ NoiseEstimate<channels> noise_from(double floor, double largest, const PhaseFilt
           config.noise_warm_up * config.sample_rate};
 }
 
-/// Where each of these noises lies among the densities of `tables`.
-template <typename Tables>
-std::vector<PhaseNoiseLevel> placed(const Tables& tables, const std::vector<double>& sigmas) {
+/// Where each rung of an estimate, or the noise if it is known, lies among prepared densities.
+template <std::size_t channels>
+std::vector<PhaseNoiseLevel> placed(const PhaseNoiseLadder& ladder,
+                                    const NoiseEstimate<channels>& estimate,
+                                    const std::optional<PhaseNoise>& known,
+                                    double PhaseNoise::*part) {
+  if (known) return {ladder.place((*known).*part)};
   std::vector<PhaseNoiseLevel> levels;
-  for (const double sigma : sigmas) levels.push_back(tables.place(sigma));
+  for (const double sigma : estimate.rungs()) levels.push_back(ladder.place(sigma));
   return levels;
 }
 
@@ -41,12 +45,9 @@ PhaseSenses::PhaseSenses(const PhaseModel& model, const PhaseFilterConfig& confi
           noise_from<2>(config.noise_floor.wheel_torque, model.torque.back().noise.wheel, config)),
       acceleration_noise(
           noise_from<1>(config.noise_floor.acceleration, model.acceleration.back().noise, config)),
-      knee_levels(placed(
-          torque, config.noise ? std::vector{config.noise->knee_torque} : knee_noise.rungs())),
-      wheel_levels(placed(
-          torque, config.noise ? std::vector{config.noise->wheel_torque} : wheel_noise.rungs())),
-      acceleration_levels(placed(acceleration, config.noise
-                                                   ? std::vector{config.noise->acceleration}
-                                                   : acceleration_noise.rungs())) {}
+      knee_levels(placed(torque.ladder(), knee_noise, config.noise, &PhaseNoise::knee_torque)),
+      wheel_levels(placed(torque.ladder(), wheel_noise, config.noise, &PhaseNoise::wheel_torque)),
+      acceleration_levels(placed(acceleration.ladder(), acceleration_noise, config.noise,
+                                 &PhaseNoise::acceleration)) {}
 
 }  // namespace touchdown

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace touchdown {
 namespace {
@@ -23,27 +24,14 @@ void add(PhaseRow& sum, float weight, const float* cell) noexcept {
   for (std::size_t k = 0; k < phase_lanes; ++k) sum[k] += weight * cell[k];
 }
 
-std::vector<double> bandwidths_of(std::span<const PhaseTorqueDensity> densities) {
-  std::vector<double> bandwidths;
-  for (const auto& density : densities.first(torque_level_count(densities))) {
-    bandwidths.push_back(density.bandwidth.wheel);
-  }
-  return bandwidths;
-}
-
-std::vector<double> bandwidths_of(std::span<const PhaseAccelerationDensity> densities) {
-  std::vector<double> bandwidths;
-  for (const auto& density : densities) bandwidths.push_back(density.bandwidth);
-  return bandwidths;
-}
-
-double kernel_width(double bandwidth, double noise) {
-  return std::sqrt(std::max(0.0, bandwidth * bandwidth - noise * noise));
+PhaseNoiseLadder ladder_of(std::vector<double> bandwidths, double first_noise) {
+  const double h = bandwidths.front();
+  return {std::move(bandwidths), std::sqrt(std::max(0.0, h * h - first_noise * first_noise))};
 }
 
 }  // namespace
 
-PhaseNoiseLevel place_noise(double sigma, double kernel_width, std::span<const double> bandwidths) {
+PhaseNoiseLevel PhaseNoiseLadder::place(double sigma) const {
   const double bandwidth = std::hypot(sigma, kernel_width);
   if (bandwidths.size() < 2 || !(bandwidth > bandwidths.front())) return {0, 0.0F};
   if (bandwidth >= bandwidths.back()) return {bandwidths.size() - 2, 1.0F};
@@ -53,10 +41,13 @@ PhaseNoiseLevel place_noise(double sigma, double kernel_width, std::span<const d
                                     std::log(bandwidths[level + 1] / bandwidths[level]))};
 }
 
-PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densities, double exponent)
-    : bandwidths_(bandwidths_of(densities)),
-      kernel_width_(
-          kernel_width(densities.front().bandwidth.wheel, densities.front().noise.wheel)) {
+PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densities,
+                                     double exponent) {
+  std::vector<double> bandwidths;
+  for (const PhaseTorqueDensity& density : densities.first(torque_level_count(densities))) {
+    bandwidths.push_back(density.bandwidth.wheel);
+  }
+  ladder_ = ladder_of(std::move(bandwidths), densities.front().noise.wheel);
   for (const PhaseTorqueDensity& density : densities) {
     tables_.push_back({AxisLookup(density.knee), AxisLookup(density.wheel),
                        phase_lanes * static_cast<std::size_t>(density.knee.count),
@@ -81,7 +72,7 @@ PhaseRow PhaseTorqueTables::operator()(double knee, double wheel, const PhaseNoi
     add(sum, high_weight * (1.0F - knee_weight), high);
     add(sum, high_weight * knee_weight, high + phase_lanes);
   };
-  const std::size_t levels = bandwidths_.size();
+  const std::size_t levels = ladder_.bandwidths.size();
   const Table* const corner = tables_.data() + knee_noise.level * levels + wheel_noise.level;
   const float larger = std::max(knee_noise.weight, wheel_noise.weight);
   const float smaller = std::min(knee_noise.weight, wheel_noise.weight);
@@ -92,18 +83,15 @@ PhaseRow PhaseTorqueTables::operator()(double knee, double wheel, const PhaseNoi
   return sum;
 }
 
-PhaseNoiseLevel PhaseTorqueTables::place(double sigma) const {
-  return place_noise(sigma, kernel_width_, bandwidths_);
-}
-
 PhaseAccelerationTables::PhaseAccelerationTables(
-    std::span<const PhaseAccelerationDensity> densities, double exponent)
-    : bandwidths_(bandwidths_of(densities)),
-      kernel_width_(kernel_width(densities.front().bandwidth, densities.front().noise)) {
+    std::span<const PhaseAccelerationDensity> densities, double exponent) {
+  std::vector<double> bandwidths;
   for (const PhaseAccelerationDensity& density : densities) {
+    bandwidths.push_back(density.bandwidth);
     tables_.push_back({AxisLookup(density.axis),
                        padded(density.log_density, acceleration_density_count, exponent)});
   }
+  ladder_ = ladder_of(std::move(bandwidths), densities.front().noise);
 }
 
 PhaseRow PhaseAccelerationTables::operator()(double acceleration,
@@ -119,10 +107,6 @@ PhaseRow PhaseAccelerationTables::operator()(double acceleration,
   add_level(tables_[noise.level], 1.0F - noise.weight);
   if (noise.weight > 0.0F) add_level(tables_[noise.level + 1], noise.weight);
   return sum;
-}
-
-PhaseNoiseLevel PhaseAccelerationTables::place(double sigma) const {
-  return place_noise(sigma, kernel_width_, bandwidths_);
 }
 
 }  // namespace touchdown

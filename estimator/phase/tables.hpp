@@ -22,9 +22,14 @@ struct PhaseNoiseLevel {
   float weight = 0.0F;
 };
 
-/// Where noise `sigma` lies among densities of increasing `bandwidths`: linear in the logarithm of
-/// the total bandwidth √(h² + σ²), h² being the first bandwidth's square less the first noise's.
-PhaseNoiseLevel place_noise(double sigma, double kernel_width, std::span<const double> bandwidths);
+/// The noise levels that densities were prepared for.
+struct PhaseNoiseLadder {
+  std::vector<double> bandwidths;  ///< of the kernels, noise included; they increase
+  double kernel_width = 0.0;       ///< h, without noise
+
+  /// Where noise `sigma` lies: linear in the logarithm of the total bandwidth √(h² + σ²).
+  [[nodiscard]] PhaseNoiseLevel place(double sigma) const;
+};
 
 /// The torque densities prepared for lookups: raised to an exponent, side by side for all phases,
 /// bilinear in (knee, wheel) and linear between noise levels, all in the logarithm. Four pairs of
@@ -38,8 +43,8 @@ class PhaseTorqueTables {
   [[nodiscard]] PhaseRow operator()(double knee, double wheel, const PhaseNoiseLevel& knee_noise,
                                     const PhaseNoiseLevel& wheel_noise) const noexcept;
 
-  /// For noise at the knee or at the wheel: their levels are the same.
-  [[nodiscard]] PhaseNoiseLevel place(double sigma) const;
+  /// Of noise at the knee or at the wheel: their levels are the same.
+  [[nodiscard]] const PhaseNoiseLadder& ladder() const noexcept { return ladder_; }
 
  private:
   struct Table {
@@ -49,8 +54,7 @@ class PhaseTorqueTables {
     std::vector<float> cells;
   };
   std::vector<Table> tables_;
-  std::vector<double> bandwidths_;
-  double kernel_width_;
+  PhaseNoiseLadder ladder_;
 };
 
 /// The acceleration densities, likewise.
@@ -61,7 +65,7 @@ class PhaseAccelerationTables {
   [[nodiscard]] PhaseRow operator()(double acceleration,
                                     const PhaseNoiseLevel& noise) const noexcept;
 
-  [[nodiscard]] PhaseNoiseLevel place(double sigma) const;
+  [[nodiscard]] const PhaseNoiseLadder& ladder() const noexcept { return ladder_; }
 
  private:
   struct Table {
@@ -69,8 +73,7 @@ class PhaseAccelerationTables {
     std::vector<float> cells;
   };
   std::vector<Table> tables_;
-  std::vector<double> bandwidths_;
-  double kernel_width_;
+  PhaseNoiseLadder ladder_;
 };
 
 }  // namespace touchdown

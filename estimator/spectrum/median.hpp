@@ -81,23 +81,17 @@ double median_bin(const LaneSums& sums, double nyquist, int nyquist_bin, Rows ro
                   const double* within) noexcept {
   constexpr int lanes = SlidingDft::lanes;
   const double half = 0.5 * (sums.total() + nyquist);
-  if (sums.total() < half) {
-    return (nyquist_bin - 1) + (half - sums.total()) / nyquist;
-  }
+  if (sums.total() < half) return (nyquist_bin - 1) + (half - sums.total()) / nyquist;
   std::int64_t bin = 0;
   for (int lane = 0; lane < lanes; ++lane) {
     const double rest = half - sums.before[lane];
-    for (int row = 1; row <= rows; ++row) {
-      bin += within[row * lanes + lane] < rest ? 1 : 0;
-    }
+    for (int row = 1; row <= rows; ++row) bin += within[row * lanes + lane] < rest ? 1 : 0;
   }
   bin = std::min<std::int64_t>(bin, rows * lanes - 1);  // sums of other order may round otherwise
   const std::int64_t lane = bin / rows;
   const double* const median = within + (bin - lane * rows) * lanes + lane;
   const double inside = median[lanes] - median[0];
-  if (bin == 0 || !(inside > 0.0)) {
-    return 0.0;
-  }
+  if (bin == 0 || !(inside > 0.0)) return 0.0;
   const double rest = half - sums.before[lane] - median[0];
   return static_cast<double>(bin - 1) + std::min(1.0, rest / inside);
 }

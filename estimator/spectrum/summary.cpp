@@ -52,9 +52,7 @@ SpectrumValues SpectrumSummary::of_magnitude(Rows rows, const SlidingDft& dft) n
       [=](int i, double root) { magnitude[i] = root; });
   const auto squared = squared_magnitudes(dft);
   SpectrumRow energy = SpectrumRow::Zero();
-  for (int row = 0; row < rows; ++row) {
-    energy += squared(row);
-  }
+  for (int row = 0; row < rows; ++row) energy += squared(row);
   SpectrumValues values;
   values.mean_square = mean_square(energy.sum(), real[0], nyquist, window_);
   if (values.mean_square > negligible_mean_square) {

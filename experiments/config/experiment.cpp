@@ -1,10 +1,56 @@
 #include "experiments/config/experiment.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "core/fields.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {
+
+namespace {
+
+/// Names that the experiment itself must have.
+void describe_subset(Fields& fields, std::string_view key, const std::vector<std::string>& known,
+                     std::vector<std::string>& names) {
+  fields(key, names);
+  for (const std::string& name : names) {
+    fields.check(std::find(known.begin(), known.end(), name) != known.end(), key,
+                 fmt::format("'{}' is not one of the experiment's: {}{}", name,
+                             fmt::join(known, ", "), did_you_mean(name, known)));
+  }
+}
+
+/// More would not be readable beside, or above, each other.
+constexpr std::size_t most_settings = 3;
+constexpr std::size_t most_estimators = 6;
+
+void describe_choice(Fields& fields, DropChoice& choice, const Experiment& experiment) {
+  fields("run", choice.run, 0, experiment.test.runs - 1);
+  fields("drop", choice.drop, 0, 1000);
+  fields("seed", choice.seed, 0, experiment.noise.seeds - 1);
+  fields("before", choice.before, 0.0, 10.0);
+  fields("after", choice.after, 0.01, 10.0);
+}
+
+/// Those that the paper compares and the phase filter; others where the experiment has none of
+/// them.
+std::vector<std::string> shown_by_default(const std::vector<std::string>& estimators) {
+  std::vector<std::string> shown;
+  for (const char* name : {"robust", "measurement_only", "reference", "phase"}) {
+    if (std::find(estimators.begin(), estimators.end(), name) != estimators.end()) {
+      shown.emplace_back(name);
+    }
+  }
+  if (!shown.empty()) return shown;
+  shown = estimators;
+  if (shown.size() > 4) shown.resize(4);
+  return shown;
+}
+
+}  // namespace
 
 static void describe(Fields& fields, RunsConfig& runs) {
   fields.require("scenarios", runs.scenarios);
@@ -22,6 +68,69 @@ static void describe(Fields& fields, VideoConfig& video, const Experiment& exper
   fields("accelerometer_noise", video.accelerometer_noise, 0.0, 1e3);
 }
 
+static void describe(Fields& fields, DetailConfig& detail, const Experiment& experiment) {
+  fields.list("noise", detail.noise);
+  fields.check(!detail.noise.empty() && detail.noise.size() <= most_settings, "noise",
+               fmt::format("expected 1 to {} noise settings", most_settings));
+  if (fields.reading()) detail.estimators = shown_by_default(experiment.estimators);
+  fields.names("estimators", experiment.estimators, detail.estimators);
+  fields.check(detail.estimators.size() <= most_estimators, "estimators",
+               fmt::format("expected at most {} names", most_estimators));
+  for (noise::NoiseCell& cell : detail.noise) {
+    cell = noise::with_encoder_noise(cell, experiment.noise);
+  }
+}
+
+static void describe(Fields& fields, PosteriorConfig& posterior, const Experiment& experiment) {
+  if (fields.present("noise", true)) fields.section("noise", posterior.noise);
+  posterior.noise = noise::with_encoder_noise(posterior.noise, experiment.noise);
+}
+
+/// A section that is drawn if it is there, and can be switched off where it stands.
+template <typename Config>
+static void describe_switched(Fields& parent, std::string_view key, std::optional<Config>& config,
+                              const Experiment& experiment) {
+  if (!parent.present(key, config.has_value())) return parent.know(key);
+  bool enabled = true;
+  if (parent.reading()) config.emplace();
+  parent.within(key, [&](Fields& fields) {
+    if (fields.reading()) fields("enabled", enabled);
+    describe_choice(fields, config->choice, experiment);
+    describe(fields, *config, experiment);
+  });
+  if (!enabled) config.reset();
+}
+
+static void describe(Fields& fields, Factor& factor, const std::vector<std::string>& simulators) {
+  fields("name", factor.name);
+  fields.require("key", factor.key);
+  if (!fields.present("name", true)) factor.name = factor.key;
+  fields.require("values", factor.values);
+  fields.check(!factor.values.empty(), "values", "expected at least one number");
+  describe_subset(fields, "simulators", simulators, factor.simulators);
+  if (fields.reading() && factor.simulators.empty()) factor.simulators = simulators;
+}
+
+static void describe(Fields& section, CrossSimulatorConfig& config, const Experiment& experiment) {
+  section.within("sensitivity", [&](Fields& fields) {
+    if (fields.reading())
+      config.sensitivity_runs = std::min(config.sensitivity_runs, experiment.test.runs);
+    fields("runs", config.sensitivity_runs, 1, 100'000);
+    fields.check(config.sensitivity_runs <= experiment.test.runs, "runs",
+                 fmt::format("expected at most test.runs, {}", experiment.test.runs));
+    fields.list_if_any("factors", config.factors, experiment.simulators);
+  });
+  section.within("verdict", [&](Fields& fields) {
+    fields("largest_loss", config.verdict.largest_loss, 0.0, 1.0);
+    fields("smallest_gain", config.verdict.smallest_gain, -1.0, 1.0);
+    describe_subset(fields, "demanded", experiment.estimators, config.verdict.demanded);
+  });
+  section.within("overlay", [&](Fields& fields) {
+    fields("run", config.overlay.run, 0, experiment.test.runs - 1);
+    fields("drop", config.overlay.drop, 0, 1000);
+  });
+}
+
 static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
   constexpr const char* key = "cross_simulator";
   std::optional<CrossSimulatorConfig>& config = experiment.cross_simulator;
@@ -30,8 +139,7 @@ static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
   fields.finish();
   if (fields.reading()) config.emplace();
   fields.check(experiment.simulators.size() == 2, "simulators", "expected two engines to compare");
-  fields.section(key, *config,
-                 ComparedRuns{experiment.simulators, experiment.estimators, experiment.test.runs});
+  fields.section(key, *config, experiment);
 }
 
 static void describe(Fields& fields, Experiment& experiment) {
@@ -62,8 +170,13 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.section("scoring", experiment.scoring);
   fields.section("intervals", experiment.intervals);
   fields.section("video", experiment.video, experiment);
-  describe_drop_figures(fields, experiment.detail, experiment.posterior,
-                        {experiment.test.runs, noise, experiment.estimators});
+  describe_switched(fields, "detail", experiment.detail, experiment);
+  describe_switched(fields, "posterior", experiment.posterior, experiment);
+  const auto& names = experiment.estimators;
+  fields.check(
+      !experiment.posterior || std::find(names.begin(), names.end(), "phase") != names.end(),
+      "posterior",
+      "expected 'phase' among the experiment's estimators, or posterior.enabled: false");
   fields("paper_tables", experiment.paper_tables);
   if (fields.reading()) fields("workers", experiment.workers, 0, 4096);
   describe_cross_simulator(fields, experiment);
@@ -76,7 +189,7 @@ Experiment experiment_from_yaml(const YamlDocument& document) {
   Experiment defaults;
   defaults.fit = {.scenarios = {}, .runs = 1, .perturbed = false};
   defaults.test = {.scenarios = {}, .runs = 8, .perturbed = true};
-  return from_yaml(YamlMap(document), defaults);
+  return from_yaml(document, defaults);
 }
 
 std::string to_yaml(const Experiment& experiment) { return YAML::Dump(to_node(experiment)) + "\n"; }

@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "core/yaml.hpp"
-#include "experiments/config/cross_simulator.hpp"
-#include "experiments/config/drop_figures.hpp"
 #include "noise/grid.hpp"
+#include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
-#include "scoring/sample_unit.hpp"
 #include "scoring/transitions.hpp"
 
 namespace touchdown::experiments {
@@ -32,6 +30,64 @@ struct VideoConfig {
   double accelerometer_noise = 0.0;     ///< m/s²
 };
 
+/// One drop of one test run, and how much of the time around it is shown. Drops are counted from 0,
+/// as `drops` finds them.
+struct DropChoice {
+  int run = 0;
+  int drop = 0;
+  int seed = 0;          ///< of the noise: the realisation that the study hears under this number
+  double before = 0.15;  ///< shown before takeoff (s)
+  double after = 0.45;   ///< and after it (s)
+};
+
+/// The section `detail`: what estimators hear and conclude through one drop, drawn for every
+/// engine.
+struct DetailConfig {
+  DropChoice choice = {};
+  std::vector<noise::NoiseCell> noise = {{0.25, 1.0}, {1.0, 5.0}};  ///< one column of panels each
+  std::vector<std::string> estimators = {};  ///< whose probabilities are shown
+};
+
+/// The section `posterior`: the phase filter's probability of every phase through one drop, drawn
+/// for every engine.
+struct PosteriorConfig {
+  DropChoice choice = {};
+  noise::NoiseCell noise = {1.0, 5.0};
+};
+
+/// One thing that is varied while all others stay as they are.
+struct Factor {
+  std::string name;
+  std::string key;                      ///< of the scenario, dotted: `terrain.friction`
+  std::vector<double> values;           ///< in the key's own unit
+  std::vector<std::string> simulators;  ///< where it means something; empty: everywhere
+};
+
+/// What an estimator must do for its verdict.
+struct VerdictConfig {
+  /// Fitted in the other engine it may lose less than this of its success rate (upper end of the
+  /// paired interval).
+  double largest_loss = 0.01;
+  /// Fitted in the other engine it must still beat always contact by more than this (lower end).
+  double smallest_gain = 0.0;
+  std::vector<std::string> demanded;  ///< estimators whose verdict must hold, or the run fails
+};
+
+/// The drop that is drawn in both engines.
+struct OverlayConfig {
+  int run = 0;   ///< index of the test run
+  int drop = 3;  ///< of that run, from 0
+};
+
+/// The section `cross_simulator` of an experiment that asks how much its results depend on the
+/// engine.
+struct CrossSimulatorConfig {
+  std::vector<Factor> factors;
+  int sensitivity_runs = 4;  ///< test runs per engine and value of a factor, if so many
+  VerdictConfig verdict;
+  OverlayConfig overlay;
+};
+
 /// An experiment file, seen whole: what is simulated, who listens through which noise, what counts.
 struct Experiment {
   std::string name;
@@ -47,7 +103,8 @@ struct Experiment {
   scoring::ScoringConfig scoring;
   scoring::IntervalConfig intervals;
   VideoConfig video;
-  std::optional<DetailConfig> detail;        ///< drawn if the file has the section
+  std::optional<DetailConfig> detail;        ///< drawn if the file has the section, unless it says
+                                             ///< `enabled: false`; an empty one means its defaults
   std::optional<PosteriorConfig> posterior;  ///< likewise
   std::optional<CrossSimulatorConfig> cross_simulator;
   bool phase_study = false;   ///< adds what the phase filter's study measures (docs/protocol.md)

@@ -1,7 +1,6 @@
 #include "experiments/config/yaml_kind.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,15 +43,13 @@ bool is_of(const Kind& kind, const YAML::Node& root) {
 
 void require_yaml_kind(const YamlDocument& document, YamlKind wanted) {
   if (!document.root().IsMap()) return;
-  std::optional<Kind> found;
-  for (const Kind& kind : kinds()) {
-    if (!is_of(kind, document.root())) continue;
-    if (kind.kind == wanted) return;
-    if (!found) found = kind;
-  }
-  if (!found) return;
-  throw InputError(fmt::format("{}: is {}; try: {}", document.name(), found->description,
-                               fmt::format(fmt::runtime(found->command), document.name())));
+  std::vector<Kind> found = kinds();
+  std::erase_if(found, [&](const Kind& kind) { return !is_of(kind, document.root()); });
+  const bool is_wanted = std::any_of(found.begin(), found.end(),
+                                     [&](const Kind& kind) { return kind.kind == wanted; });
+  if (found.empty() || is_wanted) return;
+  throw InputError(fmt::format("{}: is {}; try: {}", document.name(), found.front().description,
+                               fmt::format(fmt::runtime(found.front().command), document.name())));
 }
 
 }  // namespace touchdown::experiments

@@ -116,8 +116,6 @@ RunFacts facts_of(const PlayedRun& run, const Experiment& experiment) {
 Agreement agreement(const std::vector<RunFacts>& first, const std::vector<RunFacts>& second,
                     const scoring::BootstrapConfig& config) {
   using Both = scoring::Paired<RunFacts>;
-  std::vector<Both> samples;
-  for (std::size_t i = 0; i < first.size(); ++i) samples.push_back({first[i], second[i]});
   std::vector<std::function<double(const Both&)>> statistics;
   for (std::size_t q = 0; q < quantity_count; ++q) {
     statistics.emplace_back([q](const Both& both) { return both.first.quantity[q].value(); });
@@ -134,7 +132,8 @@ Agreement agreement(const std::vector<RunFacts>& first, const std::vector<RunFac
       return overlap(both.first.torque[t], both.second.torque[t], merged);
     });
   }
-  const std::vector<Interval> intervals = scoring::bootstrap<Both>(samples, statistics, config);
+  const std::vector<Interval> intervals =
+      scoring::bootstrap<Both>(scoring::paired(first, second), statistics, config);
 
   Agreement result{first.size(), {}, {}};
   for (std::size_t q = 0; q < quantity_count; ++q) {

@@ -1,5 +1,8 @@
 #include "experiments/cross_simulator/check.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "core/error.hpp"
 
 namespace touchdown::experiments {
@@ -7,19 +10,20 @@ namespace touchdown::experiments {
 namespace {
 
 /// The experiment's test runs of one engine.
-std::vector<const PlayedRun*> test_runs(const Plan& plan, const PlayedRuns& runs,
-                                        const std::string& simulator) {
+std::vector<const PlayedRun*> test_runs(const Listened& listened, const std::string& simulator) {
   std::vector<const PlayedRun*> found;
-  for (const std::size_t index : plan.runs_in(0)) {
-    if (plan.runs[index].simulator == simulator) found.push_back(&runs.at(index));
+  for (const std::size_t index : listened.plan.runs_in(0)) {
+    const PlayedRun& run = listened.runs.at(index);
+    if (run.plan.simulator == simulator) found.push_back(&run);
   }
   return found;
 }
 
 /// Of the runs that the robot gets through in both engines.
-Agreement agreement_of(const Experiment& experiment, const Plan& plan, const PlayedRuns& runs) {
-  const auto first = test_runs(plan, runs, experiment.simulators[0]);
-  const auto second = test_runs(plan, runs, experiment.simulators[1]);
+Agreement agreement_of(const Listened& listened) {
+  const Experiment& experiment = listened.request.experiment;
+  const auto first = test_runs(listened, experiment.simulators[0]);
+  const auto second = test_runs(listened, experiment.simulators[1]);
   std::vector<RunFacts> first_facts;
   std::vector<RunFacts> second_facts;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -33,17 +37,43 @@ Agreement agreement_of(const Experiment& experiment, const Plan& plan, const Pla
   return agreement(first_facts, second_facts, experiment.intervals.bootstrap);
 }
 
+/// One per estimator that was fitted where it is tested, at the experiment's first highlighted
+/// noise setting.
+void add_sensitivity(const Variation& variation, const Listened& listened,
+                     std::vector<Sensitivity>& all) {
+  const Experiment& experiment = listened.request.experiment;
+  const std::vector<std::size_t> varied = runs_of(variation, listened.request, listened.plan);
+  const auto failed =
+      static_cast<std::size_t>(std::count_if(varied.begin(), varied.end(), [&](std::size_t run) {
+        return listened.runs.at(run).failed();
+      }));
+  const CollectedCounts counts = collect(listened.plan, varied, listened.saved);
+  const RunGroup& group = listened.plan.groups[listened.plan.runs[varied.front()].group];
+  const std::size_t cell = noise::cell_index(group.counted, experiment.highlights.front());
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const ConditionCounts& count : counts.own()) {
+    if (count.condition.test_simulator != variation.simulator) continue;
+    Sensitivity row{
+        variation, count.condition.estimator, varied.size() - failed, failed, {nan, nan, nan}};
+    if (row.runs > 0) {
+      row.success = scoring::bootstrap<scoring::Classification>(count.samples[cell],
+                                                                {&scoring::Classification::success},
+                                                                experiment.intervals.bootstrap)
+                        .front();
+    }
+    all.push_back(std::move(row));
+  }
+}
+
 }  // namespace
 
-CrossSimulatorResult check_across_simulators(const RunRequest& request, const Plan& plan,
-                                             const PlayedRuns& runs, const CollectedCounts& counts,
-                                             const SavedCounts& saved) {
-  const Experiment& experiment = request.experiment;
-  CrossSimulatorResult result{experiment, agreement_of(experiment, plan, runs), {}, {}, {}};
-  result.transfers = transfers(counts.counted, plan.groups.front().counted, experiment);
-  for (const Variation& variation : variations(request)) {
-    const auto rows = sensitivity(variation, request, plan, runs, saved);
-    result.sensitivities.insert(result.sensitivities.end(), rows.begin(), rows.end());
+CrossSimulatorResult check_across_simulators(const Listened& listened) {
+  const Experiment& experiment = listened.request.experiment;
+  CrossSimulatorResult result{experiment, agreement_of(listened), {}, {}, {}};
+  result.transfers =
+      transfers(listened.own.counted, listened.plan.groups.front().counted, experiment);
+  for (const Variation& variation : variations(listened.request)) {
+    add_sensitivity(variation, listened, result.sensitivities);
   }
   result.verdicts = verdicts(result.transfers, experiment.cross_simulator->verdict,
                              experiment.intervals.bootstrap.level);

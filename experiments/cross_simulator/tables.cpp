@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "experiments/estimators/always_contact.hpp"
+#include "experiments/estimators/baselines.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/tables/captions.hpp"
 
 namespace touchdown::experiments {
 
@@ -14,63 +15,48 @@ namespace {
 
 Table agreement_csv(const CrossSimulatorResult& result) {
   const std::vector<std::string>& engine = result.experiment.simulators;
-  Table table{{"quantity", "unit"}, {}};
-  for (const std::string& column : {engine[0], engine[1], std::string("difference")}) {
-    append_interval_columns(table.header, column);
-  }
-  for (const QuantityAgreement& quantity : result.agreement.quantities) {
-    std::vector<std::string> row = {quantity.name, quantity.unit};
-    append_interval(row, quantity.first);
-    append_interval(row, quantity.second);
-    append_interval(row, quantity.difference);
-    table.rows.push_back(std::move(row));
+  Table table{header_with_intervals({"quantity", "unit"}, {engine[0], engine[1], "difference"}),
+              {}};
+  for (const QuantityAgreement& q : result.agreement.quantities) {
+    table.rows.push_back(row_with_intervals({q.name, q.unit}, {q.first, q.second, q.difference}));
   }
   return table;
 }
 
 Table torques_csv(const Agreement& agreement) {
-  Table table{{"torque"}, {}};
-  append_interval_columns(table.header, "wasserstein", "_nm");
-  append_interval_columns(table.header, "overlap");
-  table.header.emplace_back("within_engine_nm");
-  for (const TorqueAgreement& torque : agreement.torques) {
-    std::vector<std::string> row = {torque.name};
-    append_interval(row, torque.distance);
-    append_interval(row, torque.overlap);
-    row.push_back(metric(torque.within_engine));
-    table.rows.push_back(std::move(row));
+  Table table{
+      header_with_intervals({"torque"}, {"wasserstein_nm", "overlap"}, {"within_engine_nm"}), {}};
+  for (const TorqueAgreement& t : agreement.torques) {
+    table.rows.push_back(
+        row_with_intervals({t.name}, {t.distance, t.overlap}, {metric(t.within_engine)}));
   }
   return table;
 }
 
 Table transfer_csv(const std::vector<Transfer>& transfers) {
-  Table table{{"torque_noise_nm", "accelerometer_noise_mps2", "estimator", "fit_simulator",
-               "test_simulator", "is_fitted"},
+  Table table{header_with_intervals({"torque_noise_nm", "accelerometer_noise_mps2", "estimator",
+                                     "fit_simulator", "test_simulator", "is_fitted"},
+                                    {"success", "no_contact_recall", "loss", "gain"}),
               {}};
-  for (const char* name : {"success", "no_contact_recall", "loss", "gain"}) {
-    append_interval_columns(table.header, name);
-  }
   for (const Transfer& t : transfers) {
-    std::vector<std::string> row = {exact(t.cell.torque),       exact(t.cell.accelerometer),
-                                    t.condition.estimator,      t.condition.fit_simulator,
-                                    t.condition.test_simulator, t.is_fitted ? "1" : "0"};
-    for (const Interval& interval : {t.success, t.no_contact_recall, t.loss, t.gain}) {
-      append_interval(row, interval);
-    }
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(row_with_intervals(
+        {exact(t.cell.torque), exact(t.cell.accelerometer), t.condition.estimator,
+         t.condition.fit_simulator, t.condition.test_simulator, t.is_fitted ? "1" : "0"},
+        {t.success, t.no_contact_recall, t.loss, t.gain}));
   }
   return table;
 }
 
 Table sensitivity_csv(const std::vector<Sensitivity>& sensitivities) {
-  Table table{{"factor", "value", "nominal", "simulator", "estimator", "runs", "failed"}, {}};
-  append_interval_columns(table.header, "success");
+  Table table{
+      header_with_intervals(
+          {"factor", "value", "nominal", "simulator", "estimator", "runs", "failed"}, {"success"}),
+      {}};
   for (const Sensitivity& s : sensitivities) {
-    std::vector<std::string> row = {
-        s.factor,    exact(s.value),         exact(s.nominal),        s.simulator,
-        s.estimator, std::to_string(s.runs), std::to_string(s.failed)};
-    append_interval(row, s.success);
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(row_with_intervals(
+        {s.variation.factor, exact(s.variation.value), exact(s.variation.nominal),
+         s.variation.simulator, s.estimator, std::to_string(s.runs), std::to_string(s.failed)},
+        {s.success}));
   }
   return table;
 }
@@ -117,8 +103,8 @@ CaptionedTable torque_table(const Agreement& agreement) {
 CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::NoiseCell& cell) {
   CaptionedTable table{
       fmt::format("Transfer: success rate by engine of the fit and of the test; loss is that of "
-                  "fitting in the other engine (torque noise {} N·m, accelerometer noise {} m/s²).",
-                  cell.torque, cell.accelerometer),
+                  "fitting in the other engine ({}).",
+                  noise_text(cell)),
       "transfer",
       {{"estimator", "fit → test", "success", "no contact recall", "loss", "gain over always"},
        {}}};
@@ -141,20 +127,20 @@ CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::N
 CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
   CaptionedTable table{
       fmt::format("Sensitivity: success rate of estimators fitted on the nominal scene (*), one "
-                  "factor at a time, {} runs each (torque noise {} N·m, accelerometer noise {} "
-                  "m/s²).",
+                  "factor at a time, {} runs each ({}).",
                   result.experiment.cross_simulator->sensitivity_runs,
-                  result.experiment.highlights.front().torque,
-                  result.experiment.highlights.front().accelerometer),
+                  noise_text(result.experiment.highlights.front())),
       "sensitivity",
       {{"factor", "simulator", "value", "fell"}, {}}};
   std::string last;
   for (const Sensitivity& s : result.sensitivities) {
-    const std::string key = fmt::format("{} {} {}", s.factor, s.simulator, s.value);
+    const std::string key =
+        fmt::format("{} {} {}", s.variation.factor, s.variation.simulator, s.variation.value);
     if (key != last) {
-      table.table.rows.push_back({s.factor, s.simulator,
-                                  exact(s.value) + (s.value == s.nominal ? " *" : ""),
-                                  fmt::format("{}/{}", s.failed, s.runs + s.failed)});
+      table.table.rows.push_back(
+          {s.variation.factor, s.variation.simulator,
+           exact(s.variation.value) + (s.variation.value == s.variation.nominal ? " *" : ""),
+           fmt::format("{}/{}", s.failed, s.runs + s.failed)});
     }
     last = key;
     if (table.table.rows.size() == 1) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -17,24 +18,21 @@ namespace touchdown::experiments {
 namespace {
 
 /// The number under a dotted key, list items by number; NaN if there is none.
-double value_at(YAML::Node node, std::string_view key) {
-  while (!key.empty() && node.IsDefined()) {
-    const std::size_t dot = std::min(key.find('.'), key.size());
-    const std::string part(key.substr(0, dot));
-    key.remove_prefix(std::min(dot + 1, key.size()));
-    if (node.IsSequence()) {
-      std::size_t index = 0;
-      const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-      if (error != std::errc{} || index >= node.size()) break;
+double value_at(YAML::Node node, const std::string& key) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::istringstream parts(key);
+  for (std::string part; std::getline(parts, part, '.');) {
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+    if (node.IsSequence() && error == std::errc{} && index < node.size()) {
       node.reset(node[index]);
     } else if (node.IsMap() && node[part].IsDefined()) {
       node.reset(node[part]);
     } else {
-      break;
+      return none;
     }
   }
-  if (!key.empty() || !node.IsScalar()) return std::numeric_limits<double>::quiet_NaN();
-  return node.as<double>(std::numeric_limits<double>::quiet_NaN());
+  return node.IsScalar() ? node.as<double>(none) : none;
 }
 
 scenarios::Scenario varied(const NamedScenario& named, const Factor& factor, double value) {

@@ -13,10 +13,6 @@ namespace {
 
 constexpr std::size_t left = 0;
 
-double rate_of(const RunSignals& run) {
-  return 1e6 / static_cast<double>(run.info.control_period_us);
-}
-
 template <typename T>
 std::vector<T> inside(const std::vector<T>& whole, const DropWindow& window) {
   const auto at = [&](std::size_t k) { return whole.begin() + static_cast<std::ptrdiff_t>(k); };
@@ -40,13 +36,12 @@ std::vector<double> spectrum_now(const SlidingDft& dft) {
   return column;
 }
 
-template <typename AccelerationAt>
 SpectrumTrace trace_spectrum(const TransitionConfig& config, double rate, const DropWindow& window,
-                             const AccelerationAt& acceleration_at) {
+                             const std::vector<Signals>& heard) {
   TransitionModel model(config, rate);
   SpectrumTrace trace;
   for (std::size_t k = 0; k < window.end; ++k) {
-    const double acceleration = acceleration_at(k);
+    const double acceleration = heard[k].vertical_acceleration;
     // As the filter does: what is no number is not listened to.
     if (std::isfinite(acceleration)) model.update(acceleration);
     const Transition& transition = model.transition();
@@ -64,13 +59,11 @@ SpectrumTrace trace_spectrum(const TransitionConfig& config, double rate, const 
   return trace;
 }
 
-template <typename SignalsAt>
-TorqueTrace trace_torque(const DropWindow& window, const SignalsAt& signals_at) {
+TorqueTrace trace_torque(const DropWindow& window, const std::vector<Signals>& heard) {
   TorqueTrace trace;
   for (std::size_t k = window.begin; k < window.end; ++k) {
-    const Signals& signals = signals_at(k);
-    trace.knee.push_back(signals.leg[left].knee.torque);
-    trace.wheel.push_back(signals.leg[left].wheel.torque);
+    trace.knee.push_back(heard[k].leg[left].knee.torque);
+    trace.wheel.push_back(heard[k].leg[left].wheel.torque);
   }
   return trace;
 }
@@ -82,7 +75,7 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
                        const FittedModels& models) {
   const DropWindow window =
       drop_window(run, config.choice, experiment.scoring.minimum_flight, "detail");
-  const double rate = rate_of(run);
+  const double rate = 1e6 / static_cast<double>(run.info.control_period_us);
   const EstimatorEntry& entry = spectrum_entry(config.estimators);
   const TransitionConfig& transition = entry.config->transition;
 
@@ -98,18 +91,15 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
   detail.transition_of = entry.name;
   detail.switch_power = transition.switch_sigmoid.offset;
 
-  const auto clean = [&](std::size_t k) -> const Signals& { return run.signals[k]; };
-  detail.torque = trace_torque(window, clean);
-  detail.spectrum = trace_spectrum(transition, rate, window,
-                                   [&](std::size_t k) { return clean(k).vertical_acceleration; });
-
+  detail.torque = trace_torque(window, run.signals);
+  detail.spectrum = trace_spectrum(transition, rate, window, run.signals);
   const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));
   for (const noise::NoiseCell& cell : config.noise) {
     const noise::SensorNoise levels = cell.levels();
-    const auto heard = [&](std::size_t k) { return noisy(run, noise, levels, k); };
-    NoisyDrop drop{cell, trace_torque(window, heard), {}, {}};
-    drop.spectrum = trace_spectrum(transition, rate, window,
-                                   [&](std::size_t k) { return heard(k).vertical_acceleration; });
+    std::vector<Signals> heard;
+    for (std::size_t k = 0; k < window.end; ++k) heard.push_back(noisy(run, noise, levels, k));
+    NoisyDrop drop{
+        cell, trace_torque(window, heard), trace_spectrum(transition, rate, window, heard), {}};
     for (const std::string& name : config.estimators) {
       const auto estimator =
           make_estimator({detail.simulator, detail.simulator, name}, models, run);

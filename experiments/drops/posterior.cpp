@@ -1,7 +1,7 @@
 #include "experiments/drops/posterior.hpp"
 
 #include "estimator/phase/labels.hpp"
-#include "experiments/estimators/phase.hpp"
+#include "experiments/estimators/filters.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/fitting/phase_fitting.hpp"

@@ -10,12 +10,4 @@ noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& le
           .joint_velocity = sensors.joint_velocity ? levels.joint_velocity : 0.0};
 }
 
-std::vector<LaneNoise> lane_noise(std::span<const noise::SensorNoise> levels) {
-  std::vector<LaneNoise> lanes;
-  for (const noise::SensorNoise& level : levels) {
-    lanes.push_back({level.knee_torque, level.wheel_torque, level.acceleration});
-  }
-  return lanes;
-}
-
 }  // namespace touchdown::experiments

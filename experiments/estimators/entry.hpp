@@ -47,9 +47,6 @@ struct EstimatorLanes {
   double threshold = 0.5;
 };
 
-/// The levels as lanes take them.
-std::vector<LaneNoise> lane_noise(std::span<const noise::SensorNoise> levels);
-
 /// All that an experiment has to know about an estimator. Most have only some of it.
 struct EstimatorEntry {
   std::string name;     ///< in experiment files

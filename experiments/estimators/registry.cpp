@@ -6,13 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
-#include "experiments/estimators/bayes.hpp"
-#include "experiments/estimators/free_fall.hpp"
-#include "experiments/estimators/measurement_only.hpp"
-#include "experiments/estimators/neural.hpp"
-#include "experiments/estimators/oracle.hpp"
-#include "experiments/estimators/phase.hpp"
-#include "experiments/estimators/upkie_observer.hpp"
+#include "experiments/estimators/filters.hpp"
 
 namespace touchdown::experiments {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/estimators/always_contact.hpp"
+#include "experiments/estimators/baselines.hpp"
 #include "experiments/estimators/entry.hpp"
 
 namespace touchdown::experiments {

@@ -1,7 +1,6 @@
 #include "experiments/fitting/fitting.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -66,7 +65,7 @@ MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementC
   for (const RunSignals* run : runs) {
     check_may_be_fitted(run->info);
     const double period = 1e-6 * static_cast<double>(run->info.control_period_us);
-    const auto skip = static_cast<std::size_t>(std::llround(scoring.skip / period));
+    const std::size_t skip = scoring::first_scored_step(run->info.control_period_us, scoring);
     for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
       // As the filter processes them, by the label of their wheel.
       TorqueChannel channel(config.torque, static_cast<Side>(leg), 1.0 / period);

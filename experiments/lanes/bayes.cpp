@@ -1,38 +1,9 @@
 #include "experiments/lanes/bayes.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace touchdown::experiments {
 namespace {
-
-std::vector<LaneNoise> different_torque_levels(std::span<const LaneNoise> levels) {
-  std::vector<LaneNoise> different;
-  for (LaneNoise level : levels) {
-    level.acceleration = 0.0;
-    if (std::find(different.begin(), different.end(), level) == different.end()) {
-      different.push_back(level);
-    }
-  }
-  return different;
-}
-
-std::vector<double> different_acceleration_levels(std::span<const LaneNoise> levels) {
-  std::vector<double> different;
-  for (const LaneNoise& level : levels) {
-    if (std::find(different.begin(), different.end(), level.acceleration) == different.end()) {
-      different.push_back(level.acceleration);
-    }
-  }
-  return different;
-}
-
-template <typename T>
-std::uint32_t index_of(const std::vector<T>& values, const T& value) {
-  return static_cast<std::uint32_t>(std::find(values.begin(), values.end(), value) -
-                                    values.begin());
-}
 
 bool is_finite(const Signals& clean, const NoiseStep& draws) noexcept {
   double sum = clean.vertical_acceleration * 0.0 + draws.acceleration * 0.0;
@@ -45,46 +16,71 @@ bool is_finite(const Signals& clean, const NoiseStep& draws) noexcept {
 
 }  // namespace
 
-BayesFilterLanes::BayesFilterLanes(MeasurementModel model, const BayesFilterConfig& config,
-                                   std::span<const LaneNoise> levels)
-    : measurement_(std::move(model), config, different_torque_levels(levels)),
-      transition_(config.transition, config.sample_rate, different_acceleration_levels(levels)) {
-  const std::vector<LaneNoise> torques = different_torque_levels(levels);
-  const std::vector<double> accelerations = different_acceleration_levels(levels);
-  for (LaneNoise level : levels) {
-    acceleration_index_.push_back(index_of(accelerations, level.acceleration));
-    level.acceleration = 0.0;
-    torque_index_.push_back(index_of(torques, level));
+TransitionLanes::TransitionLanes(const TransitionConfig& config, double sample_rate,
+                                 std::span<const double> sigmas)
+    : law_(config, sample_rate),
+      clean_(config.window),
+      noise_(config.window),
+      magnitude_(config.median_of == SpectrumKind::magnitude),
+      magnitudes_(clean_, config.nyquist),
+      powers_(clean_, config.nyquist),
+      sigmas_(sigmas.begin(), sigmas.end()),
+      spectrum_(sigmas.size()),
+      filtered_median_(sigmas.size()),
+      stay_(sigmas.size()),
+      takeoff_(sigmas.size()),
+      landing_(sigmas.size()),
+      fly_(sigmas.size()) {}
+
+void TransitionLanes::update(double vertical_acceleration, double draw) noexcept {
+  clean_.push(vertical_acceleration);
+  noise_.push(draw);
+  if (magnitude_) {
+    magnitudes_.summarise(clean_, noise_, sigmas_, spectrum_);
+  } else {
+    powers_.summarise(clean_, noise_, sigmas_, spectrum_);
   }
-  for (auto* belief : {&contact_, &no_contact_}) {
-    (*belief)[0].resize(levels.size());
-    (*belief)[1].resize(levels.size());
+  const std::size_t count = sigmas_.size();
+  const SpectrumValues* const spectrum = spectrum_.data();
+  double* const filtered_median = filtered_median_.data();
+  double* const stay = stay_.data();
+  double* const takeoff = takeoff_.data();
+  double* const landing = landing_.data();
+  double* const fly = fly_.data();
+  const TransitionLaw law = law_;
+  // The arrays do not overlap, which the compiler cannot know.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC ivdep
+#endif
+  for (std::size_t i = 0; i < count; ++i) {
+    const Transition t = law.next(spectrum[i], filtered_median[i]);
+    filtered_median[i] = t.filtered_median_frequency;
+    stay[i] = t.contact_to_contact;
+    takeoff[i] = t.contact_to_air;
+    landing[i] = t.air_to_contact;
+    fly[i] = t.air_to_air;
   }
-  reset();
 }
 
-void BayesFilterLanes::reset() noexcept {
-  measurement_.reset();
-  transition_.reset();
-  for (auto* belief : {&contact_, &no_contact_}) {
-    for (std::vector<double>& wheel : *belief) {
-      std::fill(wheel.begin(), wheel.end(), 0.5);
-    }
-  }
+BayesFilterLanes::BayesFilterLanes(MeasurementModel model, const BayesFilterConfig& config,
+                                   std::span<const LaneNoise> levels)
+    : torque_(levels, torque_part),
+      acceleration_(levels, &LaneNoise::acceleration),
+      measurement_(std::move(model), config, torque_.level),
+      transition_(config.transition, config.sample_rate, acceleration_.level) {
+  for (auto* belief : {&contact_, &no_contact_}) belief->fill(std::vector(levels.size(), 0.5));
 }
 
 void BayesFilterLanes::update(const Signals& clean, const NoiseStep& draws) noexcept {
-  if (!is_finite(clean, draws)) {
-    return;
-  }
+  if (!is_finite(clean, draws)) return;
   transition_.update(clean.vertical_acceleration, draws.acceleration);  // Eq. (7) to (13)
   measurement_.observe(clean, draws);                                   // Eq. (4) to (6)
   const double* const stay = transition_.contact_to_contact().data();
   const double* const takeoff = transition_.contact_to_air().data();
   const double* const landing = transition_.air_to_contact().data();
   const double* const fly = transition_.air_to_air().data();
-  const std::uint32_t* const torque_index = torque_index_.data();
-  const std::uint32_t* const acceleration_index = acceleration_index_.data();
+  const std::uint32_t* const torque_index = torque_.of_lane.data();
+  const std::uint32_t* const acceleration_index = acceleration_.of_lane.data();
   const std::size_t count = lanes();
   for (const Side side : {Side::left, Side::right}) {
     const double* const p_contact = measurement_.contact(side).data();

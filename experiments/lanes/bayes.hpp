@@ -1,15 +1,50 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "estimator/bayes/transition_model.hpp"
+#include "experiments/lanes/magnitude_spectrum.hpp"
 #include "experiments/lanes/measurement.hpp"
 #include "experiments/lanes/noise_level.hpp"
-#include "experiments/lanes/transition.hpp"
+#include "experiments/lanes/power_spectrum.hpp"
 
 namespace touchdown::experiments {
+
+/// The transition model, Eq. (7) to (13), under many levels of accelerometer noise side by side.
+/// The sliding transform is linear, so one of the clean signal and one of the noise serve all
+/// levels. `update` neither allocates nor throws.
+class TransitionLanes {
+ public:
+  /// Sigmas in m/s², checked by the caller. Throws InputError for a bad configuration.
+  TransitionLanes(const TransitionConfig& config, double sample_rate,
+                  std::span<const double> sigmas);
+
+  /// One step: clean vertical acceleration (m/s²) and a standard normal draw, both finite.
+  void update(double vertical_acceleration, double draw) noexcept;
+
+  /// The transition matrix, one array per element, one value per sigma.
+  [[nodiscard]] std::span<const double> contact_to_contact() const noexcept { return stay_; }
+  [[nodiscard]] std::span<const double> contact_to_air() const noexcept { return takeoff_; }
+  [[nodiscard]] std::span<const double> air_to_contact() const noexcept { return landing_; }
+  [[nodiscard]] std::span<const double> air_to_air() const noexcept { return fly_; }
+
+ private:
+  TransitionLaw law_;
+  SlidingDft clean_;
+  SlidingDft noise_;
+  bool magnitude_;
+  MixedMagnitudeSpectrum magnitudes_;
+  MixedPowerSpectrum powers_;
+  std::vector<double> sigmas_;
+  std::vector<SpectrumValues> spectrum_;
+  std::vector<double> filtered_median_;
+  std::vector<double> stay_;
+  std::vector<double> takeoff_;
+  std::vector<double> landing_;
+  std::vector<double> fly_;
+};
 
 /// `BayesFilter` under many noise levels side by side, for sweeps: one clean recording and one
 /// noise realisation, one lane per level, structures of arrays inside. Lanes that share their
@@ -26,30 +61,20 @@ class BayesFilterLanes {
   BayesFilterLanes(MeasurementModel model, const BayesFilterConfig& config,
                    std::span<const LaneNoise> levels);
 
-  void reset() noexcept;
-
   /// One step of the clean signals, with the draws that every lane scales by its own sigmas.
   void update(const Signals& clean, const NoiseStep& draws) noexcept;
 
-  [[nodiscard]] std::size_t lanes() const noexcept { return torque_index_.size(); }
+  [[nodiscard]] std::size_t lanes() const noexcept { return torque_.of_lane.size(); }
   /// P(S_t = C | m_0:t) of one wheel, per lane in the order of the levels.
   [[nodiscard]] std::span<const double> p_contact(Side side) const noexcept {
     return contact_[static_cast<std::size_t>(side)];
   }
-  /// P_τ(S_t = C | m_t), Eq. (14), of one wheel in one lane: the measurement-only ablation with the
-  /// same torques.
-  [[nodiscard]] double p_measurement(Side side, std::size_t lane) const noexcept {
-    const std::uint32_t i = torque_index_[lane];
-    return measurement_probability(
-        {measurement_.contact(side)[i], measurement_.no_contact(side)[i]});
-  }
 
  private:
+  LanesByLevel<LaneNoise> torque_;
+  LanesByLevel<double> acceleration_;
   MeasurementLanes measurement_;
   TransitionLanes transition_;
-  /// Which of the different torque and accelerometer levels each lane uses.
-  std::vector<std::uint32_t> torque_index_;
-  std::vector<std::uint32_t> acceleration_index_;
   /// bel(S_t = C) and bel(S_t = ¬C) per wheel and lane.
   std::array<std::vector<double>, 2> contact_;
   std::array<std::vector<double>, 2> no_contact_;

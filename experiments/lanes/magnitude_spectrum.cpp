@@ -45,9 +45,7 @@ void MixedMagnitudeSpectrum::summarise(const SlidingDft& clean, const SlidingDft
 void MixedMagnitudeSpectrum::set_energies(const SlidingDft& clean,
                                           const SlidingDft& noise) noexcept {
   MixedEnergy energy;
-  for (int row = 0; row < rows_; ++row) {
-    energy.add_row(clean, noise, row);
-  }
+  for (int row = 0; row < rows_; ++row) energy.add_row(clean, noise, row);
   constant_ = energy.constant.sum();
   linear_ = energy.linear.sum();
   square_ = energy.square.sum();
@@ -94,15 +92,11 @@ void MixedMagnitudeSpectrum::set_medians(Rows rows, MixedRealBin nyquist,
   for (int i = 0; i < width; ++i) {
     half[i] = 0.5 * (total[i] + counts * std::abs(nyquist.at(sigma[i])));
     std::int64_t lane = 0;
-    for (int end = 1; end <= lanes; ++end) {
-      lane += sum[end * rows * width + i] < half[i] ? 1 : 0;
-    }
+    for (int end = 1; end <= lanes; ++end) lane += sum[end * rows * width + i] < half[i] ? 1 : 0;
     passed[i] = lane;
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!(values[i].mean_square > negligible_mean_square)) {
-      continue;
-    }
+    if (!(values[i].mean_square > negligible_mean_square)) continue;
     if (passed[i] == lanes) {  // in the Nyquist bin
       values[i].median_bin =
           0.5 * window_ - 1.0 + (half[i] - total[i]) / std::abs(nyquist.at(sigma[i]));

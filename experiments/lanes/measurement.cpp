@@ -1,10 +1,8 @@
 #include "experiments/lanes/measurement.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "core/error.hpp"
 #include "estimator/bayes/config.hpp"
 
 namespace touchdown::experiments {
@@ -15,15 +13,8 @@ MeasurementLanes::MeasurementLanes(MeasurementModel model, const BayesFilterConf
       config_(config.measurement),
       gain_(low_pass_gain(config.measurement.torque.low_pass, 1.0 / config.sample_rate)) {
   check_measurement_config(config.measurement, config.threshold);
-  if (levels.empty()) {
-    throw InputError("a sweep needs at least one noise level");
-  }
+  check_levels(levels);
   for (const LaneNoise& level : levels) {
-    for (const double sigma : {level.knee_torque, level.wheel_torque}) {
-      if (!(std::isfinite(sigma) && sigma >= 0.0)) {
-        throw InputError("a torque noise level must be finite and not negative (N·m)");
-      }
-    }
     knee_sigma_.push_back(level.knee_torque);
     wheel_sigma_.push_back(level.wheel_torque);
   }
@@ -33,16 +24,6 @@ MeasurementLanes::MeasurementLanes(MeasurementModel model, const BayesFilterConf
       column->resize(levels.size());
     }
     leg.cell.resize(levels.size());
-  }
-  reset();
-}
-
-void MeasurementLanes::reset() noexcept {
-  started_ = false;
-  for (Leg& leg : leg_) {
-    std::fill(leg.contact.begin(), leg.contact.end(), 0.0);
-    std::fill(leg.no_contact.begin(), leg.no_contact.end(), 0.0);
-    std::fill(leg.p_measurement.begin(), leg.p_measurement.end(), 0.5);
   }
 }
 
@@ -94,8 +75,7 @@ void MeasurementLanes::update(const Signals& clean, const NoiseStep& draws) noex
   observe(clean, draws);
   for (Leg& leg : leg_) {
     for (std::size_t i = 0; i < knee_sigma_.size(); ++i) {
-      const double sum = leg.contact[i] + leg.no_contact[i];
-      leg.p_measurement[i] = sum > 0.0 ? leg.contact[i] / sum : 0.5;
+      leg.p_measurement[i] = measurement_probability({leg.contact[i], leg.no_contact[i]});
     }
   }
 }

@@ -18,8 +18,6 @@ class MeasurementLanes {
   MeasurementLanes(MeasurementModel model, const BayesFilterConfig& config,
                    std::span<const LaneNoise> levels);
 
-  void reset() noexcept;
-
   /// One step, Eq. (4) to (6) and (14). All inputs must be finite.
   void update(const Signals& clean, const NoiseStep& draws) noexcept;
 

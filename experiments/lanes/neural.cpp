@@ -9,9 +9,7 @@ namespace touchdown::experiments {
 namespace {
 
 Eigen::RowVectorXf checked_sigmas(std::span<const double> sigmas) {
-  if (sigmas.empty()) {
-    throw InputError("neural lanes: expected at least one noise level");
-  }
+  if (sigmas.empty()) throw InputError("neural lanes: expected at least one noise level");
   Eigen::RowVectorXf row(static_cast<Eigen::Index>(sigmas.size()));
   for (std::size_t i = 0; i < sigmas.size(); ++i) {
     if (!(std::isfinite(sigmas[i]) && sigmas[i] >= 0.0)) {
@@ -22,31 +20,16 @@ Eigen::RowVectorXf checked_sigmas(std::span<const double> sigmas) {
   return row;
 }
 
-std::shared_ptr<const NeuralNetwork> checked(std::shared_ptr<const NeuralNetwork> network) {
-  if (!network) {
-    throw InputError("neural lanes: needs a network");
-  }
-  check(*network);
-  return network;
-}
-
 }  // namespace
 
 NeuralLanes::NeuralLanes(std::shared_ptr<const NeuralNetwork> network,
                          const NeuralEstimatorConfig& config, std::span<const double> sigmas)
     : sigmas_(checked_sigmas(sigmas)),
-      forward_(checked(std::move(network)), sigmas_.size()),
+      forward_(std::move(network), sigmas_.size()),
       clean_(neural_stride(config.sample_rate, forward_.network().period)),
       draws_(clean_),
       inputs_(neural_input_count, sigmas_.size()),
       p_contact_(sigmas.size(), 0.5) {}
-
-void NeuralLanes::reset() noexcept {
-  clean_.reset();
-  draws_.reset();
-  forward_.reset();
-  p_contact_.assign(p_contact_.size(), 0.5);
-}
 
 void NeuralLanes::update(const Signals& clean, const Eigen::Vector3d& draw) noexcept {
   if (!neural_input(clean).allFinite() || !draw.allFinite()) {
@@ -57,9 +40,7 @@ void NeuralLanes::update(const Signals& clean, const Eigen::Vector3d& draw) noex
   Signals noise;
   noise.linear_acceleration = draw;
   draws_.add(noise);
-  if (!clean_.add(clean)) {
-    return;
-  }
+  if (!clean_.add(clean)) return;
   inputs_.colwise() = clean_.input();
   inputs_.topRows<3>().noalias() += draws_.input().head<3>() * sigmas_;
   const auto& outputs = forward_.step(inputs_);

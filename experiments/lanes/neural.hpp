@@ -21,8 +21,6 @@ class NeuralLanes {
   NeuralLanes(std::shared_ptr<const NeuralNetwork> network, const NeuralEstimatorConfig& config,
               std::span<const double> sigmas);
 
-  void reset() noexcept;
-
   /// One step of the clean signals, with the standard normal draws that every lane scales.
   void update(const Signals& clean, const Eigen::Vector3d& acceleration_draw) noexcept;
 

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
 
 #include "estimator/torque_channel.hpp"
 
@@ -14,6 +19,34 @@ struct LaneNoise {
 
   bool operator==(const LaneNoise&) const = default;
 };
+
+/// Throws InputError for no levels, and for one that is negative or not finite.
+void check_levels(std::span<const LaneNoise> levels);
+
+/// What all lanes of one level have in common is done once: the levels that differ, and which of
+/// them each lane uses.
+template <typename Level>
+struct LanesByLevel {
+  std::vector<Level> level;
+  std::vector<std::uint32_t> of_lane;
+
+  /// `part` tells which part of a lane's noise counts. Throws InputError as `check_levels`.
+  template <typename Part>
+  LanesByLevel(std::span<const LaneNoise> lanes, const Part& part) {
+    check_levels(lanes);
+    for (const LaneNoise& lane : lanes) {
+      const Level wanted = std::invoke(part, lane);
+      const auto same = std::find(level.begin(), level.end(), wanted);
+      of_lane.push_back(static_cast<std::uint32_t>(same - level.begin()));
+      if (same == level.end()) level.push_back(wanted);
+    }
+  }
+};
+
+/// The part of a lane's noise that torques have.
+inline LaneNoise torque_part(const LaneNoise& lane) {
+  return {lane.knee_torque, lane.wheel_torque, 0.0};
+}
 
 /// One step's standard normal draws, shared by all lanes: a lane's sensor reads
 /// clean + standard deviation × draw, with torques in the joints' own signs.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -23,8 +22,6 @@ class PhaseLanes {
   /// Throws InputError as `PhaseFilter`, and for no levels or bad ones.
   PhaseLanes(const PhaseModel& model, const PhaseFilterConfig& config,
              std::span<const LaneNoise> levels);
-
-  void reset() noexcept;
 
   /// One step of the clean signals, with the draws that every lane scales by its own sigmas.
   void update(const Signals& clean, const NoiseStep& draws) noexcept;
@@ -58,10 +55,10 @@ class PhaseLanes {
 
   PhaseFilterConfig config_;
   PhaseSenses senses_;
+  LanesByLevel<LaneNoise> torque_;
+  LanesByLevel<double> acceleration_;
   std::vector<TorqueLevel> torque_levels_;
   std::vector<AccelerationLevel> acceleration_levels_;
-  std::vector<std::uint32_t> torque_index_;
-  std::vector<std::uint32_t> acceleration_index_;
   std::vector<PhaseRecursion::Lanes> alpha_;
   std::array<std::vector<double>, 2> p_contact_;
   std::array<std::vector<double>, 2> contact_;

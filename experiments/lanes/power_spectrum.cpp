@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace touchdown::experiments {
+
 MixedPowerSpectrum::MixedPowerSpectrum(const SlidingDft& dft, bool nyquist)
     : window_(dft.window()),
       rows_(dft.rows()),
@@ -13,9 +14,7 @@ void MixedPowerSpectrum::summarise(const SlidingDft& clean, const SlidingDft& no
                                    std::span<const double> sigmas,
                                    std::span<SpectrumValues> values) noexcept {
   cumulate(clean, noise);
-  for (std::size_t i = 0; i < sigmas.size(); ++i) {
-    values[i] = at(sigmas[i]);
-  }
+  for (std::size_t i = 0; i < sigmas.size(); ++i) values[i] = at(sigmas[i]);
 }
 
 void MixedPowerSpectrum::cumulate(const SlidingDft& clean, const SlidingDft& noise) noexcept {
@@ -38,9 +37,7 @@ template <typename Rows>
 double MixedPowerSpectrum::median(Rows rows, const LaneSums& sums, double nyquist,
                                   double sigma) const noexcept {
   const double half = 0.5 * (sums.total() + nyquist);
-  if (sums.total() < half) {
-    return 0.5 * window_ - 1.0 + (half - sums.total()) / nyquist;
-  }
+  if (sums.total() < half) return 0.5 * window_ - 1.0 + (half - sums.total()) / nyquist;
   const auto within = [this, sigma](int row, int lane) {
     const double* const parabola = within_lane_.data() + 3 * row * lanes + lane;
     return parabola[0] + sigma * (parabola[lanes] + sigma * parabola[2 * lanes]);
@@ -51,9 +48,7 @@ double MixedPowerSpectrum::median(Rows rows, const LaneSums& sums, double nyquis
   const double below = within(row, lane);
   const double inside = within(row + 1, lane) - below;
   const int bin = lane * rows + row;
-  if (bin == 0 || !(inside > 0.0)) {
-    return 0.0;
-  }
+  if (bin == 0 || !(inside > 0.0)) return 0.0;
   return (bin - 1) + std::min(1.0, (rest - below) / inside);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,9 +26,9 @@ struct ScoreSummary {
   }
 };
 
-/// By condition, then view.
+/// By cell, then condition, then view; these are the cells that the scores have samples of.
 std::vector<ScoreSummary> summarise(const std::vector<ConditionScores>& scores,
-                                    const noise::NoiseCell& cell,
+                                    std::span<const noise::NoiseCell> cells,
                                     const scoring::BootstrapConfig& bootstrap);
 
 /// "first − second" in one metric, both wheels pooled, resampled on the same runs or drops.
@@ -39,9 +40,9 @@ struct Difference {
   std::vector<Interval> metric;  ///< in the order of `metrics()`
 };
 
-/// The first estimator of each engine against each of the others.
+/// By cell, the first estimator of each engine against each of the others.
 std::vector<Difference> differences(const std::vector<ConditionScores>& scores,
-                                    const noise::NoiseCell& cell,
+                                    std::span<const noise::NoiseCell> cells,
                                     const scoring::BootstrapConfig& bootstrap);
 
 }  // namespace touchdown::experiments

@@ -10,16 +10,6 @@ namespace touchdown::experiments {
 
 namespace {
 
-void add_to(std::span<scoring::Classification> pieces, const RunSignals& run,
-            const std::array<scoring::ContactSequence, models::wheel_count>& decisions,
-            const scoring::ScoringConfig& scoring) {
-  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-    const auto counts = scoring::classify(run.contact[wheel], decisions[wheel], run.pieces,
-                                          run.info.control_period_us, scoring);
-    for (std::size_t i = 0; i < pieces.size(); ++i) pieces[i] += counts[i];
-  }
-}
-
 /// The noise levels that differ for an estimator with these sensors, and which of them each cell
 /// has.
 struct DifferentLevels {
@@ -51,25 +41,14 @@ std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
                                                   const GoingOn& going_on) {
   const std::size_t pieces = run.pieces.size();
   std::vector<scoring::Classification> counts(levels.size() * pieces);
-  std::span<scoring::Classification> rest = counts;
-  for (const noise::SensorNoise& level : levels) {
+  for (std::size_t level = 0; level < levels.size(); ++level) {
     if (!going_on()) throw Stopped();
-    add_to(rest.first(pieces), run, decide(estimator, run, noise, level), scoring);
-    rest = rest.subspan(pieces);
-  }
-  return counts;
-}
-
-std::vector<scoring::Classification> sweep_run_one_by_one(
-    std::span<const Condition> conditions, std::span<const noise::NoiseCell> cells,
-    const RunSignals& run, const NoiseRun& noise, const FittedModels& models,
-    const scoring::ScoringConfig& scoring, const GoingOn& going_on) {
-  const std::vector<noise::SensorNoise> levels = levels_of(cells);
-  std::vector<scoring::Classification> counts;
-  for (const Condition& condition : conditions) {
-    const auto estimator = make_estimator(condition, models, run);
-    const auto by_level = sweep_levels(*estimator, levels, run, noise, scoring, going_on);
-    counts.insert(counts.end(), by_level.begin(), by_level.end());
+    const auto decisions = decide(estimator, run, noise, levels[level]);
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      const auto of_wheel = scoring::classify(run.contact[wheel], decisions[wheel], run.pieces,
+                                              run.info.control_period_us, scoring);
+      for (std::size_t i = 0; i < pieces; ++i) counts[level * pieces + i] += of_wheel[i];
+    }
   }
   return counts;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -9,9 +8,6 @@
 #include "scoring/classification.hpp"
 
 namespace touchdown::experiments {
-
-/// Asked now and then; false stops the work with `Stopped`.
-using GoingOn = std::function<bool()>;
 
 /// Point-wise counts of one run under one noise realisation, both wheels added: by condition, then
 /// cell, then piece of the run (`RunSignals::pieces`). Estimators that can listen to many noise
@@ -30,12 +26,5 @@ std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
                                                   const RunSignals& run, const NoiseRun& noise,
                                                   const scoring::ScoringConfig& scoring,
                                                   const GoingOn& going_on);
-
-/// The same as `sweep_run`, one estimator and one cell after the other: what the above has to
-/// equal.
-std::vector<scoring::Classification> sweep_run_one_by_one(
-    std::span<const Condition> conditions, std::span<const noise::NoiseCell> cells,
-    const RunSignals& run, const NoiseRun& noise, const FittedModels& models,
-    const scoring::ScoringConfig& scoring, const GoingOn& going_on);
 
 }  // namespace touchdown::experiments

@@ -12,7 +12,6 @@
 #include "core/progress.hpp"
 #include "experiments/listening/sweep_run.hpp"
 #include "experiments/run_directory/saved_state.hpp"
-#include "experiments/signals/disturbed.hpp"
 
 namespace touchdown::experiments {
 
@@ -28,36 +27,51 @@ void append(std::string& bytes, const std::vector<T>& values) {
 }
 
 template <typename T>
-std::vector<T> take(std::string_view& bytes) {
+void take(std::vector<T>& values, std::string_view& bytes) {
   std::uint64_t count = 0;
   if (bytes.size() < sizeof count) throw Error("a state file is too short");
   std::memcpy(&count, bytes.data(), sizeof count);
   bytes.remove_prefix(sizeof count);
   if (bytes.size() / sizeof(T) < count) throw Error("a state file is too short");
-  std::vector<T> values(count);
+  values.resize(count);
   if (count > 0) std::memcpy(values.data(), bytes.data(), count * sizeof(T));
   bytes.remove_prefix(count * sizeof(T));
-  return values;
 }
 
-/// The noise seeds of a run are one sample: later ones are added to the first one's.
+/// Calls `part(counts, ...)` for each of the four.
+template <typename Part, typename... Counts>
+void for_each_part(const Part& part, Counts&... counts) {
+  part(counts.counted...);
+  part(counts.scored...);
+  part(counts.close...);
+  part(counts.disturbed...);
+}
+
+/// Adds what one task found out to the conditions that are tested on its engine. The noise seeds of
+/// a run are one sample: later ones are added to the first one's.
 template <typename Sample>
-void add_samples(std::vector<Sample>& all, std::span<const Sample> task, bool first_seed) {
-  if (first_seed) {
-    all.insert(all.end(), task.begin(), task.end());
-    return;
+void add_samples(std::vector<ConditionSamples<Sample>>& all, const std::vector<Sample>& found,
+                 const std::string& simulator, bool first_seed) {
+  std::vector<std::vector<Sample>*> cells;
+  for (ConditionSamples<Sample>& condition : all) {
+    if (condition.condition.test_simulator != simulator) continue;
+    for (std::vector<Sample>& samples : condition.samples) cells.push_back(&samples);
   }
-  const std::size_t offset = all.size() - task.size();
-  for (std::size_t i = 0; i < task.size(); ++i) all[offset + i] += task[i];
+  auto next = found.begin();
+  for (std::vector<Sample>* samples : cells) {
+    const std::size_t pieces = found.size() / cells.size();
+    if (first_seed) samples->resize(samples->size() + pieces);
+    for (std::size_t i = samples->size() - pieces; i < samples->size(); ++i) {
+      (*samples)[i] += *next++;
+    }
+  }
 }
 
 /// Both wheels of a whole run whose signals are disturbed.
 scoring::Classification count(ContactEstimator& estimator, const RunSignals& run,
                               const NoiseRun& noise, const noise::NoiseKey& key,
                               const DisturbedCell& cell, const scoring::ScoringConfig& scoring) {
-  const NoiseRun outlying =
-      cell.disturbance.heavy_tails ? with_heavy_tails(noise, key) : NoiseRun{};
-  const NoiseRun& heard = cell.disturbance.heavy_tails ? outlying : noise;
+  const NoiseRun heard = cell.disturbance.heavy_tails ? with_heavy_tails(noise, key) : noise;
   const std::size_t skip = scoring::first_scored_step(run.info.control_period_us, scoring);
   scoring::Classification sum;
   estimator.reset();
@@ -77,14 +91,6 @@ std::string name_of(const Plan& plan, const Task& task) {
                      std::filesystem::path(plan.runs[task.run].file).stem().string(), task.seed);
 }
 
-/// The next `count` of `rest`, which then begins after them.
-template <typename T>
-std::span<const T> next(std::span<const T>& rest, std::size_t count) {
-  const std::span<const T> taken = rest.first(count);
-  rest = rest.subspan(count);
-  return taken;
-}
-
 }  // namespace
 
 SavedCounts::SavedCounts(std::filesystem::path folder, std::string key)
@@ -95,19 +101,13 @@ std::optional<TaskCounts> SavedCounts::read(const Plan& plan, const Task& task) 
   if (!bytes) return std::nullopt;
   std::string_view rest = *bytes;
   TaskCounts counts;
-  counts.counted = take<scoring::Classification>(rest);
-  counts.scored = take<scoring::RobotScore>(rest);
-  counts.close = take<scoring::CloseScore>(rest);
-  counts.disturbed = take<scoring::Classification>(rest);
+  for_each_part([&](auto& part) { take(part, rest); }, counts);
   return counts;
 }
 
 void SavedCounts::write(const Plan& plan, const Task& task, const TaskCounts& counts) const {
   std::string bytes;
-  append(bytes, counts.counted);
-  append(bytes, counts.scored);
-  append(bytes, counts.close);
-  append(bytes, counts.disturbed);
+  for_each_part([&](const auto& part) { append(bytes, part); }, counts);
   write_state(folder_ / name_of(plan, task), key_, bytes);
 }
 
@@ -121,13 +121,13 @@ TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,
   if (!group.counted.empty()) {
     counts.counted = sweep_run(conditions, group.counted, run, noise, models, scoring, going_on);
   }
-  for (const noise::NoiseCell& cell : group.scored) {
-    for (const Condition& condition : conditions) {
-      if (!condition.is_fitted_here()) continue;
+  const std::int64_t period_us = run.info.control_period_us;
+  for (const Condition& condition : conditions) {
+    if (!condition.is_fitted_here()) continue;
+    const auto estimator = make_estimator(condition, models, run);
+    for (const noise::NoiseCell& cell : group.scored) {
       if (!going_on()) throw Stopped();
-      const auto estimator = make_estimator(condition, models, run);
       const scoring::Prediction prediction = predict(*estimator, run, noise, cell.levels());
-      const std::int64_t period_us = run.info.control_period_us;
       const std::vector<scoring::RobotScore> scores =
           scoring::score(run.contact, prediction, run.pieces, period_us, scoring);
       counts.scored.insert(counts.scored.end(), scores.begin(), scores.end());
@@ -136,12 +136,8 @@ TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,
             scoring::close_score(run.contact, run.normal_force, prediction, period_us, scoring));
       }
     }
-  }
-  for (const DisturbedCell& cell : group.disturbed) {
-    for (const Condition& condition : conditions) {
-      if (!condition.is_fitted_here()) continue;
+    for (const DisturbedCell& cell : group.disturbed) {
       if (!going_on()) throw Stopped();
-      const auto estimator = make_estimator(condition, models, run);
       counts.disturbed.push_back(count(*estimator, run, noise, task.noise, cell, scoring));
     }
   }
@@ -184,16 +180,16 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
   CollectedCounts all;
   if (runs.empty()) return all;
   const RunGroup& group = plan.groups[plan.runs[runs.front()].group];
-  all.scored.resize(group.scored.size());
-  if (group.is_looked_at_closely) all.close.resize(group.scored.size());
   for (const Condition& condition : group.conditions) {
-    all.counted.push_back(
-        {condition, std::vector<std::vector<scoring::Classification>>(group.counted.size())});
+    const auto add_to = [&](auto& conditions, std::size_t cells) {
+      conditions.push_back({condition, {}});
+      conditions.back().samples.resize(cells);
+    };
+    add_to(all.counted, group.counted.size());
     if (!condition.is_fitted_here()) continue;
-    for (auto& scores : all.scored) scores.push_back({condition, {}});
-    for (auto& scores : all.close) scores.push_back({condition, {}});
-    all.disturbed.push_back(
-        {condition, std::vector<std::vector<scoring::Classification>>(group.disturbed.size())});
+    add_to(all.scored, group.scored.size());
+    add_to(all.close, group.is_looked_at_closely ? group.scored.size() : 0);
+    add_to(all.disturbed, group.disturbed.size());
   }
   for (const Task& task : plan.tasks) {
     if (std::find(runs.begin(), runs.end(), task.run) == runs.end()) continue;
@@ -201,40 +197,9 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
     if (!found) throw Error(fmt::format("the results of {} are missing", name_of(plan, task)));
     if (found->counted.empty() && found->scored.empty()) continue;
     const std::string& simulator = plan.runs[task.run].simulator;
-    const std::vector<Condition> here = tested_on(group.conditions, simulator);
-    const auto own = static_cast<std::size_t>(std::count_if(
-        here.begin(), here.end(), [](const Condition& c) { return c.is_fitted_here(); }));
-    const std::size_t pieces = group.counted.empty()
-                                   ? found->scored.size() / (own * group.scored.size())
-                                   : found->counted.size() / (here.size() * group.counted.size());
-    std::span<const scoring::Classification> counts = found->counted;
-    std::span<const scoring::RobotScore> scores = found->scored;
-    for (ConditionCounts& condition : all.counted) {
-      if (condition.condition.test_simulator != simulator) continue;
-      for (auto& samples : condition.samples) {
-        add_samples(samples, next(counts, pieces), task.seed == 0);
-      }
-    }
-    for (std::vector<ConditionScores>& cell : all.scored) {
-      for (ConditionScores& condition : cell) {
-        if (condition.condition.test_simulator != simulator) continue;
-        add_samples(condition.samples, next(scores, pieces), task.seed == 0);
-      }
-    }
-    std::span<const scoring::CloseScore> close = found->close;
-    for (std::vector<ConditionCloseScores>& cell : all.close) {
-      for (ConditionCloseScores& condition : cell) {
-        if (condition.condition.test_simulator != simulator) continue;
-        add_samples(condition.samples, next(close, 1), task.seed == 0);
-      }
-    }
-    std::span<const scoring::Classification> disturbed = found->disturbed;
-    for (std::size_t cell = 0; cell < group.disturbed.size(); ++cell) {
-      for (ConditionCounts& condition : all.disturbed) {
-        if (condition.condition.test_simulator != simulator) continue;
-        add_samples(condition.samples[cell], next(disturbed, 1), task.seed == 0);
-      }
-    }
+    for_each_part(
+        [&](auto& sums, const auto& part) { add_samples(sums, part, simulator, task.seed == 0); },
+        all, *found);
   }
   return all;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -12,13 +13,13 @@
 
 namespace touchdown::experiments {
 
-/// What a task found out; empty for a run that is not scored.
+/// What a task found out: by condition of the run's engine, then cell, then piece of the run. Empty
+/// for a run that is not scored.
 struct TaskCounts {
-  std::vector<scoring::Classification>
-      counted;  ///< by condition of the run's engine, cell, piece of the run
-  std::vector<scoring::RobotScore> scored;         ///< by cell, own-engine condition, piece
-  std::vector<scoring::CloseScore> close;          ///< by cell, own-engine condition
-  std::vector<scoring::Classification> disturbed;  ///< by cell, own-engine condition
+  std::vector<scoring::Classification> counted;
+  std::vector<scoring::RobotScore> scored;         ///< of own-engine conditions
+  std::vector<scoring::CloseScore> close;          ///< likewise; the whole run is one piece
+  std::vector<scoring::Classification> disturbed;  ///< likewise
 };
 
 /// Where an experiment's tasks are saved.
@@ -46,28 +47,31 @@ std::size_t listen(const Plan& plan, const TaskRange& tasks, const PlayedRuns& r
                    const scoring::ScoringConfig& scoring, const FittedModels& models,
                    const SavedCounts& saved, const GoingOn& going_on);
 
-/// Point-wise counts of one condition: `samples[c][i]` belongs to cell c and statistical sample i
-/// (a run or a drop), both wheels and all noise seeds added.
-struct ConditionCounts {
+/// What is known of one condition: `samples[c][i]` belongs to cell c and statistical sample i (a
+/// run or a drop), all noise seeds added.
+template <typename Sample>
+struct ConditionSamples {
   Condition condition;
-  std::vector<std::vector<scoring::Classification>> samples;
+  std::vector<std::vector<Sample>> samples;
 };
 
-/// Full scores of one condition at one noise setting; one entry per statistical sample.
-struct ConditionScores {
-  Condition condition;
-  std::vector<scoring::RobotScore> samples;
-};
+/// What one of them has in one cell.
+template <typename Sample>
+const std::vector<Sample>& samples_of(const std::vector<ConditionSamples<Sample>>& all,
+                                      const Condition& condition, std::size_t cell) {
+  return std::find_if(
+             all.begin(), all.end(),
+             [&](const ConditionSamples<Sample>& one) { return one.condition == condition; })
+      ->samples[cell];
+}
 
-struct ConditionCloseScores {
-  Condition condition;
-  std::vector<scoring::CloseScore> samples;
-};
+using ConditionCounts = ConditionSamples<scoring::Classification>;  ///< both wheels added
+using ConditionScores = ConditionSamples<scoring::RobotScore>;
 
 struct CollectedCounts {
   std::vector<ConditionCounts> counted;
-  std::vector<std::vector<ConditionScores>> scored;      ///< by cell
-  std::vector<std::vector<ConditionCloseScores>> close;  ///< likewise; a sample is a run
+  std::vector<ConditionScores> scored;
+  std::vector<ConditionSamples<scoring::CloseScore>> close;  ///< a sample is a run
   std::vector<ConditionCounts> disturbed;  ///< of own-engine conditions; a sample is a run
 
   /// Without the conditions that were fitted elsewhere than where they are tested.
@@ -79,5 +83,14 @@ struct CollectedCounts {
 /// one is missing.
 CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
                         const SavedCounts& saved);
+
+/// An experiment that has been listened to, as its studies see it.
+struct Listened {
+  const RunRequest& request;
+  const Plan& plan;
+  const PlayedRuns& runs;
+  const SavedCounts& saved;
+  const CollectedCounts& own;  ///< of the experiment's own test runs
+};
 
 }  // namespace touchdown::experiments

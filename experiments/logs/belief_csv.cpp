@@ -14,12 +14,12 @@ BeliefCsv::BeliefCsv(std::ostream& stream) : stream_(stream) {
                  "p_both_wheels,p_takeoff,p_landing,status\n");
 }
 
-void BeliefCsv::write(double time, const recordings::LogBeliefs& beliefs) {
+void BeliefCsv::write(double time, const Belief& belief, const Evidence& evidence) {
+  const auto& [left, right] = belief.wheel;
   fmt::format_to(std::back_inserter(buffer_), FMT_COMPILE("{},{},{},{:d},{:d},{},{},{},{},{}\n"),
-                 time, beliefs.wheel[0].p_contact, beliefs.wheel[1].p_contact,
-                 beliefs.wheel[0].contact, beliefs.wheel[1].contact, beliefs.p_any_wheel,
-                 beliefs.p_both_wheels, beliefs.p_takeoff_p_switch, beliefs.p_landing_p_switch,
-                 to_text(beliefs.status));
+                 time, left.p_contact, right.p_contact, left.contact, right.contact,
+                 belief.p_any_wheel, belief.p_both_wheels, evidence.transition.p_takeoff,
+                 evidence.transition.p_landing, to_text(belief.status));
   constexpr std::size_t large = std::size_t{1} << 16U;
   if (buffer_.size() >= large) flush();
 }

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "recordings/log/annotator.hpp"
+#include "estimator/contact_estimator.hpp"
 
 namespace touchdown::experiments {
 
@@ -18,7 +18,7 @@ class BeliefCsv {
   explicit BeliefCsv(std::ostream& stream);
 
   /// Lines are collected; every 64 kB they are written. Errors: `Error` when the stream fails.
-  void write(double time, const recordings::LogBeliefs& beliefs);
+  void write(double time, const Belief& belief, const Evidence& evidence);
 
   /// Writes what was collected. Errors: as above.
   void flush();

@@ -65,26 +65,4 @@ LogEstimator log_estimator(const std::string& name, const std::filesystem::path&
   return {entry, read_model(entry, model)};
 }
 
-recordings::LogBeliefs log_beliefs(const ContactEstimator& estimator, const Belief& belief) {
-  const Evidence evidence = estimator.evidence();
-  const Evidence::Measurement& measurement = evidence.wheel[0];
-  const Evidence::Transition& transition = evidence.transition;
-  return {.contact_likelihood = measurement.contact_likelihood,
-          .no_contact_likelihood = measurement.no_contact_likelihood,
-          .measurement_p_contact = measurement.p_contact,
-          .power = transition.power,
-          .median_frequency = transition.median_frequency,
-          .filtered_median_frequency = transition.filtered_median_frequency,
-          .p_switch = transition.p_switch,
-          .p_landing = transition.p_landing_if_switch,
-          .p_landing_p_switch = transition.p_landing,
-          .p_takeoff_p_switch = transition.p_takeoff,
-          .p_contact = belief.wheel[0].p_contact,
-          .p_contact_smooth = Evidence::unknown,
-          .wheel = belief.wheel,
-          .p_any_wheel = belief.p_any_wheel,
-          .p_both_wheels = belief.p_both_wheels,
-          .status = belief.status};
-}
-
 }  // namespace touchdown::experiments

@@ -6,7 +6,6 @@
 
 #include "estimator/contact_estimator.hpp"
 #include "experiments/estimators/entry.hpp"
-#include "recordings/log/annotator.hpp"
 
 namespace touchdown::experiments {
 
@@ -25,9 +24,5 @@ struct LogEstimator {
 /// (with the nearest one), a model that is missing, not needed, another estimator's or unreadable,
 /// and for an estimator that does not listen to logs.
 LogEstimator log_estimator(const std::string& name, const std::filesystem::path& model);
-
-/// What an estimator made of its last step, for `LogAnnotator`. What contact_agent logs of one leg
-/// is the left one's; NaN for what this estimator does not compute.
-recordings::LogBeliefs log_beliefs(const ContactEstimator& estimator, const Belief& belief);
 
 }  // namespace touchdown::experiments

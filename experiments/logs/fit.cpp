@@ -1,9 +1,239 @@
 #include "experiments/logs/fit.hpp"
 
-#include "experiments/logs/measurement_fit.hpp"
-#include "experiments/logs/phase_fit.hpp"
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "estimator/bayes/measurement_fit.hpp"
+#include "experiments/fitting/phase_fitting.hpp"
+#include "experiments/logs/listener.hpp"
+#include "experiments/signals/reserved_seeds.hpp"
+#include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
+
+namespace {
+
+bool finite(const LegSignals& leg) {
+  return std::isfinite(leg.knee.torque) && std::isfinite(leg.wheel.torque);
+}
+
+/// What a log had to say besides its steps.
+void note_end(const recordings::LogReader& reader, const LogFitConfig& config,
+              LogFitReport& report) {
+  if (config.stop != nullptr && *config.stop) throw Stopped("stopped; no model was written");
+  report.warnings.insert(report.warnings.end(), reader.warnings().begin(), reader.warnings().end());
+}
+
+using Sink = std::function<void(bool contact, const TorqueSample& sample)>;
+
+/// Samples of one leg on their way to the fit: they wait for their labels.
+class Leg {
+ public:
+  Leg(const TorqueConfig& config, Side side, const LogListener& log,
+      const scoring::LabelConfig& labels, Sink sink)
+      : channel_(config, side, log.sample_rate()),
+        sink_(std::move(sink)),
+        labels_(log.period(), labels, [this](std::uint8_t contact) { label(contact != 0); }) {}
+  Leg(const Leg&) = delete;
+  Leg& operator=(const Leg&) = delete;
+
+  void restart() { channel_.reset(); }
+
+  /// `force` tells the label later, `declared` at once. Returns whether the torques could be used.
+  bool add(const LegSignals& leg, bool skipped, std::optional<bool> declared, double force) {
+    std::optional<TorqueSample> sample;
+    const bool usable = finite(leg);
+    if (usable) sample = channel_.update(leg);
+    if (skipped) sample.reset();
+    if (declared) {
+      if (sample) sink_(*declared, *sample);
+    } else {
+      waiting_.push_back(sample);
+      labels_.add(force);
+    }
+    return usable;
+  }
+
+  void finish() { labels_.finish(); }
+
+ private:
+  void label(bool contact) {
+    if (waiting_.front()) sink_(contact, *waiting_.front());
+    waiting_.pop_front();
+  }
+
+  TorqueChannel channel_;
+  Sink sink_;
+  std::deque<std::optional<TorqueSample>> waiting_;
+  scoring::LabelStream labels_;
+};
+
+bool is_gap(double elapsed, const SignalGuardConfig& guard) {
+  return !(elapsed >= 0.0 && elapsed <= guard.maximum_gap);
+}
+
+void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitConfig& config,
+              const Sink& sink, LogFitReport& report) {
+  recordings::LogReader reader(log.path, config.stop);
+  LogListener listener(reader);
+  check_may_be_fitted(reader.info());
+  const TorqueConfig& torque = filter.measurement.torque;
+  std::array<Leg, models::wheel_count> legs = {
+      Leg(torque, Side::left, listener, config.labels, sink),
+      Leg(torque, Side::right, listener, config.labels, sink)};
+  const auto skipped = std::llround(config.skip / listener.period());
+  double before = NAN;
+  std::int64_t k = 0;
+  for (; const LogStep* step = listener.next(); ++k) {
+    if (!log.contact && !step->normal_force) {
+      throw InputError(
+          fmt::format("{}: at {:.3f} s: no ground truth of contact: name the log after --contact "
+                      "or --no-contact if all of it is one of them",
+                      log.path.string(), step->signals.time));
+    }
+    for (std::size_t side = 0; side < legs.size(); ++side) {
+      if (k > 0 && is_gap(step->signals.time - before, filter.guard)) legs[side].restart();
+      const double force = log.contact ? 0.0 : (*step->normal_force)[side];
+      if (!legs[side].add(step->signals.leg[side], k < skipped, log.contact, force)) {
+        ++report.unusable;
+      }
+    }
+    before = step->signals.time;
+  }
+  note_end(reader, config, report);
+  for (Leg& leg : legs) leg.finish();
+  report.seconds += static_cast<double>(std::max<std::int64_t>(k - skipped, 0)) * listener.period();
+}
+
+void require_both_classes(const MeasurementFit& fit) {
+  if (fit.count(false) < 2) {
+    throw InputError(
+        "fit: no step of the logs is without contact: add a log with flights, or one of a robot "
+        "that hangs after --no-contact");
+  }
+  if (fit.count(true) < 2) {
+    throw InputError(
+        "fit: no step of the logs is in contact: add a log of a robot that rolls, after --contact "
+        "if it has no ground truth");
+  }
+}
+
+MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
+                                         const BayesFilterConfig& filter,
+                                         const LogFitConfig& config, LogFitReport& report) {
+  MeasurementFit fit(filter.measurement.fit);
+  report = {};
+  for (const FitLog& log : logs) {
+    if (log.path == "-") throw InputError("fit: reads a log twice: '-' cannot be read again");
+    read_log(
+        log, filter, config,
+        [&](bool contact, const TorqueSample& sample) { fit.survey(contact, sample); }, report);
+  }
+  require_both_classes(fit);
+  fit.prepare();
+  LogFitReport again;
+  for (const FitLog& log : logs) {
+    read_log(
+        log, filter, config,
+        [&](bool contact, const TorqueSample& sample) { fit.add(contact, sample); }, again);
+  }
+  for (const bool contact : {false, true}) {
+    report.samples[contact ? 1 : 0] = fit.count(contact);
+    report.bandwidth[contact ? 1 : 0] = fit.bandwidth(contact);
+  }
+  return fit.model();
+}
+
+void check_step(const FitLog& log, const LogStep& step, double before) {
+  const auto refuse = [&](std::string_view what) {
+    throw InputError(
+        fmt::format("{}: at {:.3f} s: {}", log.path.string(), step.signals.time, what));
+  };
+  if (!step.normal_force) {
+    refuse("no ground truth of contact, which the phase filter has to be fitted with");
+  }
+  if (!std::isfinite(step.signals.vertical_acceleration) || !finite(step.signals.leg[0]) ||
+      !finite(step.signals.leg[1])) {
+    refuse("a torque or the acceleration is not finite");
+  }
+  const double elapsed = step.signals.time - before;
+  if (elapsed < 0.0 || elapsed > SignalGuardConfig{}.maximum_gap) {
+    refuse("time jumps: the phase filter has to be fitted to logs without gaps");
+  }
+}
+
+RunSignals signals_of_log(const FitLog& log, const LogFitConfig& config, LogFitReport& report) {
+  recordings::LogReader reader(log.path, config.stop);
+  LogListener listener(reader);
+  RunSignals run;
+  run.info = reader.info();
+  run.info.control_period_us = listener.period_us();
+  const auto labels_of = [&](std::size_t wheel) {
+    return scoring::LabelStream(
+        listener.period(), config.labels,
+        [&run, wheel](std::uint8_t contact) { run.contact[wheel].push_back(contact); });
+  };
+  std::array<scoring::LabelStream, models::wheel_count> labels = {labels_of(0), labels_of(1)};
+  while (const LogStep* step = listener.next()) {
+    check_step(log, *step, run.signals.empty() ? NAN : run.signals.back().time);
+    for (std::size_t wheel = 0; wheel < labels.size(); ++wheel) {
+      labels[wheel].add((*step->normal_force)[wheel]);
+      run.normal_force[wheel].push_back((*step->normal_force)[wheel]);
+    }
+    run.signals.push_back(step->signals);
+  }
+  note_end(reader, config, report);
+  for (scoring::LabelStream& of_wheel : labels) of_wheel.finish();
+  return run;
+}
+
+/// Whether both wheels leave the ground together somewhere in what is used of the run.
+bool has_takeoff(const RunSignals& run, std::size_t skipped) {
+  const scoring::ContactSequence any = scoring::any_wheel(run.contact);
+  const std::vector<scoring::Flight> all = scoring::flights(any);
+  return std::any_of(all.begin(), all.end(),
+                     [&](const scoring::Flight& flight) { return flight.takeoff > skipped; });
+}
+
+recordings::PhaseModelFile fit_phases_to_logs(std::span<const FitLog> logs,
+                                              const PhaseFitConfig& phases,
+                                              const LogFitConfig& config, LogFitReport& report) {
+  report = {};
+  std::vector<RunSignals> runs;
+  bool takeoff = false;
+  for (const FitLog& log : logs) {
+    if (log.contact) {
+      throw InputError(fmt::format(
+          "{}: the phase filter learns how wheels leave the ground and land: it has to be fitted "
+          "to logs with ground truth, not to --contact and --no-contact",
+          log.path.string()));
+    }
+    runs.push_back(signals_of_log(log, config, report));
+    const RunSignals& run = runs.back();
+    const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+    const auto skipped = static_cast<std::size_t>(std::llround(config.skip / period));
+    takeoff = takeoff || has_takeoff(run, skipped);
+    const std::size_t used = run.steps() - std::min(run.steps(), skipped);
+    report.seconds += static_cast<double>(used) * period;
+    for (const scoring::ContactSequence& contact : run.contact) {
+      for (std::size_t k = skipped; k < contact.size(); ++k) ++report.samples[contact[k] & 1U];
+    }
+  }
+  if (!takeoff) {
+    throw InputError("fit: the phase filter learns from takeoffs, and the logs hold none");
+  }
+  std::vector<const RunSignals*> fitted;
+  for (const RunSignals& run : runs) fitted.push_back(&run);
+  return fit_phases(fitted, phases, config.skip);
+}
+
+}  // namespace
 
 FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                         const LogFitConfig& config, LogFitReport& report) {

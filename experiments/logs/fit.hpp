@@ -1,14 +1,52 @@
 #pragma once
 
+#include <array>
+#include <atomic>
+#include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "experiments/estimators/entry.hpp"
-#include "experiments/logs/fit_log.hpp"
+#include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
 
-/// The model that an estimator needs, fitted to logs. Errors: `InputError` for an estimator that
-/// needs none, and as the two kinds of fits say.
+/// A log to fit to.
+struct FitLog {
+  std::filesystem::path path;
+  /// The one class that all of its steps have, as in the paper; without it the log's own ground
+  /// truth tells.
+  std::optional<bool> contact;
+};
+
+struct LogFitConfig {
+  scoring::LabelConfig labels;  ///< of logs with ground truth
+  double skip = 0.3;            ///< not used at the beginning of each log (s)
+  /// Stops with `Stopped` once true; may be null.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// What a fit was made of; index 0 is no contact, 1 is contact.
+struct LogFitReport {
+  double seconds = 0.0;                ///< of all logs, without what was skipped
+  std::array<std::size_t, 2> samples;  ///< of both legs
+  std::array<TorqueBandwidth, 2> bandwidth;
+  std::size_t unusable = 0;  ///< samples left out because they are not finite
+  std::vector<std::string> warnings;
+};
+
+/// The model that an estimator needs, fitted to logs. Errors: `InputError` for logs of reserved
+/// seeds, without ground truth where none is declared, or unreadable.
+///
+/// A measurement model is fitted as in experiments/fitting, at a memory that does not grow with the
+/// logs: each is read twice, which standard input cannot be. A torque that is not finite is left
+/// out with its leg's step; after a gap in time, or a step back, the torque's low-pass starts anew,
+/// as in the filter. Errors: `InputError` for logs without one of the two classes.
+///
+/// A phase model is fitted to logs with ground truth, held in memory (0.25 MB/s at 1 kHz). Errors:
+/// `InputError` for values that are not finite, gaps in time, or logs without a takeoff.
 FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                         const LogFitConfig& config, LogFitReport& report);
 

@@ -9,19 +9,17 @@ namespace touchdown::experiments {
 namespace {
 
 /// `count` runs of a scene in every engine, at 1 kHz, from the `first` on.
-void plan_runs(const Experiment& experiment, const std::string& scene, const PlannedRun& like,
-               int first, int count, Plan& plan) {
-  const bool is_fit = like.role == RunRole::fit;
+void plan_runs(const Experiment& experiment, const std::string& scene, RunRole role,
+               std::size_t group, int first, int count, Plan& plan) {
+  const bool is_fit = role == RunRole::fit;
+  const std::uint64_t seed = is_fit ? seed_of_fit(experiment) : experiment.seed;
   scenarios::Scenario scenario = scenarios::find_scenario("scenarios/" + scene + ".yaml");
   scenario.simulation.steps.control_us = 1000;
   for (const std::string& simulator : experiment.simulators) {
     for (int i = first; i < first + count; ++i) {
-      PlannedRun run = like;
-      run.run = (is_fit ? first_fit_run : 0) + i;
-      run.simulator = simulator;
-      run.scenario = scenarios::perturbed(scenario, run.seed, run.run);
-      run.file = recording_name(simulator, scene, to_text(run.role), i);
-      plan.runs.push_back(std::move(run));
+      const std::int64_t run = (is_fit ? first_fit_run : 0) + i;
+      plan.runs.push_back({role, simulator, scenarios::perturbed(scenario, seed, run), run,
+                           recording_name(simulator, scene, to_text(role), i), seed, group});
     }
   }
 }
@@ -53,16 +51,10 @@ std::string pieces_fit(int pieces) {
 void add_phase_study(const RunRequest& request, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const int most = learning_curve.back();
-  const PlannedRun fitted{.role = RunRole::fit,
-                          .simulator = {},
-                          .scenario = {},
-                          .file = {},
-                          .seed = seed_of_fit(experiment),
-                          .group = 1};
-  plan_runs(experiment, "stairs", fitted, experiment.fit.runs, most - experiment.fit.runs, plan);
-  plan_runs(experiment, "hang", fitted, 0, 1, plan);
-  plan_runs(experiment, "lift", fitted, 0, 1, plan);
-
+  plan_runs(experiment, "stairs", RunRole::fit, 1, experiment.fit.runs, most - experiment.fit.runs,
+            plan);
+  plan_runs(experiment, "hang", RunRole::fit, 1, 0, 1, plan);
+  plan_runs(experiment, "lift", RunRole::fit, 1, 0, 1, plan);
   RunGroup& stairs = plan.groups.front();
   RunGroup scene{.name = {}, .conditions = {}, .counted = {}, .scored = {}};
   scene.is_looked_at_closely = stairs.is_looked_at_closely = true;
@@ -84,14 +76,7 @@ void add_phase_study(const RunRequest& request, Plan& plan) {
   }
   for (const char* name : more_scenes) {
     scene.name = name;
-    plan_runs(experiment, name,
-              {.role = RunRole::test,
-               .simulator = {},
-               .scenario = {},
-               .file = {},
-               .seed = experiment.seed,
-               .group = plan.groups.size()},
-              0, experiment.test.runs, plan);
+    plan_runs(experiment, name, RunRole::test, plan.groups.size(), 0, experiment.test.runs, plan);
     plan.groups.push_back(scene);
   }
 

@@ -6,9 +6,7 @@
 
 namespace touchdown::experiments {
 
-/// What the phase filter's study found out, as Markdown; `counts` are those of the experiment's own
-/// test runs.
-std::string phase_study_text(const RunRequest& request, const Plan& plan, const PlayedRuns& runs,
-                             const CollectedCounts& counts, const SavedCounts& saved);
+/// What the phase filter's study found out, as Markdown.
+std::string phase_study_text(const Listened& listened);
 
 }  // namespace touchdown::experiments

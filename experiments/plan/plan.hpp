@@ -8,7 +8,7 @@
 
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/request.hpp"
-#include "noise/disturbance.hpp"
+#include "noise/sensor_noise.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace touchdown::experiments {

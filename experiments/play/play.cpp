@@ -19,19 +19,6 @@ namespace touchdown::experiments {
 
 namespace {
 
-RunReport report(const recordings::Recording& recording, const RunSignals& signals,
-                 const scoring::ScoringConfig& scoring) {
-  const auto shortest =
-      static_cast<std::size_t>(std::llround(scoring.minimum_flight / recording.period()));
-  const std::vector<scoring::Flight> all = scoring::flights(scoring::any_wheel(signals.contact));
-  return {
-      recording.info.outcome.value_or(recordings::Outcome::finished),
-      static_cast<double>(recording.steps()) * recording.period(),
-      static_cast<int>(std::count_if(all.begin(), all.end(), [&](const scoring::Flight& flight) {
-        return flight.landing - flight.takeoff >= shortest;
-      }))};
-}
-
 /// What a recording is made from, and by which build. The robot counts by its content: where its
 /// file is found depends on where one stands.
 std::string key_of(const PlannedRun& run) {
@@ -73,8 +60,17 @@ PlayedRun played(const PlannedRun& run, const recordings::Recording& recording,
                  const Experiment& experiment) {
   RunSignals signals =
       signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
-  const RunReport how = report(recording, signals, experiment.scoring);
-  return {run, how, std::move(signals)};
+  const auto shortest = static_cast<std::size_t>(
+      std::llround(experiment.scoring.minimum_flight / recording.period()));
+  std::vector<scoring::Flight> flights = scoring::flights(scoring::any_wheel(signals.contact));
+  std::erase_if(flights, [&](const scoring::Flight& flight) {
+    return flight.landing - flight.takeoff < shortest;
+  });
+  return {run,
+          {recording.info.outcome.value_or(recordings::Outcome::finished),
+           static_cast<double>(recording.steps()) * recording.period(),
+           static_cast<int>(flights.size())},
+          std::move(signals)};
 }
 
 PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -26,5 +27,12 @@ struct Shard {
 /// "2/3". Errors: `InputError` unless it is k/n with 1 ≤ k ≤ n ≤ 100,000.
 Shard shard_from(std::string_view text);
 std::string to_text(const Shard& shard);
+
+/// Which shards a run directory's work was cut into: each leaves a note when it starts, so that
+/// `merge` can say which ones are missing. The notes are removed once all is merged.
+void note_shard(const std::filesystem::path& run_directory, const Shard& shard);
+/// Number of shards of the newest note; 1 without any.
+int noted_shards(const std::filesystem::path& run_directory);
+void remove_shard_notes(const std::filesystem::path& run_directory);
 
 }  // namespace touchdown::experiments

@@ -10,8 +10,8 @@
 #include "estimator/signals.hpp"
 #include "noise/sensor_noise.hpp"
 #include "recordings/recording.hpp"
+#include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
-#include "scoring/sample_unit.hpp"
 #include "scoring/score.hpp"
 
 namespace touchdown::experiments {
@@ -72,6 +72,13 @@ inline Signals noisy(const RunSignals& run, const NoiseRun& noise, const noise::
   }
   return signals;
 }
+
+/// A run's noise with heavy tails: a tenth of the samples, of all channels at once, are outliers.
+NoiseRun with_heavy_tails(NoiseRun noise, const noise::NoiseKey& key);
+
+/// `noisy` with everything of the disturbance but its heavy tails, which are the noise's own.
+Signals disturbed(const RunSignals& run, const NoiseRun& noise, const noise::SensorNoise& levels,
+                  std::size_t step, const noise::Disturbance& disturbance);
 
 /// The wheels' decisions of an estimator that, reset, listens to a whole run through noise.
 std::array<scoring::ContactSequence, models::wheel_count> decide(ContactEstimator& estimator,

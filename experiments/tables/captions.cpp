@@ -19,7 +19,7 @@ std::string labels_text(const Experiment& experiment) {
 }
 
 std::string sample_text(const Experiment& experiment) {
-  return experiment.intervals.over == scoring::SampleUnit::run ? "run" : "drop";
+  return scoring::to_text(experiment.intervals.over);
 }
 
 std::string intervals_text(const Experiment& experiment) {

@@ -52,10 +52,9 @@ RunCounts counts_of(const PlayedRun& run, const std::vector<Condition>& conditio
 }  // namespace
 
 Table label_sensitivity_table(const ExperimentResult& result) {
-  Table table{{"simulator", "estimator", "force_threshold_n", "debounce_s"}, {}};
-  for (const char* name : {"success", "no_contact_precision", "no_contact_recall"}) {
-    append_interval_columns(table.header, name);
-  }
+  Table table{header_with_intervals({"simulator", "estimator", "force_threshold_n", "debounce_s"},
+                                    {"success", "no_contact_precision", "no_contact_recall"}),
+              {}};
   for (const std::string& simulator : result.experiment.simulators) {
     const std::vector<Condition> conditions =
         tested_on(own_engine_conditions(result.experiment), simulator);
@@ -75,15 +74,14 @@ Table label_sensitivity_table(const ExperimentResult& result) {
         for (const RunCounts& run : counts) samples.push_back(run[c][d]);
         const std::vector<Interval> scores = scoring::bootstrap<scoring::Classification>(
             samples,
-            {[](const scoring::Classification& s) { return s.success(); },
-             [](const scoring::Classification& s) { return s.no_contact_precision(); },
-             [](const scoring::Classification& s) { return s.no_contact_recall(); }},
+            {&scoring::Classification::success, &scoring::Classification::no_contact_precision,
+             &scoring::Classification::no_contact_recall},
             result.experiment.intervals.bootstrap);
         const scoring::LabelConfig labels = definitions()[d];
-        std::vector<std::string> row = {simulator, conditions[c].estimator,
-                                        exact(labels.force_threshold), exact(labels.debounce)};
-        for (const Interval& score : scores) append_interval(row, score);
-        table.rows.push_back(std::move(row));
+        table.rows.push_back(
+            row_with_intervals({simulator, conditions[c].estimator, exact(labels.force_threshold),
+                                exact(labels.debounce)},
+                               scores));
       }
     }
   }

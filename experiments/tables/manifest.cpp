@@ -37,10 +37,10 @@ Json versions() {
           {"onetbb", TBB_runtime_version()}};
 }
 
-Json runs_that(bool failed, const std::vector<PlayedRun>& runs) {
+Json failed_runs(const std::vector<PlayedRun>& runs) {
   Json list = Json::array();
   for (const PlayedRun& run : runs) {
-    if (run.failed() != failed) continue;
+    if (!run.failed()) continue;
     list.push_back(
         {{"recording", run.plan.file}, {"outcome", recordings::to_text(run.report.outcome)}});
   }
@@ -65,7 +65,7 @@ void write_manifest(const ExperimentResult& result) {
                    {"bootstrap", experiment.intervals.bootstrap.seed}};
   json["timings_s"] = Json::object();
   for (const auto& [phase, seconds] : result.provenance.timings) json["timings_s"][phase] = seconds;
-  json["failed_runs"] = runs_that(true, result.runs);
+  json["failed_runs"] = failed_runs(result.runs);
   json["runs"] = result.runs.size();
   write_atomically(result.directory.path() / "manifest.json", json.dump(2) + "\n");
 }

@@ -1,6 +1,6 @@
 #include "experiments/tables/paper.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -43,17 +43,25 @@ std::string latency_cell(const ScoreSummary& summary, const std::string& event) 
                      mean.low, mean.high);
 }
 
-Table table_of(const std::vector<ScoreSummary>& summaries, std::vector<std::string> header,
-               const std::function<std::vector<std::string>(const ScoreSummary&)>& cells,
+std::string metric_cell(const ScoreSummary& summary, const std::string& metric) {
+  return with_interval(summary[metric]);
+}
+
+/// One column per name, filled by `cell`, and the paper's last.
+Table table_of(const std::vector<ScoreSummary>& summaries, const std::vector<std::string>& names,
+               std::string (*cell)(const ScoreSummary&, const std::string&),
                std::string PaperRow::*reference) {
-  header.insert(header.begin(), {"simulator", "estimator"});
-  header.emplace_back("paper, real robot");
-  Table table{std::move(header), {}};
+  Table table{{"simulator", "estimator"}, {}};
+  for (std::string name : names) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    table.header.push_back(name);
+  }
+  table.header.emplace_back("paper, real robot");
   for (const ScoreSummary& summary : summaries) {
     if (summary.view != "wheels") continue;
-    std::vector<std::string> row = cells(summary);
-    row.insert(row.begin(), {summary.condition.test_simulator,
-                             estimator_entry(summary.condition.estimator).title});
+    std::vector<std::string> row = {summary.condition.test_simulator,
+                                    estimator_entry(summary.condition.estimator).title};
+    for (const std::string& name : names) row.push_back(cell(summary, name));
     const PaperRow* paper = paper_row(summary.condition.estimator);
     row.push_back(paper == nullptr ? "–" : paper->*reference);
     table.rows.push_back(std::move(row));
@@ -90,40 +98,20 @@ std::vector<std::string> latex_cells(const std::vector<std::string>& cells) {
 
 std::vector<CaptionedTable> paper_tables(const std::vector<ScoreSummary>& summaries,
                                          const std::string& how) {
-  const auto four = [](const ScoreSummary& s, const std::array<const char*, 4>& names) {
-    std::vector<std::string> cells;
-    for (const char* name : names) cells.push_back(with_interval(s[name], 3));
-    return cells;
-  };
   return {
       {"Table I. Point-wise classification. " + how, "classification",
        table_of(
            summaries,
-           {"contact precision", "contact recall", "no contact precision", "no contact recall"},
-           [&](const ScoreSummary& s) {
-             return four(s, {"contact_precision", "contact_recall", "no_contact_precision",
-                             "no_contact_recall"});
-           },
-           &PaperRow::classification)},
+           {"contact_precision", "contact_recall", "no_contact_precision", "no_contact_recall"},
+           metric_cell, &PaperRow::classification)},
       {"Table II. Transitions. " + how, "transitions",
-       table_of(
-           summaries,
-           {"takeoff precision", "takeoff recall", "landing precision", "landing recall"},
-           [&](const ScoreSummary& s) {
-             return four(
-                 s, {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall"});
-           },
-           &PaperRow::transitions)},
+       table_of(summaries,
+                {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall"},
+                metric_cell, &PaperRow::transitions)},
       {"Table III. Latency of detected transitions (ms): mean ± standard deviation [interval of "
        "the mean]. " +
            how,
-       "latency",
-       table_of(
-           summaries, {"takeoff", "landing"},
-           [](const ScoreSummary& s) -> std::vector<std::string> {
-             return {latency_cell(s, "takeoff"), latency_cell(s, "landing")};
-           },
-           &PaperRow::latency)},
+       "latency", table_of(summaries, {"takeoff", "landing"}, latency_cell, &PaperRow::latency)},
   };
 }
 

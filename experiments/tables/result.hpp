@@ -7,7 +7,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/listening/summary.hpp"
 #include "experiments/play/play.hpp"
-#include "experiments/tables/success.hpp"
+#include "experiments/tables/scores.hpp"
 
 namespace touchdown::experiments {
 

@@ -1,7 +1,6 @@
 #include "experiments/tables/result_files.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -43,20 +42,21 @@ std::string how_scored(const Experiment& experiment, const noise::NoiseCell& cel
                      experiment.noise.seeds, labels_text(experiment), intervals_text(experiment));
 }
 
+template <typename Row>
+std::vector<Row> in_cell(std::vector<Row> rows, const noise::NoiseCell& cell) {
+  std::erase_if(rows, [&](const Row& row) { return !(row.cell == cell); });
+  return rows;
+}
+
 /// The paper's tables for every highlighted cell, one below the other.
 std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
   std::vector<CaptionedTable> tables;
   for (const noise::NoiseCell& cell : result.experiment.highlights) {
-    std::vector<ScoreSummary> scores;
-    std::copy_if(result.scores.begin(), result.scores.end(), std::back_inserter(scores),
-                 [&](const ScoreSummary& score) { return score.cell == cell; });
-    std::vector<Difference> compared;
-    std::copy_if(result.differences.begin(), result.differences.end(), std::back_inserter(compared),
-                 [&](const Difference& difference) { return difference.cell == cell; });
-    for (CaptionedTable& table : paper_tables(scores, how_scored(result.experiment, cell))) {
+    for (CaptionedTable& table :
+         paper_tables(in_cell(result.scores, cell), how_scored(result.experiment, cell))) {
       tables.push_back(std::move(table));
     }
-    tables.push_back(difference_text_table(compared));
+    tables.push_back(difference_text_table(in_cell(result.differences, cell)));
   }
   return tables;
 }
@@ -100,10 +100,10 @@ std::string summary_text(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   std::string text;
   for (const std::string& simulator : experiment.simulators) {
-    int scored = 0;
-    for (const RunSignals* run : scored_runs(result.runs)) {
-      scored += run->info.simulator == simulator ? 1 : 0;
-    }
+    const auto runs = scored_runs(result.runs);
+    const auto scored = std::count_if(runs.begin(), runs.end(), [&](const RunSignals* run) {
+      return run->info.simulator == simulator;
+    });
     for (const noise::NoiseCell& cell : experiment.highlights) {
       text += fmt::format("\n{}: {} test runs × {} noise seeds, {}\n\n", simulator, scored,
                           experiment.noise.seeds, noise_text(cell));

@@ -1,41 +1,101 @@
 #include "experiments/tables/scores.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "experiments/estimators/registry.hpp"
+
 namespace touchdown::experiments {
 
 namespace {
 
 const std::vector<std::string> setting_columns = {"simulator", "estimator", "torque_noise_nm",
-                                                  "accelerometer_noise_mps2", "view"};
+                                                  "accelerometer_noise_mps2"};
+const std::vector<std::string> view_columns = {"simulator", "estimator", "torque_noise_nm",
+                                               "accelerometer_noise_mps2", "view"};
+
+std::vector<std::string> setting(const Condition& condition, const noise::NoiseCell& cell) {
+  return {condition.test_simulator, condition.estimator, exact(cell.torque),
+          exact(cell.accelerometer)};
+}
 
 std::vector<std::string> setting(const ScoreSummary& summary) {
-  return {summary.condition.test_simulator, summary.condition.estimator, exact(summary.cell.torque),
-          exact(summary.cell.accelerometer), summary.view};
+  std::vector<std::string> cells = setting(summary.condition, summary.cell);
+  cells.push_back(summary.view);
+  return cells;
 }
 
 /// The setting, then metrics with their intervals, then whole numbers.
 Table table_of(
     const std::vector<ScoreSummary>& summaries, const std::vector<std::string>& names,
     const std::vector<std::pair<std::string, std::int64_t (*)(const scoring::Score&)>>& counts) {
-  Table table{setting_columns, {}};
-  for (const std::string& name : names) {
-    // The unit stays last: takeoff_latency_ms, takeoff_latency_low_ms.
-    const bool in_ms = name.ends_with("_ms");
-    const std::string stem = in_ms ? name.substr(0, name.size() - 3) : name;
-    append_interval_columns(table.header, stem, in_ms ? "_ms" : "");
-  }
-  for (const auto& [name, of] : counts) table.header.push_back(name);
+  std::vector<std::string> count_names;
+  for (const auto& [name, of] : counts) count_names.push_back(name);
+  Table table{header_with_intervals(view_columns, names, count_names), {}};
   for (const ScoreSummary& summary : summaries) {
-    std::vector<std::string> row = setting(summary);
-    for (const std::string& name : names) {
-      append_interval(row, summary[name]);
-    }
-    for (const auto& [name, of] : counts) row.push_back(std::to_string(of(summary.total)));
-    table.rows.push_back(std::move(row));
+    std::vector<Interval> intervals;
+    for (const std::string& name : names) intervals.push_back(summary[name]);
+    std::vector<std::string> totals;
+    for (const auto& [name, of] : counts) totals.push_back(std::to_string(of(summary.total)));
+    table.rows.push_back(row_with_intervals(setting(summary), intervals, totals));
   }
   return table;
 }
 
 }  // namespace
+
+std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
+                                   const std::vector<noise::NoiseCell>& cells,
+                                   const scoring::BootstrapConfig& bootstrap_config) {
+  std::vector<std::function<double(const scoring::Classification&)>> statistics;
+  for (const PointMetric& metric : point_metrics) statistics.emplace_back(metric.of);
+  std::vector<CellSummary> summaries(counts.size() * cells.size());
+  tbb::parallel_for(std::size_t{0}, summaries.size(), [&](std::size_t i) {
+    const ConditionCounts& condition = counts[i / cells.size()];
+    const std::vector<scoring::Classification>& samples = condition.samples[i % cells.size()];
+    const std::vector<Interval> intervals =
+        scoring::bootstrap<scoring::Classification>(samples, statistics, bootstrap_config);
+    CellSummary& summary = summaries[i];
+    summary.condition = condition.condition;
+    summary.cell = cells[i % cells.size()];
+    for (std::size_t m = 0; m < point_metrics.size(); ++m) {
+      summary.*point_metrics[m].interval = intervals[m];
+    }
+    const scoring::Classification all = scoring::sum(samples);
+    summary.always_contact = scoring::ratio(all.contact(), all.points());
+  });
+  return summaries;
+}
+
+Table success_table(const std::vector<CellSummary>& summaries) {
+  Table table{header_with_intervals(setting_columns, {"success"},
+                                    {"always_contact_success", "knee_noise_nm", "wheel_noise_nm"}),
+              {}};
+  for (const CellSummary& s : summaries) {
+    table.rows.push_back(
+        row_with_intervals(setting(s.condition, s.cell), {s.success},
+                           {metric(s.always_contact), exact(s.cell.knee), exact(s.cell.wheel)}));
+  }
+  return table;
+}
+
+Table classification_table(const std::vector<CellSummary>& summaries) {
+  Table table{header_with_intervals(setting_columns,
+                                    {"contact_precision", "contact_recall", "no_contact_precision",
+                                     "no_contact_recall"},
+                                    {"knee_noise_nm", "wheel_noise_nm"}),
+              {}};
+  for (const CellSummary& s : summaries) {
+    table.rows.push_back(row_with_intervals(
+        setting(s.condition, s.cell),
+        {s.contact_precision, s.contact_recall, s.no_contact_precision, s.no_contact_recall},
+        {exact(s.cell.knee), exact(s.cell.wheel)}));
+  }
+  return table;
+}
 
 Table views_table(const std::vector<ScoreSummary>& summaries) {
   return table_of(
@@ -70,34 +130,72 @@ Table calibration_table(const std::vector<ScoreSummary>& summaries) {
 }
 
 Table reliability_table(const std::vector<ScoreSummary>& summaries) {
-  Table table{setting_columns, {}};
-  table.header.insert(table.header.end(), {"bin", "steps", "mean_probability"});
-  append_interval_columns(table.header, "contact_frequency");
+  std::vector<std::string> first = view_columns;
+  first.insert(first.end(), {"bin", "steps", "mean_probability"});
+  Table table{header_with_intervals(first, {"contact_frequency"}), {}};
   for (const ScoreSummary& summary : summaries) {
     for (std::size_t b = 0; b < scoring::Calibration::bins; ++b) {
       const scoring::Calibration::Bin& bin = summary.total.calibration.bin[b];
       std::vector<std::string> row = setting(summary);
       row.insert(row.end(),
                  {std::to_string(b), std::to_string(bin.points), metric(bin.mean_probability())});
-      append_interval(row, summary.contact_frequency[b]);
-      table.rows.push_back(std::move(row));
+      table.rows.push_back(row_with_intervals(row, {summary.contact_frequency[b]}));
     }
   }
   return table;
 }
 
 Table differences_table(const std::vector<Difference>& differences) {
-  Table table{
-      {"simulator", "torque_noise_nm", "accelerometer_noise_mps2", "first", "second", "metric"},
-      {}};
-  append_interval_columns(table.header, "difference");
+  Table table{header_with_intervals({"simulator", "torque_noise_nm", "accelerometer_noise_mps2",
+                                     "first", "second", "metric"},
+                                    {"difference"}),
+              {}};
   for (const Difference& difference : differences) {
     for (std::size_t m = 0; m < scoring::metrics().size(); ++m) {
-      table.rows.push_back({difference.simulator, exact(difference.cell.torque),
-                            exact(difference.cell.accelerometer), difference.first,
-                            difference.second, scoring::metrics()[m].name});
-      append_interval(table.rows.back(), difference.metric[m]);
+      table.rows.push_back(
+          row_with_intervals({difference.simulator, exact(difference.cell.torque),
+                              exact(difference.cell.accelerometer), difference.first,
+                              difference.second, scoring::metrics()[m].name},
+                             {difference.metric[m]}));
     }
+  }
+  return table;
+}
+
+Table cell_text_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
+                      const noise::NoiseCell& cell) {
+  Table table{{"estimator", "success rate", "contact precision", "recall", "no contact precision",
+               "recall"},
+              {}};
+  for (const CellSummary& summary : summaries) {
+    if (summary.condition.test_simulator != simulator || !(summary.cell == cell)) continue;
+    table.rows.push_back({estimator_entry(summary.condition.estimator).title});
+    for (const PointMetric& metric : point_metrics) {
+      Interval interval = summary.*metric.interval;
+      if (metric.interval != &CellSummary::success) interval.low = NAN;
+      table.rows.back().push_back(with_interval(interval));
+    }
+  }
+  return table;
+}
+
+Table grid_text_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
+                      const std::string& estimator, const noise::NoiseGridConfig& noise) {
+  Table table{{"torque noise"}, {}};
+  for (const double level : noise.accelerometer) {
+    table.header.push_back(fmt::format("{} m/s²", level));
+  }
+  for (const double torque : noise.torque) table.rows.push_back({fmt::format("{} N·m", torque)});
+  for (const CellSummary& summary : summaries) {
+    const Condition& who = summary.condition;
+    if (who.test_simulator != simulator || who.estimator != estimator) continue;
+    const auto row = std::find(noise.torque.begin(), noise.torque.end(), summary.cell.torque);
+    const bool on_grid = row != noise.torque.end() &&
+                         std::find(noise.accelerometer.begin(), noise.accelerometer.end(),
+                                   summary.cell.accelerometer) != noise.accelerometer.end();
+    if (!on_grid) continue;
+    table.rows[static_cast<std::size_t>(row - noise.torque.begin())].push_back(
+        fmt::format("{:.3f}{}", summary.success.estimate, summary.loses() ? "*" : ""));
   }
   return table;
 }

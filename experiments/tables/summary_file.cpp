@@ -71,22 +71,16 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Difference, simulator, cell, first, second, m
 void to_json(Json& json, const CellSummary& summary) {
   json = {{"condition", summary.condition},
           {"cell", summary.cell},
-          {"success", summary.success},
-          {"contact_precision", summary.contact_precision},
-          {"contact_recall", summary.contact_recall},
-          {"no_contact_precision", summary.no_contact_precision},
-          {"no_contact_recall", summary.no_contact_recall},
           {"always_contact", rounded(summary.always_contact)}};
+  for (const PointMetric& metric : point_metrics) json[metric.name] = summary.*metric.interval;
 }
 
 void from_json(const Json& json, CellSummary& summary) {
   json.at("condition").get_to(summary.condition);
   json.at("cell").get_to(summary.cell);
-  json.at("success").get_to(summary.success);
-  json.at("contact_precision").get_to(summary.contact_precision);
-  json.at("contact_recall").get_to(summary.contact_recall);
-  json.at("no_contact_precision").get_to(summary.no_contact_precision);
-  json.at("no_contact_recall").get_to(summary.no_contact_recall);
+  for (const PointMetric& metric : point_metrics) {
+    json.at(metric.name).get_to(summary.*metric.interval);
+  }
   summary.always_contact = number_from(json.at("always_contact"));
 }
 
@@ -98,17 +92,13 @@ fs::path file_in(const fs::path& run_directory) { return run_directory / "tables
 
 }  // namespace
 
-std::vector<RunSummary> run_summaries(const std::vector<PlayedRun>& runs) {
-  std::vector<RunSummary> summaries;
-  for (const PlayedRun& run : runs) {
-    summaries.push_back({run.plan.role, run.plan.simulator, run.plan.run, run.plan.file,
-                         run.report.outcome, run.report.flights});
-  }
-  return summaries;
-}
-
 Summary summary_of(const ExperimentResult& result) {
-  return {run_summaries(result.runs), result.summaries, result.scores, result.differences};
+  Summary summary{{}, result.summaries, result.scores, result.differences};
+  for (const PlayedRun& run : result.runs) {
+    summary.runs.push_back({run.plan.role, run.plan.simulator, run.plan.run, run.plan.file,
+                            run.report.outcome, run.report.flights});
+  }
+  return summary;
 }
 
 void write_summary(const Summary& summary, const fs::path& run_directory) {

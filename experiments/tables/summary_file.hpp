@@ -7,7 +7,7 @@
 
 #include "experiments/listening/summary.hpp"
 #include "experiments/play/play.hpp"
-#include "experiments/tables/success.hpp"
+#include "experiments/tables/scores.hpp"
 
 namespace touchdown::experiments {
 
@@ -33,7 +33,6 @@ struct Summary {
   std::vector<Difference> differences;
 };
 
-std::vector<RunSummary> run_summaries(const std::vector<PlayedRun>& runs);
 Summary summary_of(const ExperimentResult& result);
 
 void write_summary(const Summary& summary, const std::filesystem::path& run_directory);

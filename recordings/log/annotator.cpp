@@ -7,56 +7,46 @@ namespace touchdown::recordings {
 
 namespace {
 
-/// Packs beliefs as three maps.
-class BeliefPacker {
- public:
-  BeliefPacker(LogPacker& packer, msgpack::sbuffer& buffer) : packer_(packer), buffer_(buffer) {}
-
-  void group(std::string_view key, std::uint32_t size) {
-    pack_text(packer_, key);
-    packer_.pack_map(size);
-  }
-  void number(std::string_view key, double value) {
-    pack_text(packer_, key);
-    pack_float64(buffer_, value);
-  }
-  void wheel(std::string_view key, const WheelBelief& belief) {
+/// Packs what is believed as three maps.
+void pack_beliefs(LogPacker& packer, msgpack::sbuffer& buffer, const Belief& belief,
+                  const Evidence& evidence) {
+  const auto group = [&](std::string_view key, std::uint32_t size) {
+    pack_text(packer, key);
+    packer.pack_map(size);
+  };
+  const auto number = [&](std::string_view key, double value) {
+    pack_text(packer, key);
+    pack_float64(buffer, value);
+  };
+  const auto wheel = [&](std::string_view key, const WheelBelief& of_wheel) {
     group(key, 2);
-    number("p_contact", belief.p_contact);
-    pack_text(packer_, "contact");
-    belief.contact ? packer_.pack_true() : packer_.pack_false();
-  }
-  void text(std::string_view key, std::string_view value) {
-    pack_text(packer_, key);
-    pack_text(packer_, value);
-  }
-
- private:
-  LogPacker& packer_;
-  msgpack::sbuffer& buffer_;
-};
-
-void pack_beliefs(BeliefPacker out, const LogBeliefs& beliefs) {
-  out.group(belief_groups[0], 3);
-  out.number("contact_likelihood", beliefs.contact_likelihood);
-  out.number("no_contact_likelihood", beliefs.no_contact_likelihood);
-  out.number("p_contact", beliefs.measurement_p_contact);
-  out.group(belief_groups[1], 7);
-  out.number("power", beliefs.power);
-  out.number("median_frequency", beliefs.median_frequency);
-  out.number("filtered_median_freq", beliefs.filtered_median_frequency);
-  out.number("p_switch", beliefs.p_switch);
-  out.number("p_landing", beliefs.p_landing);
-  out.number("p_landing_p_switch", beliefs.p_landing_p_switch);
-  out.number("p_takeoff_p_switch", beliefs.p_takeoff_p_switch);
-  out.group(belief_groups[2], 7);
-  out.number("p_contact", beliefs.p_contact);
-  out.number("p_contact_smooth", beliefs.p_contact_smooth);
-  out.wheel("left_wheel", beliefs.wheel[0]);
-  out.wheel("right_wheel", beliefs.wheel[1]);
-  out.number("p_any_wheel", beliefs.p_any_wheel);
-  out.number("p_both_wheels", beliefs.p_both_wheels);
-  out.text("status", to_text(beliefs.status));
+    number("p_contact", of_wheel.p_contact);
+    pack_text(packer, "contact");
+    of_wheel.contact ? packer.pack_true() : packer.pack_false();
+  };
+  const Evidence::Measurement& measurement = evidence.wheel[0];
+  const Evidence::Transition& transition = evidence.transition;
+  group(belief_groups[0], 3);
+  number("contact_likelihood", measurement.contact_likelihood);
+  number("no_contact_likelihood", measurement.no_contact_likelihood);
+  number("p_contact", measurement.p_contact);
+  group(belief_groups[1], 7);
+  number("power", transition.power);
+  number("median_frequency", transition.median_frequency);
+  number("filtered_median_freq", transition.filtered_median_frequency);
+  number("p_switch", transition.p_switch);
+  number("p_landing", transition.p_landing_if_switch);
+  number("p_landing_p_switch", transition.p_landing);
+  number("p_takeoff_p_switch", transition.p_takeoff);
+  group(belief_groups[2], 7);
+  number("p_contact", belief.wheel[0].p_contact);
+  number("p_contact_smooth", Evidence::unknown);
+  wheel("left_wheel", belief.wheel[0]);
+  wheel("right_wheel", belief.wheel[1]);
+  number("p_any_wheel", belief.p_any_wheel);
+  number("p_both_wheels", belief.p_both_wheels);
+  pack_text(packer, "status");
+  pack_text(packer, to_text(belief.status));
 }
 
 }  // namespace
@@ -67,7 +57,7 @@ void LogAnnotator::copy(std::string_view records) {
 }
 
 void LogAnnotator::annotate(std::string_view record, const ObservationOutline& outline,
-                            const LogBeliefs& beliefs) {
+                            const Belief& belief, const Evidence& evidence) {
   const bool has_header = outline.header > 0 && outline.header < record.size();
   const std::size_t header_size = has_header ? map_header_size(record[outline.header]) : 0;
   if (header_size == 0) throw InputError("a record without an observation cannot be annotated");
@@ -76,7 +66,7 @@ void LogAnnotator::annotate(std::string_view record, const ObservationOutline& o
   buffer_.write(record.data(), outline.header);
   packer_.pack_map(
       static_cast<std::uint32_t>(outline.entries - outline.beliefs.size() + belief_groups.size()));
-  pack_beliefs({packer_, buffer_}, beliefs);
+  pack_beliefs(packer_, buffer_, belief, evidence);
   std::size_t copied = outline.header + header_size;
   for (const ObservationOutline::Range& old : outline.beliefs) {
     buffer_.write(record.data() + copied, old.begin - copied);

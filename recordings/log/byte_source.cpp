@@ -56,14 +56,4 @@ ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool
   };
 }
 
-ByteSource stream_source(std::istream& stream) {
-  return [&stream](std::span<char> buffer) -> std::size_t {
-    // Wait for one byte only: a live stream has its next record when it has it.
-    if (buffer.empty() || !stream.get(buffer[0])) return 0;
-    const std::streamsize more =
-        stream.readsome(buffer.data() + 1, static_cast<std::streamsize>(buffer.size()) - 1);
-    return 1 + static_cast<std::size_t>(more);
-  };
-}
-
 }  // namespace touchdown::recordings

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
-#include <istream>
 #include <span>
 
 namespace touchdown::recordings {
@@ -16,8 +15,5 @@ using ByteSource = std::function<std::size_t(std::span<char>)>;
 /// once `stop` (which may be null, and must outlive the source) is true. Errors: `InputError` when
 /// it cannot be opened or read.
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop = nullptr);
-
-/// Any stream, which must outlive the source.
-ByteSource stream_source(std::istream& stream);
 
 }  // namespace touchdown::recordings

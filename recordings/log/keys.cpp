@@ -1,6 +1,7 @@
 #include "recordings/log/keys.hpp"
 
 #include <algorithm>
+#include <span>
 #include <sstream>
 
 #include "models/robot.hpp"
@@ -84,10 +85,11 @@ const std::vector<LogKey>& log_keys() {
   return keys;
 }
 
-LogKeyTree::LogKeyTree(std::span<const LogKey* const> keys) : nodes_(1) {
-  for (const LogKey* key : keys) {
+LogKeyTree::LogKeyTree(const std::function<bool(const LogKey&)>& wanted) : nodes_(1) {
+  for (const LogKey& key : log_keys()) {
+    if (!wanted(key)) continue;
     int at = 0;
-    std::stringstream path(key->path);
+    std::stringstream path(key.path);
     for (std::string name; std::getline(path, name, '.');) {
       const std::vector<int>& children = node(at).children;
       const auto found = std::find_if(children.begin(), children.end(),
@@ -101,7 +103,7 @@ LogKeyTree::LogKeyTree(std::span<const LogKey* const> keys) : nodes_(1) {
       nodes_[static_cast<std::size_t>(at)].children.push_back(added);
       at = added;
     }
-    nodes_[static_cast<std::size_t>(at)].key = key;
+    nodes_[static_cast<std::size_t>(at)].key = &key;
   }
 }
 

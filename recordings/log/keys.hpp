@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,8 +69,8 @@ class LogKeyTree {
     const LogKey* key = nullptr;  ///< what stands here; may be null, may have children beside
   };
 
-  /// `keys` must outlive the tree.
-  explicit LogKeyTree(std::span<const LogKey* const> keys);
+  /// Of the keys of `log_keys()` that are `wanted`.
+  explicit LogKeyTree(const std::function<bool(const LogKey&)>& wanted);
 
   const Node& node(int index) const { return nodes_[static_cast<std::size_t>(index)]; }
   std::size_t size() const { return nodes_.size(); }

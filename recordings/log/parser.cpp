@@ -8,12 +8,6 @@ namespace touchdown::recordings {
 
 namespace {
 
-std::vector<const LogKey*> all_keys() {
-  std::vector<const LogKey*> keys;
-  for (const LogKey& key : log_keys()) keys.push_back(&key);
-  return keys;
-}
-
 /// A key's header takes one byte, or more where the writer chose a wider one.
 std::size_t string_header_size(const char* text, std::size_t size) {
   const auto before = [&](int bytes) { return static_cast<unsigned char>(*(text - bytes)); };
@@ -24,7 +18,8 @@ std::size_t string_header_size(const char* text, std::size_t size) {
 
 }  // namespace
 
-LogParser::LogParser() : tree_(all_keys()), sequences_(tree_.size()) {
+LogParser::LogParser()
+    : tree_([](const LogKey& /*key*/) { return true; }), sequences_(tree_.size()) {
   for (const LogKey& key : log_keys()) {
     if (key.size > 1) vectors_.push_back(&key);
     if (key.role != LogKey::Role::needed) continue;

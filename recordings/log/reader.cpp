@@ -24,9 +24,6 @@ constexpr std::size_t rows_for_period = 200;
 LogReader::LogReader(const std::filesystem::path& path, const std::atomic<bool>* stop)
     : LogReader(file_source(path, stop), path == "-" ? "standard input" : path.string()) {}
 
-LogReader::LogReader(std::istream& stream, std::string name)
-    : LogReader(stream_source(stream), std::move(name)) {}
-
 LogReader::LogReader(ByteSource source, std::string name)
     : source_(std::move(source)), name_(std::move(name)) {}
 
@@ -63,8 +60,6 @@ const RecordingInfo& LogReader::info() {
   }
   return *info_;
 }
-
-double LogReader::period() { return 1e-6 * static_cast<double>(info().control_period_us); }
 
 void LogReader::look_ahead(std::size_t rows) {
   while (ahead_.size() < rows && (ahead_.empty() || ahead_.back().row)) {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <istream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,8 +25,7 @@ class LogReader {
  public:
   /// "-" reads standard input. The log ends early once `stop`, which may be null, is true.
   explicit LogReader(const std::filesystem::path& path, const std::atomic<bool>* stop = nullptr);
-  /// `name` stands in messages. `stream` must outlive the reader.
-  LogReader(std::istream& stream, std::string name);
+  /// `name` stands in messages.
   LogReader(ByteSource source, std::string name);
 
   /// The file's, or the one that was given.
@@ -36,11 +34,9 @@ class LogReader {
   /// The next row, or nothing at the end of the log.
   std::optional<LogRow> next();
 
-  /// What `config.touchdown` says, or nothing but the estimated control period for a robot's log.
+  /// What `config.touchdown` says, or for a robot's log nothing but the control period, the median
+  /// difference of time in the first rows.
   const RecordingInfo& info();
-
-  /// Control period (s): what the log says, or the median difference of time in the first rows.
-  double period();
 
   /// Bytes of the record behind the row that `next()` gave last, and of the records that were
   /// skipped right before it (or before the end); valid until `next()` is called again.

@@ -1,12 +1,39 @@
 #include "recordings/log/row.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
-
-#include "recordings/log/base_attitude.hpp"
 
 namespace touchdown::recordings {
 
 namespace {
+
+/// Attitude of the base as its IMU tells it. World: x forward, y left, z up.
+struct BaseAttitude {
+  Eigen::Matrix3d base_to_world = Eigen::Matrix3d::Identity();
+  /// In the base frame (rad/s).
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  double pitch = 0.0;       ///< positive when it leans forward (rad)
+  double pitch_rate = 0.0;  ///< about the base's own leftward axis (rad/s)
+  double yaw = 0.0;         ///< positive to the left (rad)
+  double yaw_rate = 0.0;    ///< about the world's vertical (rad/s)
+};
+
+/// From the IMU's orientation (to x forward, y right, z down) and angular velocity, with the IMU
+/// mounted as on Upkie: x back, y left, z down.
+BaseAttitude base_attitude(const models::ImuReading& imu) {
+  const Eigen::DiagonalMatrix<double, 3> base_to_imu(-1.0, 1.0, -1.0);
+  const Eigen::DiagonalMatrix<double, 3> ars_to_world(1.0, -1.0, -1.0);
+  BaseAttitude attitude;
+  Eigen::Matrix3d& rotation = attitude.base_to_world;
+  rotation = ars_to_world * imu.orientation.normalized().toRotationMatrix() * base_to_imu;
+  attitude.angular_velocity = base_to_imu * imu.angular_velocity;
+  attitude.pitch = std::asin(std::clamp(-rotation(2, 0), -1.0, 1.0));
+  attitude.pitch_rate = attitude.angular_velocity.y();
+  attitude.yaw = std::atan2(rotation(1, 0), rotation(0, 0));
+  attitude.yaw_rate = rotation.row(2).dot(attitude.angular_velocity);
+  return attitude;
+}
 
 void put(LogValues& values, std::size_t slot, double number) { values[slot] = number; }
 

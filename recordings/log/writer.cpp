@@ -5,25 +5,13 @@
 
 namespace touchdown::recordings {
 
-namespace {
-
-std::vector<const LogKey*> written_keys(bool with_truth) {
-  std::vector<const LogKey*> keys;
-  for (const LogKey& key : log_keys()) {
-    if (key.role == LogKey::Role::alias) continue;
-    if (key.role == LogKey::Role::truth && !with_truth) continue;
-    keys.push_back(&key);
-  }
-  return keys;
-}
-
-}  // namespace
-
 LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, bool with_truth)
     : stream_(stream),
       info_(std::move(info)),
       with_truth_(with_truth),
-      tree_(written_keys(with_truth)),
+      tree_([&](const LogKey& key) {
+        return key.role != LogKey::Role::alias && (with_truth || key.role != LogKey::Role::truth);
+      }),
       packer_(buffer_) {}
 
 void LogWriter::write(const models::Observation& observation, const models::Action& action,

@@ -1,22 +1,23 @@
 #include "recordings/models/measurement_model.hpp"
 
-#include <array>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "core/error.hpp"
 #include "recordings/models/npz.hpp"
 
 namespace touchdown::recordings {
 
 namespace {
 
-void check_grid(const NpyArray& grid, std::size_t wheels, std::size_t knees,
-                const std::string& where) {
-  if (grid.shape.size() == 2 && grid.shape[0] == wheels && grid.shape[1] == knees) return;
-  throw InputError(fmt::format("{}: expected shape ({}, {}) as the axes say, found ({})", where,
+/// One row per wheel torque, one column per knee torque.
+const std::vector<double>& grid(const NpzArrays& arrays, const std::string& name) {
+  const NpyArray& grid = arrays.at(name);
+  const std::size_t wheels = arrays.at("wheel_torque").data.size();
+  const std::size_t knees = arrays.at("knee_torque").data.size();
+  if (grid.shape.size() == 2 && grid.shape[0] == wheels && grid.shape[1] == knees) return grid.data;
+  throw InputError(fmt::format("{}: expected shape ({}, {}) as the axes say, found ({})", name,
                                wheels, knees, fmt::join(grid.shape, ", ")));
 }
 
@@ -29,29 +30,14 @@ NpyArray points(const Axis& axis) {
 }  // namespace
 
 MeasurementModel read_measurement_model(const std::filesystem::path& path) {
-  const NpzArrays arrays = read_npz(path);
-  constexpr std::array<const char*, 4> names = {"wheel_torque", "knee_torque", "contact_likelihood",
-                                                "no_contact_likelihood"};
-  std::vector<std::string> missing;
-  for (const char* name : names) {
-    if (!arrays.contains(name)) missing.emplace_back(name);
-  }
-  if (!missing.empty()) {
-    throw InputError(fmt::format("{}: is no measurement model: missing {}", path.string(),
-                                 fmt::join(missing, ", ")));
-  }
-  const NpyArray& wheel = arrays.at(names[0]);
-  const NpyArray& knee = arrays.at(names[1]);
-  for (std::size_t i = 2; i < names.size(); ++i) {
-    check_grid(arrays.at(names[i]), wheel.data.size(), knee.data.size(),
-               fmt::format("{}: {}", path.string(), names[i]));
-  }
-  try {
-    return MeasurementModel(likelihood_grids(knee.data, wheel.data, arrays.at(names[2]).data,
-                                             arrays.at(names[3]).data, GridRows::wheel));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
-  }
+  return made_of_npz(path, [](const NpzArrays& arrays) {
+    require_arrays(arrays, "measurement model",
+                   {"wheel_torque", "knee_torque", "contact_likelihood", "no_contact_likelihood"});
+    const std::vector<double>& contact = grid(arrays, "contact_likelihood");
+    const std::vector<double>& no_contact = grid(arrays, "no_contact_likelihood");
+    return MeasurementModel(likelihood_grids(arrays.at("knee_torque").data,
+                                             arrays.at("wheel_torque").data, contact, no_contact));
+  });
 }
 
 void write_measurement_model(const MeasurementModel& model, const std::filesystem::path& path) {

@@ -1,13 +1,8 @@
 #include "recordings/models/neural_network.hpp"
 
-#include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "core/error.hpp"
 #include "core/resources.hpp"
 #include "recordings/models/npz.hpp"
 
@@ -53,18 +48,12 @@ void write_neural_network(const NeuralNetwork& network, const std::filesystem::p
 }
 
 NeuralNetwork read_neural_network(const std::filesystem::path& path) {
-  const NpzArrays arrays = read_npz(path);
-  NeuralNetwork network;
-  std::vector<std::string> missing;
-  if (!arrays.contains("period")) missing.emplace_back("period");
-  for_each_array(network, [&](const std::string& name, const auto& /*matrix*/) {
-    if (!arrays.contains(name)) missing.push_back(name);
-  });
-  if (!missing.empty()) {
-    throw InputError(fmt::format("{}: is no neural measurement network: missing {}", path.string(),
-                                 fmt::join(missing, ", ")));
-  }
-  try {
+  return made_of_npz(path, [](const NpzArrays& arrays) {
+    NeuralNetwork network;
+    std::vector<std::string> names = {"period"};
+    for_each_array(network,
+                   [&](const std::string& name, const auto& /*matrix*/) { names.push_back(name); });
+    require_arrays(arrays, "neural measurement network", names);
     for_each_array(network, [&]<typename Matrix>(const std::string& name, Matrix& matrix) {
       const NpyArray& array = arrays.at(name);
       constexpr std::size_t axes = Matrix::ColsAtCompileTime == 1 ? 1 : 2;
@@ -81,10 +70,8 @@ NeuralNetwork read_neural_network(const std::filesystem::path& path) {
     if (period.size() != 1) throw InputError("period: expected one number (s)");
     network.period = period[0];
     check(network);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
-  }
-  return network;
+    return network;
+  });
 }
 
 NeuralNetwork shipped_neural_network() {

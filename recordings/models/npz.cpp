@@ -1,12 +1,10 @@
 #include "recordings/models/npz.hpp"
 
 #include <memory>
-#include <vector>
 #include <zip.h>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 
 namespace touchdown::recordings {
@@ -96,6 +94,13 @@ NpzArrays read_npz(const std::filesystem::path& path) {
   }
   if (arrays.empty()) throw InputError(fmt::format("{}: holds no arrays", path.string()));
   return arrays;
+}
+
+void require_arrays(const NpzArrays& arrays, std::string_view what,
+                    std::vector<std::string> names) {
+  std::erase_if(names, [&](const std::string& name) { return arrays.contains(name); });
+  if (names.empty()) return;
+  throw InputError(fmt::format("is no {}: missing {}", what, fmt::join(names, ", ")));
 }
 
 void write_npz(const NpzArrays& arrays, const std::filesystem::path& path) {

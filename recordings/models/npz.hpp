@@ -3,7 +3,12 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "core/error.hpp"
 #include "recordings/models/npy.hpp"
 
 namespace touchdown::recordings {
@@ -14,6 +19,21 @@ using NpzArrays = std::map<std::string, NpyArray>;
 /// Reads a `.npz`, deflated or not. Errors: `InputError`, one line that names the file and, where
 /// it matters, the array.
 NpzArrays read_npz(const std::filesystem::path& path);
+
+/// What `make` makes of the arrays in a file. Errors: those of `read_npz` and the `InputError`s of
+/// `make`, which then name the file.
+template <typename Make>
+auto made_of_npz(const std::filesystem::path& path, const Make& make) {
+  const NpzArrays arrays = read_npz(path);
+  try {
+    return make(arrays);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+/// Errors: `InputError` that `what` lacks arrays of these names, if it does.
+void require_arrays(const NpzArrays& arrays, std::string_view what, std::vector<std::string> names);
 
 /// Writes a `.npz` whole or not at all; the same arrays give the same bytes. Errors: `Error`.
 void write_npz(const NpzArrays& arrays, const std::filesystem::path& path);

@@ -1,10 +1,10 @@
 #include "recordings/models/phase_model.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
 #include "recordings/models/npz.hpp"
 
 namespace touchdown::recordings {
@@ -28,15 +28,13 @@ NpyArray text(const ModelProvenance& provenance) {
 }
 
 ModelProvenance provenance_from(const NpyArray& array) {
-  std::string lines;
-  for (const double byte : array.data) lines += static_cast<char>(static_cast<int>(byte) & 0xff);
+  std::string text;
+  for (const double byte : array.data) text += static_cast<char>(static_cast<int>(byte) & 0xff);
   ModelProvenance provenance;
-  for (std::size_t begin = 0; begin < lines.size();) {
-    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
-    const std::string line = lines.substr(begin, end - begin);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
     const std::size_t colon = line.find(": ");
     if (colon != std::string::npos) provenance[line.substr(0, colon)] = line.substr(colon + 2);
-    begin = end + 1;
   }
   return provenance;
 }
@@ -44,8 +42,7 @@ ModelProvenance provenance_from(const NpyArray& array) {
 /// Takes arrays out of a file, and says which one is missing or has the wrong size.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path)
-      : path_(path.string()), arrays_(read_npz(path)) {}
+  explicit Reader(const NpzArrays& arrays) : arrays_(arrays) {}
 
   bool has(const std::string& name) const { return arrays_.contains(name); }
 
@@ -54,8 +51,7 @@ class Reader {
   const std::vector<double>& take(const std::string& name, std::size_t size) const {
     const std::vector<double>& data = take(name);
     if (data.size() != size) {
-      throw InputError(
-          fmt::format("{}: {}: expected {} values, found {}", path_, name, size, data.size()));
+      throw InputError(fmt::format("{}: expected {} values, found {}", name, size, data.size()));
     }
     return data;
   }
@@ -64,31 +60,56 @@ class Reader {
     const std::vector<double>& data = take(name, 3);
     constexpr double most = 1e8;
     if (!(data[2] >= 2.0 && data[2] <= most)) {
-      throw InputError(fmt::format("{}: {}: expected 2 points or more", path_, name));
+      throw InputError(fmt::format("{}: expected 2 points or more", name));
     }
     return {data[0], data[1], static_cast<int>(data[2])};
   }
 
   std::vector<float> floats(const std::string& name) const {
     const std::vector<double>& data = take(name);
-    std::vector<float> result(data.size());
-    std::transform(data.begin(), data.end(), result.begin(),
-                   [](double value) { return static_cast<float>(value); });
-    return result;
+    return {data.begin(), data.end()};
   }
 
   const NpyArray& array(const std::string& name) const {
-    const auto found = arrays_.find(name);
-    if (found == arrays_.end()) {
-      throw InputError(fmt::format("{}: is no phase model: missing {}", path_, name));
-    }
-    return found->second;
+    require_arrays(arrays_, "phase model", {name});
+    return arrays_.at(name);
   }
 
  private:
-  std::string path_;
-  NpzArrays arrays_;
+  const NpzArrays& arrays_;
 };
+
+PhaseModelFile file_from(const Reader& reader) {
+  PhaseModelFile file;
+  PhaseModel& model = file.model;
+  model.sample_rate = reader.take("sample_rate", 1)[0];
+  const std::vector<double>& seconds = reader.take("seconds", phase_count);
+  std::copy(seconds.begin(), seconds.end(), model.seconds.begin());
+  const std::vector<double>& transition = reader.take("transition", phase_count * phase_count);
+  for (std::size_t i = 0; i < phase_count; ++i) {
+    for (std::size_t j = 0; j < phase_count; ++j) {
+      model.transition[i][j] = transition[i * phase_count + j];
+    }
+  }
+  for (int i = 0; reader.has(fmt::format("torque_{}_noise", i)); ++i) {
+    const std::string name = fmt::format("torque_{}_", i);
+    const std::vector<double>& noise = reader.take(name + "noise", 4);
+    model.torque.push_back({{noise[0], noise[1]},
+                            {noise[2], noise[3]},
+                            reader.axis(name + "knee"),
+                            reader.axis(name + "wheel"),
+                            reader.floats(name + "log_density")});
+  }
+  for (int i = 0; reader.has(fmt::format("acceleration_{}_noise", i)); ++i) {
+    const std::string name = fmt::format("acceleration_{}_", i);
+    const std::vector<double>& noise = reader.take(name + "noise", 2);
+    model.acceleration.push_back(
+        {noise[0], noise[1], reader.axis(name + "axis"), reader.floats(name + "log_density")});
+  }
+  if (reader.has("provenance")) file.provenance = provenance_from(reader.array("provenance"));
+  check_phase_model(model);
+  return file;
+}
 
 }  // namespace
 
@@ -124,40 +145,7 @@ void write_phase_model(const PhaseModelFile& file, const std::filesystem::path& 
 }
 
 PhaseModelFile read_phase_model(const std::filesystem::path& path) {
-  const Reader reader(path);
-  PhaseModelFile file;
-  PhaseModel& model = file.model;
-  model.sample_rate = reader.take("sample_rate", 1)[0];
-  const std::vector<double>& seconds = reader.take("seconds", phase_count);
-  std::copy(seconds.begin(), seconds.end(), model.seconds.begin());
-  const std::vector<double>& transition = reader.take("transition", phase_count * phase_count);
-  for (std::size_t i = 0; i < phase_count; ++i) {
-    for (std::size_t j = 0; j < phase_count; ++j) {
-      model.transition[i][j] = transition[i * phase_count + j];
-    }
-  }
-  for (int i = 0; reader.has(fmt::format("torque_{}_noise", i)); ++i) {
-    const std::string name = fmt::format("torque_{}_", i);
-    const std::vector<double>& noise = reader.take(name + "noise", 4);
-    model.torque.push_back({{noise[0], noise[1]},
-                            {noise[2], noise[3]},
-                            reader.axis(name + "knee"),
-                            reader.axis(name + "wheel"),
-                            reader.floats(name + "log_density")});
-  }
-  for (int i = 0; reader.has(fmt::format("acceleration_{}_noise", i)); ++i) {
-    const std::string name = fmt::format("acceleration_{}_", i);
-    const std::vector<double>& noise = reader.take(name + "noise", 2);
-    model.acceleration.push_back(
-        {noise[0], noise[1], reader.axis(name + "axis"), reader.floats(name + "log_density")});
-  }
-  if (reader.has("provenance")) file.provenance = provenance_from(reader.array("provenance"));
-  try {
-    check_phase_model(model);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
-  }
-  return file;
+  return made_of_npz(path, [](const NpzArrays& arrays) { return file_from(Reader(arrays)); });
 }
 
 }  // namespace touchdown::recordings

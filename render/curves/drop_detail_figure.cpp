@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
-#include "render/curves/drop_detail_data.hpp"
 #include "render/gnuplot/panel_grid.hpp"
 #include "render/gnuplot/text.hpp"
 
@@ -14,6 +14,9 @@ namespace {
 
 enum Row : std::size_t { height, knee, wheel, belief, true_spectrum, noisy_spectrum, transition };
 
+/// Spectra are drawn over octaves, log2 of the frequency in Hz: what tells takeoffs from landings
+/// is below 30 Hz.
+constexpr double lowest_octave = 1.0, highest_octave = 9.0, rows_per_octave = 8.0;
 constexpr double quietest = -20.0, loudest = 50.0;  ///< of the colours (dB)
 
 struct Axis {
@@ -42,19 +45,44 @@ Axis range_of(const experiments::DropDetail& detail,
   return range_of(all);
 }
 
+/// What is drawn of one noise setting, a line per step.
+PlotColumns detail_columns(const experiments::DropDetail& detail,
+                           const experiments::NoisyDrop& drop) {
+  PlotColumns columns;
+  columns.add("time_ms", in_ms(detail.time));
+  columns.add("contact", {detail.contact.begin(), detail.contact.end()});
+  columns.add("height_m", detail.height);
+  columns.add("knee_torque_nm", detail.torque.knee);
+  columns.add("noisy_knee_torque_nm", drop.torque.knee);
+  columns.add("wheel_torque_nm", detail.torque.wheel);
+  columns.add("noisy_wheel_torque_nm", drop.torque.wheel);
+  columns.add("acceleration_mps2", detail.spectrum.acceleration);
+  columns.add("noisy_acceleration_mps2", drop.spectrum.acceleration);
+  columns.add("power_m2ps4", detail.spectrum.power);
+  columns.add("noisy_power_m2ps4", drop.spectrum.power);
+  columns.add("median_frequency_hz", detail.spectrum.median_frequency);
+  columns.add("noisy_median_frequency_hz", drop.spectrum.median_frequency);
+  columns.add("p_switch", drop.spectrum.p_switch);
+  columns.add("p_takeoff", drop.spectrum.p_takeoff);
+  columns.add("p_landing", drop.spectrum.p_landing);
+  for (const experiments::BeliefTrace& trace : drop.beliefs)
+    columns.add("p_" + trace.estimator, trace.p_contact);
+  return columns;
+}
+
 /// One column of panels.
-class DetailColumn {
- public:
-  DetailColumn(const experiments::DropDetail& detail, const PanelGrid& grid, std::size_t column,
-               const PlotColumns& columns, const std::string& name)
-      : detail_(detail), grid_(grid), column_(column), columns_(columns), name_(name) {}
+struct DetailColumn {
+  const experiments::DropDetail& detail;
+  const PanelGrid& grid;
+  std::size_t number;
+  const PlotColumns& columns;
+  const std::string& name;  ///< of the figure's files
 
   std::string commands() const {
-    const std::vector<double> time = in_ms(detail_.time);
-    std::vector<bool> contact(detail_.contact.begin(), detail_.contact.end());
-    std::string text = contact_bands(time, contact);
+    std::string text =
+        contact_bands(in_ms(detail.time), {detail.contact.begin(), detail.contact.end()});
     text += panel(height, "height\n(m)");
-    const Axis heights = range_of({&detail_.height});
+    const Axis heights = range_of({&detail.height});
     text += fmt::format(
         "set yrange [{}:{}]\nset ytics -10,0.1\n"
         "plot NaN with boxes fillcolor rgb '#dceee0' title 'left wheel touches', {}\n"
@@ -66,7 +94,7 @@ class DetailColumn {
         torques(wheel, "wheel torque\n(N·m)", "wheel_torque_nm", &experiments::TorqueTrace::wheel);
     text += beliefs();
     text += spectrum(true_spectrum, 0, "true acceleration\nfrequency (Hz)", "");
-    text += spectrum(noisy_spectrum, column_ + 1, "noisy acceleration\nfrequency (Hz)", "noisy_");
+    text += spectrum(noisy_spectrum, number + 1, "noisy acceleration\nfrequency (Hz)", "noisy_");
     text += panel(transition, "P(switch)\nat one step");
     text += "set yrange [-0.04:1.04]\nset ytics 0,0.5,1\nplot " +
             line("p_switch", "lc rgb '#8a9299' lw 1.8", "either way") + ", " +
@@ -75,22 +103,21 @@ class DetailColumn {
     return text;
   }
 
- private:
-  bool last() const { return column_ + 1 == detail_.noisy.size(); }
+  bool last() const { return number + 1 == detail.noisy.size(); }
 
   std::string panel(Row row, std::string_view label) const {
-    return grid_.panel(row, column_, label) + (last() ? grid_.key(row) : "");
+    return grid.panel(row, number, label) + (last() ? grid.key(row) : "");
   }
 
   std::string line(const std::string& column, const std::string& style,
                    const std::string& title) const {
-    return fmt::format("'{}_{}.dat' using 1:{} with lines {} dt 1 title {}", name_, column_ + 1,
-                       columns_.number_of(column), style, gnuplot_text(title));
+    return fmt::format("'{}_{}.dat' using 1:{} with lines {} dt 1 title {}", name, number + 1,
+                       columns.number_of(column), style, gnuplot_text(title));
   }
 
   std::string torques(Row row, std::string_view label, const std::string& column,
                       std::vector<double> experiments::TorqueTrace::*joint) const {
-    const Axis axis = range_of(detail_, joint);
+    const Axis axis = range_of(detail, joint);
     return panel(row, label) +
            fmt::format(
                "set yrange [{}:{}]\nplot {}, {}\n", axis.low, axis.high,
@@ -101,7 +128,7 @@ class DetailColumn {
   std::string beliefs() const {
     std::string text =
         panel(belief, "P(contact)") + "set yrange [-0.04:1.04]\nset ytics 0,0.5,1\nplot ";
-    const auto& traces = detail_.noisy[column_].beliefs;
+    const auto& traces = detail.noisy[number].beliefs;
     for (std::size_t i = 0; i < traces.size(); ++i) {
       text += (i == 0 ? "" : ", ") +
               line("p_" + traces[i].estimator, fmt::format("lt {} lw 2", i + 1), traces[i].title);
@@ -111,71 +138,83 @@ class DetailColumn {
 
   std::string spectrum(Row row, std::size_t file, std::string_view label,
                        const std::string& which) const {
-    const double first = 1e3 * detail_.time.front();
+    const double first = 1e3 * detail.time.front();
     const double step = 1e3 * experiments::spectrum_stride *
-                        (detail_.time.size() > 1 ? detail_.time[1] - detail_.time[0] : 1e-3);
+                        (detail.time.size() > 1 ? detail.time[1] - detail.time[0] : 1e-3);
     std::string text = panel(row, label);
     text += fmt::format(
         "set yrange [{}:{}]\nset ytics ('2' 1, '8' 3, '32' 5, '128' 7, '512' 9)\n"
         "set cbrange [{}:{}]\nset y2range [0.1:1e5]\nset logscale y2\n{}",
         lowest_octave, highest_octave, quietest, loudest,
-        column_ == 0 ? "" : "set ytics ('' 1, '' 3, '' 5, '' 7, '' 9)\n");
+        number == 0 ? "" : "set ytics ('' 1, '' 3, '' 5, '' 7, '' 9)\n");
     if (last()) {
       text += "set y2tics ('1' 1, '100' 100, '10⁴' 1e4) font ',11' textcolor rgb '#b04a10'\n";
     }
     text +=
         last() && row == noisy_spectrum
-            ? grid_.colour_bar(row, 92.0, 16.0) +
+            ? grid.colour_bar(row, 92.0, 16.0) +
                   "set cblabel 'dB of m²/s⁴' font ',11' offset 1.2,0\nset cbtics 20 font ',11'\n"
             : "unset colorbox\n";
     // A dark edge keeps the lines apart from every colour behind them.
     const auto edged = [&](const std::string& values, const std::string& axes,
                            const std::string& colour, const std::string& title) {
-      const std::string from = fmt::format("'{}_{}.dat' using 1:{} axes {} with lines dt 1", name_,
-                                           column_ + 1, values, axes);
+      const std::string from = fmt::format("'{}_{}.dat' using 1:{} axes {} with lines dt 1", name,
+                                           number + 1, values, axes);
       return fmt::format("{} lc rgb '#101418' lw 3.4 notitle, {} lc rgb '{}' lw 1.8 title {}", from,
                          from, colour, gnuplot_text(row == true_spectrum ? title : ""));
     };
     text += fmt::format(
         "plot '{}_spectrum_{}.dat' matrix using ({}+{}*$1):({}+$2/{}):3 with image notitle, "
         "{} axes x1y2 with lines lc rgb '#ffb38a' lw 1.2 dt (6,4) title {}, {}, {}\n",
-        name_, file, first, step, lowest_octave, rows_per_octave, detail_.switch_power,
+        name, file, first, step, lowest_octave, rows_per_octave, detail.switch_power,
         gnuplot_text(row == true_spectrum ? "power at P(switch) = ½" : ""),
-        edged(std::to_string(columns_.number_of(which + "power_m2ps4")), "x1y2", "#ff7b3d",
+        edged(std::to_string(columns.number_of(which + "power_m2ps4")), "x1y2", "#ff7b3d",
               "power (m²/s⁴, right)"),
         edged(fmt::format("(log(2 > ${0} ? 2 : ${0})/log(2))",
-                          columns_.number_of(which + "median_frequency_hz")),
+                          columns.number_of(which + "median_frequency_hz")),
               "x1y1", "#56d0ff", "median frequency"));
     return text + "unset logscale y2\nunset y2tics\nset ytics autofreq\n";
   }
-
-  const experiments::DropDetail& detail_;
-  const PanelGrid& grid_;
-  std::size_t column_;
-  const PlotColumns& columns_;
-  const std::string& name_;
 };
 
 }  // namespace
+
+std::string spectrum_text(const experiments::SpectrumTrace& trace, double bin_width) {
+  constexpr double floor = 1e-6;  // −60 dB: nothing
+  std::string text = fmt::format(
+      "# dB of m2/s4; row i: the bin of {} Hz nearest to 2^({} + i/{}) Hz; columns: times\n",
+      bin_width, lowest_octave, rows_per_octave);
+  const int rows = static_cast<int>((highest_octave - lowest_octave) * rows_per_octave);
+  for (int row = 0; row <= rows; ++row) {
+    const double frequency = std::exp2(lowest_octave + row / rows_per_octave);
+    const auto nearest = static_cast<std::size_t>(std::llround(frequency / bin_width));
+    for (const auto& column : trace.spectrum) {
+      const double value = column[std::min(nearest, column.size() - 1)];
+      fmt::format_to(std::back_inserter(text), "{:.2f}\t",
+                     10.0 * std::log10(std::max(floor, value)));
+    }
+    text.back() = '\n';
+  }
+  return text;
+}
 
 Figure draw_drop_detail(const experiments::DropDetail& detail, const FigureText& text,
                         const std::filesystem::path& stem) {
   const std::string name = stem.filename().string();
   PanelGrid::Layout layout;
-  layout.columns = detail.noisy.size();
+  layout.columns.clear();
   layout.row_heights = {84.0, 118.0, 104.0, 156.0, 150.0, 150.0, 130.0};
+  for (const experiments::NoisyDrop& drop : detail.noisy) {
+    layout.columns.push_back(fmt::format("noise: torques {} N·m, accelerometer {} m/s²",
+                                         drop.noise.torque, drop.noise.accelerometer));
+  }
   const PanelGrid grid(layout, text);
   std::vector<PlotData> data = {
       {name + "_spectrum_0.dat", spectrum_text(detail.spectrum, detail.bin_width)}};
   std::string commands = grid.begin(1e3 * detail.time.front(), 1e3 * detail.time.back());
   for (std::size_t i = 0; i < detail.noisy.size(); ++i) {
-    const experiments::NoisyDrop& drop = detail.noisy[i];
-    commands += grid.column_title(i, fmt::format("noise: torques {} N·m, accelerometer {} m/s²",
-                                                 drop.noise.torque, drop.noise.accelerometer));
-  }
-  for (std::size_t i = 0; i < detail.noisy.size(); ++i) {
     const PlotColumns columns = detail_columns(detail, detail.noisy[i]);
-    commands += DetailColumn(detail, grid, i, columns, name).commands();
+    commands += DetailColumn{detail, grid, i, columns, name}.commands();
     data.push_back({fmt::format("{}_{}.dat", name, i + 1), columns.text()});
     data.push_back({fmt::format("{}_spectrum_{}.dat", name, i + 1),
                     spectrum_text(detail.noisy[i].spectrum, detail.bin_width)});

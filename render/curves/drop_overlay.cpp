@@ -15,6 +15,8 @@ namespace touchdown::render {
 
 namespace {
 
+constexpr double before = 0.15, after = 0.45;  ///< what is shown around the takeoff (s)
+
 scoring::Flight flight_of(const recordings::Recording& recording, const DropOverlay& what) {
   const std::vector<scoring::Flight> found = experiments::drops(
       scoring::contact_labels(recording, what.labels), recording.period(), what.minimum_flight);
@@ -33,8 +35,8 @@ std::string columns(const recordings::Recording& recording, const DropOverlay& w
   };
   std::string text =
       "# time_ms\theight_m\tforce_n\tknee_torque_nm\twheel_torque_nm\tacceleration_mps2\n";
-  const std::size_t begin = takeoff - std::min(takeoff, steps(what.before));
-  const std::size_t end = std::min(recording.steps(), takeoff + steps(what.after));
+  const std::size_t begin = takeoff - std::min(takeoff, steps(before));
+  const std::size_t end = std::min(recording.steps(), takeoff + steps(after));
   for (std::size_t k = begin; k < end; ++k) {
     const models::Observation& observation = recording.observation[k];
     const models::GroundTruth& truth = recording.truth[k];
@@ -87,7 +89,7 @@ Figure draw_drop_overlay(const recordings::Recording& first, const recordings::R
   layout.right = 130.0;
   const PanelGrid grid(layout, {what.title, what.caption, described(recordings, what)});
   std::string commands =
-      grid.begin(-1e3 * what.before, 1e3 * what.after) +
+      grid.begin(-1e3 * before, 1e3 * after) +
       "set arrow 1 from 0,graph 0 to 0,graph 1 nohead back lc rgb '#6b747d' lw 1.2 dt 1\n";
   for (std::size_t panel = 0; panel < labels.size(); ++panel) {
     commands += grid.panel(panel, 0, labels[panel]) + (panel == 0 ? grid.key(0) : "") +

@@ -15,8 +15,6 @@ struct DropOverlay {
   int drop = 0;                      ///< of each run, from 0; a drop is a flight of both wheels
   scoring::LabelConfig labels = {};  ///< what is contact
   double minimum_flight = 0.05;      ///< shorter flights are no drops (s)
-  double before = 0.15;              ///< shown before takeoff (s)
-  double after = 0.45;               ///< and after it (s)
   std::string title;
   std::string caption;  ///< which runs, what is contact
 };

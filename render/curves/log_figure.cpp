@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "render/gnuplot/text.hpp"
 
 namespace touchdown::render {
 
 namespace {
+
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? NAN : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void append(std::string& text, double value) { text.append(number(value)).append(1, '\t'); }
 
 struct Curve {
   LogCurve column;
@@ -52,21 +58,25 @@ constexpr int contact_column = 3 + 2 * static_cast<int>(log_curve_count);
 constexpr int truth_column = contact_column + 2;
 constexpr int status_column = contact_column + 4;
 
+std::string plot(const std::string& file, const std::vector<std::string>& columns) {
+  return fmt::format("plot {} using {}\n", gnuplot_text(file), fmt::join(columns, ", '' using "));
+}
+
 std::string curve_commands(const Panel& panel, const std::string& file) {
-  std::string commands = fmt::format("set ylabel {} offset -0.5,0\nset yrange {}\nplot ",
-                                     gnuplot_text(panel.label), panel.y_range);
-  bool first = true;
-  for (const Curve& curve : panel.curves) {
-    const int low = low_column(curve.column);
+  std::vector<std::string> columns;
+  for (const auto& [column, name, line_type] : panel.curves) {
+    const int low = low_column(column);
     // The filled band has no height where low and high agree: the line is seen there.
-    commands += fmt::format(
-        "{}{} using 1:{}:{} with filledcurves lt {} fs transparent solid 0.35 noborder, '' using "
-        "1:{} with lines lt {} lw 1 dt 1, '' using 1:{} with lines lt {} lw 1 dt 1 title {}",
-        first ? "" : ", ", first ? gnuplot_text(file) : "''", low, low + 1, curve.line_type, low,
-        curve.line_type, low + 1, curve.line_type, gnuplot_text(curve.name));
-    first = false;
+    columns.push_back(
+        fmt::format("1:{}:{} with filledcurves lt {} fs transparent solid 0.35 noborder", low,
+                    low + 1, line_type));
+    columns.push_back(fmt::format("1:{} with lines lt {} lw 1 dt 1", low, line_type));
+    columns.push_back(fmt::format("1:{} with lines lt {} lw 1 dt 1 title {}", low + 1, line_type,
+                                  gnuplot_text(name)));
   }
-  return commands + "\n";
+  return fmt::format("set ylabel {} offset -0.5,0\nset yrange {}\n", gnuplot_text(panel.label),
+                     panel.y_range) +
+         plot(file, columns);
 }
 
 /// Rows of bars as high as the share of steps that were in contact.
@@ -82,37 +92,119 @@ std::string contact_commands(const std::string& file, bool with_truth) {
     rows = {
         {truth_column + 1, "true", "#9aa1a8"}, rows[0], {truth_column, "true", "#9aa1a8"}, rows[1]};
   }
-  std::string tics;
-  std::string plots;
+  std::vector<std::string> tics, columns;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    tics += fmt::format("{}'{}' {}.4", i == 0 ? "" : ", ", rows[i].name, i);
-    plots += fmt::format(
-        "{}{} using 1:({}):(${} > 0 ? {} + 0.8*${} : {}) with filledcurves lc rgb "
-        "'{}'",
-        i == 0 ? "" : ", ", i == 0 ? gnuplot_text(file) : "''", i, rows[i].column, i,
-        rows[i].column, i, rows[i].colour);
+    tics.push_back(fmt::format("'{}' {}.4", rows[i].name, i));
+    columns.push_back(
+        fmt::format("1:({0}):(${1} > 0 ? {0} + 0.8*${1} : {0}) with filledcurves lc rgb '{2}'", i,
+                    rows[i].column, rows[i].colour));
   }
-  return fmt::format(
-      "unset ylabel\nset yrange [-0.2:{}]\nset ytics ({}) scale 0\nunset grid\n"
-      "plot {}\n",
-      rows.size(), tics, plots);
+  return fmt::format("unset ylabel\nset yrange [-0.2:{}]\nset ytics ({}) scale 0\nunset grid\n",
+                     rows.size(), fmt::join(tics, ", ")) +
+         plot(file, columns);
 }
 
 std::string status_commands(const std::string& file) {
-  std::string plots;
+  std::vector<std::string> columns;
   for (int i = 0; i < 4; ++i) {
-    plots += fmt::format(
-        "{}{} using (0.5*($1+$2)):(${} > 0 ? {} : NaN) with points pt 5 ps 0.35 lc rgb '{}'",
-        i == 0 ? "" : ", ", i == 0 ? gnuplot_text(file) : "''", status_column + i, 3 - i,
-        i == 0 ? "#9aa1a8" : "#d55e00");
+    columns.push_back(
+        fmt::format("(0.5*($1+$2)):(${} > 0 ? {} : NaN) with points pt 5 ps 0.35 lc rgb '{}'",
+                    status_column + i, 3 - i, i == 0 ? "#9aa1a8" : "#d55e00"));
   }
   return "set yrange [-0.6:3.6]\n"
          "set ytics ('signals good' 3, 'invalid' 2, 'gap' 1, 'frozen' 0) scale 0\n"
-         "set format x '%g'\nset xlabel 'time (s)'\nplot " +
-         plots + "\n";
+         "set format x '%g'\nset xlabel 'time (s)'\n" +
+         plot(file, columns);
 }
 
 }  // namespace
+
+LogTraceStep log_trace_step(const Signals& signals, const Belief& belief, double p_takeoff,
+                            double p_landing) {
+  LogTraceStep step;
+  step.time = signals.time;
+  step.value = {signals.leg[0].knee.torque,
+                signals.leg[1].knee.torque,
+                signals.leg[0].wheel.torque,
+                signals.leg[1].wheel.torque,
+                signals.vertical_acceleration,
+                belief.wheel[0].p_contact,
+                belief.wheel[1].p_contact,
+                p_takeoff,
+                p_landing};
+  step.contact = {belief.wheel[0].contact, belief.wheel[1].contact};
+  step.status = belief.status;
+  return step;
+}
+
+LogTrace::Bin::Bin(const LogTraceStep& step)
+    : begin(step.time), end(step.time), steps(1), low(step.value), high(step.value) {
+  for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+    contact[wheel] = step.contact[wheel] ? 1 : 0;
+    touches[wheel] = step.touches && (*step.touches)[wheel] ? 1 : 0;
+  }
+  with_truth = step.touches ? 1 : 0;
+  status[static_cast<std::size_t>(step.status)] = 1;
+}
+
+void LogTrace::Bin::merge(const Bin& later) {
+  end = later.end;
+  steps += later.steps;
+  with_truth += later.with_truth;
+  for (std::size_t i = 0; i < log_curve_count; ++i) {
+    // NaN counts as no value, infinity as a curve that leaves the plot.
+    low[i] = std::fmin(low[i], later.low[i]);
+    high[i] = std::fmax(high[i], later.high[i]);
+  }
+  for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+    contact[wheel] += later.contact[wheel];
+    touches[wheel] += later.touches[wheel];
+  }
+  for (std::size_t i = 0; i < status.size(); ++i) status[i] += later.status[i];
+}
+
+void LogTrace::add(const LogTraceStep& step) {
+  if (!bins_.empty() && bins_.back().steps < steps_per_bin_) {
+    bins_.back().merge(Bin(step));
+    return;
+  }
+  if (bins_.size() >= most_bins_) {
+    for (std::size_t i = 0; 2 * i < bins_.size(); ++i) {
+      Bin merged = bins_[2 * i];
+      if (2 * i + 1 < bins_.size()) merged.merge(bins_[2 * i + 1]);
+      bins_[i] = merged;
+    }
+    bins_.erase(bins_.begin() + static_cast<std::ptrdiff_t>((bins_.size() + 1) / 2), bins_.end());
+    steps_per_bin_ *= 2;
+    add(step);
+    return;
+  }
+  bins_.emplace_back(step);
+}
+
+std::string LogTrace::table() const {
+  std::string text =
+      "# begin_s\tend_s\tlow and high of: left knee, right knee, left wheel, right wheel (N m), "
+      "vertical acceleration (m/s2), p_contact left, right, p_takeoff, p_landing\tshare of steps "
+      "decided as contact: left, right\ttrue contact: left, right\tsteps good, invalid, gap, "
+      "frozen\n";
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
+    const Bin& bin = bins_[i];
+    const std::size_t gap = static_cast<std::size_t>(SignalStatus::gap);
+    if (i > 0 && bin.status[gap] > 0) text += '\n';
+    append(text, bin.begin);
+    append(text, bin.end);
+    for (std::size_t c = 0; c < log_curve_count; ++c) {
+      append(text, bin.low[c]);
+      append(text, bin.high[c]);
+    }
+    for (const std::size_t steps : bin.contact) append(text, share(steps, bin.steps));
+    for (const std::size_t steps : bin.touches) append(text, share(steps, bin.with_truth));
+    for (const std::size_t steps : bin.status) append(text, static_cast<double>(steps));
+    text.back() = '\n';
+  }
+  return text;
+}
 
 Figure draw_log(const LogTrace& trace, const std::string& title,
                 const std::filesystem::path& stem) {

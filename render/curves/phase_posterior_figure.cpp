@@ -6,9 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "render/curves/drop_detail_data.hpp"
-#include "render/gnuplot/columns.hpp"
 #include "render/gnuplot/panel_grid.hpp"
+#include "render/gnuplot/text.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -127,20 +126,17 @@ Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops
                             const FigureText& text, const std::filesystem::path& stem) {
   const std::string name = stem.filename().string();
   PanelGrid::Layout layout;
-  layout.columns = drops.size();
+  layout.columns.clear();
   layout.row_heights = {52.0, 26.0, 290.0, 120.0};
-  layout.left = 104.0;
-  const PanelGrid grid(layout, text);
-  std::vector<PlotData> data;
   double from = 0.0, to = 0.0;
   for (const experiments::DropPosterior& drop : drops) {
+    layout.columns.push_back(simulators::simulator_title(drop.simulator));
     from = std::min(from, 1e3 * drop.time.front());
     to = std::max(to, 1e3 * drop.time.back());
   }
+  const PanelGrid grid(layout, text);
+  std::vector<PlotData> data;
   std::string commands = grid.begin(from, to);
-  for (std::size_t i = 0; i < drops.size(); ++i) {
-    commands += grid.column_title(i, simulators::simulator_title(drops[i].simulator));
-  }
   for (std::size_t i = 0; i < drops.size(); ++i) {
     const PlotColumns columns = columns_of(drops[i]);
     commands += column_commands(drops[i], grid, i, i + 1 == drops.size(), columns, name);

@@ -3,15 +3,23 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-
-#include "render/encode/encoder.hpp"
+#include <string>
 
 namespace touchdown::render {
 
+/// How frames are encoded: x264 veryfast at constant quality `crf`, 4:2:0, BT.601, a key frame
+/// every 2 s. `encoder` is FFmpeg's name of an encoder that takes x264's options.
+struct VideoFormat {
+  int width = 1280, height = 720;  ///< even
+  int fps = 30;
+  int crf = 21;  ///< higher is smaller and worse
+  std::string encoder = "libx264";
+};
+
 /// Encodes frames into an H.264 mp4 that browsers play while it loads (index in front). The file is
 /// made in memory and appears, whole, with `finish`; without it nothing is left behind. The same
-/// frames give the same bytes. Errors: as `start_encoder`, and `Error` for a path that cannot be
-/// written; both are noticed when the writer is made.
+/// frames give the same bytes. Errors, noticed when the writer is made: `InputError` for odd sizes;
+/// `Error` when FFmpeg has no such encoder, or it does not start, or the path cannot be written.
 class VideoWriter {
  public:
   VideoWriter(std::filesystem::path path, const VideoFormat& format);

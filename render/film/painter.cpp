@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "render/film/camera_path.hpp"
+#include "render/film/pose.hpp"
 #include "render/film/strip_rows.hpp"
 
 namespace touchdown::render {
@@ -20,31 +20,25 @@ struct Label {
   const char* text;
   unsigned colour;
 };
+/// By `Outcome`, and by the number of wheels that touch.
+constexpr Label outcome_labels[] = {
+    {"FINISHED", 0x2f6f4f}, {"TIME IS OVER", 0x5c636e}, {"FELL", 0xb0304f}, {"DIVERGED", 0xb0304f}};
+constexpr Label contact_labels[] = {
+    {"IN THE AIR", 0xd9760f}, {"ON ONE WHEEL", 0x8a6d1d}, {"ON THE GROUND", 0x2f6f4f}};
 
 Label state_label(const recordings::Recording& recording, std::size_t row,
                   const std::vector<std::uint8_t>& contact) {
   const bool last = row + 1 >= recording.steps();
   if (last && recording.info.outcome) {
-    switch (*recording.info.outcome) {
-      case recordings::Outcome::fell:
-        return {"FELL", 0xb0304f};
-      case recordings::Outcome::diverged:
-        return {"DIVERGED", 0xb0304f};
-      case recordings::Outcome::timed_out:
-        return {"TIME IS OVER", 0x5c636e};
-      case recordings::Outcome::finished:
-        return {"FINISHED", 0x2f6f4f};
-    }
+    return outcome_labels[static_cast<std::size_t>(*recording.info.outcome)];
   }
   if (contact.empty()) return {"NO GROUND TRUTH", 0x5c636e};
-  switch (contact[row]) {
-    case 0:
-      return {"IN THE AIR", 0xd9760f};
-    case 1:
-      return {"ON ONE WHEEL", 0x8a6d1d};
-    default:
-      return {"ON THE GROUND", 0x2f6f4f};
-  }
+  return contact_labels[contact[row]];
+}
+
+/// How much larger the view is drawn than it is shown.
+int supersampling(const VideoOptions& options) {
+  return options.quality == VideoQuality::page ? 2 : 1;
 }
 
 }  // namespace
@@ -76,21 +70,21 @@ struct FramePainter::Show {
   std::vector<std::uint8_t> contact;
 };
 
-FramePainter::FramePainter(const std::vector<VideoSource>& sources, const FrameLayout& layout,
-                           const scoring::LabelConfig& labels)
-    : layout_(layout),
-      strip_height_(layout.strip ? layout.height * (layout.width < 1000 ? 300 : 220) / 720 / 2 * 2
-                                 : 0),
-      gl_(layout.width * layout.supersampling,
-          (layout.height - strip_height_) * layout.supersampling) {
+FramePainter::FramePainter(const std::vector<VideoSource>& sources, const VideoOptions& options,
+                           bool annotated)
+    : options_(options),
+      strip_height_(annotated ? options.height * (options.width < 1000 ? 300 : 220) / 720 / 2 * 2
+                              : 0),
+      gl_(options.width * supersampling(options),
+          (options.height - strip_height_) * supersampling(options)) {
   for (const VideoSource& source : sources) {
-    shows_.push_back(std::make_unique<Show>(source, labels));
+    shows_.push_back(std::make_unique<Show>(source, options.labels));
   }
-  if (layout.strip) {
-    strip_ =
-        std::make_unique<SignalStrip>(strip_rows(sources, labels), layout.width, strip_height_);
+  if (annotated) {
+    strip_ = std::make_unique<SignalStrip>(strip_rows(sources, options.labels), options.width,
+                                           strip_height_);
   }
-  picture_.create(layout.height, layout.width, CV_8UC3);
+  picture_.create(options.height, options.width, CV_8UC3);
 }
 
 FramePainter::~FramePainter() = default;
@@ -106,29 +100,29 @@ const cv::Mat& FramePainter::paint(double time) {
   }
   gl_.finish();
   const cv::Mat drawn(gl_.height(), gl_.width(), CV_8UC4, gl_.pixels());
-  cv::Mat view = picture_.rowRange(0, layout_.height - strip_height_);
-  if (layout_.supersampling == 1) {
+  cv::Mat view = picture_.rowRange(0, options_.height - strip_height_);
+  if (supersampling(options_) == 1) {
     cv::cvtColor(drawn, view, cv::COLOR_BGRA2BGR);
   } else {
     cv::resize(drawn, averaged_, view.size(), 0, 0, cv::INTER_AREA);
     cv::cvtColor(averaged_, view, cv::COLOR_BGRA2BGR);
   }
-  if (layout_.labels) {
+  if (strip_) {
     for (int i = 0; i < count; ++i) {
       const Show& show = *shows_[static_cast<std::size_t>(i)];
-      paint_labels(show, show.row(time), time, i * layout_.width / count);
+      paint_labels(show, show.row(time), time, i * options_.width / count);
     }
     if (count > 1) {
-      cv::line(picture_, {layout_.width / 2, 0},
-               {layout_.width / 2, layout_.height - strip_height_ - 1}, rgb(0xf7f8fa), 2);
+      cv::line(picture_, {options_.width / 2, 0},
+               {options_.width / 2, options_.height - strip_height_ - 1}, rgb(0xf7f8fa), 2);
     }
+    strip_->draw(picture_.rowRange(options_.height - strip_height_, options_.height), time);
   }
-  if (strip_) strip_->draw(picture_.rowRange(layout_.height - strip_height_, layout_.height), time);
   return picture_;
 }
 
 void FramePainter::paint_labels(const Show& show, std::size_t row, double time, int left) {
-  const int height = std::max(16, layout_.height * 30 / 720);
+  const int height = std::max(16, options_.height * 30 / 720);
   const int gap = height / 3;
   const int top = height / 2;
   int x = left + top;
@@ -137,8 +131,9 @@ void FramePainter::paint_labels(const Show& show, std::size_t row, double time, 
   x += gap + pen_.chip(picture_, fmt::format("t = {:.2f} s", time), x, top, height, rgb(0x5c636e));
   const Label state = state_label(show.source.recording, row, show.contact);
   x += gap + pen_.chip(picture_, state.text, x, top, height, rgb(state.colour));
-  if (layout_.speed != 1.0) {
-    pen_.chip(picture_, fmt::format("{:.3g}× speed", layout_.speed), x, top, height, rgb(0x2b2f36));
+  if (options_.speed != 1.0) {
+    pen_.chip(picture_, fmt::format("{:.3g}× speed", options_.speed), x, top, height,
+              rgb(0x2b2f36));
   }
 }
 

@@ -5,31 +5,20 @@
 
 #include <opencv2/core.hpp>
 
-#include "render/film/gl_context.hpp"
-#include "render/film/pose.hpp"
+#include "render/film/request.hpp"
 #include "render/film/scene_view.hpp"
-#include "render/film/source.hpp"
 #include "render/strip/signal_strip.hpp"
 
 namespace touchdown::render {
 
-/// Which parts of the picture are wanted.
-struct FrameLayout {
-  int width = 1280;
-  int height = 720;
-  int supersampling = 1;  ///< 2: the view is drawn at twice the size
-  bool strip = true;
-  bool labels = true;
-  double speed = 1.0;  ///< only for its label
-};
-
-/// Paints one or two runs at a point in time: views beside each other, the strip below. What it
-/// paints depends on the time alone, not on what it painted before.
+/// Paints one or two runs at a point in time: views beside each other and, if `annotated`, labels
+/// on them and the strip below. What it paints depends on the time alone, not on what it painted
+/// before.
 class FramePainter {
  public:
   /// Makes the process's OpenGL context. Keeps references to what the sources refer to.
-  FramePainter(const std::vector<VideoSource>& sources, const FrameLayout& layout,
-               const scoring::LabelConfig& labels);
+  FramePainter(const std::vector<VideoSource>& sources, const VideoOptions& options,
+               bool annotated = true);
   ~FramePainter();
 
   /// The picture (8UC3, BGR) at `time` of the recordings (s). Valid until the next call.
@@ -39,8 +28,8 @@ class FramePainter {
   struct Show;
   void paint_labels(const Show& show, std::size_t row, double time, int left);
 
-  FrameLayout layout_;
-  int strip_height_;
+  VideoOptions options_;
+  int strip_height_;  ///< 0 without one
   GlContext gl_;
   std::vector<std::unique_ptr<Show>> shows_;
   std::unique_ptr<SignalStrip> strip_;

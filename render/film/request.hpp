@@ -1,29 +1,52 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "render/film/source.hpp"
+#include "models/robot_model.hpp"
+#include "recordings/recording.hpp"
+#include "render/encode/writer.hpp"
+#include "scoring/labels.hpp"
 
 namespace touchdown::render {
+
+/// What one estimator believed along a recording: one number per row and wheel (left, right). A
+/// vector that is empty is not drawn.
+struct BeliefTrack {
+  std::string name;
+  std::array<std::vector<float>, models::wheel_count> p_contact;
+  std::array<std::vector<float>, models::wheel_count> p_takeoff;
+  std::array<std::vector<float>, models::wheel_count> p_landing;
+};
+
+/// One run as it is shown: the robot that was compiled for the run's terrain, and what it did.
+struct VideoSource {
+  const models::RobotModel& robot;
+  const recordings::Recording& recording;
+  const std::vector<BeliefTrack>& beliefs;
+};
+
+/// How many wheels truly touched the ground, row by row; empty for a robot's log.
+std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recording,
+                                            const scoring::LabelConfig& labels);
+
+/// "MuJoCo", "Bullet", or what a recording calls itself.
+std::string engine_label(const recordings::Recording& recording);
 
 enum class VideoQuality : int {
   draft,  ///< no anti-aliasing in the view
   page,   ///< drawn at twice the size and averaged
 };
 
-struct VideoOptions {
-  int width = 1280;
-  int height = 720;
-  int fps = 30;
+struct VideoOptions : VideoFormat {
   VideoQuality quality = VideoQuality::draft;
   double from = 0.0;                                    ///< of the recording (s)
   double to = std::numeric_limits<double>::infinity();  ///< of the recording (s)
   double speed = 1.0;                                   ///< 0.1: ten times slower than life
-  int crf = 21;                                         ///< of H.264: higher is smaller and worse
-  std::string encoder = "libx264";                      ///< FFmpeg's name of it
   int workers = 0;                                      ///< processes; 0: one per core
   scoring::LabelConfig labels = {};                     ///< what counts as true contact
   /// Called after every frame; may be empty.

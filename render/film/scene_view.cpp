@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <GL/osmesa.h>
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 
 namespace touchdown::render {
@@ -10,32 +13,53 @@ namespace {
 
 /// Distance from which the sun's shadow map is taken (m).
 constexpr double sun_distance = 6.0;
+/// The camera looks there, from the base, in the world (m).
+const Eigen::Vector3d look_at_offset = {0.12, 0.0, -0.28};
 
 }  // namespace
 
-SceneView::SceneView(const models::RobotModel& robot, const ViewOptions& options)
-    : robot_(robot), options_(options) {
+GlContext::GlContext(int width, int height)
+    : width_(width),
+      height_(height),
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4) {
+  const OSMesaContext context = OSMesaCreateContextExt(OSMESA_BGRA, 24, 8, 0, nullptr);
+  context_ = context;
+  if (!context || !OSMesaMakeCurrent(context, pixels_.data(), GL_UNSIGNED_BYTE, width, height)) {
+    if (context) OSMesaDestroyContext(context);
+    throw Error(
+        fmt::format("cannot draw {}x{} pixels off screen: Mesa makes no context", width, height));
+  }
+  OSMesaPixelStore(OSMESA_Y_UP, 0);
+}
+
+GlContext::~GlContext() {
+  OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+  OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
+}
+
+void GlContext::finish() { glFinish(); }
+
+SceneView::SceneView(const models::RobotModel& robot)
+    : robot_(robot), data_(mj_makeData(robot.mj.get())) {
   const mjModel* model = robot.mj.get();
   mjv_defaultScene(&scene_);
   mjv_defaultOption(&visibility_);
   mjv_defaultCamera(&camera_);
   mjr_defaultContext(&context_);
-  data_ = mj_makeData(model);
   if (!data_) throw Error("MuJoCo has no memory for another model");
   try {
     mjv_makeScene(model, &scene_, model->ngeom + 64);
     mjr_makeContext(model, &context_, mjFONTSCALE_100);
   } catch (...) {
     mjv_freeScene(&scene_);
-    mj_deleteData(data_);
     throw;
   }
   mjr_setBuffer(mjFB_WINDOW, &context_);
   std::fill(std::begin(visibility_.sitegroup), std::end(visibility_.sitegroup), mjtByte{0});
   camera_.type = mjCAMERA_FREE;
-  camera_.azimuth = options.azimuth;
-  camera_.elevation = options.elevation;
-  camera_.distance = options.distance;
+  camera_.azimuth = 128.0;    // degrees
+  camera_.elevation = -13.0;  // degrees
+  camera_.distance = 2.3;     // m
   scene_.flags[mjRND_HAZE] = 1;
   scene_.flags[mjRND_SHADOW] = 1;
 }
@@ -43,13 +67,13 @@ SceneView::SceneView(const models::RobotModel& robot, const ViewOptions& options
 SceneView::~SceneView() {
   mjr_freeContext(&context_);
   mjv_freeScene(&scene_);
-  mj_deleteData(data_);
 }
 
 void SceneView::draw(const mjrRect& viewport, const Eigen::Vector3d& target) {
-  const Eigen::Vector3d look_at = target + options_.look_at_offset;
+  const Eigen::Vector3d look_at = target + look_at_offset;
   std::copy_n(look_at.data(), 3, camera_.lookat);
-  mjv_updateScene(robot_.mj.get(), data_, &visibility_, nullptr, &camera_, mjCAT_ALL, &scene_);
+  mjv_updateScene(robot_.mj.get(), data_.get(), &visibility_, nullptr, &camera_, mjCAT_ALL,
+                  &scene_);
   place_sun(target);
   switch_haze_on();
   mjr_render(viewport, &scene_, &context_);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include <Eigen/Core>
 #include <mujoco/mujoco.h>
 
@@ -7,12 +10,31 @@
 
 namespace touchdown::render {
 
-/// How the robot is looked at.
-struct ViewOptions {
-  Eigen::Vector3d look_at_offset = {0.12, 0.0, -0.28};  ///< from the base, in the world (m)
-  double azimuth = 128.0;                               ///< (degrees)
-  double elevation = -13.0;                             ///< (degrees)
-  double distance = 2.3;                                ///< (m)
+/// An OpenGL context that draws into plain memory, without a display or a GPU, and is current in
+/// the thread that made it for as long as it lives.
+///
+/// All contexts of one process share one rasteriser: for more speed use more processes
+/// (`paint_in_order`). Never fork a process that has one. Errors: `Error` when Mesa cannot make it.
+class GlContext {
+ public:
+  GlContext(int width, int height);
+  ~GlContext();
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
+
+  /// Waits until all drawing is in `pixels`.
+  void finish();
+
+  /// BGRA, 8 bits each, rows from the top, no padding.
+  std::uint8_t* pixels() { return pixels_.data(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  int width_;
+  int height_;
+  std::vector<std::uint8_t> pixels_;
+  void* context_ = nullptr;
 };
 
 /// Draws one robot on its terrain with MuJoCo's renderer into the GL context that is current. That
@@ -20,7 +42,7 @@ struct ViewOptions {
 class SceneView {
  public:
   /// Keeps a reference to `robot`.
-  explicit SceneView(const models::RobotModel& robot, const ViewOptions& options = {});
+  explicit SceneView(const models::RobotModel& robot);
   ~SceneView();
   SceneView(const SceneView&) = delete;
   SceneView& operator=(const SceneView&) = delete;
@@ -36,8 +58,7 @@ class SceneView {
   void switch_haze_on();
 
   const models::RobotModel& robot_;
-  ViewOptions options_;
-  mjData* data_ = nullptr;
+  models::MjDataPtr data_;
   mjvScene scene_;
   mjvOption visibility_;
   mjvCamera camera_;

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "render/film/source.hpp"
-#include "render/strip/row.hpp"
+#include "render/film/request.hpp"
+#include "render/strip/plots.hpp"
 
 namespace touchdown::render {
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 
 #include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
-#include "render/encode/writer.hpp"
+#include "core/files.hpp"
 #include "render/film/painter.hpp"
 #include "render/workers/workers.hpp"
 
@@ -23,6 +25,47 @@ double seconds_since(Clock::time_point start) {
 
 double duration(const VideoSource& source) {
   return source.recording.period() * static_cast<double>(source.recording.steps() - 1);
+}
+
+/// Middle of the first time in the air that one can see, or of the recording.
+double first_flight(const recordings::Recording& recording, const scoring::LabelConfig& labels) {
+  scoring::LabelConfig visible = labels;
+  visible.debounce = std::max(visible.debounce, 0.04);
+  const std::vector<std::uint8_t> contact = wheels_in_contact(recording, visible);
+  std::size_t begin = 0;
+  for (std::size_t k = 1; k < contact.size(); ++k) {
+    if (contact[k] == 0 && contact[k - 1] != 0) begin = k;
+    if (begin > 0 && contact[k] != 0 && contact[k - 1] == 0) {
+      return recording.period() * static_cast<double>(begin + k) / 2.0;
+    }
+  }
+  return recording.period() * static_cast<double>(recording.steps()) / 2.0;
+}
+
+void picture(const std::vector<VideoSource>& sources, VideoOptions options, bool annotated,
+             double time, const std::filesystem::path& path) {
+  require_drawable(sources, options);
+  require_writable(path);
+  options.quality = VideoQuality::page;
+  options.speed = 1.0;  // a picture has none
+  if (std::isnan(time)) time = first_flight(sources.front().recording, options.labels);
+  const auto bytes = static_cast<std::size_t>(options.width * options.height * 3);
+  const auto prepare = [&]() -> PaintFrame {
+    auto painter = std::make_shared<FramePainter>(sources, options, annotated);
+    return [&, painter](int, std::uint8_t* pixels) {
+      std::memcpy(pixels, painter->paint(time).data, bytes);
+    };
+  };
+  paint_in_order(1, bytes, 1, prepare, [&](int, const std::uint8_t* pixels) {
+    const cv::Mat bgr(options.height, options.width, CV_8UC3, const_cast<std::uint8_t*>(pixels));
+    const std::string kind = path.extension() == ".jpg" ? ".jpg" : ".png";
+    std::vector<std::uint8_t> file;
+    if (!cv::imencode(kind, bgr, file, {cv::IMWRITE_JPEG_QUALITY, 82})) {
+      throw Error("cannot compress a picture");
+    }
+    write_atomically(path,
+                     std::string_view(reinterpret_cast<const char*>(file.data()), file.size()));
+  });
 }
 
 }  // namespace
@@ -40,20 +83,11 @@ VideoStatistics render_video(const std::vector<VideoSource>& sources, const Vide
   }
   const double step = options.speed / options.fps;
   const int frames = 1 + static_cast<int>(std::floor((end - options.from) / step + 1e-9));
-  const FrameLayout layout{.width = options.width,
-                           .height = options.height,
-                           .supersampling = options.quality == VideoQuality::page ? 2 : 1,
-                           .speed = options.speed};
-
-  VideoWriter writer(path, {.width = options.width,
-                            .height = options.height,
-                            .fps = options.fps,
-                            .crf = options.crf,
-                            .encoder = options.encoder});
+  VideoWriter writer(path, options);
   VideoStatistics statistics{.frames = frames};
   const auto bytes = static_cast<std::size_t>(options.width * options.height * 3 / 2);
   const auto prepare = [&]() -> PaintFrame {
-    auto painter = std::make_shared<FramePainter>(sources, layout, options.labels);
+    auto painter = std::make_shared<FramePainter>(sources, options);
     return [&, painter](int frame, std::uint8_t* pixels) {
       cv::Mat i420(options.height * 3 / 2, options.width, CV_8UC1, pixels);
       cv::cvtColor(painter->paint(options.from + frame * step), i420, cv::COLOR_BGR2YUV_I420);
@@ -72,6 +106,17 @@ VideoStatistics render_video(const std::vector<VideoSource>& sources, const Vide
   statistics.encoding_seconds += seconds_since(before);
   statistics.seconds = seconds_since(start);
   return statistics;
+}
+
+void render_poster(const std::vector<VideoSource>& sources, const VideoOptions& options,
+                   double time, const std::filesystem::path& path) {
+  picture(sources, options, true, time, path);
+}
+
+void render_scene(const models::RobotModel& robot, const recordings::Recording& recording,
+                  const VideoOptions& options, double time, const std::filesystem::path& path) {
+  const std::vector<BeliefTrack> none;
+  picture({{robot, recording, none}}, options, false, time, path);
 }
 
 }  // namespace touchdown::render

@@ -41,6 +41,10 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
 /// Ends a multiplot as the next format's must find it: all is drawn from one script.
 inline constexpr const char* end_multiplot = "unset multiplot\nreset\nload 'style.gp'\n";
 
+/// A PDF's bytes with 1 January 1970 for the time at which it was drawn: the same figure is the
+/// same file, whenever it is drawn. Its length stays, because a PDF counts its bytes.
+std::string without_date(std::string pdf);
+
 /// What the script of a figure says about it; empty where it says nothing.
 FigureText figure_text(const std::string& script);
 

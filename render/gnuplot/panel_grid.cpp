@@ -13,8 +13,10 @@ namespace {
 
 constexpr double above = 84.0;  ///< the panels: the title and the columns' titles (px)
 constexpr double below = 62.0;  ///< the panels: tics and label of the time axis (px)
-constexpr double line = 21.0;   ///< of the caption (px)
-constexpr double letter = 9.3;  ///< of the caption, on average (px)
+constexpr double left = 104.0;  ///< of the panels, for tics and labels (px)
+constexpr double gap_x = 22.0, gap_y = 14.0;  ///< between panels (px)
+constexpr double line = 21.0;                 ///< of the caption (px)
+constexpr double letter = 9.3;                ///< of the caption, on average (px)
 
 }  // namespace
 
@@ -27,42 +29,43 @@ PanelGrid::PanelGrid(Layout layout, FigureText text)
 }
 
 int PanelGrid::width() const {
-  const auto columns = static_cast<double>(layout_.columns);
-  return static_cast<int>(std::lround(layout_.left + columns * layout_.panel_width +
-                                      (columns - 1.0) * layout_.gap_x + layout_.right));
+  const auto columns = static_cast<double>(layout_.columns.size());
+  return static_cast<int>(
+      std::lround(left + columns * layout_.panel_width + (columns - 1.0) * gap_x + layout_.right));
 }
 
 int PanelGrid::height() const {
-  return static_cast<int>(std::lround(y(rows()) - layout_.gap_y + below + caption_height_));
+  return static_cast<int>(std::lround(y(rows()) - gap_y + below + caption_height_));
 }
 
 double PanelGrid::x(std::size_t column) const {
-  return layout_.left + static_cast<double>(column) * (layout_.panel_width + layout_.gap_x);
+  return left + static_cast<double>(column) * (layout_.panel_width + gap_x);
 }
 
 double PanelGrid::y(std::size_t row) const {
   const auto first = layout_.row_heights.begin();
   return std::accumulate(first, first + static_cast<std::ptrdiff_t>(row),
-                         above + static_cast<double>(row) * layout_.gap_y);
+                         above + static_cast<double>(row) * gap_y);
 }
 
 double PanelGrid::screen_x(double pixels) const { return pixels / width(); }
 double PanelGrid::screen_y(double pixels) const { return 1.0 - pixels / height(); }
 
 std::string PanelGrid::begin(double from, double to) const {
-  return fmt::format(
+  std::string text = fmt::format(
       "set multiplot\nset xrange [{}:{}]\nset ytics nomirror autofreq font ',11'\n"
       "set xtics font ',12'\nset key font ',11' spacing 1.15 samplen 1.6\nunset key\n"
       "set label 101 {} at screen {}, screen {} left font ',15'\n"
       "set label 102 {} at screen {}, screen {} left font ',11' textcolor rgb '#40464e'\n",
       from, to, gnuplot_text(text_.title), screen_x(20.0), screen_y(24.0),
       gnuplot_text(caption_lines_), screen_x(20.0), screen_y(height() - caption_height_ + 12.0));
-}
-
-std::string PanelGrid::column_title(std::size_t column, std::string_view text) const {
-  return fmt::format("set label {} {} at screen {}, screen {} center font ',13'\n", 110 + column,
-                     gnuplot_text(text), screen_x(x(column) + 0.5 * layout_.panel_width),
-                     screen_y(above - 18.0));
+  for (std::size_t i = 0; i < layout_.columns.size(); ++i) {
+    if (layout_.columns[i].empty()) continue;
+    text += fmt::format("set label {} {} at screen {}, screen {} center font ',13'\n", 110 + i,
+                        gnuplot_text(layout_.columns[i]),
+                        screen_x(x(i) + 0.5 * layout_.panel_width), screen_y(above - 18.0));
+  }
+  return text;
 }
 
 std::string PanelGrid::panel(std::size_t row, std::size_t column, std::string_view y_label) const {
@@ -81,7 +84,7 @@ std::string PanelGrid::panel(std::size_t row, std::size_t column, std::string_vi
                 : "unset label 103\n";
   if (row + column > 0) {
     text += "unset label 101\nunset label 102\n";
-    for (std::size_t i = 0; i < layout_.columns; ++i) {
+    for (std::size_t i = 0; i < layout_.columns.size(); ++i) {
       text += fmt::format("unset label {}\n", 110 + i);
     }
   }
@@ -90,9 +93,9 @@ std::string PanelGrid::panel(std::size_t row, std::size_t column, std::string_vi
   return text;
 }
 
-std::string PanelGrid::key(std::size_t row, double offset) const {
+std::string PanelGrid::key(std::size_t row) const {
   return fmt::format("set key at screen {}, screen {} left top Left reverse\n",
-                     screen_x(width() - layout_.right + offset), screen_y(y(row) - 2.0));
+                     screen_x(width() - layout_.right + 14.0), screen_y(y(row) - 2.0));
 }
 
 std::string PanelGrid::colour_bar(std::size_t row, double offset, double width) const {

@@ -15,26 +15,23 @@ namespace touchdown::render {
 class PanelGrid {
  public:
   struct Layout {
-    std::size_t columns = 1;
-    std::vector<double> row_heights;     ///< px
-    double panel_width = 452.0;          ///< px
-    double left = 104.0, right = 250.0;  ///< beside the panels (px)
-    double gap_x = 22.0, gap_y = 14.0;   ///< between panels (px)
+    std::vector<std::string> columns = {""};  ///< titles above them; empty for none
+    std::vector<double> row_heights;          ///< px
+    double panel_width = 452.0;               ///< px
+    double right = 250.0;                     ///< beside the panels, for legends (px)
   };
 
   PanelGrid(Layout layout, FigureText text);
 
   std::size_t rows() const { return layout_.row_heights.size(); }
 
-  /// Opens the multiplot: fonts, title and caption, and the time axis from `begin` to `end` (ms).
+  /// Opens the multiplot: fonts, titles and caption, and the time axis from `begin` to `end` (ms).
   std::string begin(double from, double to) const;
-  /// A line of text above a column.
-  std::string column_title(std::size_t column, std::string_view text) const;
   /// Places the next plot; tics and label of the time axis appear in the last row, those of the
   /// vertical axis in the first column. `y_label` may have two lines.
   std::string panel(std::size_t row, std::size_t column, std::string_view y_label) const;
-  /// Puts the next plot's key right of the row, `offset` px away from the last column.
-  std::string key(std::size_t row, double offset = 14.0) const;
+  /// Puts the next plot's key right of the row.
+  std::string key(std::size_t row) const;
   /// Puts a colour bar of that width right of the row.
   std::string colour_bar(std::size_t row, double offset, double width) const;
   /// Draws the figure of these commands. Files and errors as `draw_figure`.

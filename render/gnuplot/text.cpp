@@ -1,10 +1,12 @@
 #include "render/gnuplot/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "core/table.hpp"
 
 namespace touchdown::render {
@@ -33,17 +35,66 @@ std::string wrapped(std::string_view text, std::size_t columns) {
   std::istringstream words{std::string(text)};
   for (std::string word; words >> word;) {
     const std::size_t letters = width(word);
-    if (used > 0 && used + 1 + letters > columns) {
-      result += '\n';
-      used = 0;
-    } else if (used > 0) {
-      result += ' ';
-      ++used;
-    }
+    const bool goes_on = used > 0 && used + 1 + letters <= columns;
+    if (used > 0) result += goes_on ? ' ' : '\n';
     result += word;
-    used += letters;
+    used = goes_on ? used + 1 + letters : letters;
   }
   return result;
+}
+
+void PlotColumns::add(std::string name, std::vector<double> values) {
+  if (!values_.empty() && values.size() != values_.front().size()) {
+    throw Error(fmt::format("column {} has {} values, the others have {}", name, values.size(),
+                            values_.front().size()));
+  }
+  names_.push_back(std::move(name));
+  values_.push_back(std::move(values));
+}
+
+int PlotColumns::number_of(const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) throw Error(fmt::format("there is no column {}", name));
+  return static_cast<int>(found - names_.begin()) + 1;
+}
+
+std::string PlotColumns::text() const {
+  std::string text = fmt::format("# {}\n", fmt::join(names_, "\t"));
+  const std::size_t rows = values_.empty() ? 0 : values_.front().size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (const std::vector<double>& column : values_) text.append(number(column[row])) += '\t';
+    text.back() = '\n';
+  }
+  return text;
+}
+
+std::vector<double> in_ms(std::vector<double> seconds) {
+  // To the nanosecond: the product alone would say 345.00000000000006.
+  for (double& time : seconds) time = std::round(1e9 * time) / 1e6;
+  return seconds;
+}
+
+std::string contact_bands(const std::vector<double>& time, const std::vector<bool>& contact) {
+  std::string text = "unset object\nunset arrow\n";
+  for (std::size_t begin = 0; begin < time.size();) {
+    std::size_t end = begin + 1;
+    while (end < time.size() && contact[end] == contact[begin]) ++end;
+    const double until = end < time.size() ? time[end] : time.back();
+    if (contact[begin]) {
+      text += fmt::format(
+          "set object rectangle from first {}, graph 0 to first {}, graph 1 behind "
+          "fillcolor rgb '#dceee0' fillstyle solid noborder\n",
+          time[begin], until);
+    }
+    if (end < time.size()) {
+      text += fmt::format(
+          "set arrow from first {0}, graph 0 to first {0}, graph 1 nohead front lw 0.8 dt (4,4) "
+          "lc rgb '#7d8790'\n",
+          until);
+    }
+    begin = end;
+  }
+  return text;
 }
 
 }  // namespace touchdown::render

@@ -1,14 +1,136 @@
 #include "render/maps/density_figure.hpp"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <span>
+
 #include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
-#include "render/maps/density_grid.hpp"
+#include "render/maps/iso_lines.hpp"
 
 namespace touchdown::render {
 namespace {
+
+/// The shares of a density's probability that its lines enclose.
+constexpr std::array<double, 3> enclosed_shares = {0.5, 0.9, 0.99};
+/// The probabilities of contact that have a line: undecided, and the filter's decision.
+constexpr std::array<double, 2> probability_levels = {0.5, 0.8};
+/// A density is drawn down to this share of its peak.
+constexpr double faintest = 1e-4;
+/// And it is shown where this share of both densities lies.
+constexpr double shown_share = 0.97;
+/// More points than this along an axis are thinned out.
+constexpr int most_points = 200;
+
+/// Widens a stretch, but not beyond 0 and `count`.
+void add_margin(int& begin, int& length, int count) {
+  const int margin = std::max(2, length / 8);
+  const int end = std::min(count, begin + length + margin);
+  begin = std::max(0, begin - margin);
+  length = end - begin;
+}
+
+/// The part of the grids that is drawn (x: columns, along the knee's axis; y: rows, along the
+/// wheel's): where 97 % of both densities lie, with a margin around it. One that vanishes counts as
+/// not there.
+cv::Rect window_of(const LikelihoodGrids& grids) {
+  const DensityPeaks peaks = peaks_of(grids);
+  cv::Rect window;
+  for (const auto& [grid, peak] :
+       {std::pair(&grids.contact, peaks.contact), std::pair(&grids.no_contact, peaks.no_contact)}) {
+    if (!(peak > 0.0)) continue;
+    const cv::Mat density = cv::Mat(*grid).reshape(1, grids.wheel.count);
+    window |= cv::boundingRect(density >= density_level(*grid, shown_share));
+  }
+  if (window.empty()) return {0, 0, grids.knee.count, grids.wheel.count};
+  add_margin(window.x, window.width, grids.knee.count);
+  add_margin(window.y, window.height, grids.wheel.count);
+  return window;
+}
+
+/// A grid's window as nested rows, for `iso_lines`.
+std::vector<std::vector<double>> rows_of(const std::vector<double>& grid, int row_length,
+                                         const cv::Rect& window) {
+  std::vector<std::vector<double>> rows;
+  for (int r = window.y; r < window.y + window.height; ++r) {
+    const auto begin = grid.begin() + r * row_length + window.x;
+    rows.emplace_back(begin, begin + window.width);
+  }
+  return rows;
+}
+
+/// The lines at these levels, in torques.
+std::string block_of_lines(const std::vector<double>& grid, std::span<const double> levels,
+                           const LikelihoodGrids& grids, const cv::Rect& window) {
+  const auto rows = rows_of(grid, grids.knee.count, window);
+  std::string text;
+  for (const double level : levels) {
+    for (const IsoLine& line : joined(iso_lines(rows, level))) {
+      for (const auto& [column, row] : line) {
+        fmt::format_to(std::back_inserter(text), "{:.5g}\t{:.5g}\n",
+                       grids.knee[window.x] + column * grids.knee.step(),
+                       grids.wheel[window.y] + row * grids.wheel.step());
+      }
+      text += '\n';
+    }
+  }
+  return (text.empty() ? "NaN\tNaN\n\n" : text) + '\n';
+}
+
+std::array<double, enclosed_shares.size()> levels_of(const std::vector<double>& grid) {
+  std::array<double, enclosed_shares.size()> levels{};
+  std::transform(enclosed_shares.begin(), enclosed_shares.end(), levels.begin(),
+                 [&](double share) { return density_level(grid, share); });
+  return levels;
+}
+
+double share_of_peak(double density, double peak) {
+  return peak > 0.0 ? std::max(density / peak, faintest) : faintest;
+}
+
+std::string points(const LikelihoodGrids& grids, const std::vector<double>& probability,
+                   const cv::Rect& window) {
+  const DensityPeaks peaks = peaks_of(grids);
+  const int row_step = 1 + (window.height - 1) / most_points;
+  const int column_step = 1 + (window.width - 1) / most_points;
+  std::string text = "#knee_nm\twheel_nm\tcontact\tno_contact\tp_contact\n";
+  for (int r = window.y; r < window.y + window.height; r += row_step) {
+    for (int c = window.x; c < window.x + window.width; c += column_step) {
+      const auto i = static_cast<std::size_t>(r * grids.knee.count + c);
+      fmt::format_to(std::back_inserter(text), "{:.5g}\t{:.5g}\t{:.4g}\t{:.4g}\t{:.4g}\n",
+                     grids.knee[c], grids.wheel[r], share_of_peak(grids.contact[i], peaks.contact),
+                     share_of_peak(grids.no_contact[i], peaks.no_contact), probability[i]);
+    }
+  }
+  return text + "\n\n";
+}
+
+/// Of the data file; gnuplot calls them `index`.
+constexpr std::size_t blocks_per_row = 4;
+
+/// A density figure's data file. Its blocks are, of each row, first the points: knee torque, wheel
+/// torque, both densities as shares of their peaks, P(contact); then the lines of both densities
+/// and of the probability.
+std::string density_data(const DensityFigure& figure) {
+  std::string text;
+  for (const DensityRow& row : figure.rows) {
+    const LikelihoodGrids& grids = row.grids;
+    const cv::Rect window = window_of(grids);
+    const std::vector<double> probability = contact_probability(grids);
+    text += points(grids, probability, window);
+    text += block_of_lines(grids.contact, levels_of(grids.contact), grids, window);
+    text += block_of_lines(grids.no_contact, levels_of(grids.no_contact), grids, window);
+    text += block_of_lines(probability, probability_levels, grids, window);
+  }
+  return text;
+}
 
 constexpr double panel_width = 268.0, panel_height = 216.0, left_margin = 76.0, gap_x = 62.0;
 constexpr double gap_y = 104.0, bar_height = 12.0, top_margin = 46.0;
@@ -21,18 +143,17 @@ struct Column {
   int value;          ///< in the data file
   const char* bar_label;
 };
+constexpr const char* density_scale =
+    "set logscale cb\nset cbrange [1e-4:1]\n"
+    "set cbtics ('10⁻⁴' 1e-4, '10⁻³' 1e-3, '10⁻²' 1e-2, '0.1' 0.1, '1' 1)\n";
 constexpr Column columns[] = {
     {"in contact", "(0 '#ffffff', 1 '#b9d7ea', 2 '#5aa5d1', 3 '#0072b2', 4 '#00304d')",
-     "set logscale cb\nset cbrange [1e-4:1]\n", 3, "density, share of its peak"},
+     density_scale, 3, "density, share of its peak"},
     {"in the air", "(0 '#ffffff', 1 '#f6d3b8', 2 '#ec9656', 3 '#d55e00', 4 '#5c2800')",
-     "set logscale cb\nset cbrange [1e-4:1]\n", 4, "density, share of its peak"},
+     density_scale, 4, "density, share of its peak"},
     {"P(contact), flat prior", "(0 '#d55e00', 1 '#f3c4a0', 2 '#f7f7f7', 3 '#9fcae6', 4 '#0072b2')",
-     "unset logscale cb\nset cbrange [0:1]\n", 5, "probability of contact"}};
-
-std::string tics_of(int value) {
-  if (value == 5) return "set cbtics (0, 0.2, 0.5, 0.8, 1)\n";
-  return "set cbtics ('10⁻⁴' 1e-4, '10⁻³' 1e-3, '10⁻²' 1e-2, '0.1' 0.1, '1' 1)\n";
-}
+     "unset logscale cb\nset cbrange [0:1]\nset cbtics (0, 0.2, 0.5, 0.8, 1)\n", 5,
+     "probability of contact"}};
 
 /// The panel's points and lines; a density that is not there says so instead.
 std::string plot(const DensityRow& row, const std::string& file, std::size_t block, int value) {
@@ -44,10 +165,10 @@ std::string plot(const DensityRow& row, const std::string& file, std::size_t blo
         "set label {} at graph 0.5, graph 0.55 center textcolor rgb '#40464e'\nplot NaN\n",
         gnuplot_text("all its torques lie\noutside the model's axes"));
   }
-  std::string text = fmt::format("plot {0} index {1} using 1:2:{2} with image", file, block, value);
-  return text +
-         fmt::format(", \\\n     {} index {} using 1:2 with lines lc rgb '#101418' lw {} dt 1\n",
-                     file, block + static_cast<std::size_t>(value) - 2, value == 5 ? 1.1 : 0.8);
+  return fmt::format(
+      "plot {0} index {1} using 1:2:{2} with image, \\\n"
+      "     {0} index {3} using 1:2 with lines lc rgb '#101418' lw {4} dt 1\n",
+      file, block, value, block + static_cast<std::size_t>(value) - 2, value == 5 ? 1.1 : 0.8);
 }
 
 std::string described(const DensityFigure& figure) {
@@ -63,6 +184,35 @@ std::string described(const DensityFigure& figure) {
 }
 
 }  // namespace
+
+double density_level(const std::vector<double>& grid, double share) {
+  std::vector<double> sorted = grid;
+  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  const double all = std::accumulate(sorted.begin(), sorted.end(), 0.0);
+  if (!(all > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0.0;
+  for (const double value : sorted) {
+    sum += value;
+    if (sum >= share * all) return value;
+  }
+  return sorted.back();
+}
+
+DensityPeaks peaks_of(const LikelihoodGrids& grids) {
+  constexpr double vanishing = 1e-12;
+  DensityPeaks peaks{*std::max_element(grids.contact.begin(), grids.contact.end()),
+                     *std::max_element(grids.no_contact.begin(), grids.no_contact.end())};
+  const double highest = std::max(peaks.contact, peaks.no_contact);
+  if (peaks.contact < vanishing * highest) peaks.contact = 0.0;
+  if (peaks.no_contact < vanishing * highest) peaks.no_contact = 0.0;
+  return peaks;
+}
+
+DensityAxes axes_of(const LikelihoodGrids& grids) {
+  const cv::Rect window = window_of(grids);
+  return {grids.knee[window.x], grids.knee[window.x + window.width - 1], grids.wheel[window.y],
+          grids.wheel[window.y + window.height - 1]};
+}
 
 Figure draw_density_figure(const DensityFigure& figure, const std::filesystem::path& stem) {
   if (figure.rows.empty()) throw InputError("a density figure without models");
@@ -89,12 +239,12 @@ Figure draw_density_figure(const DensityFigure& figure, const std::filesystem::p
                             fmt::format("set cblabel '{}' offset 0,0.5\n", column.bar_label)
                       : "unset colorbox\n";
       commands += fmt::format(
-          "set title '{}' offset 0,-0.7\nset palette defined {}\n{}{}"
+          "set title '{}' offset 0,-0.7\nset palette defined {}\n{}"
           "set xrange [{:.5g}:{:.5g}]\nset yrange [{:.5g}:{:.5g}]\nset ylabel '{}' offset 1,0\n",
-          column.title, column.palette, column.scale, tics_of(column.value), axes.knee_low,
-          axes.knee_high, axes.wheel_low, axes.wheel_high, c == 0 ? "wheel torque (N·m)" : "");
+          column.title, column.palette, column.scale, axes.knee_low, axes.knee_high, axes.wheel_low,
+          axes.wheel_high, c == 0 ? "wheel torque (N·m)" : "");
       commands +=
-          plot(figure.rows[r], file, r * density_blocks, column.value) + FigureFrame::end_panel();
+          plot(figure.rows[r], file, r * blocks_per_row, column.value) + FigureFrame::end_panel();
     }
   }
   return frame.draw(stem, commands, density_data(figure), described(figure));

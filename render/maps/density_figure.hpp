@@ -1,11 +1,44 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "estimator/bayes/measurement_model.hpp"
 #include "render/gnuplot/figure.hpp"
-#include "render/maps/density_data.hpp"
 
 namespace touchdown::render {
+
+/// A measurement model and whose it is.
+struct DensityRow {
+  std::string title;
+  LikelihoodGrids grids;
+};
+
+/// The paper's Fig. 3: densities of torques in contact and in the air, and the probability of
+/// contact that they imply when both are as likely beforehand; one row per model.
+struct DensityFigure {
+  std::string title;
+  std::vector<DensityRow> rows;
+  std::string caption;
+};
+
+/// The density above which `share` of a grid's sum lies: the border of its highest-density region.
+/// NaN for a grid of zeros.
+double density_level(const std::vector<double>& grid, double share);
+
+/// Both densities' peaks; zero for one that vanishes beside the other, as when all its torques lie
+/// outside the model's axes.
+struct DensityPeaks {
+  double contact = 0.0, no_contact = 0.0;
+};
+DensityPeaks peaks_of(const LikelihoodGrids& grids);
+
+/// Ends of the drawn axes (N·m).
+struct DensityAxes {
+  double knee_low, knee_high, wheel_low, wheel_high;
+};
+DensityAxes axes_of(const LikelihoodGrids& grids);
 
 /// Draws a density figure. Files as `draw_figure`. Errors: `InputError` without rows; `Error` as
 /// `draw_figure`.

@@ -109,17 +109,16 @@ Figure draw_overlay(const experiments::ExperimentResult& result) {
 
 }  // namespace
 
-std::vector<Picture> draw_drop_figures(const experiments::ExperimentResult& result) {
+std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& result) {
   const experiments::Experiment& experiment = result.experiment;
-  std::vector<Picture> pictures;
-  const auto add = [&](const Figure& figure) { pictures.push_back(picture("figure", figure)); };
-  if (experiment.cross_simulator) or_say_why_not([&] { add(draw_overlay(result)); });
+  std::vector<Figure> figures;
+  if (experiment.cross_simulator) or_say_why_not([&] { figures.push_back(draw_overlay(result)); });
   if (experiment.detail) {
     for (const std::string& simulator : experiment.simulators) {
-      or_say_why_not([&] { add(draw_detail(result, simulator)); });
+      or_say_why_not([&] { figures.push_back(draw_detail(result, simulator)); });
     }
   }
-  if (!experiment.posterior) return pictures;
+  if (!experiment.posterior) return figures;
   const experiments::PosteriorConfig& config = *experiment.posterior;
   std::vector<experiments::DropPosterior> drops;
   for (const std::string& simulator : experiment.simulators) {
@@ -129,10 +128,10 @@ std::vector<Picture> draw_drop_figures(const experiments::ExperimentResult& resu
       drops.push_back(experiments::drop_posterior(experiment, config, run.signals, result.models));
     });
   }
-  if (drops.empty()) return pictures;
-  add(draw_phase_posterior(drops, posterior_text(experiment, config),
-                           result.directory.file("figures", "phase_posterior")));
-  return pictures;
+  if (drops.empty()) return figures;
+  figures.push_back(draw_phase_posterior(drops, posterior_text(experiment, config),
+                                         result.directory.file("figures", "phase_posterior")));
+  return figures;
 }
 
 }  // namespace touchdown::render

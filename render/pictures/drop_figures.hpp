@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "experiments/tables/result.hpp"
-#include "render/pictures/picture.hpp"
+#include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {
 
 /// Draws the drops that the experiment's sections `detail` and `posterior` ask for, for every
 /// engine. An engine whose run has no such drop gets no figure and one line on the error stream
 /// that says why: the experiment is not lost for it.
-std::vector<Picture> draw_drop_figures(const experiments::ExperimentResult& result);
+std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& result);
 
 }  // namespace touchdown::render

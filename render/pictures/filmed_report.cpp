@@ -5,9 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "render/film/poster.hpp"
 #include "render/film/video.hpp"
-#include "render/pictures/film_progress.hpp"
+#include "render/report/html.hpp"
 #include "render/report/report.hpp"
 #include "simulators/registry.hpp"
 
@@ -19,26 +18,50 @@ namespace fs = std::filesystem;
 
 /// Longer runs are shown from their beginning only: the film lies inside the page (s).
 constexpr double longest_film = 20.0;
+/// A jump goes here before the takeoff, so that one sees it coming (s).
+constexpr double run_up = 0.4;
+/// And the drop counts as shown until so long after the landing (s).
+constexpr double follow_through = 0.4;
 
-ReportFlights flights_of(const FilmedRun& run, double end) {
-  ReportFlights result{simulators::simulator_title(run.recording.info.simulator), {}};
+/// A run's flights, to be jumped to, in a film until `end` (s).
+std::string drops_html(const FilmedRun& run, double end) {
+  const std::string engine = escaped(simulators::simulator_title(run.recording.info.simulator));
   scoring::LabelConfig visible = run.labels;
   visible.debounce = std::max(visible.debounce, 0.05);
+  std::size_t drops = 0;
+  std::string items;
   for (const scoring::Flight& flight :
        scoring::flights(scoring::any_wheel(scoring::contact_labels(run.recording, visible)))) {
-    const double period = run.recording.period();
-    const ReportFlights::Span span{static_cast<double>(flight.takeoff) * period,
-                                   static_cast<double>(flight.landing) * period};
-    if (span.takeoff > 0.0 && span.landing <= end) result.flights.push_back(span);
+    const double takeoff = static_cast<double>(flight.takeoff) * run.recording.period();
+    const double landing = static_cast<double>(flight.landing) * run.recording.period();
+    if (takeoff <= 0.0 || landing > end) continue;
+    ++drops;
+    items += fmt::format(
+        "<li><button type=\"button\" class=\"drop\" data-seek=\"{:.3f}\" data-end=\"{:.3f}\" "
+        "aria-label=\"Play the drop at {:.2f} seconds in {}\">{:.2f} s<small>{:.0f} ms in the air"
+        "</small></button></li>\n",
+        std::max(0.0, takeoff - run_up), landing + follow_through, takeoff, engine, takeoff,
+        1e3 * (landing - takeoff));
   }
-  return result;
+  return fmt::format("<h3>{}: {} {}</h3>\n<ol>\n{}</ol>\n", engine, drops,
+                     drops == 1 ? "drop" : "drops", items);
 }
 
-ReportFilm film(const std::vector<FilmedRun>& runs, const fs::path& directory,
-                const std::atomic<bool>* stop) {
-  ReportFilm result;
-  result.video = directory / "videos" / "report.mp4";
-  result.poster = directory / "videos" / "report.jpg";
+/// A link to the video in full size, where it is.
+std::string full_size_html(const FilmedRun& run, const fs::path& directory) {
+  const recordings::RecordingInfo& info = run.recording.info;
+  const std::string name = experiments::video_name(info.simulator, info.scenario);
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(directory / "videos" / name, error);
+  if (error) return {};
+  return fmt::format(" <a href=\"videos/{0}\">{0}</a> ({1})", escaped(name), size_text(bytes));
+}
+
+/// A small video that the report carries inside, and links to the files in full size beside it.
+std::string film_html(const std::vector<FilmedRun>& runs, const fs::path& directory,
+                      const std::atomic<bool>* stop) {
+  const fs::path video = directory / "videos" / "report.mp4";
+  const fs::path poster = directory / "videos" / "report.jpg";
   VideoOptions options;
   options.width = 960;
   options.height = 540;
@@ -49,44 +72,41 @@ ReportFilm film(const std::vector<FilmedRun>& runs, const fs::path& directory,
     end = std::max(end, static_cast<double>(run.recording.steps()) * run.recording.period());
   }
   options.to = std::min(end, longest_film);
-  std::string engines;
+  std::vector<std::string> engines, full_size;
+  std::string drops;
   std::vector<VideoSource> sources;
-  std::error_code ignored;
   for (const FilmedRun& run : runs) {
-    const recordings::RecordingInfo& info = run.recording.info;
-    result.engines.push_back(flights_of(run, options.to));
-    engines += (engines.empty() ? "" : " and ") + simulators::simulator_title(info.simulator);
+    engines.push_back(simulators::simulator_title(run.recording.info.simulator));
+    drops += drops_html(run, options.to);
     if (sources.size() < 2) sources.push_back(run.source());
-    const fs::path full =
-        fs::path("videos") / experiments::video_name(info.simulator, info.scenario);
-    if (fs::exists(directory / full, ignored)) result.full_size.push_back(full);
+    full_size.push_back(full_size_html(run, directory));
   }
-  result.description = fmt::format(
+  std::erase(full_size, "");
+  options.progress = film_progress("filming for the report", stop);
+  render_video(sources, options, video);
+  render_poster(sources, options, NAN, poster);
+  const std::string description = escaped(fmt::format(
       "The {} run in {}{}{}. Below: what the estimators believe, over the true contact (green: "
-      "dark "
-      "where both wheels touch, light where one does), and torques; thick lines are the left "
+      "dark where both wheels touch, light where one does), and torques; thick lines are the left "
       "wheel.",
-      runs.front().recording.info.scenario, engines, runs.size() > 1 ? ", beside each other" : "",
-      end > longest_film ? fmt::format(", its first {:.0f} seconds", longest_film) : "");
-  options.progress = FilmProgress("filming for the report", stop);
-  render_video(sources, options, result.video);
-  render_poster(sources, options, NAN, result.poster);
-  return result;
+      runs.front().recording.info.scenario, fmt::join(engines, " and "),
+      runs.size() > 1 ? ", beside each other" : "",
+      end > longest_film ? fmt::format(", its first {:.0f} seconds", longest_film) : ""));
+  return fmt::format(
+      "<div class=\"film\">\n<figure><video controls muted playsinline preload=\"auto\" "
+      "aria-label=\"{0}\" poster=\"{1}\" src=\"{2}\"></video>\n"
+      "<figcaption>{0}{3}{4}{5}</figcaption></figure>\n"
+      "<div class=\"drops\">\n<p class=\"note\">Choose a drop to see it:</p>\n{6}</div>\n</div>\n",
+      description, data_uri("image/jpeg", poster), data_uri("video/mp4", video),
+      full_size.empty() ? "" : " In full size, beside this file:", fmt::join(full_size, ","),
+      full_size.empty() ? "" : ".", drops);
 }
 
 }  // namespace
 
 fs::path make_report(const ReportSubject& subject, const std::vector<FilmedRun>& filmed,
                      const std::atomic<bool>* stop) {
-  std::vector<ReportFilm> films;
-  if (!filmed.empty()) films.push_back(film(filmed, subject.directory, stop));
-  return write_report(subject, films);
-}
-
-fs::path make_report(const fs::path& run_directory, bool with_film, const std::atomic<bool>* stop) {
-  const ReportSubject subject = read_subject(run_directory);
-  const bool is_filmed = with_film && subject.experiment.video.enabled;
-  return make_report(subject, is_filmed ? filmed_runs(subject) : std::vector<FilmedRun>(), stop);
+  return write_report(subject, filmed.empty() ? "" : film_html(filmed, subject.directory, stop));
 }
 
 }  // namespace touchdown::render

@@ -15,9 +15,4 @@ std::filesystem::path make_report(const ReportSubject& subject,
                                   const std::vector<FilmedRun>& filmed,
                                   const std::atomic<bool>* stop);
 
-/// The same of the run that the directory's experiment films, if it films any and `with_film`.
-/// Errors: also `InputError` when it is no run directory of a finished experiment.
-std::filesystem::path make_report(const std::filesystem::path& run_directory, bool with_film,
-                                  const std::atomic<bool>* stop);
-
 }  // namespace touchdown::render

@@ -1,15 +1,18 @@
 #include "render/pictures/filmed_run.hpp"
 
-#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 #include "recordings/log/recording_file.hpp"
-#include "render/pictures/belief_track.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace touchdown::render {
@@ -26,15 +29,6 @@ experiments::FittedModel model_of(const fs::path& directory, const std::string& 
       *kind, directory / "models" / experiments::model_name(simulator, estimator));
 }
 
-/// The recording as its sensors with this noise report it; the ground truth stays.
-recordings::Recording with_noise(recordings::Recording recording, const noise::NoiseKey& key,
-                                 const noise::SensorNoise& levels) {
-  for (std::size_t k = 0; k < recording.steps(); ++k) {
-    recording.observation[k] = noise::with_noise(recording.observation[k], key, k, levels);
-  }
-  return recording;
-}
-
 /// The robot on the terrain of the scenario that a recording says it was made in.
 models::RobotModel robot_of(const recordings::Recording& recording) {
   const recordings::RecordingInfo& info = recording.info;
@@ -48,54 +42,58 @@ models::RobotModel robot_of(const recordings::Recording& recording) {
   return models::compile_robot_model(find_resource(scenario.robot), scenario.terrain);
 }
 
-FilmedRun filmed_run(const experiments::Experiment& experiment, const std::string& simulator,
-                     const experiments::FittedModels& models, recordings::Recording recording) {
+/// What an estimator says along a noisy recording. `noise` was drawn for the run.
+BeliefTrack believe(const experiments::Condition& condition,
+                    const experiments::FittedModels& models, const experiments::RunSignals& run,
+                    const experiments::NoiseRun& noise, const noise::SensorNoise& levels) {
+  const auto estimator = experiments::make_estimator(condition, models, run);
+  BeliefTrack track;
+  track.name = experiments::estimator_entry(condition.estimator).title;
+  for (std::size_t k = 0; k < run.steps(); ++k) {
+    const Belief& belief = estimator->update(experiments::noisy(run, noise, levels, k));
+    const Evidence::Transition transition = estimator->evidence().transition;
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      track.p_contact[wheel].push_back(static_cast<float>(belief.wheel[wheel].p_contact));
+      if (std::isnan(transition.p_takeoff)) continue;
+      track.p_takeoff[wheel].push_back(static_cast<float>(transition.p_takeoff));
+      track.p_landing[wheel].push_back(static_cast<float>(transition.p_landing));
+    }
+  }
+  return track;
+}
+
+}  // namespace
+
+std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
+  const experiments::Experiment& experiment = subject.experiment;
   const experiments::VideoConfig& video = experiment.video;
   const noise::SensorNoise levels =
       noise::with_encoder_noise({video.torque_noise, video.accelerometer_noise}, experiment.noise)
           .levels();
   const noise::NoiseKey key = experiments::noise_key(experiment, 0, video.run);
-  const experiments::RunSignals heard = experiments::signals_of(
-      recording, experiment.labels, experiment.scoring, experiment.intervals.over);
-  const experiments::NoiseRun noise = experiments::noise_run(heard, key);
-  std::vector<BeliefTrack> beliefs;
-  for (const std::string& estimator : video.estimators) {
-    beliefs.push_back(believe({simulator, simulator, estimator}, models, heard, noise, levels));
-  }
-  models::RobotModel robot = robot_of(recording);
-  return {std::move(robot), with_noise(std::move(recording), key, levels), std::move(beliefs),
-          experiment.labels};
-}
-
-}  // namespace
-
-std::vector<FilmedRun> filmed_runs(const experiments::ExperimentResult& result) {
-  const experiments::Experiment& experiment = result.experiment;
-  std::vector<FilmedRun> filmed;
-  for (const std::string& simulator : experiment.simulators) {
-    const experiments::PlayedRun* run =
-        experiments::test_run(result.runs, simulator, experiment.video.run);
-    if (run == nullptr || !run->report.error.empty()) continue;
-    filmed.push_back(filmed_run(
-        experiment, simulator, result.models,
-        recordings::read_recording(result.directory.file("recordings", run->plan.file))));
-  }
-  return filmed;
-}
-
-std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
-  const experiments::VideoConfig& video = subject.experiment.video;
   std::vector<FilmedRun> filmed;
   for (const experiments::RunSummary& run : subject.summary.runs) {
     if (run.role != experiments::RunRole::test || run.run != video.run) continue;
     const fs::path log = subject.directory / "recordings" / run.recording;
     if (!fs::exists(log)) continue;
-    experiments::FittedModels models;
+    recordings::Recording recording = recordings::read_recording(log);
+    const experiments::RunSignals heard = experiments::signals_of(
+        recording, experiment.labels, experiment.scoring, experiment.intervals.over);
+    const experiments::NoiseRun drawn = experiments::noise_run(heard, key);
+    std::vector<BeliefTrack> beliefs;
     for (const std::string& estimator : video.estimators) {
+      experiments::FittedModels models;
       models[run.simulator][estimator] = model_of(subject.directory, run.simulator, estimator);
+      beliefs.push_back(
+          believe({run.simulator, run.simulator, estimator}, models, heard, drawn, levels));
+    }
+    models::RobotModel robot = robot_of(recording);
+    // What the sensors report; the ground truth stays.
+    for (std::size_t k = 0; k < recording.steps(); ++k) {
+      recording.observation[k] = noise::with_noise(recording.observation[k], key, k, levels);
     }
     filmed.push_back(
-        filmed_run(subject.experiment, run.simulator, models, recordings::read_recording(log)));
+        {std::move(robot), std::move(recording), std::move(beliefs), experiment.labels});
   }
   return filmed;
 }
@@ -104,6 +102,17 @@ FilmedRun filmed_recording(const fs::path& log, std::vector<std::string>& warnin
   recordings::Recording recording = recordings::read_recording(log, &warnings);
   models::RobotModel robot = robot_of(recording);
   return {std::move(robot), std::move(recording), {}, {}};
+}
+
+std::function<void(int done, int of)> film_progress(const std::string& what,
+                                                    const std::atomic<bool>* stop) {
+  // A function object must be copyable, a bar is not.
+  return [what, stop, bar = std::make_shared<std::optional<Progress>>()](int, int frames) {
+    // Only the film knows how many frames it has.
+    if (!*bar) bar->emplace(what, "frames", frames);
+    (*bar)->advance();
+    if (*stop) throw Stopped();
+  };
 }
 
 }  // namespace touchdown::render

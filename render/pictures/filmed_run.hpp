@@ -1,10 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "experiments/tables/result.hpp"
 #include "models/robot_model.hpp"
 #include "recordings/recording.hpp"
 #include "render/film/video.hpp"
@@ -24,14 +25,17 @@ struct FilmedRun {
 
 /// The run that an experiment films, for each of its engines: the recording with the noise that the
 /// experiment asks for, and what the estimators made of it. An engine without that recording is
-/// left out. Errors: `InputError` for a recording that is broken.
-std::vector<FilmedRun> filmed_runs(const experiments::ExperimentResult& result);
-/// The same from a run directory, with the models that were fitted then.
-/// Errors: also `InputError` when the directory lacks a model.
+/// left out. Errors: `InputError` for a recording that is broken, or when the directory lacks a
+/// model.
 std::vector<FilmedRun> filmed_runs(const ReportSubject& subject);
 
 /// A recording alone. Errors: `InputError` when it does not say on which terrain it was made.
 /// What was wrong with the log but not fatal is added to `warnings`.
 FilmedRun filmed_recording(const std::filesystem::path& log, std::vector<std::string>& warnings);
+
+/// What a video calls after every frame: moves a bar that lives as long as this, and stops the
+/// filming once the user asked for it (`Stopped`).
+std::function<void(int done, int of)> film_progress(const std::string& what,
+                                                    const std::atomic<bool>* stop);
 
 }  // namespace touchdown::render

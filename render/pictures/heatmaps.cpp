@@ -9,6 +9,7 @@
 
 #include "experiments/estimators/registry.hpp"
 #include "experiments/tables/captions.hpp"
+#include "render/maps/heatmap_figure.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -17,6 +18,10 @@ namespace {
 
 /// Where a summary's cell lies on a map.
 using Place = std::function<std::array<double, 2>(const noise::NoiseCell&)>;
+
+std::size_t place_in(const std::vector<double>& levels, double level) {
+  return static_cast<std::size_t>(std::find(levels.begin(), levels.end(), level) - levels.begin());
+}
 
 HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::string& simulator,
                       const std::string& estimator, const Heatmap& heatmap, const Place& place) {
@@ -30,10 +35,7 @@ HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::st
     const experiments::Condition& who = summary.condition;
     if (who.test_simulator != simulator || who.estimator != estimator) continue;
     const auto [x, y] = place(summary.cell);
-    const auto column = static_cast<std::size_t>(std::find(heatmap.x.begin(), heatmap.x.end(), x) -
-                                                 heatmap.x.begin());
-    const auto row = static_cast<std::size_t>(std::find(heatmap.y.begin(), heatmap.y.end(), y) -
-                                              heatmap.y.begin());
+    const std::size_t column = place_in(heatmap.x, x), row = place_in(heatmap.y, y);
     if (column == heatmap.x.size() || row == heatmap.y.size()) continue;
     panel.value[row][column] = summary.success.estimate;
     panel.low[row][column] = summary.success.low;
@@ -77,9 +79,9 @@ void limit_colours(Heatmap& heatmap) {
   }
 }
 
-/// Panels, captions and lines common to both maps; axes are set already.
-void fill(Heatmap& heatmap, const experiments::ExperimentResult& result,
-          const std::string& simulator, const Place& place) {
+/// The map of these axes with its panels, caption and lines.
+Heatmap filled(Heatmap heatmap, const experiments::ExperimentResult& result,
+               const std::string& simulator, const Place& place) {
   const experiments::Experiment& experiment = result.experiment;
   heatmap.value_label = "success rate";
   for (const std::string& estimator : experiment.estimators) {
@@ -98,43 +100,44 @@ void fill(Heatmap& heatmap, const experiments::ExperimentResult& result,
   }
   heatmap.iso_levels = {0.9, 0.95, 0.98};
   limit_colours(heatmap);
+  return heatmap;
 }
 
 }  // namespace
 
-Heatmap success_heatmap(const experiments::ExperimentResult& result, const std::string& simulator) {
+std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result) {
   const experiments::Experiment& experiment = result.experiment;
-  Heatmap heatmap;
-  heatmap.title = fmt::format("Success rate under sensor noise: {}, {}", experiment.name,
-                              simulators::simulator_title(simulator));
-  heatmap.x_label = "accelerometer noise (m/s²)";
-  heatmap.y_label = "torque noise (N·m)";
-  heatmap.x = experiment.noise.accelerometer;
-  heatmap.y = experiment.noise.torque;
-  fill(heatmap, result, simulator, [](const noise::NoiseCell& cell) {
+  const noise::KneeWheelGridConfig& apart = experiment.noise.knee_wheel;
+  const Place by_torque = [](const noise::NoiseCell& cell) {
     return std::array{cell.accelerometer, cell.torque};
-  });
-  return heatmap;
-}
-
-std::optional<Heatmap> knee_wheel_heatmap(const experiments::ExperimentResult& result,
-                                          const std::string& simulator) {
-  const experiments::Experiment& experiment = result.experiment;
-  const noise::KneeWheelGridConfig& grid = experiment.noise.knee_wheel;
-  if (grid.knee.empty()) return std::nullopt;
-  Heatmap heatmap;
-  heatmap.title =
-      fmt::format("Success rate under torque noise, {} m/s² on the accelerometer: {}, {}",
-                  grid.accelerometer, experiment.name, simulators::simulator_title(simulator));
-  heatmap.x_label = "wheel torque noise (N·m)";
-  heatmap.y_label = "knee torque noise (N·m)";
-  heatmap.x = grid.wheel;
-  heatmap.y = grid.knee;
-  fill(heatmap, result, simulator, [&](const noise::NoiseCell& cell) {
-    return cell.accelerometer == grid.accelerometer ? std::array{cell.wheel, cell.knee}
-                                                    : std::array<double, 2>{NAN, NAN};
-  });
-  return heatmap;
+  };
+  const Place by_joint = [&](const noise::NoiseCell& cell) {
+    return cell.accelerometer == apart.accelerometer ? std::array{cell.wheel, cell.knee}
+                                                     : std::array<double, 2>{NAN, NAN};
+  };
+  std::vector<Figure> figures;
+  for (const std::string& simulator : experiment.simulators) {
+    const std::string where =
+        fmt::format("{}, {}", experiment.name, simulators::simulator_title(simulator));
+    Heatmap heatmap;
+    heatmap.title = "Success rate under sensor noise: " + where;
+    heatmap.x_label = "accelerometer noise (m/s²)";
+    heatmap.y_label = "torque noise (N·m)";
+    heatmap.x = experiment.noise.accelerometer;
+    heatmap.y = experiment.noise.torque;
+    figures.push_back(draw_heatmap(filled(heatmap, result, simulator, by_torque),
+                                   result.directory.file("figures", "success_" + simulator)));
+    if (apart.knee.empty()) continue;
+    heatmap.title = fmt::format("Success rate under torque noise, {} m/s² on the accelerometer: {}",
+                                apart.accelerometer, where);
+    heatmap.x_label = "wheel torque noise (N·m)";
+    heatmap.y_label = "knee torque noise (N·m)";
+    heatmap.x = apart.wheel;
+    heatmap.y = apart.knee;
+    figures.push_back(draw_heatmap(filled(heatmap, result, simulator, by_joint),
+                                   result.directory.file("figures", "knee_wheel_" + simulator)));
+  }
+  return figures;
 }
 
 }  // namespace touchdown::render

@@ -1,18 +1,14 @@
 #pragma once
 
-#include <optional>
-#include <string>
+#include <vector>
 
 #include "experiments/tables/result.hpp"
-#include "render/maps/heatmap.hpp"
+#include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {
 
-/// One engine's success rates over the noise grid, one panel per estimator.
-Heatmap success_heatmap(const experiments::ExperimentResult& result, const std::string& simulator);
-
-/// The same over knee and wheel torque noise; nothing without such a grid.
-std::optional<Heatmap> knee_wheel_heatmap(const experiments::ExperimentResult& result,
-                                          const std::string& simulator);
+/// Draws into the run directory, for every engine: success rates over the noise grid, one panel per
+/// estimator, and the same over knee and wheel torque noise if there is such a grid.
+std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result);
 
 }  // namespace touchdown::render

@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 
 #include "render/film/video.hpp"
-#include "render/maps/heatmap_figure.hpp"
 #include "render/pictures/drop_figures.hpp"
-#include "render/pictures/film_progress.hpp"
 #include "render/pictures/heatmaps.hpp"
 #include "render/pictures/score_figures.hpp"
 
@@ -23,7 +21,7 @@ Picture film(const experiments::ExperimentResult& result, const FilmedRun& run,
   VideoOptions options;
   options.labels = run.labels;
   options.workers = result.experiment.workers;
-  options.progress = FilmProgress(fmt::format("filming {}", info.simulator), stop);
+  options.progress = film_progress(fmt::format("filming {}", info.simulator), stop);
   render_video({run.source()}, options, path);
   return {"video", {path}};
 }
@@ -35,20 +33,14 @@ std::vector<Picture> draw_pictures(experiments::ExperimentResult& result,
                                    const std::atomic<bool>* stop) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<Picture> pictures;
-  const auto draw = [&](const Heatmap& map, const std::string& name) {
-    pictures.push_back(
-        picture("heatmap", draw_heatmap(map, result.directory.file("figures", name))));
+  const auto add = [&](const char* kind, const Figure& figure) {
+    pictures.push_back({kind, {figure.png, figure.svg}});
   };
   if (result.cells.size() > 1) {
-    for (const std::string& simulator : result.experiment.simulators) {
-      draw(success_heatmap(result, simulator), "success_" + simulator);
-      if (const auto map = knee_wheel_heatmap(result, simulator)) {
-        draw(*map, "knee_wheel_" + simulator);
-      }
-    }
+    for (const Figure& drawn : draw_heatmaps(result)) add("heatmap", drawn);
   }
-  for (Picture& drawn : draw_score_figures(result)) pictures.push_back(std::move(drawn));
-  for (Picture& drawn : draw_drop_figures(result)) pictures.push_back(std::move(drawn));
+  for (const Figure& drawn : draw_score_figures(result)) add("figure", drawn);
+  for (const Figure& drawn : draw_drop_figures(result)) add("figure", drawn);
   for (const FilmedRun& run : filmed) pictures.push_back(film(result, run, stop));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   result.provenance.timings.emplace_back("draw", elapsed.count());

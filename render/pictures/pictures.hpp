@@ -1,13 +1,20 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "experiments/tables/result.hpp"
 #include "render/pictures/filmed_run.hpp"
-#include "render/pictures/picture.hpp"
 
 namespace touchdown::render {
+
+/// Something for people to look at.
+struct Picture {
+  std::string kind;  ///< "heatmap", "figure", "video"
+  std::vector<std::filesystem::path> files;
+};
 
 /// Draws what an experiment's result asks for into its run directory, with a video of each filmed
 /// run, and adds the time it took to the provenance.

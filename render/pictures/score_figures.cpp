@@ -7,8 +7,7 @@
 
 #include "experiments/estimators/registry.hpp"
 #include "experiments/tables/captions.hpp"
-#include "render/curves/latency_figure.hpp"
-#include "render/curves/reliability_figure.hpp"
+#include "render/curves/score_figure.hpp"
 #include "render/maps/density_figure.hpp"
 #include "simulators/registry.hpp"
 
@@ -16,25 +15,31 @@ namespace touchdown::render {
 
 namespace {
 
-/// What scores the highlighted cell in this engine: all but the answer that never changes and the
-/// one that knows.
-std::vector<const experiments::ScoreSummary*> scores_of(const experiments::ExperimentResult& result,
-                                                        const std::string& simulator,
-                                                        const noise::NoiseCell& cell) {
-  std::vector<const experiments::ScoreSummary*> scores;
-  for (const experiments::ScoreSummary& score : result.scores) {
-    const bool shown = score.condition.test_simulator == simulator && score.cell == cell &&
-                       score.view == scoring::scored_views().front() &&
-                       score.condition.estimator != experiments::always_contact_name &&
-                       score.condition.estimator != "oracle";
-    if (shown) scores.push_back(&score);
-  }
-  return scores;
-}
-
 std::string title_of(const noise::NoiseCell& cell) {
   if (cell.torque == 0.0 && cell.accelerometer == 0.0) return "no noise";
   return fmt::format("noise: {} N·m, {} m/s²", cell.torque, cell.accelerometer);
+}
+
+/// What scores the highlighted cells in this engine: all but the answer that never changes and the
+/// one that knows.
+std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result,
+                                     const std::string& simulator) {
+  std::vector<ScorePanel> panels;
+  for (const noise::NoiseCell& cell : result.experiment.highlights) {
+    ScorePanel panel{title_of(cell), {}};
+    for (const experiments::ScoreSummary& score : result.scores) {
+      const bool shown = score.condition.test_simulator == simulator && score.cell == cell &&
+                         score.view == scoring::scored_views().front() &&
+                         score.condition.estimator != experiments::always_contact_name &&
+                         score.condition.estimator != "oracle";
+      if (!shown) continue;
+      panel.rows.push_back({experiments::estimator_entry(score.condition.estimator).title,
+                            score.total.calibration, score.contact_frequency, score.total.takeoff,
+                            score.total.landing});
+    }
+    if (!panel.rows.empty()) panels.push_back(std::move(panel));
+  }
+  return panels;
 }
 
 std::optional<DensityFigure> density_figure(const experiments::ExperimentResult& result,
@@ -65,77 +70,44 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
                              simulators::simulator_title(simulator));
   figure.caption = fmt::format(
       "Kernel densities fitted to {} without noise, both legs, seed {}; {}. Lines enclose 50, 90 "
-      "and 99 % of a density; on the right they "
-      "are P = 0.5 and the decision, 0.8. Axes end where 97 % of both densities lie.",
+      "and 99 % of a density; on the right they are P = 0.5 and the decision, 0.8. Axes end where "
+      "97 % of both densities lie.",
       experiments::plural(runs, "run"), experiment.seed, experiments::labels_text(experiment));
-  return figure;
-}
-
-std::optional<ReliabilityFigure> reliability_figure(const experiments::ExperimentResult& result,
-                                                    const std::string& simulator) {
-  const experiments::Experiment& experiment = result.experiment;
-  ReliabilityFigure figure;
-  for (const noise::NoiseCell& cell : experiment.highlights) {
-    ReliabilityPanel panel{title_of(cell), {}};
-    for (const experiments::ScoreSummary* score : scores_of(result, simulator, cell)) {
-      panel.curves.push_back({experiments::estimator_entry(score->condition.estimator).title,
-                              score->total.calibration, score->contact_frequency});
-    }
-    if (!panel.curves.empty()) figure.panels.push_back(std::move(panel));
-  }
-  if (figure.panels.empty()) return std::nullopt;
-  figure.title = fmt::format("Do probabilities mean what they say? {}, {}", experiment.name,
-                             simulators::simulator_title(simulator));
-  figure.caption = fmt::format(
-      "{}. Every step of both wheels counts. Bars: {}. On the "
-      "diagonal a stated probability is the share of contact; below, how often each was stated.",
-      experiments::scored_text(result, simulator), experiments::intervals_text(experiment));
-  return figure;
-}
-
-std::optional<LatencyFigure> latency_figure(const experiments::ExperimentResult& result,
-                                            const std::string& simulator) {
-  const experiments::Experiment& experiment = result.experiment;
-  LatencyFigure figure;
-  for (const noise::NoiseCell& cell : experiment.highlights) {
-    LatencyPanel panel{title_of(cell), {}};
-    for (const experiments::ScoreSummary* score : scores_of(result, simulator, cell)) {
-      panel.rows.push_back({experiments::estimator_entry(score->condition.estimator).title,
-                            score->total.takeoff, score->total.landing});
-    }
-    if (!panel.rows.empty()) figure.panels.push_back(std::move(panel));
-  }
-  if (figure.panels.empty()) return std::nullopt;
-  figure.title = fmt::format("How late takeoffs and landings are told: {}, {}", experiment.name,
-                             simulators::simulator_title(simulator));
-  figure.caption = fmt::format(
-      "{}. Events of both wheels, flights of at least {:.0f} ms; early is negative. Bins of 5 ms, "
-      "every histogram to its own height; the line is the mean, ± the standard deviation of found "
-      "events.",
-      experiments::scored_text(result, simulator), 1e3 * experiment.scoring.minimum_flight);
   return figure;
 }
 
 }  // namespace
 
-std::vector<Picture> draw_score_figures(const experiments::ExperimentResult& result) {
-  std::vector<Picture> pictures;
-  const auto add = [&](const Figure& figure) { pictures.push_back(picture("figure", figure)); };
-  for (const std::string& simulator : result.experiment.simulators) {
+std::vector<Figure> draw_score_figures(const experiments::ExperimentResult& result) {
+  const experiments::Experiment& experiment = result.experiment;
+  std::vector<Figure> figures;
+  for (const std::string& simulator : experiment.simulators) {
+    const std::string where =
+        fmt::format("{}, {}", experiment.name, simulators::simulator_title(simulator));
     const auto stem = [&](const char* name) {
       return result.directory.file("figures", fmt::format("{}_{}", name, simulator));
     };
     if (const auto densities = density_figure(result, simulator)) {
-      add(draw_density_figure(*densities, stem("densities")));
+      figures.push_back(draw_density_figure(*densities, stem("densities")));
     }
-    if (const auto reliability = reliability_figure(result, simulator)) {
-      add(draw_reliability_figure(*reliability, stem("reliability")));
-    }
-    if (const auto latency = latency_figure(result, simulator)) {
-      add(draw_latency_figure(*latency, stem("latency")));
-    }
+    const std::vector<ScorePanel> panels = score_panels(result, simulator);
+    if (panels.empty()) continue;
+    const std::string scored = experiments::scored_text(result, simulator);
+    figures.push_back(draw_reliability_figure(
+        {"Do probabilities mean what they say? " + where, panels,
+         fmt::format("{}. Every step of both wheels counts. Bars: {}. On the diagonal a stated "
+                     "probability is the share of contact; below, how often each was stated.",
+                     scored, experiments::intervals_text(experiment))},
+        stem("reliability")));
+    figures.push_back(draw_latency_figure(
+        {"How late takeoffs and landings are told: " + where, panels,
+         fmt::format("{}. Events of both wheels, flights of at least {:.0f} ms; early is negative. "
+                     "Bins of 5 ms, every histogram to its own height; the line is the mean, ± the "
+                     "standard deviation of found events.",
+                     scored, 1e3 * experiment.scoring.minimum_flight)},
+        stem("latency")));
   }
-  return pictures;
+  return figures;
 }
 
 }  // namespace touchdown::render

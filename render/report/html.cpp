@@ -1,36 +1,29 @@
 #include "render/report/html.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/files.hpp"
 
 namespace touchdown::render {
+namespace {
+
+constexpr std::pair<char, std::string_view> markup[] = {
+    {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
+
+}  // namespace
 
 std::string escaped(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
+    const auto known = std::find_if(std::begin(markup), std::end(markup),
+                                    [&](const auto& entry) { return entry.first == c; });
+    known != std::end(markup) ? result.append(known->second) : result.append(1, c);
   }
   return result;
 }

@@ -9,8 +9,6 @@
 #include "render/report/figures.hpp"
 #include "render/report/html.hpp"
 #include "render/report/noise.hpp"
-#include "render/report/paper_tables.hpp"
-#include "render/report/reproduce.hpp"
 #include "render/report/results.hpp"
 #include "render/report/tables.hpp"
 
@@ -19,43 +17,66 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string section_html(const ReportSection& section) {
-  return fmt::format(
-      "<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}"
-      "</h2>\n{2}</section>\n",
-      section.id, escaped(section.title), section.html);
+std::string text_of(const nlohmann::ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return fmt::format("{:.3g}", value.get<double>());
+  return value.dump();
 }
 
-/// Puts each value where the page has its {{name}}, in one pass: values are never searched.
-std::string filled(std::string_view page,
-                   const std::vector<std::pair<std::string_view, std::string>>& values) {
-  std::string result;
-  while (true) {
-    const std::size_t open = page.find("{{");
-    const std::size_t close = page.find("}}", open);
-    if (open == std::string_view::npos || close == std::string_view::npos) break;
-    result += page.substr(0, open);
-    const std::string_view name = page.substr(open + 2, close - open - 2);
-    const auto found = std::find_if(values.begin(), values.end(),
-                                    [&](const auto& value) { return value.first == name; });
-    if (found != values.end()) result += found->second;
-    page.remove_prefix(close + 2);
+void add_rows(const nlohmann::ordered_json& manifest, const char* key, const std::string& prefix,
+              Table& table) {
+  if (!manifest.contains(key) || !manifest[key].is_object()) return;
+  for (const auto& [name, value] : manifest[key].items()) {
+    if (std::string(key) == "host" && name == "name") continue;
+    table.rows.push_back({prefix + name, text_of(value)});
   }
-  return result.append(page);
+}
+
+/// The command, versions, seeds and configuration that lead to the same numbers again.
+ReportSection reproduce_section(const ReportSubject& subject) {
+  const auto& manifest = subject.manifest;
+  std::string html =
+      "<p>One command computes everything on this page again, from the configuration that lies "
+      "beside it; the same program gives the same numbers, to the last digit:</p>\n"
+      "<pre><code>touchdown run config.yaml</code></pre>\n";
+  if (manifest.contains("command") && manifest["command"].is_string()) {
+    html += fmt::format("<p>This is what was typed:</p>\n<pre><code>{}</code></pre>\n",
+                        escaped(manifest["command"].get<std::string>()));
+  }
+  Table table{{"what", "value"}, {}};
+  for (const char* key : {"id", "finished_at"}) {
+    if (manifest.contains(key)) table.rows.push_back({key, text_of(manifest[key])});
+  }
+  add_rows(manifest, "versions", "version: ", table);
+  add_rows(manifest, "seeds", "seed: ", table);
+  add_rows(manifest, "host", "", table);
+  add_rows(manifest, "timings_s", "seconds to ", table);
+  for (auto& row : table.rows) {
+    std::replace(row[0].begin(), row[0].end(), '_', ' ');
+  }
+  html += table_html({"Versions, seeds and how long it took", "versions and seeds", table}, 1);
+  if (manifest.contains("failed_runs") && manifest["failed_runs"].is_array() &&
+      !manifest["failed_runs"].empty()) {
+    Table failed{{"recording", "outcome"}, {}};
+    for (const auto& run : manifest["failed_runs"]) {
+      failed.rows.push_back({run.value("recording", ""), run.value("outcome", "")});
+    }
+    html += table_html({"Runs that are not scored", "failed runs", failed}, 1);
+  }
+  html += fmt::format(
+      "<details><summary>The configuration, every default written out</summary>\n"
+      "<pre tabindex=\"0\"><code>{}</code></pre></details>\n",
+      escaped(subject.config_text));
+  return {"reproduce", "Reproduce it", html};
 }
 
 }  // namespace
 
-fs::path write_report(const ReportSubject& subject, const std::vector<ReportFilm>& films) {
-  ReportSection film{"film", "Watch it", {}};
-  for (const ReportFilm& one : films) film.html += film_html(one, subject.directory);
-  std::vector<ReportSection> sections = {film,
-                                         results_section(subject),
-                                         heatmap_section(subject),
-                                         paper_section(subject),
-                                         figures_section(subject),
-                                         more_tables_section(subject),
-                                         reproduce_section(subject)};
+fs::path write_report(const ReportSubject& subject, const std::string& film_html) {
+  std::vector<ReportSection> sections = {
+      {"film", "Watch it", film_html}, results_section(subject), heatmap_section(subject),
+      paper_section(subject),          figures_section(subject), more_tables_section(subject),
+      reproduce_section(subject)};
   std::erase_if(sections, [](const ReportSection& section) { return section.html.empty(); });
 
   std::string body = "<header>\n" + header_html(subject) + "<nav aria-label=\"Contents\"><ul>\n";
@@ -63,7 +84,12 @@ fs::path write_report(const ReportSubject& subject, const std::vector<ReportFilm
     body += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, escaped(section.title));
   }
   body += "</ul></nav>\n</header>\n<main id=\"main\">\n";
-  for (const ReportSection& section : sections) body += section_html(section);
+  for (const ReportSection& section : sections) {
+    body += fmt::format(
+        "<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}"
+        "</h2>\n{2}</section>\n",
+        section.id, escaped(section.title), section.html);
+  }
   body += "</main>\n<footer><p>Written by touchdown. This page needs no network.</p></footer>\n";
 
   const std::string policy = fmt::format(
@@ -71,12 +97,11 @@ fs::path write_report(const ReportSubject& subject, const std::vector<ReportFilm
       "base-uri 'none'; form-action 'none'",
       policy_source(report_style.sha256), policy_source(report_script.sha256));
   fs::path path = subject.directory / "report.html";
-  write_atomically(path, filled(report_page.content,
-                                {{"policy", policy},
-                                 {"title", escaped(subject.experiment.name) + " – touchdown"},
-                                 {"style", report_style.content},
-                                 {"body", body},
-                                 {"script", report_script.content}}));
+  write_atomically(path,
+                   fmt::format(fmt::runtime(report_page.content), fmt::arg("policy", policy),
+                               fmt::arg("title", escaped(subject.experiment.name) + " – touchdown"),
+                               fmt::arg("style", report_style.content), fmt::arg("body", body),
+                               fmt::arg("script", report_script.content)));
   return path;
 }
 

@@ -1,19 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
+#include <string>
 
-#include "render/report/film.hpp"
 #include "render/report/subject.hpp"
 
 namespace touchdown::render {
 
 /// Write `report.html` into an experiment's run directory: one file that opens without a network,
 /// with everything inside that the directory's `manifest.json`, `config.yaml`, `tables/` and
-/// `figures/` tell, and the films. What the directory lacks is left out. Returns the file.
+/// `figures/` tell, and `film_html`. What the directory lacks is left out. Returns the file.
 /// Errors: `InputError` when one of these files is broken; `Error` when the report cannot be
 /// written.
-std::filesystem::path write_report(const ReportSubject& subject,
-                                   const std::vector<ReportFilm>& films);
+std::filesystem::path write_report(const ReportSubject& subject, const std::string& film_html);
 
 }  // namespace touchdown::render

@@ -6,7 +6,6 @@
 #include <opencv2/core.hpp>
 
 #include "render/strip/plots.hpp"
-#include "render/strip/row.hpp"
 
 namespace touchdown::render {
 

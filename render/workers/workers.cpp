@@ -1,26 +1,127 @@
 #include "render/workers/workers.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <new>
 #include <semaphore.h>
-#include <string>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
+#include <fmt/format.h>
 #include <opencv2/core.hpp>
 
 #include "core/error.hpp"
-#include "render/workers/processes.hpp"
-#include "render/workers/shared_frames.hpp"
 
 namespace touchdown::render {
 namespace {
 
+/// Forked processes that are gone when this is gone.
+class Workers {
+ public:
+  Workers() = default;
+  ~Workers() {
+    for (const pid_t pid : pids_) {
+      if (pid > 0) ::kill(pid, SIGKILL);
+    }
+    for (const pid_t pid : pids_) {
+      if (pid > 0) ::waitpid(pid, nullptr, 0);
+    }
+  }
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  /// False when the system has no process left to give.
+  template <typename Work>
+  bool start(const Work& work_in_child) {
+    const pid_t parent = ::getpid();
+    const pid_t pid = ::fork();
+    if (pid < 0) return false;
+    if (pid == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (::getppid() != parent) ::_exit(1);
+      work_in_child();
+    }
+    pids_.push_back(pid);
+    return true;
+  }
+
+  /// Whether a worker is gone; remembers it.
+  bool gone(std::size_t worker) {
+    if (pids_[worker] < 0) return true;
+    if (::waitpid(pids_[worker], nullptr, WNOHANG) == 0) return false;
+    pids_[worker] = -1;
+    return true;
+  }
+
+  std::size_t count() const { return pids_.size(); }
+
+ private:
+  std::vector<pid_t> pids_;
+};
+
+/// Frames that a worker may be ahead of the consumer.
+constexpr std::size_t frame_slots = 4;
+
+/// One worker's side of the shared memory; the frames follow all of these.
+struct Lane {
+  std::size_t workers;  ///< how many there are; known with the first free slot
+  sem_t free;           ///< slots that may be painted into
+  sem_t ready;          ///< slots that may be consumed
+  std::atomic<bool> failed;
+  std::array<char, 512> message;
+};
+
+/// Memory that this process and the ones forked from it share; it has no name, so that nothing is
+/// left of it when they are gone.
+class SharedLanes {
+ public:
+  SharedLanes(std::size_t count, std::size_t frame_bytes)
+      : count_(count), frame_bytes_((frame_bytes + 63) / 64 * 64) {
+    size_ = header() + count * frame_slots * frame_bytes_;
+    void* const memory =
+        ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) {
+      throw Error(fmt::format("no memory for {} MB of frames", size_ / 1'000'000));
+    }
+    memory_ = static_cast<std::uint8_t*>(memory);
+    for (std::size_t i = 0; i < count; ++i) {
+      Lane* const fresh = new (memory_ + i * sizeof(Lane)) Lane{};
+      ::sem_init(&fresh->free, 1, 0);
+      ::sem_init(&fresh->ready, 1, 0);
+    }
+  }
+  ~SharedLanes() { ::munmap(memory_, size_); }
+  SharedLanes(const SharedLanes&) = delete;
+  SharedLanes& operator=(const SharedLanes&) = delete;
+
+  Lane& lane(std::size_t worker) {
+    return *std::launder(reinterpret_cast<Lane*>(memory_ + worker * sizeof(Lane)));
+  }
+  std::uint8_t* slot(std::size_t worker, std::size_t number) {
+    return memory_ + header() + (worker * frame_slots + number % frame_slots) * frame_bytes_;
+  }
+
+ private:
+  std::size_t header() const { return (count_ * sizeof(Lane) + 63) / 64 * 64; }
+
+  std::size_t count_;
+  std::size_t frame_bytes_;
+  std::size_t size_ = 0;
+  std::uint8_t* memory_ = nullptr;
+};
+
 /// A worker's life: never returns.
-[[noreturn]] void work(std::size_t worker, std::size_t workers, int frames, SharedLanes& lanes,
+[[noreturn]] void work(std::size_t worker, int frames, SharedLanes& lanes,
                        const std::function<PaintFrame()>& prepare) {
   Lane& lane = lanes.lane(worker);
   try {
@@ -29,7 +130,8 @@ namespace {
     cv::setNumThreads(1);
     const PaintFrame paint = prepare();
     std::size_t number = 0;
-    for (std::size_t frame = worker; frame < static_cast<std::size_t>(frames); frame += workers) {
+    for (std::size_t frame = worker; frame < static_cast<std::size_t>(frames);
+         frame += lane.workers) {
       while (::sem_wait(&lane.free) != 0 && errno == EINTR) {
       }
       paint(static_cast<int>(frame), lanes.slot(worker, number++));
@@ -70,19 +172,9 @@ void paint_in_order(int frames, std::size_t frame_bytes, int workers,
   const auto wanted = static_cast<std::size_t>(std::min(workers, frames));
   SharedLanes lanes(wanted, frame_bytes);
 
-  // A worker must know how many there are before it starts: find out what the system gives, with
-  // processes that wait for the number.
   Workers processes;
-  SharedLanes gate(1, sizeof(std::size_t));
   for (std::size_t i = 0; i < wanted; ++i) {
-    const bool started = processes.start([&, i] {
-      while (::sem_wait(&gate.lane(0).ready) != 0 && errno == EINTR) {
-      }
-      std::size_t count = 0;
-      std::memcpy(&count, gate.slot(0, 0), sizeof(count));
-      work(i, count, frames, lanes, prepare);
-    });
-    if (!started) break;
+    if (!processes.start([&, i] { work(i, frames, lanes, prepare); })) break;
   }
   const std::size_t count = processes.count();
   if (count == 0) {
@@ -93,9 +185,12 @@ void paint_in_order(int frames, std::size_t frame_bytes, int workers,
     }
     return;
   }
-  std::memcpy(gate.slot(0, 0), &count, sizeof(count));
-  for (std::size_t i = 0; i < count; ++i) ::sem_post(&gate.lane(0).ready);
-
+  // A worker must know how many there are before it paints: only now is it sure how many the system
+  // gave.
+  for (std::size_t i = 0; i < count; ++i) {
+    lanes.lane(i).workers = count;
+    for (std::size_t slot = 0; slot < frame_slots; ++slot) ::sem_post(&lanes.lane(i).free);
+  }
   for (int frame = 0; frame < frames; ++frame) {
     const std::size_t worker = static_cast<std::size_t>(frame) % count;
     Lane& lane = lanes.lane(worker);

@@ -1,7 +1,5 @@
 #include "simulators/bullet/simulator.hpp"
 
-#include "models/mujoco_arrays.hpp"
-#include "simulators/bullet/convert.hpp"
 #include "simulators/bullet/world.hpp"
 
 namespace touchdown::simulators {

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "models/mujoco_arrays.hpp"
-#include "simulators/bullet/convert.hpp"
 #include "simulators/collision_model.hpp"
 
 namespace touchdown::simulators {
@@ -13,6 +11,43 @@ namespace {
 
 constexpr int robot_group = 1;
 constexpr int terrain_group = 2;
+
+std::unique_ptr<btCollisionShape> convex_hull(const mjModel& model, int mesh) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  const float* vertices = model.mesh_vert + 3 * model.mesh_vertadr[mesh];
+  for (int i = 0; i < model.mesh_vertnum[mesh]; ++i) {
+    hull->addPoint(btVector3(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]), false);
+  }
+  hull->recalcLocalAabb();
+  return hull;
+}
+
+/// The shape of a geom, in the geom's own frame. Planes become half-spaces, meshes their convex
+/// hulls, as in MuJoCo.
+std::unique_ptr<btCollisionShape> shape_of(const mjModel& model, int geom) {
+  const mjtNum* size = &model.geom_size[3 * geom];
+  switch (model.geom_type[geom]) {
+    case mjGEOM_PLANE:
+      return std::make_unique<btStaticPlaneShape>(btVector3(0.0, 0.0, 1.0), 0.0);
+    case mjGEOM_SPHERE:
+      return std::make_unique<btSphereShape>(size[0]);
+    case mjGEOM_CAPSULE:
+      return std::make_unique<btCapsuleShapeZ>(size[0], 2.0 * size[1]);
+    case mjGEOM_CYLINDER:
+      return std::make_unique<btCylinderShapeZ>(btVector3(size[0], size[0], size[1]));
+    case mjGEOM_BOX:
+      return std::make_unique<btBoxShape>(btVector3(size[0], size[1], size[2]));
+    case mjGEOM_MESH:
+      return convex_hull(model, model.geom_dataid[geom]);
+    default: {
+      const char* name = mj_id2name(&model, mjOBJ_GEOM, geom);
+      throw InputError(fmt::format(
+          "geom '{}': Bullet has no counterpart of this shape (expected a plane, sphere, capsule, "
+          "cylinder, box or mesh)",
+          name != nullptr ? name : fmt::format("#{}", geom).c_str()));
+    }
+  }
+}
 
 /// A body's principal inertia frame in its own body frame: where Bullet puts the link.
 struct InertiaFrame {
@@ -138,7 +173,7 @@ void BulletWorld::add_colliders(const models::RobotModel& model, const Simulator
         tyre_child_[wheel] = compound->getNumChildShapes();
         has_tyre = true;
       }
-      compound->addChildShape(geom_in_link(mj, geom, frame), make_shape(mj, geom, shapes_));
+      compound->addChildShape(geom_in_link(mj, geom, frame), make_shape(mj, geom));
     }
     if (compound->getNumChildShapes() == 0) continue;
     collider->setCollisionShape(compound.get());
@@ -161,14 +196,17 @@ void BulletWorld::add_colliders(const models::RobotModel& model, const Simulator
 void BulletWorld::add_terrain(const mjModel& mj) {
   for (int geom = 0; geom < mj.ngeom; ++geom) {
     if (mj.geom_bodyid[geom] != 0 || !collides(mj, geom)) continue;
-    const btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr,
-                                                        make_shape(mj, geom, shapes_));
+    const btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, make_shape(mj, geom));
     auto& body = terrain_.emplace_back(std::make_unique<btRigidBody>(info));
     body->setWorldTransform(btTransform(to_bullet(models::quaternion_at(mj.geom_quat, geom)),
                                         to_bullet(models::vector_at(mj.geom_pos, geom))));
     body->setFriction(mj.geom_friction[3 * geom]);
     world_.addRigidBody(body.get(), terrain_group, robot_group);
   }
+}
+
+btCollisionShape* BulletWorld::make_shape(const mjModel& mj, int geom) {
+  return shapes_.emplace_back(shape_of(mj, geom)).get();
 }
 
 int BulletWorld::tyre_of(const btCollisionObject& object, int child_shape) const {

@@ -12,10 +12,16 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include "models/robot_model.hpp"
-#include "simulators/bullet/shapes.hpp"
 #include "simulators/options.hpp"
 
 namespace touchdown::simulators {
+
+// Between Bullet's and Eigen's vectors and quaternions.
+
+inline btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+inline btQuaternion to_bullet(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+inline Eigen::Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+inline Eigen::Quaterniond to_eigen(const btQuaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 /// A Bullet world built from the compiled MuJoCo model: the robot as one Featherstone
 /// `btMultiBody`, the terrain as static bodies. Bullet's frames are the bodies' principal inertia
@@ -25,7 +31,7 @@ namespace touchdown::simulators {
 /// two, so the robot's colliders have one.
 class BulletWorld {
  public:
-  /// Errors: `InputError` for what Bullet cannot represent (see `make_shape`, armature).
+  /// Errors: `InputError` for what Bullet cannot represent: ellipsoids and height fields, armature.
   BulletWorld(const models::RobotModel& model, const SimulatorOptions& options);
 
   btMultiBodyDynamicsWorld& world() { return world_; }
@@ -45,13 +51,15 @@ class BulletWorld {
   void add_joint_limits(const models::RobotModel& model);
   void add_colliders(const models::RobotModel& model, const SimulatorOptions& options);
   void add_terrain(const mjModel& mj);
+  /// Kept alive as long as the world.
+  btCollisionShape* make_shape(const mjModel& mj, int geom);
 
   // In the order of construction: the world refers to all above it and must go first.
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
   btMultiBodyConstraintSolver solver_;
-  BulletShapes shapes_;
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> terrain_;
   std::unique_ptr<btMultiBody> robot_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;

@@ -55,9 +55,7 @@ void describe(Fields& fields, Car& car) {
   });
 }
 
-Car read(const std::string& text) {
-  return from_yaml<Car>(YamlMap(YamlDocument::parse(text, "car.yaml")));
-}
+Car read(const std::string& text) { return from_yaml<Car>(YamlDocument::parse(text, "car.yaml")); }
 
 std::string complaint(const std::string& text) {
   try {
@@ -95,8 +93,8 @@ TEST(Fields, AListThatIsThereReplacesTheDefault) {
   car.wheels = {{"left"}, {"right"}};
   const YamlDocument document = YamlDocument::parse("wheels: [{name: only}]", "car.yaml");
   const YamlDocument silent = YamlDocument::parse("owner: bob", "car.yaml");
-  EXPECT_EQ(from_yaml(YamlMap(document), car).wheels.size(), 1U);
-  EXPECT_EQ(from_yaml(YamlMap(silent), car).wheels.size(), 2U);
+  EXPECT_EQ(from_yaml(document, car).wheels.size(), 1U);
+  EXPECT_EQ(from_yaml(silent, car).wheels.size(), 2U);
 }
 
 TEST(Fields, ComplainWithTheirPlace) {

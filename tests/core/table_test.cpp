@@ -37,14 +37,11 @@ TEST(Numbers, ReadBackExactlyAndSayWhatIsUndefined) {
 }
 
 TEST(IntervalColumns, KeepTheUnitLastAndHoldMetrics) {
-  Table table{{"who"}, {{"a"}}};
-  append_interval_columns(table.header, "success");
-  append_interval_columns(table.header, "latency", "_ms");
-  append_interval(table.rows[0], {0.5, 0.25, 0.75});
-  append_interval(table.rows[0], {NAN, NAN, NAN});
+  const Table table{header_with_intervals({"who"}, {"success", "latency_ms"}, {"steps"}),
+                    {row_with_intervals({"a"}, {{0.5, 0.25, 0.75}, {NAN, NAN, NAN}}, {"7"})}};
   EXPECT_EQ(to_csv(table),
-            "who,success,success_low,success_high,latency_ms,latency_low_ms,latency_high_ms\n"
-            "a,0.500000,0.250000,0.750000,nan,nan,nan\n");
+            "who,success,success_low,success_high,latency_ms,latency_low_ms,latency_high_ms,steps\n"
+            "a,0.500000,0.250000,0.750000,nan,nan,nan,7\n");
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/fields.hpp"
+
 namespace touchdown {
 namespace {
 
@@ -28,37 +30,42 @@ struct Noise {
   int seeds = 1;
 };
 
+struct Run {
+  std::string name;
+  double speed = 0.0;
+};
+
 struct Config {
   std::string name = "default";
   double duration = 1.0;
   int count = 3;
   bool video = true;
   Noise noise;
-  std::vector<std::pair<std::string, double>> runs;
+  std::vector<Run> runs;
   std::size_t engine = 0;
 };
 
-Config read(const YamlDocument& document) {
-  Config config;
-  YamlMap map(document);
-  map.read("name", config.name);
-  map.read("duration", config.duration, 0.0, 100.0);
-  map.read("count", config.count, 1, 10);
-  map.read("video", config.video);
-  YamlMap noise = map.child("noise");
-  noise.read("levels", config.noise.levels);
-  noise.read("seeds", config.noise.seeds);
-  noise.finish();
-  for (YamlMap& run : map.children("runs")) {
-    auto& added = config.runs.emplace_back("", 0.0);
-    run.require("name", added.first);
-    run.read("speed", added.second);
-    run.finish();
-  }
-  config.engine = map.choose("engine", {"mujoco", "bullet"}, 0);
-  map.finish();
-  return config;
+void describe(Fields& fields, Run& run) {
+  fields.require("name", run.name);
+  fields("speed", run.speed);
 }
+
+void describe(Fields& fields, Noise& noise) {
+  fields("levels", noise.levels);
+  fields("seeds", noise.seeds);
+}
+
+void describe(Fields& fields, Config& config) {
+  fields("name", config.name);
+  fields("duration", config.duration, 0.0, 100.0);
+  fields("count", config.count, 1, 10);
+  fields("video", config.video);
+  fields.section("noise", config.noise);
+  fields.list("runs", config.runs);
+  fields.choose("engine", {"mujoco", "bullet"}, config.engine);
+}
+
+Config read(const YamlDocument& document) { return from_yaml<Config>(document); }
 
 Config read(const std::string& text, const std::vector<std::string>& overrides = {}) {
   YamlDocument document = YamlDocument::parse(text, "test.yaml");
@@ -93,8 +100,8 @@ TEST(Yaml, ReadsEveryKindOfValue) {
   EXPECT_THAT(config.noise.levels, ElementsAre(0.0, 0.5, 1.0));
   EXPECT_EQ(config.noise.seeds, 2);
   ASSERT_EQ(config.runs.size(), 2U);
-  EXPECT_EQ(config.runs[0].second, 0.4);
-  EXPECT_EQ(config.runs[1].first, "fast");
+  EXPECT_EQ(config.runs[0].speed, 0.4);
+  EXPECT_EQ(config.runs[1].name, "fast");
   EXPECT_EQ(config.engine, 1U);
 }
 
@@ -178,8 +185,8 @@ TEST(YamlOverride, ReplacesValuesByDottedKeysAndItemNumbers) {
   EXPECT_EQ(config.duration, 7.0);
   EXPECT_THAT(config.noise.levels, ElementsAre(2.0, 3.0));
   EXPECT_EQ(config.noise.seeds, 9);
-  EXPECT_EQ(config.runs[1].second, 0.9);
-  EXPECT_EQ(config.runs[0].second, 0.4);
+  EXPECT_EQ(config.runs[1].speed, 0.9);
+  EXPECT_EQ(config.runs[0].speed, 0.4);
   EXPECT_EQ(config.name, "a=b");
   EXPECT_THAT(read(good, {"noise.levels.1=0.75"}).noise.levels, ElementsAre(0.0, 0.75, 1.0));
 }

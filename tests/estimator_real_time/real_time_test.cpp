@@ -132,7 +132,6 @@ TEST_F(RealTime, LanesAllocateNothing) {
                 for (const Signals& s : stream) {
                   lanes.update(s, experiments::NoiseStep{});
                 }
-                lanes.reset();
               }),
               0)
         << name;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "experiments/config/experiment.hpp"
+#include "experiments/listening/sweep_run.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "noise/gaussian.hpp"
 
@@ -58,6 +59,22 @@ inline Experiment synthetic_experiment(const std::vector<std::string>& estimator
   experiment.noise.knee_wheel = {{0.0, 1.0}, {0.0, 0.5}, 1.5};
   experiment.noise.seeds = 2;
   return experiment;
+}
+
+/// The same as `sweep_run`, one estimator and one cell after the other: what it has to equal.
+inline std::vector<scoring::Classification> sweep_run_one_by_one(
+    std::span<const Condition> conditions, std::span<const noise::NoiseCell> cells,
+    const RunSignals& run, const NoiseRun& noise, const FittedModels& models,
+    const scoring::ScoringConfig& scoring, const GoingOn& going_on) {
+  std::vector<noise::SensorNoise> levels;
+  for (const noise::NoiseCell& cell : cells) levels.push_back(cell.levels());
+  std::vector<scoring::Classification> counts;
+  for (const Condition& condition : conditions) {
+    const auto estimator = make_estimator(condition, models, run);
+    const auto by_level = sweep_levels(*estimator, levels, run, noise, scoring, going_on);
+    counts.insert(counts.end(), by_level.begin(), by_level.end());
+  }
+  return counts;
 }
 
 }  // namespace touchdown::experiments

@@ -126,14 +126,14 @@ TEST(TerrainMesh, NormalsPointOutOfTheirFaces) {
 TEST(TerrainGeometry, TerrainDecidesFrictionAndStiffness) {
   Terrain terrain;
   terrain.friction = 0.37;
-  const RobotModel robot = compile_robot_model(upkie, terrain, {.time_constant = 0.02});
+  const RobotModel robot = compile_robot_model(upkie, terrain);
   mjData* data = mj_makeData(robot.mj.get());
   data->qpos[2] = 0.5565;  // tyres half a millimetre into the floor
   mj_forward(robot.mj.get(), data);
   ASSERT_EQ(data->ncon, 2);
   for (int i = 0; i < data->ncon; ++i) {
     EXPECT_DOUBLE_EQ(data->contact[i].friction[0], 0.37);
-    EXPECT_DOUBLE_EQ(data->contact[i].solref[0], 0.02);
+    EXPECT_DOUBLE_EQ(data->contact[i].solref[0], 0.01);
     EXPECT_EQ(data->contact[i].dim, 3);
   }
   mj_deleteData(data);

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 Terrain read(const std::string& text) {
-  return from_yaml<Terrain>(YamlMap(YamlDocument::parse(text, "scene.yaml")));
+  return from_yaml<Terrain>(YamlDocument::parse(text, "scene.yaml"));
 }
 
 TEST(Terrain, DefaultFlightHasItsEdgesAtWholeMetres) {

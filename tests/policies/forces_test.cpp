@@ -1,11 +1,10 @@
+#include "policies/forces.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
-#include "policies/force_script.hpp"
-#include "policies/guide.hpp"
-#include "policies/tether.hpp"
 
 namespace touchdown::policies {
 namespace {
@@ -103,9 +102,8 @@ std::string complaint(F&& read) {
 }
 
 ForceScript forces(const std::string& text) {
-  YamlMap map(YamlDocument::parse(text, "forces.yaml"));
   ForceScript script;
-  Fields(map).list("forces", script);
+  Fields(YamlDocument::parse(text, "forces.yaml")).list("forces", script);
   return script;
 }
 
@@ -140,22 +138,21 @@ TEST(Tether, ReadsWhatItWrites) {
   Tether tether = rope();
   tether.anchor = {0.1, -0.2, 2.5};
   const Tether again =
-      from_yaml<Tether>(YamlMap(YamlDocument::parse(YAML::Dump(to_node(tether)), "tether.yaml")));
+      from_yaml<Tether>(YamlDocument::parse(YAML::Dump(to_node(tether)), "tether.yaml"));
   EXPECT_EQ(again.anchor, tether.anchor);
   EXPECT_EQ(again.point_in_base, tether.point_in_base);
   EXPECT_EQ(again.length, 1.0);
   EXPECT_EQ(again.stiffness, 1000.0);
   EXPECT_EQ(again.damping, 50.0);
-  EXPECT_THAT(complaint([] {
-                (void)from_yaml<Tether>(YamlMap(YamlDocument::parse("lenght: 1", "tether.yaml")));
-              }),
-              HasSubstr("tether.yaml:1:1: lenght: unknown key (did you mean 'length'?)"));
+  EXPECT_THAT(
+      complaint([] { (void)from_yaml<Tether>(YamlDocument::parse("lenght: 1", "tether.yaml")); }),
+      HasSubstr("tether.yaml:1:1: lenght: unknown key (did you mean 'length'?)"));
 }
 
 TEST(Guide, ReadsWhatItWrites) {
   const Guide guide = {1.0, 2.0, {0.1, 0.2, 0.3}, 4.0, 5.0};
   const Guide again =
-      from_yaml<Guide>(YamlMap(YamlDocument::parse(YAML::Dump(to_node(guide)), "guide.yaml")));
+      from_yaml<Guide>(YamlDocument::parse(YAML::Dump(to_node(guide)), "guide.yaml"));
   EXPECT_EQ(again.x, 1.0);
   EXPECT_EQ(again.y, 2.0);
   EXPECT_EQ(again.point_in_base, guide.point_in_base);

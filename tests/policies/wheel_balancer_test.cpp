@@ -169,7 +169,7 @@ TEST(WheelBalancer, NeverAsksForMoreThanItsLimit) {
 
 TEST(WheelBalancer, ReadsItsGainsStrictly) {
   const auto read = [](const std::string& text) {
-    return from_yaml<WheelBalancerConfig>(YamlMap(YamlDocument::parse(text, "gains.yaml")));
+    return from_yaml<WheelBalancerConfig>(YamlDocument::parse(text, "gains.yaml"));
   };
   const WheelBalancerConfig config = read("{pitch_damping: 3, keep_heading: true}");
   EXPECT_EQ(config.pitch_damping, 3.0);

@@ -1,4 +1,3 @@
-#include "scenarios/external_forces.hpp"
 #include "simulators/registry.hpp"
 #include "tests/scenarios/runs.hpp"
 
@@ -78,8 +77,7 @@ TEST_P(ForcesOf, ForcesAreGatheredFromAllThatActs) {
   simulators::RobotState start;
   start.position.z() = 0.6;
   simulator->reset(start);
-  ExternalForces forces(scenario);
-  const auto now = forces.on(*simulator);
+  const auto now = external_wrenches(scenario, *simulator);
   ASSERT_EQ(now.size(), 3U);
   EXPECT_NEAR(now[0].force.z(), 2000.0 * (2.0 - 0.66 - 1.0), 1e-9);
   EXPECT_NEAR(now[1].force.x(), 100.0, 1e-9);

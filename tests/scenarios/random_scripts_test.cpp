@@ -1,6 +1,5 @@
-#include "scenarios/random_scripts.hpp"
-
 #include "core/fields.hpp"
+#include "scenarios/perturbation.hpp"
 #include "tests/scenarios/runs.hpp"
 
 namespace touchdown::scenarios {
@@ -77,7 +76,7 @@ TEST(RandomScripts, ReplaceTheSticksAndAddToTheForces) {
 
 std::string complaint(const std::string& perturbation) {
   try {
-    (void)from_yaml<Perturbation>(YamlMap(YamlDocument::parse(perturbation, "p.yaml")));
+    (void)from_yaml<Perturbation>(YamlDocument::parse(perturbation, "p.yaml"));
   } catch (const InputError& error) {
     return error.what();
   }

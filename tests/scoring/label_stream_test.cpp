@@ -1,8 +1,8 @@
-#include "scoring/label_stream.hpp"
-
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "scoring/labels.hpp"
 
 namespace touchdown::scoring {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "models/robot_model.hpp"
-#include "simulators/physics.hpp"
+#include "simulators/simulator.hpp"
 
 namespace touchdown::simulators {
 

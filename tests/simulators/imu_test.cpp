@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "models/mujoco_arrays.hpp"
-#include "simulators/bullet/convert.hpp"
+#include "simulators/bullet/world.hpp"
 #include "tests/simulators/bodies.hpp"
 #include "tests/simulators/standing.hpp"
 

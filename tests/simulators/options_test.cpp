@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 
 SimulatorOptions read(const std::string& text) {
-  return from_yaml<SimulatorOptions>(YamlMap(YamlDocument::parse(text, "options.yaml")));
+  return from_yaml<SimulatorOptions>(YamlDocument::parse(text, "options.yaml"));
 }
 
 std::string complaint(const std::string& text) {

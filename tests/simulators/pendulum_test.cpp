@@ -1,5 +1,4 @@
-#include "models/mujoco_arrays.hpp"
-#include "simulators/bullet/convert.hpp"
+#include "simulators/bullet/world.hpp"
 #include "tests/simulators/upkie.hpp"
 
 namespace touchdown::simulators {

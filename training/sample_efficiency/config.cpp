@@ -59,7 +59,7 @@ bool is_sample_efficiency(const YamlDocument& document) {
 }
 
 SampleEfficiencyConfig sample_efficiency_from_yaml(const YamlDocument& document) {
-  return from_yaml<SampleEfficiencyConfig>(YamlMap(document));
+  return from_yaml<SampleEfficiencyConfig>(document);
 }
 
 std::string to_yaml(const SampleEfficiencyConfig& config) {

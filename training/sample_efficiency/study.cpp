@@ -19,15 +19,53 @@
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "recordings/models/neural_network.hpp"
+#include "render/gnuplot/process.hpp"
 #include "scenarios/engine.hpp"
 #include "training/initial_weights.hpp"
 #include "training/rollout.hpp"
-#include "training/sample_efficiency/figure.hpp"
 #include "training/trainer.hpp"
 
 namespace touchdown::training {
 
 namespace {
+
+constexpr const char* head = R"gnuplot(# gnuplot sample_efficiency.gp
+set terminal pngcairo size 1600,{height} font "DejaVu Sans,18" linewidth 2
+set output "sample_efficiency.png"
+set datafile separator comma
+set datafile missing NaN
+data = "../tables/sample_efficiency.csv"
+rows(engine, method, column) = strcol(1) eq engine && strcol(2) eq method ? column : NaN
+set multiplot layout {rows},2
+set logscale x
+set grid lc rgb "#dddddd"
+set key outside bottom center horizontal
+set xlabel "Labelled data (s)"
+set yrange [*:1]
+)gnuplot";
+
+constexpr const char* panel = R"gnuplot(
+set title "{engine}"
+set ylabel "{label}"
+plot data using 3:(rows("{engine}", "{filter}", ${column})) with linespoints pt 7 lc rgb "#4477aa" title "{filter}", \
+     data using 3:(rows("{engine}", "NMN", ${column})) with linespoints pt 5 lc rgb "#cc6677" title "NMN"
+)gnuplot";
+
+/// Draws success rate and no-contact recall of both methods against seconds of labelled data, one
+/// row per engine, from the table in the run directory. The gnuplot script stays beside the figure.
+void draw(const SampleEfficiencyConfig& config, const std::filesystem::path& run_directory) {
+  const std::size_t rows = config.simulators.size();
+  std::string text = fmt::format(head, fmt::arg("height", 550 * rows), fmt::arg("rows", rows));
+  for (const std::string& engine : config.simulators) {
+    for (const auto& [label, column] : {std::pair("Success rate", 4), {"No-contact recall", 6}}) {
+      text += fmt::format(panel, fmt::arg("engine", engine), fmt::arg("label", label),
+                          fmt::arg("filter", experiments::estimator_entry(config.estimator).title),
+                          fmt::arg("column", column));
+    }
+  }
+  (void)render::try_gnuplot(run_directory / "figures" / "sample_efficiency.gp",
+                            text + "unset multiplot\n");
+}
 
 /// One play of a scenario file.
 experiments::RunSignals heard(const std::string& file, const std::string& simulator,
@@ -184,8 +222,7 @@ std::filesystem::path sample_efficiency(const SampleEfficiencyConfig& config,
   const Table table = SampleEfficiencyStudy(config, request).run();
   directory.write_table("sample_efficiency.csv", table);
   fmt::print("{}", to_text(table, 2));
-  draw_sample_efficiency(directory.path(), config.simulators,
-                         experiments::estimator_entry(config.estimator).title);
+  draw(config, directory.path());
   return directory.path();
 }
 

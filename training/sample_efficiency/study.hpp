@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "training/request.hpp"
 #include "training/sample_efficiency/config.hpp"
+#include "training/train.hpp"
 
 namespace touchdown::training {
 

@@ -183,13 +183,12 @@ TEST(NeuralEstimator, RefusesWhatItCannotRun) {
 TEST(NeuralLanes, EqualEstimatorsThatAreFedEachNoiseLevel) {
   const auto net = network();
   const std::vector<double> sigmas = {0.0, 0.23, 5.0, 10.0};
-  experiments::NeuralLanes lanes(net, {}, sigmas);
   std::vector<NeuralEstimator> estimators(sigmas.size(), NeuralEstimator(net));
   test::Normal normal(9);
   for (const bool again : {false, true}) {
-    if (again) {
-      lanes.reset();
-      for (auto& estimator : estimators) estimator.reset();
+    experiments::NeuralLanes lanes(net, {}, sigmas);
+    for (auto& estimator : estimators) {
+      if (again) estimator.reset();
     }
     for (const Signals& clean : moving_robot(300)) {
       const Eigen::Vector3d draw(normal(), normal(), normal());

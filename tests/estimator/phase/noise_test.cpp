@@ -63,16 +63,16 @@ TEST(NoiseEstimate, StaysBelowItsCeiling) {
 }
 
 TEST(PhaseNoiseLevels, InterpolateInTheLogarithmOfTheBandwidth) {
-  const std::vector<double> bandwidths = {0.1, 0.2, 0.8};
-  EXPECT_EQ(place_noise(0.0, 0.1, bandwidths).level, 0U);
-  EXPECT_EQ(place_noise(0.0, 0.1, bandwidths).weight, 0.0F);
-  const PhaseNoiseLevel middle = place_noise(std::sqrt(0.4 * 0.4 - 0.01), 0.1, bandwidths);
+  const PhaseNoiseLadder ladder = {{0.1, 0.2, 0.8}, 0.1};
+  EXPECT_EQ(ladder.place(0.0).level, 0U);
+  EXPECT_EQ(ladder.place(0.0).weight, 0.0F);
+  const PhaseNoiseLevel middle = ladder.place(std::sqrt(0.4 * 0.4 - 0.01));
   EXPECT_EQ(middle.level, 1U);
   EXPECT_NEAR(middle.weight, 0.5F, 1e-6F);
-  const PhaseNoiseLevel beyond = place_noise(100.0, 0.1, bandwidths);
+  const PhaseNoiseLevel beyond = ladder.place(100.0);
   EXPECT_EQ(beyond.level, 1U);
   EXPECT_EQ(beyond.weight, 1.0F);
-  EXPECT_EQ(place_noise(3.0, 0.1, std::vector<double>{0.1}).weight, 0.0F);
+  EXPECT_EQ(PhaseNoiseLadder({{0.1}, 0.1}).place(3.0).weight, 0.0F);
 }
 
 }  // namespace

@@ -83,24 +83,6 @@ TEST(PhaseLanes, EqualTheScalarFilterThatIsToldTheNoise) {
   expect_equal_to_scalar_filters(config);
 }
 
-TEST(PhaseLanes, StartAnewAfterAReset) {
-  const PhaseModel model = test::small_phase_model();
-  const std::vector<LaneNoise> grid = levels();
-  PhaseLanes used(model, small_config(), grid);
-  PhaseLanes fresh(model, small_config(), grid);
-  test::Normal normal(3);
-  for (const Signals& clean : test::phase_run(1, 5).signals) used.update(clean, draw(normal));
-  used.reset();
-  for (const Signals& clean : test::phase_run(1, 6).signals) {
-    const NoiseStep draws = draw(normal);
-    used.update(clean, draws);
-    fresh.update(clean, draws);
-    for (std::size_t lane = 0; lane < grid.size(); ++lane) {
-      ASSERT_EQ(used.p_contact(Side::right)[lane], fresh.p_contact(Side::right)[lane]);
-    }
-  }
-}
-
 TEST(PhaseLanes, RefuseBadLevels) {
   const PhaseModel model = test::small_phase_model();
   const auto with = [&](const std::vector<LaneNoise>& bad) {

@@ -9,7 +9,7 @@ namespace {
 
 /// A condition that decides `late` steps late in ten runs with one flight each.
 ConditionScores delayed_by(const std::string& estimator, std::ptrdiff_t late) {
-  ConditionScores scores{{"mujoco", "mujoco", estimator}, {}};
+  ConditionScores scores{{"mujoco", "mujoco", estimator}, {{}}};
   for (std::ptrdiff_t run = 0; run < 10; ++run) {
     const auto sequence = [&](std::ptrdiff_t delay) {
       scoring::ContactSequence contact(2000, 1);
@@ -20,13 +20,14 @@ ConditionScores delayed_by(const std::string& estimator, std::ptrdiff_t late) {
     scoring::Prediction prediction;
     prediction.fill({predicted, {predicted.begin(), predicted.end()}});
     const auto pieces = scoring::score({sequence(0), sequence(0)}, prediction, {0}, 1000, {});
-    scores.samples.push_back(pieces.front());
+    scores.samples[0].push_back(pieces.front());
   }
   return scores;
 }
 
 TEST(Summary, SummariseEveryViewWithEveryMetric) {
-  const auto summaries = summarise({delayed_by("robust", 12)}, {0.25, 0.0}, {.resamples = 50});
+  const std::vector<noise::NoiseCell> cells = {{0.25, 0.0}};
+  const auto summaries = summarise({delayed_by("robust", 12)}, cells, {.resamples = 50});
   ASSERT_EQ(summaries.size(), scoring::scored_views().size());
   for (const ScoreSummary& summary : summaries) {
     EXPECT_EQ(summary["takeoff_recall"].estimate, 1.0);
@@ -41,7 +42,8 @@ TEST(Summary, SummariseEveryViewWithEveryMetric) {
 }
 
 TEST(Summary, DifferencesArePairedByRun) {
-  const auto all = differences({delayed_by("robust", 5), delayed_by("paper", 12)}, {}, {});
+  const std::vector<noise::NoiseCell> cells = {{}};
+  const auto all = differences({delayed_by("robust", 5), delayed_by("paper", 12)}, cells, {});
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].second, "paper");
   const Interval& latency = all[0].metric[scoring::metric_index("takeoff_latency_ms")];

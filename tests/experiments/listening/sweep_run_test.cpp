@@ -123,7 +123,7 @@ TEST(Listening, AddsUpToWhatEveryConditionConcludesByItself) {
   const CollectedCounts all = collect(plan, both, saved);
 
   ASSERT_EQ(all.counted.size(), conditions.size());
-  ASSERT_EQ(all.scored.size(), 1U);
+  ASSERT_EQ(all.scored.size(), conditions.size());
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     for (std::size_t r = 0; r < both.size(); ++r) {
       const RunSignals& run = runs.at(r).signals;
@@ -146,7 +146,7 @@ TEST(Listening, AddsUpToWhatEveryConditionConcludesByItself) {
         for (std::size_t cell = 0; cell < cells.size(); ++cell) {
           EXPECT_EQ(all.counted[c].samples[cell][sample], counts[cell * run.pieces.size() + piece]);
         }
-        const scoring::Score collected = all.scored[0][c].samples[sample].wheels();
+        const scoring::Score collected = all.scored[c].samples[0][sample].wheels();
         EXPECT_EQ(collected.points, scores[piece].points);
         EXPECT_EQ(collected.takeoff, scores[piece].takeoff);
         EXPECT_DOUBLE_EQ(collected.calibration.squared_error,

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "experiments/run_directory/shard_log.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {

@@ -12,6 +12,7 @@
 #include "recordings/log/recording_file.hpp"
 #include "recordings/log/writer.hpp"
 #include "tests/recordings/log/sample_recording.hpp"
+#include "tests/recordings/log/upkie_log.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::recordings {
@@ -121,7 +122,7 @@ TEST(RoundTrip, StreamsRowByRow) {
     writer.write(recording.observation[i], recording.action[i], &recording.truth[i]);
   }
   writer.finish();
-  LogReader reader(stream, "stream");
+  LogReader reader(testing::stream_source(stream), "stream");
   Recording back;
   back.info = reader.info();
   while (const auto row = reader.next()) {

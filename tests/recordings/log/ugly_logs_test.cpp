@@ -38,7 +38,7 @@ struct Read {
 
 Read read(const std::string& log) {
   std::istringstream stream(log);
-  LogReader reader(stream, "run.mpack");
+  LogReader reader(testing::stream_source(stream), "run.mpack");
   Read result;
   try {
     while (reader.next()) ++result.rows;
@@ -130,7 +130,7 @@ TEST(UglyLogs, NumbersOfAnotherKindAndUnknownKeysAreTaken) {
   record["extra"] = {{"observation", {{"time", 5.0}}}, {"list", {1, {{"imu", 2}}, "three"}}};
   record["observation"]["servo"]["tail"] = {{"position", 9.0}};
   std::istringstream stream(pack({record}));
-  LogReader reader(stream, "log");
+  LogReader reader(testing::stream_source(stream), "log");
   const models::Observation o = reader.next()->observation;
   EXPECT_EQ(o.servo[0].torque, -3.0);
   EXPECT_EQ(o.servo[1].torque, 70000.0);

@@ -62,4 +62,14 @@ std::vector<json> unpack(const std::string& log) {
   return records;
 }
 
+ByteSource stream_source(std::istream& stream) {
+  return [&stream](std::span<char> buffer) -> std::size_t {
+    // Wait for one byte only: a live stream has its next record when it has it.
+    if (buffer.empty() || !stream.get(buffer[0])) return 0;
+    const std::streamsize more =
+        stream.readsome(buffer.data() + 1, static_cast<std::streamsize>(buffer.size()) - 1);
+    return 1 + static_cast<std::size_t>(more);
+  };
+}
+
 }  // namespace touchdown::recordings::testing

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <istream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "recordings/log/byte_source.hpp"
 
 namespace touchdown::recordings::testing {
 
@@ -15,5 +18,8 @@ std::string pack(const std::vector<nlohmann::json>& records);
 
 /// The records of a log, by the other library.
 std::vector<nlohmann::json> unpack(const std::string& log);
+
+/// Any stream as a log; it must outlive the source.
+ByteSource stream_source(std::istream& stream);
 
 }  // namespace touchdown::recordings::testing

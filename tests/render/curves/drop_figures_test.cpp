@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "render/curves/drop_detail_data.hpp"
 #include "render/curves/drop_detail_figure.hpp"
 #include "render/curves/phase_posterior_figure.hpp"
 #include "tests/scratch_folder.hpp"

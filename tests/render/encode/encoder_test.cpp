@@ -38,7 +38,7 @@ TEST(VideoEncoder, AMissingCodecIsOneClearErrorAndLeavesNothing) {
   const ScratchFolder folder;
   const models::RobotModel robot = models::compile_robot_model(upkie_mjcf, staged_terrain());
   const recordings::Recording run = staged_run(0.5);
-  const VideoOptions options = {.width = 320, .height = 180, .encoder = "libx264_is_not_here"};
+  const VideoOptions options = {{.width = 320, .height = 180, .encoder = "libx264_is_not_here"}};
   const Complaint said = complaint([&] {
     render_video({{robot, run, {}}}, options, folder / "x.mp4");
   });
@@ -59,7 +59,9 @@ TEST(VideoEncoder, AnotherCodecIsRefused) {
 }
 
 TEST(VideoEncoder, OddSizesAreTheRequestsFault) {
-  EXPECT_TRUE(complaint([] { start_encoder({.width = 63, .height = 64}, true); }).request);
+  const ScratchFolder folder;
+  EXPECT_TRUE(
+      complaint([&] { VideoWriter(folder / "x.mp4", {.width = 63, .height = 64}); }).request);
 }
 
 TEST(VideoEncoder, AWriterThatNeverFinishesLeavesNothing) {

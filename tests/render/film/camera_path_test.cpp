@@ -1,6 +1,6 @@
-#include "render/film/camera_path.hpp"
-
 #include <gtest/gtest.h>
+
+#include "render/film/pose.hpp"
 
 namespace touchdown::render {
 namespace {

@@ -6,8 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "render/curves/latency_figure.hpp"
-#include "render/curves/reliability_figure.hpp"
+#include "render/curves/score_figure.hpp"
 #include "render/maps/density_figure.hpp"
 #include "render/maps/heatmap_figure.hpp"
 #include "tests/scratch_folder.hpp"
@@ -57,31 +56,33 @@ DensityFigure densities(double width_in_the_air = 0.12) {
   return figure;
 }
 
-ReliabilityFigure reliability() {
-  ReliabilityFigure figure{"Reliability", {{"no noise", {}}}, "4 runs."};
+ScoreFigure reliability() {
+  ScoreFigure figure{"Reliability", {{"no noise", {}}}, "4 runs."};
   for (const char* name : {"first", "second", "third"}) {
-    ReliabilityCurve curve{name, {}, {}};
-    const double power = 0.5 + 0.5 * static_cast<double>(figure.panels[0].curves.size());
+    ScoreRow row{
+        .name = name, .calibration = {}, .contact_frequency = {}, .takeoff = {}, .landing = {}};
+    const double power = 0.5 + 0.5 * static_cast<double>(figure.panels[0].rows.size());
     for (int i = 0; i < 1000; ++i) {
       const int draw = i / 100;
       const double p = (i % 100 + 0.5) / 100.0;
-      curve.calibration.add((draw + 0.5) / 10.0 < std::pow(p, power), p);
+      row.calibration.add((draw + 0.5) / 10.0 < std::pow(p, power), p);
     }
-    for (const scoring::Calibration::Bin& bin : curve.calibration.bin) {
+    for (const scoring::Calibration::Bin& bin : row.calibration.bin) {
       const double frequency = bin.contact_frequency();
-      curve.contact_frequency.push_back({frequency, frequency - 0.04, frequency + 0.04});
+      row.contact_frequency.push_back({frequency, frequency - 0.04, frequency + 0.04});
     }
-    figure.panels[0].curves.push_back(std::move(curve));
+    figure.panels[0].rows.push_back(std::move(row));
   }
   return figure;
 }
 
-LatencyFigure latencies() {
-  LatencyFigure figure{
-      "Latency", {{"no noise", {{"first", {}, {}}, {"second", {}, {}}}}}, "4 runs."};
+ScoreFigure latencies() {
+  ScoreFigure figure{"Latency", {{"no noise", std::vector<ScoreRow>(2)}}, "4 runs."};
+  figure.panels[0].rows[0].name = "first";
+  figure.panels[0].rows[1].name = "second";
   for (int i = 0; i < 60; ++i) {
     for (std::size_t row = 0; row < 2; ++row) {
-      LatencyRow& told = figure.panels[0].rows[row];
+      ScoreRow& told = figure.panels[0].rows[row];
       const auto spread = static_cast<std::int64_t>(i % 10 + i % 7 - 8);
       const auto late = static_cast<std::int64_t>(20 * (1 + row)) + 2 * spread;
       told.takeoff.add({scoring::EventKind::takeoff, scoring::Judgement::detected, 0, late}, 1000);
@@ -127,8 +128,8 @@ TEST_F(Golden, MissingLinesAreNoticed) {
   another_cell.panels[0].value[1][1] = 0.95;
   EXPECT_FALSE(same_picture(compared("heatmap", draw_heatmap(another_cell, stem("cell")))));
 
-  ReliabilityFigure without_a_curve = reliability();
-  ReliabilityCurve& gone = without_a_curve.panels[0].curves[1];
+  ScoreFigure without_a_curve = reliability();
+  ScoreRow& gone = without_a_curve.panels[0].rows[1];
   gone.calibration = {};
   for (Interval& interval : gone.contact_frequency) interval = {NAN, NAN, NAN};
   EXPECT_FALSE(same_picture(
@@ -137,7 +138,7 @@ TEST_F(Golden, MissingLinesAreNoticed) {
   DensityFigure wider = densities(0.16);
   EXPECT_FALSE(same_picture(compared("densities", draw_density_figure(wider, stem("wider")))));
 
-  LatencyFigure without_a_histogram = latencies();
+  ScoreFigure without_a_histogram = latencies();
   without_a_histogram.panels[0].rows[1].landing = {};
   EXPECT_FALSE(same_picture(
       compared("latency", draw_latency_figure(without_a_histogram, stem("histogram")))));

@@ -12,7 +12,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "render/film/painter.hpp"
-#include "render/film/poster.hpp"
 #include "render/workers/workers.hpp"
 #include "tests/render/staged_run.hpp"
 #include "tests/scratch_folder.hpp"
@@ -31,16 +30,16 @@ class Video : public ::testing::Test {
   }
 
   /// A hash of every frame as the encoder would get it.
-  std::vector<std::size_t> frame_hashes(int workers, int supersampling) const {
+  std::vector<std::size_t> frame_hashes(int workers, VideoQuality quality) const {
     const VideoSource source{robot_, run_, beliefs_};
-    const FrameLayout layout{.width = 320, .height = 180, .supersampling = supersampling};
+    VideoOptions options = {{.width = 320, .height = 180}};
+    options.quality = quality;
     std::vector<std::size_t> hashes;
     constexpr std::size_t bytes = std::size_t{320} * 180 * 3;
     paint_in_order(
         9, bytes, workers,
         [&]() -> PaintFrame {
-          auto painter = std::make_shared<FramePainter>(std::vector<VideoSource>{source}, layout,
-                                                        scoring::LabelConfig{});
+          auto painter = std::make_shared<FramePainter>(std::vector<VideoSource>{source}, options);
           return [painter](int frame, std::uint8_t* pixels) {
             std::memcpy(pixels, painter->paint(1.9 + frame / 15.0).data, bytes);
           };
@@ -56,18 +55,18 @@ class Video : public ::testing::Test {
   const recordings::Recording run_ = staged_run(3.0);
   const std::vector<BeliefTrack> beliefs_ = {staged_beliefs(run_, "robust"),
                                              staged_beliefs(run_, "paper", 0.01f)};
-  const VideoOptions small_ = {.width = 320, .height = 180, .from = 1.9, .to = 2.3};
+  const VideoOptions small_ = {{.width = 320, .height = 180}, VideoQuality::draft, 1.9, 2.3};
   const ScratchFolder scratch_;
   const std::filesystem::path folder_ = scratch_.path();
 };
 
 TEST_F(Video, FramesDoNotDependOnTheNumberOfWorkers) {
-  for (const int supersampling : {1, 2}) {
-    const auto one = frame_hashes(1, supersampling);
+  for (const VideoQuality quality : {VideoQuality::draft, VideoQuality::page}) {
+    const auto one = frame_hashes(1, quality);
     EXPECT_EQ(one.size(), 9u);
     EXPECT_NE(one.front(), one.back());
-    EXPECT_EQ(frame_hashes(2, supersampling), one);
-    EXPECT_EQ(frame_hashes(4, supersampling), one);
+    EXPECT_EQ(frame_hashes(2, quality), one);
+    EXPECT_EQ(frame_hashes(4, quality), one);
   }
 }
 
@@ -179,7 +178,7 @@ TEST_F(Video, InterruptedByTheCallerLeavesNothing) {
 TEST_F(Video, PosterLooksLikeItsGoldenCopy) {
   const std::filesystem::path golden =
       std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "tests/render/film/golden_poster.png";
-  const VideoOptions options = {.width = 640, .height = 360};
+  const VideoOptions options = {{.width = 640, .height = 360}};
   const std::filesystem::path path = folder_ / "poster.png";
   render_poster({{robot_, run_, beliefs_}}, options, std::nan(""), path);
   if (std::getenv("TOUCHDOWN_UPDATE_GOLDEN"))
@@ -199,7 +198,7 @@ TEST_F(Video, PosterLooksLikeItsGoldenCopy) {
 }
 
 TEST_F(Video, SceneIsDrawnWithoutLabels) {
-  const VideoOptions options = {.width = 320, .height = 180};
+  const VideoOptions options = {{.width = 320, .height = 180}};
   render_scene(robot_, run_, options, 2.1, folder_ / "scene.png");
   const cv::Mat scene = cv::imread((folder_ / "scene.png").string());
   EXPECT_EQ(scene.size(), cv::Size(320, 180));

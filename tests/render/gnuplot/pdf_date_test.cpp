@@ -1,10 +1,9 @@
-#include "render/gnuplot/pdf_date.hpp"
+#include "render/gnuplot/figure.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "render/gnuplot/figure.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {

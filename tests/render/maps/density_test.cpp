@@ -5,9 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "render/maps/density_data.hpp"
 #include "render/maps/density_figure.hpp"
-#include "render/maps/density_grid.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {

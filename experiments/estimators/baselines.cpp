@@ -1,0 +1,92 @@
+#include "experiments/estimators/baselines.hpp"
+
+#include <algorithm>
+
+#include "estimator/free_fall.hpp"
+#include "estimator/upkie_observer.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+using Made = std::unique_ptr<ContactEstimator>;
+
+class AlwaysContact : public ContactEstimator {
+ public:
+  void reset() noexcept override {}
+  const Belief& update(const Signals& /*signals*/) noexcept override { return belief_; }
+
+ private:
+  const Belief belief_ = {.wheel = {{{1.0, true}, {1.0, true}}},
+                          .p_any_wheel = 1.0,
+                          .p_both_wheels = 1.0,
+                          .status = SignalStatus::good};
+};
+
+}  // namespace
+
+EstimatorEntry always_contact_entry() {
+  return {.name = std::string(always_contact_name),
+          .title = "Always contact",
+          .summary = "listens to nothing: the share of contact, which others have to beat",
+          .sensors = {},
+          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& /*setup*/) -> Made {
+            return std::make_unique<AlwaysContact>();
+          }};
+}
+
+void Oracle::reset() noexcept {
+  step_ = 0;
+  belief_ = {};
+}
+
+const Belief& Oracle::update(const Signals& /*signals*/) noexcept {
+  belief_ = {};
+  if (step_ >= std::min(contact_[0].size(), contact_[1].size())) return belief_;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const bool touches = contact_[side][step_] != 0;
+    belief_.wheel[side] = {.p_contact = touches ? 1.0 : 0.0, .contact = touches};
+  }
+  const auto [fewer, more] = std::minmax(belief_.wheel[0].p_contact, belief_.wheel[1].p_contact);
+  belief_.p_both_wheels = fewer;
+  belief_.p_any_wheel = more;
+  ++step_;
+  return belief_;
+}
+
+EstimatorEntry oracle_entry() {
+  return {.name = "oracle",
+          .title = "Oracle",
+          .summary = "repeats the ground truth: what a perfect estimator would score",
+          .sensors = {},
+          .needs_truth = true,
+          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
+            return std::make_unique<Oracle>(
+                setup.truth == nullptr ? std::array<scoring::ContactSequence, models::wheel_count>{}
+                                       : *setup.truth);
+          }};
+}
+
+EstimatorEntry free_fall_entry() {
+  return {.name = "free_fall",
+          .title = "Free fall",
+          .summary = "a threshold on the vertical acceleration: what falls is in the air",
+          .sensors = {.acceleration = true},
+          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
+            return std::make_unique<FreeFall>(FreeFallConfig{.sample_rate = setup.sample_rate});
+          }};
+}
+
+EstimatorEntry upkie_observer_entry() {
+  // Its hips and knees only tell whether the robot touches the floor with anything.
+  return {.name = "upkie_observer",
+          .title = "Upkie's observer",
+          .summary = "what Upkie runs today: the apparent inertia of each wheel",
+          .sensors = {.wheel_torque = true, .joint_velocity = true},
+          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
+            return std::make_unique<UpkieObserver>(
+                UpkieObserverConfig{.time_step = 1.0 / setup.sample_rate});
+          }};
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,144 @@
+#include "experiments/estimators/filters.hpp"
+
+#include "estimator/bayes/measurement_only.hpp"
+#include "experiments/lanes/bayes.hpp"
+#include "experiments/lanes/neural.hpp"
+#include "experiments/lanes/phase.hpp"
+#include "recordings/models/neural_network.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+using Made = std::unique_ptr<ContactEstimator>;
+using Levels = std::span<const noise::SensorNoise>;
+
+/// An entry's configuration at the rate that is asked for.
+template <typename Config>
+Config at_rate(Config config, double sample_rate) {
+  config.sample_rate = sample_rate;
+  return config;
+}
+
+std::vector<LaneNoise> lane_noise(Levels levels) {
+  std::vector<LaneNoise> lanes;
+  for (const noise::SensorNoise& level : levels) {
+    lanes.push_back({level.knee_torque, level.wheel_torque, level.acceleration});
+  }
+  return lanes;
+}
+
+template <typename Lanes>
+std::shared_ptr<Lanes> measurement_lanes(const EstimatorEntry& entry, const EstimatorSetup& setup,
+                                         Levels levels) {
+  return std::make_shared<Lanes>(*setup.model->measurement,
+                                 at_rate(*entry.config, setup.sample_rate), lane_noise(levels));
+}
+
+template <typename Lanes>
+auto update_of(const std::shared_ptr<Lanes>& lanes) {
+  return [lanes](const Signals& clean, const NoiseStep& draws) { lanes->update(clean, draws); };
+}
+
+std::optional<EstimatorLanes> bayes_lanes(const EstimatorEntry& entry, const EstimatorSetup& setup,
+                                          Levels levels) {
+  const auto all = measurement_lanes<BayesFilterLanes>(entry, setup, levels);
+  return EstimatorLanes{update_of(all), [all](Side side) { return all->p_contact(side); },
+                        entry.config->threshold};
+}
+
+std::optional<EstimatorLanes> measurement_only_lanes(const EstimatorEntry& entry,
+                                                     const EstimatorSetup& setup, Levels levels) {
+  const auto all = measurement_lanes<MeasurementLanes>(entry, setup, levels);
+  return EstimatorLanes{update_of(all), [all](Side side) { return all->p_measurement(side); },
+                        entry.config->threshold};
+}
+
+std::optional<EstimatorLanes> phase_lanes(const EstimatorEntry& entry, const EstimatorSetup& setup,
+                                          Levels levels) {
+  const auto all = std::make_shared<PhaseLanes>(
+      setup.model->phase->model, at_rate(*entry.phase, setup.sample_rate), lane_noise(levels));
+  // Decided by two thresholds already: 0 or 1.
+  return EstimatorLanes{update_of(all), [all](Side side) { return all->contact(side); }, 0.5};
+}
+
+std::shared_ptr<const NeuralNetwork> network() {
+  return std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network());
+}
+
+/// Lanes share what the encoders say, so they know no noise on them.
+std::optional<EstimatorLanes> neural_lanes(const EstimatorEntry& /*entry*/,
+                                           const EstimatorSetup& setup, Levels levels) {
+  std::vector<double> sigmas;
+  for (const noise::SensorNoise& level : levels) {
+    if (level.joint_position != 0.0 || level.joint_velocity != 0.0) return std::nullopt;
+    sigmas.push_back(level.acceleration);
+  }
+  const NeuralEstimatorConfig config{.sample_rate = setup.sample_rate};
+  const auto all = std::make_shared<NeuralLanes>(network(), config, sigmas);
+  return EstimatorLanes{[all](const Signals& clean, const NoiseStep& draws) {
+                          const auto& [x, y, z] = draws.linear_acceleration;
+                          all->update(clean, {x, y, z});
+                        },
+                        [all](Side /*side*/) { return all->p_contact(); }, config.threshold};
+}
+
+}  // namespace
+
+EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
+                           const BayesFilterConfig& config) {
+  return {.name = name,
+          .title = "Bayes filter (" + name + ")",
+          .summary = summary,
+          .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
+          .config = config,
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+            return std::make_unique<BayesFilter>(*setup.model->measurement,
+                                                 at_rate(*entry.config, setup.sample_rate));
+          },
+          .lanes = bayes_lanes};
+}
+
+EstimatorEntry measurement_only_entry() {
+  return {.name = "measurement_only",
+          .title = "Measurement only",
+          .summary = "the paper's ablation: each wheel from its torques now, without transitions",
+          .sensors = {.knee_torque = true, .wheel_torque = true},
+          .config = BayesFilterConfig::robust(),
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+            return std::make_unique<MeasurementOnly>(*setup.model->measurement,
+                                                     at_rate(*entry.config, setup.sample_rate));
+          },
+          .lanes = measurement_only_lanes};
+}
+
+EstimatorEntry phase_entry() {
+  return {.name = "phase",
+          .title = "Phase filter",
+          .summary = "a hidden Markov model over the phases between rolling and falling",
+          .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
+          .phase = PhaseFilterConfig{},
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+            return std::make_unique<PhaseFilter>(phase_filter(entry, setup));
+          },
+          .lanes = phase_lanes};
+}
+
+PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return PhaseFilter(setup.model->phase->model, at_rate(*entry.phase, setup.sample_rate));
+}
+
+EstimatorEntry neural_entry() {
+  return {.name = "nmn",
+          .title = "NMN",
+          .summary = "the paper's neural measurement network: IMU, joints and command, no torques",
+          .sensors = {.acceleration = true, .joint_position = true, .joint_velocity = true},
+          .trained_by = "touchdown train",
+          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
+            return std::make_unique<NeuralEstimator>(
+                network(), NeuralEstimatorConfig{.sample_rate = setup.sample_rate});
+          },
+          .lanes = neural_lanes};
+}
+
+}  // namespace touchdown::experiments

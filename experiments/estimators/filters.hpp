@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "estimator/phase/filter.hpp"
+#include "experiments/estimators/entry.hpp"
+
+namespace touchdown::experiments {
+
+/// The paper's Bayes filter in one of its configurations.
+EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
+                           const BayesFilterConfig& config);
+
+/// The paper's ablation: the robust measurement model without transitions.
+EstimatorEntry measurement_only_entry();
+
+/// The hidden Markov model over phases of contact.
+EstimatorEntry phase_entry();
+
+/// Its filter as such, for who wants to see the phases.
+PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup);
+
+/// The paper's neural measurement network, as it is shipped.
+EstimatorEntry neural_entry();
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+namespace touchdown {
+class Fields;
+}
+
+namespace touchdown::policies {
+
+/// From `time` on, drive at these velocities.
+struct VelocityCommand {
+  double time = 0.0;      ///< s
+  double velocity = 0.0;  ///< along the ground, forward positive (m/s)
+  double yaw_rate = 0.0;  ///< to the left positive (rad/s)
+};
+
+/// What a driver would do with the sticks: piecewise constant commands, sorted by time. Before the
+/// first one the robot stands.
+using VelocityScript = std::vector<VelocityCommand>;
+
+/// The command in force at `time`.
+VelocityCommand command_at(const VelocityScript& script, double time);
+
+/// Gains of the balancer. Errors are target − measurement.
+struct WheelBalancerConfig {
+  double pitch_stiffness = 32.0;    ///< integral on the pitch error (m/s² per rad)
+  double pitch_damping = 5.5;       ///< proportional on the pitch error (m/s per rad)
+  double position_stiffness = 1.5;  ///< integral on the position error (1/s²)
+  double position_damping = 3.0;    ///< proportional on the position error (1/s)
+  double max_velocity = 2.0;        ///< of the commanded ground velocity (m/s)
+  double max_integral = 10.0;       ///< of the accumulated part of that command (m/s)
+  double max_acceleration = 1.0;    ///< of the target velocity (m/s²)
+  double max_position_error = 1.0;  ///< m
+  double air_decay_time = 1.0;      ///< of the integral while both wheels are in the air (s)
+  double wheel_kd_scale = 0.2;      ///< of the wheels' velocity servo
+  double yaw_stiffness = 1.0;       ///< differential wheel torque (N·m/rad)
+  double yaw_damping = 0.1;         ///< N·m·s/rad
+  double lateral_stiffness = 0.5;   ///< heading asked for per metre beside the course (rad/m)
+  double max_lateral_error = 0.6;   ///< m
+  bool keep_heading = false;        ///< the course is the heading at the reset, not the world's +x
+  double leg_kp_scale = 2.0;        ///< of the hips and knees
+  double leg_kd_scale = 2.0;        ///< of the hips and knees
+};
+
+void describe(Fields& fields, WheelBalancerConfig& config);
+/// One command of a script; while it is read, the last one so far, which must be the latest.
+void describe(Fields& fields, VelocityCommand& command, const VelocityScript& script);
+
+}  // namespace touchdown::policies

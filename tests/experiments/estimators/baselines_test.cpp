@@ -1,0 +1,85 @@
+#include "experiments/estimators/baselines.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/fitting.hpp"
+#include "experiments/listening/sweep_run.hpp"
+#include "experiments/signals/run_signals.hpp"
+#include "scoring/score.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+TEST(Oracle, ScoresPerfectlyByNameWhateverTheNoise) {
+  const Experiment experiment = synthetic_experiment({"oracle"});
+  const RunSignals run = synthetic_run(3);
+  const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
+  const std::vector<Condition> conditions = {{"mujoco", "mujoco", "oracle"}};
+  const auto counts = sweep_run(conditions, noise::noise_cells(experiment.noise), run, noise, {},
+                                experiment.scoring, [] { return true; });
+  ASSERT_FALSE(counts.empty());
+  for (const scoring::Classification& c : counts) {
+    EXPECT_GT(c.flight(), 0);
+    EXPECT_EQ(c.success(), 1.0);
+  }
+  const auto estimator = make_estimator(conditions[0], {}, run);
+  const auto scores =
+      scoring::score(run.contact, predict(*estimator, run, noise, {.acceleration = 8.0}),
+                     run.pieces, 1000, experiment.scoring);
+  std::int64_t detected = 0;
+  for (const scoring::RobotScore& robot : scores) {
+    for (const scoring::Score& view : robot.view) {
+      EXPECT_EQ(view.points.success(), 1.0);
+      EXPECT_EQ(view.takeoff.events - view.takeoff.detected + view.takeoff.false_alarms, 0);
+      EXPECT_EQ(view.landing.events - view.landing.detected + view.landing.false_alarms, 0);
+      EXPECT_EQ(view.calibration.brier(), 0.0);
+      detected += view.takeoff.detected;
+    }
+  }
+  EXPECT_GT(detected, 0);
+}
+
+TEST(Oracle, KnowsWhenOneWheelTouches) {
+  Oracle oracle({scoring::ContactSequence{1, 0, 0}, scoring::ContactSequence{1, 1, 0}});
+  EXPECT_EQ(oracle.update({}).p_both_wheels, 1.0);
+  const Belief one = oracle.update({});
+  EXPECT_FALSE(one.wheel[0].contact);
+  EXPECT_TRUE(one.wheel[1].contact);
+  EXPECT_EQ(one.p_any_wheel, 1.0);
+  EXPECT_EQ(one.p_both_wheels, 0.0);
+  EXPECT_EQ(oracle.update({}).p_any_wheel, 0.0);
+}
+
+TEST(Oracle, BelievesThePriorWhereItWasToldNothing) {
+  EXPECT_EQ(Oracle({}).update({}).p_any_wheel, 0.5);
+  Oracle oracle({scoring::ContactSequence{1}, scoring::ContactSequence{1}});
+  EXPECT_EQ(oracle.update({}).p_any_wheel, 1.0);
+  EXPECT_EQ(oracle.update({}).p_any_wheel, 0.5);
+  oracle.reset();
+  EXPECT_EQ(oracle.update({}).p_any_wheel, 1.0);
+}
+
+TEST(Oracle, IsTheOnlyOneThatIsToldTheTruth) {
+  RunSignals run = synthetic_run(3);
+  const Experiment experiment = synthetic_experiment(estimator_names());
+  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
+  RunSignals lied = run;
+  for (scoring::ContactSequence& contact : lied.contact) {
+    for (auto& touches : contact) touches = touches == 0 ? 1 : 0;
+  }
+  for (const std::string& name : estimator_names()) {
+    const Condition condition = {"mujoco", "mujoco", name};
+    const auto said = decide(*make_estimator(condition, models, run), run, noise, {});
+    EXPECT_EQ(said == decide(*make_estimator(condition, models, lied), lied, noise, {}),
+              !estimator_entry(name).needs_truth)
+        << name;
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
