@@ -38,24 +38,31 @@ target_compile_options(touchdown_flags INTERFACE
 target_include_directories(touchdown_flags INTERFACE ${PROJECT_SOURCE_DIR})
 
 # Reading headers takes most of a source's compile time; these, which most sources include, are read
-# once for all of them. A source still includes what it uses: lint compiles without this.
-# touchdown_precompile(<target> [<owner>]): a target whose options differ from touchdown_flags reads
-# them for itself, and is the owner for others that are compiled like it.
+# once for all of them. A source still includes what it uses.
+# touchdown_precompile(<target>): the headers below.
+# touchdown_precompile(<target> <target> [<header>...]): reads them, and these too, for itself: because
+# it has options of its own, or because all its sources include the same large library.
+# touchdown_precompile(<target> <owner>): what that owner read.
 set(TOUCHDOWN_PRECOMPILED
-  <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <span>
-  <string> <string_view> <vector> <Eigen/Core> <Eigen/Geometry>)
+  <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <list> <map>
+  <memory> <mutex> <numeric> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
+  <Eigen/Core> <Eigen/Geometry>)
 function(touchdown_precompile target)
   if(TOUCHDOWN_ESTIMATOR_ONLY)
     return()
   endif()
   # Programs, too, are compiled as position-independent as the libraries that share the headers.
   target_compile_options(${target} PRIVATE -fpch-preprocess -fPIC)
-  if("${ARGV1}" STREQUAL "${target}")
-    target_precompile_headers(${target} PRIVATE ${TOUCHDOWN_PRECOMPILED})
-  elseif(ARGC GREATER 1)
-    target_precompile_headers(${target} REUSE_FROM ${ARGV1})
+  set(owner touchdown_precompiled)
+  if(ARGN)
+    list(POP_FRONT ARGN owner)
+  endif()
+  if(owner STREQUAL target)
+    target_precompile_headers(${target} PRIVATE ${TOUCHDOWN_PRECOMPILED} ${ARGN})
   else()
-    target_precompile_headers(${target} REUSE_FROM touchdown_precompiled)
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
+  if(owner MATCHES "_precompiled$")
     # Definitions that the headers were read with must be the same wherever they are reused.
     target_compile_definitions(${target} PRIVATE
       $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
@@ -67,8 +74,7 @@ if(NOT TOUCHDOWN_ESTIMATOR_ONLY)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "")
   add_library(touchdown_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
   target_link_libraries(touchdown_precompiled PRIVATE touchdown_flags Eigen3::Eigen fmt::fmt)
-  target_compile_options(touchdown_precompiled PRIVATE -fpch-preprocess)
-  target_precompile_headers(touchdown_precompiled PRIVATE ${TOUCHDOWN_PRECOMPILED} <fmt/format.h>)
+  touchdown_precompile(touchdown_precompiled touchdown_precompiled <fmt/format.h> <yaml-cpp/yaml.h>)
 endif()
 
 # touchdown_library(<name> ROOMS <folder>... DEPENDS <target>...)
@@ -106,7 +112,7 @@ function(touchdown_test folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
   add_executable(test_${folder} ${sources})
   target_link_libraries(test_${folder} PRIVATE touchdown_flags ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
-  touchdown_precompile(test_${folder})
+  touchdown_precompile(test_${folder} touchdown_tests_precompiled)
   target_compile_definitions(test_${folder} PRIVATE
     TOUCHDOWN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TOUCHDOWN_REFERENCE_DATA="${TOUCHDOWN_REFERENCE_DATA}")

@@ -1,17 +1,21 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of packages.txt that are missing. Does nothing, without the network
-# and without root, when all of them are there.
+# install_packages.sh [section...]: installs the Debian packages of these sections of packages.txt (all,
+# if none is named) that are missing. Does nothing, without the network and without root, when all of
+# them are there.
 set -euo pipefail
 
 list="$(dirname "$0")/../packages.txt"
-mapfile -t wanted < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$list")
+mapfile -t wanted < <(
+  sed -e 's/#.*//' -e 's/[[:space:]]//g' "$list" | awk -v named=" $* " '
+    /^\[.*\]$/ { section = " " substr($0, 2, length($0) - 2) " "; next }
+    NF && (named == "  " || index(named, section))')
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   {
     echo "touchdown: this is not a Debian system, so its packages cannot be installed from here."
     echo "Install the equivalents of these Debian 12 packages:"
     printf '  %s\n' "${wanted[@]}"
-    echo "and build with: cmake --preset release && cmake --build --preset release"
+    echo "and build with: cmake --preset program && cmake --build --preset program"
   } >&2
   exit 1
 fi
