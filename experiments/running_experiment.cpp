@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "experiments/cross_simulator/variations.hpp"
 #include "experiments/phase_study/plan.hpp"
+#include "experiments/run_directory/free_space.hpp"
 #include "experiments/run_directory/shard.hpp"
 
 namespace touchdown::experiments {
@@ -40,18 +41,33 @@ std::vector<std::size_t> missing_tasks(const RunningExperiment& running) {
   return missing;
 }
 
+/// The most that the run may still write: a step of a recording takes about 1.05 kB, pictures and
+/// tables some tens of MB.
+std::uintmax_t most_bytes(const Plan& plan, const RunDirectory& directory) {
+  constexpr double step_bytes = 1100.0;
+  double bytes = 50e6;
+  for (const PlannedRun& run : plan.runs) {
+    if (!run.kept || has_stamp(run, directory)) continue;
+    bytes += step_bytes * run.scenario.end.duration /
+             (1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us));
+  }
+  return static_cast<std::uintmax_t>(bytes);
+}
+
 }  // namespace
 
 Plan whole_plan(const RunRequest& request) {
   Plan plan = plan_of(request);
   if (request.experiment.cross_simulator) add_cross_simulator(request, plan);
   if (request.experiment.phase_study) add_phase_study(request, plan);
+  keep_recordings(request.experiment, plan);
   return plan;
 }
 
 RunningExperiment start(RunRequest request, RunDirectory directory, const RunOptions& options) {
   const int threads = threads_of(request.experiment);
   Plan plan = whole_plan(request);
+  require_free_space(directory.path(), most_bytes(plan, directory));
   SavedCounts saved(directory.path() / "state" / "listening", state_key(request));
   return {std::move(request),
           std::move(directory),
@@ -64,17 +80,19 @@ RunningExperiment start(RunRequest request, RunDirectory directory, const RunOpt
 }
 
 std::string what_is_saved(const RunningExperiment& running) {
-  const auto recordings =
-      std::count_if(running.plan.runs.begin(), running.plan.runs.end(),
-                    [&](const PlannedRun& run) { return has_stamp(run, running.directory); });
+  const std::vector<PlannedRun>& runs = running.plan.runs;
+  const auto kept =
+      std::count_if(runs.begin(), runs.end(), [](const PlannedRun& run) { return run.kept; });
+  const auto recordings = std::count_if(runs.begin(), runs.end(), [&](const PlannedRun& run) {
+    return run.kept && has_stamp(run, running.directory);
+  });
   const auto parts =
       std::count_if(running.plan.tasks.begin(), running.plan.tasks.end(),
                     [&](const Task& task) { return running.saved.read(running.plan, task); });
   return fmt::format(
       "stopped; {} of {} recordings and {} of {} parts of the listening are saved in {}; the "
       "same command goes on from there",
-      recordings, running.plan.runs.size(), parts, running.plan.tasks.size(),
-      running.directory.path().string());
+      recordings, kept, parts, running.plan.tasks.size(), running.directory.path().string());
 }
 
 void require_all_shards(const RunningExperiment& running) {

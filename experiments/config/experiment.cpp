@@ -170,6 +170,10 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.section("scoring", experiment.scoring);
   fields.section("intervals", experiment.intervals);
   fields.section("video", experiment.video, experiment);
+  fields.choose("recordings", {"all", "pictured", "none"}, experiment.recordings);
+  fields.check(!experiment.video.enabled || experiment.recordings != KeptRecordings::none,
+               "recordings",
+               "expected all or pictured, from which the film is made, or video.enabled: false");
   describe_switched(fields, "detail", experiment.detail, experiment);
   describe_switched(fields, "posterior", experiment.posterior, experiment);
   const auto& names = experiment.estimators;

@@ -21,6 +21,14 @@ struct RunsConfig {
   bool perturbed = true;               ///< drawn from the seed, or the scenario as it stands
 };
 
+/// Which recordings stay in the run directory. What has none is simulated again, to the bit, where
+/// it is needed.
+enum class KeptRecordings : int {
+  all,
+  pictured,  ///< those of the run that is drawn and filmed
+  none
+};
+
 /// The run that is drawn and filmed for every engine.
 struct VideoConfig {
   bool enabled = true;
@@ -103,6 +111,7 @@ struct Experiment {
   scoring::ScoringConfig scoring;
   scoring::IntervalConfig intervals;
   VideoConfig video;
+  KeptRecordings recordings = KeptRecordings::pictured;
   std::optional<DetailConfig> detail;        ///< drawn if the file has the section, unless it says
                                              ///< `enabled: false`; an empty one means its defaults
   std::optional<PosteriorConfig> posterior;  ///< likewise

@@ -74,6 +74,15 @@ std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks) {
   return runs;
 }
 
+void keep_recordings(const Experiment& experiment, Plan& plan) {
+  for (PlannedRun& run : plan.runs) {
+    const bool is_pictured =
+        run.role == RunRole::test && run.group == 0 && run.run == experiment.video.run;
+    run.kept = experiment.recordings == KeptRecordings::all ||
+               (experiment.recordings == KeptRecordings::pictured && is_pictured);
+  }
+}
+
 void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan) {
   for (std::size_t run = first; run < plan.runs.size(); ++run) {
     if (plan.runs[run].role != RunRole::test) continue;

@@ -30,6 +30,7 @@ struct PlannedRun {
   /// Of test runs: index in the plan's groups. Of fitted ones: 0 for what all estimators are fitted
   /// to, others for what a study fits to them.
   std::size_t group = 0;
+  bool kept = true;  ///< whether its recording stays
 };
 
 /// A noise setting with something besides noise.
@@ -85,6 +86,9 @@ Plan plan_of(const RunRequest& request);
 
 /// The runs that these tasks listen to, and those that their estimators are fitted to.
 std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks);
+
+/// Decides of which runs the recordings stay.
+void keep_recordings(const Experiment& experiment, Plan& plan);
 
 /// Adds the tasks of the runs from index `first` on.
 void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan);

@@ -81,7 +81,7 @@ PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
     return played(run, recordings::read_recording(file), experiment);
   if (missing == MissingRun::refuse) {
     if (const auto why = read_state(failure_of(run, directory), key)) return failed(run, *why);
-    throw Error(fmt::format("{}: is missing or not whole", file.string()));
+    if (run.kept) throw Error(fmt::format("{}: is missing or not whole", file.string()));
   }
   recordings::Recording recording;
   try {
@@ -94,8 +94,10 @@ PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
     return failed(run, error.what());
   }
   if (!going_on()) throw Stopped();
-  recordings::write_recording(recording, file);
-  write_state(stamp_of(run, directory), key, fmt::format("{:016x}", *file_checksum(file)));
+  if (run.kept) {
+    recordings::write_recording(recording, file);
+    write_state(stamp_of(run, directory), key, fmt::format("{:016x}", *file_checksum(file)));
+  }
   return played(run, recording, experiment);
 }
 
@@ -133,6 +135,7 @@ PlayedRuns play_runs(const Experiment& experiment, const Plan& plan,
 }
 
 bool is_recorded(const PlannedRun& run, const RunDirectory& directory) {
+  if (!run.kept) return true;
   const std::string key = key_of(run);
   return is_whole(run, directory, key) || read_state(failure_of(run, directory), key).has_value();
 }

@@ -37,6 +37,7 @@ noise: {torque: [0.0, 1.0], accelerometer: [0.0, 5.0], seeds: 2}
 highlights: [{torque: 1.0, accelerometer: 5.0}]
 intervals: {resamples: 100}
 video: {enabled: false}
+recordings: all
 )");
   return "tiny.yaml";
 }

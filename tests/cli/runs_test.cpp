@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -12,6 +13,7 @@
 namespace touchdown::cli {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -21,6 +23,7 @@ namespace fs = std::filesystem;
 std::map<std::string, std::string> reproducible_files(const fs::path& run_directory) {
   std::map<std::string, std::string> files;
   for (const char* folder : {"tables", "recordings", "models"}) {
+    if (!fs::exists(run_directory / folder)) continue;  // no recordings are kept
     for (const auto& entry : fs::directory_iterator(run_directory / folder)) {
       files[folder + std::string("/") + entry.path().filename().string()] = read_file(entry.path());
     }
@@ -153,6 +156,59 @@ TEST(Run, UsesRecordingsThatAreThereAlready) {
   run_tiny(folder, "--out a");
   EXPECT_EQ(fs::last_write_time(recording), written);
   EXPECT_EQ(reproducible_files(folder.path() / "a"), before);
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.insert(entry.path().filename().string());
+  }
+  return names;
+}
+
+TEST(Run, KeepsTheRecordingsThatItIsAskedForAndTheSameTables) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  run_tiny(folder, "--no-pictures --out all");
+  run_tiny(folder, "--no-pictures --out pictured --set recordings=pictured --set video.run=1");
+  run_tiny(folder, "--no-pictures --out none --set recordings=none");
+  EXPECT_EQ(names_in(folder.path() / "all/recordings").size(), 8U);
+  EXPECT_THAT(names_in(folder.path() / "pictured/recordings"),
+              ElementsAre("bullet_step_test_001.mpack", "mujoco_step_test_001.mpack"));
+  EXPECT_FALSE(fs::exists(folder.path() / "none/recordings"));
+  EXPECT_EQ(read_file(folder.path() / "pictured/recordings/bullet_step_test_001.mpack"),
+            read_file(folder.path() / "all/recordings/bullet_step_test_001.mpack"));
+  auto all = reproducible_files(folder.path() / "all");
+  for (const char* other : {"pictured", "none"}) {
+    for (const auto& [name, content] : reproducible_files(folder.path() / other)) {
+      if (name == "config.yaml") continue;
+      EXPECT_EQ(content, all[name]) << name << " of " << other;
+    }
+  }
+}
+
+TEST(Run, WithoutRecordingsGoesOnAndMergesToTheSameBytes) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  const std::string none = "--no-pictures --set recordings=none --out ";
+  run_tiny(folder, none + "whole");
+  const auto whole = reproducible_files(folder.path() / "whole");
+  run_tiny(folder, none + "whole");
+  EXPECT_EQ(reproducible_files(folder.path() / "whole"), whole);
+  run_tiny(folder, none + "parts --shard 2/2");
+  run_tiny(folder, none + "parts --shard 1/2");
+  const Ended merged = touchdown_program("merge parts --no-pictures", folder.path());
+  ASSERT_EQ(merged.exit_code, 0) << merged.errors;
+  EXPECT_EQ(reproducible_files(folder.path() / "parts"), whole);
+}
+
+TEST(Run, ThatIsFilmedNeedsRecordings) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  const Ended ended = touchdown_program(
+      "run tiny.yaml --set recordings=none --set video.enabled=true", folder.path());
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.errors, HasSubstr("recordings: expected all or pictured"));
 }
 
 TEST(Simulate, RecordsTheSameRunTwice) {

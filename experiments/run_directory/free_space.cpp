@@ -1,0 +1,20 @@
+#include "experiments/run_directory/free_space.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace touchdown::experiments {
+
+void require_free_space(const std::filesystem::path& directory, std::uintmax_t needed) {
+  std::error_code unknown;
+  const std::uintmax_t free = std::filesystem::space(directory, unknown).available;
+  if (unknown || free >= needed) return;
+  throw Error(fmt::format(
+      "{}: this run may need {:.1f} GB, and {:.1f} GB are free: free some (`touchdown clean` "
+      "removes "
+      "old runs), keep fewer recordings (--set recordings=pictured), or put it elsewhere (--out)",
+      directory.string(), 1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(free)));
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,26 @@
+#include "experiments/run_directory/free_space.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+TEST(FreeSpace, IsAskedForBeforeARunAndItsLackSaysWhatToDo) {
+  const ScratchFolder folder;
+  EXPECT_NO_THROW(require_free_space(folder.path(), 1));
+  EXPECT_THAT(
+      [&] { require_free_space(folder.path(), std::uintmax_t{1} << 62); },
+      ThrowsMessage<Error>(AllOf(HasSubstr(folder.path().string()), HasSubstr("GB are free"),
+                                 HasSubstr("recordings=pictured"))));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
