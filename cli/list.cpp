@@ -47,10 +47,10 @@ void list() {
 }  // namespace
 
 void add_list(CLI::App& program, const CliSession& /*session*/) {
-  CLI::App* verb = program.add_subcommand(
-      "list",
+  Verb verb(
+      program, "list",
       "touchdown list\n\nShows the experiments, scenarios, simulators and estimators at hand.");
-  verb->callback(list);
+  verb.action(list);
 }
 
 }  // namespace touchdown::cli

@@ -23,16 +23,15 @@ void merge(const MergeFlags& flags, const CliSession& session) {
 }  // namespace
 
 void add_merge(CLI::App& program, const CliSession& session) {
-  CLI::App* verb = program.add_subcommand(
-      "merge",
-      "touchdown merge runs/stairs/latest\n\n"
-      "Puts together what the shards of an experiment left in its run directory.");
+  Verb verb(program, "merge",
+            "touchdown merge runs/stairs/latest\n\n"
+            "Puts together what the shards of an experiment left in its run directory.");
   const auto flags = std::make_shared<MergeFlags>();
-  verb->add_option("directory", flags->directory, "Run directory of all shards")
-      ->required()
-      ->type_name("DIR");
-  verb->add_flag("--no-pictures", flags->no_pictures, "Tables only: no figures, no videos");
-  verb->callback([flags, &session] { merge(*flags, session); });
+  verb.option("directory", &flags->directory, "Run directory of all shards")
+      .required()
+      .value_name("DIR");
+  verb.flag("--no-pictures", &flags->no_pictures, "Tables only: no figures, no videos");
+  verb.action([flags, &session] { merge(*flags, session); });
 }
 
 }  // namespace touchdown::cli

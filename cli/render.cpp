@@ -78,39 +78,38 @@ void render(const RenderFlags& flags, const CliSession& session) {
 }  // namespace
 
 void add_render(CLI::App& program, const CliSession& session) {
-  CLI::App* verb = program.add_subcommand(
-      "render",
+  Verb verb(
+      program, "render",
       "touchdown render stairs.mpack -o stairs.mp4\n\n"
       "Films a simulated run: the robot on its terrain, contact and torques below it. A run\n"
       "directory stands for the run that its experiment films, with what the estimators believed.");
   const auto flags = std::make_shared<RenderFlags>();
-  verb->add_option("input", flags->inputs,
-                   "Recording of a simulated run, or an experiment's run directory; two of them "
-                   "are shown side by side")
-      ->required()
-      ->expected(1, 2);
-  verb->add_option("-o,--output", flags->output, "Video to write; a picture with --poster")
-      ->type_name("FILE.mp4")
-      ->required();
-  verb->add_option("--layout", flags->layout,
-                   "single, or side-by-side: two runs, or both engines of a run directory")
-      ->check(CLI::IsMember({"single", "side-by-side"}));
-  verb->add_option("--from", flags->video.from, "Begin at this time of the run (s)");
-  verb->add_option("--to", flags->video.to, "End at this time of the run (s)");
-  verb->add_option("--speed", flags->video.speed, "0.1 is ten times slower than life")
-      ->capture_default_str();
-  verb->add_option("--fps", flags->video.fps, "Frames per second")->capture_default_str();
-  verb->add_option("--width", flags->video.width, "Pixels")->capture_default_str();
-  verb->add_option("--height", flags->video.height, "Pixels")->capture_default_str();
-  verb->add_option("--quality", flags->quality, "draft, or page: anti-aliased and slower")
-      ->check(CLI::IsMember({"draft", "page"}))
-      ->capture_default_str();
-  verb->add_flag("--poster", flags->poster,
-                 "One picture (PNG, or JPEG by its name) at --from, or else in the first flight");
-  verb->add_flag("--scene", flags->scene,
-                 "The same of one run without labels and plots: the robot on its terrain");
-  verb->add_option("--workers", flags->video.workers, "Processes that draw; 0: one per core");
-  verb->callback([flags, &session] { render(*flags, session); });
+  verb.option("input", &flags->inputs,
+              "Recording of a simulated run, or an experiment's run directory; two of them "
+              "are shown side by side")
+      .required()
+      .takes(1, 2);
+  verb.option("-o,--output", &flags->output, "Video to write; a picture with --poster")
+      .value_name("FILE.mp4")
+      .required();
+  verb.option("--layout", &flags->layout,
+              "single, or side-by-side: two runs, or both engines of a run directory")
+      .one_of({"single", "side-by-side"});
+  verb.option("--from", &flags->video.from, "Begin at this time of the run (s)");
+  verb.option("--to", &flags->video.to, "End at this time of the run (s)");
+  verb.option("--speed", &flags->video.speed, "0.1 is ten times slower than life").shows_default();
+  verb.option("--fps", &flags->video.fps, "Frames per second").shows_default();
+  verb.option("--width", &flags->video.width, "Pixels").shows_default();
+  verb.option("--height", &flags->video.height, "Pixels").shows_default();
+  verb.option("--quality", &flags->quality, "draft, or page: anti-aliased and slower")
+      .one_of({"draft", "page"})
+      .shows_default();
+  verb.flag("--poster", &flags->poster,
+            "One picture (PNG, or JPEG by its name) at --from, or else in the first flight");
+  verb.flag("--scene", &flags->scene,
+            "The same of one run without labels and plots: the robot on its terrain");
+  verb.option("--workers", &flags->video.workers, "Processes that draw; 0: one per core");
+  verb.action([flags, &session] { render(*flags, session); });
 }
 
 }  // namespace touchdown::cli

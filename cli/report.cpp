@@ -18,15 +18,15 @@ struct ReportFlags {
 }  // namespace
 
 void add_report(CLI::App& program, const CliSession& session) {
-  CLI::App* verb = program.add_subcommand(
-      "report",
+  Verb verb(
+      program, "report",
       "touchdown report runs/stairs/latest\n\n"
       "Writes report.html into an experiment's run directory, again if it is there: one page that\n"
       "opens without a network.");
   const auto flags = std::make_shared<ReportFlags>();
-  verb->add_option("directory", flags->directory, "Run directory")->required();
-  verb->add_flag("--no-film", flags->no_film, "Without the video inside");
-  verb->callback([flags, &session] {
+  verb.option("directory", &flags->directory, "Run directory").required();
+  verb.flag("--no-film", &flags->no_film, "Without the video inside");
+  verb.action([flags, &session] {
     const render::ReportSubject subject = render::read_subject(flags->directory);
     std::vector<render::FilmedRun> filmed;
     if (!flags->no_film && subject.experiment.video.enabled) filmed = render::filmed_runs(subject);

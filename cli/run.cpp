@@ -67,26 +67,25 @@ void run(const RunFlags& flags, const CliSession& session) {
 }  // namespace
 
 void add_run(CLI::App& program, const CliSession& session) {
-  CLI::App* verb = program.add_subcommand(
-      "run",
-      "touchdown run experiments/stairs.yaml\n\n"
-      "Runs an experiment: simulates, fits, listens through noise, scores, draws.");
+  Verb verb(program, "run",
+            "touchdown run experiments/stairs.yaml\n\n"
+            "Runs an experiment: simulates, fits, listens through noise, scores, draws.");
   const auto flags = std::make_shared<RunFlags>();
-  verb->add_option("experiment", flags->experiment, "Experiment file")->required();
-  verb->add_option("--out", flags->out, "Run directory (default: runs/<experiment>/<id>)")
-      ->type_name("DIR");
-  verb->add_option("--set", flags->overrides,
-                   "Change a value of the experiment, for example noise.seeds=3")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  verb->add_option("--shard", flags->shard,
-                   "Compute one part of n into the run directory, for `touchdown merge`")
-      ->type_name("K/N");
-  verb->add_flag("--dry-run", flags->dry_run,
-                 "Only check the experiment, and say where its results go and in how many parts\n"
-                 "it can be computed");
-  verb->add_flag("--no-pictures", flags->no_pictures, "Tables only: no figures, no videos");
-  verb->callback([flags, &session] { run(*flags, session); });
+  verb.option("experiment", &flags->experiment, "Experiment file").required();
+  verb.option("--out", &flags->out, "Run directory (default: runs/<experiment>/<id>)")
+      .value_name("DIR");
+  verb.option("--set", &flags->overrides,
+              "Change a value of the experiment, for example noise.seeds=3")
+      .value_name("KEY=VALUE")
+      .one_at_a_time();
+  verb.option("--shard", &flags->shard,
+              "Compute one part of n into the run directory, for `touchdown merge`")
+      .value_name("K/N");
+  verb.flag("--dry-run", &flags->dry_run,
+            "Only check the experiment, and say where its results go and in how many parts\n"
+            "it can be computed");
+  verb.flag("--no-pictures", &flags->no_pictures, "Tables only: no figures, no videos");
+  verb.action([flags, &session] { run(*flags, session); });
 }
 
 }  // namespace touchdown::cli

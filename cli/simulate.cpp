@@ -58,25 +58,24 @@ void simulate(const SimulateFlags& flags, const CliSession& session) {
 }  // namespace
 
 void add_simulate(CLI::App& program, const CliSession& session) {
-  CLI::App* verb = program.add_subcommand(
-      "simulate",
-      "touchdown simulate scenarios/stairs.yaml --simulator bullet -o stairs.mpack\n\n"
-      "Plays one run of a scenario and records it as Upkie logs.");
+  Verb verb(program, "simulate",
+            "touchdown simulate scenarios/stairs.yaml --simulator bullet -o stairs.mpack\n\n"
+            "Plays one run of a scenario and records it as Upkie logs.");
   const auto flags = std::make_shared<SimulateFlags>();
-  verb->add_option("scenario", flags->scenario, "Scenario file")->required();
-  verb->add_option("--simulator", flags->simulator, "Physics engine")->capture_default_str();
-  verb->add_option("-o,--output", flags->output, "Recording to write")
-      ->type_name("FILE.mpack")
-      ->required();
-  verb->add_option("--run", flags->run,
-                   "Draw the perturbations of this run from the seed (default: none)")
-      ->check(CLI::NonNegativeNumber);
-  verb->add_option("--seed", flags->seed, "Seed of the draws")->capture_default_str();
-  verb->add_option("--set", flags->overrides,
-                   "Change a value of the scenario, for example end.duration=5")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  verb->callback([flags, &session] { simulate(*flags, session); });
+  verb.option("scenario", &flags->scenario, "Scenario file").required();
+  verb.option("--simulator", &flags->simulator, "Physics engine").shows_default();
+  verb.option("-o,--output", &flags->output, "Recording to write")
+      .value_name("FILE.mpack")
+      .required();
+  verb.option("--run", &flags->run,
+              "Draw the perturbations of this run from the seed (default: none)")
+      .not_negative();
+  verb.option("--seed", &flags->seed, "Seed of the draws").shows_default();
+  verb.option("--set", &flags->overrides,
+              "Change a value of the scenario, for example end.duration=5")
+      .value_name("KEY=VALUE")
+      .one_at_a_time();
+  verb.action([flags, &session] { simulate(*flags, session); });
 }
 
 }  // namespace touchdown::cli

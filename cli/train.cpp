@@ -34,13 +34,10 @@ namespace {
 }  // namespace
 
 void add_train(CLI::App& program, const CliSession& /*session*/) {
-  CLI::App* verb = program.add_subcommand(
-      "train",
-      "touchdown train experiments/nmn.yaml\n\n"
-      "Trains the neural measurement network on simulated data (needs libtorch).");
-  verb->set_help_flag();  // the trainer has its own
-  verb->prefix_command();
-  verb->callback([verb] { become_trainer(verb->remaining()); });
+  Verb verb(program, "train",
+            "touchdown train experiments/nmn.yaml\n\n"
+            "Trains the neural measurement network on simulated data (needs libtorch).");
+  verb.action_on_words(become_trainer);  // the trainer has its own --help
 }
 
 }  // namespace touchdown::cli

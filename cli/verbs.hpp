@@ -3,7 +3,7 @@
 #include <atomic>
 #include <string>
 
-#include <CLI/CLI.hpp>
+#include "cli/verb.hpp"
 
 namespace touchdown::cli {
 

@@ -180,27 +180,26 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
 }  // namespace
 
 void add_estimate(CLI::App& program, const CliSession& session) {
-  CLI::App* verb = program.add_subcommand(
-      "estimate",
+  Verb verb(
+      program, "estimate",
       "touchdown estimate robot.mpack --model model.npz -o beliefs.csv --figure beliefs.png\n"
       "… | touchdown estimate - --model model.npz\n\n"
       "Listens to Upkie's logs and says which wheels touched the ground. With - it listens to a\n"
       "live stream and prints as it goes.");
   const auto flags = std::make_shared<EstimateFlags>();
-  verb->add_option("log", flags->logs, "Logs; - is standard input")->type_name("LOG")->required();
-  verb->add_option("--model", flags->model, "What `touchdown fit` wrote")->type_name("FILE.npz");
-  verb->add_option("--estimator", flags->estimator,
-                   "Any that `touchdown list` shows (default: robust; phase for a phase model)");
-  verb->add_option("-o,--output", flags->outputs,
-                   "Beliefs as FILE.csv, or the log with beliefs in it as FILE.mpack, or both; - "
-                   "prints the table. With several logs, the log's name is put before FILE")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-  verb->add_option("--figure", flags->figure, "Signals and beliefs over time")
-      ->type_name("FILE.png");
-  verb->add_option("--from", flags->drawn.from, "The figure begins at this time of the log (s)");
-  verb->add_option("--to", flags->drawn.to, "The figure ends at this time of the log (s)");
-  verb->callback([flags, &session] { estimate(*flags, session); });
+  verb.option("log", &flags->logs, "Logs; - is standard input").value_name("LOG").required();
+  verb.option("--model", &flags->model, "What `touchdown fit` wrote").value_name("FILE.npz");
+  verb.option("--estimator", &flags->estimator,
+              "Any that `touchdown list` shows (default: robust; phase for a phase model)");
+  verb.option("-o,--output", &flags->outputs,
+              "Beliefs as FILE.csv, or the log with beliefs in it as FILE.mpack, or both; - "
+              "prints the table. With several logs, the log's name is put before FILE")
+      .value_name("FILE")
+      .one_at_a_time();
+  verb.option("--figure", &flags->figure, "Signals and beliefs over time").value_name("FILE.png");
+  verb.option("--from", &flags->drawn.from, "The figure begins at this time of the log (s)");
+  verb.option("--to", &flags->drawn.to, "The figure ends at this time of the log (s)");
+  verb.action([flags, &session] { estimate(*flags, session); });
 }
 
 }  // namespace touchdown::cli

@@ -86,36 +86,36 @@ std::string fitted_estimators() {
 }
 
 /// The flags must outlive the verb.
-void add_fit_flags(CLI::App& verb, FitFlags& flags) {
-  verb.add_option("log", flags.logs, "Logs with ground truth: recordings of simulated runs")
-      ->type_name("LOG");
-  verb.add_option("--contact", flags.contact, "Logs in which both wheels touch all the time")
-      ->type_name("LOG");
-  verb.add_option("--no-contact", flags.no_contact, "Logs in which neither wheel ever touches")
-      ->type_name("LOG");
-  verb.add_option("-o,--output", flags.output, "Model to write")->type_name("FILE.npz")->required();
-  verb.add_option("--estimator", flags.estimator, fitted_estimators())->capture_default_str();
-  verb.add_option("--skip", flags.config.skip, "Not used at the beginning of each log (s)")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  verb.add_option("--force-threshold", flags.config.labels.force_threshold,
-                  "Ground truth: a wheel touches above this normal force (N)")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  verb.add_option("--debounce", flags.config.labels.debounce,
-                  "Ground truth: shorter states are merged into their neighbours (s)")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  verb.add_option("--grid", flags.grid, "Points of the grid along knee and wheel (200 200)")
-      ->expected(2)
-      ->check(CLI::Range(2, 5000));
-  verb.add_option("--bandwidth", flags.bandwidth, "Instead of Scott's rule: knee, wheel (N·m)")
-      ->expected(2);
-  verb.add_option("--bandwidth-floor", flags.bandwidth_floor,
-                  "Scott's bandwidth is never smaller: knee, wheel (N·m)")
-      ->expected(2);
-  verb.add_option("--knee-range", flags.knee_range, "Ends of the grid (N·m)")->expected(2);
-  verb.add_option("--wheel-range", flags.wheel_range, "Ends of the grid (N·m)")->expected(2);
+void add_fit_flags(Verb& verb, FitFlags& flags) {
+  verb.option("log", &flags.logs, "Logs with ground truth: recordings of simulated runs")
+      .value_name("LOG");
+  verb.option("--contact", &flags.contact, "Logs in which both wheels touch all the time")
+      .value_name("LOG");
+  verb.option("--no-contact", &flags.no_contact, "Logs in which neither wheel ever touches")
+      .value_name("LOG");
+  verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
+  verb.option("--estimator", &flags.estimator, fitted_estimators()).shows_default();
+  verb.option("--skip", &flags.config.skip, "Not used at the beginning of each log (s)")
+      .not_negative()
+      .shows_default();
+  verb.option("--force-threshold", &flags.config.labels.force_threshold,
+              "Ground truth: a wheel touches above this normal force (N)")
+      .not_negative()
+      .shows_default();
+  verb.option("--debounce", &flags.config.labels.debounce,
+              "Ground truth: shorter states are merged into their neighbours (s)")
+      .not_negative()
+      .shows_default();
+  verb.option("--grid", &flags.grid, "Points of the grid along knee and wheel (200 200)")
+      .takes(2)
+      .between(2, 5000);
+  verb.option("--bandwidth", &flags.bandwidth, "Instead of Scott's rule: knee, wheel (N·m)")
+      .takes(2);
+  verb.option("--bandwidth-floor", &flags.bandwidth_floor,
+              "Scott's bandwidth is never smaller: knee, wheel (N·m)")
+      .takes(2);
+  verb.option("--knee-range", &flags.knee_range, "Ends of the grid (N·m)").takes(2);
+  verb.option("--wheel-range", &flags.wheel_range, "Ends of the grid (N·m)").takes(2);
 }
 
 void show_samples(const experiments::LogFitReport& report, bool with_bandwidth) {
@@ -161,15 +161,15 @@ void fit(const FitFlags& flags, const CliSession& session) {
 }  // namespace
 
 void add_fit(CLI::App& program, const CliSession& session) {
-  CLI::App* verb = program.add_subcommand(
-      "fit",
+  Verb verb(
+      program, "fit",
       "touchdown fit stairs.mpack -o model.npz\n"
       "touchdown fit --contact rolling.mpack --no-contact hanging.mpack -o model.npz\n\n"
       "Fits an estimator's model to logs: to simulated ones with their ground truth, or to a\n"
       "robot's, each of which is contact or no contact all along.");
   const auto flags = std::make_shared<FitFlags>();
-  add_fit_flags(*verb, *flags);
-  verb->callback([flags, &session] { fit(*flags, session); });
+  add_fit_flags(verb, *flags);
+  verb.action([flags, &session] { fit(*flags, session); });
 }
 
 }  // namespace touchdown::cli
