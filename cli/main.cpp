@@ -89,6 +89,7 @@ int run_command_line(int argc, char** argv) {
   add_fit(program, session);
   add_estimate(program, session);
   add_list(program, session);
+  add_manual(program, session);
 
   if (argc < 2) {
     fmt::print("{}", program.help());

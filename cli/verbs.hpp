@@ -23,5 +23,6 @@ void add_train(CLI::App& program, const CliSession& session);
 void add_fit(CLI::App& program, const CliSession& session);
 void add_estimate(CLI::App& program, const CliSession& session);
 void add_list(CLI::App& program, const CliSession& session);
+void add_manual(CLI::App& program, const CliSession& session);
 
 }  // namespace touchdown::cli

@@ -1,0 +1,58 @@
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/manual/completion.hpp"
+#include "cli/manual/man_page.hpp"
+#include "cli/verbs.hpp"
+#include "core/files.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::cli {
+
+namespace {
+
+/// Adds the names that are looked up in tables only when the verb is at work.
+void add_known_names(std::vector<DescribedVerb>& verbs) {
+  const std::map<std::string, std::vector<std::string>> known = {
+      {"--simulator", simulators::simulator_names()},
+      {"--estimator", experiments::estimator_names()}};
+  for (DescribedVerb& verb : verbs) {
+    for (DescribedOption& option : verb.options) {
+      const auto names = known.find(option.names.back());
+      if (names != known.end()) option.choices = names->second;
+    }
+  }
+}
+
+void write_manual(const CLI::App& program, const std::filesystem::path& share) {
+  std::vector<DescribedVerb> verbs = described_verbs(program);
+  add_known_names(verbs);
+  const std::filesystem::path pages = share / "man" / "man1";
+  write_atomically(pages / "touchdown.1", man_page(described(program), verbs, TOUCHDOWN_VERSION));
+  for (const DescribedVerb& verb : verbs) {
+    write_atomically(pages / fmt::format("touchdown-{}.1", verb.name),
+                     man_page(verb, {}, TOUCHDOWN_VERSION));
+  }
+  write_atomically(share / "bash-completion" / "completions" / "touchdown", bash_completion(verbs));
+  write_atomically(share / "zsh" / "site-functions" / "_touchdown", zsh_completion(verbs));
+}
+
+}  // namespace
+
+void add_manual(CLI::App& program, const CliSession& /*session*/) {
+  Verb verb(program, "manual",
+            "touchdown manual ~/.local/share\n\n"
+            "Writes a man page for every command, and bash's and zsh's completion, where man and\n"
+            "the shells look for them. An installed touchdown brings them along.");
+  const auto share = std::make_shared<std::string>();
+  verb.option("share", share.get(), "Folder for data, such as ~/.local/share")
+      .required()
+      .value_name("DIR");
+  verb.action([&program, share] { write_manual(program, *share); });
+}
+
+}  // namespace touchdown::cli
