@@ -27,8 +27,8 @@ namespace {
   arguments.push_back(nullptr);
   ::execv(program.c_str(), arguments.data());
   throw Error("train: " + program +
-              " is missing: install the packages libtorch-dev and libopenblas0-openmp, then "
-              "configure and build again");
+              " is missing: `make trainer` builds it, with the packages libtorch-dev and "
+              "libopenblas0-openmp");
 }
 
 }  // namespace
