@@ -170,10 +170,6 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.section("scoring", experiment.scoring);
   fields.section("intervals", experiment.intervals);
   fields.section("video", experiment.video, experiment);
-  fields.choose("recordings", {"all", "pictured", "none"}, experiment.recordings);
-  fields.check(!experiment.video.enabled || experiment.recordings != KeptRecordings::none,
-               "recordings",
-               "expected all or pictured, from which the film is made, or video.enabled: false");
   describe_switched(fields, "detail", experiment.detail, experiment);
   describe_switched(fields, "posterior", experiment.posterior, experiment);
   const auto& names = experiment.estimators;
@@ -181,9 +177,15 @@ static void describe(Fields& fields, Experiment& experiment) {
       !experiment.posterior || std::find(names.begin(), names.end(), "phase") != names.end(),
       "posterior",
       "expected 'phase' among the experiment's estimators, or posterior.enabled: false");
+  fields.choose("recordings", {"all", "pictured", "none"}, experiment.recordings);
   fields("paper_tables", experiment.paper_tables);
   if (fields.reading()) fields("workers", experiment.workers, 0, 4096);
   describe_cross_simulator(fields, experiment);
+  const bool draws = experiment.video.enabled || experiment.detail || experiment.cross_simulator;
+  fields.check(
+      !draws || experiment.recordings != KeptRecordings::none, "recordings",
+      "expected all or pictured: the video, the detail and the cross-simulator overlay are "
+      "drawn from them");
   if (fields.present("phase_study", experiment.phase_study)) {
     fields("phase_study", experiment.phase_study);
   }

@@ -25,7 +25,7 @@ struct RunsConfig {
 /// it is needed.
 enum class KeptRecordings : int {
   all,
-  pictured,  ///< those of the run that is drawn and filmed
+  pictured,  ///< those that films and drawn drops show
   none
 };
 

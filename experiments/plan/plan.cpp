@@ -75,9 +75,12 @@ std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks) {
 }
 
 void keep_recordings(const Experiment& experiment, Plan& plan) {
+  std::set<std::int64_t> pictured = {experiment.video.run};
+  if (experiment.detail) pictured.insert(experiment.detail->choice.run);
+  if (experiment.cross_simulator) pictured.insert(experiment.cross_simulator->overlay.run);
   for (PlannedRun& run : plan.runs) {
     const bool is_pictured =
-        run.role == RunRole::test && run.group == 0 && run.run == experiment.video.run;
+        run.role == RunRole::test && run.group == 0 && pictured.contains(run.run);
     run.kept = experiment.recordings == KeptRecordings::all ||
                (experiment.recordings == KeptRecordings::pictured && is_pictured);
   }

@@ -50,10 +50,10 @@ enum class MissingRun : int { simulate, refuse };
 using GoingOn = std::function<bool()>;
 
 /// Simulates planned runs in parallel and writes the recordings that are kept, or reads those that
-/// are there already: which this build made of the same scenario, seed and run, and which are whole.
-/// A run whose recording is not kept is simulated whatever `missing` says. A run that cannot be simulated is a failed run and does not stop the others.
-/// Errors: `InputError` for a scene that makes no sense; `Error` for a missing recording that is
-/// not to be simulated; `Stopped`.
+/// are there already: which this build made of the same scenario, seed and run, and which are
+/// whole. A run whose recording is not kept is simulated whatever `missing` says. A run that cannot
+/// be simulated is a failed run and does not stop the others. Errors: `InputError` for a scene that
+/// makes no sense; `Error` for a missing recording that is not to be simulated; `Stopped`.
 PlayedRuns play_runs(const Experiment& experiment, const Plan& plan,
                      const std::set<std::size_t>& needed, const RunDirectory& directory,
                      MissingRun missing, const GoingOn& going_on);

@@ -4,7 +4,6 @@
 
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
-#include "recordings/log/recording_file.hpp"
 
 namespace touchdown::experiments {
 
@@ -18,17 +17,26 @@ std::vector<scoring::LabelConfig> definitions() {
   return all;
 }
 
+using Truth = std::array<scoring::ContactSequence, models::wheel_count>;
+
+Truth truth_of(const RunSignals& run, const scoring::LabelConfig& labels) {
+  const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+  Truth truth;
+  for (std::size_t w = 0; w < models::wheel_count; ++w) {
+    truth[w] = scoring::contact_labels(run.normal_force[w], period, labels);
+  }
+  return truth;
+}
+
 /// By condition of the run's engine, then definition: both wheels added.
 using RunCounts = std::vector<std::vector<scoring::Classification>>;
 
 RunCounts counts_of(const PlayedRun& run, const std::vector<Condition>& conditions,
                     const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
-  const recordings::Recording recording =
-      recordings::read_recording(result.directory.file("recordings", run.plan.file));
-  std::vector<std::array<scoring::ContactSequence, models::wheel_count>> truths;
+  std::vector<Truth> truths;
   for (const scoring::LabelConfig& labels : definitions()) {
-    truths.push_back(scoring::contact_labels(recording, labels));
+    truths.push_back(truth_of(run.signals, labels));
   }
   const NoiseRun noise = noise_run(run.signals, noise_key(experiment, 0, run.signals.info.run));
   const std::int64_t period = run.signals.info.control_period_us;

@@ -30,6 +30,7 @@ class LabelSensitivity : public ::testing::Test {
     experiment.noise.seeds = 1;
     experiment.highlights = {{0.5, 1.0}};
     experiment.video.enabled = false;
+    experiment.recordings = KeptRecordings::all;
     return run_experiment(experiment, {folder_ / "out", "", nullptr});
   }
 
