@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "policies/forces.hpp"
 #include "policies/driving.hpp"
+#include "policies/forces.hpp"
 
 namespace touchdown::scenarios {
 

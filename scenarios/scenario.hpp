@@ -8,8 +8,8 @@
 
 #include "core/yaml.hpp"
 #include "models/terrain.hpp"
-#include "policies/forces.hpp"
 #include "policies/driving.hpp"
+#include "policies/forces.hpp"
 #include "scenarios/perturbation.hpp"
 #include "simulators/options.hpp"
 

@@ -82,10 +82,14 @@ def main():
     with tempfile.TemporaryDirectory(dir=".", prefix=".tidy-") as folder, \
             concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         folder = os.path.abspath(folder)
-        reports = list(pool.map(lambda batch: check(*batch, folder), batches))
-    said = "".join(reports)
-    print(said, end="")
-    return 1 if said else 0
+        checks = [pool.submit(check, *batch, folder) for batch in batches]
+        clean = True
+        for done, finished in enumerate(concurrent.futures.as_completed(checks), 1):
+            said = finished.result()
+            clean = clean and not said
+            print(said, end="", flush=True)
+            print(f"clang-tidy: {done}/{len(checks)}", file=sys.stderr, flush=True)
+    return 0 if clean else 1
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
+#include "policies/driving.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
-#include "policies/driving.hpp"
 
 namespace touchdown::policies {
 namespace {

@@ -1,9 +1,8 @@
-#include "render/gnuplot/figure.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "render/gnuplot/figure.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
