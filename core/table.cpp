@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -19,7 +19,9 @@ std::string csv_cell(const std::string& cell) {
 }
 
 std::string csv_line(const std::vector<std::string>& cells) {
-  return fmt::format("{}\n", fmt::join(cells | std::views::transform(csv_cell), ","));
+  std::vector<std::string> quoted;
+  std::transform(cells.begin(), cells.end(), std::back_inserter(quoted), csv_cell);
+  return fmt::format("{}\n", fmt::join(quoted, ","));
 }
 
 std::string padded(const std::string& cell, std::size_t to, bool left) {
