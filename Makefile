@@ -3,7 +3,8 @@ JOBS ?= $(shell nproc)
 BUILD := build/release
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build run trainer everything test lint format bench asan clean
+.PHONY: help setup program-packages trainer-packages test-packages \
+	build run trainer everything test lint format bench asan clean
 
 help: ## Show this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -11,31 +12,42 @@ help: ## Show this list
 setup: ## Install every Debian package that is missing
 	@scripts/install_packages.sh
 
-# Configured once; from then on ninja itself notices when a CMakeLists.txt changes.
-build: ## Build the program alone: build/release/touchdown
+program-packages:
 	@scripts/install_packages.sh program
-	@test -e $(BUILD)/build.ninja || cmake --preset program
+trainer-packages:
+	@scripts/install_packages.sh program trainer
+test-packages:
+	@scripts/install_packages.sh program trainer tests
+
+# Configured once; from then on ninja itself notices when a CMakeLists.txt changes. Each target is a
+# file that only a configuration which succeeded writes: of the program, with the trainer, with the tests.
+$(BUILD)/build.ninja: | program-packages
+	cmake --preset program
+$(BUILD)/training/cmake_install.cmake: | trainer-packages
+	cmake --preset program -DTOUCHDOWN_TRAINER=ON
+$(BUILD)/CTestTestfile.cmake: CMakePresets.json | test-packages
+	cmake --preset release
+	@touch $@
+build/asan/build.ninja: CMakePresets.json | test-packages
+	cmake --preset asan
+	@touch $@
+
+build: $(BUILD)/build.ninja ## Build the program alone: build/release/touchdown
 	cmake --build --preset program --parallel $(JOBS) --target touchdown
 
 run: build ## Build the program, then run the first experiment
 	$(BUILD)/touchdown run experiments/stairs.yaml
 
-trainer: ## Build the program and the trainer of the neural network
-	@scripts/install_packages.sh program trainer
-	@grep -qs '^TOUCHDOWN_TRAINER:.*=ON' $(BUILD)/CMakeCache.txt || cmake --preset program -DTOUCHDOWN_TRAINER=ON
+trainer: $(BUILD)/training/cmake_install.cmake ## Build the program and the trainer of the neural network
 	cmake --build --preset program --parallel $(JOBS) --target touchdown touchdown-train
 
-everything: ## Build the program, the trainer, the tests and the benchmarks
-	@scripts/install_packages.sh program trainer tests
-	@grep -qs '^TOUCHDOWN_TESTS:.*=ON' $(BUILD)/CMakeCache.txt || cmake --preset release
+everything: $(BUILD)/CTestTestfile.cmake ## Build the program, the trainer, the tests and the benchmarks
 	cmake --build --preset release --parallel $(JOBS)
 
 test: everything ## Build everything and run every test
 	ctest --preset release --parallel $(JOBS)
 
-lint: ## Check formatting, clang-tidy and the shell scripts
-	@scripts/install_packages.sh
-	@grep -qs '^TOUCHDOWN_TESTS:.*=ON' $(BUILD)/CMakeCache.txt || cmake --preset release
+lint: setup $(BUILD)/CTestTestfile.cmake ## Check formatting, clang-tidy and the shell scripts
 	@cmake --build --preset release --target build.ninja >/dev/null # up to date with the lists
 	@JOBS=$(JOBS) scripts/lint.sh $(BUILD)
 
@@ -46,9 +58,7 @@ format: ## Format every source file
 bench: everything ## Run every benchmark
 	@for program in $(BUILD)/bench_*; do echo "$$program"; "$$program" || exit 1; done
 
-asan: ## Build and test with AddressSanitizer and UBSan
-	@scripts/install_packages.sh program trainer tests
-	@test -e build/asan/build.ninja || cmake --preset asan
+asan: build/asan/build.ninja ## Build and test with AddressSanitizer and UBSan
 	cmake --build --preset asan --parallel $(JOBS)
 	ctest --preset asan --parallel $(JOBS)
 
