@@ -10,8 +10,12 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
+# Looked for once: a ccache that is installed later (with the packages of the tests) would change every
+# command, and so compile the whole program again.
+if(NOT DEFINED CCACHE)
+  find_program(CCACHE ccache)
+endif()
 # What ccache has to be told before it keeps objects that were compiled with a precompiled header.
-find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
       CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
