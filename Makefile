@@ -33,9 +33,11 @@ build/asan/build.ninja: CMakePresets.json | test-packages
 	@touch $@
 
 build: $(BUILD)/build.ninja ## Build the program alone: build/release/touchdown
-	cmake --build --preset program --parallel $(JOBS) --target touchdown
+	@echo "== compiling what is new of the program: about five minutes on two cores the first time"
+	@NINJA_STATUS="compiling %f of %t, %e s: " cmake --build --preset program --parallel $(JOBS) --target touchdown
 
 run: build ## Build the program, then run the first experiment
+	@echo "== the first experiment: simulate, fit, listen, score, draw, film: about two minutes on two cores"
 	$(BUILD)/touchdown run experiments/stairs.yaml
 
 trainer: $(BUILD)/training/cmake_install.cmake ## Build the program and the trainer of the neural network

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "experiments/tables/manifest.hpp"
-#include "experiments/tables/result_files.hpp"
+#include "experiments/tables/terminal.hpp"
 #include "render/pictures/filmed_report.hpp"
 #include "render/pictures/pictures.hpp"
 
@@ -14,22 +14,29 @@ namespace touchdown::cli {
 
 namespace {
 
-void show_pictures(experiments::ExperimentResult& result, const CliSession& session) {
+void draw(experiments::ExperimentResult& result, const CliSession& session) {
   std::vector<render::FilmedRun> filmed;
   if (result.experiment.video.enabled) {
     filmed = render::filmed_runs(render::read_subject(result.directory.path()));
   }
-  for (const render::Picture& picture : render::draw_pictures(result, filmed, session.stop)) {
-    std::string kind = picture.kind;
-    for (const auto& file : picture.files) {
-      fmt::print("{:<9} {}\n", kind, file.string());
-      kind.clear();
-    }
-  }
+  render::draw_pictures(result, filmed, session.stop);
   experiments::write_manifest(result);
-  const auto report =
-      render::make_report(render::read_subject(result.directory.path()), filmed, session.stop);
-  fmt::print("{:<9} {}\n", "report", report.string());
+  render::make_report(render::read_subject(result.directory.path()), filmed, session.stop);
+}
+
+/// The last screen: the result in one table, where everything is, and what to do next.
+void close(const experiments::ExperimentResult& result) {
+  const std::filesystem::path& directory = result.directory.path();
+  fmt::print("{}\nreport    {}\nfigures   {}\n", experiments::closing_text(result),
+             (directory / "report.html").string(), (directory / "figures").string());
+  if (result.experiment.video.enabled) {
+    fmt::print("videos    {}\n", (directory / "videos").string());
+  }
+  const char* next = result.experiment.name == "noise_study" ? "cross_simulator" : "noise_study";
+  fmt::print(
+      "\nnext      build/release/touchdown run experiments/{}.yaml\n"
+      "          build/release/touchdown list                   what else there is\n",
+      next);
 }
 
 }  // namespace
@@ -39,7 +46,10 @@ void show(experiments::ExperimentResult& result, const CliSession& session, bool
   fmt::print("\nresults   {}\ntables    {}\n", result.directory.path().string(),
              (result.directory.path() / "tables").string());
   std::fflush(stdout);
-  if (!no_pictures) show_pictures(result, session);
+  if (!no_pictures) {
+    draw(result, session);
+    close(result);
+  }
   if (!result.failed_demands.empty()) {
     throw Error(fmt::format("demanded verdicts fail: {}", fmt::join(result.failed_demands, ", ")));
   }

@@ -30,6 +30,8 @@ const std::vector<Metric>& metrics() {
       {"takeoff_recall", [](const Score& s) { return s.takeoff.recall(); }},
       {"landing_precision", [](const Score& s) { return s.landing.precision(); }},
       {"landing_recall", [](const Score& s) { return s.landing.recall(); }},
+      // False alarms of takeoffs by the time that was scored, the time of each wheel: per minute.
+      {"false_takeoffs_per_minute", [](const Score& s) { return s.false_takeoffs_per_minute(); }},
       // Mean of t·T over found events, and its sample standard deviation (n − 1).
       {"takeoff_latency_ms", [](const Score& s) { return 1e3 * s.takeoff.latency_mean(); }},
       {"takeoff_latency_deviation_ms",

@@ -30,6 +30,7 @@ Score& Score::operator+=(const Score& other) {
   takeoff += other.takeoff;
   landing += other.landing;
   calibration += other.calibration;
+  scored_us += other.scored_us;
   return *this;
 }
 
@@ -40,6 +41,7 @@ std::vector<Score> score(const ContactSequence& truth, const Track& track,
   for_scored_steps(truth.size(), pieces, period_us, config, [&](std::size_t piece, std::size_t k) {
     result[piece].points.add(truth[k] != 0, track.contact[k] != 0);
     result[piece].calibration.add(truth[k] != 0, track.p_contact[k]);
+    result[piece].scored_us += period_us;
   });
   const double period = 1e-6 * static_cast<double>(period_us);
   for (const JudgedTransition& judged : judge_transitions(truth, track.contact, period, config)) {

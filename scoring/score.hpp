@@ -26,6 +26,11 @@ struct Score {
   TransitionCounts takeoff;
   TransitionCounts landing;
   Calibration calibration;
+  std::int64_t scored_us =
+      0;  ///< time that was scored (µs); of both wheels pooled, the sum of both
+
+  /// NaN where no time was scored.
+  double false_takeoffs_per_minute() const { return 60e6 * ratio(takeoff.false_alarms, scored_us); }
 
   Score& operator+=(const Score& other);
 };

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiments/estimators/registry.hpp"
+#include "experiments/tables/captions.hpp"
 
 namespace touchdown::experiments {
 
@@ -94,6 +95,18 @@ std::vector<std::string> latex_cells(const std::vector<std::string>& cells) {
   return result;
 }
 
+/// What the numbers of one cell are, in words.
+std::string how_scored(const Experiment& experiment, const noise::NoiseCell& cell) {
+  return fmt::format("Both wheels; {}, {} noise seeds; {}; {}.", noise_text(cell),
+                     experiment.noise.seeds, labels_text(experiment), intervals_text(experiment));
+}
+
+template <typename Row>
+std::vector<Row> in_cell(std::vector<Row> rows, const noise::NoiseCell& cell) {
+  std::erase_if(rows, [&](const Row& row) { return !(row.cell == cell); });
+  return rows;
+}
+
 }  // namespace
 
 std::vector<CaptionedTable> paper_tables(const std::vector<ScoreSummary>& summaries,
@@ -131,6 +144,18 @@ CaptionedTable difference_text_table(const std::vector<Difference>& differences)
          value(d, "takeoff_latency_ms", 1), value(d, "landing_latency_ms", 1)});
   }
   return result;
+}
+
+std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
+  std::vector<CaptionedTable> tables;
+  for (const noise::NoiseCell& cell : result.experiment.highlights) {
+    for (CaptionedTable& table :
+         paper_tables(in_cell(result.scores, cell), how_scored(result.experiment, cell))) {
+      tables.push_back(std::move(table));
+    }
+    tables.push_back(difference_text_table(in_cell(result.differences, cell)));
+  }
+  return tables;
 }
 
 std::string to_text(const CaptionedTable& table) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/table.hpp"
-#include "experiments/listening/summary.hpp"
+#include "experiments/tables/result.hpp"
 
 namespace touchdown::experiments {
 
@@ -20,6 +20,9 @@ struct CaptionedTable {
 /// a reference, not a mark to pass: another robot, other drops, hand labels.
 std::vector<CaptionedTable> paper_tables(const std::vector<ScoreSummary>& summaries,
                                          const std::string& how);
+
+/// The same for every highlighted cell of a result, one below the other, each with its differences.
+std::vector<CaptionedTable> paper_tables(const ExperimentResult& result);
 
 /// The first estimator's advantage over the others, with intervals.
 CaptionedTable difference_text_table(const std::vector<Difference>& differences);

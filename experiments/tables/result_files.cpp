@@ -36,31 +36,6 @@ Table runs_table(const std::vector<PlayedRun>& runs) {
   return table;
 }
 
-/// What the numbers of one cell are, in words.
-std::string how_scored(const Experiment& experiment, const noise::NoiseCell& cell) {
-  return fmt::format("Both wheels; {}, {} noise seeds; {}; {}.", noise_text(cell),
-                     experiment.noise.seeds, labels_text(experiment), intervals_text(experiment));
-}
-
-template <typename Row>
-std::vector<Row> in_cell(std::vector<Row> rows, const noise::NoiseCell& cell) {
-  std::erase_if(rows, [&](const Row& row) { return !(row.cell == cell); });
-  return rows;
-}
-
-/// The paper's tables for every highlighted cell, one below the other.
-std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
-  std::vector<CaptionedTable> tables;
-  for (const noise::NoiseCell& cell : result.experiment.highlights) {
-    for (CaptionedTable& table :
-         paper_tables(in_cell(result.scores, cell), how_scored(result.experiment, cell))) {
-      tables.push_back(std::move(table));
-    }
-    tables.push_back(difference_text_table(in_cell(result.differences, cell)));
-  }
-  return tables;
-}
-
 void write_score_tables(const ExperimentResult& result) {
   const RunDirectory& directory = result.directory;
   directory.write_table("views.csv", views_table(result.scores));
@@ -94,44 +69,6 @@ void write_result_files(const ExperimentResult& result) {
   result.directory.write_table("classification.csv", classification_table(result.summaries));
   write_score_tables(result);
   write_summary(summary_of(result), result.directory.path());
-}
-
-std::string summary_text(const ExperimentResult& result) {
-  const Experiment& experiment = result.experiment;
-  std::string text;
-  for (const std::string& simulator : experiment.simulators) {
-    const auto runs = scored_runs(result.runs);
-    const auto scored = std::count_if(runs.begin(), runs.end(), [&](const RunSignals* run) {
-      return run->info.simulator == simulator;
-    });
-    for (const noise::NoiseCell& cell : experiment.highlights) {
-      text += fmt::format("\n{}: {} test runs × {} noise seeds, {}\n\n", simulator, scored,
-                          experiment.noise.seeds, noise_text(cell));
-      text += to_text(cell_text_table(result.summaries, simulator, cell));
-    }
-    if (result.cells.size() > 1) {
-      const std::string& first = experiment.estimators.front();
-      text += fmt::format(
-          "\n{}: success rate of {} by torque and accelerometer noise "
-          "(* no better than always contact)\n\n",
-          simulator, estimator_entry(first).title);
-      text += to_text(grid_text_table(result.summaries, simulator, first, experiment.noise));
-    }
-  }
-  if (experiment.paper_tables) {
-    for (const CaptionedTable& table : paper_tables(result)) text += '\n' + to_text(table);
-  }
-  for (const std::string& study : result.studies) text += '\n' + study;
-  text += fmt::format("\n{}\n", conditions_text(experiment));
-  for (const PlayedRun& run : result.runs) {
-    if (!run.failed()) continue;
-    text += run.report.error.empty()
-                ? fmt::format("Not used: {} ({} after {:.1f} s)\n", run.plan.file,
-                              recordings::to_text(run.report.outcome), run.report.duration)
-                : fmt::format("Not used: {} (could not be simulated: {})\n", run.plan.file,
-                              run.report.error);
-  }
-  return text;
 }
 
 }  // namespace touchdown::experiments

@@ -9,7 +9,4 @@ namespace touchdown::experiments {
 /// Writes what an experiment found out into its run directory: `tables/` and `models/`.
 void write_result_files(const ExperimentResult& result);
 
-/// What a terminal should show.
-std::string summary_text(const ExperimentResult& result);
-
 }  // namespace touchdown::experiments

@@ -108,7 +108,9 @@ Table views_table(const std::vector<ScoreSummary>& summaries) {
 
 Table transitions_table(const std::vector<ScoreSummary>& summaries) {
   return table_of(
-      summaries, {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall"},
+      summaries,
+      {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall",
+       "false_takeoffs_per_minute"},
       {{"takeoffs", [](const scoring::Score& s) { return s.takeoff.events; }},
        {"false_takeoffs", [](const scoring::Score& s) { return s.takeoff.false_alarms; }},
        {"landings", [](const scoring::Score& s) { return s.landing.events; }},
@@ -158,44 +160,6 @@ Table differences_table(const std::vector<Difference>& differences) {
                               difference.second, scoring::metrics()[m].name},
                              {difference.metric[m]}));
     }
-  }
-  return table;
-}
-
-Table cell_text_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
-                      const noise::NoiseCell& cell) {
-  Table table{{"estimator", "success rate", "contact precision", "recall", "no contact precision",
-               "recall"},
-              {}};
-  for (const CellSummary& summary : summaries) {
-    if (summary.condition.test_simulator != simulator || !(summary.cell == cell)) continue;
-    table.rows.push_back({estimator_entry(summary.condition.estimator).title});
-    for (const PointMetric& metric : point_metrics) {
-      Interval interval = summary.*metric.interval;
-      if (metric.interval != &CellSummary::success) interval.low = NAN;
-      table.rows.back().push_back(with_interval(interval));
-    }
-  }
-  return table;
-}
-
-Table grid_text_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
-                      const std::string& estimator, const noise::NoiseGridConfig& noise) {
-  Table table{{"torque noise"}, {}};
-  for (const double level : noise.accelerometer) {
-    table.header.push_back(fmt::format("{} m/s²", level));
-  }
-  for (const double torque : noise.torque) table.rows.push_back({fmt::format("{} N·m", torque)});
-  for (const CellSummary& summary : summaries) {
-    const Condition& who = summary.condition;
-    if (who.test_simulator != simulator || who.estimator != estimator) continue;
-    const auto row = std::find(noise.torque.begin(), noise.torque.end(), summary.cell.torque);
-    const bool on_grid = row != noise.torque.end() &&
-                         std::find(noise.accelerometer.begin(), noise.accelerometer.end(),
-                                   summary.cell.accelerometer) != noise.accelerometer.end();
-    if (!on_grid) continue;
-    table.rows[static_cast<std::size_t>(row - noise.torque.begin())].push_back(
-        fmt::format("{:.3f}{}", summary.success.estimate, summary.loses() ? "*" : ""));
   }
   return table;
 }

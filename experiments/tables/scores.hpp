@@ -64,12 +64,4 @@ Table reliability_table(const std::vector<ScoreSummary>& summaries);
 /// `differences.csv`: one row per pair of estimators and metric.
 Table differences_table(const std::vector<Difference>& differences);
 
-/// For the terminal: every estimator of one engine in one cell.
-Table cell_text_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
-                      const noise::NoiseCell& cell);
-
-/// For the terminal: one estimator's success rate over the noise grid.
-Table grid_text_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
-                      const std::string& estimator, const noise::NoiseGridConfig& noise);
-
 }  // namespace touchdown::experiments

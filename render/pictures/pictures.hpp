@@ -10,16 +10,9 @@
 
 namespace touchdown::render {
 
-/// Something for people to look at.
-struct Picture {
-  std::string kind;  ///< "heatmap", "figure", "video"
-  std::vector<std::filesystem::path> files;
-};
-
 /// Draws what an experiment's result asks for into its run directory, with a video of each filmed
 /// run, and adds the time it took to the provenance.
-std::vector<Picture> draw_pictures(experiments::ExperimentResult& result,
-                                   const std::vector<FilmedRun>& filmed,
-                                   const std::atomic<bool>* stop);
+void draw_pictures(experiments::ExperimentResult& result, const std::vector<FilmedRun>& filmed,
+                   const std::atomic<bool>* stop);
 
 }  // namespace touchdown::render

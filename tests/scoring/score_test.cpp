@@ -1,5 +1,7 @@
 #include "scoring/score.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
@@ -100,6 +102,7 @@ TEST(Score, OfThePiecesAddsUpToTheWhole) {
   EXPECT_EQ(sum.takeoff, all.takeoff);
   EXPECT_EQ(sum.landing, all.landing);
   EXPECT_EQ(sum.calibration.points, all.calibration.points);
+  EXPECT_EQ(sum.scored_us, all.scored_us);
 }
 
 TEST(Score, OfTheRobotPoolsTheWheelsByAddingTheirCounts) {
@@ -111,6 +114,22 @@ TEST(Score, OfTheRobotPoolsTheWheelsByAddingTheirCounts) {
   EXPECT_EQ(robot.wheels().takeoff.latency_mean(), 0.020);
   EXPECT_EQ(robot.wheels().points.points(), 2 * robot[View::left_wheel].points.points());
   EXPECT_EQ(robot[View::any_wheel].points.success(), 1.0);
+}
+
+TEST(Score, CountsFalseTakeoffsPerMinuteOfEachWheel) {
+  const std::array<ContactSequence, 2> truth = {ContactSequence(6300, 1), ContactSequence(6300, 1)};
+  Prediction prediction;
+  prediction.fill(delayed(truth[0], 0));
+  Track& left = prediction[static_cast<std::size_t>(View::left_wheel)];
+  for (const std::ptrdiff_t begin : {100, 1000, 4000}) {  // the first is not scored
+    std::fill_n(left.contact.begin() + begin, 30, 0);
+  }
+  const RobotScore robot = score(truth, prediction, {0}, period_us, {}).front();
+  // Two in the 6 s that are scored.
+  EXPECT_DOUBLE_EQ(robot[View::left_wheel].false_takeoffs_per_minute(), 20.0);
+  EXPECT_EQ(robot[View::right_wheel].false_takeoffs_per_minute(), 0.0);
+  EXPECT_DOUBLE_EQ(robot.wheels().false_takeoffs_per_minute(), 10.0);
+  EXPECT_TRUE(std::isnan(Score{}.false_takeoffs_per_minute()));
 }
 
 TEST(Classification, WithoutFlightHasNoFlightMetrics) {
