@@ -8,6 +8,7 @@
 #include "experiments/cross_simulator/tables.hpp"
 #include "experiments/phase_study/fit.hpp"
 #include "experiments/phase_study/tables.hpp"
+#include "experiments/play/pieces.hpp"
 #include "experiments/run_directory/saved_state.hpp"
 #include "experiments/tables/manifest.hpp"
 #include "experiments/tables/result_files.hpp"
@@ -36,9 +37,14 @@ FittedModels fit(const RunningExperiment& running, const PlayedRuns& runs) {
   // A shard may have runs of one engine only.
   std::erase_if(experiment.simulators,
                 [&](const std::string& simulator) { return !played.contains(simulator); });
-  if (experiment.phase_study) std::erase(experiment.estimators, "phase");
-  FittedModels models = fit_models(experiment, fitted, running.going_on);
-  if (experiment.phase_study) fit_to_pieces(experiment, runs, running.going_on, models);
+  std::vector<RunSignals> pieces;
+  for (const std::string& simulator : experiment.simulators) {
+    for (RunSignals& piece : pieces_of(runs, simulator, experiment.fit_pieces)) {
+      pieces.push_back(std::move(piece));
+    }
+  }
+  FittedModels models = fit_models(experiment, fitted, pieces, running.going_on);
+  if (experiment.phase_study) fit_learning_curve(experiment, runs, running.going_on, models);
   if (!running.going_on()) throw Stopped();
   return models;
 }

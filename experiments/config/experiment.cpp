@@ -59,6 +59,14 @@ static void describe(Fields& fields, RunsConfig& runs) {
   fields("perturbed", runs.perturbed);
 }
 
+static void describe(Fields& fields, FitPieces& pieces) {
+  fields.require("scenario", pieces.scenario);
+  fields("runs", pieces.runs, 1, 100'000);
+  fields("after", pieces.after, 0.0, 1e4);
+  fields("length", pieces.length, 0.01, 1e4);
+  fields("places", pieces.places, 1, 1000);
+}
+
 static void describe(Fields& fields, VideoConfig& video, const Experiment& experiment) {
   fields("enabled", video.enabled);
   fields("run", video.run, 0, experiment.test.runs - 1);
@@ -154,6 +162,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.require("test");
   fields.within("fit", [&](Fields& fit) {
     describe(fit, experiment.fit);
+    fit.list_if_any("pieces", experiment.fit_pieces);
     if (!fit.present("seed", experiment.fit_seed.has_value())) return;
     if (fit.reading()) experiment.fit_seed.emplace();
     fit("seed", *experiment.fit_seed);
@@ -188,6 +197,8 @@ static void describe(Fields& fields, Experiment& experiment) {
       "drawn from them");
   if (fields.present("phase_study", experiment.phase_study)) {
     fields("phase_study", experiment.phase_study);
+    fields.check(!experiment.phase_study || !experiment.fit_pieces.empty(), "phase_study",
+                 "expected fit.pieces, which the learning curve varies");
   }
 }
 

@@ -21,6 +21,18 @@ struct RunsConfig {
   bool perturbed = true;               ///< drawn from the seed, or the scenario as it stands
 };
 
+/// Pieces of fitted runs of one scene: perturbed ones, played at the control period of the test
+/// runs.
+struct FitPieces {
+  std::string scenario;  ///< scenario file
+  int runs = 1;
+  double after = 0.3;   ///< a piece begins no earlier than this (s)
+  double length = 5.0;  ///< s, less where the run ends before
+  /// Pieces begin so many places apart, run by run in turn, the last one so that it ends with the
+  /// run.
+  int places = 1;
+};
+
 /// Which recordings stay in the run directory. What has none is simulated again, to the bit, where
 /// it is needed.
 enum class KeptRecordings : int {
@@ -103,6 +115,8 @@ struct Experiment {
   std::vector<std::string> simulators = {"mujoco", "bullet"};
   std::vector<std::string> estimators = {"robust"};
   RunsConfig fit;  ///< noiseless runs that the measurement models are fitted to
+  /// What filters with a phase model are fitted to instead, if anything is named.
+  std::vector<FitPieces> fit_pieces;
   std::optional<std::uint64_t> fit_seed;  ///< that these are drawn with, if not `seed`
   RunsConfig test;  ///< runs that estimators are scored on; none of them is ever fitted to
   noise::NoiseGridConfig noise;

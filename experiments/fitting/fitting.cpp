@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/phase_fitting.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -47,13 +48,25 @@ std::vector<Job> jobs_of(const Experiment& experiment) {
   return jobs;
 }
 
-FittedModel fitted(const EstimatorEntry& entry, std::span<const RunSignals* const> runs,
+using RunPointers = std::vector<const RunSignals*>;
+
+RunPointers of_engine(const std::vector<RunSignals>& runs, const std::string& simulator) {
+  RunPointers own;
+  for (const RunSignals& run : runs) {
+    if (run.info.simulator == simulator) own.push_back(&run);
+  }
+  return own;
+}
+
+FittedModel fitted(const EstimatorEntry& entry, const RunPointers& runs, const RunPointers& pieces,
                    const scoring::ScoringConfig& scoring,
                    const std::function<void()>& before_density) {
   if (entry.config) return {fit(runs, entry.config->measurement, scoring), nullptr};
+  const PhaseFitConfig& config = entry.phase->fit;
   return {{},
           std::make_shared<recordings::PhaseModelFile>(
-              fit_phases(runs, entry.phase->fit, scoring.skip, before_density))};
+              pieces.empty() ? fit_phases(runs, config, scoring.skip, before_density)
+                             : fit_phases(pieces, config, 0.0, before_density))};
 }
 
 }  // namespace
@@ -79,22 +92,23 @@ MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementC
 }
 
 FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
+                        const std::vector<RunSignals>& pieces,
                         const std::function<bool()>& going_on) {
   std::vector<Job> jobs = jobs_of(experiment);
   const auto or_stop = [&] {
     if (going_on && !going_on()) throw Stopped();
   };
+  Progress progress("fitting", "models", static_cast<std::int64_t>(jobs.size()));
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
     or_stop();
-    std::vector<const RunSignals*> runs;
-    for (const RunSignals& run : fit_runs) {
-      if (run.info.simulator == jobs[i].simulator) runs.push_back(&run);
-    }
+    const std::string& simulator = jobs[i].simulator;
     try {
-      jobs[i].model = fitted(*jobs[i].entry, runs, experiment.scoring, or_stop);
+      jobs[i].model = fitted(*jobs[i].entry, of_engine(fit_runs, simulator),
+                             of_engine(pieces, simulator), experiment.scoring, or_stop);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("fit on {}: {}", jobs[i].simulator, error.what()));
+      throw InputError(fmt::format("fit on {}: {}", simulator, error.what()));
     }
+    progress.advance();
   });
   FittedModels models;
   for (const Job& job : jobs) {

@@ -16,9 +16,11 @@ namespace touchdown::experiments {
 MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementConfig& config,
                      const scoring::ScoringConfig& scoring);
 
-/// Fits what the experiment's estimators need, for each engine on its own runs, in parallel.
-/// `going_on` is asked before each density; false ends it with `Stopped`.
+/// Fits what the experiment's estimators need, for each engine on its own runs, in parallel: phase
+/// models to the pieces of an engine that has any. `going_on` is asked before each density; false
+/// ends it with `Stopped`.
 FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
+                        const std::vector<RunSignals>& pieces = {},
                         const std::function<bool()>& going_on = {});
 
 }  // namespace touchdown::experiments

@@ -8,18 +8,16 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// `count` runs of a scene in every engine, at 1 kHz, from the `first` on.
-void plan_runs(const Experiment& experiment, const std::string& scene, RunRole role,
-               std::size_t group, int first, int count, Plan& plan) {
-  const bool is_fit = role == RunRole::fit;
-  const std::uint64_t seed = is_fit ? seed_of_fit(experiment) : experiment.seed;
+/// The test runs of a scene in every engine, at 1 kHz.
+void plan_test_runs(const Experiment& experiment, const std::string& scene, std::size_t group,
+                    Plan& plan) {
   scenarios::Scenario scenario = scenarios::find_scenario("scenarios/" + scene + ".yaml");
   scenario.simulation.steps.control_us = 1000;
   for (const std::string& simulator : experiment.simulators) {
-    for (int i = first; i < first + count; ++i) {
-      const std::int64_t run = (is_fit ? first_fit_run : 0) + i;
-      plan.runs.push_back({role, simulator, scenarios::perturbed(scenario, seed, run), run,
-                           recording_name(simulator, scene, to_text(role), i), seed, group});
+    for (int run = 0; run < experiment.test.runs; ++run) {
+      plan.runs.push_back(
+          {RunRole::test, simulator, scenarios::perturbed(scenario, experiment.seed, run), run,
+           recording_name(simulator, scene, to_text(RunRole::test), run), experiment.seed, group});
     }
   }
 }
@@ -44,17 +42,11 @@ std::vector<DisturbedCell> disturbed_cells() {
 
 }  // namespace
 
-std::string pieces_fit(int pieces) {
-  return pieces == fitted_pieces ? "" : fmt::format("_{}_pieces", pieces);
-}
+std::string pieces_fit(int pieces) { return fmt::format("_{}_pieces", pieces); }
 
 void add_phase_study(const RunRequest& request, Plan& plan) {
   const Experiment& experiment = request.experiment;
-  const int most = learning_curve.back();
-  plan_runs(experiment, "stairs", RunRole::fit, 1, experiment.fit.runs, most - experiment.fit.runs,
-            plan);
-  plan_runs(experiment, "hang", RunRole::fit, 1, 0, 1, plan);
-  plan_runs(experiment, "lift", RunRole::fit, 1, 0, 1, plan);
+  plan_piece_runs(request, 0, experiment.fit_pieces.front().runs, learning_curve.back(), plan);
   RunGroup& stairs = plan.groups.front();
   RunGroup scene{.name = {}, .conditions = {}, .counted = {}, .scored = {}};
   scene.is_looked_at_closely = stairs.is_looked_at_closely = true;
@@ -76,7 +68,7 @@ void add_phase_study(const RunRequest& request, Plan& plan) {
   }
   for (const char* name : more_scenes) {
     scene.name = name;
-    plan_runs(experiment, name, RunRole::test, plan.groups.size(), 0, experiment.test.runs, plan);
+    plan_test_runs(experiment, name, plan.groups.size(), plan);
     plan.groups.push_back(scene);
   }
 

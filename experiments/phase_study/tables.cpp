@@ -209,7 +209,8 @@ std::string learning_text(const Engine& engine, const PlayedRuns& runs) {
   std::string text = "\n\nLearning curve (grid mean):";
   for (const int pieces : learning_curve) {
     const Condition condition{engine.name, engine.name, "phase", pieces_fit(pieces)};
-    text += fmt::format(" {:.0f} s {:.4f};", fitted_seconds(runs, engine.name, pieces),
+    text += fmt::format(" {:.0f} s {:.4f};",
+                        fitted_seconds(engine.experiment, runs, engine.name, pieces),
                         mean(grid(engine, condition)));
   }
   return text + "\n";
@@ -227,10 +228,11 @@ std::string phase_study_text(const Listened& listened) {
   std::string text = fmt::format("# Phase filter, test runs of seed {}\n", experiment.seed);
   for (const std::string& simulator : experiment.simulators) {
     const Engine engine{experiment, plan.groups.front(), listened.own, simulator};
-    text += fmt::format("\n## {}\n\nFitted on {:.1f} s; {} stairs runs × {} noise seeds.\n",
-                        simulator, fitted_seconds(listened.runs, simulator, fitted_pieces),
-                        samples_of(listened.own.counted, engine.own("phase"), 0).size(),
-                        experiment.noise.seeds);
+    const double fitted =
+        fitted_seconds(experiment, listened.runs, simulator, experiment.fit_pieces.front().runs);
+    text += fmt::format(
+        "\n## {}\n\nFitted on {:.1f} s; {} stairs runs × {} noise seeds.\n", simulator, fitted,
+        samples_of(listened.own.counted, engine.own("phase"), 0).size(), experiment.noise.seeds);
     text += grids_text(engine) + details_text(engine) + knees_and_wheels_text(engine);
     for (std::size_t g = 1; g < plan.groups.size(); ++g) {
       text += scene_text({experiment, plan.groups[g], scenes[g - 1], simulator});

@@ -1,5 +1,10 @@
 #include "experiments/plan/plan.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "noise/grid.hpp"
@@ -28,6 +33,10 @@ void plan_runs(const RunRequest& request, RunRole role, Plan& plan) {
   }
 }
 
+bool is_fitted_to_phases(const std::string& estimator) {
+  return estimator_entry(estimator).fits() == ModelKind::phase;
+}
+
 }  // namespace
 
 std::string_view to_text(RunRole role) { return role == RunRole::fit ? "fit" : "test"; }
@@ -45,10 +54,34 @@ std::vector<std::size_t> Plan::runs_in(std::size_t group) const {
   return indices;
 }
 
+void plan_piece_runs(const RunRequest& request, std::size_t entry, int first, int end, Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  const std::uint64_t seed = seed_of_fit(experiment);
+  scenarios::Scenario scene = scenario_of(request, experiment.fit_pieces[entry].scenario).scenario;
+  // Models are fitted at the rate at which they listen.
+  scene.simulation.steps.control_us =
+      scenario_of(request, experiment.test.scenarios.front()).scenario.simulation.steps.control_us;
+  const std::string role = fmt::format("piece{}", entry + 1);
+  for (const std::string& simulator : experiment.simulators) {
+    for (int i = first; i < end; ++i) {
+      const std::int64_t run = first_fit_run + i;
+      plan.runs.push_back({RunRole::fit, simulator, perturbed(scene, seed, run), run,
+                           recording_name(simulator, scene.name, role, i), seed,
+                           piece_group(entry)});
+    }
+  }
+}
+
 Plan plan_of(const RunRequest& request) {
   const Experiment& experiment = request.experiment;
   Plan plan;
   plan_runs(request, RunRole::fit, plan);
+  const auto& names = experiment.estimators;
+  if (std::any_of(names.begin(), names.end(), is_fitted_to_phases)) {
+    for (std::size_t entry = 0; entry < experiment.fit_pieces.size(); ++entry) {
+      plan_piece_runs(request, entry, 0, experiment.fit_pieces[entry].runs, plan);
+    }
+  }
   plan_runs(request, RunRole::test, plan);
   plan.groups.push_back({"", own_engine_conditions(experiment),
                          noise::noise_cells(experiment.noise), experiment.highlights});

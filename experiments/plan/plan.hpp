@@ -27,8 +27,8 @@ struct PlannedRun {
   std::int64_t run = 0;          ///< its index, different for every run of one engine and group
   std::string file;              ///< name of its recording
   std::uint64_t seed = 1;        ///< that its perturbations are drawn with
-  /// Of test runs: index in the plan's groups. Of fitted ones: 0 for what all estimators are fitted
-  /// to, others for what a study fits to them.
+  /// Of test runs: index in the plan's groups. Of fitted ones: 0 for those that are fitted whole,
+  /// `piece_group` for those that are fitted in pieces.
   std::size_t group = 0;
   bool kept = true;  ///< whether its recording stays
 };
@@ -78,11 +78,17 @@ struct Plan {
   std::vector<std::size_t> runs_in(std::size_t group) const;
 };
 
+/// The group of the fitted runs of one entry of `fit.pieces`.
+constexpr std::size_t piece_group(std::size_t entry) { return 1 + entry; }
+
 /// The seed that fitted runs are drawn with.
 std::uint64_t seed_of_fit(const Experiment& experiment);
 
 /// What the file's `fit`, `test`, `noise` and `highlights` ask for.
 Plan plan_of(const RunRequest& request);
+
+/// Adds the fitted runs `first` to `end` of one entry of `fit.pieces`, in every engine.
+void plan_piece_runs(const RunRequest& request, std::size_t entry, int first, int end, Plan& plan);
 
 /// The runs that these tasks listen to, and those that their estimators are fitted to.
 std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks);

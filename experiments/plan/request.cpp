@@ -29,16 +29,16 @@ std::string id_of(const RunRequest& request) {
 template <typename Read>
 std::vector<NamedScenario> scenarios_of(const Experiment& experiment, const Read& read) {
   std::vector<NamedScenario> scenarios;
-  for (const RunsConfig* runs : {&experiment.fit, &experiment.test}) {
-    for (const std::string& file : runs->scenarios) {
-      const bool known =
-          std::any_of(scenarios.begin(), scenarios.end(),
-                      [&](const NamedScenario& named) { return named.file == file; });
-      if (known) continue;
-      scenarios.push_back({file, read(file, scenarios.size())});
-      scenarios::Scenario& scenario = scenarios.back().scenario;
-      scenario.robot = find_resource(scenario.robot);
-    }
+  std::vector<std::string> files = experiment.fit.scenarios;
+  files.insert(files.end(), experiment.test.scenarios.begin(), experiment.test.scenarios.end());
+  for (const FitPieces& pieces : experiment.fit_pieces) files.push_back(pieces.scenario);
+  for (const std::string& file : files) {
+    const bool known = std::any_of(scenarios.begin(), scenarios.end(),
+                                   [&](const NamedScenario& named) { return named.file == file; });
+    if (known) continue;
+    scenarios.push_back({file, read(file, scenarios.size())});
+    scenarios::Scenario& scenario = scenarios.back().scenario;
+    scenario.robot = find_resource(scenario.robot);
   }
   return scenarios;
 }
