@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "policies/wheel_balancer.hpp"
+#include "scenarios/compiled_scenes.hpp"
 #include "scenarios/start_pose.hpp"
 #include "simulators/registry.hpp"
 
@@ -16,16 +17,6 @@ namespace {
 bool tipped_over(const models::GroundTruth& truth, double limit) {
   const double cosine = (truth.base_orientation * Eigen::Vector3d::UnitZ()).z();
   return cosine < std::cos(limit);
-}
-
-/// Scales mass and inertia alike, so that the robot keeps its shape.
-void scale_mass(models::RobotModel& model, double scale) {
-  for (int body = 1; body < model.mj->nbody; ++body) {
-    model.mj->body_mass[body] *= scale;
-    for (int axis = 0; axis < 3; ++axis) model.mj->body_inertia[3 * body + axis] *= scale;
-  }
-  const models::MjDataPtr data(mj_makeData(model.mj.get()));
-  mj_setConst(model.mj.get(), data.get());
 }
 
 /// Watches a run for its end.
@@ -57,10 +48,13 @@ class Referee {
 
 std::unique_ptr<simulators::Simulator> make_simulator(const Scenario& scenario,
                                                       std::string_view name) {
-  auto model = std::make_shared<models::RobotModel>(
-      models::compile_robot_model(scenario.robot, scenario.terrain));
-  if (scenario.mass_scale != 1.0) scale_mass(*model, scenario.mass_scale);
-  return simulators::make_simulator(name, model, scenario.simulation);
+  return make_simulator(scenario, name, compile_scene(scenario));
+}
+
+std::unique_ptr<simulators::Simulator> make_simulator(
+    const Scenario& scenario, std::string_view name,
+    const std::shared_ptr<const models::RobotModel>& scene) {
+  return simulators::make_simulator(name, scene, scenario.simulation);
 }
 
 std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenario,

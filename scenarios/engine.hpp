@@ -20,6 +20,11 @@ using PlayProgress = std::function<bool(double time)>;
 std::unique_ptr<simulators::Simulator> make_simulator(const Scenario& scenario,
                                                       std::string_view name);
 
+/// As above, with the scene compiled already (`compile_scene`).
+std::unique_ptr<simulators::Simulator> make_simulator(
+    const Scenario& scenario, std::string_view name,
+    const std::shared_ptr<const models::RobotModel>& scene);
+
 /// What pulls at the robot from outside during the coming control step: its tether, its guides and
 /// the timed forces that act now.
 std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenario,

@@ -13,6 +13,7 @@
 #include "core/progress.hpp"
 #include "experiments/run_directory/saved_state.hpp"
 #include "recordings/log/recording_file.hpp"
+#include "scenarios/compiled_scenes.hpp"
 #include "scenarios/engine.hpp"
 
 namespace touchdown::experiments {
@@ -73,8 +74,17 @@ PlayedRun played(const PlannedRun& run, const recordings::Recording& recording,
           std::move(signals)};
 }
 
+recordings::Recording simulate(const PlannedRun& run, scenarios::CompiledScenes& scenes,
+                               const GoingOn& going_on) {
+  const auto simulator =
+      scenarios::make_simulator(run.scenario, run.simulator, scenes.of(run.scenario));
+  return scenarios::play(run.scenario, *simulator, run.seed, run.run,
+                         [&](double /*time*/) { return going_on(); });
+}
+
 PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
-                       const RunDirectory& directory, MissingRun missing, const GoingOn& going_on) {
+                       const RunDirectory& directory, MissingRun missing,
+                       scenarios::CompiledScenes& scenes, const GoingOn& going_on) {
   const auto file = directory.file("recordings", run.file);
   const std::string key = key_of(run);
   if (is_whole(run, directory, key))
@@ -85,8 +95,7 @@ PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
   }
   recordings::Recording recording;
   try {
-    recording = scenarios::play(run.scenario, run.simulator, run.seed, run.run,
-                                [&](double /*time*/) { return going_on(); });
+    recording = simulate(run, scenes, going_on);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
@@ -125,9 +134,11 @@ PlayedRuns play_runs(const Experiment& experiment, const Plan& plan,
                      MissingRun missing, const GoingOn& going_on) {
   PlayedRuns runs;
   for (const std::size_t index : needed) runs.emplace(index, PlayedRun{plan.runs[index], {}, {}});
+  scenarios::CompiledScenes scenes;
   Progress progress("simulating", "runs", static_cast<std::int64_t>(runs.size()));
   tbb::parallel_for_each(runs, [&](auto& entry) {
-    entry.second = play_or_read(plan.runs[entry.first], experiment, directory, missing, going_on);
+    entry.second =
+        play_or_read(plan.runs[entry.first], experiment, directory, missing, scenes, going_on);
     progress.advance();
     if (!going_on()) throw Stopped();
   });
