@@ -35,18 +35,17 @@ void describe_choice(Fields& fields, DropChoice& choice, const Experiment& exper
   fields("after", choice.after, 0.01, 10.0);
 }
 
-/// Those that the paper compares and the phase filter; others where the experiment has none of
-/// them.
+/// As many as are readable: those that the paper compares and the phase filter first.
 std::vector<std::string> shown_by_default(const std::vector<std::string>& estimators) {
   std::vector<std::string> shown;
+  const auto show = [&](const std::string& name) {
+    const bool is_new = std::find(shown.begin(), shown.end(), name) == shown.end();
+    if (is_new && shown.size() < most_estimators) shown.push_back(name);
+  };
   for (const char* name : {"robust", "measurement_only", "reference", "phase"}) {
-    if (std::find(estimators.begin(), estimators.end(), name) != estimators.end()) {
-      shown.emplace_back(name);
-    }
+    if (std::find(estimators.begin(), estimators.end(), name) != estimators.end()) show(name);
   }
-  if (!shown.empty()) return shown;
-  shown = estimators;
-  if (shown.size() > 4) shown.resize(4);
+  for (const std::string& name : estimators) show(name);
   return shown;
 }
 

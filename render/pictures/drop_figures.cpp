@@ -1,5 +1,6 @@
 #include "render/pictures/drop_figures.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -36,6 +37,17 @@ std::string which_drop(const experiments::Experiment& experiment,
       choice.run, choice.drop, experiment.seed, choice.seed, experiments::labels_text(experiment));
 }
 
+/// "Not shown: NMN, Free fall."; nothing where all of the experiment's estimators are.
+std::string left_out_text(const experiments::Experiment& experiment,
+                          const std::vector<std::string>& shown) {
+  std::vector<std::string> titles;
+  for (const std::string& name : experiment.estimators) {
+    if (std::find(shown.begin(), shown.end(), name) != shown.end()) continue;
+    titles.push_back(experiments::estimator_title(name));
+  }
+  return titles.empty() ? "" : fmt::format(" Not shown: {}.", fmt::join(titles, ", "));
+}
+
 Figure draw_detail(const experiments::ExperimentResult& result, const std::string& simulator) {
   const experiments::Experiment& experiment = result.experiment;
   const experiments::DetailConfig& config = *experiment.detail;
@@ -49,9 +61,9 @@ Figure draw_detail(const experiments::ExperimentResult& result, const std::strin
                   simulators::simulator_title(simulator)),
       fmt::format("{} Left wheel and leg. Spectra, power and median frequency are those of the "
                   "{:.0f} ms that end at each instant; they and the switch probabilities come from "
-                  "the transition model of {}. Dashed verticals: the left wheel leaves or lands.",
+                  "the transition model of {}. Dashed verticals: the left wheel leaves or lands.{}",
                   which_drop(experiment, config.choice), 1e3 / detail.bin_width,
-                  detail.transition_of),
+                  detail.transition_of, left_out_text(experiment, config.estimators)),
       fmt::format(
           "Rows of curves over the time around one drop, {} noise settings beside each "
           "other: height of the base, knee and wheel torque with and without noise, contact "

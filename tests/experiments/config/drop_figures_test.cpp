@@ -46,12 +46,24 @@ TEST(DropConfig, AnEmptySectionMeansItsDefaults) {
   const Experiment experiment = read("detail: {}\nposterior:\n");
   ASSERT_TRUE(experiment.detail && experiment.posterior);
   EXPECT_THAT(experiment.detail->estimators,
-              ElementsAre("robust", "measurement_only", "reference", "phase"));
+              ElementsAre("robust", "measurement_only", "reference", "phase", "paper"));
   ASSERT_EQ(experiment.detail->noise.size(), 2U);
   EXPECT_EQ(experiment.detail->noise[0], (noise::NoiseCell{0.25, 1.0}));
   EXPECT_EQ(experiment.detail->noise[1], (noise::NoiseCell{1.0, 5.0}));
   EXPECT_EQ(experiment.posterior->noise, (noise::NoiseCell{1.0, 5.0}));
   EXPECT_EQ(experiment.posterior->choice.drop, 0);
+}
+
+/// Six are readable: whom the user added is shown before anybody is left out.
+TEST(DropConfig, EstimatorsThatTheUserAddedAreShownAsFarAsSixAreReadable) {
+  YamlDocument document = YamlDocument::parse(std::string(head) + "detail: {}\n", "study.yaml");
+  document.override_value("estimators=[free_fall, phase, upkie_observer, robust]");
+  EXPECT_THAT(experiment_from_yaml(document).detail->estimators,
+              ElementsAre("robust", "phase", "free_fall", "upkie_observer"));
+  document.override_value(
+      "estimators=[oracle, nmn, free_fall, upkie_observer, phase, measurement_only, robust]");
+  EXPECT_THAT(experiment_from_yaml(document).detail->estimators,
+              ElementsAre("robust", "measurement_only", "phase", "oracle", "nmn", "free_fall"));
 }
 
 TEST(DropConfig, ReadsBackToWhatItWrites) {
