@@ -13,4 +13,18 @@ std::string build_fingerprint() {
   return name;
 }
 
+std::string build_commit(const std::filesystem::path& program) {
+  std::error_code ignored;
+  const std::filesystem::path folder = std::filesystem::weakly_canonical(program, ignored).parent_path();
+  // Where it was built, and where it was installed.
+  for (const char* share : {"share", "../share"}) {
+    const std::filesystem::path note = folder / share / "touchdown" / "commit";
+    if (!std::filesystem::is_regular_file(note, ignored)) continue;
+    std::string commit = read_file(note);
+    while (commit.ends_with('\n')) commit.pop_back();
+    return commit;
+  }
+  return "unknown: the program lies without the files that are installed with it";
+}
+
 }  // namespace touchdown

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -28,5 +29,10 @@ class Fingerprint {
 
 /// A name for the program that is running: equal programs have equal names.
 std::string build_fingerprint();
+
+/// The commit of the sources that a program was built from, as `git describe` calls it; "-dirty" at
+/// its end where files had been changed since. The build notes it in a file beside the program, so
+/// that a commit alone makes no other program. Says so when there is no such note.
+std::string build_commit(const std::filesystem::path& program = "/proc/self/exe");
 
 }  // namespace touchdown

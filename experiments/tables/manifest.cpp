@@ -28,6 +28,7 @@ std::string host_name() {
 
 Json versions() {
   return {{"touchdown", TOUCHDOWN_VERSION},
+          {"commit", build_commit()},
           {"build", build_fingerprint()},
           {"build_type", TOUCHDOWN_BUILD_TYPE},
           {"compiler", __VERSION__},
