@@ -179,6 +179,8 @@ void VideoWriter::write(const std::uint8_t* i420) {
 void VideoWriter::finish() {
   streams_->encode(nullptr);
   check_ffmpeg(av_write_trailer(streams_->format.get()), "cannot finish the file");
+  // A write that failed on the way is remembered here, and nowhere else.
+  check_ffmpeg(streams_->format->pb->error, "cannot write");
   check_ffmpeg(avio_closep(&streams_->format->pb), "cannot finish the file");
   write_atomically(path_, read_file(streams_->file.path()));
   streams_.reset();

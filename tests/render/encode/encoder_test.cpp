@@ -1,10 +1,15 @@
+#include <csignal>
 #include <filesystem>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "render/encode/writer.hpp"
 #include "tests/render/staged_run.hpp"
 #include "tests/scratch_folder.hpp"
@@ -62,6 +67,36 @@ TEST(VideoEncoder, OddSizesAreTheRequestsFault) {
   const ScratchFolder folder;
   EXPECT_TRUE(
       complaint([&] { VideoWriter(folder / "x.mp4", {.width = 63, .height = 64}); }).request);
+}
+
+/// Neither the memory in which a film is made nor the disk takes more than its first bytes.
+TEST(VideoEncoder, AFilmThatHasNoRoomIsAnErrorAndTheOldOneStays) {
+  const ScratchFolder folder;
+  folder.write("x.mp4", "the old film");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit most{2000, 2000};
+    ::setrlimit(RLIMIT_FSIZE, &most);
+    const Complaint said = complaint([&] {
+      VideoWriter writer(folder / "x.mp4", {.width = 320, .height = 240});
+      std::vector<std::uint8_t> picture(320 * 240 * 3 / 2);
+      for (int i = 0; i < 60; ++i) {
+        for (std::size_t k = 0; k < picture.size(); ++k) {
+          picture[k] = static_cast<std::uint8_t>((k * k + 7919 * static_cast<std::size_t>(i)) >> 3);
+        }
+        writer.write(picture.data());
+      }
+      writer.finish();
+    });
+    ::_exit(said.message.find("write") != std::string::npos && !said.request ? 42 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 42);
+  EXPECT_EQ(read_file(folder / "x.mp4"), "the old film");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(VideoEncoder, AWriterThatNeverFinishesLeavesNothing) {
