@@ -42,7 +42,7 @@ constexpr const char* script_text = R"gnuplot(# gnuplot training.gp
 set terminal pngcairo size 1200,800 font "DejaVu Sans,20" linewidth 2
 set output "training.png"
 set datafile separator comma
-set key top right opaque
+set key above
 set xrange [0:*]
 set grid lc rgb "#dddddd"
 set logscale y

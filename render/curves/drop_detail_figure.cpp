@@ -45,6 +45,16 @@ Axis range_of(const experiments::DropDetail& detail,
   return range_of(all);
 }
 
+/// 1, 2 or 5 times a power of ten, so that there are at most six ticks.
+double tick_step(const Axis& axis) {
+  const double least = (axis.high - axis.low) / 6.0;
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (step * decade >= least) return step * decade;
+  }
+  return 10.0 * decade;
+}
+
 /// What is drawn of one noise setting, a line per step.
 PlotColumns detail_columns(const experiments::DropDetail& detail,
                            const experiments::NoisyDrop& drop) {
@@ -106,7 +116,9 @@ struct DetailColumn {
   bool last() const { return number + 1 == detail.noisy.size(); }
 
   std::string panel(Row row, std::string_view label) const {
-    return grid.panel(row, number, label) + (last() ? grid.key(row) : "");
+    const bool has_ticks_right = row == true_spectrum || row == noisy_spectrum;
+    return grid.panel(row, number, label) +
+           (last() ? grid.key(row, has_ticks_right ? 56.0 : 14.0) : "");
   }
 
   std::string line(const std::string& column, const std::string& style,
@@ -120,20 +132,22 @@ struct DetailColumn {
     const Axis axis = range_of(detail, joint);
     return panel(row, label) +
            fmt::format(
-               "set yrange [{}:{}]\nplot {}, {}\n", axis.low, axis.high,
+               "set yrange [{}:{}]\nset ytics autofreq {}\nplot {}, {}\nset ytics autofreq\n",
+               axis.low, axis.high, tick_step(axis),
                line("noisy_" + column, "lc rgb '#8fb9dd' lw 1", row == knee ? "with noise" : ""),
                line(column, "lc rgb '#08306b' lw 1.8", row == knee ? "true" : ""));
   }
 
   std::string beliefs() const {
-    std::string text =
-        panel(belief, "P(contact)") + "set yrange [-0.04:1.04]\nset ytics 0,0.5,1\nplot ";
+    // From the last to the first, which is seen on top of the others; the key stays in order.
+    std::string text = panel(belief, "P(contact)") + (last() ? "set key invert\n" : "") +
+                       "set yrange [-0.04:1.04]\nset ytics 0,0.5,1\nplot ";
     const auto& traces = detail.noisy[number].beliefs;
-    for (std::size_t i = 0; i < traces.size(); ++i) {
-      text += (i == 0 ? "" : ", ") +
-              line("p_" + traces[i].estimator, fmt::format("lt {} lw 2", i + 1), traces[i].title);
+    for (std::size_t i = traces.size(); i-- > 0;) {
+      text += line("p_" + traces[i].estimator, fmt::format("lt {} lw 2", i + 1), traces[i].title) +
+              (i == 0 ? "" : ", ");
     }
-    return text + "\nset ytics autofreq\n";
+    return text + "\nset ytics autofreq\nset key noinvert\n";
   }
 
   std::string spectrum(Row row, std::size_t file, std::string_view label,
@@ -203,7 +217,9 @@ Figure draw_drop_detail(const experiments::DropDetail& detail, const FigureText&
   const std::string name = stem.filename().string();
   PanelGrid::Layout layout;
   layout.columns.clear();
-  layout.row_heights = {84.0, 118.0, 104.0, 156.0, 150.0, 150.0, 130.0};
+  layout.row_heights = {84.0, 118.0, 118.0, 156.0, 150.0, 150.0, 130.0};
+  layout.panel_width = 427.0;
+  layout.right = 300.0;
   for (const experiments::NoisyDrop& drop : detail.noisy) {
     layout.columns.push_back(fmt::format("noise: torques {} N·m, accelerometer {} m/s²",
                                          drop.noise.torque, drop.noise.accelerometer));

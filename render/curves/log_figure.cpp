@@ -219,18 +219,13 @@ Figure draw_log(const LogTrace& trace, const std::string& title,
     with_truth = with_truth || bin.with_truth > 0;
   }
   std::string commands = fmt::format(
-      "set multiplot layout {},1 title {} font ',11' margins 0.13,0.97,0.06,0.94 spacing 0,0.015\n"
+      "set multiplot layout {},1 title {} font ',11' margins 0.13,0.86,0.06,0.94 spacing 0,0.024\n"
       "set xrange [{}:{}]\nset ytics nomirror autofreq\nset format x ''\n"
-      "set key top left horizontal\n",
+      "set key at graph 1.02, graph 1 left top Left reverse samplen 1.5\n",
       panels.size() + 2, gnuplot_text(title), begin, end > begin ? end : begin + 1.0);
   for (const Panel& panel : panels) commands += curve_commands(panel, file);
   commands += "unset key\n" + contact_commands(file, with_truth) + status_commands(file);
-  // Both files are drawn from one script: it must begin as it was.
-  commands +=
-      "unset multiplot\nset grid back lc rgb '#dfe3e6' lw 0.6 dt 1\n"
-      "set key noautotitle samplen 2.5 spacing 1.1\nset ytics nomirror autofreq\n"
-      "unset xlabel\n";
-  return draw_figure(stem, 1000, 1000, commands, {{file, trace.table()}});
+  return draw_figure(stem, 1000, 1000, commands + end_multiplot, {{file, trace.table()}});
 }
 
 }  // namespace touchdown::render

@@ -114,8 +114,9 @@ std::string column_commands(const experiments::DropPosterior& drop, const PanelG
   }
   text += panel(belief, "P(contact)");
   text += fmt::format(
-      "set yrange [-0.04:1.04]\nplot '{0}' using 1:{1} with lines lt 1 lw 2 title 'left wheel', "
-      "'{0}' using 1:{2} with lines lt 2 lw 2 title 'right wheel'\n",
+      "set yrange [-0.04:1.04]\nplot '{0}' using 1:{1} with lines lt 6 lw 4.5 dt 1 title 'left "
+      "wheel', "
+      "'{0}' using 1:{2} with lines lt 2 lw 1.6 dt 1 title 'right wheel'\n",
       data, columns.number_of("p_left_wheel"), columns.number_of("p_right_wheel"));
   return text;
 }

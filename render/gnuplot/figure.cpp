@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "render/gnuplot/process.hpp"
+#include "render/gnuplot/whole_file.hpp"
 #include "render/palette.hpp"
 
 namespace touchdown::render {
@@ -39,14 +39,16 @@ std::string comments(const FigureText& text) {
   return lines;
 }
 
-constexpr const char* style_text =
-    R"(# The style of all figures. Change it here and draw them again.
-# Text is never markup, so that names may contain _ and ^.
-terminal(format, width, height) = \
+/// Text is never markup, so that names may contain _ and ^.
+constexpr const char* terminals =
+    R"(terminal(format, width, height) = \
     format eq 'png' ? sprintf("set terminal pngcairo noenhanced font 'DejaVu Sans,10' size %d,%d background rgb 'white'", width, height) : \
     format eq 'svg' ? sprintf("set terminal svg noenhanced font 'DejaVu Sans,10' fontscale 1.333 size %d,%d dynamic background rgb 'white'", width, height) : \
     sprintf("set terminal pdfcairo noenhanced font 'DejaVu Sans,10' size %.2fin,%.2fin", width / 96.0, height / 96.0)
-set encoding utf8
+)";
+
+constexpr const char* style_text =
+    R"(set encoding utf8
 {lines}set linetype 7 lc rgb '#22262b' lw 1.4 pt 1 ps 0.8 dt (1,2)
 set linetype 8 lc rgb '#8c6d31' lw 1.8 pt 2 ps 0.8 dt (16,3,2,3)
 set linetype cycle 8
@@ -69,8 +71,8 @@ constexpr std::array<const char*, okabe_ito.size()> looks = {"pt 7 ps 0.7",
                                                              "pt 11 ps 0.8 dt (12,4)",
                                                              "pt 3 ps 0.8 dt (2,3)"};
 
-/// The one style of all figures, written beside them as `style.gp`: lines and maps in the colours
-/// of render/palette.hpp.
+/// The one style of all figures, which each figure's script begins with: lines and maps in the
+/// colours of render/palette.hpp.
 std::string gnuplot_style() {
   std::string lines, scale;
   for (std::size_t i = 0; i < okabe_ito.size(); ++i) {
@@ -83,8 +85,26 @@ std::string gnuplot_style() {
   return fmt::format(style_text, fmt::arg("lines", lines), fmt::arg("scale", scale));
 }
 
-void write(const std::filesystem::path& path, const std::string& content) {
-  std::ofstream(path, std::ios::binary) << content;
+/// The first line of a figure's script, by which its files are known as ours.
+std::string first_line(const std::string& name) {
+  return fmt::format("# Draws {0}.png, {0}.svg and {0}.pdf: gnuplot {0}.gp\n", name);
+}
+
+/// Nobody but the person who asks for a figure knows its name: what bears it, stands in its folder
+/// and was not drawn by us is somebody's own. (The PNG was asked for.)
+void require_ours(const std::filesystem::path& folder, const std::string& name,
+                  const std::vector<std::string>& files) {
+  const std::filesystem::path script = folder / (name + ".gp");
+  if (std::filesystem::is_regular_file(script) && read_file(script).starts_with(first_line(name))) {
+    return;
+  }
+  for (const std::string& file : files) {
+    if (file == name + ".png" || !std::filesystem::exists(folder / file)) continue;
+    throw InputError(
+        fmt::format("{}: is not part of a figure and would be replaced by one: move it away, or "
+                    "give the figure another name",
+                    (folder / file).string()));
+  }
 }
 
 }  // namespace
@@ -118,34 +138,39 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
                    const std::string& commands, const std::vector<PlotData>& data,
                    const FigureText& text) {
   require_writable(stem.string() + ".png");
-  const PartFolder scratch(stem);
   const std::string name = stem.filename().string();
+  const std::filesystem::path folder = stem.parent_path();
+  std::vector<std::string> files = {name + ".gp", name + ".png", name + ".svg", name + ".pdf"};
+  for (const PlotData& table : data) files.push_back(table.name);
+  require_ours(folder, name, files);
+  const PartFolder scratch(stem);
   const std::string script = fmt::format(
-      "# Draws {0}.png, {0}.svg and {0}.pdf: gnuplot {0}.gp\n"
-      "{1}"
-      "load 'style.gp'\n"
+      "{0}{1}"
+      "# The style of all figures is in the lines to `eval`: text, lines, colours.\n"
+      "{2}"
       "do for [format in \"png svg pdf\"] {{\n"
-      "eval terminal(format, {2}, {3})\n"
-      "set output {4}.format\n"
-      "{5}"
+      "reset\n"
+      "{3}"
+      "eval terminal(format, {4}, {5})\n"
+      "set output {6}.format\n"
+      "{7}"
       "unset output\n"
       "}}\n",
-      name, comments(text), width, height, gnuplot_text(name + "."), commands);
-  write(scratch.path() / (name + ".gp"), script);
-  write(scratch.path() / "style.gp", gnuplot_style());
-  std::vector<std::string> files = {"style.gp", name + ".gp", name + ".png", name + ".svg",
-                                    name + ".pdf"};
+      first_line(name), comments(text), terminals, gnuplot_style(), width, height,
+      gnuplot_text(name + "."), commands);
+  write_whole(scratch.path() / (name + ".gp"), script, folder / (name + ".gp"));
   for (const PlotData& table : data) {
-    write(scratch.path() / table.name, table.content);
-    files.push_back(table.name);
+    write_whole(scratch.path() / table.name, table.content, folder / table.name);
   }
   const std::string complaint = gnuplot_complaint(scratch.path(), name + ".gp");
   if (!complaint.empty()) {
     throw Error(fmt::format("{}: gnuplot: {}", stem.string(), complaint));
   }
+  for (const char* kind : {".png", ".svg", ".pdf"}) {
+    require_whole(scratch.path() / (name + kind), folder / (name + kind));
+  }
   const std::filesystem::path pdf = scratch.path() / (name + ".pdf");
-  write(pdf, without_date(read_file(pdf)));
-  const std::filesystem::path folder = std::filesystem::absolute(stem).parent_path();
+  write_whole(pdf, without_date(read_file(pdf)), folder / (name + ".pdf"));
   try {
     for (const std::string& file : files) {
       std::filesystem::rename(scratch.path() / file, folder / file);

@@ -27,19 +27,21 @@ struct Figure {
   std::filesystem::path png, svg, pdf;
 };
 
-/// Draw one figure as `<stem>.png`, `.svg` and `.pdf`, and leave `<stem>.gp`, its data and the
-/// style file `style.gp` beside them: `gnuplot <name>.gp` in that folder draws it again.
+/// Draw one figure as `<stem>.png`, `.svg` and `.pdf`, and leave `<stem>.gp` and its data beside
+/// them: `gnuplot <name>.gp` in that folder draws it again.
 ///
 /// `commands` draw one figure on an open terminal; `width` and `height` are in pixels of the PNG's
-/// 96 per inch. Everything is drawn in a scratch folder first: all files appear, or none.
-/// Errors: `Error` when gnuplot is not installed or complains (with its first line), or when the
-/// folder cannot be written.
+/// 96 per inch. Everything is drawn in a scratch folder first and looked at: all files appear,
+/// whole, or those stay that were there before.
+/// Errors: `InputError` when a file beside the PNG bears the figure's name and is not one of ours;
+/// `Error` when gnuplot is not installed or complains (with its first line), or when the folder
+/// cannot be written or is full.
 Figure draw_figure(const std::filesystem::path& stem, int width, int height,
                    const std::string& commands, const std::vector<PlotData>& data,
                    const FigureText& text = {});
 
-/// Ends a multiplot as the next format's must find it: all is drawn from one script.
-inline constexpr const char* end_multiplot = "unset multiplot\nreset\nload 'style.gp'\n";
+/// Ends what `set multiplot` began.
+inline constexpr const char* end_multiplot = "unset multiplot\n";
 
 /// A PDF's bytes with 1 January 1970 for the time at which it was drawn: the same figure is the
 /// same file, whenever it is drawn. Its length stays, because a PDF counts its bytes.

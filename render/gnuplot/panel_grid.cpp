@@ -14,7 +14,7 @@ namespace {
 constexpr double above = 84.0;  ///< the panels: the title and the columns' titles (px)
 constexpr double below = 62.0;  ///< the panels: tics and label of the time axis (px)
 constexpr double left = 104.0;  ///< of the panels, for tics and labels (px)
-constexpr double gap_x = 22.0, gap_y = 14.0;  ///< between panels (px)
+constexpr double gap_x = 22.0, gap_y = 22.0;  ///< between panels (px)
 constexpr double line = 21.0;                 ///< of the caption (px)
 constexpr double letter = 9.3;                ///< of the caption, on average (px)
 
@@ -93,9 +93,9 @@ std::string PanelGrid::panel(std::size_t row, std::size_t column, std::string_vi
   return text;
 }
 
-std::string PanelGrid::key(std::size_t row) const {
+std::string PanelGrid::key(std::size_t row, double offset) const {
   return fmt::format("set key at screen {}, screen {} left top Left reverse\n",
-                     screen_x(width() - layout_.right + 14.0), screen_y(y(row) - 2.0));
+                     screen_x(width() - layout_.right + offset), screen_y(y(row) - 2.0));
 }
 
 std::string PanelGrid::colour_bar(std::size_t row, double offset, double width) const {

@@ -30,8 +30,8 @@ class PanelGrid {
   /// Places the next plot; tics and label of the time axis appear in the last row, those of the
   /// vertical axis in the first column. `y_label` may have two lines.
   std::string panel(std::size_t row, std::size_t column, std::string_view y_label) const;
-  /// Puts the next plot's key right of the row.
-  std::string key(std::size_t row) const;
+  /// Puts the next plot's key right of the row, so far from it (px).
+  std::string key(std::size_t row, double offset = 14.0) const;
   /// Puts a colour bar of that width right of the row.
   std::string colour_bar(std::size_t row, double offset, double width) const;
   /// Draws the figure of these commands. Files and errors as `draw_figure`.

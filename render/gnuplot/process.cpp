@@ -4,11 +4,14 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <sstream>
+#include <string_view>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "render/gnuplot/whole_file.hpp"
 
 namespace touchdown::render {
 namespace {
@@ -24,9 +27,26 @@ std::string first_reason(const std::string& complaints) {
   return last;
 }
 
+/// This process's environment, but for the time zone, which would stand in every PDF.
+std::vector<char*> environment_in_utc() {
+  static std::string zone = "TZ=UTC0";
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    if (!std::string_view(*variable).starts_with("TZ=")) variables.push_back(*variable);
+  }
+  variables.push_back(zone.data());
+  variables.push_back(nullptr);
+  return variables;
+}
+
 }  // namespace
 
 std::string gnuplot_complaint(const std::filesystem::path& folder, const std::string& script) {
+  // -d: the settings of whoever draws, ~/.gnuplot, are commands, and would change the figure.
+  std::array<std::string, 3> words = {"gnuplot", "-d", script};
+  const std::array<char*, 4> arguments = {words[0].data(), words[1].data(), words[2].data(),
+                                          nullptr};
+  const std::vector<char*> environment = environment_in_utc();
   std::array<int, 2> ends = {};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("no pipe for gnuplot");
   const pid_t pid = ::fork();
@@ -36,7 +56,7 @@ std::string gnuplot_complaint(const std::filesystem::path& folder, const std::st
     ::dup2(::open("/dev/null", O_RDWR), STDIN_FILENO);
     ::dup2(STDIN_FILENO, STDOUT_FILENO);
     if (::chdir(folder.c_str()) != 0) ::_exit(126);
-    ::execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
+    ::execvpe(arguments[0], arguments.data(), environment.data());
     ::_exit(127);
   }
   ::close(ends[1]);
@@ -59,12 +79,20 @@ std::string gnuplot_complaint(const std::filesystem::path& folder, const std::st
 
 std::filesystem::path try_gnuplot(const std::filesystem::path& script, const std::string& content) {
   write_atomically(script, content);
+  const std::filesystem::path picture = std::filesystem::path(script).replace_extension(".png");
+  const PartFolder aside(picture);
+  const std::filesystem::path before = aside.path() / picture.filename();
+  std::error_code ignored;
+  std::filesystem::rename(picture, before, ignored);
   try {
-    if (!gnuplot_complaint(script.parent_path(), script.filename().string()).empty()) return {};
+    const std::string name = script.filename().string();
+    if (gnuplot_complaint(script.parent_path(), name).empty() && is_whole(picture)) return picture;
   } catch (const Error&) {
-    return {};
+    // As with any other reason for no figure.
   }
-  return std::filesystem::path(script).replace_extension(".png");
+  std::filesystem::remove(picture, ignored);
+  std::filesystem::rename(before, picture, ignored);
+  return {};
 }
 
 }  // namespace touchdown::render

@@ -88,8 +88,8 @@ std::string contact_bands(const std::vector<double>& time, const std::vector<boo
     }
     if (end < time.size()) {
       text += fmt::format(
-          "set arrow from first {0}, graph 0 to first {0}, graph 1 nohead front lw 0.8 dt (4,4) "
-          "lc rgb '#7d8790'\n",
+          "set arrow from first {0}, graph 0 to first {0}, graph 1 nohead front lw 1 dt 2 "
+          "lc rgb '#5d666f'\n",
           until);
     }
     begin = end;

@@ -9,14 +9,11 @@
 #include "core/error.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
-#include "render/maps/iso_lines.hpp"
-#include "render/maps/map_colour.hpp"
+#include "render/maps/level_borders.hpp"
+#include "render/palette.hpp"
 
 namespace touchdown::render {
 namespace {
-
-/// More cells than this are too many to write a number into each.
-constexpr std::size_t most_numbers = 64;
 
 void check(const Heatmap& heatmap) {
   if (heatmap.panels.empty() || heatmap.x.empty() || heatmap.y.empty()) {
@@ -41,66 +38,57 @@ void check(const Heatmap& heatmap) {
   }
 }
 
-/// Ends of a heatmap's colour scale.
-struct ColourRange {
-  double low, high;
-};
-ColourRange colour_range(const Heatmap& heatmap) {
-  double low = NAN, high = NAN;
-  for (const HeatmapPanel& panel : heatmap.panels) {
-    for (const auto& row : panel.value) {
-      for (const double value : row) {
-        if (!std::isfinite(value)) continue;
-        low = std::fmin(low, value);
-        high = std::fmax(high, value);
-      }
-    }
-  }
-  low = heatmap.low.value_or(low);
-  if (!std::isfinite(low)) low = 0.0;
-  if (!std::isfinite(high)) high = 1.0;
-  if (high - low < 1e-3) low = high - 1e-3;
-  return {low, high};
-}
-
 constexpr const char* nothing = "NaN\tNaN\n\n";
 
 std::string cell_text(const HeatmapPanel& panel, std::size_t row, std::size_t column) {
-  const double value = panel.value[row][column];
-  if (!std::isfinite(value)) return "–";
-  std::string text = fmt::format("{:.3f}", value);
+  std::string text = error_text(panel.value[row][column]);
   if (!panel.low.empty() && !panel.high.empty() && std::isfinite(panel.low[row][column])) {
     // In a data file, \n breaks a label's line.
-    text += fmt::format("\\n{:.3f}–{:.3f}", panel.low[row][column], panel.high[row][column]);
+    text += fmt::format("\\n{}–{}", error_text(panel.low[row][column]),
+                        error_text(panel.high[row][column]));
   }
   return text;
 }
 
-std::string cells(const HeatmapPanel& panel, const ColourRange& range) {
-  std::string text;
+std::string cells(const HeatmapPanel& panel) {
+  std::string lines;
   for (std::size_t row = 0; row < panel.value.size(); ++row) {
     for (std::size_t column = 0; column < panel.value[row].size(); ++column) {
       const double value = panel.value[row][column];
-      const MapColour colour = std::isfinite(value)
-                                   ? map_colour((value - range.low) / (range.high - range.low))
-                                   : MapColour{"#ffffff", true};
-      fmt::format_to(std::back_inserter(text), "{}\t{}\t{}\t\"{}\"\t{}\t{}\n", column, row,
-                     number(value), cell_text(panel, row, column),
-                     colour.light ? 0x101418 : 0xffffff, std::stoi(colour.hex.substr(1), {}, 16));
+      const std::string text = cell_text(panel, row, column);
+      const bool crossed = !panel.marked.empty() && panel.marked[row][column];
+      const MapColour colour =
+          std::isfinite(value) ? error_colour(value) : MapColour{"#ffffff", true};
+      fmt::format_to(std::back_inserter(lines), "{}\t{}\t{}\t\"{}\"\t{}\t{}\t\"{}\"\n", column, row,
+                     number(value), text, colour.light ? 0x101418 : 0xffffff,
+                     std::stoi(colour.hex.substr(1), {}, 16), crossed ? text : "");
     }
   }
-  return text + '\n';
+  return lines + '\n';
 }
 
-std::string lines(const HeatmapPanel& panel, double level) {
+std::string lines(const std::vector<LevelBorder>& borders, const CellSize& cell) {
   std::string text;
-  for (const IsoLine& line : joined(iso_lines(panel.value, level))) {
-    for (const auto& point : line) {
-      fmt::format_to(std::back_inserter(text), "{}\t{}\t{}\n", point[0], point[1], level);
+  for (const LevelBorder& border : borders) {
+    for (const IsoLine& part : without_label(border, cell)) {
+      for (const auto& point : part) {
+        fmt::format_to(std::back_inserter(text), "{}\t{}\n", point[0], point[1]);
+      }
+      text += '\n';
     }
-    text += '\n';
   }
   return text.empty() ? nothing : text;
+}
+
+std::string line_labels(const std::vector<LevelBorder>& borders) {
+  std::string text;
+  for (const LevelBorder& border : borders) {
+    if (!border.labelled) continue;
+    const LabelPlace place = label_place(border);
+    fmt::format_to(std::back_inserter(text), "{}\t{}\t\"{}\"\t{}\n", place.x, place.y,
+                   label_of(border), place.upright ? 90 : 0);
+  }
+  return (text.empty() ? "NaN\tNaN\t\"\"\t0\n" : text) + '\n';
 }
 
 /// Both diagonals of every marked cell.
@@ -119,24 +107,28 @@ std::string crosses(const HeatmapPanel& panel) {
   return text.empty() ? nothing : text;
 }
 
-/// A heatmap's data file. Its blocks (gnuplot's `index`), each for every panel: the cells (column,
-/// row, value, text, the text's colour, the cell's colour), the lines of the first level, of the
-/// second and so on, and the crosses.
-std::string heatmap_data(const Heatmap& heatmap, const ColourRange& range) {
-  std::string text = "#column\trow\tvalue\tlabel\tlabel_colour\tcell_colour\n";
-  for (const HeatmapPanel& panel : heatmap.panels) text += cells(panel, range) + '\n';
-  for (const double level : heatmap.iso_levels) {
-    for (const HeatmapPanel& panel : heatmap.panels) text += lines(panel, level) + '\n';
+/// Of the data file; gnuplot calls them `index`. Each for every panel.
+enum Block : std::size_t { cell_block, line_block, label_block, cross_block };
+
+/// A heatmap's data file. Its blocks, each for every panel: the cells (column, row, value, text,
+/// the text's colour, the cell's colour, the
+/// text again where there is a cross), the lines, their labels (x, y, text, degrees), the
+/// crosses.
+std::string heatmap_data(const Heatmap& heatmap, const CellSize& cell) {
+  std::string text =
+      "#column\trow\terror_percent\tlabel\tlabel_colour\tcell_colour\tcrossed_label\n";
+  std::string line_text, label_text, cross_text;
+  for (const HeatmapPanel& panel : heatmap.panels) {
+    const std::vector<LevelBorder> borders = level_borders(panel.value, heatmap.levels, cell);
+    text += cells(panel) + '\n';
+    line_text += lines(borders, cell) + '\n';
+    label_text += line_labels(borders) + '\n';
+    cross_text += crosses(panel) + '\n';
   }
-  for (const HeatmapPanel& panel : heatmap.panels) text += crosses(panel) + '\n';
-  return text;
+  return text + line_text + label_text + cross_text;
 }
 
-/// Cells of all panels have the same size (px).
-struct CellSize {
-  double width, height;
-};
-
+/// Cells of all panels have the same size.
 CellSize cell_size(const Heatmap& heatmap, bool numbers) {
   if (numbers && !heatmap.panels.front().low.empty()) return {92.0, 54.0};
   if (numbers) return {60.0, 44.0};
@@ -159,70 +151,66 @@ std::string tics(const std::vector<double>& values, double room) {
   return "(" + text + ")";
 }
 
-constexpr const char* dashes[] = {"1", "(14,5)", "(4,4)"};
-
-/// The dashes (gnuplot's `dt`) of the iso-lines, by level: solid, dashed, dotted.
-const char* line_dash(std::size_t level) { return dashes[std::min(level, std::size(dashes) - 1)]; }
-
-/// The commands that draw panel `i` from the blocks of `<name>.dat` (`heatmap_data`): cells,
-/// crosses and lines, then numbers. A number is written first around its place in its cell's
-/// colour, so that lines disappear behind it.
-std::string panel_plot(const Heatmap& heatmap, const std::string& name, std::size_t i, bool numbers,
-                       const CellSize& cell) {
-  const std::size_t panels = heatmap.panels.size(), levels = heatmap.iso_levels.size();
-  std::string text = fmt::format(
-      "plot '{}.dat' index {} using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror "
-      "fillcolor palette, \\\n     '' index {} using 1:2 with lines lw 0.7 lc rgb '#aab0b8' dt 1",
-      name, i, panels * (1 + levels) + i);
-  for (std::size_t level = 0; level < levels; ++level) {
-    const std::size_t index = panels * (1 + level) + i;
-    text += fmt::format(
-        ", \\\n     '' index {0} using 1:2 with lines lw 3.6 lc rgb '#ffffff' dt 1"
-        ", \\\n     '' index {0} using 1:2 with lines lw 1.5 lc rgb '#101418' dt {1}",
-        index, line_dash(level));
+/// Text from one block, written first around its places in another colour, so that lines disappear
+/// behind it.
+std::string seamed_text(std::size_t block, const char* columns, const char* colour,
+                        const char* seam_columns, const char* seam, const CellSize& cell) {
+  constexpr double reach = 1.6;  // pixels
+  std::string text;
+  for (int turn = 0; turn < 8; ++turn) {
+    text +=
+        fmt::format(", \\\n     '' index {} using ($1+({:.4f})):($2+({:.4f})):{} with labels {}",
+                    block, reach * std::cos(turn * M_PI / 4) / cell.width,
+                    reach * std::sin(turn * M_PI / 4) / cell.height, seam_columns, seam);
   }
-  if (numbers) {
-    constexpr double reach = 1.6;  // pixels
-    for (int turn = 0; turn < 8; ++turn) {
-      text += fmt::format(
-          ", \\\n     '' index {} using ($1+({:.4f})):($2+({:.4f})):4:6 with labels font ',8.5' "
-          "textcolor rgb variable",
-          i, reach * std::cos(turn * M_PI / 4) / cell.width,
-          reach * std::sin(turn * M_PI / 4) / cell.height);
-    }
-    text += fmt::format(
-        ", \\\n     '' index {} using 1:2:4:5 with labels font ',8.5' textcolor rgb variable", i);
-  }
-  return text + '\n';
+  return text +
+         fmt::format(", \\\n     '' index {} using 1:2:{} with labels {}", block, columns, colour);
 }
 
-/// What the lines are, in the upper right corner: a panel of its own, because a key that is wider
-/// than its panel is broken into rows.
-std::string line_key(const Heatmap& heatmap, const FigureFrame& frame) {
-  if (heatmap.iso_levels.empty()) return {};
-  std::string commands = frame.panel(0.0, -32.0, frame.width(), 24.0) +
-                         fmt::format(
-                             "unset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\n"
-                             "set key at screen 0.985, screen {} right top horizontal samplen 4\n"
-                             "plot [0:1] [0:1] ",
-                             1.0 - 8.0 / frame.height());
-  for (std::size_t level = 0; level < heatmap.iso_levels.size(); ++level) {
-    commands += fmt::format(
-        "{}NaN with lines lw 1.5 lc rgb '#101418' dt {} title {}", level > 0 ? ", " : "",
-        line_dash(level),
-        gnuplot_text(fmt::format("{}{:.4g}", level == 0 ? heatmap.value_label + " " : "",
-                                 heatmap.iso_levels[level])));
+/// The commands that draw panel `i` from the blocks of `<name>.dat` (`heatmap_data`): cells,
+/// crosses and lines, then numbers and labels.
+std::string panel_plot(const Heatmap& heatmap, const std::string& name, std::size_t i, bool numbers,
+                       const CellSize& cell) {
+  const auto block = [&](Block kind) { return heatmap.panels.size() * kind + i; };
+  std::string text = fmt::format(
+      "plot '{}.dat' index {} using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):(shown($3)) with "
+      "boxxyerror fillcolor palette, \\\n"
+      "     '' index {} using 1:2 with lines lw 0.7 lc rgb '#aab0b8' dt 1, \\\n"
+      "     '' index {} using 1:2 with lines lw 3.4 lc rgb '#ffffff' dt 1, \\\n"
+      "     '' index {} using 1:2 with lines lw 1.5 lc rgb '#101418' dt 1",
+      name, block(cell_block), block(cross_block), block(line_block), block(line_block));
+  if (numbers) {
+    text += seamed_text(block(cell_block), "4:5", "font ',8.5' textcolor rgb variable", "7:6",
+                        "font ',8.5' textcolor rgb variable", cell);
   }
-  return commands + '\n';
+  return text +
+         seamed_text(block(label_block), "3:4", "rotate variable font ',8' textcolor rgb '#101418'",
+                     "3:4", "rotate variable font ',8' textcolor rgb '#ffffff'", cell) +
+         '\n';
+}
+
+/// gnuplot's palette and ticks of the error rates' colours.
+std::string colour_scale(const Heatmap& heatmap) {
+  std::string stops, ticks;
+  for (std::size_t i = 0; i < viridis.size(); ++i) {
+    stops += fmt::format("{}{} '#{:06x}'", i == 0 ? "" : ", ", i, viridis[viridis.size() - 1 - i]);
+  }
+  for (const double level : heatmap.levels) ticks += fmt::format("'{0}' {0}, ", level);
+  return fmt::format(
+      "set palette defined ({2})\nset logscale cb\nset cbrange [{0}:{1}]\n"
+      "set cbtics ({3}'≤ {0}' {0}, '≥ {1}' {1})\n"
+      "shown(error) = error < {0} ? {0} : error > {1} ? {1} : error\n",
+      lowest_error, highest_error, stops, ticks);
 }
 
 /// Each panel's first and last cell, for people who cannot see it.
 std::string described(const Heatmap& heatmap) {
-  std::string text = fmt::format("Maps of {} by {} (across) and {} (up).", heatmap.value_label,
+  std::string text = fmt::format("Maps of the error rate by {} (across) and {} (up).",
                                  heatmap.x_label, heatmap.y_label);
   for (const HeatmapPanel& panel : heatmap.panels) {
-    text += fmt::format(" {}: {:.3f} in the lower left cell, {:.3f} in the upper right one.",
-                        panel.title, panel.value.front().front(), panel.value.back().back());
+    text +=
+        fmt::format(" {}: {} % in the lower left cell, {} % in the upper right one.", panel.title,
+                    error_text(panel.value.front().front()), error_text(panel.value.back().back()));
   }
   return text;
 }
@@ -231,15 +219,14 @@ std::string described(const Heatmap& heatmap) {
 
 Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
   check(heatmap);
-  const ColourRange range = colour_range(heatmap);
   const std::size_t panels = heatmap.panels.size();
   const std::size_t columns = std::min<std::size_t>(panels, panels == 4 ? 2 : 3);
   const std::size_t rows = (panels + columns - 1) / columns;
-  const bool numbers = heatmap.x.size() * heatmap.y.size() <= most_numbers;
+  const bool numbers = heatmap.x.size() * heatmap.y.size() <= most_numbered_cells;
   const CellSize cell = cell_size(heatmap, numbers);
   const double panel_width = cell.width * static_cast<double>(heatmap.x.size());
   const double panel_height = cell.height * static_cast<double>(heatmap.y.size());
-  const double gap_x = 74.0, gap_y = 72.0, bar = 92.0;
+  const double gap_x = 74.0, gap_y = 72.0, bar = 104.0;
   const double width = std::max(560.0, static_cast<double>(columns) * (panel_width + gap_x) + bar);
   const FigureFrame frame(heatmap.title, heatmap.caption, width,
                           static_cast<double>(rows) * (panel_height + gap_y));
@@ -247,9 +234,9 @@ Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
   const std::string name = stem.filename().string();
   std::string commands = fmt::format(
       "unset grid\nset border 0\nset tics scale 0\n"
-      "set cbrange [{}:{}]\nset xrange [-0.5:{}]\nset yrange [-0.5:{}]\n"
+      "{}set xrange [-0.5:{}]\nset yrange [-0.5:{}]\n"
       "set xtics {}\nset ytics {}\nunset key\n",
-      range.low, range.high, static_cast<double>(heatmap.x.size()) - 0.5,
+      colour_scale(heatmap), static_cast<double>(heatmap.x.size()) - 0.5,
       static_cast<double>(heatmap.y.size()) - 0.5, tics(heatmap.x, cell.width),
       tics(heatmap.y, 2.0 * cell.height));
   for (std::size_t i = 0; i < panels; ++i) {
@@ -262,13 +249,11 @@ Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
         gnuplot_text(heatmap.panels[i].title), gnuplot_text(heatmap.x_label),
         gnuplot_text(i % columns == 0 ? heatmap.y_label : ""));
     commands += i == 0 ? frame.colour_bar(width - bar + 16.0, top, 14.0, panel_height) +
-                             fmt::format("set cblabel {} offset 0.4,0\nset cbtics format '%.3g'\n",
-                                         gnuplot_text(heatmap.value_label))
+                             "set cblabel 'error rate (%), lower is better' offset 0.4,0\n"
                        : "unset colorbox\n";
     commands += panel_plot(heatmap, name, i, numbers, cell) + FigureFrame::end_panel();
   }
-  return frame.draw(stem, commands + line_key(heatmap, frame), heatmap_data(heatmap, range),
-                    described(heatmap));
+  return frame.draw(stem, commands, heatmap_data(heatmap, cell), described(heatmap));
 }
 
 }  // namespace touchdown::render

@@ -37,9 +37,9 @@ HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::st
     const auto [x, y] = place(summary.cell);
     const std::size_t column = place_in(heatmap.x, x), row = place_in(heatmap.y, y);
     if (column == heatmap.x.size() || row == heatmap.y.size()) continue;
-    panel.value[row][column] = summary.success.estimate;
-    panel.low[row][column] = summary.success.low;
-    panel.high[row][column] = summary.success.high;
+    panel.value[row][column] = error_percent(summary.success.estimate);
+    panel.low[row][column] = error_percent(summary.success.high);
+    panel.high[row][column] = error_percent(summary.success.low);
     panel.marked[row][column] = summary.loses();
   }
   return panel;
@@ -65,41 +65,30 @@ double always_contact(const experiments::ExperimentResult& result, const std::st
   return NAN;
 }
 
-/// One estimator that fails everywhere must not take the colours from all others.
-void limit_colours(Heatmap& heatmap) {
-  constexpr double floor = 0.8;
-  for (const HeatmapPanel& panel : heatmap.panels) {
-    for (const auto& row : panel.value) {
-      if (std::none_of(row.begin(), row.end(), [](double value) { return value < floor; }))
-        continue;
-      heatmap.low = floor;
-      heatmap.caption += fmt::format(" Below {} all is one colour.", floor);
-      return;
-    }
-  }
-}
-
 /// The map of these axes with its panels, caption and lines.
 Heatmap filled(Heatmap heatmap, const experiments::ExperimentResult& result,
                const std::string& simulator, const Place& place) {
   const experiments::Experiment& experiment = result.experiment;
-  heatmap.value_label = "success rate";
   for (const std::string& estimator : experiment.estimators) {
     if (estimator == experiments::always_contact_name) continue;
     heatmap.panels.push_back(panel_of(result, simulator, estimator, heatmap, place));
   }
-  heatmap.caption =
-      fmt::format("{}; always contact scores {:.3f}: crossed cells do not beat it.",
-                  experiments::scored_text(result, simulator), always_contact(result, simulator));
-  constexpr std::size_t most_cells_with_intervals = 64;
-  if (heatmap.x.size() * heatmap.y.size() > most_cells_with_intervals) {
-    heatmap.caption += fmt::format(" The widest {:.0f} % interval over {}s is {:.3f}.",
-                                   100.0 * experiment.intervals.bootstrap.level,
-                                   experiments::sample_text(experiment), widest_interval(heatmap));
+  heatmap.caption = fmt::format(
+      "Share of steps that are judged wrongly; {}. Always contact errs in {} %: crossed cells do "
+      "not "
+      "beat it. Lines run between cells below and above {} %. Colours end at {} and {} % and are "
+      "the "
+      "same in every map.",
+      experiments::scored_text(result, simulator),
+      error_text(error_percent(always_contact(result, simulator))), fmt::join(heatmap.levels, ", "),
+      lowest_error, highest_error);
+  if (heatmap.x.size() * heatmap.y.size() > most_numbered_cells) {
+    heatmap.caption +=
+        fmt::format(" The widest {:.0f} % interval over {}s spans {:.1f} percentage points.",
+                    100.0 * experiment.intervals.bootstrap.level,
+                    experiments::sample_text(experiment), widest_interval(heatmap));
     for (HeatmapPanel& panel : heatmap.panels) panel.low = panel.high = {};
   }
-  heatmap.iso_levels = {0.9, 0.95, 0.98};
-  limit_colours(heatmap);
   return heatmap;
 }
 
@@ -120,15 +109,15 @@ std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result) {
     const std::string where =
         fmt::format("{}, {}", experiment.name, simulators::simulator_title(simulator));
     Heatmap heatmap;
-    heatmap.title = "Success rate under sensor noise: " + where;
+    heatmap.title = "Error rate under sensor noise: " + where;
     heatmap.x_label = "accelerometer noise (m/s²)";
     heatmap.y_label = "torque noise (N·m)";
     heatmap.x = experiment.noise.accelerometer;
     heatmap.y = experiment.noise.torque;
     figures.push_back(draw_heatmap(filled(heatmap, result, simulator, by_torque),
-                                   result.directory.file("figures", "success_" + simulator)));
+                                   result.directory.file("figures", "error_" + simulator)));
     if (apart.knee.empty()) continue;
-    heatmap.title = fmt::format("Success rate under torque noise, {} m/s² on the accelerometer: {}",
+    heatmap.title = fmt::format("Error rate under torque noise, {} m/s² on the accelerometer: {}",
                                 apart.accelerometer, where);
     heatmap.x_label = "wheel torque noise (N·m)";
     heatmap.y_label = "knee torque noise (N·m)";

@@ -7,7 +7,7 @@
 
 namespace touchdown::render {
 
-/// Draws into the run directory, for every engine: success rates over the noise grid, one panel per
+/// Draws into the run directory, for every engine: error rates over the noise grid, one panel per
 /// estimator, and the same over knee and wheel torque noise if there is such a grid.
 std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result);
 

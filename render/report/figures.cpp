@@ -62,16 +62,38 @@ bool is_wide(const fs::path& svg) {
 }
 
 /// Data files that bear the figure's name and more: `<figure>_….dat`.
-std::vector<std::string> more_data_of(const fs::path& figure) {
+std::vector<fs::path> more_data_of(const fs::path& figure) {
   const std::string beginning = figure.stem().string() + "_";
-  std::vector<std::string> names;
+  std::vector<fs::path> names;
   for (const auto& entry : fs::directory_iterator(figure.parent_path())) {
     const std::string name = entry.path().filename().string();
     const bool is_its_own = fs::exists(fs::path(entry.path()).replace_extension(".svg"));
-    if (name.starts_with(beginning) && name.ends_with(".dat") && !is_its_own) names.push_back(name);
+    if (name.starts_with(beginning) && name.ends_with(".dat") && !is_its_own) {
+      names.emplace_back(name);
+    }
   }
-  std::sort(names.begin(), names.end());
   return names;
+}
+
+/// Files as their names have them, but what differs in its engine only as the experiment names
+/// them.
+std::pair<std::string, std::ptrdiff_t> place_of(const fs::path& file,
+                                                const std::vector<std::string>& simulators) {
+  std::string name = file.stem().string();
+  for (auto engine = simulators.begin(); engine != simulators.end(); ++engine) {
+    const std::size_t at = name.find("_" + *engine);
+    if (at == std::string::npos) continue;
+    name.erase(at, 1 + engine->size());
+    return {name, engine - simulators.begin()};
+  }
+  return {name, -1};
+}
+
+void sort_by_engine(std::vector<fs::path>& files, const std::vector<std::string>& simulators) {
+  std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
+    const auto first = place_of(a, simulators), second = place_of(b, simulators);
+    return first != second ? first < second : a < b;
+  });
 }
 
 }  // namespace
@@ -88,7 +110,8 @@ ReportSection figures_section(const ReportSubject& subject) {
                          !fs::exists(fs::path(path).replace_extension(".svg"), ignored);
     if (drawn || painted) files.push_back(path);
   }
-  std::sort(files.begin(), files.end());
+  const std::vector<std::string>& simulators = subject.experiment.simulators;
+  sort_by_engine(files, simulators);
   for (const fs::path& file : files) {
     fs::path shown = file;
     const fs::path painted = fs::path(file).replace_extension(".png");
@@ -109,8 +132,10 @@ ReportSection figures_section(const ReportSubject& subject) {
       section.html += fmt::format(" <a href=\"figures/{0}\">{1}</a>",
                                   escaped(beside.filename().string()), kind + 1);
     }
-    for (const std::string& name : more_data_of(file)) {
-      section.html += fmt::format(" <a href=\"figures/{0}\">{0}</a>", escaped(name));
+    std::vector<fs::path> more_data = more_data_of(file);
+    sort_by_engine(more_data, simulators);
+    for (const fs::path& data : more_data) {
+      section.html += fmt::format(" <a href=\"figures/{0}\">{0}</a>", escaped(data.string()));
     }
     section.html += "</figcaption></figure>\n";
   }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace touchdown::render {
 
@@ -15,6 +16,9 @@ struct ReportSection {
 
 /// `text` with nothing left in it that HTML takes for markup, inside and outside of attributes.
 std::string escaped(std::string_view text);
+
+/// "a", "a and b", "a, b and c".
+std::string in_words(const std::vector<std::string>& things);
 
 std::string base64(std::string_view bytes);
 

@@ -10,8 +10,8 @@
 
 #include "experiments/estimators/registry.hpp"
 #include "experiments/tables/captions.hpp"
-#include "render/maps/iso_lines.hpp"
-#include "render/maps/map_colour.hpp"
+#include "render/maps/error_scale.hpp"
+#include "render/maps/level_borders.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -59,15 +59,15 @@ std::string says(const experiments::CellSummary& row, const NoiseGrid& grid) {
   if (std::isfinite(row.always_contact)) {
     text += fmt::format("; always contact {:.3f}", row.always_contact);
   }
-  return text;
+  return text + fmt::format("; error rate {} %", error_text(error_percent(row.success.estimate)));
 }
 
-/// One estimator's success rates in one engine as inline SVG whose cells say their numbers.
-class SuccessMap {
+/// One estimator's error rates in one engine as inline SVG whose cells say their numbers.
+class ErrorMap {
  public:
-  /// The colours run from `low` to 1. Keeps references.
-  SuccessMap(const Rows& rows, const NoiseGrid& grid, double low)
-      : grid_(grid), low_(low), x_(levels(rows, grid.x)), y_(levels(rows, grid.y)) {
+  /// Keeps a reference to the grid.
+  ErrorMap(const Rows& rows, const NoiseGrid& grid)
+      : grid_(grid), x_(levels(rows, grid.x)), y_(levels(rows, grid.y)) {
     cells_.assign(y_.size(), std::vector<const experiments::CellSummary*>(x_.size(), nullptr));
     for (const experiments::CellSummary& row : rows) {
       cells_[place(y_, row.cell.*grid.y.level)][place(x_, row.cell.*grid.x.level)] = &row;
@@ -96,17 +96,12 @@ class SuccessMap {
       svg += tick(left + static_cast<int>(c) * cell_width + cell_width / 2,
                   top + rows * cell_height + 16, x_[c]);
     }
-    for (const double level : {0.90, 0.95, 0.98}) {
-      const std::string path = iso_path(level);
-      if (path.empty()) continue;
-      svg += fmt::format("<path class=\"iso-halo\" d=\"{0}\"/><path class=\"iso\" d=\"{0}\"/>\n",
-                         path);
-    }
     return fmt::format(
-        "{}{}<text x=\"{}\" y=\"{}\">{}</text>\n"
+        "{}{}{}<text x=\"{}\" y=\"{}\">{}</text>\n"
         "<text transform=\"translate(14 {}) rotate(-90)\">{}</text>\n</svg></div>\n",
-        svg, numbers, left + columns * cell_width / 2, top + rows * cell_height + bottom - 8,
-        escaped(grid_.x.label), top + rows * cell_height / 2, escaped(grid_.y.label));
+        svg, borders_svg(), numbers, left + columns * cell_width / 2,
+        top + rows * cell_height + bottom - 8, escaped(grid_.x.label), top + rows * cell_height / 2,
+        escaped(grid_.y.label));
   }
 
  private:
@@ -122,13 +117,13 @@ class SuccessMap {
   }
 
   static double value_of(const experiments::CellSummary* cell) {
-    return cell != nullptr ? cell->success.estimate : std::numeric_limits<double>::quiet_NaN();
+    return cell != nullptr ? error_percent(cell->success.estimate)
+                           : std::numeric_limits<double>::quiet_NaN();
   }
 
   MapColour colour_of(const experiments::CellSummary* cell) const {
     const double value = value_of(cell);
-    if (!std::isfinite(value)) return {"#595959", false};
-    return map_colour((value - low_) / (1.0 - low_));
+    return std::isfinite(value) ? error_colour(value) : MapColour{"#595959", false};
   }
 
   std::string cell_svg(const experiments::CellSummary* cell, int x, int y) const {
@@ -151,11 +146,11 @@ class SuccessMap {
     const MapColour colour = colour_of(cell);
     return fmt::format("<text class=\"number {}\" x=\"{}\" y=\"{}\" stroke=\"{}\">{}</text>\n",
                        colour.light ? "on-light" : "on-dark", x + cell_width / 2,
-                       y + cell_height / 2 + 4, colour.hex,
-                       std::isfinite(value) ? fmt::format("{:.3f}", value) : "–");
+                       y + cell_height / 2 + 4, colour.hex, error_text(value));
   }
 
-  std::string iso_path(double level) const {
+  /// Lines between cells of lower and of higher errors, and what they stand for.
+  std::string borders_svg() const {
     std::vector<std::vector<double>> values(cells_.size());
     for (std::size_t r = 0; r < cells_.size(); ++r) {
       std::transform(cells_[r].begin(), cells_[r].end(), std::back_inserter(values[r]), value_of);
@@ -164,31 +159,62 @@ class SuccessMap {
     const auto y = [&](double row) {
       return top + (static_cast<double>(y_.size()) - row - 0.5) * cell_height;
     };
-    std::string path;
-    for (const auto& [from, to] : iso_lines(values, level)) {
-      path +=
-          fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", x(from[0]), y(from[1]), x(to[0]), y(to[1]));
+    constexpr CellSize size{cell_width, cell_height};
+    std::string path, labels;
+    for (const LevelBorder& border :
+         level_borders(values, {error_levels.begin(), error_levels.end()}, size)) {
+      for (const IsoLine& part : without_label(border, size)) {
+        char move = 'M';
+        for (const auto& [column, row] : part) {
+          path += fmt::format("{}{:.1f} {:.1f}", move, x(column), y(row));
+          move = 'L';
+        }
+      }
+      if (!border.labelled) continue;
+      const LabelPlace place = label_place(border);
+      labels += fmt::format(
+          "<text class=\"number level on-light\" stroke=\"#ffffff\" transform=\"translate({:.1f} "
+          "{:.1f}){}\" y=\"3\">{}</text>\n",
+          x(place.x), y(place.y), place.upright ? " rotate(-90)" : "", label_of(border));
     }
-    return path;
+    if (path.empty()) return {};
+    return fmt::format("<path class=\"iso-halo\" d=\"{0}\"/><path class=\"iso\" d=\"{0}\"/>\n{1}",
+                       path, labels);
   }
 
   const NoiseGrid& grid_;
-  double low_;
   std::vector<double> x_, y_;  ///< columns from the left, rows from the bottom
   std::vector<std::vector<const experiments::CellSummary*>> cells_;  ///< by row, then column
 };
 
+/// What the colours stand for.
+std::string scale_svg() {
+  constexpr int width = 420, steps = 60, left = 24;
+  const auto x = [](double percent) {
+    return left + width * std::log(percent / lowest_error) / std::log(highest_error / lowest_error);
+  };
+  std::string svg =
+      "<svg class=\"scale\" viewBox=\"0 0 476 36\" role=\"img\" aria-label=\"The colours: bright "
+      "is "
+      "a low error rate, dark a high one.\">\n";
+  for (int i = 0; i < steps; ++i) {
+    const double percent = lowest_error * std::pow(highest_error / lowest_error, (i + 0.5) / steps);
+    svg += fmt::format(
+        "<rect x=\"{}\" y=\"2\" width=\"{:.1f}\" height=\"14\" fill=\"{}\" "
+        "shape-rendering=\"crispEdges\"/>",
+        left + i * width / steps, 1.0 * width / steps + 0.4, error_colour(percent).hex);
+  }
+  const auto tick = [&](double percent, const char* sign) {
+    return fmt::format("<text x=\"{:.1f}\" y=\"30\">{}{} %</text>", x(percent), sign, percent);
+  };
+  svg += '\n' + tick(lowest_error, "≤ ");
+  for (const double level : error_levels) svg += tick(level, "");
+  return svg + tick(highest_error, "≥ ") + "\n</svg>\n";
+}
+
 /// One grid: a choice of estimators, a map per engine and estimator, a line that reads out a cell.
 std::string grid_html(const Rows& rows, const NoiseGrid& grid,
                       const std::vector<std::string>& simulators, const std::string& name) {
-  // Below what a constant answer earns, how bad it is does not matter: keep the colours for above.
-  double least = 1.0, constant = 1.0;
-  for (const experiments::CellSummary& row : rows) {
-    least = std::fmin(least, row.success.estimate);
-    constant = std::fmin(constant, row.always_contact);
-  }
-  if (constant < 1.0) least = std::max(least, constant);
-  const double low = std::floor(least * 20.0 - 1e-9) / 20.0;
   const bool fine = levels(rows, grid.x).size() > 8;
   std::string choice = "<fieldset class=\"choice\"><legend>Estimator</legend>\n",
               maps = fmt::format("<div class=\"maps{}\">\n", fine ? " fine" : "");
@@ -211,16 +237,18 @@ std::string grid_html(const Rows& rows, const NoiseGrid& grid,
       maps += fmt::format(
           "<figure data-estimator=\"{}\"><figcaption>{}: {}</figcaption>\n{}</figure>\n",
           escaped(estimator), escaped(engine), escaped(title),
-          SuccessMap(own, grid, low).svg(fmt::format("{}, {}: success rate", title, engine)));
+          ErrorMap(own, grid).svg(fmt::format("{}, {}: error rate", title, engine)));
     }
   }
   return fmt::format(
       "<div class=\"heatmaps\">\n{}</fieldset>\n<p class=\"readout\" aria-live=\"polite\">Point at "
-      "a cell, tap it, or use the arrow keys: its numbers appear here.</p>\n{}</div>\n<p "
-      "class=\"note\">Colours run from {:.2f} and less (dark) to 1 (light). Lines: success rates "
-      "of 0.90, 0.95 and 0.98. A struck-out cell does no better than always saying “contact”. The "
-      "same numbers are in the table “Success” below.</p>\n</div>\n",
-      choice, maps, low);
+      "a cell, tap it, or use the arrow keys: its numbers appear here.</p>\n{}{}</div>\n<p "
+      "class=\"note\">Numbers are error rates in percent, the share of steps that are judged "
+      "wrongly: lower is better. Colours are logarithmic, end at {} and {} %, and mean the same in "
+      "every map of every report. Lines run between cells below and above {} %. A struck-out cell "
+      "does no better than always saying “contact”. The success rates are in the table “Success” "
+      "below.</p>\n</div>\n",
+      choice, scale_svg(), maps, lowest_error, highest_error, fmt::join(error_levels, ", "));
 }
 
 }  // namespace

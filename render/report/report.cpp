@@ -7,6 +7,7 @@
 #include "core/files.hpp"
 #include "render/report/assets.hpp"
 #include "render/report/figures.hpp"
+#include "render/report/findings.hpp"
 #include "render/report/html.hpp"
 #include "render/report/noise.hpp"
 #include "render/report/results.hpp"
@@ -70,13 +71,23 @@ ReportSection reproduce_section(const ReportSubject& subject) {
   return {"reproduce", "Reproduce it", html};
 }
 
+/// ", built from commit a1b2c3d4e5f6", of the program that computed the numbers.
+std::string built_from(const nlohmann::ordered_json& manifest) {
+  const auto versions = manifest.find("versions");
+  if (versions == manifest.end() || !versions->is_object()) return {};
+  const std::string commit = versions->value("commit", "");
+  if (commit.empty()) return {};
+  return escaped(commit.starts_with("unknown") ? " (commit " + commit + ")"
+                                               : ", built from commit " + commit);
+}
+
 }  // namespace
 
 fs::path write_report(const ReportSubject& subject, const std::string& film_html) {
   std::vector<ReportSection> sections = {
-      {"film", "Watch it", film_html}, results_section(subject), heatmap_section(subject),
-      paper_section(subject),          figures_section(subject), more_tables_section(subject),
-      reproduce_section(subject)};
+      {"film", "Watch it", film_html}, estimators_section(subject), results_section(subject),
+      heatmap_section(subject),        paper_section(subject),      figures_section(subject),
+      more_tables_section(subject),    reproduce_section(subject)};
   std::erase_if(sections, [](const ReportSection& section) { return section.html.empty(); });
 
   std::string body = "<header>\n" + header_html(subject) + "<nav aria-label=\"Contents\"><ul>\n";
@@ -90,7 +101,9 @@ fs::path write_report(const ReportSubject& subject, const std::string& film_html
         "</h2>\n{2}</section>\n",
         section.id, escaped(section.title), section.html);
   }
-  body += "</main>\n<footer><p>Written by touchdown. This page needs no network.</p></footer>\n";
+  body += fmt::format(
+      "</main>\n<footer><p>Computed by touchdown{}. This page needs no network.</p></footer>\n",
+      built_from(subject.manifest));
 
   const std::string policy = fmt::format(
       "default-src 'none'; img-src data:; media-src data:; style-src {}; script-src {}; "

@@ -8,20 +8,12 @@
 #include <fmt/format.h>
 
 #include "experiments/tables/captions.hpp"
+#include "render/report/findings.hpp"
 #include "render/report/tables.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
-    text += words[i];
-  }
-  return text;
-}
 
 std::vector<std::string> engines_of(const experiments::Experiment& experiment) {
   std::vector<std::string> engines;
@@ -68,7 +60,7 @@ std::string header_html(const ReportSubject& subject) {
       "<p class=\"lead\">Does the robot touch the ground? {} answer from joint torques and an "
       "accelerometer, in {}, through sensor noise.</p>\n<dl class=\"facts\">\n",
       escaped(experiment.name), experiments::plural(experiment.estimators.size(), "estimator"),
-      escaped(joined(engines_of(experiment))));
+      escaped(in_words(engines_of(experiment))));
   html += fact("physics engines", std::to_string(experiment.simulators.size()));
   html += fact("test runs scored", std::to_string(test_runs));
   html += fact("flights in them", std::to_string(flights));
@@ -84,9 +76,10 @@ std::string header_html(const ReportSubject& subject) {
 }
 
 ReportSection results_section(const ReportSubject& subject) {
-  ReportSection section{"results", "Success rates", {}};
+  ReportSection section{"results", "What came out", {}};
   const std::vector<experiments::CellSummary>& scores = subject.summary.cells;
   if (scores.empty()) return section;
+  section.html = findings_html(subject);
   const experiments::Experiment& experiment = subject.experiment;
   std::vector<noise::NoiseCell> cells = experiment.highlights;
   if (cells.empty()) cells.push_back(scores.front().cell);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -248,6 +249,27 @@ TEST_F(Estimate, DrawsThePartOfTheLogThatWasAskedFor) {
   EXPECT_TRUE(fs::exists(folder_ / "fig.svg"));
   EXPECT_THAT(complaint_about("a.mpack --model m.npz --figure none.png --from 5"),
               HasSubstr("no step between"));
+}
+
+/// A gnuplot that finds no room on the disk writes nothing and ends with exit code 0.
+TEST_F(Estimate, AFigureThatFindsNoRoomIsAFailureAndLeavesTheOldOne) {
+  log("a.mpack", test::synthetic_log(1.0));
+  estimate("a.mpack --model m.npz --figure fig.png");
+  const std::string before = read_file(folder_ / "fig.pdf");
+  folder_.write("bin/gnuplot", "#!/bin/sh\n: >fig.png; : >fig.svg; : >fig.pdf\n");
+  fs::permissions(folder_ / "bin/gnuplot", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", ((folder_ / "bin").string() + ":" + path).c_str(), 1);
+  const Ended ended = touchdown_program(
+      "estimate a.mpack --model m.npz --figure fig.png --from 0.5", folder_.path());
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.errors, HasSubstr("fig.png: cannot be written"));
+  EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
+  EXPECT_TRUE(read_file(folder_ / "fig.pdf") == before);
+  for (const auto& entry : fs::directory_iterator(folder_.path())) {
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+  }
 }
 
 TEST_F(Estimate, AnswersWrongRequestsInOneLine) {

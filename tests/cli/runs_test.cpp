@@ -72,7 +72,7 @@ TEST(Run, DrawsFiguresOfWhatItsTablesSay) {
   write_tiny_experiment(folder);
   run_tiny(folder, "--out a");
   const std::string report = read_file(folder / "a/report.html");
-  for (const char* figure : {"success", "densities", "reliability", "latency"}) {
+  for (const char* figure : {"error", "densities", "reliability", "latency"}) {
     for (const char* engine : {"mujoco", "bullet"}) {
       const std::string name = std::string("a/figures/") + figure + "_" + engine;
       for (const char* kind : {".png", ".svg", ".pdf", ".gp", ".dat"}) {

@@ -29,7 +29,7 @@ TEST(Shards, OneThreeOrEightOfThemMergeToTheBytesOfOneRun) {
   in(folder, run + "whole");
   const auto expected = result_files(folder / "whole");
   ASSERT_EQ(expected.count("recordings/bullet_step_test_002.mpack"), 1U);
-  ASSERT_EQ(expected.count("figures/success_mujoco.png"), 1U);
+  ASSERT_EQ(expected.count("figures/error_mujoco.png"), 1U);
   for (const int count : {1, 3, 8}) {
     const std::string out = "of_" + std::to_string(count);
     for (int index = count; index >= 1; --index) {

@@ -14,23 +14,22 @@
 namespace touchdown::render {
 namespace {
 
-/// Success that falls with both noises.
+/// Errors that grow with both noises.
 Heatmap heatmap() {
-  Heatmap map{.title = "Success rate",
+  Heatmap map{.title = "Error rate",
               .x_label = "accelerometer noise (m/s²)",
               .y_label = "torque noise (N·m)",
-              .value_label = "success rate",
               .x = {0, 1, 3, 5, 7},
               .y = {0, 0.5, 1, 2},
               .panels = {{.title = "an estimator", .value = {}}},
               .caption = "4 runs; crossed cells do not beat a constant answer.",
-              .iso_levels = {0.9, 0.95}};
+              .levels = {2.0, 5.0, 10.0}};
   for (const double y : map.y) {
     map.panels[0].value.emplace_back();
     map.panels[0].marked.emplace_back();
     for (const double x : map.x) {
-      map.panels[0].value.back().push_back(0.99 - 0.002 * x * x - 0.02 * y * y);
-      map.panels[0].marked.back().push_back(map.panels[0].value.back().back() < 0.9);
+      map.panels[0].value.back().push_back(1.0 + 0.2 * x * x + 2.0 * y * y);
+      map.panels[0].marked.back().push_back(map.panels[0].value.back().back() > 10.0);
     }
   }
   return map;
@@ -122,10 +121,10 @@ TEST_F(Golden, FiguresLookLikeTheirCopies) {
 TEST_F(Golden, MissingLinesAreNoticed) {
   if (std::getenv("TOUCHDOWN_UPDATE_GOLDEN") != nullptr) GTEST_SKIP() << "copies are being made";
   Heatmap without_a_line = heatmap();
-  without_a_line.iso_levels = {0.9};
+  without_a_line.levels = {2.0, 10.0};
   EXPECT_FALSE(same_picture(compared("heatmap", draw_heatmap(without_a_line, stem("line")))));
   Heatmap another_cell = heatmap();
-  another_cell.panels[0].value[1][1] = 0.95;
+  another_cell.panels[0].value[1][1] = 4.5;
   EXPECT_FALSE(same_picture(compared("heatmap", draw_heatmap(another_cell, stem("cell")))));
 
   ScoreFigure without_a_curve = reliability();

@@ -23,18 +23,17 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-Heatmap success_heatmap() {
-  Heatmap heatmap{.title = "Success rate",
+Heatmap error_heatmap() {
+  Heatmap heatmap{.title = "Error rate",
                   .x_label = "accelerometer noise (m/s²)",
                   .y_label = "torque noise (N·m)",
-                  .value_label = "success rate",
                   .x = {0, 1, 5},
                   .y = {0, 0.5},
                   .panels = {},
                   .caption = "2 runs",
-                  .iso_levels = {0.95}};
-  heatmap.panels.push_back({.title = "MuJoCo", .value = {{0.99, 0.98, 0.9}, {0.97, 0.96, 0.8}}});
-  heatmap.panels.push_back({.title = "Bullet", .value = {{0.99, 0.97, NAN}, {0.97, 0.94, 0.7}}});
+                  .levels = {5.0}};
+  heatmap.panels.push_back({.title = "MuJoCo", .value = {{1.0, 2.0, 10.0}, {3.0, 4.0, 20.0}}});
+  heatmap.panels.push_back({.title = "Bullet", .value = {{1.0, 3.0, NAN}, {3.0, 6.0, 30.0}}});
   return heatmap;
 }
 
@@ -53,16 +52,16 @@ class FigureFiles : public ::testing::Test {
 };
 
 TEST_F(FigureFiles, AppearTogetherWithScriptAndData) {
-  const Figure figure = draw_heatmap(success_heatmap(), folder_ / "heatmap");
+  const Figure figure = draw_heatmap(error_heatmap(), folder_ / "heatmap");
   EXPECT_THAT(names(), ::testing::UnorderedElementsAre("heatmap.png", "heatmap.svg", "heatmap.pdf",
-                                                       "heatmap.gp", "heatmap.dat", "style.gp"));
-  EXPECT_THAT(read_file(figure.svg), AllOf(HasSubstr("torque noise"), HasSubstr("0.980")));
+                                                       "heatmap.gp", "heatmap.dat"));
+  EXPECT_THAT(read_file(figure.svg), AllOf(HasSubstr("torque noise"), HasSubstr(">2.00<")));
   EXPECT_EQ(read_file(figure.pdf).substr(0, 4), "%PDF");
   EXPECT_GT(cv::imread(figure.png.string()).cols, 500);
 }
 
 TEST_F(FigureFiles, AreDrawnAgainByTheScriptBesideThem) {
-  draw_heatmap(success_heatmap(), folder_ / "heatmap");
+  draw_heatmap(error_heatmap(), folder_ / "heatmap");
   const std::string before = read_file(folder_ / "heatmap.png");
   std::filesystem::remove(folder_ / "heatmap.png");
   const std::string command = "cd '" + folder_.string() + "' && gnuplot heatmap.gp 2>/dev/null";
@@ -71,7 +70,8 @@ TEST_F(FigureFiles, AreDrawnAgainByTheScriptBesideThem) {
 }
 
 TEST_F(FigureFiles, HeatmapCrossesTheMarkedCellsOnly) {
-  Heatmap heatmap = success_heatmap();
+  Heatmap heatmap = error_heatmap();
+  heatmap.levels.clear();
   heatmap.panels[1].marked = {{false, false, false}, {false, false, true}};
   draw_heatmap(heatmap, folder_ / "heatmap");
   const std::string data = read_file(folder_ / "heatmap.dat");
@@ -83,26 +83,27 @@ TEST_F(FigureFiles, HeatmapCrossesTheMarkedCellsOnly) {
 
 /// An unknown cell must stay white, and must not move the cells after it.
 TEST_F(FigureFiles, HeatmapCellsHaveTheirOwnColours) {
-  Heatmap heatmap = success_heatmap();
-  heatmap.panels = {{.title = "", .value = {{0.0, NAN, 1.0}, {1.0, 0.0, 1.0}}}};
-  heatmap.iso_levels.clear();
+  Heatmap heatmap = error_heatmap();
+  heatmap.panels = {{.title = "", .value = {{30.0, NAN, 0.3}, {0.0, 100.0, 0.3}}}};
+  heatmap.levels.clear();
   const Figure figure = draw_heatmap(heatmap, folder_ / "cells");
   const cv::Mat image = cv::imread(figure.png.string());
   // Cells are 60 x 44 pixels from (66, 60); the first row of values is the lower one.
   const auto colour = [&](int row, int column) {
     return image.at<cv::Vec3b>(60 + (1 - row) * 44 + 6, 66 + column * 60 + 6);
   };
-  const cv::Vec3b low = colour(0, 0), high = colour(0, 2);
-  EXPECT_GT(high[1], 200);  // yellow
-  EXPECT_LT(low[1], 60);    // dark blue
+  const cv::Vec3b many = colour(0, 0), few = colour(0, 2);
+  EXPECT_GT(few[1], 200);  // yellow
+  EXPECT_LT(many[1], 60);  // dark violet
   EXPECT_EQ(colour(0, 1), cv::Vec3b(255, 255, 255));
-  EXPECT_EQ(colour(1, 0), high);
-  EXPECT_EQ(colour(1, 1), low);
-  EXPECT_EQ(colour(1, 2), high);
+  // What lies beyond the scale has its end's colour.
+  EXPECT_EQ(colour(1, 0), few);
+  EXPECT_EQ(colour(1, 1), many);
+  EXPECT_EQ(colour(1, 2), few);
 }
 
 TEST_F(FigureFiles, TextsCannotBreakOutOfTheScript) {
-  Heatmap heatmap = success_heatmap();
+  Heatmap heatmap = error_heatmap();
   const std::string secret = (folder_ / "broken_out").string();
   heatmap.title = "it's \"100%\" `touch " + secret + "` {x}_y^z @a \\n # }";
   heatmap.panels[0].title = "'; system('touch " + secret + "') #";
@@ -113,11 +114,11 @@ TEST_F(FigureFiles, TextsCannotBreakOutOfTheScript) {
 }
 
 TEST_F(FigureFiles, ScriptsSayWhatIsDrawn) {
-  draw_heatmap(success_heatmap(), folder_ / "heatmap");
+  draw_heatmap(error_heatmap(), folder_ / "heatmap");
   const FigureText text = figure_text(read_file(folder_ / "heatmap.gp"));
-  EXPECT_EQ(text.title, "Success rate");
+  EXPECT_EQ(text.title, "Error rate");
   EXPECT_EQ(text.caption, "2 runs");
-  EXPECT_THAT(text.alt, HasSubstr("MuJoCo: 0.990 in the lower left cell"));
+  EXPECT_THAT(text.alt, HasSubstr("MuJoCo: 1.00 % in the lower left cell"));
   EXPECT_EQ(figure_text("plot x\n# Title: not at the beginning\n").title, "");
 }
 
@@ -130,15 +131,42 @@ TEST_F(FigureFiles, DescriptionsCannotBreakOutOfTheirComments) {
 }
 
 TEST_F(FigureFiles, FineMapsLeaveTheNumbersToTheDataFile) {
-  Heatmap heatmap = success_heatmap();
+  Heatmap heatmap = error_heatmap();
   heatmap.x.assign(13, 0.0);
   heatmap.y.assign(13, 0.0);
   heatmap.panels = {{.title = "fine", .value = {13, std::vector<double>(13, 0.5)}}};
-  heatmap.panels[0].value[3][4] = 0.987;
+  heatmap.panels[0].value[3][4] = 3.987;
   heatmap.panels[0].value[4][3] = 1.0;
   const Figure figure = draw_heatmap(heatmap, folder_ / "fine");
-  EXPECT_EQ(read_file(figure.svg).find("0.987"), std::string::npos);
-  EXPECT_THAT(read_file(folder_ / "fine.dat"), HasSubstr("0.987"));
+  EXPECT_EQ(read_file(figure.svg).find(">3.99<"), std::string::npos);
+  EXPECT_THAT(read_file(folder_ / "fine.dat"), HasSubstr("3.987"));
+}
+
+/// Four estimators that nobody could tell apart when a map showed their success rates.
+TEST_F(FigureFiles, HeatmapTellsErrorsUnderTwoPercentApart) {
+  Heatmap heatmap = error_heatmap();
+  heatmap.x = {0, 1, 2, 3};
+  heatmap.y = {0};
+  heatmap.panels = {{.title = "", .value = {{0.4, 0.6, 1.1, 1.7}}}};
+  heatmap.levels.clear();
+  const Figure figure = draw_heatmap(heatmap, folder_ / "good");
+  const cv::Mat image = cv::imread(figure.png.string());
+  for (int column = 0; column + 1 < 4; ++column) {
+    const auto colour = [&](int c) { return image.at<cv::Vec3b>(60 + 6, 66 + c * 60 + 6); };
+    EXPECT_GT(cv::norm(colour(column), colour(column + 1)), 40.0) << column;
+  }
+  EXPECT_THAT(read_file(figure.svg),
+              AllOf(HasSubstr(">0.40<"), HasSubstr(">0.60<"), HasSubstr(">1.10<"),
+                    HasSubstr("≤ 0.3"), HasSubstr("≥ 30")));
+}
+
+TEST_F(FigureFiles, HeatmapLinesAreLabelledAndStayOutOfTheCells) {
+  draw_heatmap(error_heatmap(), folder_ / "heatmap");
+  // Block 2 of the data, the first panel's lines: between columns 1 and 2, with room for "5 %".
+  const std::string data = read_file(folder_ / "heatmap.dat");
+  EXPECT_THAT(data, HasSubstr("1.5\t-0.5\n1.5\t0.5\n"));
+  EXPECT_THAT(data, HasSubstr("1.5\t1\t\"5 %\"\t90\n"));
+  EXPECT_THAT(read_file(folder_ / "heatmap.svg"), HasSubstr(">5 %<"));
 }
 
 TEST_F(FigureFiles, LeaveNothingWhenGnuplotComplains) {
@@ -150,7 +178,7 @@ TEST_F(FigureFiles, LeaveNothingWhenGnuplotComplains) {
 TEST_F(FigureFiles, MissingGnuplotIsOneClearError) {
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", "/nowhere", 1);
-  EXPECT_THAT([&] { draw_heatmap(success_heatmap(), folder_ / "heatmap"); },
+  EXPECT_THAT([&] { draw_heatmap(error_heatmap(), folder_ / "heatmap"); },
               ThrowsMessage<Error>(HasSubstr("gnuplot-nox")));
   ::setenv("PATH", path.c_str(), 1);
   EXPECT_TRUE(names().empty());
@@ -158,12 +186,12 @@ TEST_F(FigureFiles, MissingGnuplotIsOneClearError) {
 
 TEST_F(FigureFiles, UnwritableFoldersAreNamed) {
   std::ofstream(folder_ / "file") << "in the way";
-  EXPECT_THAT([&] { draw_heatmap(success_heatmap(), folder_ / "file/heatmap"); },
+  EXPECT_THAT([&] { draw_heatmap(error_heatmap(), folder_ / "file/heatmap"); },
               ThrowsMessage<Error>(HasSubstr("cannot be written")));
 }
 
 TEST_F(FigureFiles, HeatmapsOfTheWrongSizeAreRefused) {
-  Heatmap heatmap = success_heatmap();
+  Heatmap heatmap = error_heatmap();
   heatmap.panels[1].value[0].pop_back();
   EXPECT_THAT([&] { draw_heatmap(heatmap, folder_ / "heatmap"); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("Bullet"), HasSubstr("2 rows of 3"))));
@@ -171,10 +199,10 @@ TEST_F(FigureFiles, HeatmapsOfTheWrongSizeAreRefused) {
 }
 
 TEST_F(FigureFiles, ConstantAndUnknownHeatmapsCanBeDrawn) {
-  Heatmap heatmap = success_heatmap();
+  Heatmap heatmap = error_heatmap();
   heatmap.x = {0};
   heatmap.y = {0};
-  heatmap.panels = {{.title = "one", .value = {{1.0}}}, {.title = "none", .value = {{NAN}}}};
+  heatmap.panels = {{.title = "one", .value = {{0.0}}}, {.title = "none", .value = {{NAN}}}};
   EXPECT_TRUE(std::filesystem::exists(draw_heatmap(heatmap, folder_ / "one").png));
 }
 

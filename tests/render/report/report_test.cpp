@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/tables/summary_file.hpp"
-#include "render/maps/map_colour.hpp"
+#include "render/maps/error_scale.hpp"
 #include "render/report/html.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -53,7 +53,7 @@ class Report : public ::testing::Test {
   Report() {
     folder_.write("config.yaml", config);
     folder_.write("manifest.json", R"({"command": "touchdown run <x> && y", "id": "abc",
-      "versions": {"touchdown": "0.1.0"}, "seeds": {"experiment": 1}})");
+      "versions": {"touchdown": "0.1.0", "commit": "v0.1.0-3-gabc<"}, "seeds": {"experiment": 1}})");
     experiments::write_summary({}, folder_.path());
   }
   std::string page() const { return read_file(write_report(read_subject(folder_.path()), {})); }
@@ -105,6 +105,42 @@ TEST_F(Report, SaysEveryCellsNumbersAndStrikesOutWhatAConstantAnswerBeats) {
     ++beaten;
   }
   EXPECT_EQ(beaten, 2U);  // the last row of each of the two estimators
+}
+
+TEST_F(Report, SaysWhoListensWhatCameOutAndFromWhichCommit) {
+  experiments::write_summary(success, folder_.path());
+  const std::string html = page();
+  EXPECT_THAT(html,
+              HasSubstr("<dt>Bayes filter (robust)</dt><dd>the paper&#39;s filter, made to stand "
+                        "sensor noise. It hears knee torques, wheel torques and the "
+                        "accelerometer.</dd>"));
+  EXPECT_THAT(
+      html,
+      HasSubstr("<p><b>MuJoCo.</b> With torque noise 1 N·m, accelerometer noise 5 m/s², "
+                "Bayes filter (robust) errs least: it judges 14.0\u00a0% of all steps wrongly "
+                "[12.5, 15.0], before &lt;script&gt;alert(1)&lt;/script&gt; (50.0\u00a0%). "
+                "Always saying “contact” errs in 13.0\u00a0%, which Bayes filter (robust) and "
+                "&lt;script&gt;alert(1)&lt;/script&gt; do not beat.</p>"));
+  EXPECT_THAT(html, HasSubstr("built from commit v0.1.0-3-gabc&lt;."));
+}
+
+TEST_F(Report, ShowsFiguresInTheExperimentsOrderOfEngines) {
+  std::string both = config;
+  both.replace(both.find("[mujoco]"), 8, "[mujoco, bullet]");
+  folder_.write("config.yaml", both);
+  for (const char* name : {"latency_bullet", "latency_mujoco", "drop", "error_bullet"}) {
+    folder_.write(std::string("figures/") + name + ".svg", "<svg></svg>");
+    folder_.write(std::string("figures/") + name + ".gp", std::string("# Title: ") + name + "\n");
+  }
+  const std::string html = page();
+  std::size_t before = 0;
+  for (const char* title :
+       {"<b>drop.", "<b>error_bullet.", "<b>latency_mujoco.", "<b>latency_bullet."}) {
+    const std::size_t at = html.find(title);
+    ASSERT_NE(at, std::string::npos) << title;
+    EXPECT_GT(at, before) << title;
+    before = at;
+  }
 }
 
 TEST_F(Report, PutsThePapersNumbersBesideOurs) {
@@ -165,13 +201,28 @@ TEST(Html, NamesDigestsAsPoliciesDo) {
             "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='");
 }
 
-TEST(MapColours, RunFromDarkToLightAndStayInside) {
-  EXPECT_EQ(map_colour(0.0).hex, "#00224e");
-  EXPECT_EQ(map_colour(1.0).hex, "#fee838");
-  EXPECT_EQ(map_colour(-3.0).hex, map_colour(0.0).hex);
-  EXPECT_EQ(map_colour(7.0).hex, map_colour(1.0).hex);
-  EXPECT_FALSE(map_colour(0.0).light);
-  EXPECT_TRUE(map_colour(1.0).light);
+TEST(ErrorScale, RunsFromDarkToLightAndStaysInside) {
+  EXPECT_EQ(error_colour(30.0).hex, "#440154");
+  EXPECT_EQ(error_colour(0.3).hex, "#fde725");
+  EXPECT_EQ(error_colour(100.0).hex, error_colour(30.0).hex);
+  EXPECT_EQ(error_colour(0.0).hex, error_colour(0.3).hex);
+  EXPECT_FALSE(error_colour(30.0).light);
+  EXPECT_TRUE(error_colour(0.3).light);
+}
+
+/// Equal factors are equal steps: three, from 0.3 to 30 %, are halfway.
+TEST(ErrorScale, IsLogarithmic) {
+  EXPECT_EQ(error_colour(3.0).hex, "#23908c");  // between #26828e and #1f9e89
+}
+
+TEST(ErrorScale, WritesAsManyDigitsAsTellCellsApart) {
+  EXPECT_EQ(error_text(error_percent(0.9958)), "0.42");
+  EXPECT_EQ(error_text(error_percent(0.9862)), "1.38");
+  EXPECT_EQ(error_text(error_percent(0.90004)), "10.0");
+  EXPECT_EQ(error_text(error_percent(0.877)), "12.3");
+  EXPECT_EQ(error_text(error_percent(0.0)), "100.0");
+  EXPECT_EQ(error_text(NAN), "–");
+  EXPECT_EQ(error_percent(0.989), 1.1);
 }
 
 }  // namespace

@@ -1,0 +1,109 @@
+#include "render/report/findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiments/estimators/registry.hpp"
+#include "experiments/tables/captions.hpp"
+#include "render/maps/error_scale.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+namespace {
+
+using Cells = std::vector<experiments::CellSummary>;
+
+/// "knee torques, wheel torques and the accelerometer"; "nothing".
+std::string heard(const experiments::Sensors& sensors) {
+  std::vector<std::string> what;
+  if (sensors.knee_torque) what.emplace_back("knee torques");
+  if (sensors.wheel_torque) what.emplace_back("wheel torques");
+  if (sensors.acceleration) what.emplace_back("the accelerometer");
+  if (sensors.joint_position) what.emplace_back("joint angles");
+  if (sensors.joint_velocity) what.emplace_back("joint velocities");
+  return what.empty() ? "nothing that has noise" : in_words(what);
+}
+
+/// The estimators' scores in one engine and noise cell, the fewest errors first.
+Cells ranked(const Cells& all, const std::string& simulator, const noise::NoiseCell& noise) {
+  Cells cells;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(cells),
+               [&](const experiments::CellSummary& cell) {
+                 return cell.condition.test_simulator == simulator && cell.cell == noise &&
+                        cell.condition.estimator != experiments::always_contact_name &&
+                        std::isfinite(cell.success.estimate);
+               });
+  std::stable_sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) {
+    return a.success.estimate > b.success.estimate;
+  });
+  return cells;
+}
+
+std::string title_of(const experiments::CellSummary& cell) {
+  return experiments::estimator_title(cell.condition.estimator);
+}
+
+/// The number and its sign stay on one line.
+std::string in_percent(double success) { return error_text(error_percent(success)) + "\u00a0%"; }
+
+/// "Without noise, Phase filter errs least: …, before Free fall (1.59 %) and NMN (2.87 %). …"
+std::string finding(const Cells& cells) {
+  const experiments::CellSummary& best = cells.front();
+  const bool silent = best.cell.torque == 0.0 && best.cell.accelerometer == 0.0;
+  std::vector<std::string> next, losers;
+  for (const experiments::CellSummary& cell : cells) {
+    if (&cell != &best && next.size() < 2) {
+      next.push_back(fmt::format("{} ({})", title_of(cell), in_percent(cell.success.estimate)));
+    }
+    if (cell.loses()) losers.push_back(title_of(cell));
+  }
+  std::string text = fmt::format(
+      "{}, {} errs least: it judges {} of all steps wrongly [{}, {}]{}. ",
+      silent ? "Without noise" : "With " + experiments::noise_text(best.cell), title_of(best),
+      in_percent(best.success.estimate), error_text(error_percent(best.success.high)),
+      error_text(error_percent(best.success.low)),
+      next.empty() ? "" : ", before " + in_words(next));
+  if (!std::isfinite(best.always_contact)) return text;
+  return text + fmt::format("Always saying “contact” errs in {}{}. ",
+                            in_percent(best.always_contact),
+                            losers.empty() ? ""
+                                           : fmt::format(", which {} {} not beat", in_words(losers),
+                                                         losers.size() > 1 ? "do" : "does"));
+}
+
+}  // namespace
+
+ReportSection estimators_section(const ReportSubject& subject) {
+  ReportSection section{"estimators", "Who listens", "<dl class=\"who\">\n"};
+  for (const std::string& name : subject.experiment.estimators) {
+    const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
+    section.html += fmt::format("<dt>{}</dt><dd>{}. It hears {}.</dd>\n", escaped(entry.title),
+                                escaped(entry.summary), escaped(heard(entry.sensors)));
+  }
+  section.html += "</dl>\n";
+  return section;
+}
+
+std::string findings_html(const ReportSubject& subject) {
+  const Cells& all = subject.summary.cells;
+  if (all.empty()) return {};
+  std::vector<noise::NoiseCell> settings = subject.experiment.highlights;
+  if (settings.empty()) settings.push_back(all.front().cell);
+  std::string html;
+  for (const std::string& simulator : subject.experiment.simulators) {
+    std::string text;
+    for (const noise::NoiseCell& noise : settings) {
+      const Cells cells = ranked(all, simulator, noise);
+      if (!cells.empty()) text += finding(cells);
+    }
+    if (text.empty()) continue;
+    text.pop_back();
+    html += fmt::format("<p><b>{}.</b> {}</p>\n", escaped(simulators::simulator_title(simulator)),
+                        escaped(text));
+  }
+  return html;
+}
+
+}  // namespace touchdown::render

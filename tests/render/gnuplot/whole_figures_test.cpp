@@ -1,0 +1,186 @@
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "render/gnuplot/figure.hpp"
+#include "render/gnuplot/process.hpp"
+#include "render/gnuplot/whole_file.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::render {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::ThrowsMessage;
+
+namespace fs = std::filesystem;
+
+/// A variable of the environment, while this lives.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Variable() { before_ ? ::setenv(name_, before_->c_str(), 1) : ::unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    files[entry.path().filename().string()] =
+        entry.is_regular_file() ? read_file(entry.path()) : "";
+  }
+  return files;
+}
+
+class WholeFigures : public ::testing::Test {
+ protected:
+  void draw(const std::string& commands = "plot x\n") const {
+    draw_figure(folder_ / "line", 300, 200, commands, {{"line.dat", "1\t2\n"}});
+  }
+  /// A gnuplot that draws, cuts what it drew, and says that all is well, as the real one does when
+  /// the disk is full.
+  std::string path_with_cutting_gnuplot(const std::string& victim) const {
+    const fs::path program = tools_ / "gnuplot";
+    std::ofstream(program) << "#!/bin/sh\nPATH=" << std::getenv("PATH")
+                           << "\ngnuplot \"$@\" || exit\nfor f in " << victim
+                           << "; do head -c 200 $f >cut; mv cut $f; done\n";
+    fs::permissions(program, fs::perms::owner_all);
+    return tools_.path().string() + ":" + std::getenv("PATH");
+  }
+
+  const ScratchFolder scratch_, tools_;
+  const fs::path folder_ = scratch_.path();
+};
+
+TEST_F(WholeFigures, WhatGnuplotLeftUnfinishedDoesNotReplaceWhatIsThere) {
+  draw();
+  const auto before = files_in(folder_);
+  ASSERT_EQ(before.size(), 5U);
+  for (const char* victim : {"line.png", "line.svg", "line.pdf"}) {
+    const Variable path("PATH", path_with_cutting_gnuplot(victim));
+    EXPECT_THAT(
+        [&] { draw("plot -x\n"); },
+        ThrowsMessage<Error>(AllOf(HasSubstr((folder_ / victim).string()),
+                                   HasSubstr("cannot be written"), Not(HasSubstr(".part")))));
+    EXPECT_TRUE(files_in(folder_) == before) << victim;
+  }
+}
+
+TEST_F(WholeFigures, AFullDiskIsAnErrorThatNamesTheFileAndLeavesNothing) {
+  draw();
+  const auto before = files_in(folder_);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    // No file of this process, or of a program that it starts, can be longer than this.
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit most{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &most);
+    try {
+      draw("plot -x\n");
+    } catch (const Error& error) {
+      const std::string said = error.what();
+      const bool named = said.find((folder_ / "line").string() + ".") != std::string::npos;
+      ::_exit(named && said.find("cannot be written") != std::string::npos ? 42 : 1);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 42);
+  EXPECT_TRUE(files_in(folder_) == before);
+}
+
+TEST_F(WholeFigures, WritesThatDoNotArriveAreErrorsUnderTheNameThatPeopleKnow) {
+  EXPECT_THAT([] { write_whole("/dev/full", "text", "figures/a.dat"); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("figures/a.dat: cannot be written"),
+                                         HasSubstr("No space left"))));
+}
+
+TEST_F(WholeFigures, DrawingsAreWholeWhenTheyEndAsTheirKindEnds) {
+  draw();
+  for (const char* kind : {"line.png", "line.svg", "line.pdf"}) {
+    const std::string content = read_file(folder_ / kind);
+    EXPECT_TRUE(is_whole(folder_ / kind)) << kind;
+    for (const std::size_t size : {content.size() - 4, content.size() / 2, std::size_t{0}}) {
+      std::ofstream(folder_ / kind, std::ios::binary) << content.substr(0, size);
+      EXPECT_FALSE(is_whole(folder_ / kind)) << kind << " of " << size << " bytes";
+    }
+    fs::remove(folder_ / kind);
+    EXPECT_FALSE(is_whole(folder_ / kind));
+  }
+}
+
+TEST_F(WholeFigures, AFigureThatNothingDependsOnStaysAsItWas) {
+  const std::string script = "set terminal pngcairo\nset output 'training.png'\nplot x\n";
+  ASSERT_EQ(try_gnuplot(folder_ / "training.gp", script), folder_ / "training.png");
+  const std::string before = read_file(folder_ / "training.png");
+  const Variable path("PATH", path_with_cutting_gnuplot("training.png"));
+  EXPECT_TRUE(try_gnuplot(folder_ / "training.gp", script + "plot -x\n").empty());
+  EXPECT_TRUE(read_file(folder_ / "training.png") == before);
+  EXPECT_EQ(files_in(folder_).size(), 2U);
+}
+
+TEST_F(WholeFigures, NobodysOwnSettingsAreObeyed) {
+  draw();
+  const std::string before = read_file(folder_ / "line.png");
+  const std::string marker = (tools_ / "was_here").string();
+  std::ofstream(tools_ / ".gnuplot")
+      << "system 'touch " << marker << "'\nset samples 2\nset border 0\n";
+  const Variable home("HOME", tools_.path().string());
+  draw();
+  EXPECT_FALSE(fs::exists(marker));
+  EXPECT_TRUE(read_file(folder_ / "line.png") == before);
+}
+
+TEST_F(WholeFigures, AreTheSameInEveryTimeZone) {
+  const Variable here("TZ", "UTC0");
+  draw();
+  const auto before = files_in(folder_);
+  for (const char* zone : {"Asia/Kolkata", "America/St_Johns", "XXX-5:30"}) {
+    const Variable there("TZ", zone);
+    draw();
+    EXPECT_TRUE(files_in(folder_) == before) << zone;
+  }
+}
+
+TEST_F(WholeFigures, FilesOfTheUsersOwnAreNotReplaced) {
+  std::ofstream(folder_ / "style.gp") << "mine";
+  draw();
+  EXPECT_EQ(read_file(folder_ / "style.gp"), "mine");
+  draw();  // its own files it may replace
+  for (const char* name : {"results.dat", "results.gp", "results.pdf"}) {
+    std::ofstream(folder_ / name) << "mine";
+    EXPECT_THAT(
+        [&] {
+          draw_figure(folder_ / "results", 300, 200, "plot x\n", {{"results.dat", "1\n"}});
+        },
+        ThrowsMessage<InputError>(
+            AllOf(HasSubstr((folder_ / name).string()), HasSubstr("another name"))));
+    EXPECT_EQ(read_file(folder_ / name), "mine");
+    EXPECT_FALSE(fs::exists(folder_ / "results.png"));
+    fs::remove(folder_ / name);
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::render
