@@ -219,8 +219,8 @@ Figure draw_log(const LogTrace& trace, const std::string& title,
     with_truth = with_truth || bin.with_truth > 0;
   }
   std::string commands = fmt::format(
-      "set multiplot layout {},1 title {} font ',11' margins 0.13,0.86,0.06,0.94 spacing 0,0.024\n"
-      "set xrange [{}:{}]\nset ytics nomirror autofreq\nset format x ''\n"
+      "set multiplot layout {},1 title {} font ',11' margins 0.13,0.83,0.06,0.94 spacing 0,0.024\n"
+      "set xrange [{}:{}]\nset ytics nomirror autofreq font ',9'\nset format x ''\n"
       "set key at graph 1.02, graph 1 left top Left reverse samplen 1.5\n",
       panels.size() + 2, gnuplot_text(title), begin, end > begin ? end : begin + 1.0);
   for (const Panel& panel : panels) commands += curve_commands(panel, file);

@@ -131,7 +131,8 @@ TEST(Run, LeavesADirectoryThatExplainsItself) {
                          "success_low,success_high"));
   EXPECT_THAT(read_file(latest / "tables/classification.csv"), HasSubstr("contact_precision,"));
   EXPECT_THAT(read_file(latest / "tables/success.csv"), HasSubstr("bullet,always_contact,1,5,"));
-  for (const char* key : {"\"versions\"", "\"seeds\"", "\"host\"", "\"timings_s\""}) {
+  for (const char* key :
+       {"\"versions\"", "\"commit\": \"", "\"seeds\"", "\"host\"", "\"timings_s\""}) {
     EXPECT_THAT(read_file(latest / "manifest.json"), HasSubstr(key));
   }
 }
