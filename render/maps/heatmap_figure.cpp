@@ -59,9 +59,9 @@ std::string cells(const HeatmapPanel& panel) {
       const bool crossed = !panel.marked.empty() && panel.marked[row][column];
       const MapColour colour =
           std::isfinite(value) ? error_colour(value) : MapColour{"#ffffff", true};
-      fmt::format_to(std::back_inserter(lines), "{}\t{}\t{}\t\"{}\"\t{}\t{}\t\"{}\"\n", column, row,
+      fmt::format_to(std::back_inserter(lines), "{}\t{}\t{}\t\"{}\"\t{}\t{}\t{}\n", column, row,
                      number(value), text, colour.light ? 0x101418 : 0xffffff,
-                     std::stoi(colour.hex.substr(1), {}, 16), crossed ? text : "");
+                     std::stoi(colour.hex.substr(1), {}, 16), crossed ? 1 : 0);
     }
   }
   return lines + '\n';
@@ -111,12 +111,10 @@ std::string crosses(const HeatmapPanel& panel) {
 enum Block : std::size_t { cell_block, line_block, label_block, cross_block };
 
 /// A heatmap's data file. Its blocks, each for every panel: the cells (column, row, value, text,
-/// the text's colour, the cell's colour, the
-/// text again where there is a cross), the lines, their labels (x, y, text, degrees), the
-/// crosses.
+/// the text's colour, the cell's colour, whether it is crossed), the lines, their labels (x, y,
+/// text, degrees), the crosses.
 std::string heatmap_data(const Heatmap& heatmap, const CellSize& cell) {
-  std::string text =
-      "#column\trow\terror_percent\tlabel\tlabel_colour\tcell_colour\tcrossed_label\n";
+  std::string text = "#column\trow\terror_percent\tlabel\tlabel_colour\tcell_colour\tcrossed\n";
   std::string line_text, label_text, cross_text;
   for (const HeatmapPanel& panel : heatmap.panels) {
     const std::vector<LevelBorder> borders = level_borders(panel.value, heatmap.levels, cell);
@@ -151,42 +149,47 @@ std::string tics(const std::vector<double>& values, double room) {
   return "(" + text + ")";
 }
 
-/// Text from one block, written first around its places in another colour, so that lines disappear
-/// behind it.
-std::string seamed_text(std::size_t block, const char* columns, const char* colour,
-                        const char* seam_columns, const char* seam, const CellSize& cell) {
+/// The cells' numbers. Where there is a cross, its middle, which would add dots to them, gives way.
+std::string numbers_plot(std::size_t block, bool with_intervals, const CellSize& cell) {
+  return fmt::format(
+      ", \\\n     '' index {0} using ($7 > 0 ? $1 : NaN):2:($1-{1:.4f}):($1+{1:.4f}):"
+      "($2-{2:.4f}):($2+{2:.4f}):6 with boxxyerror linecolor rgb variable fillstyle solid noborder"
+      ", \\\n     '' index {0} using 1:2:4:5 with labels font ',8.5' textcolor rgb variable",
+      block, (with_intervals ? 32.0 : 17.0) / cell.width,
+      (with_intervals ? 15.0 : 8.0) / cell.height);
+}
+
+/// The lines' labels, each written first around its place in white, apart from every colour.
+std::string line_labels_plot(std::size_t block, const CellSize& cell) {
   constexpr double reach = 1.6;  // pixels
+  constexpr const char* with = "with labels rotate variable font ',8' textcolor rgb";
   std::string text;
   for (int turn = 0; turn < 8; ++turn) {
-    text +=
-        fmt::format(", \\\n     '' index {} using ($1+({:.4f})):($2+({:.4f})):{} with labels {}",
-                    block, reach * std::cos(turn * M_PI / 4) / cell.width,
-                    reach * std::sin(turn * M_PI / 4) / cell.height, seam_columns, seam);
+    text += fmt::format(", \\\n     '' index {} using ($1+({:.4f})):($2+({:.4f})):3:4 {} '#ffffff'",
+                        block, reach * std::cos(turn * M_PI / 4) / cell.width,
+                        reach * std::sin(turn * M_PI / 4) / cell.height, with);
   }
-  return text +
-         fmt::format(", \\\n     '' index {} using 1:2:{} with labels {}", block, columns, colour);
+  return text + fmt::format(", \\\n     '' index {} using 1:2:3:4 {} '#101418'", block, with);
 }
 
 /// The commands that draw panel `i` from the blocks of `<name>.dat` (`heatmap_data`): cells,
-/// crosses and lines, then numbers and labels.
+/// crosses, numbers, lines and labels.
 std::string panel_plot(const Heatmap& heatmap, const std::string& name, std::size_t i, bool numbers,
                        const CellSize& cell) {
   const auto block = [&](Block kind) { return heatmap.panels.size() * kind + i; };
   std::string text = fmt::format(
       "plot '{}.dat' index {} using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):(shown($3)) with "
       "boxxyerror fillcolor palette, \\\n"
-      "     '' index {} using 1:2 with lines lw 0.7 lc rgb '#aab0b8' dt 1, \\\n"
-      "     '' index {} using 1:2 with lines lw 3.4 lc rgb '#ffffff' dt 1, \\\n"
-      "     '' index {} using 1:2 with lines lw 1.5 lc rgb '#101418' dt 1",
-      name, block(cell_block), block(cross_block), block(line_block), block(line_block));
+      "     '' index {} using 1:2 with lines lw 0.7 lc rgb '#aab0b8' dt 1",
+      name, block(cell_block), block(cross_block));
   if (numbers) {
-    text += seamed_text(block(cell_block), "4:5", "font ',8.5' textcolor rgb variable", "7:6",
-                        "font ',8.5' textcolor rgb variable", cell);
+    text += numbers_plot(block(cell_block), !heatmap.panels[i].low.empty(), cell);
   }
-  return text +
-         seamed_text(block(label_block), "3:4", "rotate variable font ',8' textcolor rgb '#101418'",
-                     "3:4", "rotate variable font ',8' textcolor rgb '#ffffff'", cell) +
-         '\n';
+  text += fmt::format(
+      ", \\\n     '' index {0} using 1:2 with lines lw 3.4 lc rgb '#ffffff' dt 1"
+      ", \\\n     '' index {0} using 1:2 with lines lw 1.5 lc rgb '#101418' dt 1",
+      block(line_block));
+  return text + line_labels_plot(block(label_block), cell) + '\n';
 }
 
 /// gnuplot's palette and ticks of the error rates' colours.
