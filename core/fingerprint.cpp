@@ -15,7 +15,8 @@ std::string build_fingerprint() {
 
 std::string build_commit(const std::filesystem::path& program) {
   std::error_code ignored;
-  const std::filesystem::path folder = std::filesystem::weakly_canonical(program, ignored).parent_path();
+  const std::filesystem::path folder =
+      std::filesystem::weakly_canonical(program, ignored).parent_path();
   // Where it was built, and where it was installed.
   for (const char* share : {"share", "../share"}) {
     const std::filesystem::path note = folder / share / "touchdown" / "commit";
