@@ -2,13 +2,15 @@
 
 #include <fcntl.h>
 #include <fstream>
-#include <random>
 #include <sstream>
+#include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/file_names.hpp"
 
 namespace touchdown {
 
@@ -30,18 +32,26 @@ void flush_to_disk(const std::filesystem::path& path) {
   ::close(descriptor);
 }
 
+/// Makes a folder that was not there before and that nobody else can write to, beside `path`. What
+/// somebody put under its name, a link to elsewhere for one, is left alone.
+std::filesystem::path new_part_folder(const std::filesystem::path& path) {
+  for (;;) {
+    std::filesystem::path folder = part_folder_path(path);
+    if (::mkdir(folder.c_str(), S_IRWXU) == 0) return folder;
+    const std::error_code why(errno, std::generic_category());
+    if (why != std::errc::file_exists) {
+      throw std::filesystem::filesystem_error("mkdir", folder, why);
+    }
+  }
+}
+
 }  // namespace
 
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write) {
   try {
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-    // Processes on two machines that share a disk may have the same number.
-    // The extension stays last: encoders and plotters choose their format by it.
-    const std::filesystem::path name =
-        fmt::format(".{}.{}.{:08x}.part{}", path.stem().string(), ::getpid(),
-                    std::random_device{}(), path.extension().string());
-    const TemporaryFile temporary{path.parent_path() / name};
+    const TemporaryFile temporary{part_path(path)};
     write(temporary.path);
     flush_to_disk(temporary.path);
     std::filesystem::rename(temporary.path, path);
@@ -93,10 +103,9 @@ void require_writable(const std::filesystem::path& path) {
 
 PartFolder::PartFolder(const std::filesystem::path& stem) {
   try {
-    const std::filesystem::path parent = std::filesystem::absolute(stem).parent_path();
-    std::filesystem::create_directories(parent);
-    path_ = parent / fmt::format(".{}.{}.part", stem.filename().string(), ::getpid());
-    std::filesystem::create_directory(path_);
+    const std::filesystem::path whole = std::filesystem::absolute(stem);
+    std::filesystem::create_directories(whole.parent_path());
+    path_ = new_part_folder(whole);
   } catch (const std::filesystem::filesystem_error& error) {
     throw Error(fmt::format("{}: cannot be written: {}", stem.string(), error.code().message()));
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/fields.hpp"
+#include "core/file_names.hpp"
 #include "core/random.hpp"
 #include "core/resources.hpp"
 #include "models/terrain_yaml.hpp"
@@ -27,6 +28,7 @@ static void describe(Fields& fields, End& end) {
 
 static void describe(Fields& fields, Scenario& scenario) {
   fields.require("name", scenario.name);
+  fields.check(is_name_word(scenario.name), "name", expected_name_word);
   std::string robot = scenario.robot.string();
   fields("robot", robot);
   scenario.robot = robot;

@@ -1,6 +1,7 @@
 #include "training/config.hpp"
 
 #include "core/fields.hpp"
+#include "core/file_names.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::training {
@@ -42,6 +43,7 @@ static void describe(Fields& fields, OptimiserConfig& optimiser) {
 
 static void describe(Fields& fields, TrainingConfig& config) {
   fields.require("name", config.name);
+  fields.check(is_name_word(config.name), "name", expected_name_word);
   fields("seed", config.seed);
   fields.section("rollout", config.rollout);
   fields.section("network", config.network);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/fields.hpp"
+#include "core/file_names.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "simulators/registry.hpp"
 
@@ -150,10 +151,8 @@ static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
 }
 
 static void describe(Fields& fields, Experiment& experiment) {
-  const std::string& name = experiment.name;
   fields.require("name", experiment.name);
-  fields.check(!name.empty() && name.find_first_of("/\\ \t\n.") == std::string::npos, "name",
-               "expected a word that can name a folder");
+  fields.check(is_name_word(experiment.name), "name", expected_name_word);
   fields("seed", experiment.seed);
   fields.names("simulators", simulators::simulator_names(), experiment.simulators);
   fields.names("estimators", estimator_names(), experiment.estimators);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -82,6 +83,28 @@ TEST_F(Files, MissingFilesAndFoldersCannotBeRead) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("absent.yaml"));
   }
   EXPECT_THROW(read_file(folder_), InputError);
+}
+
+TEST_F(Files, APartFolderIsNewWhateverSomebodyPutUnderItsName) {
+  // A name that could be guessed would lead into somebody's folder.
+  const auto elsewhere = folder_ / "elsewhere";
+  std::filesystem::create_directory(elsewhere);
+  write_atomically(elsewhere / "precious", "x");
+  std::filesystem::create_directory_symlink(
+      elsewhere, folder_ / (".figure." + std::to_string(::getpid()) + ".part"));
+  {
+    const PartFolder first(folder_ / "figure");
+    const PartFolder second(folder_ / "figure");
+    EXPECT_NE(first.path(), second.path());
+    for (const PartFolder* folder : {&first, &second}) {
+      EXPECT_FALSE(std::filesystem::is_symlink(folder->path()));
+      EXPECT_TRUE(std::filesystem::is_empty(folder->path()));
+      EXPECT_EQ(std::filesystem::status(folder->path()).permissions(),
+                std::filesystem::perms::owner_all);
+    }
+  }
+  EXPECT_EQ(read_file(elsewhere / "precious"), "x");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 2);
 }
 
 TEST_F(Files, AnEmptyFileIsRead) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/fields.hpp"
+#include "core/file_names.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "simulators/registry.hpp"
 
@@ -28,6 +29,7 @@ void check_simulator(const Fields& fields, std::string_view key, const std::stri
 
 static void describe(Fields& fields, SampleEfficiencyConfig& config) {
   fields.require("name", config.name);
+  fields.check(is_name_word(config.name), "name", expected_name_word);
   fields("seed", config.seed);
   fields("training", config.training);
   describe_amounts(fields, "network_seconds", config.network_seconds);
