@@ -1,10 +1,14 @@
-#include <filesystem>
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/old_runs.hpp"
+#include "experiments/run_directory/own_files.hpp"
 
 namespace touchdown::cli {
 
@@ -15,27 +19,46 @@ struct CleanFlags {
   bool dry_run = false;
 };
 
-void clean(const CleanFlags& flags) {
-  std::uintmax_t bytes = 0;
-  for (const experiments::OldRun& run : experiments::old_runs(flags.runs)) {
-    if (!flags.dry_run) std::filesystem::remove_all(run.directory);
-    bytes += run.bytes;
-    fmt::print("{}  {:.1f} MB\n", run.directory.string(), 1e-6 * static_cast<double>(run.bytes));
+/// Removes a run, says so and returns how many bytes that were. A run that somebody is working on
+/// stays, and so does what no run made.
+std::uintmax_t remove(const experiments::OldRun& run, const CliSession& session) {
+  std::optional<experiments::DirectoryLock> lock;
+  try {
+    lock.emplace(run.directory, experiments::Access::alone, session.command);
+  } catch (const Error& error) {
+    fmt::print("{}\n", error.what());
+    return 0;
   }
-  fmt::print("{:.1f} MB {}\n", 1e-6 * static_cast<double>(bytes),
+  const experiments::Strangers left = experiments::remove_run(run.directory);
+  if (left.files > 0) {
+    fmt::print("{}  {} files stay that no run made\n", run.directory.string(), left.files);
+  }
+  return run.bytes - std::min(run.bytes, left.bytes);
+}
+
+void clean(const CleanFlags& flags, const CliSession& session) {
+  std::uintmax_t all = 0;
+  for (const experiments::OldRun& run : experiments::old_runs(flags.runs)) {
+    const std::uintmax_t bytes = flags.dry_run ? run.bytes : remove(run, session);
+    if (bytes > 0) {
+      fmt::print("{}  {:.1f} MB\n", run.directory.string(), 1e-6 * static_cast<double>(bytes));
+    }
+    all += bytes;
+  }
+  fmt::print("{:.1f} MB {}\n", 1e-6 * static_cast<double>(all),
              flags.dry_run ? "would be free" : "are free");
 }
 
 }  // namespace
 
-void add_clean(CLI::App& program, const CliSession& /*session*/) {
+void add_clean(CLI::App& program, const CliSession& session) {
   Verb verb(program, "clean",
             "touchdown clean --dry-run\n\n"
             "Removes all runs but the latest of each experiment.");
   const auto flags = std::make_shared<CleanFlags>();
   verb.option("runs", &flags->runs, "Folder of runs").value_name("DIR").shows_default();
   verb.flag("--dry-run", &flags->dry_run, "Only show what would go");
-  verb.action([flags] { clean(*flags); });
+  verb.action([flags, &session] { clean(*flags, session); });
 }
 
 }  // namespace touchdown::cli

@@ -6,6 +6,7 @@
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "experiments/run_directory/lock.hpp"
 #include "render/film/video.hpp"
 #include "render/pictures/filmed_run.hpp"
 
@@ -24,7 +25,7 @@ struct RenderFlags {
 };
 
 /// What is to be seen: one run, or two beside each other.
-std::vector<render::FilmedRun> runs_of(const RenderFlags& flags) {
+std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSession& session) {
   std::vector<render::FilmedRun> runs;
   std::vector<std::string> warnings;
   std::error_code ignored;
@@ -33,6 +34,7 @@ std::vector<render::FilmedRun> runs_of(const RenderFlags& flags) {
       runs.push_back(render::filmed_recording(input, warnings));
       continue;
     }
+    const auto lock = experiments::DirectoryLock::for_reading(input, session.command);
     std::vector<render::FilmedRun> filmed = render::filmed_runs(render::read_subject(input));
     if (filmed.empty()) {
       throw InputError(fmt::format("{}: has no recording of the run that it films", input));
@@ -53,7 +55,7 @@ std::vector<render::FilmedRun> runs_of(const RenderFlags& flags) {
 }
 
 void render(const RenderFlags& flags, const CliSession& session) {
-  const std::vector<render::FilmedRun> runs = runs_of(flags);
+  const std::vector<render::FilmedRun> runs = runs_of(flags, session);
   render::VideoOptions options = flags.video;
   options.quality =
       flags.quality == "page" ? render::VideoQuality::page : render::VideoQuality::draft;

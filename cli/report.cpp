@@ -1,9 +1,12 @@
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
+#include "experiments/run_directory/lock.hpp"
+#include "experiments/run_directory/occupant.hpp"
 #include "render/pictures/filmed_report.hpp"
 
 namespace touchdown::cli {
@@ -27,6 +30,10 @@ void add_report(CLI::App& program, const CliSession& session) {
   verb.option("directory", &flags->directory, "Run directory").required();
   verb.flag("--no-film", &flags->no_film, "Without the video inside");
   verb.action([flags, &session] {
+    std::optional<experiments::DirectoryLock> lock;
+    if (experiments::occupant_of(flags->directory)) {
+      lock.emplace(flags->directory, experiments::Access::alone, session.command);
+    }
     const render::ReportSubject subject = render::read_subject(flags->directory);
     std::vector<render::FilmedRun> filmed;
     if (!flags->no_film && subject.experiment.video.enabled) filmed = render::filmed_runs(subject);

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,7 +20,8 @@ struct RunFlags {
   std::string experiment;
   std::string out;
   std::vector<std::string> overrides;
-  std::string shard;
+  std::vector<std::string> shard;  ///< one, if it is given
+  bool overwrite = false;
   bool dry_run = false;
   bool no_pictures = false;
 };
@@ -45,12 +47,14 @@ void outline(const experiments::Experiment& experiment, const experiments::RunOp
 
 void run(const RunFlags& flags, const CliSession& session) {
   std::optional<experiments::Shard> shard;
-  if (!flags.shard.empty()) shard = experiments::shard_from(flags.shard);
+  if (!flags.shard.empty()) shard = experiments::shard_from(flags.shard.front());
   YamlDocument document = YamlDocument::load(find_resource(flags.experiment));
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
   experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
-  const experiments::RunOptions options{
-      .out = flags.out, .command = session.command, .stop = session.stop};
+  const experiments::RunOptions options{.out = flags.out,
+                                        .command = session.command,
+                                        .stop = session.stop,
+                                        .overwrite = flags.overwrite};
   const experiments::Experiment experiment = experiments::experiment_from_yaml(document);
   if (flags.dry_run) {
     outline(experiment, options);
@@ -80,7 +84,10 @@ void add_run(CLI::App& program, const CliSession& session) {
       .one_at_a_time();
   verb.option("--shard", &flags->shard,
               "Compute one part of n into the run directory, for `touchdown merge`")
-      .value_name("K/N");
+      .value_name("K/N")
+      .takes(1);
+  verb.flag("--overwrite", &flags->overwrite,
+            "Replace another experiment that is in the run directory; files that no run made stay");
   verb.flag("--dry-run", &flags->dry_run,
             "Only check the experiment, and say where its results go and in how many parts\n"
             "it can be computed");

@@ -1,15 +1,19 @@
 #include "experiments/run_experiment.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
 #include <set>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/cross_simulator/tables.hpp"
+#include "experiments/needs.hpp"
 #include "experiments/phase_study/fit.hpp"
 #include "experiments/phase_study/tables.hpp"
 #include "experiments/play/pieces.hpp"
-#include "experiments/run_directory/saved_state.hpp"
+#include "experiments/run_directory/occupant.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "experiments/tables/manifest.hpp"
 #include "experiments/tables/result_files.hpp"
 
@@ -116,17 +120,43 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
   return result;
 }
 
+/// Where a request is computed, taken by this process; made the request's if it is not yet.
+RunDirectory place_for(const RunRequest& request, Access access, const RunOptions& options) {
+  const std::string& name = request.experiment.name;
+  require_place(request, run_path(name, request.id, options.out), options.overwrite);
+  RunDirectory directory(name, request.id, options.out);
+  const std::filesystem::path& path = directory.path();
+  if (access == Access::alone) {
+    directory.keep({path, access, options.command});
+    write_request(request, directory, options.overwrite);
+    return directory;
+  }
+  // Shards that start together wait for the first of them to write the request.
+  constexpr std::chrono::seconds patience(10);
+  directory.keep({path, access, options.command, patience});
+  if (is_written(request, path)) return directory;
+  directory.release();
+  directory.keep({path, Access::alone, options.command, patience});
+  if (!is_written(request, path)) write_request(request, directory, options.overwrite);
+  directory.release();
+  directory.keep({path, access, options.command, patience});
+  require_place(request, path, false);
+  return directory;
+}
+
 }  // namespace
 
 RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
   const RunRequest request = request_of(experiment);
-  return {run_path(experiment.name, request.id, options.out), whole_plan(request).tasks.size()};
+  const std::filesystem::path directory = run_path(experiment.name, request.id, options.out);
+  require_place(request, directory, options.overwrite);
+  return {directory, whole_plan(request).tasks.size()};
 }
 
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options) {
   RunRequest request = request_of(experiment);
-  RunDirectory directory(experiment.name, request.id, options.out);
-  write_request(request, directory, true);
+  require_memory(request, 1.0);
+  RunDirectory directory = place_for(request, Access::alone, options);
   remove_partial_files(directory.path());
   RunningExperiment running = start(std::move(request), std::move(directory), options);
   return conclude(running, compute(running, running.plan.all_tasks(), MissingRun::simulate));
@@ -134,8 +164,8 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& 
 
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
   RunRequest request = request_of(experiment);
-  RunDirectory directory(experiment.name, request.id, options.out);
-  write_request(request, directory, false);
+  require_memory(request, 1.0 / shard.count);
+  RunDirectory directory = place_for(request, Access::shared, options);
   note_shard(directory.path(), shard);
   RunningExperiment running = start(std::move(request), std::move(directory), options);
   const std::size_t all = running.plan.tasks.size();
@@ -151,8 +181,12 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
 }
 
 ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& options) {
-  RunRequest request = read_request(path);
+  std::optional<DirectoryLock> lock;
+  if (occupant_of(path)) lock.emplace(path, Access::alone, options.command);
+  RunRequest request = read_request(path);  // complains of a directory that is nobody's
+  require_memory(request, 1.0);
   RunDirectory directory(request.experiment.name, request.id, path);
+  directory.keep(*lock);
   RunningExperiment running = start(std::move(request), std::move(directory), options);
   require_all_shards(running);
   return conclude(running, compute(running, running.plan.all_tasks(), MissingRun::refuse));

@@ -1,6 +1,7 @@
 #include "experiments/running_experiment.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <thread>
 
@@ -8,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "experiments/cross_simulator/variations.hpp"
+#include "experiments/needs.hpp"
 #include "experiments/phase_study/plan.hpp"
 #include "experiments/run_directory/free_space.hpp"
 #include "experiments/run_directory/shard.hpp"
@@ -41,22 +43,42 @@ std::vector<std::size_t> missing_tasks(const RunningExperiment& running) {
   return missing;
 }
 
-/// The most that the run may still write: a step of a recording takes about 1.05 kB, pictures and
-/// tables some tens of MB.
-std::uintmax_t most_bytes(const Plan& plan, const RunDirectory& directory) {
+/// How many parts are saved, whoever computed them.
+std::size_t saved_parts(const RunDirectory& directory) {
+  std::error_code ignored;
+  const std::filesystem::directory_iterator parts(directory.path() / "state/listening", ignored);
+  return static_cast<std::size_t>(std::distance(begin(parts), end(parts)));
+}
+
+/// The most that the run may still write: a step of a recording takes about 1.05 kB.
+DiskNeeds disk_needs(const Plan& plan, const RunDirectory& directory) {
   constexpr double step_bytes = 1100.0;
-  double bytes = 50e6;
+  DiskNeeds needs;
   for (const PlannedRun& run : plan.runs) {
     if (!run.kept || has_stamp(run, directory)) continue;
-    bytes += step_bytes * run.scenario.end.duration /
-             (1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us));
+    needs.recordings += step_bytes * run.scenario.end.duration /
+                        (1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us));
   }
-  return static_cast<std::uintmax_t>(bytes);
+  const std::size_t parts = plan.tasks.size();
+  const std::size_t missing = parts - std::min(parts, saved_parts(directory));
+  if (missing > 0) {
+    needs.parts = bytes_of_parts(plan) * static_cast<double>(missing) / static_cast<double>(parts);
+  }
+  return needs;
+}
+
+/// Errors: `InputError` when what is saved for a task is another task's, or of another request.
+void require_own(const RunningExperiment& running, const Task& task) {
+  const std::optional<WrongPart> wrong = running.saved.wrong_part(running.plan, task);
+  if (!wrong) return;
+  throw InputError(fmt::format("{}: holds '{}', expected '{}'", wrong->file.string(), wrong->found,
+                               wrong->expected));
 }
 
 }  // namespace
 
 Plan whole_plan(const RunRequest& request) {
+  require_memory(request, 0.0);
   Plan plan = plan_of(request);
   if (request.experiment.cross_simulator) add_cross_simulator(request, plan);
   if (request.experiment.phase_study) add_phase_study(request, plan);
@@ -67,7 +89,13 @@ Plan whole_plan(const RunRequest& request) {
 RunningExperiment start(RunRequest request, RunDirectory directory, const RunOptions& options) {
   const int threads = threads_of(request.experiment);
   Plan plan = whole_plan(request);
-  require_free_space(directory.path(), most_bytes(plan, directory));
+  const DiskNeeds needs = disk_needs(plan, directory);
+  require_free_space(
+      directory.path(), static_cast<std::uintmax_t>(needs.all()),
+      fmt::format("{:.1f} GB for recordings, {:.1f} GB for {} parts of the listening, "
+                  "by test.runs={} and noise.seeds={}",
+                  1e-9 * needs.recordings, 1e-9 * needs.parts, plan.tasks.size(),
+                  request.experiment.test.runs, request.experiment.noise.seeds));
   SavedCounts saved(directory.path() / "state" / "listening", state_key(request));
   return {std::move(request),
           std::move(directory),
@@ -98,6 +126,7 @@ std::string what_is_saved(const RunningExperiment& running) {
 void require_all_shards(const RunningExperiment& running) {
   const std::vector<std::size_t> missing = missing_tasks(running);
   if (missing.empty()) return;
+  for (const std::size_t task : missing) require_own(running, running.plan.tasks[task]);
   const std::filesystem::path& directory = running.directory.path();
   const std::size_t tasks = running.plan.tasks.size();
   const int count = noted_shards(directory);

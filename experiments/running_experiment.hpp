@@ -17,6 +17,7 @@ struct RunOptions {
   std::filesystem::path out;                ///< run directory; empty: by the experiment's content
   std::string command;                      ///< what was typed, for the manifest
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user asks to stop
+  bool overwrite = false;  ///< another experiment that is in the run directory is replaced
 };
 
 /// What every step of an experiment works with. While it lives, it limits the number of threads to

@@ -15,6 +15,7 @@
 #include "core/fingerprint.hpp"
 #include "core/progress.hpp"
 #include "experiments/run_directory/directory.hpp"
+#include "experiments/run_directory/occupant.hpp"
 #include "recordings/models/neural_network.hpp"
 #include "training/blas.hpp"
 #include "training/initial_weights.hpp"
@@ -63,6 +64,8 @@ class TrainingSession {
                    Fingerprint().add(to_yaml(config)).add(scenarios::to_yaml(scenario_)).text(),
                    request.out),
         history_file_(directory_.file("tables", "training.csv")) {
+    experiments::require_no_experiment(directory_.path());
+    directory_.keep({directory_.path(), experiments::Access::alone, request.command});
     write_atomically(directory_.path() / "config.yaml", to_yaml(config));
     if (fs::exists(history_file_)) history_ = read_history(history_file_);
   }

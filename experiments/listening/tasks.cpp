@@ -97,7 +97,8 @@ SavedCounts::SavedCounts(std::filesystem::path folder, std::string key)
     : folder_(std::move(folder)), key_(std::move(key)) {}
 
 std::optional<TaskCounts> SavedCounts::read(const Plan& plan, const Task& task) const {
-  const std::optional<std::string> bytes = read_state(folder_ / name_of(plan, task), key_);
+  const std::optional<std::string> bytes =
+      read_state(folder_ / name_of(plan, task), key_of(plan, task));
   if (!bytes) return std::nullopt;
   std::string_view rest = *bytes;
   TaskCounts counts;
@@ -108,7 +109,19 @@ std::optional<TaskCounts> SavedCounts::read(const Plan& plan, const Task& task) 
 void SavedCounts::write(const Plan& plan, const Task& task, const TaskCounts& counts) const {
   std::string bytes;
   for_each_part([&](const auto& part) { append(bytes, part); }, counts);
-  write_state(folder_ / name_of(plan, task), key_, bytes);
+  write_state(folder_ / name_of(plan, task), key_of(plan, task), bytes);
+}
+
+std::optional<WrongPart> SavedCounts::wrong_part(const Plan& plan, const Task& task) const {
+  const std::filesystem::path file = folder_ / name_of(plan, task);
+  const std::optional<SavedState> state = read_any_state(file);
+  const std::string expected = key_of(plan, task);
+  if (!state || state->key == expected) return std::nullopt;
+  return WrongPart{file, state->key, expected};
+}
+
+std::string SavedCounts::key_of(const Plan& plan, const Task& task) const {
+  return fmt::format("{} part {}", key_, name_of(plan, task));
 }
 
 TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,

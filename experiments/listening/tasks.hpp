@@ -22,16 +22,29 @@ struct TaskCounts {
   std::vector<scoring::Classification> disturbed;  ///< likewise
 };
 
+/// A file that is whole and in a task's place, but is not that task's of that request.
+struct WrongPart {
+  std::filesystem::path file;
+  std::string found;     ///< what it says it is
+  std::string expected;  ///< what it has to be
+};
+
 /// Where an experiment's tasks are saved.
 class SavedCounts {
  public:
-  /// `key` names the experiment and the build: nothing else is believed.
+  /// `key` names the experiment and the build; with it a part carries its task's name. Nothing else
+  /// is believed.
   SavedCounts(std::filesystem::path folder, std::string key);
 
   std::optional<TaskCounts> read(const Plan& plan, const Task& task) const;
   void write(const Plan& plan, const Task& task, const TaskCounts& counts) const;
+  /// What stands in a task's place and is not its own; nothing for what is right, missing or
+  /// broken.
+  std::optional<WrongPart> wrong_part(const Plan& plan, const Task& task) const;
 
  private:
+  std::string key_of(const Plan& plan, const Task& task) const;
+
   std::filesystem::path folder_;
   std::string key_;
 };

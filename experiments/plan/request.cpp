@@ -1,6 +1,7 @@
 #include "experiments/plan/request.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,8 @@
 #include "core/fingerprint.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
+#include "experiments/run_directory/occupant.hpp"
+#include "experiments/run_directory/own_files.hpp"
 
 namespace touchdown::experiments {
 
@@ -16,14 +19,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string id_of(const RunRequest& request) {
-  Fingerprint fingerprint;
-  fingerprint.add(to_yaml(request.experiment));
-  for (const NamedScenario& named : request.scenarios) {
-    fingerprint.add(scenarios::to_yaml(named.scenario)).add(read_file(named.scenario.robot));
+/// The digest of a request, one scenario after the other.
+class Digest {
+ public:
+  explicit Digest(const Experiment& experiment) { fingerprint_.add(to_yaml(experiment)); }
+  /// The robot's file counts under the path that the scenario has for it.
+  void add(const scenarios::Scenario& scenario) {
+    fingerprint_.add(scenarios::to_yaml(scenario)).add(read_file(find_resource(scenario.robot)));
   }
-  return fingerprint.text();
-}
+  std::string text() const { return fingerprint_.text(); }
+
+ private:
+  Fingerprint fingerprint_;
+};
 
 /// Every scenario file that the experiment names, once, as `read` finds the n-th of them.
 template <typename Read>
@@ -52,7 +60,9 @@ RunRequest request_of(const Experiment& experiment) {
   request.scenarios = scenarios_of(experiment, [](const std::string& file, std::size_t /*n*/) {
     return scenarios::find_scenario(file);
   });
-  request.id = id_of(request);
+  Digest digest(experiment);
+  for (const NamedScenario& named : request.scenarios) digest.add(named.scenario);
+  request.id = digest.text();
   return request;
 }
 
@@ -61,46 +71,65 @@ const NamedScenario& scenario_of(const RunRequest& request, const std::string& f
                        [&](const NamedScenario& named) { return named.file == file; });
 }
 
-std::string state_key(const RunRequest& request) {
-  return fmt::format("experiment {} build {}", request.id, build_fingerprint());
+std::string state_key(const RunRequest& request) { return key_of(request.id, build_fingerprint()); }
+
+void require_place(const RunRequest& request, const fs::path& directory, bool overwrite) {
+  const std::optional<Occupant> occupant = occupant_of(directory);
+  if (!occupant) return require_no_strangers(directory);
+  if (occupant->request == request.id || overwrite) return;
+  throw InputError(fmt::format(
+      "{}: holds experiment '{}' (request {}), and this is '{}' (request {}): choose another "
+      "--out, "
+      "or --overwrite to replace it",
+      directory.string(), occupant->name, occupant->request, request.experiment.name, request.id));
 }
 
-void write_request(const RunRequest& request, const RunDirectory& directory, bool alone) {
-  const fs::path key_file = directory.file("state", "key");
-  const std::string key = state_key(request) + "\n";
+bool is_written(const RunRequest& request, const fs::path& directory) {
+  const std::optional<Occupant> occupant = occupant_of(directory);
   std::error_code ignored;
-  if (alone && fs::exists(key_file, ignored) && read_file(key_file) != key) {
-    for (const char* folder : {"state", "recordings", "models", "tables", "figures", "videos"}) {
-      fs::remove_all(directory.path() / folder);
-    }
-  }
+  return occupant && occupant->key == state_key(request) &&
+         fs::exists(directory / "config.yaml", ignored);
+}
+
+void write_request(const RunRequest& request, const RunDirectory& directory, bool overwrite) {
+  require_place(request, directory.path(), overwrite);
+  const std::optional<Occupant> occupant = occupant_of(directory.path());
+  if (occupant && occupant->key != state_key(request)) remove_own_files(directory.path());
+  // The key is the first: what follows it, half written, is not taken for a stranger's.
+  write_atomically(key_file(directory.path()), state_key(request) + "\n");
   for (std::size_t i = 0; i < request.scenarios.size(); ++i) {
     write_atomically(directory.file("state", scenario_file(i)),
                      scenarios::to_yaml(request.scenarios[i].scenario));
   }
   write_atomically(directory.path() / "config.yaml", to_yaml(request.experiment));
-  write_atomically(key_file, key);
 }
 
 RunRequest read_request(const fs::path& directory) {
-  const fs::path key_file = directory / "state" / "key";
-  std::error_code ignored;
-  if (!fs::exists(key_file, ignored)) {
+  const std::optional<Occupant> occupant = occupant_of(directory);
+  if (!occupant) {
     throw InputError(fmt::format("{}: holds no part of an experiment", directory.string()));
   }
-  RunRequest request;
-  request.experiment = experiment_from_yaml(YamlDocument::load(directory / "config.yaml"));
-  request.scenarios =
-      scenarios_of(request.experiment, [&](const std::string& /*file*/, std::size_t number) {
-        return scenarios::scenario_from_yaml(
-            YamlDocument::load(directory / "state" / scenario_file(number)));
-      });
-  const std::string key = read_file(key_file);
-  request.id = key.substr(0, key.find(" build ")).substr(std::string("experiment ").size());
-  if (key != state_key(request) + "\n") {
+  if (occupant->key != key_of(occupant->request, build_fingerprint())) {
     throw InputError(
         fmt::format("{}: was computed by another build of touchdown: run it again with this one",
                     directory.string()));
+  }
+  RunRequest request;
+  request.experiment = experiment_from_yaml(YamlDocument::load(directory / "config.yaml"));
+  Digest digest(request.experiment);
+  request.scenarios =
+      scenarios_of(request.experiment, [&](const std::string& /*file*/, std::size_t number) {
+        scenarios::Scenario scenario = scenarios::scenario_from_yaml(
+            YamlDocument::load(directory / "state" / scenario_file(number)));
+        digest.add(scenario);
+        return scenario;
+      });
+  request.id = digest.text();
+  if (request.id != occupant->request) {
+    throw InputError(fmt::format(
+        "{}: config.yaml, a scenario in state or the robot was changed since: they make request "
+        "{}, expected {}; undo the change, or run the changed experiment elsewhere",
+        directory.string(), request.id, occupant->request));
   }
   return request;
 }

@@ -32,12 +32,21 @@ const NamedScenario& scenario_of(const RunRequest& request, const std::string& f
 /// The request and the build that a run directory's contents belong to: what state is saved under.
 std::string state_key(const RunRequest& request);
 
-/// Writes the request into a run directory, so that `merge` needs nothing else. What another
-/// request or another build left behind there is removed if `alone`; several processes that share
-/// the directory just do not believe it.
-void write_request(const RunRequest& request, const RunDirectory& directory, bool alone);
+/// Errors: `InputError` when a directory holds another experiment, named with its request, unless
+/// it is to be overwritten; or when it holds files that no run made where a run would write.
+void require_place(const RunRequest& request, const std::filesystem::path& directory,
+                   bool overwrite);
 
-/// Reads it back. Errors: `InputError` when the directory holds none, or one of another build.
+/// Whether a run directory is this request's and this build's already.
+bool is_written(const RunRequest& request, const std::filesystem::path& directory);
+
+/// Makes a directory that `require_place` allows this request's, so that `merge` needs nothing
+/// else. What another request or another build made there is removed; whoever calls this has the
+/// directory alone.
+void write_request(const RunRequest& request, const RunDirectory& directory, bool overwrite);
+
+/// Reads it back. Errors: `InputError` when the directory holds none, one of another build, or not
+/// what was written there.
 RunRequest read_request(const std::filesystem::path& directory);
 
 }  // namespace touchdown::experiments

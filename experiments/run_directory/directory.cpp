@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/file_names.hpp"
 #include "core/files.hpp"
 
 namespace touchdown::experiments {
@@ -25,6 +26,14 @@ void point(const fs::path& link, const fs::path& target) {
   fs::rename(temporary, link);
 }
 
+/// The scenario's name may come from a recording that somebody else made.
+const std::string& name_word(const std::string& scenario) {
+  if (!is_name_word(scenario)) {
+    throw InputError(fmt::format("a scenario's name: {}", expected_name_word));
+  }
+  return scenario;
+}
+
 }  // namespace
 
 fs::path run_path(const std::string& experiment, const std::string& id, const fs::path& out) {
@@ -33,7 +42,7 @@ fs::path run_path(const std::string& experiment, const std::string& id, const fs
 
 std::string recording_name(const std::string& simulator, const std::string& scenario,
                            std::string_view role, std::int64_t number) {
-  return fmt::format("{}_{}_{}_{:03}.mpack", simulator, scenario, role, number);
+  return fmt::format("{}_{}_{}_{:03}.mpack", simulator, name_word(scenario), role, number);
 }
 
 std::string model_name(const std::string& simulator, const std::string& estimator) {
@@ -41,7 +50,7 @@ std::string model_name(const std::string& simulator, const std::string& estimato
 }
 
 std::string video_name(const std::string& simulator, const std::string& scenario) {
-  return fmt::format("{}_{}.mp4", simulator, scenario);
+  return fmt::format("{}_{}.mp4", simulator, name_word(scenario));
 }
 
 RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/table.hpp"
+#include "experiments/run_directory/lock.hpp"
 
 namespace touchdown::experiments {
 
@@ -13,7 +15,8 @@ namespace touchdown::experiments {
 std::filesystem::path run_path(const std::string& experiment, const std::string& id,
                                const std::filesystem::path& out = {});
 
-/// Names of files in the folders `recordings`, `models` and `videos` of a run directory.
+/// Names of files in the folders `recordings`, `models` and `videos` of a run directory. Errors:
+/// `InputError` for a scenario whose name would lead elsewhere.
 std::string recording_name(const std::string& simulator, const std::string& scenario,
                            std::string_view role, std::int64_t number);
 std::string model_name(const std::string& simulator, const std::string& estimator);
@@ -29,6 +32,10 @@ class RunDirectory {
   RunDirectory(const std::string& experiment, const std::string& id,
                const std::filesystem::path& out = {});
 
+  /// Keeps the directory taken for as long as this, or a copy of it, lives.
+  void keep(const DirectoryLock& lock) { lock_ = lock; }
+  void release() { lock_.reset(); }
+
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path file(std::string_view folder, std::string_view name) const {
     return path_ / folder / name;
@@ -38,6 +45,7 @@ class RunDirectory {
 
  private:
   std::filesystem::path path_;
+  std::optional<DirectoryLock> lock_;
 };
 
 }  // namespace touchdown::experiments

@@ -6,15 +6,18 @@
 
 namespace touchdown::experiments {
 
-void require_free_space(const std::filesystem::path& directory, std::uintmax_t needed) {
+void require_free_space(const std::filesystem::path& directory, std::uintmax_t needed,
+                        const std::string& what_for) {
   std::error_code unknown;
   const std::uintmax_t free = std::filesystem::space(directory, unknown).available;
   if (unknown || free >= needed) return;
   throw Error(fmt::format(
-      "{}: this run may need {:.1f} GB, and {:.1f} GB are free: free some (`touchdown clean` "
-      "removes "
-      "old runs), keep fewer recordings (--set recordings=pictured), or put it elsewhere (--out)",
-      directory.string(), 1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(free)));
+      "{}: this run may need {:.1f} GB{}, and {:.1f} GB are free: free some (`touchdown clean` "
+      "removes old runs), keep fewer recordings (--set recordings=pictured), lower what asks for "
+      "so "
+      "many parts, or put it elsewhere (--out)",
+      directory.string(), 1e-9 * static_cast<double>(needed),
+      what_for.empty() ? "" : fmt::format(" ({})", what_for), 1e-9 * static_cast<double>(free)));
 }
 
 }  // namespace touchdown::experiments

@@ -1,5 +1,6 @@
 #include "experiments/run_directory/saved_state.hpp"
 
+#include <array>
 #include <fstream>
 #include <memory>
 #include <vector>
@@ -45,35 +46,26 @@ void write_state(const std::filesystem::path& path, std::string_view key,
 }
 
 std::optional<std::string> read_state(const std::filesystem::path& path, std::string_view key) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
-  std::string file = read_file(path);
-  const std::string_view all = file;
-  std::size_t start = 0;
-  for (int line = 0; line < 3; ++line) {
-    const std::size_t end = all.find('\n', start);
-    if (end == std::string_view::npos) return std::nullopt;
-    start = end + 1;
-  }
-  const std::string_view content = all.substr(start);
-  if (all.substr(0, start) != head(key, content)) return std::nullopt;
-  return std::string(content);
+  std::optional<SavedState> state = read_any_state(path);
+  if (!state || state->key != key) return std::nullopt;
+  return std::move(state->content);
 }
 
-void remove_partial_files(const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
+std::optional<SavedState> read_any_state(const std::filesystem::path& path) {
   std::error_code ignored;
-  std::vector<fs::path> partial;
-  for (fs::recursive_directory_iterator entry(folder, ignored), end; entry != end;
-       entry.increment(ignored)) {
-    const std::string name = entry->path().filename().string();
-    const bool hidden = name.rfind('.', 0) == 0;
-    if (hidden && name.find(".part") != std::string::npos) {
-      partial.push_back(entry->path());
-      entry.disable_recursion_pending();
-    }
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  const std::string file = read_file(path);
+  const std::string_view all = file;
+  std::array<std::size_t, 4> line = {};
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const std::size_t end = all.find('\n', line[i - 1]);
+    if (end == std::string_view::npos) return std::nullopt;
+    line[i] = end + 1;
   }
-  for (const fs::path& path : partial) fs::remove_all(path, ignored);
+  const std::string_view key = all.substr(line[1], line[2] - line[1] - 1);
+  const std::string_view content = all.substr(line[3]);
+  if (all.substr(0, line[3]) != head(key, content)) return std::nullopt;
+  return SavedState{std::string(key), std::string(content)};
 }
 
 }  // namespace touchdown::experiments

@@ -21,8 +21,11 @@ void write_state(const std::filesystem::path& path, std::string_view key, std::s
 /// another one, or if it is not whole.
 std::optional<std::string> read_state(const std::filesystem::path& path, std::string_view key);
 
-/// Removes what processes that were killed left half written anywhere below `folder`: hidden files
-/// and folders with `.part` in their names.
-void remove_partial_files(const std::filesystem::path& folder);
+/// What somebody wrote there, under whatever key. Nothing if it is not whole.
+struct SavedState {
+  std::string key;
+  std::string content;
+};
+std::optional<SavedState> read_any_state(const std::filesystem::path& path);
 
 }  // namespace touchdown::experiments

@@ -1,6 +1,9 @@
 #include "experiments/run_directory/shard.hpp"
 
 #include <charconv>
+#include <regex>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -9,10 +12,24 @@
 
 namespace touchdown::experiments {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-std::filesystem::path notes(const std::filesystem::path& run_directory) {
-  return run_directory / "state" / "shards";
+fs::path notes(const fs::path& run_directory) { return run_directory / "state" / "shards"; }
+
+/// The files whose names are notes.
+std::vector<std::pair<fs::path, Shard>> notes_in(const fs::path& run_directory) {
+  static const std::regex shape(R"((\d{1,6})_of_(\d{1,6}))");
+  std::vector<std::pair<fs::path, Shard>> found;
+  std::error_code ignored;
+  for (const auto& note : fs::directory_iterator(notes(run_directory), ignored)) {
+    const std::string name = note.path().filename().string();
+    std::smatch part;
+    if (!std::regex_match(name, part, shape)) continue;
+    found.push_back({note.path(), {std::stoi(part[1]), std::stoi(part[2])}});
+  }
+  return found;
 }
 
 }  // namespace
@@ -35,30 +52,28 @@ Shard shard_from(std::string_view text) {
 
 std::string to_text(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 
-void note_shard(const std::filesystem::path& run_directory, const Shard& shard) {
+void note_shard(const fs::path& run_directory, const Shard& shard) {
   write_atomically(notes(run_directory) / fmt::format("{}_of_{}", shard.index, shard.count),
                    to_text(shard) + "\n");
 }
 
-int noted_shards(const std::filesystem::path& run_directory) {
+int noted_shards(const fs::path& run_directory) {
   int count = 1;
-  auto newest = std::filesystem::file_time_type::min();
+  auto newest = fs::file_time_type::min();
   std::error_code ignored;
-  for (const auto& note : std::filesystem::directory_iterator(notes(run_directory), ignored)) {
-    if (note.path().filename().string().rfind('.', 0) == 0) continue;
-    const auto written = note.last_write_time(ignored);
+  for (const auto& [path, shard] : notes_in(run_directory)) {
+    const auto written = fs::last_write_time(path, ignored);
     if (written < newest) continue;
-    std::string text = read_file(note.path());
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    count = shard_from(text).count;
+    count = shard.count;
     newest = written;
   }
   return count;
 }
 
-void remove_shard_notes(const std::filesystem::path& run_directory) {
+void remove_shard_notes(const fs::path& run_directory) {
   std::error_code ignored;
-  std::filesystem::remove_all(notes(run_directory), ignored);
+  for (const auto& [path, shard] : notes_in(run_directory)) fs::remove(path, ignored);
+  fs::remove(notes(run_directory), ignored);
 }
 
 }  // namespace touchdown::experiments

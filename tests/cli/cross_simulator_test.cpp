@@ -26,7 +26,7 @@ Ended check(const ScratchFolder& folder, double largest_loss, double smallest_ga
                "  verdict: {largest_loss: " +
                    std::to_string(largest_loss) + ", smallest_gain: " +
                    std::to_string(smallest_gain) + ", demanded: [" + demanded + "]}\n");
-  return touchdown_program("run check.yaml --out out --no-pictures", folder.path());
+  return touchdown_program("run check.yaml --out out --overwrite --no-pictures", folder.path());
 }
 
 TEST(CrossSimulator, ExitsWithOneWhenADemandedVerdictFailsAndKeepsItsTables) {

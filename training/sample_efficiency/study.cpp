@@ -17,6 +17,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/listening/sweep_run.hpp"
 #include "experiments/run_directory/directory.hpp"
+#include "experiments/run_directory/occupant.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "recordings/models/neural_network.hpp"
 #include "render/gnuplot/process.hpp"
@@ -215,8 +216,10 @@ class SampleEfficiencyStudy {
 
 std::filesystem::path sample_efficiency(const SampleEfficiencyConfig& config,
                                         const TrainingRequest& request) {
-  const experiments::RunDirectory directory(config.name, Fingerprint().add(to_yaml(config)).text(),
-                                            request.out);
+  experiments::RunDirectory directory(config.name, Fingerprint().add(to_yaml(config)).text(),
+                                      request.out);
+  experiments::require_no_experiment(directory.path());
+  directory.keep({directory.path(), experiments::Access::alone, request.command});
   write_atomically(directory.path() / "config.yaml", to_yaml(config));
   set_training_threads(request.thread_count());
   const Table table = SampleEfficiencyStudy(config, request).run();

@@ -60,19 +60,16 @@ TEST(SavedState, ChecksumsOfFilesAreThoseOfTheirContent) {
   EXPECT_EQ(file_checksum(folder / "missing"), std::nullopt);
 }
 
-TEST(SavedState, RemovesWhatKilledWritersLeft) {
+TEST(SavedState, SaysUnderWhichKeyItLies) {
   const ScratchFolder folder;
-  folder.write("tables/.success.1234.0abc.part.csv", "half");
-  folder.write("state/.part.77.0abc.part", "half");
-  folder.write("figures/.success_mujoco.4321.part/success_mujoco.gp", "half");
-  folder.write("tables/success.csv", "whole");
-  folder.write("tables/my.parts", "whole");
-  remove_partial_files(folder.path());
-  EXPECT_FALSE(std::filesystem::exists(folder / "tables/.success.1234.0abc.part.csv"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "state/.part.77.0abc.part"));
-  EXPECT_TRUE(std::filesystem::is_empty(folder / "figures"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "tables/success.csv"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "tables/my.parts"));
+  const auto file = folder / "part";
+  write_state(file, "experiment a build b part c", bytes(50));
+  const auto state = read_any_state(file);
+  ASSERT_TRUE(state.has_value());
+  EXPECT_EQ(state->key, "experiment a build b part c");
+  EXPECT_EQ(state->content, bytes(50));
+  write_atomically(file, read_file(file) + "x");
+  EXPECT_FALSE(read_any_state(file).has_value());
 }
 
 }  // namespace

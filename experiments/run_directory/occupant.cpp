@@ -1,0 +1,86 @@
+#include "experiments/run_directory/occupant.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/file_names.hpp"
+#include "core/files.hpp"
+#include "core/yaml.hpp"
+#include "experiments/run_directory/lock.hpp"
+
+namespace touchdown::experiments {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view before_request = "experiment ";
+constexpr std::string_view before_build = " build ";
+
+std::string name_in(const fs::path& config) {
+  try {
+    return YamlDocument::load(config).root()["name"].as<std::string>("");
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+/// Something in a folder that a killed start, or a start at the same time, did not leave there.
+fs::path stranger_in(const fs::path& folder) {
+  std::error_code unreadable;
+  for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
+    const bool is_lock = entry.path() == lock_file(folder.parent_path());
+    if (!is_lock && !is_part_file_name(entry.path().filename())) return entry.path();
+  }
+  return unreadable ? folder : fs::path();
+}
+
+[[noreturn]] void refuse(const fs::path& directory, const fs::path& stranger) {
+  throw InputError(
+      fmt::format("{}: {} is there already, and no run of touchdown made it: choose another --out",
+                  directory.string(), stranger.lexically_relative(directory).string()));
+}
+
+}  // namespace
+
+fs::path key_file(const fs::path& directory) { return directory / "state" / "key"; }
+
+std::string key_of(const std::string& request, const std::string& build) {
+  return fmt::format("{}{}{}{}", before_request, request, before_build, build);
+}
+
+std::optional<Occupant> occupant_of(const fs::path& directory) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(key_file(directory), ignored)) return std::nullopt;
+  Occupant occupant;
+  occupant.key = read_file(key_file(directory));
+  occupant.key = occupant.key.substr(0, occupant.key.find('\n'));
+  const std::size_t build = occupant.key.find(before_build);
+  if (!occupant.key.starts_with(before_request) || build == std::string::npos) return std::nullopt;
+  occupant.request = occupant.key.substr(before_request.size(), build - before_request.size());
+  occupant.name = name_in(directory / "config.yaml");
+  return occupant;
+}
+
+void require_no_experiment(const fs::path& directory) {
+  const std::optional<Occupant> occupant = occupant_of(directory);
+  if (!occupant) return;
+  throw InputError(fmt::format("{}: holds experiment '{}' (request {}): choose another --out",
+                               directory.string(), occupant->name, occupant->request));
+}
+
+void require_no_strangers(const fs::path& directory) {
+  std::error_code ignored;
+  for (const char* const name : run_files) {
+    const fs::path file = directory / name;
+    if (fs::exists(fs::symlink_status(file, ignored))) refuse(directory, file);
+  }
+  for (const char* const name : run_folders) {
+    const fs::path folder = directory / name;
+    if (!fs::exists(fs::symlink_status(folder, ignored))) continue;
+    const fs::path stranger = stranger_in(folder);
+    if (!stranger.empty()) refuse(directory, stranger);
+  }
+}
+
+}  // namespace touchdown::experiments

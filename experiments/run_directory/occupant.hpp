@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace touchdown::experiments {
+
+/// Where a run writes: these files and folders of its directory, nothing else.
+inline constexpr std::array run_files = {"config.yaml", "manifest.json", "report.html"};
+inline constexpr std::array run_folders = {"state",  "recordings", "models",
+                                           "tables", "figures",    "videos"};
+
+/// The experiment that a run directory belongs to.
+struct Occupant {
+  std::string key;      ///< the whole of it, `key_of`
+  std::string request;  ///< the experiment's digest
+  std::string name;     ///< of the experiment; empty if its file cannot be read
+};
+
+/// Where a run directory says whose it is.
+std::filesystem::path key_file(const std::filesystem::path& directory);
+
+/// What it says there: a request, and the build that computes it.
+std::string key_of(const std::string& request, const std::string& build);
+
+/// Nothing if the directory is nobody's.
+std::optional<Occupant> occupant_of(const std::filesystem::path& directory);
+
+/// Errors: `InputError` when a directory is an experiment's: something else is to go there.
+void require_no_experiment(const std::filesystem::path& directory);
+
+/// Errors: `InputError`, naming it, when a directory that is nobody's holds something where a run
+/// would write: it is not a run's to replace.
+void require_no_strangers(const std::filesystem::path& directory);
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,236 @@
+#include "experiments/run_directory/own_files.hpp"
+
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/file_names.hpp"
+#include "core/files.hpp"
+#include "core/yaml.hpp"
+#include "experiments/run_directory/directory.hpp"
+#include "experiments/run_directory/lock.hpp"
+#include "experiments/run_directory/occupant.hpp"
+
+namespace touchdown::experiments {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// What no experiment decides.
+struct FixedNames {
+  const char* folder;
+  const char* shape;
+};
+constexpr std::array fixed_names = {
+    FixedNames{"state", R"(scenario_\d{3,}\.yaml)"},
+    FixedNames{"state/listening", R"(.+_seed_\d{4,})"},
+    FixedNames{"state/shards", R"(\d+_of_\d+)"},
+    FixedNames{
+        "tables",
+        "(agreement|calibration|classification|differences|labels|latency|reliability|runs|"
+        "sample_efficiency|sensitivity|success|torques|training|transfer|transitions|"
+        "verdicts|views)\\.csv|(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|"
+        "summary\\.json"},
+    FixedNames{"videos", R"(report\.(mp4|jpg))"},
+    FixedNames{"figures", R"((training|sample_efficiency)\.(gp|png))"},
+    FixedNames{"models", R"(nmn\.(npz|json))"},
+    FixedNames{"checkpoints", R"(\d{4,}\.pt)"}};
+
+/// Every folder that a run makes, the inner ones first.
+constexpr std::array all_folders = {
+    "state/listening", "state/recordings", "state/shards", "state",       "recordings", "models",
+    "tables",          "figures",          "videos",       "checkpoints", "logs"};
+
+/// The files in a folder itself; none where the folder is a link or is not there.
+Names files_in(const fs::path& folder) {
+  Names names;
+  std::error_code ignored;
+  if (fs::is_symlink(folder, ignored)) return names;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.symlink_status(ignored).type() == fs::file_type::regular) {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// A list of names, or one name, under a key of a file; none if it cannot be read.
+Names names_under(const char* key, const fs::path& file) {
+  try {
+    const YAML::Node node = YamlDocument::load(file).root()[key];
+    if (node.IsScalar()) return {node.as<std::string>()};
+    return node.as<Names>(Names());
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+/// The names of an experiment's engines, estimators and scenarios make those of its models and
+/// videos.
+std::vector<fs::path> models_and_videos(const fs::path& directory) {
+  const fs::path config = directory / "config.yaml";
+  std::vector<fs::path> names;
+  for (const std::string& simulator : names_under("simulators", config)) {
+    for (const std::string& estimator : names_under("estimators", config)) {
+      names.push_back(fs::path("models") / model_name(simulator, estimator));
+    }
+    for (const std::string& file : files_in(directory / "state")) {
+      if (!file.starts_with("scenario_")) continue;
+      for (const std::string& scenario : names_under("name", directory / "state" / file)) {
+        if (!is_name_word(scenario)) continue;
+        names.push_back(fs::path("videos") / video_name(simulator, scenario));
+      }
+    }
+  }
+  return names;
+}
+
+/// A recording is the run's if there is a stamp for it.
+std::vector<fs::path> recordings_and_stamps(const fs::path& directory) {
+  std::vector<fs::path> names;
+  for (const std::string& stamp : files_in(directory / "state/recordings")) {
+    const fs::path recording = fs::path(stamp).stem();
+    const bool is_stamp =
+        fs::path(stamp).extension() == ".sum" || fs::path(stamp).extension() == ".failed";
+    if (!is_stamp || recording.extension() != ".mpack") continue;
+    names.push_back("recordings" / recording);
+    names.push_back(fs::path("state/recordings") / stamp);
+  }
+  return names;
+}
+
+/// The first line of a figure's script says what it draws; its data stands in it by name.
+std::vector<fs::path> figures(const fs::path& directory) {
+  const fs::path folder = directory / "figures";
+  const Names files = files_in(folder);
+  std::vector<fs::path> names;
+  for (const std::string& script : files) {
+    if (!script.ends_with(".gp")) continue;
+    const std::string stem = fs::path(script).stem().string();
+    const std::string text = read_file(folder / script);
+    if (script == "style.gp") names.push_back(fs::path("figures") / script);
+    if (!text.starts_with(fmt::format("# Draws {}.png", stem))) continue;
+    for (const std::string& file : files) {
+      const bool is_picture =
+          file == stem + ".png" || file == stem + ".svg" || file == stem + ".pdf";
+      const bool is_data = file.starts_with(stem) && file.ends_with(".dat") &&
+                           text.find(fmt::format("'{}'", file)) != std::string::npos;
+      if (is_picture || is_data) names.push_back(fs::path("figures") / file);
+    }
+    names.push_back(fs::path("figures") / script);
+  }
+  return names;
+}
+
+void append(std::vector<fs::path>& all, const std::vector<fs::path>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return !fs::is_symlink(path.parent_path(), ignored) &&
+         fs::symlink_status(path, ignored).type() == fs::file_type::regular;
+}
+
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw Error(fmt::format("{}: cannot be removed: {}", path.string(), error.message()));
+}
+
+void remove_empty_folders(const fs::path& directory) {
+  std::error_code not_empty;
+  for (const char* const folder : all_folders) {
+    const fs::path path = directory / folder;
+    if (fs::symlink_status(path, not_empty).type() == fs::file_type::directory) {
+      fs::remove(path, not_empty);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<fs::path> own_files(const fs::path& directory) {
+  std::vector<fs::path> names = models_and_videos(directory);
+  append(names, recordings_and_stamps(directory));
+  append(names, figures(directory));
+  for (const FixedNames& fixed : fixed_names) {
+    const std::regex shape(fixed.shape);
+    for (const std::string& file : files_in(directory / fixed.folder)) {
+      if (std::regex_match(file, shape)) names.push_back(fs::path(fixed.folder) / file);
+    }
+  }
+  // Scenarios and the experiment name the others: were the removal killed, the next one needs them.
+  std::stable_partition(names.begin(), names.end(), [](const fs::path& name) {
+    return !name.filename().string().starts_with("scenario_");
+  });
+  for (const char* const file : {"report.html", "manifest.json", "config.yaml"}) {
+    names.emplace_back(file);
+  }
+  std::erase_if(names, [&](const fs::path& name) { return !is_file(directory / name); });
+  return names;
+}
+
+void remove_own_files(const fs::path& directory) {
+  for (const fs::path& name : own_files(directory)) remove_file(directory / name);
+  remove_empty_folders(directory);
+}
+
+Strangers remove_run(const fs::path& directory) {
+  remove_partial_files(directory);
+  remove_own_files(directory);
+  static const std::regex log(R"((shard|merge)_\d+(_\d+)?\.txt)");
+  for (const std::string& file : files_in(directory / "logs")) {
+    if (std::regex_match(file, log)) remove_file(directory / "logs" / file);
+  }
+  if (is_file(key_file(directory))) remove_file(key_file(directory));
+  Strangers left;
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    const fs::file_type type = entry.symlink_status().type();
+    if (type == fs::file_type::directory || entry.path() == lock_file(directory)) continue;
+    ++left.files;
+    if (type == fs::file_type::regular) left.bytes += entry.file_size();
+  }
+  if (left.files > 0) return left;
+  // Nobody is given a lock on a file that has gone.
+  if (is_file(lock_file(directory))) remove_file(lock_file(directory));
+  remove_empty_folders(directory);
+  std::error_code not_empty;
+  fs::remove(directory, not_empty);
+  return left;
+}
+
+void remove_partial_files(const fs::path& directory) {
+  std::error_code ignored;
+  std::vector<fs::path> partial;
+  for (const char* const folder : all_folders) {
+    if (fs::is_symlink(directory / folder, ignored)) continue;
+    for (const auto& entry : fs::directory_iterator(directory / folder, ignored)) {
+      const fs::path name = entry.path().filename();
+      const fs::file_type type = entry.symlink_status(ignored).type();
+      if ((type == fs::file_type::regular && is_part_file_name(name)) ||
+          (type == fs::file_type::directory && is_part_folder_name(name))) {
+        partial.push_back(entry.path());
+      }
+    }
+  }
+  for (const std::string& file : files_in(directory)) {
+    const bool is_ours =
+        std::any_of(run_files.begin(), run_files.end(), [&](const fs::path& whole) {
+          return file.starts_with(fmt::format(".{}.", whole.stem().string())) &&
+                 file.ends_with(fmt::format(".part{}", whole.extension().string()));
+        });
+    if (is_ours && is_part_file_name(file)) partial.push_back(directory / file);
+  }
+  for (const fs::path& path : partial) fs::remove_all(path, ignored);
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,60 @@
+#include "experiments/plan/request.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+RunRequest shipped(const std::string& name) {
+  return request_of(experiment_from_yaml(
+      YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/" + name + ".yaml")));
+}
+
+TEST(Request, ThatIsWrittenIsReadBackAsTheSame) {
+  for (const char* name : {"stairs", "noise_study", "tables", "cross_simulator", "phase_study"}) {
+    const ScratchFolder folder;
+    const RunRequest request = shipped(name);
+    const RunDirectory directory(name, request.id, folder.path());
+    EXPECT_FALSE(is_written(request, folder.path()));
+    write_request(request, directory, false);
+    EXPECT_TRUE(is_written(request, folder.path()));
+    EXPECT_EQ(read_request(folder.path()).id, request.id) << name;
+  }
+}
+
+TEST(Request, IsNotWrittenOverAnotherUnasked) {
+  const ScratchFolder folder;
+  const RunRequest stairs = shipped("stairs");
+  const RunRequest tables = shipped("tables");
+  const RunDirectory directory("stairs", stairs.id, folder.path());
+  write_request(stairs, directory, false);
+  EXPECT_THAT(
+      [&] { write_request(tables, directory, false); },
+      ThrowsMessage<InputError>(HasSubstr("holds experiment 'stairs' (request " + stairs.id +
+                                          "), and this is 'tables' (request " + tables.id + ")")));
+  EXPECT_TRUE(is_written(stairs, folder.path()));
+  write_request(tables, directory, true);
+  EXPECT_EQ(read_request(folder.path()).id, tables.id);
+}
+
+TEST(Request, ThatWasChangedSinceIsNotRead) {
+  const ScratchFolder folder;
+  const RunRequest request = shipped("stairs");
+  write_request(request, RunDirectory("stairs", request.id, folder.path()), false);
+  Experiment other = request.experiment;
+  other.labels.debounce += 0.001;
+  folder.write("config.yaml", to_yaml(other));
+  EXPECT_THAT([&] { read_request(folder.path()); },
+              ThrowsMessage<InputError>(HasSubstr("expected " + request.id)));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,60 @@
+#include "experiments/run_directory/occupant.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+namespace fs = std::filesystem;
+
+TEST(Occupant, IsReadFromTheKey) {
+  const ScratchFolder folder;
+  EXPECT_FALSE(occupant_of(folder.path()).has_value());
+  folder.write("state/key", key_of("0123", "abcd") + "\n");
+  ASSERT_TRUE(occupant_of(folder.path()).has_value());
+  EXPECT_EQ(occupant_of(folder.path())->request, "0123");
+  EXPECT_EQ(occupant_of(folder.path())->key, key_of("0123", "abcd"));
+  EXPECT_EQ(occupant_of(folder.path())->name, "");
+  folder.write("config.yaml", "name: stairs\n");
+  EXPECT_EQ(occupant_of(folder.path())->name, "stairs");
+  folder.write("state/key", "ssh-rsa AAAA\n");
+  EXPECT_FALSE(occupant_of(folder.path()).has_value());
+}
+
+TEST(Strangers, WhereARunWouldWriteAreNamed) {
+  for (const std::string file : {"config.yaml", "manifest.json", "report.html", "tables/a.csv",
+                                 "videos/a.mp4", "state/deep/a", "state/notes", "models/.hidden"}) {
+    const ScratchFolder folder;
+    folder.write(file, "precious");
+    const std::string named = file == "state/deep/a" ? "state/deep" : file;
+    EXPECT_THAT([&] { require_no_strangers(folder.path()); },
+                ThrowsMessage<InputError>(AllOf(HasSubstr(folder.path().string()),
+                                                HasSubstr(named + " is there already"),
+                                                HasSubstr("--out"))));
+  }
+}
+
+TEST(Strangers, AreNotInTheWayElsewhere) {
+  const ScratchFolder folder;
+  EXPECT_NO_THROW(require_no_strangers(folder.path()));
+  EXPECT_NO_THROW(require_no_strangers(folder / "missing"));
+  folder.write("notes.md", "precious");
+  folder.write("logs/shard_1_1.txt", "of the cluster");
+  folder.write("my/tables/a.csv", "precious");
+  fs::create_directory(folder / "tables");
+  // What a start that was killed, or that happens at this moment, leaves.
+  folder.write("state/lock", "");
+  folder.write("state/.key.12.0abcdef0.part", "half");
+  EXPECT_NO_THROW(require_no_strangers(folder.path()));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,131 @@
+#include "experiments/run_directory/own_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "experiments/run_directory/saved_state.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::UnorderedElementsAreArray;
+
+namespace fs = std::filesystem;
+
+TEST(PartialFiles, ThatKilledWritersLeftAreRemoved) {
+  const ScratchFolder folder;
+  folder.write("tables/.success.1234.0abc.part.csv", "half");
+  folder.write("state/.part.77.0abc.part", "half");
+  folder.write("figures/.success_mujoco.4321.part/success_mujoco.gp", "half");
+  folder.write("tables/success.csv", "whole");
+  folder.write("tables/my.parts", "whole");
+  remove_partial_files(folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder / "tables/.success.1234.0abc.part.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "state/.part.77.0abc.part"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "figures"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "tables/success.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "tables/my.parts"));
+}
+
+TEST(PartialFiles, OfSomebodyElseStay) {
+  const ScratchFolder folder;
+  const std::vector<std::string> theirs = {
+      ".my.part.notes",  ".config/.a.partition",          "deep/.success.1234.0abc.part.csv",
+      "tables/.x.part",  "tables/deep/.x.12.0abc.part",   ".film.12.0abcdef0.part.mp4",
+      "tables/a.part",   ".config.12.0abcdef0.part.toml", "figures/.work.part/precious",
+      "videos/.part.mp4"};
+  for (const std::string& file : theirs) folder.write(file, "precious");
+  const ScratchFolder elsewhere;
+  elsewhere.write(".a.12.0abcdef0.part", "precious");
+  fs::create_directory_symlink(elsewhere.path(), folder / "models");
+  folder.write(".config.12.0abcdef0.part.yaml", "half");
+  folder.write(".report.12.0abcdef0.part.html", "half");
+  remove_partial_files(folder.path());
+  for (const std::string& file : theirs) EXPECT_TRUE(fs::exists(folder / file)) << file;
+  EXPECT_TRUE(fs::exists(elsewhere / ".a.12.0abcdef0.part"));
+  EXPECT_FALSE(fs::exists(folder / ".config.12.0abcdef0.part.yaml"));
+  EXPECT_FALSE(fs::exists(folder / ".report.12.0abcdef0.part.html"));
+}
+
+/// A run directory with a file of every kind, and files of somebody's own among them.
+struct OwnFiles : ::testing::Test {
+  OwnFiles() {
+    folder.write("config.yaml", "name: a\nsimulators: [mujoco]\nestimators: [robust]\n");
+    folder.write("state/scenario_000.yaml", "name: step\n");
+    folder.write("figures/success_mujoco.gp",
+                 "# Draws success_mujoco.png, success_mujoco.svg and success_mujoco.pdf\n"
+                 "plot 'success_mujoco.dat', 'success_mujoco_2.dat'\n");
+    for (const char* file :
+         {"state/recordings/mujoco_step_test_000.mpack.sum",
+          "recordings/mujoco_step_test_000.mpack", "state/listening/mujoco_step_test_000_seed_0000",
+          "state/shards/1_of_2", "models/mujoco_robust.npz", "tables/success.csv",
+          "tables/summary.json", "figures/success_mujoco.png", "figures/success_mujoco.dat",
+          "figures/success_mujoco_2.dat", "figures/style.gp", "videos/mujoco_step.mp4",
+          "videos/report.jpg", "manifest.json", "report.html"}) {
+      folder.write(file, "ours");
+    }
+    for (const std::string& file : theirs) folder.write(file, "precious");
+    folder.write("state/key", "experiment x build y\n");
+    folder.write("state/lock", "");
+  }
+
+  std::vector<std::string> left() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
+      const fs::path name = entry.path().lexically_relative(folder.path());
+      if (!entry.is_directory()) names.push_back(name.string());
+    }
+    return names;
+  }
+
+  const std::vector<std::string> theirs = {"notes.md",
+                                           "tables/thesis.csv",
+                                           "recordings/mujoco_robot_test_000.mpack",
+                                           "models/mujoco_mine.npz",
+                                           "figures/success_mine.png",
+                                           "figures/success_mujoco_mine.dat",
+                                           "figures/mine.gp",
+                                           "videos/mujoco_talk.mp4",
+                                           "state/todo",
+                                           "data/config.yaml"};
+  const ScratchFolder folder;
+};
+
+TEST_F(OwnFiles, AloneAreRemoved) {
+  remove_own_files(folder.path());
+  std::vector<std::string> expected = theirs;
+  expected.insert(expected.end(), {"state/key", "state/lock"});
+  EXPECT_THAT(left(), UnorderedElementsAreArray(expected));
+  EXPECT_FALSE(fs::exists(folder / "state/listening"));
+}
+
+TEST_F(OwnFiles, EndWithTheExperimentThatNamesTheOthers) {
+  const std::vector<fs::path> files = own_files(folder.path());
+  ASSERT_FALSE(files.empty());
+  EXPECT_EQ(files.back(), "config.yaml");
+  for (const fs::path& file : files) EXPECT_TRUE(fs::exists(folder.path() / file)) << file;
+}
+
+TEST_F(OwnFiles, AreNotSearchedForThroughLinks) {
+  const ScratchFolder elsewhere;
+  elsewhere.write("success.csv", "precious");
+  fs::remove_all(folder / "tables");
+  fs::create_directory_symlink(elsewhere.path(), folder / "tables");
+  remove_own_files(folder.path());
+  EXPECT_TRUE(fs::exists(elsewhere / "success.csv"));
+}
+
+TEST_F(OwnFiles, OfAWholeRunGoWithItsFolderUnlessSomebodysOwnStay) {
+  const Strangers left_over = remove_run(folder.path());
+  EXPECT_EQ(left_over.files, theirs.size());
+  EXPECT_EQ(left_over.bytes, theirs.size() * std::string("precious").size());
+  for (const std::string& file : theirs) fs::remove(folder / file);
+  fs::remove(folder / "data");
+  EXPECT_EQ(remove_run(folder.path()).files, 0U);
+  EXPECT_FALSE(fs::exists(folder.path()));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
