@@ -64,7 +64,7 @@ class TrainingSession {
                    Fingerprint().add(to_yaml(config)).add(scenarios::to_yaml(scenario_)).text(),
                    request.out),
         history_file_(directory_.file("tables", "training.csv")) {
-    experiments::require_no_experiment(directory_.path());
+    experiments::require_place_beside(directory_.path(), to_yaml(config), "tables/training.csv");
     directory_.keep({directory_.path(), experiments::Access::alone, request.command});
     write_atomically(directory_.path() / "config.yaml", to_yaml(config));
     if (fs::exists(history_file_)) history_ = read_history(history_file_);

@@ -78,9 +78,8 @@ void require_place(const RunRequest& request, const fs::path& directory, bool ov
   if (!occupant) return require_no_strangers(directory);
   if (occupant->request == request.id || overwrite) return;
   throw InputError(fmt::format(
-      "{}: holds experiment '{}' (request {}), and this is '{}' (request {}): choose another "
-      "--out, "
-      "or --overwrite to replace it",
+      "{}: holds experiment '{}' (request {}), and this is '{}' (request {}): choose another --out "
+      "or replace it with --overwrite",
       directory.string(), occupant->name, occupant->request, request.experiment.name, request.id));
 }
 

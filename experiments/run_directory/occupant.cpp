@@ -19,7 +19,8 @@ constexpr std::string_view before_build = " build ";
 
 std::string name_in(const fs::path& config) {
   try {
-    return YamlDocument::load(config).root()["name"].as<std::string>("");
+    const auto name = YamlDocument::load(config).root()["name"].as<std::string>("");
+    return is_name_word(name) ? name : std::string();
   } catch (const std::exception&) {
     return {};
   }
@@ -62,11 +63,16 @@ std::optional<Occupant> occupant_of(const fs::path& directory) {
   return occupant;
 }
 
-void require_no_experiment(const fs::path& directory) {
-  const std::optional<Occupant> occupant = occupant_of(directory);
-  if (!occupant) return;
-  throw InputError(fmt::format("{}: holds experiment '{}' (request {}): choose another --out",
-                               directory.string(), occupant->name, occupant->request));
+void require_place_beside(const fs::path& directory, const std::string& config,
+                          const fs::path& result) {
+  if (const std::optional<Occupant> occupant = occupant_of(directory)) {
+    throw InputError(fmt::format("{}: holds experiment '{}' (request {}): choose another --out",
+                                 directory.string(), occupant->name, occupant->request));
+  }
+  std::error_code ignored;
+  const fs::path there = directory / "config.yaml";
+  if (fs::exists(directory / result, ignored) || !fs::exists(there, ignored)) return;
+  if (read_file(there) != config) refuse(directory, there);
 }
 
 void require_no_strangers(const fs::path& directory) {

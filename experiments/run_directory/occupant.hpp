@@ -28,8 +28,11 @@ std::string key_of(const std::string& request, const std::string& build);
 /// Nothing if the directory is nobody's.
 std::optional<Occupant> occupant_of(const std::filesystem::path& directory);
 
-/// Errors: `InputError` when a directory is an experiment's: something else is to go there.
-void require_no_experiment(const std::filesystem::path& directory);
+/// Where something else than an experiment goes, with its `config.yaml`. Errors: `InputError` when
+/// the directory is an experiment's, or when there is another `config.yaml` without the `result`
+/// that such leave: it is somebody's own.
+void require_place_beside(const std::filesystem::path& directory, const std::string& config,
+                          const std::filesystem::path& result);
 
 /// Errors: `InputError`, naming it, when a directory that is nobody's holds something where a run
 /// would write: it is not a run's to replace.

@@ -75,6 +75,14 @@ TEST_F(Train, GoesOnWhereItWasStopped) {
   EXPECT_EQ(read_file(straight.network), read_file(resumed.network));
 }
 
+TEST_F(Train, LeavesTheDirectoryOfAnExperimentAlone) {
+  const std::filesystem::path taken = folder_ / "taken";
+  write_atomically(taken / "state" / "key", "experiment 0123 build abcd\n");
+  write_atomically(taken / "config.yaml", "name: stairs\n");
+  EXPECT_THROW(run("taken"), InputError);
+  EXPECT_EQ(read_file(taken / "config.yaml"), "name: stairs\n");
+}
+
 TEST_F(Train, SavesNothingHalfWhenAskedToStop) {
   const std::atomic<bool> stop = true;
   TrainingRequest request;

@@ -218,7 +218,8 @@ std::filesystem::path sample_efficiency(const SampleEfficiencyConfig& config,
                                         const TrainingRequest& request) {
   experiments::RunDirectory directory(config.name, Fingerprint().add(to_yaml(config)).text(),
                                       request.out);
-  experiments::require_no_experiment(directory.path());
+  experiments::require_place_beside(directory.path(), to_yaml(config),
+                                    "tables/sample_efficiency.csv");
   directory.keep({directory.path(), experiments::Access::alone, request.command});
   write_atomically(directory.path() / "config.yaml", to_yaml(config));
   set_training_threads(request.thread_count());

@@ -29,6 +29,23 @@ TEST(Occupant, IsReadFromTheKey) {
   EXPECT_FALSE(occupant_of(folder.path()).has_value());
 }
 
+TEST(PlaceOfATraining, IsNoExperimentsAndHasNoConfigurationOfSomebodyElse) {
+  const ScratchFolder folder;
+  const auto ask = [&] {
+    require_place_beside(folder.path(), "name: nmn\n", "tables/training.csv");
+  };
+  EXPECT_NO_THROW(ask());
+  folder.write("config.yaml", "name: nmn\n");
+  EXPECT_NO_THROW(ask());
+  folder.write("config.yaml", "precious: true\n");
+  EXPECT_THAT(ask, ThrowsMessage<InputError>(HasSubstr("config.yaml is there already")));
+  // With more iterations, a training goes on.
+  folder.write("tables/training.csv", "iteration\n");
+  EXPECT_NO_THROW(ask());
+  folder.write("state/key", key_of("0123", "abcd") + "\n");
+  EXPECT_THAT(ask, ThrowsMessage<InputError>(HasSubstr("holds experiment")));
+}
+
 TEST(Strangers, WhereARunWouldWriteAreNamed) {
   for (const std::string file : {"config.yaml", "manifest.json", "report.html", "tables/a.csv",
                                  "videos/a.mp4", "state/deep/a", "state/notes", "models/.hidden"}) {
