@@ -74,9 +74,12 @@ const NamedScenario& scenario_of(const RunRequest& request, const std::string& f
 std::string state_key(const RunRequest& request) { return key_of(request.id, build_fingerprint()); }
 
 void require_place(const RunRequest& request, const fs::path& directory, bool overwrite) {
-  const std::optional<Occupant> occupant = occupant_of(directory);
-  if (!occupant) return require_no_strangers(directory);
-  if (occupant->request == request.id || overwrite) return;
+  std::optional<Occupant> occupant = occupant_of(directory);
+  if (!occupant) {
+    require_no_strangers(directory);
+    occupant = occupant_of(directory);  // somebody may have taken it meanwhile
+  }
+  if (!occupant || occupant->request == request.id || overwrite) return;
   throw InputError(fmt::format(
       "{}: holds experiment '{}' (request {}), and this is '{}' (request {}): choose another --out "
       "or replace it with --overwrite",
@@ -105,7 +108,7 @@ void write_request(const RunRequest& request, const RunDirectory& directory, boo
 
 RunRequest read_request(const fs::path& directory) {
   const std::optional<Occupant> occupant = occupant_of(directory);
-  if (!occupant) {
+  if (!occupant || occupant->key.empty()) {
     throw InputError(fmt::format("{}: holds no part of an experiment", directory.string()));
   }
   if (occupant->key != key_of(occupant->request, build_fingerprint())) {

@@ -1,5 +1,7 @@
 #include "experiments/run_directory/occupant.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -26,6 +28,17 @@ std::string name_in(const fs::path& config) {
   }
 }
 
+/// Of a finished run whose `state` somebody removed, its manifest tells the experiment.
+std::optional<Occupant> finished_in(const fs::path& directory) {
+  try {
+    const auto manifest = nlohmann::json::parse(read_file(directory / "manifest.json"));
+    if (!manifest.at("versions").contains("touchdown")) return std::nullopt;
+    return Occupant{{}, manifest.at("id").get<std::string>(), name_in(directory / "config.yaml")};
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 /// Something in a folder that a killed start, or a start at the same time, did not leave there.
 fs::path stranger_in(const fs::path& folder) {
   std::error_code unreadable;
@@ -36,7 +49,10 @@ fs::path stranger_in(const fs::path& folder) {
   return unreadable ? folder : fs::path();
 }
 
-[[noreturn]] void refuse(const fs::path& directory, const fs::path& stranger) {
+/// Whoever takes a directory writes its key first: what lies in one that has a key by now may be a
+/// run's that starts at the same time.
+void refuse_unless_taken(const fs::path& directory, const fs::path& stranger) {
+  if (occupant_of(directory)) return;
   throw InputError(
       fmt::format("{}: {} is there already, and no run of touchdown made it: choose another --out",
                   directory.string(), stranger.lexically_relative(directory).string()));
@@ -52,7 +68,7 @@ std::string key_of(const std::string& request, const std::string& build) {
 
 std::optional<Occupant> occupant_of(const fs::path& directory) {
   std::error_code ignored;
-  if (!fs::is_regular_file(key_file(directory), ignored)) return std::nullopt;
+  if (!fs::is_regular_file(key_file(directory), ignored)) return finished_in(directory);
   Occupant occupant;
   occupant.key = read_file(key_file(directory));
   occupant.key = occupant.key.substr(0, occupant.key.find('\n'));
@@ -72,20 +88,20 @@ void require_place_beside(const fs::path& directory, const std::string& config,
   std::error_code ignored;
   const fs::path there = directory / "config.yaml";
   if (fs::exists(directory / result, ignored) || !fs::exists(there, ignored)) return;
-  if (read_file(there) != config) refuse(directory, there);
+  if (read_file(there) != config) refuse_unless_taken(directory, there);
 }
 
 void require_no_strangers(const fs::path& directory) {
   std::error_code ignored;
   for (const char* const name : run_files) {
     const fs::path file = directory / name;
-    if (fs::exists(fs::symlink_status(file, ignored))) refuse(directory, file);
+    if (fs::exists(fs::symlink_status(file, ignored))) refuse_unless_taken(directory, file);
   }
   for (const char* const name : run_folders) {
     const fs::path folder = directory / name;
     if (!fs::exists(fs::symlink_status(folder, ignored))) continue;
     const fs::path stranger = stranger_in(folder);
-    if (!stranger.empty()) refuse(directory, stranger);
+    if (!stranger.empty()) refuse_unless_taken(directory, stranger);
   }
 }
 

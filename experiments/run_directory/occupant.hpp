@@ -14,7 +14,7 @@ inline constexpr std::array run_folders = {"state",  "recordings", "models",
 
 /// The experiment that a run directory belongs to.
 struct Occupant {
-  std::string key;      ///< the whole of it, `key_of`
+  std::string key;      ///< the whole of it, `key_of`; empty where only the manifest says so
   std::string request;  ///< the experiment's digest
   std::string name;     ///< of the experiment; empty if its file cannot be read
 };
@@ -34,8 +34,8 @@ std::optional<Occupant> occupant_of(const std::filesystem::path& directory);
 void require_place_beside(const std::filesystem::path& directory, const std::string& config,
                           const std::filesystem::path& result);
 
-/// Errors: `InputError`, naming it, when a directory that is nobody's holds something where a run
-/// would write: it is not a run's to replace.
+/// Errors: `InputError`, naming it, when a directory that is nobody's, and does not become a run's
+/// meanwhile, holds something where a run would write: it is not a run's to replace.
 void require_no_strangers(const std::filesystem::path& directory);
 
 }  // namespace touchdown::experiments

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <csignal>
+#include <memory>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -125,6 +126,18 @@ TEST(RunDirectory, OfAnotherBuildIsComputedAnewWithoutAsking) {
               IsEmpty());
 }
 
+TEST(RunDirectory, WhoseStateWasRemovedIsComputedAnew) {
+  const ScratchFolder folder;
+  const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out a";
+  succeed(folder, run);
+  const auto before = result_files(folder / "a");
+  fs::remove_all(folder / "a/state");
+  EXPECT_THAT(refusal(folder, "merge a"), HasSubstr("a: holds no part of an experiment"));
+  EXPECT_THAT(refusal(folder, run + " --set seed=4"), HasSubstr("a: holds experiment 'tiny'"));
+  succeed(folder, run);
+  EXPECT_EQ(result_files(folder / "a"), before);
+}
+
 TEST(RunDirectory, HoldsNoFileThatItsRunsDoNotKnowAgain) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) +
@@ -221,9 +234,20 @@ TEST(Lock, LeavesShardsThatStartTogetherToAgreeOnTheirDirectory) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out ";
   {
-    StartedProgram first(run + "a --shard 1/2", folder.path());
-    succeed(folder, run + "a --shard 2/2");
-    EXPECT_EQ(first.end().exit_code, 0);
+    // Each from a folder of its own, where it says what it does.
+    std::vector<std::unique_ptr<ScratchFolder>> terminals;
+    std::vector<std::unique_ptr<StartedProgram>> shards;
+    for (const char* shard : {"1/5", "2/5", "3/5", "4/5", "5/5"}) {
+      terminals.push_back(std::make_unique<ScratchFolder>());
+      const fs::path& terminal = terminals.back()->path();
+      fs::copy(folder.path(), terminal);
+      shards.push_back(std::make_unique<StartedProgram>(
+          run + (folder / "a").string() + " --shard " + shard, terminal));
+    }
+    for (const auto& shard : shards) {
+      const Ended ended = shard->end();
+      EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    }
   }
   succeed(folder, "merge a --no-pictures");
   succeed(folder, run + "whole");

@@ -22,5 +22,11 @@ TEST(FreeSpace, IsAskedForBeforeARunAndItsLackSaysWhatToDo) {
                                  HasSubstr("recordings=pictured"))));
 }
 
+TEST(FreeSpace, ThatIsLackingIsSaidWithWhatAsksForIt) {
+  const ScratchFolder folder;
+  EXPECT_THAT([&] { require_free_space(folder.path(), std::uintmax_t{1} << 62, "so many parts"); },
+              ThrowsMessage<Error>(HasSubstr("may need 4611686018.4 GB (so many parts), and ")));
+}
+
 }  // namespace
 }  // namespace touchdown::experiments

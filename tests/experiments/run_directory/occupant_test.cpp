@@ -29,6 +29,21 @@ TEST(Occupant, IsReadFromTheKey) {
   EXPECT_FALSE(occupant_of(folder.path()).has_value());
 }
 
+TEST(Occupant, IsReadFromTheManifestOnceTheStateWasRemoved) {
+  const ScratchFolder folder;
+  folder.write("config.yaml", "name: stairs\n");
+  for (const char* other : {"{}", "[1", R"({"id": "0123", "versions": {"npm": "8"}})",
+                            R"({"versions": {"touchdown": "0.1.0"}})"}) {
+    folder.write("manifest.json", other);
+    EXPECT_FALSE(occupant_of(folder.path()).has_value()) << other;
+  }
+  folder.write("manifest.json", R"({"id": "0123", "versions": {"touchdown": "0.1.0"}})");
+  ASSERT_TRUE(occupant_of(folder.path()).has_value());
+  EXPECT_EQ(occupant_of(folder.path())->request, "0123");
+  EXPECT_EQ(occupant_of(folder.path())->name, "stairs");
+  EXPECT_EQ(occupant_of(folder.path())->key, "");
+}
+
 TEST(PlaceOfATraining, IsNoExperimentsAndHasNoConfigurationOfSomebodyElse) {
   const ScratchFolder folder;
   const auto ask = [&] {
@@ -57,6 +72,16 @@ TEST(Strangers, WhereARunWouldWriteAreNamed) {
                                                 HasSubstr(named + " is there already"),
                                                 HasSubstr("--out"))));
   }
+}
+
+TEST(Strangers, AreNoneOnceTheDirectoryIsARuns) {
+  const ScratchFolder folder;
+  folder.write("config.yaml", "name: stairs\n");
+  folder.write("state/scenario_000.yaml", "name: stairs\n");
+  EXPECT_THROW(require_no_strangers(folder.path()), InputError);
+  // Of two runs that start together, the first writes its key while the second looks around.
+  folder.write("state/key", key_of("0123", "abcd") + "\n");
+  EXPECT_NO_THROW(require_no_strangers(folder.path()));
 }
 
 TEST(Strangers, AreNotInTheWayElsewhere) {
