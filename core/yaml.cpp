@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "core/yaml_text.hpp"
 
 namespace touchdown {
 
@@ -32,7 +33,11 @@ void refuse_duplicate_keys(const YAML::Node& node, const std::string& name) {
 }
 
 YAML::Node parse_or_complain(const std::string& text, const std::string& name) {
+  const auto place = [&](const YAML::Mark& mark) {
+    return fmt::format("{}:{}:{}", name, mark.line + 1, mark.column + 1);
+  };
   try {
+    check_yaml_text(text, place);
     YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) {
       throw InputError(fmt::format("{}:1:1: expected a mapping of keys to values", name));
@@ -40,8 +45,7 @@ YAML::Node parse_or_complain(const std::string& text, const std::string& name) {
     refuse_duplicate_keys(root, name);
     return root;
   } catch (const YAML::ParserException& error) {
-    throw InputError(fmt::format("{}:{}:{}: not valid YAML: {}", name, error.mark.line + 1,
-                                 error.mark.column + 1, error.msg));
+    throw InputError(fmt::format("{}: not valid YAML: {}", place(error.mark), error.msg));
   }
 }
 
@@ -92,7 +96,9 @@ void YamlDocument::override_value(std::string_view assignment) {
   }
   YAML::Node value;
   try {
-    value = YAML::Load(std::string(assignment.substr(equals + 1)));
+    const std::string text(assignment.substr(equals + 1));
+    check_yaml_text(text, [&](const YAML::Mark&) { return fmt::format("--set {}", assignment); });
+    value = YAML::Load(text);
   } catch (const YAML::ParserException& error) {
     throw InputError(fmt::format("--set {}: not a YAML value: {}", assignment, error.msg));
   }

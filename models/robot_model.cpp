@@ -38,6 +38,10 @@ std::string compose(const std::filesystem::path& robot_mjcf, const Terrain& terr
   }
   const tinyxml2::XMLElement* root = document.RootElement();
   const std::size_t end = text.rfind("</mujoco");
+  if (root == nullptr) {
+    throw InputError(
+        fmt::format("{}:1:1: expected a robot in <mujoco>...</mujoco>", robot_mjcf.string()));
+  }
   if (std::strcmp(root->Name(), "mujoco") != 0 || end == std::string::npos) {
     throw InputError(fmt::format("{}:{}:1: {}: expected a robot in <mujoco>...</mujoco>",
                                  robot_mjcf.string(), root->GetLineNum(), root->Name()));

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <yaml-cpp/yaml.h>
 
 #include "core/error.hpp"
+#include "core/yaml.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {
@@ -46,7 +46,8 @@ recordings::ModelProvenance provenance_of(std::span<const RunSignals* const> run
 
 bool may_be_held(const recordings::RecordingInfo& info) {
   if (info.scenario_yaml.empty()) return false;
-  const YAML::Node scenario = YAML::Load(info.scenario_yaml);
+  const YAML::Node scenario =
+      YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)").root();
   return std::any_of(scenario.begin(), scenario.end(), [](const auto& entry) {
     const auto key = entry.first.template as<std::string>();
     return key == "tether" || key == "forces";

@@ -53,6 +53,13 @@ class NamingContract : public ::testing::Test {
   const std::filesystem::path folder_ = scratch_.path();
 };
 
+TEST_F(NamingContract, AFileWithoutAnElementIsNoRobot) {
+  for (const char* text : {"<!-- nothing -->", "<?xml version=\"1.0\"?>\n", "<!DOCTYPE mujoco>", "",
+                           " \n", "</mujoco>", "<!-- </mujoco> -->"}) {
+    EXPECT_THAT(complaint_about(text), HasSubstr(":1: expected ")) << text;
+  }
+}
+
 TEST_F(NamingContract, MissingNamesAreNamed) {
   EXPECT_THAT(complaint("<motor name=\"left_knee\"", "<motor name=\"knee_left\""),
               HasSubstr("motor named 'left_knee'"));
