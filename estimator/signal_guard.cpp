@@ -21,6 +21,9 @@ SignalGuard::SignalGuard(const SignalGuardConfig& config, double sample_rate)
   if (!(config.relaxation > 0.0 && config.largest_acceleration > 0.0)) {
     throw InputError("signal guard: relaxation and largest_acceleration must be positive");
   }
+  if (!(config.largest_torque > 0.0)) {
+    throw InputError("signal guard: largest_torque must be positive (N·m)");
+  }
   if (!(config.maximum_gap >= 0.0 && config.frozen_after >= 0.0)) {
     throw InputError("signal guard: maximum_gap and frozen_after must not be negative (s)");
   }

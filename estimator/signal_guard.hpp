@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "estimator/contact_estimator.hpp"
 
 namespace touchdown {
@@ -14,12 +16,25 @@ struct SignalGuardConfig {
   /// An acceleration beyond this (m/s²) is invalid like NaN: one such sample would leave rounding
   /// errors larger than the signal in the sliding spectrum.
   double largest_acceleration = 1e4;
+  /// A torque beyond this (N·m) is invalid like NaN: no servo of a robot that jumps has it.
+  double largest_torque = 1e4;
   /// Time constant (s) with which the belief relaxes to the prior while there is nothing to update
   /// it with.
   double relaxation = 0.1;
 
   bool operator==(const SignalGuardConfig&) const = default;
 };
+
+/// Whether a servo can have measured this (N·m).
+[[nodiscard]] inline bool is_torque(double torque, const SignalGuardConfig& config = {}) noexcept {
+  return std::abs(torque) <= config.largest_torque;  // written so that NaN fails
+}
+
+/// Whether the knee's and the wheel's torques can be used.
+[[nodiscard]] inline bool has_torques(const LegSignals& leg,
+                                      const SignalGuardConfig& config = {}) noexcept {
+  return is_torque(leg.knee.torque, config) && is_torque(leg.wheel.torque, config);
+}
 
 /// Watches the clock and the accelerometer for what no filter should swallow.
 class SignalGuard {
@@ -35,8 +50,8 @@ class SignalGuard {
     bool acceleration_good = true;
   };
 
-  /// Throws InputError for a rate, a relaxation or a largest acceleration that is not positive, and
-  /// for negative times.
+  /// Throws InputError for a rate, a relaxation, a largest acceleration or a largest torque that is
+  /// not positive, and for negative times.
   SignalGuard(const SignalGuardConfig& config, double sample_rate);
 
   void reset() noexcept;

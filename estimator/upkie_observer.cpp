@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "estimator/signal_guard.hpp"
 #include "estimator/torque_channel.hpp"
 
 namespace touchdown {
@@ -12,7 +13,7 @@ WheelContactObserver::WheelContactObserver(const WheelContactConfig& config) noe
 void WheelContactObserver::reset() noexcept { *this = WheelContactObserver(config_); }
 
 bool WheelContactObserver::update(double torque, double velocity, double time_step) noexcept {
-  if (!std::isfinite(torque) || !std::isfinite(velocity) || !(time_step > 0.0)) return contact_;
+  if (!is_torque(torque) || !std::isfinite(velocity) || !(time_step > 0.0)) return contact_;
   if (!started_) {
     started_ = true;
     velocity_ = velocity;
@@ -48,19 +49,20 @@ void UpkieObserver::reset() noexcept { *this = UpkieObserver(config_); }
 
 const Belief& UpkieObserver::update(const Signals& signals) noexcept {
   double squares = 0.0;
-  bool finite = true;
+  bool usable = true;
+  bool upper_leg_usable = true;
   for (std::size_t side = 0; side < 2; ++side) {
     const LegSignals& leg = signals.leg[side];
-    finite = finite && std::isfinite(leg.wheel.torque) && std::isfinite(leg.wheel.velocity);
+    usable = usable && is_torque(leg.wheel.torque) && std::isfinite(leg.wheel.velocity);
+    upper_leg_usable = upper_leg_usable && is_torque(leg.hip.torque) && is_torque(leg.knee.torque);
     wheel_[side].update(leg.wheel.torque, leg.wheel.velocity, config_.time_step);
     squares += leg.hip.torque * leg.hip.torque + leg.knee.torque * leg.knee.torque;
   }
-  finite = finite && std::isfinite(squares);
-  if (std::isfinite(squares)) {
+  if (upper_leg_usable) {
     const double gain = low_pass_gain(config_.upper_leg_cutoff, config_.time_step);
     upper_leg_torque_ += gain * (std::sqrt(squares) - upper_leg_torque_);
   }
-  belief_.status = finite ? SignalStatus::good : SignalStatus::invalid;
+  belief_.status = usable && upper_leg_usable ? SignalStatus::good : SignalStatus::invalid;
   conclude();
   return belief_;
 }

@@ -1,6 +1,19 @@
 #include "recordings/signals_from.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace touchdown::recordings {
+
+namespace {
+
+/// Sensors round, and so do the formats they are logged in.
+bool is_orientation(const Eigen::Quaterniond& q) {
+  constexpr double tolerance = 0.02;
+  return std::abs(q.squaredNorm() - 1.0) <= tolerance;  // written so that NaN fails
+}
+
+}  // namespace
 
 double ground_velocity_command(const models::Action& action, double wheel_radius) {
   const double left = action.servo[models::index(models::Servo::left_wheel)].velocity;
@@ -22,7 +35,9 @@ Signals signals_from(const models::Observation& observation,
                     joint(models::Servo::right_wheel)};
   signals.linear_acceleration = observation.imu.linear_acceleration;
   signals.angular_velocity = observation.imu.angular_velocity;
-  signals.vertical_acceleration = models::vertical_acceleration(observation.imu);
+  signals.vertical_acceleration = is_orientation(observation.imu.orientation)
+                                      ? models::vertical_acceleration(observation.imu)
+                                      : std::numeric_limits<double>::quiet_NaN();
   signals.ground_velocity_command = previous_ground_velocity_command;
   return signals;
 }

@@ -14,7 +14,8 @@ double ground_velocity_command(const models::Action& action,
                                double wheel_radius = upkie_wheel_radius);
 
 /// What a contact estimator hears at one step. The command is the one of the previous step, since
-/// this step's action answers this observation.
+/// this step's action answers this observation. An IMU whose quaternion is not of unit length (to a
+/// percent) knows no vertical: the vertical acceleration is NaN then.
 Signals signals_from(const models::Observation& observation,
                      double previous_ground_velocity_command);
 

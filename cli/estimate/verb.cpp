@@ -64,7 +64,7 @@ class Listeners {
     if (csv_) csv_->write(time, belief, evidence);
     if (annotator_) {
       annotator_->copy(reader.skipped());
-      annotator_->annotate(reader.record(), reader.outline(), belief, evidence);
+      annotator_->annotate(reader.record(), belief, evidence);
     }
     if (drawn_ && time >= drawn_->from && time <= drawn_->to) {
       draw(step, belief, evidence.transition);

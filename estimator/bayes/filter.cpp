@@ -61,7 +61,7 @@ const Belief& BayesFilter::update(const Signals& signals) noexcept {
   for (std::size_t side = 0; side < 2; ++side) {
     State& bel = bel_[side];  // Eq. (1)
     const LegSignals& leg = signals.leg[side];
-    const bool torques_good = std::isfinite(leg.knee.torque) && std::isfinite(leg.wheel.torque);
+    const bool torques_good = has_torques(leg, config_.guard);
     const bool measured = torques_good && verdict.acceleration_good;
     if (!torques_good) belief_.status = SignalStatus::invalid;
     if (verdict.restart || !measured) {

@@ -1,6 +1,5 @@
 #include "estimator/bayes/measurement_only.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace touchdown {
@@ -38,7 +37,7 @@ const Belief& MeasurementOnly::update(const Signals& signals) noexcept {
     if (verdict.restart) torque_[side].reset();
     const LegSignals& leg = signals.leg[side];
     WheelBelief& wheel = belief_.wheel[side];
-    if (!std::isfinite(leg.knee.torque) || !std::isfinite(leg.wheel.torque)) {
+    if (!has_torques(leg, config_.guard)) {
       belief_.status = SignalStatus::invalid;
       wheel.p_contact = guard_.relaxed(wheel.p_contact, verdict.elapsed);
       continue;

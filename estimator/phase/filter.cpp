@@ -39,7 +39,7 @@ const Belief& PhaseFilter::update(const Signals& signals) noexcept {
   std::array<bool, 2> torques_good{};
   for (std::size_t side = 0; side < 2; ++side) {
     const LegSignals& leg = signals.leg[side];
-    torques_good[side] = std::isfinite(leg.knee.torque) && std::isfinite(leg.wheel.torque);
+    torques_good[side] = has_torques(leg, config_.guard);
     if (!torques_good[side]) belief_.status = SignalStatus::invalid;
   }
   const bool usable = verdict.acceleration_good && (torques_good[0] || torques_good[1]);

@@ -92,14 +92,20 @@ NoiseStep draws_at(const NoiseRun& noise, std::size_t step) {
 bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> levels) {
   const SignalGuardConfig config;
   double noise = 0.0;
-  for (const noise::SensorNoise& level : levels) noise = std::max(noise, level.acceleration);
+  double torque_noise = 0.0;
+  for (const noise::SensorNoise& level : levels) {
+    noise = std::max(noise, level.acceleration);
+    torque_noise = std::max({torque_noise, level.knee_torque, level.wheel_torque});
+  }
   // No draw is as far out as twenty standard deviations.
   if (!(20.0 * noise < 0.5 * config.largest_acceleration)) return false;
+  if (!(20.0 * torque_noise < 0.5 * config.largest_torque)) return false;
   SignalGuard guard(config, 1e6 / static_cast<double>(run.info.control_period_us));
   for (const Signals& signals : run.signals) {
     const bool torques_good =
-        std::all_of(signals.leg.begin(), signals.leg.end(), [](const LegSignals& leg) {
-          return std::isfinite(leg.knee.torque) && std::isfinite(leg.wheel.torque);
+        std::all_of(signals.leg.begin(), signals.leg.end(), [&](const LegSignals& leg) {
+          return std::abs(leg.knee.torque) < 0.5 * config.largest_torque &&
+                 std::abs(leg.wheel.torque) < 0.5 * config.largest_torque;
         });
     if (!torques_good || !neural_input(signals).allFinite()) return false;
     if (!(std::abs(signals.vertical_acceleration) < 0.5 * config.largest_acceleration)) {

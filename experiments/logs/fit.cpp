@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "estimator/bayes/measurement_fit.hpp"
+#include "estimator/signal_guard.hpp"
 #include "experiments/fitting/phase_fitting.hpp"
 #include "experiments/logs/listener.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -18,10 +19,6 @@
 namespace touchdown::experiments {
 
 namespace {
-
-bool finite(const LegSignals& leg) {
-  return std::isfinite(leg.knee.torque) && std::isfinite(leg.wheel.torque);
-}
 
 /// What a log had to say besides its steps.
 void note_end(const recordings::LogReader& reader, const LogFitConfig& config,
@@ -48,7 +45,7 @@ class Leg {
   /// `force` tells the label later, `declared` at once. Returns whether the torques could be used.
   bool add(const LegSignals& leg, bool skipped, std::optional<bool> declared, double force) {
     std::optional<TorqueSample> sample;
-    const bool usable = finite(leg);
+    const bool usable = has_torques(leg);
     if (usable) sample = channel_.update(leg);
     if (skipped) sample.reset();
     if (declared) {
@@ -158,9 +155,9 @@ void check_step(const FitLog& log, const LogStep& step, double before) {
   if (!step.normal_force) {
     refuse("no ground truth of contact, which the phase filter has to be fitted with");
   }
-  if (!std::isfinite(step.signals.vertical_acceleration) || !finite(step.signals.leg[0]) ||
-      !finite(step.signals.leg[1])) {
-    refuse("a torque or the acceleration is not finite");
+  if (!std::isfinite(step.signals.vertical_acceleration) || !has_torques(step.signals.leg[0]) ||
+      !has_torques(step.signals.leg[1])) {
+    refuse("a torque or the acceleration is not finite, or beyond what a sensor measures");
   }
   const double elapsed = step.signals.time - before;
   if (elapsed < 0.0 || elapsed > SignalGuardConfig{}.maximum_gap) {

@@ -33,7 +33,7 @@ struct LogFitReport {
   double seconds = 0.0;                ///< of all logs, without what was skipped
   std::array<std::size_t, 2> samples;  ///< of both legs
   std::array<TorqueBandwidth, 2> bandwidth;
-  std::size_t unusable = 0;  ///< samples left out because they are not finite
+  std::size_t unusable = 0;  ///< samples left out because no sensor measures them
   std::vector<std::string> warnings;
 };
 
@@ -41,9 +41,10 @@ struct LogFitReport {
 /// seeds, without ground truth where none is declared, or unreadable.
 ///
 /// A measurement model is fitted as in experiments/fitting, at a memory that does not grow with the
-/// logs: each is read twice, which standard input cannot be. A torque that is not finite is left
-/// out with its leg's step; after a gap in time, or a step back, the torque's low-pass starts anew,
-/// as in the filter. Errors: `InputError` for logs without one of the two classes.
+/// logs: each is read twice, which standard input cannot be. A torque that is not finite, or
+/// beyond `SignalGuardConfig::largest_torque`, is left out with its leg's step; after a gap in
+/// time, or a step back, the torque's low-pass starts anew, as in the filter. Errors: `InputError`
+/// for logs without one of the two classes.
 ///
 /// A phase model is fitted to logs with ground truth, held in memory (0.25 MB/s at 1 kHz). Errors:
 /// `InputError` for values that are not finite, gaps in time, or logs without a takeoff.

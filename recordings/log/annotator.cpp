@@ -1,6 +1,7 @@
 #include "recordings/log/annotator.hpp"
 
 #include "core/error.hpp"
+#include "recordings/log/outline.hpp"
 #include "recordings/log/packing.hpp"
 
 namespace touchdown::recordings {
@@ -56,11 +57,11 @@ void LogAnnotator::copy(std::string_view records) {
   if (!stream_) throw Error("the annotated log cannot be written: is the disk full?");
 }
 
-void LogAnnotator::annotate(std::string_view record, const ObservationOutline& outline,
-                            const Belief& belief, const Evidence& evidence) {
-  const bool has_header = outline.header > 0 && outline.header < record.size();
-  const std::size_t header_size = has_header ? map_header_size(record[outline.header]) : 0;
-  if (header_size == 0) throw InputError("a record without an observation cannot be annotated");
+void LogAnnotator::annotate(std::string_view record, const Belief& belief,
+                            const Evidence& evidence) {
+  const ObservationOutline outline = outline_of(record);
+  if (outline.header == 0) throw InputError("a record without an observation cannot be annotated");
+  const std::size_t header_size = map_header_size(record[outline.header]);
 
   buffer_.clear();
   buffer_.write(record.data(), outline.header);

@@ -5,7 +5,6 @@
 
 #include "estimator/contact_estimator.hpp"
 #include "recordings/log/packing.hpp"
-#include "recordings/log/parser.hpp"
 
 namespace touchdown::recordings {
 
@@ -23,10 +22,9 @@ class LogAnnotator {
   void copy(std::string_view records);
 
   /// Copies one record with what an estimator believes, and why, added to its `observation`;
-  /// `record` and `outline` as `LogReader` gives them.
+  /// `record` as `LogReader` gives it.
   /// Errors: `InputError` if the record has no `observation` map; `Error` when the stream fails.
-  void annotate(std::string_view record, const ObservationOutline& outline, const Belief& belief,
-                const Evidence& evidence);
+  void annotate(std::string_view record, const Belief& belief, const Evidence& evidence);
 
  private:
   std::ostream& stream_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/yaml_text.hpp"
 
 namespace touchdown::recordings {
 
@@ -22,6 +23,14 @@ const msgpack::object* find(const msgpack::object& map, std::string_view key) {
 template <typename T>
 void take(const msgpack::object& map, std::string_view key, T& value) {
   if (const msgpack::object* found = find(map, key)) found->convert(value);
+}
+
+/// As above. Whatever is told about a recording goes on into files that hold nothing but UTF-8.
+void take_text(const msgpack::object& map, std::string_view key, std::string& value) {
+  take(map, key, value);
+  if (const std::size_t size = utf8_size(value); size < value.size()) {
+    throw InputError(fmt::format("{}: not UTF-8 from byte {} on", key, size));
+  }
 }
 
 }  // namespace
@@ -48,12 +57,12 @@ std::optional<RecordingInfo> unpack_info(std::string_view record, std::string_vi
     const msgpack::object* ours = config == nullptr ? nullptr : find(*config, "touchdown");
     if (ours == nullptr) return {};
     RecordingInfo info;
-    take(*ours, "scenario", info.scenario);
-    take(*ours, "simulator", info.simulator);
+    take_text(*ours, "scenario", info.scenario);
+    take_text(*ours, "simulator", info.simulator);
     take(*ours, "seed", info.seed);
     take(*ours, "run", info.run);
     take(*ours, "control_period_us", info.control_period_us);
-    take(*ours, "scenario_yaml", info.scenario_yaml);
+    take_text(*ours, "scenario_yaml", info.scenario_yaml);
     std::string outcome;
     take(*ours, "outcome", outcome);
     if (!outcome.empty()) info.outcome = outcome_from_text(outcome);

@@ -6,18 +6,6 @@
 
 namespace touchdown::recordings {
 
-namespace {
-
-/// A key's header takes one byte, or more where the writer chose a wider one.
-std::size_t string_header_size(const char* text, std::size_t size) {
-  const auto before = [&](int bytes) { return static_cast<unsigned char>(*(text - bytes)); };
-  if (size < 32 && before(1) == (0xa0U | size)) return 1;
-  if (size < 256 && before(1) == size && before(2) == 0xd9U) return 2;
-  return before(3) == 0xdaU ? 3 : 5;
-}
-
-}  // namespace
-
 LogParser::LogParser()
     : tree_([](const LogKey& /*key*/) { return true; }), sequences_(tree_.size()) {
   for (const LogKey& key : log_keys()) {
@@ -39,12 +27,7 @@ LogParser::Result LogParser::parse(std::string_view bytes, std::size_t& length) 
   element_ = 0;
   in_key_ = has_config_ = incomplete_ = false;
   error_offset_ = 0;
-  outline_.header = outline_.entries = 0;
-  outline_.beliefs.clear();
-  record_ = bytes.data();
-  in_observation_ = in_belief_ = false;
   if (msgpack::parse(bytes.data(), bytes.size(), length, *this)) {
-    end_belief(length);
     drop_malformed();
     return Result::record;
   }
@@ -115,30 +98,8 @@ bool LogParser::visit_str(const char* text, std::uint32_t size) {
   const std::string_view name(text, size);
   current_ = child(open_.back(), name);
   element_ = 0;
-  if (open_.size() <= 2) note_place(name);
+  has_config_ = has_config_ || (open_.size() == 1 && name == "config");
   return true;
-}
-
-void LogParser::note_place(std::string_view key) {
-  // The parser hands out keys as pointers into the record.
-  const auto end = static_cast<std::size_t>(key.data() + key.size() - record_);
-  const std::size_t begin = end - key.size() - string_header_size(key.data(), key.size());
-  if (open_.size() == 1) {
-    end_belief(begin);
-    in_observation_ = key == "observation";
-    if (in_observation_) outline_.header = end;
-    has_config_ = has_config_ || key == "config";
-  } else if (in_observation_) {
-    end_belief(begin);
-    ++outline_.entries;
-    in_belief_ = std::find(belief_groups.begin(), belief_groups.end(), key) != belief_groups.end();
-    if (in_belief_) outline_.beliefs.push_back({begin, begin});
-  }
-}
-
-void LogParser::end_belief(std::size_t offset) {
-  if (in_belief_) outline_.beliefs.back().end = offset;
-  in_belief_ = false;
 }
 
 bool LogParser::start_map(std::uint32_t /*entries*/) {

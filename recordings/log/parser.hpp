@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -12,25 +11,6 @@
 #include "recordings/log/row.hpp"
 
 namespace touchdown::recordings {
-
-/// The keys of `observation` under which beliefs are logged.
-inline constexpr std::array<std::string_view, 3> belief_groups = {
-    "measurement_model", "transition_model", "contact_filter"};
-
-/// Where the `observation` map stands in the bytes of a record, so that beliefs can be written into
-/// it without taking the record apart again.
-struct ObservationOutline {
-  struct Range {
-    std::size_t begin = 0;
-    std::size_t end = 0;
-  };
-  /// Offset of the map's header; 0 if the record has no such map.
-  std::size_t header = 0;
-  /// How many entries the map has.
-  std::size_t entries = 0;
-  /// Entries that are beliefs already, key and value, in their order.
-  std::vector<Range> beliefs;
-};
 
 /// Reads the numbers of one record of a log without building the record in memory. Keys that we do
 /// not know are skipped.
@@ -51,7 +31,6 @@ class LogParser : public msgpack::null_visitor {
   const LogValues& values() const { return values_; }
   /// A vector is present only when it had the right number of elements.
   const LogPresence& present() const { return present_; }
-  const ObservationOutline& outline() const { return outline_; }
   bool has_config() const { return has_config_; }
 
   /// Dotted paths of the needed keys that the last record lacks.
@@ -87,8 +66,6 @@ class LogParser : public msgpack::null_visitor {
 
   bool number(double value);
   int child(int parent, std::string_view name);
-  void note_place(std::string_view key);
-  void end_belief(std::size_t offset);
   void drop_malformed();
   bool has_time() const;
 
@@ -102,10 +79,6 @@ class LogParser : public msgpack::null_visitor {
   std::vector<int> open_;  ///< the maps around the current value
   int current_ = 0;
   std::size_t element_ = 0;
-  ObservationOutline outline_;
-  const char* record_ = nullptr;
-  bool in_observation_ = false;
-  bool in_belief_ = false;
   bool in_key_ = false;
   bool has_config_ = false;
   bool incomplete_ = false;

@@ -45,7 +45,9 @@ const RecordingInfo& LogReader::info() {
     std::vector<double> differences;
     for (std::size_t i = 1; i < ahead_.size(); ++i) {
       if (!ahead_[i].row) break;
-      differences.push_back(ahead_[i].row->observation.time - ahead_[i - 1].row->observation.time);
+      const double difference =
+          ahead_[i].row->observation.time - ahead_[i - 1].row->observation.time;
+      if (std::isfinite(difference)) differences.push_back(difference);
     }
     if (!differences.empty()) {
       const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
@@ -79,23 +81,38 @@ void LogReader::read_entry(Entry& entry) {
     offset_ += record_size_;
     ++record_count_;
     if (parser_.has_config() && !info_) info_ = unpack_info(record, name_);
-    if (parser_.is_missing_any()) {
+    const bool lacks_keys = parser_.is_missing_any();
+    if (lacks_keys) {
       ++skipped_count_;
+    } else {
+      entry.row = to_row(parser_.values(), parser_.present());
+    }
+    if (lacks_keys || is_without_time(*entry.row)) {
+      entry.row.reset();
       if (++skipped_in_a_row_ >= most_skipped_in_a_row) complain_about_missing_keys();
       entry.skipped += record;
       continue;
     }
     skipped_in_a_row_ = 0;
     has_rows_ = true;
-    entry.row = to_row(parser_.values(), parser_.present());
     double& time = entry.row->observation.time;
     if (!start_time_) start_time_ = info_ ? 0.0 : time;
     if (*start_time_ != 0.0) time -= *start_time_;
     if (info_) has_period_ = true;
     entry.record = record;
-    entry.outline = parser_.outline();
     return;
   }
+}
+
+/// Later on the guard of an estimator looks at the time; before the first row there is nothing yet
+/// that time counts from.
+bool LogReader::is_without_time(const LogRow& row) {
+  if (has_rows_ || std::isfinite(row.observation.time)) return false;
+  if (++timeless_count_ == 1) {
+    first_timeless_ =
+        fmt::format("byte {}: the time of record {}", offset_ - record_size_, record_count_);
+  }
+  return true;
 }
 
 bool LogReader::parse_record() {
@@ -142,6 +159,13 @@ void LogReader::finish() {
     warnings_.push_back(fmt::format("{}: {} of {} records lack needed keys and were left out",
                                     name_, skipped_count_, record_count_));
   }
+  if (timeless_count_ > 0 && has_rows_ && !has_finished_) {
+    warnings_.push_back(fmt::format(
+        "{}: {} is not a finite number: it was left out{}", name_, first_timeless_,
+        timeless_count_ == 1
+            ? ""
+            : fmt::format(", and {} more before the first good record", timeless_count_ - 1)));
+  }
   has_finished_ = true;
 }
 
@@ -151,6 +175,10 @@ void LogReader::complain_about_garbage(std::size_t offset) const {
 }
 
 void LogReader::complain_about_missing_keys() const {
+  if (const auto missing = parser_.missing(); missing.empty()) {
+    throw InputError(
+        fmt::format("{}: {} is not a finite number, nor is any after it", name_, first_timeless_));
+  }
   throw InputError(
       fmt::format("{}: needed keys are missing: {}", name_, fmt::join(parser_.missing(), ", ")));
 }

@@ -16,11 +16,11 @@
 namespace touchdown::recordings {
 
 /// Reads Upkie's logs (`.mpack`, any version so far) row by row, live or from a file, at a constant
-/// memory. Records that lack needed keys, as a spine writes while it starts, are skipped; a last
-/// record that is cut off is reported by `warnings()`. In a log that we did not write, time counts
-/// from the first row.
-/// Errors (`InputError`): a file that cannot be read; bytes that are no MessagePack maps (named by
-/// their offset); a log whose records all lack a needed key (all of them named in one message).
+/// memory. Records that lack needed keys, as a spine writes while it starts, are skipped, and so
+/// are records before the first row whose time is not finite; a last record that is cut off is
+/// reported by `warnings()`. In a log that we did not write, time counts from the first row. Errors
+/// (`InputError`): a file that cannot be read; bytes that are no MessagePack maps (named by their
+/// offset); a log whose records all lack a needed key (all of them named in one message).
 class LogReader {
  public:
   /// "-" reads standard input. The log ends early once `stop`, which may be null, is true.
@@ -42,8 +42,6 @@ class LogReader {
   /// skipped right before it (or before the end); valid until `next()` is called again.
   std::string_view record() const { return current_.record; }
   std::string_view skipped() const { return current_.skipped; }
-  /// Where things stand in `record()`, for `LogAnnotator`.
-  const ObservationOutline& outline() const { return current_.outline; }
 
   /// One line each about what was wrong but not fatal; complete at the end of the log.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -52,7 +50,6 @@ class LogReader {
   struct Entry {
     std::optional<LogRow> row;
     std::string record;
-    ObservationOutline outline;
     std::string skipped;
   };
 
@@ -60,6 +57,7 @@ class LogReader {
   bool parse_record();
   bool refill();
   void look_ahead(std::size_t rows);
+  bool is_without_time(const LogRow& row);
   [[noreturn]] void complain_about_garbage(std::size_t offset) const;
   [[noreturn]] void complain_about_missing_keys() const;
   void finish();
@@ -75,6 +73,8 @@ class LogReader {
   std::uint64_t record_count_ = 0;
   std::uint64_t skipped_count_ = 0;
   std::uint64_t skipped_in_a_row_ = 0;
+  std::uint64_t timeless_count_ = 0;
+  std::string first_timeless_;  ///< where that record is
   bool has_rows_ = false;
   bool at_end_ = false;
   bool has_finished_ = false;

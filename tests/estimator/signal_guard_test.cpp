@@ -49,6 +49,25 @@ TEST(SignalGuard, RefusesWhatIsNoAcceleration) {
   EXPECT_EQ(guard.check(time + 0.001, 1.0).status, SignalStatus::good);
 }
 
+TEST(SignalGuard, RefusesWhatIsNoTorque) {
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1.0001e4, -2e4, 1e300, 1e308}) {
+    EXPECT_FALSE(is_torque(bad)) << bad;
+    LegSignals leg;
+    EXPECT_TRUE(has_torques(leg));
+    leg.wheel.torque = bad;
+    EXPECT_FALSE(has_torques(leg));
+    leg.wheel.torque = 1.0;
+    leg.knee.torque = bad;
+    EXPECT_FALSE(has_torques(leg));
+  }
+  for (const double good : {0.0, -0.0, 1e-310, -1.7, 300.0, 1e4}) EXPECT_TRUE(is_torque(good));
+  SignalGuardConfig config;
+  config.largest_torque = 5.0;
+  EXPECT_FALSE(is_torque(6.0, config));
+  config.largest_torque = 0.0;
+  EXPECT_THROW(SignalGuard(config, 1000.0), InputError);
+}
+
 TEST(SignalGuard, NoticesAFrozenAccelerometerAndItsRecovery) {
   SignalGuardConfig config;
   config.frozen_after = 0.1;

@@ -102,6 +102,13 @@ TEST(UpkieObserver, KeepsItsDecisionThroughInvalidInput) {
   EXPECT_EQ(observer.update(s).status, SignalStatus::invalid);
   EXPECT_EQ(observer.belief().wheel[0].p_contact, 1.0);
   EXPECT_EQ(observer.update(Signals{}).status, SignalStatus::good);
+  for (JointSignals LegSignals::*joint :
+       {&LegSignals::hip, &LegSignals::knee, &LegSignals::wheel}) {
+    Signals huge;
+    (huge.leg[1].*joint).torque = 1e308;
+    EXPECT_EQ(observer.update(huge).status, SignalStatus::invalid);
+  }
+  EXPECT_EQ(observer.upper_leg_torque(), 0.0);
   EXPECT_TRUE(std::isfinite(observer.upper_leg_torque()));
 }
 

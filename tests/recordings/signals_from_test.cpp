@@ -1,5 +1,7 @@
 #include "recordings/signals_from.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/recordings/log/sample_recording.hpp"
@@ -28,6 +30,20 @@ TEST(SignalsFrom, AccelerationIsProjectedUpwards) {
   o.imu.linear_acceleration = {0.0, 0.0, 2.0};
   // The reference system's z points down; an IMU turned about y has its z up.
   EXPECT_NEAR(signals_from(o, 0.0).vertical_acceleration, 2.0, 1e-12);
+}
+
+TEST(SignalsFrom, AQuaternionThatIsNoOrientationKnowsNoVertical) {
+  models::Observation o;
+  o.imu.linear_acceleration = {0.0, 0.0, 2.0};
+  for (const double length : {0.0, 1e-3, 0.5, 0.98, 1.02, 2.0, 1e200, HUGE_VAL, std::nan("")}) {
+    o.imu.orientation = Eigen::Quaterniond(length, 0.0, 0.0, 0.0);
+    EXPECT_TRUE(std::isnan(signals_from(o, 0.0).vertical_acceleration)) << length;
+    EXPECT_EQ(signals_from(o, 0.0).linear_acceleration, o.imu.linear_acceleration);
+  }
+  for (const double length : {0.995, 1.0, 1.005}) {  // rounded to two digits
+    o.imu.orientation = Eigen::Quaterniond(length, 0.0, 0.0, 0.0);
+    EXPECT_NEAR(signals_from(o, 0.0).vertical_acceleration, -2.0, 0.05) << length;
+  }
 }
 
 TEST(SignalsFrom, GroundVelocityIsTheMeanOfTheWheelsTargets) {

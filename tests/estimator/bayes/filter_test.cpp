@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "estimator/bayes/measurement_only.hpp"
 #include "tests/estimator/named_config.hpp"
 #include "tests/estimator/synthetic.hpp"
 
@@ -188,6 +189,26 @@ TEST(BayesFilter, LosesOnlyTheLegWhoseTorquesAreLost) {
     EXPECT_EQ(belief.status, SignalStatus::invalid);
     ASSERT_EQ(belief.wheel[0].p_contact, expected);
     ASSERT_EQ(belief.wheel[1].p_contact, 0.5);
+  }
+}
+
+TEST(BayesFilter, TakesATorqueThatNoServoHasForALostOne) {
+  const BayesFilterConfig config = BayesFilterConfig::robust();
+  const MeasurementModel model = fitted(config);
+  for (const double huge : {1e308, -1e308, 2e4}) {
+    BayesFilter lost(model, config);
+    BayesFilter filter(model, config);
+    MeasurementOnly measurement_only(model, config);
+    for (Signals s : drops(300)) {
+      s.leg[1].knee.torque = std::nan("");
+      const Belief expected = lost.update(s);
+      s.leg[1].knee.torque = huge;
+      EXPECT_EQ(filter.update(s).status, SignalStatus::invalid);
+      EXPECT_EQ(measurement_only.update(s).status, SignalStatus::invalid);
+      for (std::size_t side = 0; side < 2; ++side) {
+        ASSERT_EQ(filter.belief().wheel[side].p_contact, expected.wheel[side].p_contact);
+      }
+    }
   }
 }
 

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -135,6 +136,72 @@ TEST(UglyLogs, NumbersOfAnotherKindAndUnknownKeysAreTaken) {
   EXPECT_EQ(o.servo[0].torque, -3.0);
   EXPECT_EQ(o.servo[1].torque, 70000.0);
   EXPECT_EQ(o.imu.angular_velocity, Eigen::Vector3d(1.0, -2.0, 0.0));
+}
+
+TEST(UglyLogs, AnEmptyKeyIsAKeyThatWeDoNotKnow) {
+  json record = upkie_record(0.0);
+  for (json* map : {&record, &record["observation"], &record["observation"]["servo"],
+                    &record["observation"]["imu"]}) {
+    (*map)[""] = 1.0;
+  }
+  const std::string smallest("\x81\xa0\xc0", 3);
+  for (const std::string& wider :
+       {std::string("\x81\xd9\x00\xc0", 4), std::string("\x81\xda\x00\x00\xc0", 5),
+        std::string("\x81\xdb\x00\x00\x00\x00\xc0", 7), smallest}) {
+    const Read result = read(wider + pack({record}) + wider);
+    EXPECT_EQ(result.rows, 1U);
+    EXPECT_EQ(result.error, "");
+  }
+  EXPECT_THAT(read(smallest).error, HasSubstr("observation.servo.left_hip.position"));
+}
+
+TEST(UglyLogs, RecordsBeforeTheFirstFiniteTimeAreLeftOutAndNamed) {
+  std::vector<json> records = upkie_records(6);
+  records[0]["observation"]["time"] = std::nan("");
+  records[1]["observation"]["time"] = HUGE_VAL;
+  const std::string log = pack(records);
+  const Read result = read(log);
+  EXPECT_EQ(result.rows, 4U);
+  EXPECT_EQ(result.error, "");
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_THAT(result.warnings[0],
+              AllOf(HasSubstr("run.mpack: byte 0: the time of record 1 is not a finite number"),
+                    HasSubstr("and 1 more")));
+  std::istringstream stream(log);
+  LogReader reader(testing::stream_source(stream), "run.mpack");
+  EXPECT_EQ(reader.info().control_period_us, 1000);
+  EXPECT_EQ(reader.next()->observation.time, 0.0);
+  EXPECT_EQ(reader.skipped(), log.substr(0, pack({records[0], records[1]}).size()))
+      << "whoever copies the log keeps them";
+}
+
+TEST(UglyLogs, ATimeThatIsNotFiniteLaterIsLeftToTheSignalGuard) {
+  std::vector<json> records = upkie_records(5);
+  records[2]["observation"]["time"] = std::nan("");
+  std::istringstream stream(pack(records));
+  LogReader reader(testing::stream_source(stream), "run.mpack");
+  EXPECT_EQ(reader.info().control_period_us, 1000);
+  std::vector<bool> finite;
+  while (const std::optional<LogRow> row = reader.next()) {
+    finite.push_back(std::isfinite(row->observation.time));
+  }
+  EXPECT_EQ(finite, (std::vector<bool>{true, true, false, true, true}));
+}
+
+TEST(UglyLogs, ALogWithoutAnyFiniteTimeIsRefused) {
+  std::vector<json> records = upkie_records(3);
+  for (json& record : records) record["observation"]["time"] = std::nan("");
+  EXPECT_THAT(read(pack(records)).error, HasSubstr("byte 0: the time of record 1 is not a finite"));
+  EXPECT_THAT(read(pack(std::vector<json>(2500, records[0]))).error, HasSubstr("nor is any after"));
+}
+
+TEST(UglyLogs, TextsOfOursThatAreNotUtf8AreRefused) {
+  json record = upkie_record(0.0);
+  record["config"]["touchdown"] = {{"scenario", "caf\xe9"}};
+  EXPECT_THAT(read(pack({record})).error,
+              HasSubstr("run.mpack: config.touchdown: scenario: not UTF-8 from byte 3 on"));
+  record["config"]["touchdown"] = {{"scenario_yaml", "name: \xff"}};
+  EXPECT_THAT(read(pack({record})).error, HasSubstr("scenario_yaml: not UTF-8 from byte 6 on"));
 }
 
 TEST(UglyLogs, TooManyElementsCountAsMissing) {
