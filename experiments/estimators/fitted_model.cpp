@@ -1,13 +1,17 @@
 #include "experiments/estimators/fitted_model.hpp"
 
+#include <algorithm>
+
 #include "recordings/models/measurement_model.hpp"
 #include "recordings/models/npz.hpp"
 
 namespace touchdown::experiments {
 
 ModelKind kind_of_model_file(const std::filesystem::path& path) {
-  return recordings::read_npz(path).contains("transition") ? ModelKind::phase
-                                                           : ModelKind::measurement;
+  const std::vector<std::string> names = recordings::npz_names(path);
+  return std::find(names.begin(), names.end(), "transition") != names.end()
+             ? ModelKind::phase
+             : ModelKind::measurement;
 }
 
 FittedModel read_fitted_model(ModelKind kind, const std::filesystem::path& path) {

@@ -1,5 +1,6 @@
 #include "recordings/models/neural_network.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,14 @@ void for_each_array(Network& network, const Visit& visit) {
   layer("heads", network.heads);
 }
 
+std::vector<std::string> array_names() {
+  std::vector<std::string> names = {"period"};
+  NeuralNetwork network;
+  for_each_array(network,
+                 [&](const std::string& name, const auto& /*matrix*/) { names.push_back(name); });
+  return names;
+}
+
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 NpyArray to_array(const Eigen::MatrixXf& matrix, bool is_vector) {
@@ -48,11 +57,13 @@ void write_neural_network(const NeuralNetwork& network, const std::filesystem::p
 }
 
 NeuralNetwork read_neural_network(const std::filesystem::path& path) {
-  return made_of_npz(path, [](const NpzArrays& arrays) {
+  const std::vector<std::string> names = array_names();
+  const auto needed = [&](std::string_view name) {
+    constexpr std::size_t most_weights = std::size_t{1} << 24U;
+    return std::find(names.begin(), names.end(), name) != names.end() ? most_weights : 0;
+  };
+  return made_of_npz(path, needed, [&](const NpzArrays& arrays) {
     NeuralNetwork network;
-    std::vector<std::string> names = {"period"};
-    for_each_array(network,
-                   [&](const std::string& name, const auto& /*matrix*/) { names.push_back(name); });
     require_arrays(arrays, "neural measurement network", names);
     for_each_array(network, [&]<typename Matrix>(const std::string& name, Matrix& matrix) {
       const NpyArray& array = arrays.at(name);

@@ -1,11 +1,13 @@
 #include "recordings/models/npy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -26,7 +28,6 @@ struct Header {
   std::string type;
   bool is_fortran_order = false;
   std::vector<std::size_t> shape;
-  std::size_t data_offset = 0;
 };
 
 /// The header is a Python dictionary on one line: what follows `'key':` in it.
@@ -59,24 +60,51 @@ std::vector<std::size_t> parse_shape(std::string_view text) {
   return shape;
 }
 
-Header parse_header(std::string_view bytes, const std::string& name) {
-  const auto byte = [&](std::size_t i) {
-    return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i]));
-  };
-  if (bytes.size() < 12 || bytes.substr(0, magic.size()) != magic) {
-    throw InputError(fmt::format("{}: is not a NumPy array", name));
+/// Reads bytes in their order and complains if there are none left.
+class Bytes {
+ public:
+  Bytes(const NpyBytes& source, std::size_t size, const std::string& name)
+      : source_(source), left_(size), name_(name) {}
+
+  std::size_t left() const { return left_; }
+
+  void fill(std::span<char> bytes) {
+    while (!bytes.empty()) {
+      const std::size_t size = source_(bytes);
+      if (size == 0) throw InputError(fmt::format("{}: is cut off", name_));
+      left_ -= std::min(left_, size);
+      bytes = bytes.subspan(size);
+    }
   }
+
+ private:
+  const NpyBytes& source_;
+  std::size_t left_;
+  const std::string& name_;
+};
+
+Header read_header(Bytes& bytes, const std::string& name) {
+  // Shorter than any header, and enough to know how long it is.
+  constexpr std::size_t known = 12;
+  std::string head(known, '\0');
+  if (bytes.left() >= known) bytes.fill(head);
+  if (!head.starts_with(magic)) throw InputError(fmt::format("{}: is not a NumPy array", name));
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::size_t>(static_cast<unsigned char>(head[i]));
+  };
   const bool is_wide = byte(6) >= 2;
   const std::size_t start = is_wide ? 12 : 10;
   std::size_t length = byte(8) | byte(9) << 8U;
   if (is_wide) length |= byte(10) << 16U | byte(11) << 24U;
-  if (bytes.size() < start + length || length > 65536) {
+  if (start + length < known || bytes.left() < start + length - known || length > 65536) {
     throw InputError(fmt::format("{}: is cut off within its header", name));
   }
-  const std::string_view text = bytes.substr(start, length);
+  head.resize(start + length);
+  bytes.fill(std::span(head).subspan(known));
+  const std::string_view text = std::string_view(head).substr(start);
   Header header{std::string(between(value_of(text, "descr"), "'", "'")),
                 value_of(text, "fortran_order").starts_with("True"),
-                parse_shape(between(value_of(text, "shape"), "(", ")")), start + length};
+                parse_shape(between(value_of(text, "shape"), "(", ")"))};
   if (header.type.empty() || header.shape.empty() || header.shape.size() > 2) {
     throw InputError(
         fmt::format("{}: expected an array of numbers with one or two axes, found the header {}",
@@ -89,12 +117,14 @@ Header parse_header(std::string_view bytes, const std::string& name) {
 }
 
 template <typename T>
-std::vector<double> numbers(std::string_view bytes, std::size_t count) {
-  std::vector<double> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    T value;
-    std::memcpy(&value, bytes.data() + i * sizeof(T), sizeof(T));
-    values[i] = static_cast<double>(value);
+std::vector<double> numbers(Bytes& bytes, std::size_t count) {
+  std::array<T, 8192> chunk;
+  std::vector<double> values;
+  values.reserve(count);
+  while (values.size() < count) {
+    const std::span<T> now = std::span(chunk).first(std::min(chunk.size(), count - values.size()));
+    bytes.fill({reinterpret_cast<char*>(now.data()), now.size_bytes()});  // NOLINT
+    values.insert(values.end(), now.begin(), now.end());
   }
   return values;
 }
@@ -137,7 +167,19 @@ std::string to_npy(const NpyArray& array) {
 }
 
 NpyArray from_npy(std::string_view bytes, const std::string& name) {
-  const Header header = parse_header(bytes, name);
+  std::string_view rest = bytes;
+  const NpyBytes source = [&](std::span<char> buffer) {
+    const std::size_t size = rest.copy(buffer.data(), buffer.size());
+    rest.remove_prefix(size);
+    return size;
+  };
+  return read_npy(source, bytes.size(), name, std::numeric_limits<std::size_t>::max());
+}
+
+NpyArray read_npy(const NpyBytes& source, std::size_t size, const std::string& name,
+                  std::size_t most) {
+  Bytes bytes(source, size, name);
+  const Header header = read_header(bytes, name);
   const std::size_t count = std::accumulate(header.shape.begin(), header.shape.end(),
                                             std::size_t{1}, std::multiplies<>());
   const bool is_single = header.type == "<f4";
@@ -145,14 +187,16 @@ NpyArray from_npy(std::string_view bytes, const std::string& name) {
     throw InputError(fmt::format("{}: expected numbers of type float64 or float32, found '{}'",
                                  name, header.type));
   }
-  const std::string_view data = bytes.substr(header.data_offset);
   const std::size_t expected = count * (is_single ? sizeof(float) : sizeof(double));
-  if (data.size() != expected) {
+  if (bytes.left() != expected) {
     throw InputError(
-        fmt::format("{}: expected {} bytes of numbers, found {}", name, expected, data.size()));
+        fmt::format("{}: expected {} bytes of numbers, found {}", name, expected, bytes.left()));
+  }
+  if (count > most) {
+    throw InputError(fmt::format("{}: expected {} numbers at most, found {}", name, most, count));
   }
   NpyArray array{header.shape,
-                 is_single ? numbers<float>(data, count) : numbers<double>(data, count)};
+                 is_single ? numbers<float>(bytes, count) : numbers<double>(bytes, count)};
   if (header.is_fortran_order && array.shape.size() == 2) {
     array.data = transposed(array.data, array.shape[0], array.shape[1]);
   }

@@ -1,5 +1,7 @@
 #include "recordings/models/npz.hpp"
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <zip.h>
 
@@ -11,7 +13,8 @@ namespace touchdown::recordings {
 
 namespace {
 
-constexpr zip_uint64_t largest_member = zip_uint64_t{1} << 31U;
+/// One GB of them: far more than any model has.
+constexpr std::size_t most_numbers = std::size_t{1} << 27U;
 constexpr std::string_view extension = ".npy";
 
 struct DiscardZip {
@@ -35,25 +38,48 @@ Zip open_zip(const std::filesystem::path& path, int flags) {
   throw InputError(fmt::format("{}: is not a readable .npz file: {}", path.string(), reason));
 }
 
-std::string read_member(zip_t& archive, zip_uint64_t index, const std::string& where) {
+NpyArray read_member(zip_t& archive, zip_uint64_t index, const std::string& where,
+                     std::size_t most) {
   zip_stat_t status;
-  if (zip_stat_index(&archive, index, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0 ||
-      status.size > largest_member) {
+  if (zip_stat_index(&archive, index, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0) {
     throw InputError(fmt::format("{}: has no sensible size", where));
   }
   const Member member(zip_fopen_index(&archive, index, 0));
   if (!member) throw InputError(fmt::format("{}: {}", where, zip_strerror(&archive)));
-  std::string bytes;
-  std::vector<char> buffer(std::size_t{1} << 16U);
-  while (true) {
-    // At the end of a member libzip compares the checksum.
+  const NpyBytes bytes = [&](std::span<char> buffer) {
     const zip_int64_t size = zip_fread(member.get(), buffer.data(), buffer.size());
     if (size < 0) throw InputError(fmt::format("{}: {}", where, zip_file_strerror(member.get())));
-    if (size == 0) break;
-    bytes.append(buffer.data(), static_cast<std::size_t>(size));
+    return static_cast<std::size_t>(size);
+  };
+  NpyArray array = read_npy(bytes, status.size, where, most);
+  // At the end of a member libzip compares the checksum.
+  std::array<char, 1> rest{};
+  if (bytes(rest) != 0) throw InputError(fmt::format("{}: is longer than it says", where));
+  return array;
+}
+
+/// Calls `visit(index, name)` for every array of the file.
+template <typename Visit>
+void for_each_array(zip_t& archive, const std::filesystem::path& path, const Visit& visit) {
+  bool has_arrays = false;
+  const zip_int64_t count = zip_get_num_entries(&archive, 0);
+  for (zip_int64_t i = 0; i < count; ++i) {
+    const auto index = static_cast<zip_uint64_t>(i);
+    const char* raw_name = zip_get_name(&archive, index, 0);
+    std::string name = raw_name == nullptr ? "" : raw_name;
+    if (!name.ends_with(extension)) continue;
+    name.resize(name.size() - extension.size());
+    has_arrays = true;
+    visit(index, name);
   }
-  if (bytes.size() != status.size) throw InputError(fmt::format("{}: is cut off", where));
-  return bytes;
+  if (!has_arrays) throw InputError(fmt::format("{}: holds no arrays", path.string()));
+}
+
+Zip open_npz(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) {
+    throw InputError(fmt::format("{}: no such file", path.string()));
+  }
+  return open_zip(path, ZIP_RDONLY | ZIP_CHECKCONS);
 }
 
 void add_member(zip_t& archive, const std::string& name, const std::string& bytes) {
@@ -76,24 +102,28 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
 
 }  // namespace
 
-NpzArrays read_npz(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) {
-    throw InputError(fmt::format("{}: no such file", path.string()));
-  }
-  const Zip archive = open_zip(path, ZIP_RDONLY | ZIP_CHECKCONS);
+std::size_t any_array(std::string_view /*name*/) { return most_numbers; }
+
+NpzArrays read_npz(const std::filesystem::path& path, const NpzNeeds& needs) {
+  const Zip archive = open_npz(path);
   NpzArrays arrays;
-  const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
-  for (zip_int64_t i = 0; i < count; ++i) {
-    const auto index = static_cast<zip_uint64_t>(i);
-    const char* raw_name = zip_get_name(archive.get(), index, 0);
-    std::string name = raw_name == nullptr ? "" : raw_name;
-    if (!name.ends_with(extension)) continue;
-    name.resize(name.size() - extension.size());
+  std::size_t left = most_numbers;
+  for_each_array(*archive, path, [&](zip_uint64_t index, const std::string& name) {
+    const std::size_t needed = needs(name);
+    if (needed == 0) return;
     const std::string where = fmt::format("{}: {}", path.string(), name);
-    arrays[name] = from_npy(read_member(*archive, index, where), where);
-  }
-  if (arrays.empty()) throw InputError(fmt::format("{}: holds no arrays", path.string()));
+    NpyArray array = read_member(*archive, index, where, std::min(needed, left));
+    left -= array.data.size();
+    arrays[name] = std::move(array);
+  });
   return arrays;
+}
+
+std::vector<std::string> npz_names(const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  for_each_array(*open_npz(path), path,
+                 [&](zip_uint64_t /*index*/, const std::string& name) { names.push_back(name); });
+  return names;
 }
 
 void require_arrays(const NpzArrays& arrays, std::string_view what,

@@ -29,7 +29,10 @@ NpyArray text(const ModelProvenance& provenance) {
 
 ModelProvenance provenance_from(const NpyArray& array) {
   std::string text;
-  for (const double byte : array.data) text += static_cast<char>(static_cast<int>(byte) & 0xff);
+  for (const double byte : array.data) {
+    if (!(byte >= 0.0 && byte <= 255.0)) throw InputError("provenance: expected bytes of a text");
+    text += static_cast<char>(static_cast<int>(byte));
+  }
   ModelProvenance provenance;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -78,6 +81,16 @@ class Reader {
  private:
   const NpzArrays& arrays_;
 };
+
+std::size_t needed(std::string_view name) {
+  constexpr std::size_t most_cells = std::size_t{1} << 25U;
+  constexpr std::size_t most_text = std::size_t{1} << 20U;
+  constexpr std::size_t most_else = 1000;
+  if (name == "provenance") return most_text;
+  if (name == "sample_rate" || name == "seconds" || name == "transition") return most_else;
+  if (!name.starts_with("torque_") && !name.starts_with("acceleration_")) return 0;
+  return name.ends_with("_log_density") ? most_cells : most_else;
+}
 
 PhaseModelFile file_from(const Reader& reader) {
   PhaseModelFile file;
@@ -145,7 +158,8 @@ void write_phase_model(const PhaseModelFile& file, const std::filesystem::path& 
 }
 
 PhaseModelFile read_phase_model(const std::filesystem::path& path) {
-  return made_of_npz(path, [](const NpzArrays& arrays) { return file_from(Reader(arrays)); });
+  return made_of_npz(path, needed,
+                     [](const NpzArrays& arrays) { return file_from(Reader(arrays)); });
 }
 
 }  // namespace touchdown::recordings

@@ -145,6 +145,46 @@ TEST(Npy, WhatItIsNotSaysSo) {
   EXPECT_THROW(to_npy({{3}, {1.0}}), Error);
 }
 
+TEST(Npz, OfAnArrayThatIsNotNeededNothingIsRead) {
+  const ScratchFolder folder;
+  NpzArrays arrays = sample_arrays();
+  write_npz(arrays, folder / "a.npz");
+  std::string bytes = read_file(folder / "a.npz");
+  const std::size_t number = bytes.find(raw<double>({4.5}));
+  ASSERT_NE(number, std::string::npos);
+  bytes[number] =
+      static_cast<char>(bytes[number] ^ 1);  // in "two", whose checksum does not fit now
+  std::ofstream(folder / "a.npz", std::ios::binary) << bytes;
+  const NpzArrays read = read_npz(
+      folder / "a.npz", [](std::string_view name) -> std::size_t { return name == "one" ? 3 : 0; });
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read.at("one").data, arrays["one"].data);
+  EXPECT_THROW(read_npz(folder / "a.npz"), InputError);
+  EXPECT_THAT(npz_names(folder / "a.npz"), ::testing::UnorderedElementsAre("one", "two", "none"));
+}
+
+TEST(Npz, AnArrayOfMoreNumbersThanNeededIsRefusedBeforeItIsRead) {
+  const ScratchFolder folder;
+  write_npz(sample_arrays(), folder / "a.npz");
+  try {
+    read_npz(folder / "a.npz", [](std::string_view) { return std::size_t{5}; });
+    FAIL() << "six numbers are more than five";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a.npz: two: expected 5 numbers at most, found 6"));
+  }
+  const NpyBytes none = [](std::span<char> /*buffer*/) -> std::size_t { return 0; };
+  const std::string whole = to_npy({{1000}, std::vector<double>(1000, 1.0)});
+  std::size_t given = 0;
+  const NpyBytes counted = [&](std::span<char> buffer) {
+    const std::size_t size = whole.copy(buffer.data(), buffer.size(), given);
+    given += size;
+    return size;
+  };
+  EXPECT_THROW(read_npy(counted, whole.size(), "a", 999), InputError);
+  EXPECT_LE(given, 128U) << "the header only";
+  EXPECT_THROW(read_npy(none, whole.size(), "a", 1000), InputError);
+}
+
 TEST(Npz, BrokenFilesAreOneClearError) {
   const ScratchFolder folder;
   const auto fails = [&](const std::string& bytes) {
