@@ -1,27 +1,27 @@
 #include <algorithm>
-#include <cstdio>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/manual/described_verb.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/program/streams.hpp"
 #include "core/yaml.hpp"
+#include "core/yaml_text.hpp"
 
 namespace touchdown::cli {
 namespace {
 
-enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
-
-int complain(const std::string& message, ExitCode code) {
-  fmt::print(stderr, "touchdown: {}\n", message);
-  return code;
-}
-
+/// What was typed, as text: a byte that is no UTF-8 becomes a question mark, because manifests hold
+/// nothing else.
 std::string joined(int argc, char** argv) {
   std::string line = "touchdown";
   for (int i = 1; i < argc; ++i) line += fmt::format(" {}", argv[i]);
+  for (std::size_t at = 0; (at += utf8_size(std::string_view(line).substr(at))) < line.size();) {
+    line[at] = '?';
+  }
   return line;
 }
 
@@ -32,22 +32,17 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 
 std::vector<std::string> verbs(const CLI::App& program) {
   std::vector<std::string> names;
-  for (const CLI::App* verb : program.get_subcommands({})) names.push_back(verb->get_name());
+  for (const DescribedVerb& verb : described_verbs(program)) names.push_back(verb.name);
   return names;
 }
 
+/// Of each option the long name first.
 std::vector<std::string> flags(const CLI::App& verb) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : verb.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  for (const DescribedOption& option : described(verb).options) {
+    if (!option.positional) names.insert(names.end(), option.names.rbegin(), option.names.rend());
   }
   return names;
-}
-
-std::string first_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
 }
 
 /// One line about what is wrong with a command line, with the nearest verb or flag that exists.
@@ -67,7 +62,7 @@ std::string complaint(const CLI::App& program, int argc, char** argv,
     const std::string flag = rest.substr(0, rest.find('='));
     return fmt::format("{}: unknown flag '{}'{}", verb, flag, suggestion(flag, flags(*asked)));
   }
-  return fmt::format("{}: {}", verb, first_line(error.what()));
+  return fmt::format("{}: {}", verb, on_one_line(error.what()));
 }
 
 int run_command_line(int argc, char** argv) {
@@ -113,4 +108,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace
 }  // namespace touchdown::cli
 
-int main(int argc, char** argv) { return touchdown::cli::run_command_line(argc, argv); }
+int main(int argc, char** argv) {
+  touchdown::open_standard_streams();
+  return touchdown::finished(touchdown::cli::run_command_line(argc, argv));
+}

@@ -6,6 +6,8 @@
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/program/outputs.hpp"
+#include "core/progress.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "render/film/video.hpp"
 #include "render/pictures/filmed_run.hpp"
@@ -23,6 +25,23 @@ struct RenderFlags {
   bool poster = false;
   bool scene = false;
 };
+
+/// The recordings, and of run directories what films are made of.
+std::vector<InputFile> files_of(const std::vector<std::string>& inputs) {
+  std::vector<InputFile> files;
+  std::error_code ignored;
+  for (const std::string& input : inputs) {
+    files.push_back({input, "recording"});
+    const std::filesystem::path directory = input;
+    files.push_back({directory / "config.yaml", "run's config.yaml"});
+    for (const char* const folder : {"recordings", "models"}) {
+      for (const auto& entry : std::filesystem::directory_iterator(directory / folder, ignored)) {
+        files.push_back({entry.path(), "run's own file"});
+      }
+    }
+  }
+  return files;
+}
 
 /// What is to be seen: one run, or two beside each other.
 std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSession& session) {
@@ -44,7 +63,7 @@ std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSessio
       runs.push_back(std::move(filmed[i]));
     }
   }
-  for (const std::string& warning : warnings) fmt::print(stderr, "touchdown: {}\n", warning);
+  for (const std::string& warning : warnings) tell(fmt::format("touchdown: {}\n", warning));
   const std::size_t wanted = flags.layout == "side-by-side" || flags.inputs.size() > 1 ? 2 : 1;
   if (runs.size() != wanted || (flags.layout == "single" && wanted != 1)) {
     throw InputError(fmt::format("render: layout '{}' shows {}, not {}",
@@ -55,6 +74,7 @@ std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSessio
 }
 
 void render(const RenderFlags& flags, const CliSession& session) {
+  check_outputs(files_of(flags.inputs), {flags.output});
   const std::vector<render::FilmedRun> runs = runs_of(flags, session);
   render::VideoOptions options = flags.video;
   options.quality =

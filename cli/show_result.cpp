@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/program/streams.hpp"
 #include "experiments/tables/manifest.hpp"
 #include "experiments/tables/terminal.hpp"
 #include "render/pictures/filmed_report.hpp"
@@ -27,24 +28,24 @@ void draw(experiments::ExperimentResult& result, const CliSession& session) {
 /// The last screen: the result in one table, where everything is, and what to do next.
 void close(const experiments::ExperimentResult& result) {
   const std::filesystem::path& directory = result.directory.path();
-  fmt::print("{}\nreport    {}\nfigures   {}\n", experiments::closing_text(result),
-             (directory / "report.html").string(), (directory / "figures").string());
+  print(fmt::format("{}\nreport    {}\nfigures   {}\n", experiments::closing_text(result),
+                    (directory / "report.html").string(), (directory / "figures").string()));
   if (result.experiment.video.enabled) {
-    fmt::print("videos    {}\n", (directory / "videos").string());
+    print(fmt::format("videos    {}\n", (directory / "videos").string()));
   }
   const char* next = result.experiment.name == "noise_study" ? "cross_simulator" : "noise_study";
-  fmt::print(
-      "\nnext      build/release/touchdown run experiments/{}.yaml\n"
-      "          build/release/touchdown list                   what else there is\n",
-      next);
+  print(
+      fmt::format("\nnext      build/release/touchdown run experiments/{}.yaml\n"
+                  "          build/release/touchdown list                   what else there is\n",
+                  next));
 }
 
 }  // namespace
 
 void show(experiments::ExperimentResult& result, const CliSession& session, bool no_pictures) {
-  fmt::print("{}", experiments::summary_text(result));
-  fmt::print("\nresults   {}\ntables    {}\n", result.directory.path().string(),
-             (result.directory.path() / "tables").string());
+  print(experiments::summary_text(result));
+  print(fmt::format("\nresults   {}\ntables    {}\n", result.directory.path().string(),
+                    (result.directory.path() / "tables").string()));
   std::fflush(stdout);
   if (!no_pictures) {
     draw(result, session);

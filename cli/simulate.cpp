@@ -4,6 +4,7 @@
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/program/outputs.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
@@ -25,11 +26,13 @@ struct SimulateFlags {
 };
 
 void simulate(const SimulateFlags& flags, const CliSession& session) {
-  YamlDocument document = YamlDocument::load(find_resource(flags.scenario));
+  const std::filesystem::path file = find_resource(flags.scenario);
+  YamlDocument document = YamlDocument::load(file);
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
   experiments::require_yaml_kind(document, experiments::YamlKind::scenario);
   scenarios::Scenario scenario = scenarios::scenario_from_yaml(document);
   scenario.robot = find_resource(scenario.robot);
+  check_outputs({{file, "scenario"}, {scenario.robot, "robot"}}, {flags.output});
   if (flags.run >= 0) scenario = scenarios::perturbed(scenario, flags.seed, flags.run);
 
   recordings::Recording recording;

@@ -1,7 +1,9 @@
 #include "core/progress.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <cerrno>
+#include <csignal>
+#include <ctime>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -25,7 +27,40 @@ std::string duration(double seconds) {
   return fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 
+/// While it lives, a pipe without a reader is an error of this thread's writes and no end of the
+/// program.
+class WithoutBrokenPipe {
+ public:
+  WithoutBrokenPipe() {
+    ::sigemptyset(&broken_pipe_);
+    ::sigaddset(&broken_pipe_, SIGPIPE);
+    ::pthread_sigmask(SIG_BLOCK, &broken_pipe_, &before_);
+  }
+  ~WithoutBrokenPipe() {
+    // What a write raised waits for this thread; it must be taken before the mask falls.
+    const timespec at_once{};
+    if (::sigismember(&before_, SIGPIPE) == 0) ::sigtimedwait(&broken_pipe_, nullptr, &at_once);
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  WithoutBrokenPipe(const WithoutBrokenPipe&) = delete;
+  WithoutBrokenPipe& operator=(const WithoutBrokenPipe&) = delete;
+
+ private:
+  sigset_t broken_pipe_{};
+  sigset_t before_{};
+};
+
 }  // namespace
+
+void tell(std::string_view text) {
+  const WithoutBrokenPipe no_end;
+  while (!text.empty()) {
+    const ssize_t size = ::write(STDERR_FILENO, text.data(), text.size());
+    if (size < 0 && errno == EINTR) continue;
+    if (size <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(size));
+  }
+}
 
 Progress::Progress(std::string what, std::string unit, std::int64_t total)
     : what_(std::move(what)),
@@ -70,12 +105,10 @@ void Progress::show(Clock::time_point now, bool last) {
                          duration(static_cast<double>(total_ - done_) / rate));
   }
   if (terminal_) {
-    fmt::print(stderr, "\r\x1b[K{:<14} {} {}{}", what_, bar(done_, total_), state,
-               last ? "\n" : "");
+    tell(fmt::format("\r\x1b[K{:<14} {} {}{}", what_, bar(done_, total_), state, last ? "\n" : ""));
   } else {
-    fmt::print(stderr, "{}: {}\n", what_, state);
+    tell(fmt::format("{}: {}\n", what_, state));
   }
-  std::fflush(stderr);
 }
 
 }  // namespace touchdown

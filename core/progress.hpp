@@ -4,8 +4,13 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 namespace touchdown {
+
+/// Says something on standard error: all of it or, where that is full, closed, or a pipe that
+/// nobody reads, less. It never fails and never stops anything.
+void tell(std::string_view text);
 
 /// Tells somebody at the terminal how far a long computation is: a bar with rate and time left
 /// where standard error is a terminal, a plain line every few seconds elsewhere. Threads may share

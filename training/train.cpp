@@ -120,7 +120,7 @@ class TrainingSession {
     trainer_ = std::make_unique<Trainer>(
         recordings::read_neural_network(directory_.file("models", "nmn.npz")), config_.optimiser);
     trainer_->load(checkpoint(history_.size()));
-    fmt::print(stderr, "going on after iteration {}\n", history_.size());
+    tell(fmt::format("going on after iteration {}\n", history_.size()));
   }
 
   void iterate() {
@@ -160,12 +160,12 @@ class TrainingSession {
     std::error_code ignored;
     fs::remove(checkpoint(history_.size() - 1), ignored);
     const IterationRecord& now = history_.back();
-    fmt::print(stderr,
-               "iteration {}/{}: training loss {:.4f}, validation loss {:.4f} (contact {:.4f} nat, "
-               "right {:.2f} %; velocity {:.4f} m²/s²){}\n",
-               now.iteration, config_.optimiser.iterations, now.training.total,
-               now.validation.total, now.validation.contact, 100.0 * now.validation.accuracy,
-               now.validation.velocity, best ? ", the best so far" : "");
+    tell(fmt::format(
+        "iteration {}/{}: training loss {:.4f}, validation loss {:.4f} (contact {:.4f} nat, "
+        "right {:.2f} %; velocity {:.4f} m²/s²){}\n",
+        now.iteration, config_.optimiser.iterations, now.training.total, now.validation.total,
+        now.validation.contact, 100.0 * now.validation.accuracy, now.validation.velocity,
+        best ? ", the best so far" : ""));
   }
 
   /// What should be known about the weights, as JSON: how they were made, on what data, how well
@@ -228,7 +228,7 @@ class TrainingSession {
 
 TrainingResult train(const TrainingConfig& config, const TrainingRequest& request) {
   if (const std::string warning = blas_warning(blas_in_use()); !warning.empty()) {
-    fmt::print(stderr, "touchdown: warning: {}\n", warning);
+    tell(fmt::format("touchdown: warning: {}\n", warning));
   }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(request.thread_count()));

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/program/outputs.hpp"
 
 namespace touchdown::cli {
 
@@ -55,17 +56,21 @@ EstimateOutputs sorted_by_kind(const std::vector<std::string>& outputs, const st
   return result;
 }
 
-void check(const fs::path& output, const std::vector<std::string>& logs, std::set<fs::path>& seen) {
+/// What is drawn, and what it is drawn of.
+std::vector<fs::path> figure_files(const fs::path& stem) {
+  std::vector<fs::path> files;
+  if (stem.empty()) return files;
+  for (const char* const extension : {".png", ".svg", ".pdf", ".gp", ".dat"}) {
+    files.push_back(stem.string() + extension);
+  }
+  return files;
+}
+
+void check(const fs::path& output, std::set<fs::path>& seen) {
   if (output.empty() || output == "-") return;
   if (!seen.insert(fs::absolute(output).lexically_normal()).second) {
     throw InputError(
         fmt::format("{}: would be written for two logs of that name", output.string()));
-  }
-  for (const std::string& log : logs) {
-    std::error_code ignored;
-    if (fs::equivalent(output, log, ignored)) {
-      throw InputError(fmt::format("{}: is the log itself: name another file", output.string()));
-    }
   }
   require_writable(output);
 }
@@ -91,6 +96,7 @@ void write_file(const fs::path& path, const std::function<void(std::ostream*)>& 
 }  // namespace
 
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
+                                              const std::string& model,
                                               const std::vector<std::string>& outputs,
                                               const std::string& figure) {
   EstimateOutputs given = sorted_by_kind(outputs, figure);
@@ -99,15 +105,26 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
   if (live && given.csv.empty()) given.csv = "-";
   std::vector<EstimateOutputs> all;
   std::set<fs::path> seen;
+  std::vector<InputFile> inputs = {{model, "model"}};
+  for (const std::string& log : logs) inputs.push_back({log, "log"});
+  std::vector<fs::path> files;
+  std::set<fs::path> styles;  // one for all figures of a folder
   for (const std::string& log : logs) {
     EstimateOutputs own = given;
     if (logs.size() > 1) {
       own = {named_after(log, given.csv), named_after(log, given.mpack),
              named_after(log, given.figure)};
     }
-    for (const fs::path& output : {own.csv, own.mpack, own.figure}) check(output, logs, seen);
+    for (const fs::path& output : {own.csv, own.mpack, own.figure}) {
+      check(output, seen);
+      if (!output.empty() && output != own.figure) files.push_back(output);
+    }
+    for (const fs::path& file : figure_files(own.figure)) files.push_back(file);
+    if (!own.figure.empty()) styles.insert(own.figure.parent_path() / "style.gp");
     all.push_back(own);
   }
+  files.insert(files.end(), styles.begin(), styles.end());
+  check_outputs(inputs, files);
   return all;
 }
 

@@ -19,8 +19,9 @@ struct EstimateOutputs {
 
 /// Tells outputs apart by their extensions, `.csv` and `.mpack`; for several logs, the log's name
 /// is put before each. Errors: `InputError` for another extension, two outputs of a kind, an output
-/// that two logs share or that is one of the logs; `Error` for one that cannot be written.
+/// that two logs share, and those of `check_outputs`; `Error` for one that cannot be written.
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
+                                              const std::string& model,
                                               const std::vector<std::string>& outputs,
                                               const std::string& figure);
 

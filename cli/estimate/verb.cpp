@@ -7,6 +7,7 @@
 #include "cli/estimate/outputs.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "experiments/logs/belief_csv.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/listener.hpp"
@@ -129,6 +130,15 @@ std::string listen(recordings::LogReader& reader, const experiments::LogEstimato
          summary;
 }
 
+/// Where the table does not go.
+void say(const EstimateOutputs& outputs, const std::string& text) {
+  if (outputs.prints_csv()) {
+    tell(text);
+  } else {
+    fmt::print("{}", text);
+  }
+}
+
 void estimate_log(const std::string& path, const experiments::LogEstimator& estimator,
                   const EstimateFlags& flags, const EstimateOutputs& outputs,
                   const CliSession& session) {
@@ -147,7 +157,7 @@ void estimate_log(const std::string& path, const experiments::LogEstimator& esti
     summary = listen(reader, estimator, listeners);
     if (*session.stop && !live) throw Stopped("stopped; nothing was written");
     for (const std::string& warning : reader.warnings()) {
-      fmt::print(stderr, "touchdown: {}\n", warning);
+      tell(fmt::format("touchdown: {}\n", warning));
     }
     if (!outputs.figure.empty()) {
       if (listeners.trace().bins().empty()) {
@@ -163,16 +173,16 @@ void estimate_log(const std::string& path, const experiments::LogEstimator& esti
     summary += fmt::format("{:<12} {}\n", "beliefs", outputs.csv.string());
   }
   if (!outputs.mpack.empty()) summary += fmt::format("{:<12} {}\n", "log", outputs.mpack.string());
-  fmt::print(outputs.prints_csv() ? stderr : stdout, "{}", summary);
+  say(outputs, summary);
 }
 
 void estimate(const EstimateFlags& flags, const CliSession& session) {
   const experiments::LogEstimator estimator =
       experiments::log_estimator(flags.estimator, flags.model);
   const std::vector<EstimateOutputs> outputs =
-      estimate_outputs(flags.logs, flags.outputs, flags.figure);
+      estimate_outputs(flags.logs, flags.model, flags.outputs, flags.figure);
   for (std::size_t i = 0; i < flags.logs.size(); ++i) {
-    if (i > 0) fmt::print(outputs[i].prints_csv() ? stderr : stdout, "\n");
+    if (i > 0) say(outputs[i], "\n");
     estimate_log(flags.logs[i], estimator, flags, outputs[i], session);
   }
 }

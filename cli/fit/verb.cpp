@@ -6,6 +6,8 @@
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/program/outputs.hpp"
+#include "core/progress.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/logs/fit.hpp"
 
@@ -141,15 +143,20 @@ void fit(const FitFlags& flags, const CliSession& session) {
         fitted_estimators()));
   }
   shape_densities(entry, flags);
+  std::vector<InputFile> inputs;
+  for (const experiments::FitLog& log : logs) inputs.push_back({log.path, "log"});
+  check_outputs(inputs, {flags.output});
   experiments::LogFitConfig config = flags.config;
   config.stop = session.stop;
   experiments::LogFitReport report;
   experiments::write_fitted_model(experiments::fit_to_logs(entry, logs, config, report),
                                   flags.output);
-  for (const std::string& warning : report.warnings) fmt::print(stderr, "touchdown: {}\n", warning);
+  for (const std::string& warning : report.warnings) tell(fmt::format("touchdown: {}\n", warning));
   if (report.unusable > 0) {
-    fmt::print(stderr, "touchdown: {} samples of a leg are not finite and were left out\n",
-               report.unusable);
+    tell(fmt::format(
+        "touchdown: {} samples of a leg are not finite, or beyond what a sensor measures, and were "
+        "left out\n",
+        report.unusable));
   }
   fmt::print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.seconds, logs.size(),
              logs.size() == 1 ? "log" : "logs");

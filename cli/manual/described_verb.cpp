@@ -9,11 +9,6 @@ namespace touchdown::cli {
 
 namespace {
 
-std::string on_one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 /// "a" and "b" of "TEXT:{a,b}", CLI11's name of a type that is checked.
 std::vector<std::string> choices_in(const std::string& type) {
   std::vector<std::string> choices;
@@ -43,6 +38,11 @@ DescribedOption described(const CLI::Option& option) {
 }
 
 }  // namespace
+
+std::string on_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
 
 DescribedVerb described(const CLI::App& app) {
   DescribedVerb result;

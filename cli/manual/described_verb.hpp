@@ -28,6 +28,9 @@ struct DescribedVerb {
   std::vector<DescribedOption> options;
 };
 
+/// With blanks for line ends.
+std::string on_one_line(std::string text);
+
 /// The program without its verbs, or a verb.
 DescribedVerb described(const CLI::App& app);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "experiments/drops/detail.hpp"
 #include "experiments/drops/posterior.hpp"
 #include "experiments/tables/captions.hpp"
@@ -94,7 +95,7 @@ void or_say_why_not(const Draw& draw) {
   try {
     draw();
   } catch (const InputError& error) {
-    fmt::print(stderr, "touchdown: not drawn: {}\n", error.what());
+    tell(fmt::format("touchdown: not drawn: {}\n", error.what()));
   }
 }
 

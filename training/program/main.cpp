@@ -1,10 +1,12 @@
-#include <cstdio>
+#include <filesystem>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/program/outputs.hpp"
+#include "core/program/streams.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "training/sample_efficiency/study.hpp"
@@ -14,20 +16,19 @@ namespace touchdown::training {
 
 namespace {
 
-enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
-
-int complain(const std::string& message, ExitCode code) {
-  fmt::print(stderr, "touchdown: {}\n", message);
-  return code;
-}
-
 struct Flags {
   std::string file;
   std::vector<std::string> overrides;
 };
 
 int run(const Flags& flags, const TrainingRequest& request) {
-  YamlDocument document = YamlDocument::load(find_resource(flags.file));
+  const std::filesystem::path file = find_resource(flags.file);
+  if (!request.network.empty()) {
+    const std::filesystem::path network = request.network;
+    check_outputs({{file, "training file"}},
+                  {network, std::filesystem::path(network).replace_extension("json")});
+  }
+  YamlDocument document = YamlDocument::load(file);
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
   experiments::require_yaml_kind(document, experiments::YamlKind::training);
   if (is_sample_efficiency(document)) {
@@ -92,4 +93,7 @@ int run_program(int argc, char** argv) {
 
 }  // namespace touchdown::training
 
-int main(int argc, char** argv) { return touchdown::training::run_program(argc, argv); }
+int main(int argc, char** argv) {
+  touchdown::open_standard_streams();
+  return touchdown::finished(touchdown::training::run_program(argc, argv));
+}

@@ -136,7 +136,7 @@ class SampleEfficiencyStudy {
       model.measurement = experiments::fit(pointers, entry.config->measurement, {});
       add(entry.title, seconds, [&] { return entry.make(entry, {test_rate(), &model}); });
     } catch (const InputError& error) {
-      fmt::print(stderr, "{}, {} s: {}\n", entry.title, seconds, error.what());
+      tell(fmt::format("{}, {} s: {}\n", entry.title, seconds, error.what()));
     }
   }
 

@@ -1,0 +1,46 @@
+#include "core/program/streams.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <iostream>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "core/progress.hpp"
+
+namespace touchdown {
+
+void open_standard_streams() {
+  // By descriptor; each is the lowest that is free when its turn comes.
+  constexpr std::array<int, 3> modes = {O_WRONLY, O_RDONLY, O_WRONLY};
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    (void)::open("/dev/null", modes.at(static_cast<std::size_t>(stream)));  // NOLINT
+  }
+}
+
+void print(std::string_view text) { (void)std::fwrite(text.data(), 1, text.size(), stdout); }
+
+int complain(const std::string& message, ExitCode code) {
+  tell(fmt::format("touchdown: {}\n", message));
+  return code;
+}
+
+int finished(int code) {
+  errno = 0;
+  std::cout.flush();
+  const bool written = std::fflush(stdout) == 0;
+  const int reason = errno;
+  if (written && std::cout && std::ferror(stdout) == 0) return code;
+  const int complaint =
+      complain(fmt::format("standard output cannot be written{}{}", reason == 0 ? "" : ": ",
+                           reason == 0 ? "" : std::strerror(reason)),
+               failed);
+  return code == good ? complaint : code;
+}
+
+}  // namespace touchdown
