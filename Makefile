@@ -3,8 +3,8 @@ JOBS ?= $(shell nproc)
 BUILD := build/release
 
 .DEFAULT_GOAL := help
-.PHONY: help setup program-packages trainer-packages test-packages \
-	build run trainer everything test lint format bench asan clean
+.PHONY: help setup program-packages trainer-packages test-packages fuzz-packages \
+	build run trainer everything test lint format bench asan fuzz clean
 
 help: ## Show this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -16,6 +16,8 @@ program-packages:
 	@scripts/install_packages.sh program
 trainer-packages:
 	@scripts/install_packages.sh program trainer
+fuzz-packages:
+	@scripts/install_packages.sh lint
 test-packages:
 	@scripts/install_packages.sh program trainer tests
 
@@ -30,6 +32,10 @@ $(BUILD)/CTestTestfile.cmake: CMakePresets.json | test-packages
 	@touch $@
 build/asan/build.ninja: CMakePresets.json | test-packages
 	cmake --preset asan
+	@touch $@
+
+build/fuzz/build.ninja: CMakePresets.json | test-packages fuzz-packages
+	cmake --preset fuzz
 	@touch $@
 
 build: $(BUILD)/build.ninja ## Build the program alone: build/release/touchdown
@@ -63,6 +69,10 @@ bench: everything ## Run every benchmark
 asan: build/asan/build.ninja ## Build and test with AddressSanitizer and UBSan
 	cmake --build --preset asan --parallel $(JOBS)
 	ctest --preset asan --parallel $(JOBS)
+
+fuzz: build/fuzz/build.ninja ## Fuzz whatever reads a file, MINUTES (1) each
+	cmake --build --preset fuzz --parallel $(JOBS)
+	@scripts/fuzz.sh build/fuzz $(or $(MINUTES),1)
 
 clean: ## Remove what was built (runs/ stays)
 	rm -rf build

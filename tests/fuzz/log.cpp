@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+#include "core/error.hpp"
+#include "recordings/log/annotator.hpp"
+#include "recordings/log/reader.hpp"
+#include "recordings/signals_from.hpp"
+#include "tests/fuzz/entry.hpp"
+
+namespace {
+
+/// Reads a log as `touchdown estimate` does and writes beliefs into it. The first byte says how
+/// many bytes a read gives, as from a live stream; 0 for all.
+struct Annotated {
+  std::size_t rows = 0;
+  std::string log;
+};
+
+Annotated annotated(std::string_view bytes, std::size_t piece) {
+  using namespace touchdown::recordings;
+  const ByteSource source = [&](std::span<char> buffer) {
+    const std::size_t most = piece == 0 ? buffer.size() : std::min(buffer.size(), piece);
+    const std::size_t size = bytes.copy(buffer.data(), most);
+    bytes.remove_prefix(size);
+    return size;
+  };
+  LogReader reader(source, "fuzz.mpack");
+  (void)reader.info();
+  std::ostringstream out;
+  LogAnnotator annotator(out);
+  Annotated result;
+  while (const std::optional<LogRow> row = reader.next()) {
+    (void)signals_from(row->observation, ground_velocity_command(row->action));
+    annotator.copy(reader.skipped());
+    annotator.annotate(reader.record(), {}, {});
+    ++result.rows;
+  }
+  annotator.copy(reader.skipped());
+  result.log = out.str();
+  return result;
+}
+
+}  // namespace
+
+/// A log. What was written into one reads back as the same number of rows.
+TOUCHDOWN_FUZZ(log) {
+  if (input.empty()) return;
+  const auto piece = static_cast<std::size_t>(static_cast<unsigned char>(input.front()));
+  Annotated once;
+  try {
+    once = annotated(input.substr(1), piece);
+  } catch (const touchdown::Error&) {
+    return;
+  }
+  if (once.rows != 0 && annotated(once.log, 0).rows != once.rows) __builtin_trap();
+}

@@ -1,0 +1,18 @@
+#include "recordings/models/measurement_model.hpp"
+
+#include "core/error.hpp"
+#include "tests/fuzz/archive.hpp"
+#include "tests/fuzz/entry.hpp"
+#include "tests/fuzz/memory_file.hpp"
+
+/// A measurement model.
+TOUCHDOWN_FUZZ(measurement_model) {
+  using namespace touchdown;
+  const fuzz::MemoryFile file(fuzz::archive_of(
+      input, {"knee_torque", "wheel_torque", "contact_likelihood", "no_contact_likelihood"}));
+  try {
+    const MeasurementModel model = recordings::read_measurement_model(file.path());
+    (void)model({0.5, 1e308});
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  }
+}

@@ -1,0 +1,24 @@
+#include "tests/fuzz/memory_file.hpp"
+
+#include <cstdlib>
+#include <string>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace touchdown::fuzz {
+
+MemoryFile::MemoryFile(std::string_view content) : descriptor_(::memfd_create("fuzz", 0)) {
+  while (!content.empty()) {
+    const ssize_t size = ::write(descriptor_, content.data(), content.size());
+    if (size <= 0) std::abort();
+    content.remove_prefix(static_cast<std::size_t>(size));
+  }
+}
+
+MemoryFile::~MemoryFile() { ::close(descriptor_); }
+
+std::filesystem::path MemoryFile::path() const {
+  return "/proc/self/fd/" + std::to_string(descriptor_);
+}
+
+}  // namespace touchdown::fuzz

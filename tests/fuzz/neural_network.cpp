@@ -1,0 +1,19 @@
+#include "recordings/models/neural_network.hpp"
+
+#include "core/error.hpp"
+#include "tests/fuzz/archive.hpp"
+#include "tests/fuzz/entry.hpp"
+#include "tests/fuzz/memory_file.hpp"
+
+/// The network's weights.
+TOUCHDOWN_FUZZ(neural_network) {
+  using namespace touchdown;
+  const fuzz::MemoryFile file(fuzz::archive_of(
+      input, {"period", "input_mean", "input_scale", "gru_input_weight", "gru_input_bias",
+              "gru_hidden_weight", "gru_hidden_bias", "first_weight", "first_bias", "second_weight",
+              "second_bias", "heads_weight", "heads_bias"}));
+  try {
+    (void)recordings::read_neural_network(file.path());
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  }
+}

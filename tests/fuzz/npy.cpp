@@ -1,0 +1,17 @@
+#include "recordings/models/npy.hpp"
+
+#include "core/error.hpp"
+#include "tests/fuzz/entry.hpp"
+
+/// A `.npy`; what it holds is written and read again.
+TOUCHDOWN_FUZZ(npy) {
+  using namespace touchdown;
+  recordings::NpyArray array;
+  try {
+    array = recordings::from_npy(input, "fuzz.npy");
+  } catch (const Error&) {
+    return;
+  }
+  const recordings::NpyArray again = recordings::from_npy(recordings::to_npy(array), "again.npy");
+  if (again.shape != array.shape || again.data.size() != array.data.size()) __builtin_trap();
+}

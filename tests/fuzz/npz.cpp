@@ -1,0 +1,16 @@
+#include "recordings/models/npz.hpp"
+
+#include "core/error.hpp"
+#include "tests/fuzz/entry.hpp"
+#include "tests/fuzz/memory_file.hpp"
+
+/// A `.npz` as it is.
+TOUCHDOWN_FUZZ(npz) {
+  using namespace touchdown;
+  const fuzz::MemoryFile file(input);
+  try {
+    (void)recordings::npz_names(file.path());
+    (void)recordings::read_npz(file.path());
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  }
+}

@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+
+void fuzz_log(std::string_view input);
+void fuzz_measurement_model(std::string_view input);
+void fuzz_neural_network(std::string_view input);
+void fuzz_npy(std::string_view input);
+void fuzz_npz(std::string_view input);
+void fuzz_phase_model(std::string_view input);
+void fuzz_yaml_experiment(std::string_view input);
+void fuzz_yaml_scenario(std::string_view input);
+void fuzz_yaml_set(std::string_view input);
+
+namespace touchdown {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Target {
+  const char* name;
+  void (*fuzz)(std::string_view input);
+};
+
+class Corpus : public ::testing::TestWithParam<Target> {};
+
+/// What a fuzzer found, or was given to begin with, does no harm; under sanitizers less so.
+TEST_P(Corpus, IsReplayed) {
+  const fs::path folder = fs::path(TOUCHDOWN_SOURCE_DIR) / "tests/fuzz/corpus" / GetParam().name;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  ASSERT_GE(files.size(), 2U) << folder;
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    SCOPED_TRACE(file.string());
+    const std::string content = read_file(file);
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_NO_THROW(GetParam().fuzz(content));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Corpus,
+                         ::testing::Values(Target{"log", fuzz_log},
+                                           Target{"measurement_model", fuzz_measurement_model},
+                                           Target{"neural_network", fuzz_neural_network},
+                                           Target{"npy", fuzz_npy}, Target{"npz", fuzz_npz},
+                                           Target{"phase_model", fuzz_phase_model},
+                                           Target{"yaml_experiment", fuzz_yaml_experiment},
+                                           Target{"yaml_scenario", fuzz_yaml_scenario},
+                                           Target{"yaml_set", fuzz_yaml_set}),
+                         [](const auto& target) { return std::string(target.param.name); });
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,18 @@
+#include <string>
+
+#include "core/error.hpp"
+#include "experiments/config/experiment.hpp"
+#include "experiments/config/yaml_kind.hpp"
+#include "tests/fuzz/entry.hpp"
+
+/// An experiment file, and what is written of it again.
+TOUCHDOWN_FUZZ(yaml_experiment) {
+  using namespace touchdown;
+  try {
+    const YamlDocument document = YamlDocument::parse(std::string(input), "fuzz.yaml");
+    experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
+    const std::string written = to_yaml(experiments::experiment_from_yaml(document));
+    (void)experiments::experiment_from_yaml(YamlDocument::parse(written, "again.yaml"));
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  }
+}

@@ -1,0 +1,16 @@
+#include <string>
+
+#include "core/error.hpp"
+#include "scenarios/scenario.hpp"
+#include "tests/fuzz/entry.hpp"
+
+/// A scenario file, and what is written of it again.
+TOUCHDOWN_FUZZ(yaml_scenario) {
+  using namespace touchdown;
+  try {
+    const YamlDocument document = YamlDocument::parse(std::string(input), "fuzz.yaml");
+    const std::string written = to_yaml(scenarios::scenario_from_yaml(document));
+    (void)scenarios::scenario_from_yaml(YamlDocument::parse(written, "again.yaml"));
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  }
+}
