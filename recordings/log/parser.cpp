@@ -102,6 +102,12 @@ bool LogParser::visit_str(const char* text, std::uint32_t size) {
   return true;
 }
 
+/// A list may be a key; the texts in it are none.
+bool LogParser::start_array(std::uint32_t /*elements*/) {
+  in_key_ = false;
+  return true;
+}
+
 bool LogParser::start_map(std::uint32_t /*entries*/) {
   if (current_ != LogKeyTree::none) sequences_[static_cast<std::size_t>(current_)].position = 0;
   open_.push_back(current_);

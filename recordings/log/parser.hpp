@@ -45,6 +45,7 @@ class LogParser : public msgpack::null_visitor {
   bool visit_float32(float value) { return number(static_cast<double>(value)); }
   bool visit_float64(double value) { return number(value); }
   bool visit_str(const char* text, std::uint32_t size);
+  bool start_array(std::uint32_t elements);
   bool start_map(std::uint32_t entries);
   bool start_map_key();
   bool end_map_key();

@@ -53,7 +53,7 @@ std::string archive_of(std::string_view input, const std::vector<std::string>& n
     directory += "PK\x01\x02";
     put(directory, 20, 2);
     directory += about;
-    put(directory, 0, 10);
+    directory.append(10, '\0');
     put(directory, offset, 4);
     directory += name;
   }

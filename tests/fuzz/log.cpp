@@ -10,8 +10,8 @@
 
 namespace {
 
-/// Reads a log as `touchdown estimate` does and writes beliefs into it. The first byte says how
-/// many bytes a read gives, as from a live stream; 0 for all.
+/// Reads a log as `touchdown estimate` does and writes beliefs into it. The first byte times
+/// 16 is how many bytes a read gives, as from a live stream; 0 for all.
 struct Annotated {
   std::size_t rows = 0;
   std::string log;
@@ -46,7 +46,7 @@ Annotated annotated(std::string_view bytes, std::size_t piece) {
 /// A log. What was written into one reads back as the same number of rows.
 TOUCHDOWN_FUZZ(log) {
   if (input.empty()) return;
-  const auto piece = static_cast<std::size_t>(static_cast<unsigned char>(input.front()));
+  const auto piece = 16 * static_cast<std::size_t>(static_cast<unsigned char>(input.front()));
   Annotated once;
   try {
     once = annotated(input.substr(1), piece);

@@ -155,6 +155,22 @@ TEST(UglyLogs, AnEmptyKeyIsAKeyThatWeDoNotKnow) {
   EXPECT_THAT(read(smallest).error, HasSubstr("observation.servo.left_hip.position"));
 }
 
+TEST(UglyLogs, ATextInAKeyThatIsAListOrAMapIsNoKey) {
+  const std::string good = pack({upkie_record(0.0)});
+  json other = upkie_record(5.0);
+  const std::vector<std::uint8_t> observation = json::to_msgpack(other["observation"]);
+  const std::string value(observation.begin(), observation.end());
+  for (const std::string& key : {std::string("\x91\xab") + "observation",
+                                 std::string("\x81\xab") + "observation" + "\xc0"}) {
+    std::string log = "\x81";
+    log += key;
+    log += value;
+    const Read result = read(log + good);
+    EXPECT_EQ(result.rows, 1U) << "the first record has no observation";
+    EXPECT_EQ(result.error, "");
+  }
+}
+
 TEST(UglyLogs, RecordsBeforeTheFirstFiniteTimeAreLeftOutAndNamed) {
   std::vector<json> records = upkie_records(6);
   records[0]["observation"]["time"] = std::nan("");
