@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # install_packages.sh [section...]: installs the Debian packages of these sections of packages.txt (all,
-# if none is named) that are missing. Does nothing, without the network and without root, when all of
-# them are there.
+# if none is named) that are missing, of `a | b` the first that this release has. Does nothing, without
+# the network and without root, when all of them are there.
 set -euo pipefail
 
 list="$(dirname "$0")/../packages.txt"
@@ -13,7 +13,7 @@ mapfile -t wanted < <(
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   {
     echo "touchdown: this is not a Debian system, so its packages cannot be installed from here."
-    echo "Install the equivalents of these Debian 12 packages:"
+    echo "Install the equivalents of these Debian packages:"
     printf '  %s\n' "${wanted[@]}"
     echo "and build with: cmake --preset program && cmake --build --preset program"
   } >&2
@@ -21,12 +21,25 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
 fi
 
 # dpkg-query fails for names that it has never heard of; those are simply not installed.
-installed="$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null || true)"
+mapfile -t names < <(printf '%s\n' "${wanted[@]}" | tr '|' '\n')
+installed="$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${names[@]}" 2>/dev/null || true)"
 missing=()
 for package in "${wanted[@]}"; do
-  grep -qxF "installed $package" <<<"$installed" || missing+=("$package")
+  grep -qxE "installed (${package//+/\\+})" <<<"$installed" || missing+=("$package")
 done
 ((${#missing[@]})) || exit 0
+
+# Of each a|b that is missing the first that this release has.
+choose() {
+  local package name
+  for package in "${missing[@]}"; do
+    for name in ${package//|/ }; do
+      [[ "$(LC_ALL=C apt-cache policy "$name")" == *"Candidate: "[^\(]* ]] && break
+      name="${package%%|*}" # none: apt shall complain about the first
+    done
+    echo "$name"
+  done
+}
 
 echo "touchdown: ${#missing[@]} Debian packages are missing: ${missing[*]}"
 
@@ -34,7 +47,7 @@ as_root=(env)
 if ((EUID != 0)); then
   if ! command -v sudo >/dev/null; then
     echo "touchdown: neither root nor sudo here. Ask an administrator to run:" >&2
-    echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+    echo "  apt-get install --no-install-recommends $(choose | paste -sd ' ')" >&2
     exit 1
   fi
   as_root=(sudo)
@@ -45,7 +58,8 @@ as_root+=(DEBIAN_FRONTEND=noninteractive)
 
 echo "touchdown: installing them with apt-get (what they depend on included, up to 2 GB of disk)"
 if ! { "${as_root[@]}" apt-get update -q &&
-  "${as_root[@]}" apt-get install -q -y --no-install-recommends "${missing[@]}"; }; then
+  mapfile -t chosen < <(choose) &&
+  "${as_root[@]}" apt-get install -q -y --no-install-recommends "${chosen[@]}"; }; then
   echo "touchdown: apt-get could not install them (see above). Needed: ${missing[*]}" >&2
   exit 1
 fi
