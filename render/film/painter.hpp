@@ -7,6 +7,7 @@
 
 #include "render/film/request.hpp"
 #include "render/film/scene_view.hpp"
+#include "render/offscreen/gl_context.hpp"
 #include "render/strip/signal_strip.hpp"
 
 namespace touchdown::render {
