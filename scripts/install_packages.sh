@@ -33,10 +33,13 @@ done
 choose() {
   local package name
   for package in "${missing[@]}"; do
-    for name in ${package//|/ }; do
-      [[ "$(LC_ALL=C apt-cache policy "$name")" == *"Candidate: "[^\(]* ]] && break
-      name="${package%%|*}" # none: apt shall complain about the first
-    done
+    name="${package%%|*}"
+    if [[ "$package" == *"|"* ]]; then
+      for name in ${package//|/ }; do
+        [[ "$(LC_ALL=C apt-cache policy "$name")" == *"Candidate: "[^\(]* ]] && break
+        name="${package%%|*}" # none: apt shall complain about the first
+      done
+    fi
     echo "$name"
   done
 }
