@@ -174,11 +174,12 @@ std::string scene_text(const Engine& engine) {
                                  samples_of(engine.counts.scored, engine.own("phase"), 0).size());
   for (const char* name : compared_estimators) {
     text += fmt::format("\n  {}:", name);
+    const auto condition = engine.own(name);
     for (std::size_t cell = 0; cell < engine.group.scored.size(); ++cell) {
       const std::vector<scoring::RobotScore>& scores =
-          samples_of(engine.counts.scored, engine.own(name), cell);
+          samples_of(engine.counts.scored, condition, cell);
       const scoring::CloseScore close =
-          scoring::sum(samples_of(engine.counts.close, engine.own(name), cell));
+          scoring::sum(samples_of(engine.counts.close, condition, cell));
       text += fmt::format("\n    {} (without light contact {:.4f}, {:.2f} false takeoffs/min)",
                           with_bounds(points(scores), success, engine), close.firm.success(),
                           static_cast<double>(scoring::sum(scores).wheels().takeoff.false_alarms) /

@@ -20,7 +20,7 @@ std::size_t needed(std::string_view name) {
 }
 
 /// One row per wheel torque, one column per knee torque.
-const std::vector<double>& grid(const NpzArrays& arrays, const std::string& name) {
+const std::vector<double>& grid(const NpzArrays& arrays, const char* name) {
   const NpyArray& grid = arrays.at(name);
   const std::size_t wheels = arrays.at("wheel_torque").data.size();
   const std::size_t knees = arrays.at("knee_torque").data.size();
