@@ -29,7 +29,6 @@ CloseScore& CloseScore::operator+=(const CloseScore& other) {
   away_from_events += other.away_from_events;
   firm += other.firm;
   for (std::size_t i = 0; i < latencies; ++i) takeoff_ms[i] += other.takeoff_ms[i];
-  duration_us += other.duration_us;
   return *this;
 }
 
@@ -50,7 +49,6 @@ CloseScore close_score(const std::array<ContactSequence, models::wheel_count>& t
                        const ScoringConfig& config) {
   constexpr double light = 10.0;  // N
   CloseScore result;
-  result.duration_us = static_cast<std::int64_t>(truth[0].size()) * period_us;
   for (std::size_t w = 0; w < models::wheel_count; ++w) {
     const ContactSequence& predicted = prediction[w].contact;
     const std::vector<bool> near = near_events(truth[w], period_us);

@@ -15,10 +15,8 @@ struct CloseScore {
   Classification away_from_events;  ///< without ±20 ms of takeoffs and ±5 ms of landings
   Classification firm;              ///< without contact of less than 10 N
   std::array<std::int32_t, latencies> takeoff_ms{};  ///< detected takeoffs by their latency
-  std::int64_t duration_us = 0;
 
   CloseScore& operator+=(const CloseScore& other);
-  double seconds() const { return 1e-6 * static_cast<double>(duration_us); }
   /// The least latency that so large a share of the detected takeoffs does not exceed (ms); NaN
   /// without any.
   double takeoff_percentile(double share) const;

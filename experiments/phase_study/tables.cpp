@@ -182,8 +182,7 @@ std::string scene_text(const Engine& engine) {
           scoring::sum(samples_of(engine.counts.close, condition, cell));
       text += fmt::format("\n    {} (without light contact {:.4f}, {:.2f} false takeoffs/min)",
                           with_bounds(points(scores), success, engine), close.firm.success(),
-                          static_cast<double>(scoring::sum(scores).wheels().takeoff.false_alarms) /
-                              (2.0 * close.seconds() / 60.0));
+                          scoring::sum(scores).wheels().false_takeoffs_per_minute());
     }
   }
   return text;

@@ -28,7 +28,8 @@ void for_each_array(Network& network, const Visit& visit) {
 }
 
 std::vector<std::string> array_names() {
-  std::vector<std::string> names = {"period"};
+  std::vector<std::string> names;
+  names.emplace_back("period");
   NeuralNetwork network;
   for_each_array(network,
                  [&](const std::string& name, const auto& /*matrix*/) { names.push_back(name); });

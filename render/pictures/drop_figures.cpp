@@ -22,8 +22,7 @@ namespace {
 
 /// The chosen run in one engine. Errors: `InputError` when it is not scored.
 const experiments::PlayedRun& chosen_run(const experiments::ExperimentResult& result,
-                                         const std::string& simulator, int run,
-                                         const char* key) {
+                                         const std::string& simulator, int run, const char* key) {
   const experiments::PlayedRun* found = experiments::test_run(result.runs, simulator, run);
   if (found == nullptr || experiments::is_failure(found->report.outcome)) {
     throw InputError(fmt::format("{}.run: run {} in {} is not scored", key, run, simulator));
