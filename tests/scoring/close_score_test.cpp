@@ -35,7 +35,6 @@ TEST(CloseScore, LeavesOutWhatIsNearEventsAndWhatTouchesLightly) {
   EXPECT_EQ(close.away_from_events.flight_as_contact, 2 * 10);
   EXPECT_EQ(close.firm.points(), 2 * (1700 - 100));
   EXPECT_EQ(close.firm.flight_as_contact, 2 * 30);
-  EXPECT_DOUBLE_EQ(close.seconds(), 2.0);
 }
 
 TEST(CloseScore, TellsLatenciesToTheMillisecond) {
