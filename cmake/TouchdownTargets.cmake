@@ -28,10 +28,15 @@ endif()
 
 # g++ 12 asks the processor for the whole level; a compiler that cannot ask, or another
 # architecture, fails to compile this and gets the portable code.
-include(CheckCXXSourceRuns)
-check_cxx_source_runs(
-  "int main() { return __builtin_cpu_supports(\"x86-64-v3\") ? 0 : 1; }"
-  TOUCHDOWN_HOST_IS_X86_64_V3)
+# (Debian 12's CMake crashes when it is to run something that was compiled for another processor.)
+if(CMAKE_CROSSCOMPILING)
+  set(TOUCHDOWN_HOST_IS_X86_64_V3 OFF)
+else()
+  include(CheckCXXSourceRuns)
+  check_cxx_source_runs(
+    "int main() { return __builtin_cpu_supports(\"x86-64-v3\") ? 0 : 1; }"
+    TOUCHDOWN_HOST_IS_X86_64_V3)
+endif()
 
 # Flags of all our own code; they stay in this build tree and are never installed.
 # `-fno-math-errno` lets square roots vectorise.

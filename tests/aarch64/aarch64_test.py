@@ -1,0 +1,85 @@
+"""Compiles the estimator and its tests for aarch64, runs the tests in qemu, and holds what every kind
+of estimator believes of a made-up run against what it believes on this processor.
+
+    aarch64_test.py SOURCE BUILD BELIEFS
+
+BUILD is kept from one time to the next; BELIEFS is this processor's program. Exit code 77: there is no
+compiler for aarch64 here, no qemu, or no source of GoogleTest.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+# The network computes in single precision.
+TOLERANCE = {'neural': 1e-5}
+DOUBLE = 1e-12
+# What qemu would take minutes for.
+SLOW = ('*PhaseFilter*', '*BayesFilter*', '*SlidingDft*', '*TransitionSpectrum*', 'PhaseModel*',
+        'MeasurementOnly*', 'NeuralForward*')
+NEEDED = {
+    'g++-aarch64-linux-gnu': shutil.which('aarch64-linux-gnu-g++'),
+    'qemu-user': shutil.which('qemu-aarch64'),
+    'googletest': pathlib.Path('/usr/src/googletest/CMakeLists.txt').exists(),
+}
+
+
+def run(*command):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        sys.exit(f'{" ".join(map(str, command))}\nfailed with {done.returncode}:\n{done.stdout}')
+    return done.stdout
+
+
+def beliefs(text):
+    """By estimator, for every step its probabilities, and its decisions with the status."""
+    steps = {}
+    for line in text.splitlines():
+        name, _, *numbers = line.split()
+        steps.setdefault(name, []).append(([float(p) for p in numbers[:4]], numbers[4:]))
+    return steps
+
+
+def main():
+    source, build, program = map(pathlib.Path, sys.argv[1:])
+    missing = [package for package, there in NEEDED.items() if not there]
+    if missing:
+        print(f'skipped: packages are missing: {", ".join(missing)}')
+        return 77
+
+    run('cmake', '-S', source, '-B', build, '-G', 'Ninja', '--toolchain',
+        source / 'cmake/aarch64-linux-gnu.cmake', '-DCMAKE_BUILD_TYPE=Release',
+        '-DTOUCHDOWN_ESTIMATOR_ONLY=ON', '-DTOUCHDOWN_TESTS=ON', '-DCMAKE_UNITY_BUILD=ON')
+    run('cmake', '--build', build, '--parallel', str(os.cpu_count()))
+
+    qemu = ('qemu-aarch64', '-L', '/usr/aarch64-linux-gnu')
+    output = run(*qemu, build / 'test_estimator', '--gtest_brief=1',
+                 f'--gtest_filter=-{":".join(SLOW)}')
+    passed = re.search(r'\[  PASSED  \] (\d+) tests', output)
+    assert passed and int(passed[1]) > 50, output
+    print(f'{passed[1]} tests of the estimator pass on aarch64')
+
+    there = beliefs(run(*qemu, build / 'estimator_beliefs'))
+    here = beliefs(run(program))
+    assert there.keys() == here.keys() and len(here) == 8, (there.keys(), here.keys())
+    apart = []
+    for name, expected in here.items():
+        found = there[name]
+        assert len(found) == len(expected), name
+        left = [p[0] for p, _ in expected]
+        assert max(left) - min(left) > 0.2, f'{name} was not made to think'
+        difference = max(abs(a - b) for (p, _), (q, _) in zip(found, expected) for a, b in zip(p, q))
+        decisions = sum(d != e for (_, d), (_, e) in zip(found, expected))
+        print(f'{name}: {len(found)} steps, beliefs within {difference:.1e}, '
+              f'{decisions} other decisions')
+        if not difference <= TOLERANCE.get(name, DOUBLE) or decisions:
+            apart.append(name)
+    assert not apart, apart
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,115 @@
+// Fits every kind of estimator that the library has to a made-up run, lets it listen to another
+// one, and prints what it believed: "name step P(left) P(right) P(any) P(both) left right status".
+// What the same program prints on another processor has to be the same up to rounding.
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <vector>
+
+#include "estimator/estimator.hpp"
+#include "tests/estimator/named_config.hpp"
+#include "tests/estimator/neural/sample.hpp"
+#include "tests/estimator/phase/synthetic.hpp"
+
+namespace touchdown {
+namespace {
+
+constexpr double rate = 1000.0;  // Hz
+
+/// As a sensor gives it: the same bits, however this processor's library rounds a sine.
+void round_to_grid(double& value) { value = std::nearbyint(value * 0x1p20) * 0x1p-20; }
+
+/// What `phase_run` leaves out: positions, velocities, the other axes of the IMU.
+test::PhaseRun whole_run(int drops, std::uint32_t seed) {
+  test::PhaseRun run = test::phase_run(drops, seed, 6, 0.05);
+  test::Normal normal(seed + 1);
+  double time = 0.0;
+  for (std::size_t k = 0; k < run.signals.size(); ++k) {
+    Signals& s = run.signals[k];
+    s.time = time += 1.0 / rate;
+    s.linear_acceleration = {0.3 * normal(), 0.3 * normal(), s.vertical_acceleration};
+    s.angular_velocity = {0.1 * normal(), 0.1 * normal(), 0.1 * normal()};
+    s.ground_velocity_command = 0.5;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double sign = side == 0 ? 1.0 : -1.0;
+      const double spin = run.contact[side][k] != 0 ? 0.0 : 0.2 * static_cast<double>(k % 100);
+      LegSignals& leg = s.leg[side];
+      leg.hip = {sign * 0.455, 0.05 * normal(), sign * 0.8 + 0.05 * normal()};
+      leg.knee.position = -sign * 0.791;
+      leg.knee.velocity = 0.05 * normal();
+      leg.wheel.position = sign * 0.01 * static_cast<double>(k);
+      leg.wheel.velocity = sign * (10.0 + spin) + 0.2 * normal();
+      for (JointSignals* const joint : {&leg.hip, &leg.knee, &leg.wheel}) {
+        round_to_grid(joint->position);
+        round_to_grid(joint->velocity);
+        round_to_grid(joint->torque);
+      }
+    }
+    round_to_grid(s.vertical_acceleration);
+    for (double& value : s.linear_acceleration) round_to_grid(value);
+    for (double& value : s.angular_velocity) round_to_grid(value);
+  }
+  return run;
+}
+
+/// The run that is listened to has what a robot's has: lost reports, a gap, a sensor that hangs.
+std::vector<Signals> heard_run() {
+  std::vector<Signals> signals = whole_run(3, 11).signals;
+  for (std::size_t k = 1200; k < 1230; ++k) {
+    signals[k].leg[0].knee.torque = std::numeric_limits<double>::quiet_NaN();
+  }
+  for (std::size_t k = 1400; k < 1420; ++k) {
+    signals[k].vertical_acceleration = std::numeric_limits<double>::infinity();
+  }
+  for (std::size_t k = 2200; k < signals.size(); ++k) signals[k].time += 0.125;
+  for (std::size_t k = 2950; k < signals.size(); ++k) {
+    signals[k].vertical_acceleration = signals[2950].vertical_acceleration;
+  }
+  return signals;
+}
+
+MeasurementModel fitted(const test::PhaseRun& run, MeasurementConfig config) {
+  config.fit.knee_count = config.fit.wheel_count = 50;  // qemu computes slowly
+  std::vector<TorqueSample> samples[2];
+  for (const Side side : {Side::left, Side::right}) {
+    const auto leg = static_cast<std::size_t>(side);
+    TorqueChannel channel(config.torque, side, rate);
+    for (std::size_t k = 0; k < run.signals.size(); ++k) {
+      samples[run.contact[leg][k]].push_back(channel.update(run.signals[k].leg[leg]));
+    }
+  }
+  return fit_measurement_model(samples[1], samples[0], config.fit);
+}
+
+void listen(const char* name, ContactEstimator&& estimator, const std::vector<Signals>& signals) {
+  for (std::size_t k = 0; k < signals.size(); ++k) {
+    const Belief& b = estimator.update(signals[k]);
+    std::printf("%s %zu %.17g %.17g %.17g %.17g %d %d %d\n", name, k, b.wheel[0].p_contact,
+                b.wheel[1].p_contact, b.p_any_wheel, b.p_both_wheels, b.wheel[0].contact,
+                b.wheel[1].contact, static_cast<int>(b.status));
+  }
+}
+
+void listen_all() {
+  const test::PhaseRun run = whole_run(2, 7);
+  const std::vector<Signals> heard = heard_run();
+  for (const char* const name : {"paper", "reference", "robust"}) {
+    const BayesFilterConfig config = test::named(name);
+    listen(name, BayesFilter(fitted(run, config.measurement), config), heard);
+  }
+  const BayesFilterConfig robust = BayesFilterConfig::robust();
+  listen("measurement_only", MeasurementOnly(fitted(run, robust.measurement), robust), heard);
+  PhaseFilterConfig phase;
+  phase.fit = test::small_phase_fit();
+  const std::vector<PhaseFitRun> runs = {run.view()};
+  listen("phase", PhaseFilter(fit_phase_model(runs, rate, phase.fit), phase), heard);
+  listen("neural", NeuralEstimator(test::shared(test::random_network())), heard);
+  listen("free_fall", FreeFall(), heard);
+  listen("upkie_observer", UpkieObserver(), heard);
+}
+
+}  // namespace
+}  // namespace touchdown
+
+int main() { touchdown::listen_all(); }
