@@ -6,7 +6,7 @@
 #include "cli/manual/described_verb.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
+#include "core/program/interrupt.hpp"
 #include "core/program/streams.hpp"
 #include "core/yaml.hpp"
 #include "core/yaml_text.hpp"

@@ -26,18 +26,18 @@ void draw(experiments::ExperimentResult& result, const CliSession& session) {
 }
 
 /// The last screen: the result in one table, where everything is, and what to do next.
-void close(const experiments::ExperimentResult& result) {
+std::string last_screen(const experiments::ExperimentResult& result, const CliSession& session) {
   const std::filesystem::path& directory = result.directory.path();
-  print(fmt::format("{}\nreport    {}\nfigures   {}\n", experiments::closing_text(result),
-                    (directory / "report.html").string(), (directory / "figures").string()));
+  std::string text =
+      fmt::format("{}\nreport    {}\nfigures   {}\n", experiments::closing_text(result),
+                  (directory / "report.html").string(), (directory / "figures").string());
   if (result.experiment.video.enabled) {
-    print(fmt::format("videos    {}\n", (directory / "videos").string()));
+    text += fmt::format("videos    {}\n", (directory / "videos").string());
   }
+  const std::string program = session.command.substr(0, session.command.find(' '));
   const char* next = result.experiment.name == "noise_study" ? "cross_simulator" : "noise_study";
-  print(
-      fmt::format("\nnext      build/release/touchdown run experiments/{}.yaml\n"
-                  "          build/release/touchdown list                   what else there is\n",
-                  next));
+  return text + fmt::format("\nnext      {0} run experiments/{1}.yaml\n          {0} list\n",
+                            program, next);
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void show(experiments::ExperimentResult& result, const CliSession& session, bool
   std::fflush(stdout);
   if (!no_pictures) {
     draw(result, session);
-    close(result);
+    print(last_screen(result, session));
   }
   if (!result.failed_demands.empty()) {
     throw Error(fmt::format("demanded verdicts fail: {}", fmt::join(result.failed_demands, ", ")));

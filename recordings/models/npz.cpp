@@ -94,7 +94,10 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
   // Neither compression nor the clock: the same arrays must give the same bytes.
   constexpr zip_uint16_t midnight = 0;
   constexpr zip_uint16_t first_of_january_1980 = (1U << 5U) | 1U;
-  if (zip_set_file_compression(&archive, index, ZIP_CM_STORE, 0) != 0 ||
+  // The grids of a phase model take 40 MB, and a third of that deflated, at whatever level.
+  const bool is_large = bytes.size() > 400'000;
+  if (zip_set_file_compression(&archive, index, is_large ? ZIP_CM_DEFLATE : ZIP_CM_STORE,
+                               is_large ? 1 : 0) != 0 ||
       zip_file_set_dostime(&archive, index, midnight, first_of_january_1980, 0) != 0) {
     throw Error(fmt::format("{}: cannot be added: {}", name, zip_strerror(&archive)));
   }

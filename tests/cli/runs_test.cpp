@@ -4,6 +4,7 @@
 #include <sstream>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -134,6 +135,25 @@ TEST(Run, LeavesADirectoryThatExplainsItself) {
   for (const char* key :
        {"\"versions\"", "\"commit\": \"", "\"seeds\"", "\"host\"", "\"timings_s\""}) {
     EXPECT_THAT(read_file(latest / "manifest.json"), HasSubstr(key));
+  }
+}
+
+TEST(Run, EndsWithWhatCameOutWhereItIsAndWhatToDoNext) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  const Ended ended = touchdown_program("run tiny.yaml --out a", folder.path());
+  ASSERT_EQ(ended.exit_code, 0) << ended.errors;
+  const std::string last = ended.output.substr(ended.output.find("Share of time"));
+  EXPECT_THAT(last, StartsWith("Share of time in which contact was told right, torque noise 1 N·m, "
+                               "accelerometer noise 5 m/s²\n"));
+  for (const auto& row : cells_of(folder / "a/tables/success.csv")) {
+    if (row[1] != "robust" || row[2] != "1" || row[3] != "5") continue;
+    EXPECT_THAT(last, HasSubstr(fmt::format("{:.3f} [{:.3f}, {:.3f}]", std::stod(row[4]),
+                                            std::stod(row[5]), std::stod(row[6]))));
+  }
+  for (const char* line :
+       {"\nreport    a/report.html\n", "\nfigures   a/figures\n", "\nnext      "}) {
+    EXPECT_THAT(last, HasSubstr(line));
   }
 }
 

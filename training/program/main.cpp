@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
+#include "core/program/interrupt.hpp"
 #include "core/program/outputs.hpp"
 #include "core/program/streams.hpp"
 #include "core/resources.hpp"

@@ -1,4 +1,4 @@
-#include "core/interrupt.hpp"
+#include "core/program/interrupt.hpp"
 
 #include <csignal>
 
