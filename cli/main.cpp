@@ -66,7 +66,8 @@ std::string complaint(const CLI::App& program, int argc, char** argv,
 }
 
 int run_command_line(int argc, char** argv) {
-  const CliSession session{joined(argc, argv), &stop_on_interrupt()};
+  const CliSession session{joined(argc, argv), argc > 0 ? argv[0] : "touchdown",
+                           &stop_on_interrupt()};
   CLI::App program(
       "touchdown run experiments/stairs.yaml\n\n"
       "Simulates wheeled bipeds in two physics engines, injects sensor noise, and\n"

@@ -34,10 +34,9 @@ std::string last_screen(const experiments::ExperimentResult& result, const CliSe
   if (result.experiment.video.enabled) {
     text += fmt::format("videos    {}\n", (directory / "videos").string());
   }
-  const std::string program = session.command.substr(0, session.command.find(' '));
   const char* next = result.experiment.name == "noise_study" ? "cross_simulator" : "noise_study";
   return text + fmt::format("\nnext      {0} run experiments/{1}.yaml\n          {0} list\n",
-                            program, next);
+                            session.program, next);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace touchdown::cli {
 /// What all verbs share.
 struct CliSession {
   std::string command;                      ///< what was typed
+  std::string program;                      ///< its first word, as it was typed
   const std::atomic<bool>* stop = nullptr;  ///< becomes true on Ctrl-C
 };
 

@@ -45,15 +45,17 @@ std::filesystem::path part_folder_path(const std::filesystem::path& path) {
   return path.parent_path() / part_name(path.filename());
 }
 
+bool has_shape(const std::string& name, const std::string& shape) {
+  return std::regex_match(name, std::regex(shape));
+}
+
 bool is_part_file_name(const std::filesystem::path& name) {
-  static const std::regex shape(R"(\..*\.\d+\.[0-9a-f]{4,8}\.part(\.[^.]+)?)");
-  return std::regex_match(name.string(), shape);
+  return has_shape(name.string(), R"(\..*\.\d+\.[0-9a-f]{4,8}\.part(\.[^.]+)?)");
 }
 
 bool is_part_folder_name(const std::filesystem::path& name) {
   // There was no chance in them once.
-  static const std::regex shape(R"(\..*\.\d+(\.[0-9a-f]{4,8})?\.part)");
-  return std::regex_match(name.string(), shape);
+  return has_shape(name.string(), R"(\..*\.\d+(\.[0-9a-f]{4,8})?\.part)");
 }
 
 }  // namespace touchdown

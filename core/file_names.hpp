@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace touchdown {
@@ -12,6 +13,9 @@ bool is_name_word(std::string_view text);
 
 /// What who reads such a text complains of.
 inline constexpr const char* expected_name_word = "expected a word that can name a folder";
+
+/// Whether a name as a whole is what a regular expression (ECMAScript's) describes.
+bool has_shape(const std::string& name, const std::string& shape);
 
 /// A path beside `path` for what becomes `path` when it is whole: hidden, and with this process's
 /// number and chance in it, so that nobody else writes there or knows the name before. The

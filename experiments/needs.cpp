@@ -42,6 +42,9 @@ Needs needs_of(const RunRequest& request) {
   for (const std::string& file : experiment.fit.scenarios) {
     add_runs(needs, scenario_of(request, file).scenario, engines * experiment.fit.runs, 0.0);
   }
+  for (const FitPieces& pieces : experiment.fit_pieces) {
+    add_runs(needs, scenario_of(request, pieces.scenario).scenario, engines * pieces.runs, 0.0);
+  }
   for (const std::string& file : experiment.test.scenarios) {
     add_runs(needs, scenario_of(request, file).scenario, engines * experiment.test.runs, seeds);
   }

@@ -1,7 +1,5 @@
 #include "experiments/run_directory/occupant.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -31,9 +29,10 @@ std::string name_in(const fs::path& config) {
 /// Of a finished run whose `state` somebody removed, its manifest tells the experiment.
 std::optional<Occupant> finished_in(const fs::path& directory) {
   try {
-    const auto manifest = nlohmann::json::parse(read_file(directory / "manifest.json"));
-    if (!manifest.at("versions").contains("touchdown")) return std::nullopt;
-    return Occupant{{}, manifest.at("id").get<std::string>(), name_in(directory / "config.yaml")};
+    // What is JSON is YAML.
+    const YAML::Node manifest = YamlDocument::load(directory / "manifest.json").root();
+    if (!manifest["versions"]["touchdown"]) return std::nullopt;
+    return Occupant{{}, manifest["id"].as<std::string>(), name_in(directory / "config.yaml")};
   } catch (const std::exception&) {
     return std::nullopt;
   }

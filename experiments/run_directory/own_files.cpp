@@ -1,7 +1,6 @@
 #include "experiments/run_directory/own_files.hpp"
 
 #include <algorithm>
-#include <regex>
 #include <set>
 #include <string>
 
@@ -163,9 +162,8 @@ std::vector<fs::path> own_files(const fs::path& directory) {
   append(names, recordings_and_stamps(directory));
   append(names, figures(directory));
   for (const FixedNames& fixed : fixed_names) {
-    const std::regex shape(fixed.shape);
     for (const std::string& file : files_in(directory / fixed.folder)) {
-      if (std::regex_match(file, shape)) names.push_back(fs::path(fixed.folder) / file);
+      if (has_shape(file, fixed.shape)) names.push_back(fs::path(fixed.folder) / file);
     }
   }
   // Scenarios and the experiment name the others: were the removal killed, the next one needs them.
@@ -187,9 +185,9 @@ void remove_own_files(const fs::path& directory) {
 Strangers remove_run(const fs::path& directory) {
   remove_partial_files(directory);
   remove_own_files(directory);
-  static const std::regex log(R"((shard|merge)_\d+(_\d+)?\.txt)");
   for (const std::string& file : files_in(directory / "logs")) {
-    if (std::regex_match(file, log)) remove_file(directory / "logs" / file);
+    const bool is_log = has_shape(file, R"((shard|merge)_\d+(_\d+)?\.txt)");
+    if (is_log) remove_file(directory / "logs" / file);
   }
   if (is_file(key_file(directory))) remove_file(key_file(directory));
   Strangers left;

@@ -27,6 +27,7 @@ TEST(Needs, CountWhatThePlanHolds) {
     const Plan plan = whole_plan(request);
     // What is not counted, runs that the studies add, is little.
     EXPECT_LE(needs.runs, static_cast<double>(plan.runs.size())) << file;
+    EXPECT_GE(needs.runs, 0.4 * static_cast<double>(plan.runs.size())) << file;
     EXPECT_LE(needs.parts, static_cast<double>(plan.tasks.size())) << file;
     EXPECT_GE(needs.parts, 0.75 * static_cast<double>(plan.tasks.size())) << file;
   }
