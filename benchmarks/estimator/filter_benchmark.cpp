@@ -54,7 +54,7 @@ void update(benchmark::State& state, const char* name) {
   for (auto _ : state) {
     Signals& s = stream[i];
     s.time = time += 0.001;
-    benchmark::DoNotOptimize(filter->update(s).p_any_wheel);
+    benchmark::DoNotOptimize(double{filter->update(s).p_any_wheel});
     i = (i + 1) % stream_length;
   }
 }
@@ -74,7 +74,7 @@ void latency(benchmark::State& state, const char* name) {
     for (std::size_t i = 0; i < stream_length; ++i) {
       stream[i].time = time += 0.001;
       const auto start = Clock::now();
-      benchmark::DoNotOptimize(filter->update(stream[i]).p_any_wheel);
+      benchmark::DoNotOptimize(double{filter->update(stream[i]).p_any_wheel});
       const auto end = Clock::now();
       nanoseconds.push_back(std::chrono::duration<double, std::nano>(end - start).count());
     }

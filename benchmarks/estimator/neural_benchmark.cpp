@@ -58,7 +58,7 @@ void neural_update(benchmark::State& state) {
   for (auto _ : state) {
     Signals& s = stream[i];
     s.time = time += 0.001;
-    benchmark::DoNotOptimize(estimator.update(s).p_any_wheel);
+    benchmark::DoNotOptimize(double{estimator.update(s).p_any_wheel});
     i = (i + 1) % stream_length;
   }
 }

@@ -36,7 +36,7 @@ void update_phase(benchmark::State& state) {
   for (auto _ : state) {
     Signals& s = stream[i];
     s.time = time += 0.001;
-    benchmark::DoNotOptimize(filter.update(s).p_any_wheel);
+    benchmark::DoNotOptimize(double{filter.update(s).p_any_wheel});
     i = (i + 1) % stream_length;
   }
 }
@@ -53,7 +53,7 @@ void latency_phase(benchmark::State& state) {
     for (Signals& s : stream) {
       s.time = time += 0.001;
       const auto start = Clock::now();
-      benchmark::DoNotOptimize(filter.update(s).p_any_wheel);
+      benchmark::DoNotOptimize(double{filter.update(s).p_any_wheel});
       const auto end = Clock::now();
       nanoseconds.push_back(std::chrono::duration<double, std::nano>(end - start).count());
     }

@@ -1,6 +1,7 @@
 #include "experiments/tables/captions.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -42,6 +43,16 @@ std::string estimator_title(const std::string& estimator) {
     if (entry.name == estimator) return entry.title;
   }
   return estimator;
+}
+
+std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
+                                const CellSummary& summary) {
+  const auto score = std::find_if(scores.begin(), scores.end(), [&](const ScoreSummary& s) {
+    return s.condition == summary.condition && s.cell == summary.cell && s.view == "wheels";
+  });
+  if (score == scores.end()) return "–";
+  const double per_minute = (*score)["false_takeoffs_per_minute"].estimate;
+  return std::isnan(per_minute) ? "–" : fmt::format("{:.1f}", per_minute);
 }
 
 std::string scored_text(const ExperimentResult& result, const std::string& simulator) {

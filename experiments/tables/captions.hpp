@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "experiments/config/experiment.hpp"
+#include "experiments/tables/scores.hpp"
 
 namespace touchdown::experiments {
 
@@ -23,6 +25,9 @@ std::string conditions_text(const Experiment& experiment);
 std::string noise_text(const noise::NoiseCell& cell);
 /// "Bayes filter (robust)"; the name itself where there is no better one.
 std::string estimator_title(const std::string& estimator);
+/// False takeoffs per minute of what the summary is of: "0.6"; a dash where nobody counted them.
+std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
+                                const CellSummary& summary);
 /// What stands behind one engine's scores: "40 test runs × 1 noise seed; contact: ...".
 std::string scored_text(const ExperimentResult& result, const std::string& simulator);
 

@@ -13,17 +13,6 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// Per minute, of what the summary is of; a dash where nobody counted them.
-std::string false_takeoffs(const ExperimentResult& result, const CellSummary& summary) {
-  const auto score =
-      std::find_if(result.scores.begin(), result.scores.end(), [&](const ScoreSummary& s) {
-        return s.condition == summary.condition && s.cell == summary.cell && s.view == "wheels";
-      });
-  if (score == result.scores.end()) return "–";
-  const double per_minute = (*score)["false_takeoffs_per_minute"].estimate;
-  return std::isnan(per_minute) ? "–" : fmt::format("{:.1f}", per_minute);
-}
-
 /// Every estimator of one engine in one cell.
 Table cell_table(const ExperimentResult& result, const std::string& simulator,
                  const noise::NoiseCell& cell) {
@@ -38,7 +27,7 @@ Table cell_table(const ExperimentResult& result, const std::string& simulator,
       if (metric.interval != &CellSummary::success) interval.low = NAN;
       table.rows.back().push_back(with_interval(interval));
     }
-    table.rows.back().push_back(false_takeoffs(result, summary));
+    table.rows.back().push_back(false_takeoffs_text(result.scores, summary));
   }
   return table;
 }
@@ -118,7 +107,7 @@ std::string closing_text(const ExperimentResult& result) {
                             [&](const auto& cells) { return cells.front() == title; });
     if (row == table.rows.end()) row = table.rows.insert(row, {title});
     row->push_back(with_interval(summary.success));
-    row->push_back(false_takeoffs(result, summary));
+    row->push_back(false_takeoffs_text(result.scores, summary));
   }
   return fmt::format("\nShare of time in which contact was told right, {}\n\n{}", noise_text(cell),
                      to_text(table));

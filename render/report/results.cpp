@@ -85,13 +85,16 @@ ReportSection results_section(const ReportSubject& subject) {
   if (cells.empty()) cells.push_back(scores.front().cell);
   for (const noise::NoiseCell& cell : cells) {
     experiments::CaptionedTable table{
-        fmt::format("Share of steps that are judged rightly, with torque noise of {} N·m and "
-                    "accelerometer noise of {} m/s². “Always contact” is what a constant answer "
-                    "earns.",
-                    cell.torque, cell.accelerometer),
+        fmt::format(
+            "Share of steps that are judged rightly, with torque noise of {} N·m and "
+            "accelerometer noise of {} m/s², and takeoffs per minute and wheel that "
+            "were announced and were none. “Always contact” is what a constant answer earns.",
+            cell.torque, cell.accelerometer),
         fmt::format("success rates at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
         {{"estimator"}, {}}};
-    for (const std::string& engine : engines_of(experiment)) table.table.header.push_back(engine);
+    for (const std::string& engine : engines_of(experiment)) {
+      table.table.header.insert(table.table.header.end(), {engine, "false takeoffs/min"});
+    }
     for (const std::string& estimator : scored_estimators(scores)) {
       std::vector<std::string> line = {experiments::estimator_title(estimator)};
       for (const std::string& simulator : experiment.simulators) {
@@ -100,7 +103,12 @@ ReportSection results_section(const ReportSubject& subject) {
               return s.condition.test_simulator == simulator &&
                      s.condition.estimator == estimator && s.cell == cell;
             });
-        line.push_back(score == scores.end() ? "–" : with_interval(score->success));
+        if (score == scores.end()) {
+          line.insert(line.end(), {"–", "–"});
+          continue;
+        }
+        line.push_back(with_interval(score->success));
+        line.push_back(experiments::false_takeoffs_text(subject.summary.scores, *score));
       }
       table.table.rows.push_back(std::move(line));
     }
