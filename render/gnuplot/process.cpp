@@ -79,7 +79,7 @@ std::string gnuplot_complaint(const std::filesystem::path& folder, const std::st
 
 std::filesystem::path try_gnuplot(const std::filesystem::path& script, const std::string& content) {
   write_atomically(script, content);
-  const std::filesystem::path picture = std::filesystem::path(script).replace_extension(".png");
+  std::filesystem::path picture = std::filesystem::path(script).replace_extension(".png");
   const PartFolder aside(picture);
   const std::filesystem::path before = aside.path() / picture.filename();
   std::error_code ignored;

@@ -8,6 +8,8 @@
 #include "recordings/signals_from.hpp"
 #include "tests/fuzz/entry.hpp"
 
+namespace touchdown::fuzz {
+
 namespace {
 
 /// Reads a log as `touchdown estimate` does and writes beliefs into it. The first byte times
@@ -18,20 +20,20 @@ struct Annotated {
 };
 
 Annotated annotated(std::string_view bytes, std::size_t piece) {
-  using namespace touchdown::recordings;
-  const ByteSource source = [&](std::span<char> buffer) {
+  const recordings::ByteSource source = [&](std::span<char> buffer) {
     const std::size_t most = piece == 0 ? buffer.size() : std::min(buffer.size(), piece);
     const std::size_t size = bytes.copy(buffer.data(), most);
     bytes.remove_prefix(size);
     return size;
   };
-  LogReader reader(source, "fuzz.mpack");
+  recordings::LogReader reader(source, "fuzz.mpack");
   (void)reader.info();
   std::ostringstream out;
-  LogAnnotator annotator(out);
+  recordings::LogAnnotator annotator(out);
   Annotated result;
-  while (const std::optional<LogRow> row = reader.next()) {
-    (void)signals_from(row->observation, ground_velocity_command(row->action));
+  while (const std::optional<recordings::LogRow> row = reader.next()) {
+    (void)recordings::signals_from(row->observation,
+                                   recordings::ground_velocity_command(row->action));
     annotator.copy(reader.skipped());
     annotator.annotate(reader.record(), {}, {});
     ++result.rows;
@@ -50,8 +52,10 @@ TOUCHDOWN_FUZZ(log) {
   Annotated once;
   try {
     once = annotated(input.substr(1), piece);
-  } catch (const touchdown::Error&) {
+  } catch (const Error&) {
     return;
   }
   if (once.rows != 0 && annotated(once.log, 0).rows != once.rows) __builtin_trap();
 }
+
+}  // namespace touchdown::fuzz

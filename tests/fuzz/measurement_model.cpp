@@ -5,9 +5,10 @@
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
+namespace touchdown::fuzz {
+
 /// A measurement model.
 TOUCHDOWN_FUZZ(measurement_model) {
-  using namespace touchdown;
   const fuzz::MemoryFile file(fuzz::archive_of(
       input, {"knee_torque", "wheel_torque", "contact_likelihood", "no_contact_likelihood"}));
   try {
@@ -16,3 +17,5 @@ TOUCHDOWN_FUZZ(measurement_model) {
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
   }
 }
+
+}  // namespace touchdown::fuzz

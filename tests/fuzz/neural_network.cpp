@@ -5,9 +5,10 @@
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
+namespace touchdown::fuzz {
+
 /// The network's weights.
 TOUCHDOWN_FUZZ(neural_network) {
-  using namespace touchdown;
   const fuzz::MemoryFile file(fuzz::archive_of(
       input, {"period", "input_mean", "input_scale", "gru_input_weight", "gru_input_bias",
               "gru_hidden_weight", "gru_hidden_bias", "first_weight", "first_bias", "second_weight",
@@ -17,3 +18,5 @@ TOUCHDOWN_FUZZ(neural_network) {
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
   }
 }
+
+}  // namespace touchdown::fuzz

@@ -3,9 +3,10 @@
 #include "core/error.hpp"
 #include "tests/fuzz/entry.hpp"
 
+namespace touchdown::fuzz {
+
 /// A `.npy`; what it holds is written and read again.
 TOUCHDOWN_FUZZ(npy) {
-  using namespace touchdown;
   recordings::NpyArray array;
   try {
     array = recordings::from_npy(input, "fuzz.npy");
@@ -15,3 +16,5 @@ TOUCHDOWN_FUZZ(npy) {
   const recordings::NpyArray again = recordings::from_npy(recordings::to_npy(array), "again.npy");
   if (again.shape != array.shape || again.data.size() != array.data.size()) __builtin_trap();
 }
+
+}  // namespace touchdown::fuzz

@@ -4,9 +4,10 @@
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
+namespace touchdown::fuzz {
+
 /// A `.npz` as it is.
 TOUCHDOWN_FUZZ(npz) {
-  using namespace touchdown;
   const fuzz::MemoryFile file(input);
   try {
     (void)recordings::npz_names(file.path());
@@ -14,3 +15,5 @@ TOUCHDOWN_FUZZ(npz) {
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
   }
 }
+
+}  // namespace touchdown::fuzz

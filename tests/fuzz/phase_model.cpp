@@ -5,9 +5,10 @@
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
+namespace touchdown::fuzz {
+
 /// A phase model.
 TOUCHDOWN_FUZZ(phase_model) {
-  using namespace touchdown;
   const fuzz::MemoryFile file(fuzz::archive_of(
       input, {"sample_rate", "seconds", "transition", "provenance", "torque_0_noise",
               "torque_0_knee", "torque_0_wheel", "torque_0_log_density", "torque_1_noise",
@@ -18,3 +19,5 @@ TOUCHDOWN_FUZZ(phase_model) {
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
   }
 }
+
+}  // namespace touchdown::fuzz

@@ -8,6 +8,8 @@
 
 #include "core/files.hpp"
 
+namespace touchdown::fuzz {
+
 void fuzz_log(std::string_view input);
 void fuzz_measurement_model(std::string_view input);
 void fuzz_neural_network(std::string_view input);
@@ -18,7 +20,6 @@ void fuzz_yaml_experiment(std::string_view input);
 void fuzz_yaml_scenario(std::string_view input);
 void fuzz_yaml_set(std::string_view input);
 
-namespace touchdown {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,4 +59,4 @@ INSTANTIATE_TEST_SUITE_P(Of, Corpus,
                          [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace
-}  // namespace touchdown
+}  // namespace touchdown::fuzz

@@ -5,9 +5,10 @@
 #include "experiments/config/yaml_kind.hpp"
 #include "tests/fuzz/entry.hpp"
 
+namespace touchdown::fuzz {
+
 /// An experiment file, and what is written of it again.
 TOUCHDOWN_FUZZ(yaml_experiment) {
-  using namespace touchdown;
   try {
     const YamlDocument document = YamlDocument::parse(std::string(input), "fuzz.yaml");
     experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
@@ -16,3 +17,5 @@ TOUCHDOWN_FUZZ(yaml_experiment) {
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
   }
 }
+
+}  // namespace touchdown::fuzz

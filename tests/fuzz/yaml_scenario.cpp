@@ -4,9 +4,10 @@
 #include "scenarios/scenario.hpp"
 #include "tests/fuzz/entry.hpp"
 
+namespace touchdown::fuzz {
+
 /// A scenario file, and what is written of it again.
 TOUCHDOWN_FUZZ(yaml_scenario) {
-  using namespace touchdown;
   try {
     const YamlDocument document = YamlDocument::parse(std::string(input), "fuzz.yaml");
     const std::string written = to_yaml(scenarios::scenario_from_yaml(document));
@@ -14,3 +15,5 @@ TOUCHDOWN_FUZZ(yaml_scenario) {
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
   }
 }
+
+}  // namespace touchdown::fuzz

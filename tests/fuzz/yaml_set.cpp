@@ -5,9 +5,10 @@
 #include "scenarios/scenario.hpp"
 #include "tests/fuzz/entry.hpp"
 
+namespace touchdown::fuzz {
+
 /// What follows `--set`, one assignment a line, on a scenario.
 TOUCHDOWN_FUZZ(yaml_set) {
-  using namespace touchdown;
   try {
     YamlDocument document = YamlDocument::parse(
         "name: x\nterrain: {pieces: [{flat: {length: 3.0}}]}\nend: {duration: 2.5}\n"
@@ -22,3 +23,5 @@ TOUCHDOWN_FUZZ(yaml_set) {
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
   }
 }
+
+}  // namespace touchdown::fuzz

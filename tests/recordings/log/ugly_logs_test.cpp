@@ -148,7 +148,9 @@ TEST(UglyLogs, AnEmptyKeyIsAKeyThatWeDoNotKnow) {
   for (const std::string& wider :
        {std::string("\x81\xd9\x00\xc0", 4), std::string("\x81\xda\x00\x00\xc0", 5),
         std::string("\x81\xdb\x00\x00\x00\x00\xc0", 7), smallest}) {
-    const Read result = read(wider + pack({record}) + wider);
+    std::string log = wider;
+    log.append(pack({record})).append(wider);
+    const Read result = read(log);
     EXPECT_EQ(result.rows, 1U);
     EXPECT_EQ(result.error, "");
   }

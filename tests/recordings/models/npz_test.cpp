@@ -72,7 +72,8 @@ TEST(Npz, LargeArraysTakeLessRoomAndComeBackToTheBit) {
   const ScratchFolder folder;
   NpyArray grid{{400, 500}, {}};
   for (std::size_t i = 0; i < 200'000; ++i) {
-    grid.data.push_back(std::log(1e-3 + static_cast<double>(i / 64)));
+    const std::size_t stretch = i / 64;
+    grid.data.push_back(std::log(1e-3 + static_cast<double>(stretch)));
   }
   write_npz({{"grid", grid}}, folder / "a.npz");
   EXPECT_LT(std::filesystem::file_size(folder / "a.npz"), 400'000U);  // of 1,600,000

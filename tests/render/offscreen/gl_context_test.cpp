@@ -34,7 +34,7 @@ class OffScreen : public ::testing::Test {
       ::setenv("TOUCHDOWN_TEST_FOLDER", scratch_->path().c_str(), 1);
     }
   }
-  ~OffScreen() override {
+  void TearDown() override {
     ::unsetenv("TOUCHDOWN_TEST_FOLDER");
     ::unsetenv("TOUCHDOWN_GL");
     ::unsetenv("LD_LIBRARY_PATH");
