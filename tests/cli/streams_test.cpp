@@ -33,11 +33,10 @@ TEST(StandardError, ThatTakesNothingStopsNoWork) {
   ASSERT_EQ(exit_code("run " + experiment + " --no-pictures --out plain >plain.txt 2>&1", folder),
             0);
   const std::string scores = read_file(folder / "plain/tables/views.csv");
+  const std::string other = "run " + experiment + " --no-pictures --out other >out.txt ";
   for (const std::string stream : {"2>/dev/full", "2>&-"}) {
     fs::remove_all(folder / "other");
-    EXPECT_EQ(
-        exit_code("run " + experiment + " --no-pictures --out other >out.txt " + stream, folder), 0)
-        << stream;
+    EXPECT_EQ(exit_code(other + stream, folder), 0) << stream;
     EXPECT_EQ(read_file(folder / "other/tables/views.csv"), scores) << stream;
   }
 }
