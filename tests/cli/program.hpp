@@ -21,4 +21,7 @@ Ended touchdown_program(const std::string& arguments, const std::filesystem::pat
 /// file name.
 std::string write_tiny_experiment(const ScratchFolder& folder);
 
+/// Likewise one of half an hour of simulation, which is not over before a test interrupts it.
+std::string write_long_experiment(const ScratchFolder& folder);
+
 }  // namespace touchdown::cli

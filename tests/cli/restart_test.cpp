@@ -122,15 +122,7 @@ TEST(Interrupt, SaysWhatIsSavedAndTheSameCommandGoesOnFromThere) {
 
 TEST(Interrupt, BeforeAnythingIsSavedSaysSo) {
   const ScratchFolder folder;
-  // Half an hour of simulation: it is not over before it is interrupted.
-  folder.write("long.yaml", R"(name: long
-terrain: {pieces: [{flat: {length: 9.0}}]}
-start: {x: 0.7}
-end: {duration: 1800.0}
-)");
-  folder.write("x.yaml",
-               "name: x\nfit: {scenarios: [long.yaml]}\ntest: {scenarios: [long.yaml]}\n");
-  StartedProgram program("run x.yaml --out a", folder.path());
+  StartedProgram program("run " + write_long_experiment(folder) + " --out a", folder.path());
   while (program.is_running() && !fs::exists(folder / "a/state/key")) program.let_run(0.002);
   program.let_run(0.05);
   program.send(SIGINT);

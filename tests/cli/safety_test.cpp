@@ -182,18 +182,6 @@ TEST(Name, OfAScenarioOrAnExperimentLeadsNowhereElse) {
   EXPECT_EQ(after, before);
 }
 
-/// An experiment that is not over before the test is.
-std::string write_long_experiment(const ScratchFolder& folder) {
-  folder.write("long.yaml", R"(name: long
-terrain: {pieces: [{flat: {length: 9.0}}]}
-start: {x: 0.7}
-end: {duration: 1800.0}
-)");
-  folder.write("x.yaml",
-               "name: x\nfit: {scenarios: [long.yaml]}\ntest: {scenarios: [long.yaml]}\n");
-  return "x.yaml";
-}
-
 TEST(Lock, OfARunRefusesWhoeverWouldWriteThereAndNamesIt) {
   const ScratchFolder folder;
   const std::string run = "run " + write_long_experiment(folder) + " --out a";
