@@ -29,7 +29,7 @@ void print_files(const char* title, const char* folder) {
 
 /// What a registry says about each of its entries.
 template <typename Entries>
-std::string described(const Entries& entries) {
+std::string entries_text(const Entries& entries) {
   Table table{{}, {}};
   for (const auto& entry : entries) {
     table.rows.push_back({entry.name, entry.title, entry.summary});
@@ -40,8 +40,8 @@ std::string described(const Entries& entries) {
 void list() {
   print_files("experiments", "experiments");
   print_files("scenarios", "scenarios");
-  fmt::print("simulators\n{}\n", described(simulators::simulator_entries()));
-  fmt::print("estimators\n{}", described(experiments::estimator_entries()));
+  fmt::print("simulators\n{}\n", entries_text(simulators::simulator_entries()));
+  fmt::print("estimators\n{}", entries_text(experiments::estimator_entries()));
 }
 
 }  // namespace

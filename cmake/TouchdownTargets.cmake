@@ -86,18 +86,55 @@ if(NOT TOUCHDOWN_ESTIMATOR_ONLY)
   touchdown_precompile(touchdown_precompiled touchdown_precompiled <fmt/format.h> <yaml-cpp/yaml.h>)
 endif()
 
+# Most of what is left of a source's compile time is spent on the same headers and templates as its
+# neighbour's; so the sources of a room are compiled four at a time, as one that includes them. Who
+# works in one of them compiles its three neighbours too: -DTOUCHDOWN_UNITY=OFF is for that.
+# touchdown_unity(<target> <source>...)
+option(TOUCHDOWN_UNITY "Compile the sources of a room a few at a time" ON)
+function(touchdown_unity target)
+  if(NOT TOUCHDOWN_UNITY OR TOUCHDOWN_ESTIMATOR_ONLY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  foreach(source ${ARGN})
+    cmake_path(GET source PARENT_PATH room)
+    list(APPEND rooms ${room})
+    string(MAKE_C_IDENTIFIER ${room} id)
+    list(APPEND in_${id} ${source})
+  endforeach()
+  list(REMOVE_DUPLICATES rooms)
+  foreach(room ${rooms})
+    string(MAKE_C_IDENTIFIER ${room} id)
+    list(LENGTH in_${id} count)
+    math(EXPR parts "(${count} + 3) / 4")
+    cmake_path(RELATIVE_PATH room BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE name)
+    string(MAKE_C_IDENTIFIER ${name} name)
+    set(i 0)
+    foreach(source ${in_${id}})
+      math(EXPR part "${i} * ${parts} / ${count}")
+      math(EXPR i "${i} + 1")
+      if(count GREATER 1)
+        set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${name}_${part})
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
 # touchdown_library(<name> ROOMS <folder>... DEPENDS <target>...)
 # makes the static library touchdown_<name>, known as touchdown::<name>, of every .cpp that stands in
 # the rooms, folders below this one; without ROOMS, of those that stand here. PRECOMPILED: the owner
-# of its precompiled headers.
+# of its precompiled headers. ONE_BY_ONE: its sources are not compiled together.
 function(touchdown_library name)
-  cmake_parse_arguments(ARG "" "PRECOMPILED" "ROOMS;SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "ONE_BY_ONE" "PRECOMPILED" "ROOMS;SOURCES;DEPENDS" ${ARGN})
   touchdown_sources(sources "${ARG_ROOMS}")
   add_library(touchdown_${name} STATIC ${sources} ${ARG_SOURCES})
   add_library(touchdown::${name} ALIAS touchdown_${name})
   target_link_libraries(touchdown_${name} PUBLIC ${ARG_DEPENDS} PRIVATE $<BUILD_INTERFACE:touchdown_flags>)
   target_include_directories(touchdown_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   touchdown_precompile(touchdown_${name} ${ARG_PRECOMPILED})
+  if(NOT ARG_ONE_BY_ONE)
+    touchdown_unity(touchdown_${name} ${sources})
+  endif()
 endfunction()
 
 # Every .cpp of the rooms. Looked up again at each build, so that a new file needs no line anywhere.
@@ -122,6 +159,7 @@ function(touchdown_test folder)
   add_executable(test_${folder} ${sources})
   target_link_libraries(test_${folder} PRIVATE touchdown_flags ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   touchdown_precompile(test_${folder} touchdown_tests_precompiled)
+  touchdown_unity(test_${folder} ${sources})
   target_compile_definitions(test_${folder} PRIVATE
     TOUCHDOWN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TOUCHDOWN_REFERENCE_DATA="${TOUCHDOWN_REFERENCE_DATA}")

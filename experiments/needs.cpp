@@ -18,8 +18,9 @@ namespace {
 /// What a planned run takes besides itself: its scenario's terrain and scripts.
 constexpr double planned_bytes = sizeof(PlannedRun) + 512.0;
 /// What a played run keeps of every step.
-constexpr double step_bytes = sizeof(Signals) + sizeof(Eigen::Vector3d) +
-                              static_cast<double>(models::wheel_count) * (sizeof(double) + 1.0);
+constexpr double heard_step_bytes =
+    sizeof(Signals) + sizeof(Eigen::Vector3d) +
+    static_cast<double>(models::wheel_count) * (sizeof(double) + 1.0);
 
 /// Adds runs of a scenario, each of them heard under so many noise seeds.
 void add_runs(Needs& needs, const scenarios::Scenario& scenario, double runs, double seeds) {
@@ -73,7 +74,7 @@ double memory_of_machine() {
 void require_memory(const RunRequest& request, double share_of_runs, double memory) {
   const Needs needs = needs_of(request);
   const double planned = needs.runs * planned_bytes + needs.parts * sizeof(Task);
-  const double played = share_of_runs * needs.steps * step_bytes;
+  const double played = share_of_runs * needs.steps * heard_step_bytes;
   if (planned + played <= memory) return;
   const Experiment& experiment = request.experiment;
   const bool too_long = played > planned;

@@ -52,11 +52,11 @@ std::size_t saved_parts(const RunDirectory& directory) {
 
 /// The most that the run may still write: a step of a recording takes about 1.05 kB.
 DiskNeeds disk_needs(const Plan& plan, const RunDirectory& directory) {
-  constexpr double step_bytes = 1100.0;
+  constexpr double recorded_step_bytes = 1100.0;
   DiskNeeds needs;
   for (const PlannedRun& run : plan.runs) {
     if (!run.kept || has_stamp(run, directory)) continue;
-    needs.recordings += step_bytes * run.scenario.end.duration /
+    needs.recordings += recorded_step_bytes * run.scenario.end.duration /
                         (1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us));
   }
   const std::size_t parts = plan.tasks.size();

@@ -33,6 +33,14 @@ def flags_of(entry):
     return tuple(words[:output])
 
 
+def sources_of(entry):
+    """The file, or the files of a room that the build compiles as one (cmake/TouchdownTargets.cmake)."""
+    file = os.path.abspath(os.path.join(entry["directory"], entry["file"]))
+    if not file.endswith(".cxx"):
+        return [file]
+    return re.findall(r'^#include "(.*)"', pathlib.Path(file).read_text(), re.MULTILINE)
+
+
 def together(flags, files, folder):
     """Writes the unit that includes these files; a file alone is its own unit."""
     if len(files) == 1:
@@ -71,9 +79,9 @@ def main():
     prefixes = tuple(os.path.abspath(path) for path in sys.argv[2:])
     alike = collections.defaultdict(list)
     for entry in commands:
-        file = os.path.abspath(os.path.join(entry["directory"], entry["file"]))
-        if "cmake_pch" not in file and file.startswith(prefixes or ("/",)):
-            alike[flags_of(entry)].append(file)
+        for file in sources_of(entry):
+            if "cmake_pch" not in file and file.startswith(prefixes or ("/",)):
+                alike[flags_of(entry)].append(file)
     batches = [(flags, files[start:start + FILES_AT_ONCE])
                for flags, unsorted in alike.items() for files in [sorted(set(unsorted))]
                for start in range(0, len(files), FILES_AT_ONCE)]

@@ -19,7 +19,7 @@ std::vector<std::string> choices_in(const std::string& type) {
   return choices;
 }
 
-DescribedOption described(const CLI::Option& option) {
+DescribedOption described_option(const CLI::Option& option) {
   DescribedOption result;
   for (const std::string& name : option.get_snames()) result.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) result.names.push_back("--" + name);
@@ -54,7 +54,8 @@ DescribedVerb described(const CLI::App& app) {
   for (std::string line; std::getline(description, line);) {
     result.text += (result.text.empty() ? "" : " ") + line;
   }
-  for (const CLI::Option* option : app.get_options()) result.options.push_back(described(*option));
+  for (const CLI::Option* option : app.get_options())
+    result.options.push_back(described_option(*option));
   return result;
 }
 

@@ -81,13 +81,13 @@ std::string curve_commands(const Panel& panel, const std::string& file) {
 
 /// Rows of bars as high as the share of steps that were in contact.
 std::string contact_commands(const std::string& file, bool with_truth) {
-  struct Row {
+  struct Bars {
     int column;
     const char* name;
     const char* colour;
   };
-  std::vector<Row> rows = {{contact_column + 1, "right contact", "#d55e00"},
-                           {contact_column, "left contact", "#0072b2"}};
+  std::vector<Bars> rows = {{contact_column + 1, "right contact", "#d55e00"},
+                            {contact_column, "left contact", "#0072b2"}};
   if (with_truth) {
     rows = {
         {truth_column + 1, "true", "#9aa1a8"}, rows[0], {truth_column, "true", "#9aa1a8"}, rows[1]};

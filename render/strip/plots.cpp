@@ -9,15 +9,14 @@ namespace touchdown::render {
 namespace {
 
 constexpr int oversampling = 2;
-constexpr int shift = 4;  ///< fractional bits of OpenCV's coordinates
 
 const Colour one_wheel = rgb(0xe6f2e8);
 const Colour two_wheels = rgb(0xcfe8d2);
 const Colour grid = rgb(0xdfe3e6);
 
 cv::Point fixed(double x, double y) {
-  return {static_cast<int>(std::lround(x * (1 << shift))),
-          static_cast<int>(std::lround(y * (1 << shift)))};
+  return {static_cast<int>(std::lround(x * (1 << subpixel_bits))),
+          static_cast<int>(std::lround(y * (1 << subpixel_bits)))};
 }
 
 /// A piece of the run as a picture at twice the size.
@@ -44,7 +43,7 @@ void draw_contact(const Piece& piece, const StripRow& row, const PlotArea& area)
     if (contact[k] > 0) {
       cv::rectangle(piece.image, fixed(piece.x(row, k), area.top),
                     fixed(piece.x(row, end), area.bottom - 1),
-                    contact[k] > 1 ? two_wheels : one_wheel, cv::FILLED, cv::LINE_8, shift);
+                    contact[k] > 1 ? two_wheels : one_wheel, cv::FILLED, cv::LINE_8, subpixel_bits);
     }
     k = end;
   }
@@ -67,7 +66,7 @@ void draw_curve(const Piece& piece, const StripRow& row, const PlotArea& area,
   std::vector<cv::Point> line;
   const auto flush = [&] {
     if (line.size() > 1) {
-      cv::polylines(piece.image, line, false, curve.colour, thickness, cv::LINE_AA, shift);
+      cv::polylines(piece.image, line, false, curve.colour, thickness, cv::LINE_AA, subpixel_bits);
     }
     line.clear();
   };

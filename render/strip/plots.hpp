@@ -30,6 +30,9 @@ struct StripRow {
   double period = 1e-3;  ///< between rows (s)
 };
 
+/// Fractional bits of the coordinates that OpenCV is given.
+inline constexpr int subpixel_bits = 4;
+
 /// Colours of the strip.
 inline const Colour strip_paper = rgb(0xf7f8fa);
 inline const Colour strip_ink = rgb(0x22262b);

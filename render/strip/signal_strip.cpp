@@ -12,7 +12,6 @@ namespace {
 constexpr double window_seconds = 4.0;
 constexpr double present = 0.75;  ///< where in the window now is
 constexpr int wide = 1000;        ///< from this width on there is room for names beside the plots
-constexpr int shift = 4;          ///< fractional bits of OpenCV's coordinates
 
 }  // namespace
 
@@ -127,9 +126,9 @@ void SignalStrip::draw(cv::Mat image, double time) {
       const float value = curve.values[static_cast<std::size_t>(k)];
       if (!std::isfinite(value)) continue;
       const auto y =
-          static_cast<int>(std::lround(plot_y(rows_[i], areas_[i], value) * (1 << shift)));
-      cv::circle(plots, {now << shift, y}, 4 << shift, curve.colour, cv::FILLED, cv::LINE_AA,
-                 shift);
+          static_cast<int>(std::lround(plot_y(rows_[i], areas_[i], value) * (1 << subpixel_bits)));
+      cv::circle(plots, {now << subpixel_bits, y}, 4 << subpixel_bits, curve.colour, cv::FILLED,
+                 cv::LINE_AA, subpixel_bits);
     }
   }
 }

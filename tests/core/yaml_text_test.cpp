@@ -16,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::string complaint(const std::string& text) {
+std::string complaint_about(const std::string& text) {
   try {
     (void)YamlDocument::parse(text, "a.yaml");
   } catch (const InputError& error) {
@@ -36,9 +36,9 @@ std::string complaint_about_set(const std::string& assignment) {
 }
 
 TEST(YamlText, AnAliasInsideOfWhatItStandsForIsRefused) {
-  EXPECT_THAT(complaint("a: &x [*x]\n"), StartsWith("a.yaml:1:8: an alias stands inside"));
-  EXPECT_THAT(complaint("a: &x {b: 1, c: {d: *x}}\n"), StartsWith("a.yaml:1:21: an alias"));
-  EXPECT_THAT(complaint("&x\na:\n  - 1\n  - *x\n"), StartsWith("a.yaml:4:5: an alias"));
+  EXPECT_THAT(complaint_about("a: &x [*x]\n"), StartsWith("a.yaml:1:8: an alias stands inside"));
+  EXPECT_THAT(complaint_about("a: &x {b: 1, c: {d: *x}}\n"), StartsWith("a.yaml:1:21: an alias"));
+  EXPECT_THAT(complaint_about("&x\na:\n  - 1\n  - *x\n"), StartsWith("a.yaml:4:5: an alias"));
   EXPECT_THAT(complaint_about_set("a=&x [*x]"), StartsWith("--set a=&x [*x]: an alias"));
 }
 
@@ -59,10 +59,11 @@ std::string laughs(int levels) {
 }
 
 TEST(YamlText, ABillionLaughsAreNotLaughed) {
-  EXPECT_EQ(complaint(laughs(4)), "");
+  EXPECT_EQ(complaint_about(laughs(4)), "");
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_THAT(complaint(laughs(10)), AllOf(StartsWith("a.yaml:7:"), HasSubstr("1000000 values")));
-  EXPECT_THAT(complaint(laughs(60)), HasSubstr("1000000 values"));
+  EXPECT_THAT(complaint_about(laughs(10)),
+              AllOf(StartsWith("a.yaml:7:"), HasSubstr("1000000 values")));
+  EXPECT_THAT(complaint_about(laughs(60)), HasSubstr("1000000 values"));
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
@@ -70,38 +71,42 @@ TEST(YamlText, NestingIsLimitedWithWhatAliasesNest) {
   const auto lists = [](std::size_t depth) {
     return fmt::format("a: {}{}\n", std::string(depth, '['), std::string(depth, ']'));
   };
-  EXPECT_EQ(complaint(lists(63)), "");
-  EXPECT_THAT(complaint(lists(64)), StartsWith("a.yaml:1:67: nested deeper than 64 levels"));
-  EXPECT_THAT(complaint(lists(100'000)), HasSubstr("nested deeper"));
-  EXPECT_THAT(complaint(fmt::format("a: {}", std::string(100'000, '['))), HasSubstr("a.yaml:1:"));
-  EXPECT_THAT(complaint(fmt::format("a: {}", std::string(100'000, '{'))), HasSubstr("a.yaml:1:"));
+  EXPECT_EQ(complaint_about(lists(63)), "");
+  EXPECT_THAT(complaint_about(lists(64)), StartsWith("a.yaml:1:67: nested deeper than 64 levels"));
+  EXPECT_THAT(complaint_about(lists(100'000)), HasSubstr("nested deeper"));
+  EXPECT_THAT(complaint_about(fmt::format("a: {}", std::string(100'000, '['))),
+              HasSubstr("a.yaml:1:"));
+  EXPECT_THAT(complaint_about(fmt::format("a: {}", std::string(100'000, '{'))),
+              HasSubstr("a.yaml:1:"));
   std::string chain = "a:\n  - &a0 [x]\n";
   for (int i = 1; i < 5000; ++i) chain += fmt::format("  - &a{} [*a{}]\n", i, i - 1);
-  EXPECT_THAT(complaint(chain), AllOf(StartsWith("a.yaml:63:"), HasSubstr("nested deeper")));
+  EXPECT_THAT(complaint_about(chain), AllOf(StartsWith("a.yaml:63:"), HasSubstr("nested deeper")));
 }
 
 TEST(YamlText, BytesThatAreNotUtf8AreShownWithTheirPlace) {
-  EXPECT_THAT(complaint("name: caf\xe9\n"), StartsWith("a.yaml:1:10: not UTF-8: byte 0xe9"));
-  EXPECT_THAT(complaint("name: ü\nb: ü\xff\n"), StartsWith("a.yaml:2:5: not UTF-8: byte 0xff"));
-  EXPECT_THAT(complaint("# \xc3\n"), HasSubstr("0xc3"));
-  EXPECT_THAT(complaint(std::string("\xff\xfe"
-                                    "a\0:\0",
-                                    6)),
+  EXPECT_THAT(complaint_about("name: caf\xe9\n"), StartsWith("a.yaml:1:10: not UTF-8: byte 0xe9"));
+  EXPECT_THAT(complaint_about("name: ü\nb: ü\xff\n"),
+              StartsWith("a.yaml:2:5: not UTF-8: byte 0xff"));
+  EXPECT_THAT(complaint_about("# \xc3\n"), HasSubstr("0xc3"));
+  EXPECT_THAT(complaint_about(std::string("\xff\xfe"
+                                          "a\0:\0",
+                                          6)),
               HasSubstr("a.yaml:1:1: not UTF-8"));
   EXPECT_THAT(complaint_about_set("a=\xff"), HasSubstr("not UTF-8"));
-  EXPECT_EQ(complaint("\xef\xbb\xbf"
-                      "a: 1\n"),
+  EXPECT_EQ(complaint_about("\xef\xbb\xbf"
+                            "a: 1\n"),
             "")
       << "a byte order mark is UTF-8";
 }
 
 TEST(YamlText, Utf8IsWhatTheStandardSays) {
   // Unicode 15, table 3-7: the ends of every row, and one beyond them.
-  for (const char* good : {"", "a", "\x7f", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xe1\x80\x80",
-                           "\xec\xbf\xbf", "\xed\x9f\xbf", "\xee\x80\x80", "\xef\xbf\xbf",
-                           "\xf0\x90\x80\x80", "\xf3\xbf\xbf\xbf", "\xf4\x8f\xbf\xbf"}) {
-    const std::string text = fmt::format("x{}y", good);
-    EXPECT_EQ(utf8_size(text), text.size()) << good;
+  for (const char* accepted :
+       {"", "a", "\x7f", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xe1\x80\x80", "\xec\xbf\xbf",
+        "\xed\x9f\xbf", "\xee\x80\x80", "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf3\xbf\xbf\xbf",
+        "\xf4\x8f\xbf\xbf"}) {
+    const std::string text = fmt::format("x{}y", accepted);
+    EXPECT_EQ(utf8_size(text), text.size()) << accepted;
   }
   for (const char* bad :
        {"\x80", "\xbf", "\xc0\x80", "\xc1\xbf", "\xc2", "\xc2\x7f", "\xc2\xc0", "\xe0\x9f\xbf",
@@ -114,32 +119,33 @@ TEST(YamlText, Utf8IsWhatTheStandardSays) {
 }
 
 TEST(YamlText, AKeyThatIsNoNameIsRefused) {
-  EXPECT_THAT(complaint("[a, b]: 1\n"), StartsWith("a.yaml:1:1: expected a name as a key"));
-  EXPECT_THAT(complaint("a: 1\nb:\n  ? {c: 1}\n  : 2\n"),
+  EXPECT_THAT(complaint_about("[a, b]: 1\n"), StartsWith("a.yaml:1:1: expected a name as a key"));
+  EXPECT_THAT(complaint_about("a: 1\nb:\n  ? {c: 1}\n  : 2\n"),
               StartsWith("a.yaml:3:5: expected a name"));
-  EXPECT_THAT(complaint("a: {: 1}\n"), HasSubstr("expected a name"));
-  EXPECT_THAT(complaint("~: 1\n"), HasSubstr("expected a name"));
-  EXPECT_THAT(complaint("a: &x b\nc:\n  *x : 1\n"), HasSubstr("expected a name"));
+  EXPECT_THAT(complaint_about("a: {: 1}\n"), HasSubstr("expected a name"));
+  EXPECT_THAT(complaint_about("~: 1\n"), HasSubstr("expected a name"));
+  EXPECT_THAT(complaint_about("a: &x b\nc:\n  *x : 1\n"), HasSubstr("expected a name"));
   EXPECT_THAT(complaint_about_set("a={[b]: 1}"), StartsWith("--set a={[b]: 1}: expected a name"));
-  EXPECT_EQ(complaint("1: a\n\"b c\": d\n? e\n: f\n"), "");
+  EXPECT_EQ(complaint_about("1: a\n\"b c\": d\n? e\n: f\n"), "");
 }
 
 TEST(YamlText, ASecondDocumentIsRefused) {
-  EXPECT_THAT(complaint("a: 1\n---\na: 2\n"),
+  EXPECT_THAT(complaint_about("a: 1\n---\na: 2\n"),
               AllOf(StartsWith("a.yaml:2:"), HasSubstr("one YAML")));
-  EXPECT_THAT(complaint("a: 1\n...\n---\n[x"), HasSubstr("a.yaml:"));
+  EXPECT_THAT(complaint_about("a: 1\n...\n---\n[x"), HasSubstr("a.yaml:"));
   EXPECT_THAT(complaint_about_set("a=1\n---\n2"), HasSubstr("one YAML document"));
-  EXPECT_EQ(complaint("%YAML 1.2\n---\na: 1\n...\n"), "") << "the marks of one document";
+  EXPECT_EQ(complaint_about("%YAML 1.2\n---\na: 1\n...\n"), "") << "the marks of one document";
 }
 
 TEST(YamlText, ALeadingZeroIsNeitherOctalNorDecimal) {
-  EXPECT_THAT(complaint("a: 1\nb: 010\n"), StartsWith("a.yaml:2:4: 010: a number has no leading"));
-  EXPECT_THAT(complaint("a: [1, -08]\n"), StartsWith("a.yaml:1:8: -08"));
-  EXPECT_THAT(complaint("a: +00\n"), HasSubstr("+00"));
+  EXPECT_THAT(complaint_about("a: 1\nb: 010\n"),
+              StartsWith("a.yaml:2:4: 010: a number has no leading"));
+  EXPECT_THAT(complaint_about("a: [1, -08]\n"), StartsWith("a.yaml:1:8: -08"));
+  EXPECT_THAT(complaint_about("a: +00\n"), HasSubstr("+00"));
   EXPECT_THAT(complaint_about_set("a=010"), StartsWith("--set a=010: 010: a number has"));
-  for (const char* good : {"0", "-0", "0.10", "00.5", "10", "0x10", "\"010\"", "'007'", "01a",
-                           "0 1", "2020-01-02", "1e05"}) {
-    EXPECT_EQ(complaint(fmt::format("a: {}\n", good)), "") << good;
+  for (const char* accepted : {"0", "-0", "0.10", "00.5", "10", "0x10", "\"010\"", "'007'", "01a",
+                               "0 1", "2020-01-02", "1e05"}) {
+    EXPECT_EQ(complaint_about(fmt::format("a: {}\n", accepted)), "") << accepted;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "models/robot_model.hpp"
+#include "tests/models/upkie_mjcf.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::models {
@@ -17,8 +18,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-const std::string upkie = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
 
 class NamingContract : public ::testing::Test {
  protected:
@@ -30,7 +29,7 @@ class NamingContract : public ::testing::Test {
 
   /// Upkie with `what` replaced; the complaint about it.
   std::string complaint(const std::string& what, const std::string& by) {
-    const std::string text = read_file(upkie);
+    const std::string text = read_file(upkie_mjcf);
     const std::size_t at = text.find(what);
     EXPECT_NE(at, std::string::npos) << what;
     return complaint_about(std::string(text).replace(at, what.size(), by));
@@ -88,7 +87,7 @@ TEST_F(NamingContract, BrokenFilesAreLocated) {
 }
 
 TEST_F(NamingContract, MuJoCosComplaintsPointIntoTheRobotsFile) {
-  const std::string text = read_file(upkie);
+  const std::string text = read_file(upkie_mjcf);
   const std::size_t at = text.find("<joint name=\"left_hip\"");
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
   EXPECT_THAT(complaint("<joint name=\"left_hip\"", "<joint colour=\"red\" name=\"left_hip\""),
@@ -101,7 +100,7 @@ TEST_F(NamingContract, MissingFileIsAnInputError) {
 
 TEST_F(NamingContract, SomebodyElsesRobotWorksWithItsIncludesAndDefaults) {
   // Degrees, hostile defaults, and the actuators in an included file beside the robot's.
-  std::string text = read_file(upkie);
+  std::string text = read_file(upkie_mjcf);
   const std::size_t begin = text.find("<actuator>");
   const std::size_t end = text.find("</actuator>") + 11;
   std::ofstream(folder_ / "motors.xml")

@@ -9,11 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/models/terrains.hpp"
+#include "tests/models/upkie_mjcf.hpp"
 
 namespace touchdown::models {
 namespace {
-
-const std::string upkie = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
 
 double total_mass(const mjModel& model) {
   double mass = 0.0;
@@ -22,13 +21,13 @@ double total_mass(const mjModel& model) {
 }
 
 TEST(Upkie, WeighsWhatTheRobotWeighs) {
-  const RobotModel robot = compile_robot_model(upkie, stairs());
+  const RobotModel robot = compile_robot_model(upkie_mjcf, stairs());
   EXPECT_EQ(robot.name, "upkie");
   EXPECT_NEAR(total_mass(*robot.mj), 5.33922, 1e-5);
 }
 
 TEST(Upkie, WheelAxlesAre507MillimetresBelowTheBase) {
-  const RobotModel robot = compile_robot_model(upkie, Terrain{});
+  const RobotModel robot = compile_robot_model(upkie_mjcf, Terrain{});
   mjData* data = mj_makeData(robot.mj.get());
   mj_forward(robot.mj.get(), data);
   for (std::size_t i = 0; i < wheel_count; ++i) {
@@ -45,7 +44,7 @@ TEST(Upkie, WheelAxlesAre507MillimetresBelowTheBase) {
 }
 
 TEST(Upkie, HasTheServosLimits) {
-  const RobotModel robot = compile_robot_model(upkie, Terrain{});
+  const RobotModel robot = compile_robot_model(upkie_mjcf, Terrain{});
   const std::array<double, servo_count> effort = {16, 16, 1.7, 16, 16, 1.7};
   EXPECT_EQ(robot.effort, effort);
   for (std::size_t i = 0; i < servo_count; ++i) {
@@ -62,7 +61,7 @@ TEST(Upkie, HasTheServosLimits) {
 
 /// Signs of the real robot: left hip + swings the left foot forward, the right one is mirrored.
 TEST(Upkie, JointsTurnTheRightWay) {
-  const RobotModel robot = compile_robot_model(upkie, Terrain{});
+  const RobotModel robot = compile_robot_model(upkie_mjcf, Terrain{});
   mjData* data = mj_makeData(robot.mj.get());
   data->qpos[robot.qpos_address[index(Servo::left_hip)]] = 0.3;
   data->qpos[robot.qpos_address[index(Servo::right_hip)]] = -0.3;
@@ -74,7 +73,7 @@ TEST(Upkie, JointsTurnTheRightWay) {
 }
 
 TEST(Upkie, OnlyCollidesWithTheTerrain) {
-  const RobotModel robot = compile_robot_model(upkie, Terrain{});
+  const RobotModel robot = compile_robot_model(upkie_mjcf, Terrain{});
   mjData* data = mj_makeData(robot.mj.get());
   data->qpos[2] = 3.0;
   data->qpos[robot.qpos_address[index(Servo::left_hip)]] = 1.2;
@@ -152,7 +151,7 @@ TEST(Upkie, AgreesWithTheOfficialDescription) {
   ASSERT_EQ(document.LoadFile(urdf.c_str()), tinyxml2::XML_SUCCESS);
   const auto* description = document.RootElement();
 
-  const RobotModel robot = compile_robot_model(upkie, Terrain{});
+  const RobotModel robot = compile_robot_model(upkie_mjcf, Terrain{});
   mjData* data = mj_makeData(robot.mj.get());
   for (int k = 0; k < 3; ++k) data->qpos[k] = 0.0;  // base at the world's origin
   mj_forward(robot.mj.get(), data);

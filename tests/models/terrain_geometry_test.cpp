@@ -7,11 +7,10 @@
 #include "models/robot_model.hpp"
 #include "models/terrain_mesh.hpp"
 #include "tests/models/terrains.hpp"
+#include "tests/models/upkie_mjcf.hpp"
 
 namespace touchdown::models {
 namespace {
-
-const std::string upkie = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
 
 std::vector<Terrain> all_terrains() {
   return {stairs(), course(),
@@ -40,7 +39,7 @@ double highest_collider(const mjModel& model, const mjData& data, double x) {
 /// A ray from above hits the collision geoms where the profile says the ground is.
 TEST(TerrainGeometry, CollisionSurfaceIsTheHeight) {
   for (const Terrain& terrain : all_terrains()) {
-    const RobotModel robot = compile_robot_model(upkie, terrain);
+    const RobotModel robot = compile_robot_model(upkie_mjcf, terrain);
     mjData* data = mj_makeData(robot.mj.get());
     mj_forward(robot.mj.get(), data);
     for (double x = terrain.start_x - 0.5; x < 9.0; x += 0.00371) {
@@ -126,7 +125,7 @@ TEST(TerrainMesh, NormalsPointOutOfTheirFaces) {
 TEST(TerrainGeometry, TerrainDecidesFrictionAndStiffness) {
   Terrain terrain;
   terrain.friction = 0.37;
-  const RobotModel robot = compile_robot_model(upkie, terrain);
+  const RobotModel robot = compile_robot_model(upkie_mjcf, terrain);
   mjData* data = mj_makeData(robot.mj.get());
   data->qpos[2] = 0.5565;  // tyres half a millimetre into the floor
   mj_forward(robot.mj.get(), data);

@@ -10,7 +10,7 @@ namespace touchdown::recordings {
 namespace {
 
 TEST(SignalsFrom, EveryJointLandsOnItsLeg) {
-  const models::Observation o = testing::sample_recording(1).observation[0];
+  const models::Observation o = test::sample_recording(1).observation[0];
   const Signals signals = signals_from(o, 0.25);
   EXPECT_EQ(signals.time, o.time);
   EXPECT_EQ(signals.leg[0].hip.position, o.servo[0].position);

@@ -7,10 +7,9 @@
 #include "models/robot_model.hpp"
 #include "recordings/recording.hpp"
 #include "render/film/video.hpp"
+#include "tests/models/upkie_mjcf.hpp"
 
 namespace touchdown::render {
-
-inline const std::string upkie_mjcf = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
 
 inline models::Terrain staged_terrain() {
   return {.pieces = {models::Flat{3.0}, models::StairFlight{}}};

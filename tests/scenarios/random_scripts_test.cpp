@@ -74,7 +74,7 @@ TEST(RandomScripts, ReplaceTheSticksAndAddToTheForces) {
   EXPECT_EQ(varied.forces.front().force.x(), 1.0);
 }
 
-std::string complaint(const std::string& perturbation) {
+std::string complaint_about(const std::string& perturbation) {
   try {
     (void)from_yaml<Perturbation>(YamlDocument::parse(perturbation, "p.yaml"));
   } catch (const InputError& error) {
@@ -84,12 +84,12 @@ std::string complaint(const std::string& perturbation) {
 }
 
 TEST(RandomScripts, ComplainOnTheLine) {
-  EXPECT_THAT(complaint("drive:\n  hold: [2, 1]\n"),
+  EXPECT_THAT(complaint_about("drive:\n  hold: [2, 1]\n"),
               AllOf(HasSubstr("p.yaml:2:"), HasSubstr("[low, high]")));
-  EXPECT_THAT(complaint("drive:\n  hold: [0, 1]\n"), HasSubstr("[low, high]"));
-  EXPECT_THAT(complaint("lift:\n  force: 3\n"), HasSubstr("p.yaml:2:"));
-  EXPECT_THAT(complaint("lift:\n  forse: [1, 2]\n"), HasSubstr("did you mean 'force'"));
-  EXPECT_THAT(complaint("drive:\n  standing: 1.5\n"), HasSubstr("standing: expected"));
+  EXPECT_THAT(complaint_about("drive:\n  hold: [0, 1]\n"), HasSubstr("[low, high]"));
+  EXPECT_THAT(complaint_about("lift:\n  force: 3\n"), HasSubstr("p.yaml:2:"));
+  EXPECT_THAT(complaint_about("lift:\n  forse: [1, 2]\n"), HasSubstr("did you mean 'force'"));
+  EXPECT_THAT(complaint_about("drive:\n  standing: 1.5\n"), HasSubstr("standing: expected"));
 }
 
 }  // namespace

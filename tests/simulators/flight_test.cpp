@@ -8,8 +8,6 @@ namespace touchdown::simulators {
 namespace {
 
 constexpr double upkie_mass = 5.33922;  // kg, from the robot's official description
-constexpr double g = 9.81;
-
 TEST(Flight, BulletsLinksWeighWhatTheRobotWeighs) {
   BulletWorld world(*upkie(), {});
   double mass = world.robot().getBaseMass();

@@ -7,8 +7,6 @@
 namespace touchdown::simulators {
 namespace {
 
-constexpr double g = 9.81;
-
 void expect_near(const Eigen::Vector3d& value, const Eigen::Vector3d& expected, double tolerance) {
   EXPECT_LT((value - expected).norm(), tolerance)
       << value.transpose() << " instead of " << expected.transpose();

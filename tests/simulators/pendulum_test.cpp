@@ -4,7 +4,6 @@
 namespace touchdown::simulators {
 namespace {
 
-constexpr double g = 9.81;
 constexpr double heavy = 1e7;  // kg: what the legs pull it about is below every tolerance here
 
 void make_heavy(models::RobotModel& robot, int body) {

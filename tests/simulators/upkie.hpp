@@ -10,10 +10,11 @@
 
 #include "core/random.hpp"
 #include "simulators/registry.hpp"
+#include "tests/models/upkie_mjcf.hpp"
 
 namespace touchdown::simulators {
 
-inline const std::string upkie_mjcf = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
+inline constexpr double g = 9.81;  ///< m/s²
 
 /// Upkie on a floor, after `change` had its way with the compiled model.
 inline std::shared_ptr<const models::RobotModel> upkie(

@@ -16,8 +16,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-struct Study {
-  Study() { config.choice = {.run = 3, .drop = 1, .seed = 1}; }
+struct PosteriorStudy {
+  PosteriorStudy() { config.choice = {.run = 3, .drop = 1, .seed = 1}; }
 
   Experiment experiment = synthetic_experiment({"phase"});
   FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
@@ -25,7 +25,7 @@ struct Study {
 };
 
 TEST(DropPosterior, AddsUpToOneAndToWhatTheStudyHears) {
-  const Study study;
+  const PosteriorStudy study;
   const RunSignals run = synthetic_run(3);
   const DropPosterior posterior = drop_posterior(study.experiment, study.config, run, study.models);
   ASSERT_EQ(posterior.time.size(), 601U);
@@ -50,7 +50,7 @@ TEST(DropPosterior, AddsUpToOneAndToWhatTheStudyHears) {
 }
 
 TEST(DropPosterior, KnowsTheTruePhasesBesideTheBelieved) {
-  const Study study;
+  const PosteriorStudy study;
   const DropPosterior posterior =
       drop_posterior(study.experiment, study.config, synthetic_run(3), study.models);
   // Steps since the window's first; the left wheel leaves at 142, the right one at 150, both land
@@ -65,7 +65,7 @@ TEST(DropPosterior, KnowsTheTruePhasesBesideTheBelieved) {
 }
 
 TEST(DropPosterior, NamesTheDropsThereAreWhereOneIsMissing) {
-  Study study;
+  PosteriorStudy study;
   study.config.choice.drop = 4;
   EXPECT_THAT(
       [&] { drop_posterior(study.experiment, study.config, synthetic_run(3), study.models); },

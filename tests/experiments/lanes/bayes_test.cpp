@@ -10,6 +10,7 @@
 #include "estimator/bayes/measurement_only.hpp"
 #include "tests/estimator/named_config.hpp"
 #include "tests/estimator/synthetic.hpp"
+#include "tests/experiments/lanes/noise.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -23,27 +24,8 @@ MeasurementModel fitted(const BayesFilterConfig& config) {
   return fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit);
 }
 
-NoiseStep draw(Normal& normal) {
-  NoiseStep draws;
-  draws.acceleration = normal();
-  for (TorqueSample& torque : draws.torque) {
-    torque.knee = normal();
-    torque.wheel = normal();
-  }
-  return draws;
-}
-
-Signals noisy(Signals s, const NoiseStep& draws, const LaneNoise& level) {
-  s.vertical_acceleration += level.acceleration * draws.acceleration;
-  for (std::size_t side = 0; side < 2; ++side) {
-    s.leg[side].knee.torque += level.knee_torque * draws.torque[side].knee;
-    s.leg[side].wheel.torque += level.wheel_torque * draws.torque[side].wheel;
-  }
-  return s;
-}
-
 /// A grid of levels and a few that stand alone.
-std::vector<LaneNoise> levels() {
+std::vector<LaneNoise> bayes_levels() {
   std::vector<LaneNoise> levels;
   for (const double torque : {0.0, 0.25, 1.0, 3.0}) {
     for (const double acceleration : {0.0, 1.0, 5.0, 7.0, 10.0}) {
@@ -61,7 +43,7 @@ TEST_P(NamedLanes, EqualTheScalarFilterInEveryLane) {
   BayesFilterConfig config = test::named(GetParam());
   config.guard.frozen_after = 0.0;
   const MeasurementModel model = fitted(config);
-  const std::vector<LaneNoise> grid = levels();
+  const std::vector<LaneNoise> grid = bayes_levels();
   BayesFilterLanes lanes(model, config, grid);
   ASSERT_EQ(lanes.lanes(), grid.size());
   MeasurementLanes measurements(model, config, grid);
@@ -99,7 +81,7 @@ TEST(BayesFilterLanes, EqualTheScalarFilterForAnyWindow) {
       config.guard.frozen_after = 0.0;
       config.transition.window = window;
       const MeasurementModel model = fitted(config);
-      const std::vector<LaneNoise> grid = levels();
+      const std::vector<LaneNoise> grid = bayes_levels();
       BayesFilterLanes lanes(model, config, grid);
       std::vector<BayesFilter> filters(grid.size(), BayesFilter(model, config));
       Normal normal(17);

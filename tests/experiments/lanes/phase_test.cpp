@@ -8,28 +8,13 @@
 #include "core/error.hpp"
 #include "estimator/phase/filter.hpp"
 #include "tests/estimator/phase/synthetic.hpp"
+#include "tests/experiments/lanes/noise.hpp"
 
 namespace touchdown::experiments {
 namespace {
 
-NoiseStep draw(test::Normal& normal) {
-  NoiseStep draws;
-  draws.acceleration = normal();
-  for (TorqueSample& torque : draws.torque) torque = {normal(), normal()};
-  return draws;
-}
-
-Signals noisy(Signals s, const NoiseStep& draws, const LaneNoise& level) {
-  s.vertical_acceleration += level.acceleration * draws.acceleration;
-  for (std::size_t side = 0; side < 2; ++side) {
-    s.leg[side].knee.torque += level.knee_torque * draws.torque[side].knee;
-    s.leg[side].wheel.torque += level.wheel_torque * draws.torque[side].wheel;
-  }
-  return s;
-}
-
 /// A grid, and torque noise on knees and wheels apart.
-std::vector<LaneNoise> levels() {
+std::vector<LaneNoise> phase_levels() {
   std::vector<LaneNoise> levels;
   for (const double torque : {0.0, 0.5, 3.0}) {
     for (const double acceleration : {0.0, 1.0, 9.0}) {
@@ -50,7 +35,7 @@ PhaseFilterConfig small_config() {
 
 void expect_equal_to_scalar_filters(const PhaseFilterConfig& config) {
   const PhaseModel model = test::small_phase_model();
-  const std::vector<LaneNoise> grid = levels();
+  const std::vector<LaneNoise> grid = phase_levels();
   PhaseLanes lanes(model, config, grid);
   ASSERT_EQ(lanes.lanes(), grid.size());
   std::vector<PhaseFilter> filters(grid.size(), PhaseFilter(model, config));

@@ -13,8 +13,8 @@ namespace touchdown::recordings {
 namespace {
 
 using nlohmann::json;
-using testing::pack;
-using testing::upkie_record;
+using test::pack;
+using test::upkie_record;
 
 struct Beliefs {
   Belief belief;
@@ -53,7 +53,7 @@ json expected(json record, int i) {
 /// As the other library reads it; null for the NaN of what no estimator computes, because nothing
 /// equals NaN.
 std::vector<json> unpack(const std::string& log) {
-  std::vector<json> records = testing::unpack(log);
+  std::vector<json> records = test::unpack(log);
   for (json& record : records) {
     const json::json_pointer smooth("/observation/contact_filter/p_contact_smooth");
     if (record.contains(smooth) && std::isnan(record[smooth].get<double>())) {
@@ -66,7 +66,7 @@ std::vector<json> unpack(const std::string& log) {
 std::string annotated(const std::string& log, bool look_ahead = false) {
   std::istringstream in(log);
   std::ostringstream out;
-  LogReader reader(testing::stream_source(in), "log");
+  LogReader reader(test::stream_source(in), "log");
   LogAnnotator annotator(out);
   if (look_ahead) reader.info();
   int i = 0;

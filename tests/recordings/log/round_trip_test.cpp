@@ -18,7 +18,7 @@
 namespace touchdown::recordings {
 namespace {
 
-using testing::sample_recording;
+using test::sample_recording;
 
 /// Every number of a row as bits, gathered member by member without the help of the library.
 std::vector<std::uint64_t> bits(const Recording& recording, std::size_t step) {
@@ -122,7 +122,7 @@ TEST(RoundTrip, StreamsRowByRow) {
     writer.write(recording.observation[i], recording.action[i], &recording.truth[i]);
   }
   writer.finish();
-  LogReader reader(testing::stream_source(stream), "stream");
+  LogReader reader(test::stream_source(stream), "stream");
   Recording back;
   back.info = reader.info();
   while (const auto row = reader.next()) {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace touchdown::recordings::testing {
+namespace touchdown::recordings::test {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::string python_with_numpy() {
   return {};
 }
 
-}  // namespace touchdown::recordings::testing
+}  // namespace touchdown::recordings::test

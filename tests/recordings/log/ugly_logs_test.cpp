@@ -19,11 +19,11 @@ namespace touchdown::recordings {
 namespace {
 
 using nlohmann::json;
+using test::pack;
+using test::upkie_record;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::pack;
-using testing::upkie_record;
 
 std::vector<json> upkie_records(int count) {
   std::vector<json> records;
@@ -39,7 +39,7 @@ struct Read {
 
 Read read(const std::string& log) {
   std::istringstream stream(log);
-  LogReader reader(testing::stream_source(stream), "run.mpack");
+  LogReader reader(test::stream_source(stream), "run.mpack");
   Read result;
   try {
     while (reader.next()) ++result.rows;
@@ -131,7 +131,7 @@ TEST(UglyLogs, NumbersOfAnotherKindAndUnknownKeysAreTaken) {
   record["extra"] = {{"observation", {{"time", 5.0}}}, {"list", {1, {{"imu", 2}}, "three"}}};
   record["observation"]["servo"]["tail"] = {{"position", 9.0}};
   std::istringstream stream(pack({record}));
-  LogReader reader(testing::stream_source(stream), "log");
+  LogReader reader(test::stream_source(stream), "log");
   const models::Observation o = reader.next()->observation;
   EXPECT_EQ(o.servo[0].torque, -3.0);
   EXPECT_EQ(o.servo[1].torque, 70000.0);
@@ -186,7 +186,7 @@ TEST(UglyLogs, RecordsBeforeTheFirstFiniteTimeAreLeftOutAndNamed) {
               AllOf(HasSubstr("run.mpack: byte 0: the time of record 1 is not a finite number"),
                     HasSubstr("and 1 more")));
   std::istringstream stream(log);
-  LogReader reader(testing::stream_source(stream), "run.mpack");
+  LogReader reader(test::stream_source(stream), "run.mpack");
   EXPECT_EQ(reader.info().control_period_us, 1000);
   EXPECT_EQ(reader.next()->observation.time, 0.0);
   EXPECT_EQ(reader.skipped(), log.substr(0, pack({records[0], records[1]}).size()))
@@ -197,7 +197,7 @@ TEST(UglyLogs, ATimeThatIsNotFiniteLaterIsLeftToTheSignalGuard) {
   std::vector<json> records = upkie_records(5);
   records[2]["observation"]["time"] = std::nan("");
   std::istringstream stream(pack(records));
-  LogReader reader(testing::stream_source(stream), "run.mpack");
+  LogReader reader(test::stream_source(stream), "run.mpack");
   EXPECT_EQ(reader.info().control_period_us, 1000);
   std::vector<bool> finite;
   while (const std::optional<LogRow> row = reader.next()) {

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-namespace touchdown::recordings::testing {
+namespace touchdown::recordings::test {
 
 using nlohmann::json;
 
@@ -72,4 +72,4 @@ ByteSource stream_source(std::istream& stream) {
   };
 }
 
-}  // namespace touchdown::recordings::testing
+}  // namespace touchdown::recordings::test

@@ -7,7 +7,7 @@
 
 #include "recordings/log/byte_source.hpp"
 
-namespace touchdown::recordings::testing {
+namespace touchdown::recordings::test {
 
 /// A record as a current spine writes it, built from the facts about Upkie's layout and packed by
 /// another MessagePack library than the one under test.
@@ -22,4 +22,4 @@ std::vector<nlohmann::json> unpack(const std::string& log);
 /// Any stream as a log; it must outlive the source.
 ByteSource stream_source(std::istream& stream);
 
-}  // namespace touchdown::recordings::testing
+}  // namespace touchdown::recordings::test

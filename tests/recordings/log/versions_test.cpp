@@ -12,12 +12,12 @@ namespace touchdown::recordings {
 namespace {
 
 using nlohmann::json;
-using testing::pack;
-using testing::upkie_record;
+using test::pack;
+using test::upkie_record;
 
 std::vector<LogRow> rows(const std::vector<json>& records) {
   std::istringstream stream(pack(records));
-  LogReader reader(testing::stream_source(stream), "log");
+  LogReader reader(test::stream_source(stream), "log");
   std::vector<LogRow> all;
   while (const auto row = reader.next()) all.push_back(*row);
   return all;
@@ -153,7 +153,7 @@ TEST(LogVersions, PeriodIsTheMedianDifferenceAndTakesNoRowAway) {
       time += (i % 10 == 3 ? 2.7 : i % 2 == 0 ? 1.00001 : 0.99999) / rate;  // a late cycle, jitter
     }
     std::istringstream stream(pack(records));
-    LogReader reader(testing::stream_source(stream), "log");
+    LogReader reader(test::stream_source(stream), "log");
     EXPECT_NEAR(1e-6 * static_cast<double>(reader.info().control_period_us), 1.0 / rate, 1.1e-6);
     std::size_t count = 0;
     double last = -1.0;

@@ -95,7 +95,7 @@ TEST(ModelFile, NumPySeesTheSameKeysShapesAndTypesAsInTheAuthorsFile) {
   if (!std::filesystem::exists(reference)) {
     GTEST_SKIP() << "the authors' grids are not here: " << reference;
   }
-  const std::string python = testing::python_with_numpy();
+  const std::string python = test::python_with_numpy();
   if (python.empty()) {
     GTEST_SKIP() << "python3 with NumPy is not installed";
   }

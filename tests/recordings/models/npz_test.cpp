@@ -17,9 +17,9 @@
 namespace touchdown::recordings {
 namespace {
 
+using test::python_with_numpy;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::python_with_numpy;
 
 NpzArrays sample_arrays() {
   return {{"one", {{3}, {1.0, -0.0, 1e-310}}},

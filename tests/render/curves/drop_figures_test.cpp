@@ -23,12 +23,12 @@ using ::testing::Not;
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t steps = 81;
+constexpr std::size_t drop_steps = 81;
 
 experiments::SpectrumTrace staged_spectrum(double level) {
   experiments::SpectrumTrace trace;
-  for (std::size_t k = 0; k < steps; ++k) {
-    const double x = static_cast<double>(k) / steps;
+  for (std::size_t k = 0; k < drop_steps; ++k) {
+    const double x = static_cast<double>(k) / drop_steps;
     trace.acceleration.push_back(level * std::sin(60.0 * x));
     trace.power.push_back(level * level);
     trace.median_frequency.push_back(300.0 * x);
@@ -44,7 +44,7 @@ experiments::SpectrumTrace staged_spectrum(double level) {
 experiments::DropDetail staged_detail(std::size_t settings) {
   experiments::DropDetail detail;
   detail.simulator = "mujoco";
-  for (std::size_t k = 0; k < steps; ++k) {
+  for (std::size_t k = 0; k < drop_steps; ++k) {
     const double time = 1e-3 * (static_cast<double>(k) - 20.0);
     const bool air = time >= 0.0 && time < 0.03;
     detail.time.push_back(time);
@@ -62,7 +62,7 @@ experiments::DropDetail staged_detail(std::size_t settings) {
         {1.0 + static_cast<double>(i), 5.0}, detail.torque, staged_spectrum(10.0), {}};
     for (const auto& [name, title] :
          {std::pair("robust", "Bayes filter"), std::pair("phase", "Phase filter")}) {
-      drop.beliefs.push_back({name, title, std::vector<double>(steps, 0.9)});
+      drop.beliefs.push_back({name, title, std::vector<double>(drop_steps, 0.9)});
     }
     detail.noisy.push_back(drop);
   }
@@ -72,7 +72,7 @@ experiments::DropDetail staged_detail(std::size_t settings) {
 experiments::DropPosterior staged_posterior(const std::string& simulator) {
   experiments::DropPosterior posterior;
   posterior.simulator = simulator;
-  for (std::size_t k = 0; k < steps; ++k) {
+  for (std::size_t k = 0; k < drop_steps; ++k) {
     const double time = 1e-3 * (static_cast<double>(k) - 20.0);
     const bool air = time >= 0.0 && time < 0.03;
     posterior.time.push_back(time);
@@ -128,7 +128,7 @@ TEST_F(DropFigures, DetailIsAsWideAsAScreenWithItsDataBesideIt) {
     EXPECT_EQ(name.find("image"), std::string::npos) << name;
   }
   const auto columns = numbers_in(folder_ / "detail_2.dat");
-  ASSERT_EQ(columns.size(), steps);
+  ASSERT_EQ(columns.size(), drop_steps);
   for (const auto& row : columns) {
     ASSERT_EQ(row.size(), 16U + 2U);
     for (const double value : row) EXPECT_TRUE(std::isfinite(value));
@@ -202,7 +202,7 @@ TEST_F(DropFigures, PosteriorShowsEveryPhaseOfBothEngines) {
     EXPECT_THAT(read_file(figure.svg), HasSubstr(text));
   }
   const auto rows = numbers_in(folder_ / "posterior_2.dat");
-  ASSERT_EQ(rows.size(), steps);
+  ASSERT_EQ(rows.size(), drop_steps);
   for (const auto& row : rows) {
     ASSERT_EQ(row.size(), 1U + phase_count + 2U);
     double sum = 0.0;
