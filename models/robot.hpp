@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include <Eigen/Core>
@@ -43,7 +44,8 @@ struct Action {
   std::array<ServoCommand, servo_count> servo;
 };
 
-/// What one servo measures (rad, rad/s, N·m). `torque` is the torque applied over the last step.
+/// What one servo measures (rad, rad/s, N·m). `torque` is what it believes, from its current, to
+/// have applied over the last step; with an ideal actuator it is what the joint felt.
 struct ServoReading {
   double position = 0.0;
   double velocity = 0.0;
@@ -92,6 +94,9 @@ struct GroundTruth {
   std::array<double, wheel_count> wheel_normal_force = {0.0, 0.0};
   /// Whether anything but a tyre touches the terrain: the robot has fallen.
   bool body_touches_terrain = false;
+  /// What each joint feels of its actuator over the last physics step (N·m), where that is not what
+  /// the servo reports: friction and all (models/actuator.hpp). Ideal actuators report it.
+  std::optional<std::array<double, servo_count>> joint_torque = {};
 };
 
 /// The projection of the IMU's acceleration on the world's upward vertical (m/s²): γ^z of the

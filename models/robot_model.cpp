@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "models/robot_description.hpp"
 #include "models/scene_mjcf.hpp"
 #include "models/terrain_mjcf.hpp"
 
@@ -140,6 +141,27 @@ void find_servos(RobotModel& robot, const Contract& contract) {
     robot.qpos_address[i] = model.jnt_qposadr[joint];
     robot.dof_address[i] = model.jnt_dofadr[joint];
     robot.effort[i] = model.actuator_ctrlrange[2 * motor + 1];
+    robot.actuator[i] = {.friction = model.dof_frictionloss[robot.dof_address[i]],
+                         .viscous = model.dof_damping[robot.dof_address[i]],
+                         .armature = model.dof_armature[robot.dof_address[i]]};
+  }
+}
+
+/// What the robot's file says about its actuators, in the model: MuJoCo knows rotor inertia itself,
+/// all else is the simulators' (simulators/actuators.hpp).
+void set_actuators(RobotModel& robot, const RobotDescription& description) {
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    if (const auto& given = description.actuator(static_cast<Servo>(i))) robot.actuator[i] = *given;
+    const int dof = robot.dof_address[i];
+    robot.effort[i] = std::min(robot.effort[i], robot.actuator[i].maximum_torque);
+    robot.mj->dof_armature[dof] = robot.actuator[i].armature;
+    robot.mj->dof_damping[dof] = 0.0;
+    robot.mj->dof_frictionloss[dof] = 0.0;
+  }
+  if (std::any_of(robot.actuator.begin(), robot.actuator.end(),
+                  [](const Actuator& actuator) { return actuator.armature != 0.0; })) {
+    const MjDataPtr data(mj_makeData(robot.mj.get()));
+    mj_setConst(robot.mj.get(), data.get());
   }
 }
 
@@ -164,14 +186,17 @@ void find_tyres(RobotModel& robot, const Contract& contract) {
 
 }  // namespace
 
-RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain) {
+RobotModel compile_robot_model(const std::filesystem::path& robot_file, const Terrain& terrain) {
   install_mujoco_handlers();
+  const RobotDescription description = robot_description(robot_file);
+  const std::filesystem::path& robot_mjcf = description.mjcf;
   RobotModel robot;
   robot.mj = compile(robot_mjcf, compose(robot_mjcf, terrain));
   const Contract contract(robot_mjcf, *robot.mj);
   robot.name = robot.mj->names;  // the model's own name comes first
   robot.base_body = find_base(*robot.mj, contract);
   find_servos(robot, contract);
+  set_actuators(robot, description);
   robot.imu_site = contract.find(mjOBJ_SITE, "site", "imu");
   if (robot.mj->site_bodyid[robot.imu_site] != robot.base_body) {
     contract.fail("site 'imu': expected it on the base body");

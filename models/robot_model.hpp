@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <mujoco/mujoco.h>
 
+#include "models/actuator.hpp"
 #include "models/robot.hpp"
 #include "models/terrain.hpp"
 
@@ -45,24 +46,25 @@ struct RobotModel {
   std::string name;  ///< the MJCF's model name
   int base_body = -1;
   int imu_site = -1;
-  std::array<int, servo_count> qpos_address = {};  ///< of each servo's joint in mjData::qpos
-  std::array<int, servo_count> dof_address = {};   ///< of each servo's joint in mjData::qvel
-  std::array<int, wheel_count> tyre_geom = {};     ///< left, right
-  double wheel_radius = 0.0;                       ///< of the tyres (m)
-  std::array<double, servo_count> effort = {};     ///< torque limit of each servo's motor (N·m)
+  std::array<int, servo_count> qpos_address = {};   ///< of each servo's joint in mjData::qpos
+  std::array<int, servo_count> dof_address = {};    ///< of each servo's joint in mjData::qvel
+  std::array<int, wheel_count> tyre_geom = {};      ///< left, right
+  double wheel_radius = 0.0;                        ///< of the tyres (m)
+  std::array<double, servo_count> effort = {};      ///< torque limit of each servo's motor (N·m)
+  std::array<Actuator, servo_count> actuator = {};  ///< what each servo works through
 
   /// Of the base's free joint in mjData::qpos (x y z, then w x y z) and mjData::qvel.
   int base_qpos() const { return mj->jnt_qposadr[mj->body_jntadr[base_body]]; }
   int base_dof() const { return mj->jnt_dofadr[mj->body_jntadr[base_body]]; }
 };
 
-/// Compile a robot's MJCF together with a terrain.
-/// Errors: `InputError` with file:line:column for broken XML, and naming what is missing when the
-/// model does not keep the contract.
+/// Compile a robot (an MJCF, or a YAML file about one: models/robot_description.hpp) together with
+/// a terrain. Errors: `InputError` with file:line:column for broken XML, and naming what is missing
+/// when the model does not keep the contract.
 ///
 /// From the first call on, MuJoCo's fatal errors are thrown as `Error` in the whole process, and
 /// its warnings are dropped: its own handlers wait for a key press and write files.
-RobotModel compile_robot_model(const std::filesystem::path& robot_mjcf, const Terrain& terrain);
+RobotModel compile_robot_model(const std::filesystem::path& robot, const Terrain& terrain);
 
 /// Writes where the base is and how the joints stand into mjData::qpos.
 void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,

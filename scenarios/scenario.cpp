@@ -6,6 +6,7 @@
 #include "core/file_names.hpp"
 #include "core/random.hpp"
 #include "core/resources.hpp"
+#include "models/robot_description.hpp"
 #include "models/terrain_yaml.hpp"
 
 namespace touchdown::scenarios {
@@ -55,6 +56,10 @@ Scenario find_scenario(const std::filesystem::path& path) {
   Scenario scenario = load_scenario(find_resource(path));
   scenario.robot = find_resource(scenario.robot);
   return scenario;
+}
+
+std::string robot_text(const Scenario& scenario) {
+  return models::robot_text(find_resource(scenario.robot));
 }
 
 std::string to_yaml(const Scenario& scenario) { return YAML::Dump(to_node(scenario)) + "\n"; }

@@ -58,6 +58,9 @@ Scenario load_scenario(const std::filesystem::path& path);
 /// them.
 Scenario find_scenario(const std::filesystem::path& path);
 
+/// All that its robot is made from, for digests.
+std::string robot_text(const Scenario& scenario);
+
 /// The scenario as YAML that `scenario_from_yaml` reads back to the same scenario.
 std::string to_yaml(const Scenario& scenario);
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "simulators/servo.hpp"
-
 namespace touchdown::simulators {
 
 namespace {
@@ -24,6 +22,7 @@ Simulator::Simulator(std::shared_ptr<const models::RobotModel> model,
                      const SimulatorOptions& options)
     : model_(std::move(model)),
       options_(options),
+      actuators_(*model_, options.steps),
       imu_position_in_base_(models::vector_at(model_->mj->site_pos, model_->imu_site)),
       imu_rotation_in_base_(
           models::quaternion_at(model_->mj->site_quat, model_->imu_site).toRotationMatrix()) {}
@@ -31,9 +30,11 @@ Simulator::Simulator(std::shared_ptr<const models::RobotModel> model,
 void Simulator::reset(const RobotState& start) {
   step_count_ = 0;
   forces_ = {};
+  actuators_.reset();
   place(start);
   read(state_);
   observe(Eigen::Vector3d::Zero(), {});
+  if (!actuators_.are_ideal()) truth_.joint_torque.emplace();
 }
 
 void Simulator::step(const models::Action& action, std::span<const ExternalWrench> wrenches) {
@@ -41,13 +42,11 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
   const std::int64_t substeps = options_.steps.control_us / options_.steps.physics_us;
   std::array<double, models::wheel_count> force_sum = {0.0, 0.0};
   bool body_touched = false;
-  JointTorques measured = {};
+  const models::Action& commands = actuators_.delayed(action);
+  Actuators::Torques torques;
   for (std::int64_t substep = 0; substep < substeps; ++substep) {
-    for (std::size_t i = 0; i < models::servo_count; ++i) {
-      measured[i] = servo_torque(action.servo[i], state_.joint_position[i],
-                                 state_.joint_velocity[i], model_->effort[i]);
-    }
-    JointTorques applied = measured;
+    torques = actuators_.step(commands, state_.joint_position, state_.joint_velocity);
+    JointTorques applied = torques.felt;
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       const std::size_t servo = models::index(models::wheel_servos[wheel]);
       applied[servo] +=
@@ -63,11 +62,12 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
     body_touched = body_touched || forces_.body_touches_terrain;
   }
   ++step_count_;
-  observe((imu_velocity() - velocity_before) / control_period(), measured);
+  observe((imu_velocity() - velocity_before) / control_period(), torques.reported);
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     truth_.wheel_normal_force[wheel] = force_sum[wheel] / static_cast<double>(substeps);
   }
   truth_.body_touches_terrain = body_touched;
+  if (!actuators_.are_ideal()) truth_.joint_torque = torques.felt;
 }
 
 Eigen::Vector3d Simulator::imu_velocity() const {
@@ -76,7 +76,7 @@ Eigen::Vector3d Simulator::imu_velocity() const {
 }
 
 void Simulator::observe(const Eigen::Vector3d& imu_acceleration,
-                        const JointTorques& measured_torques) {
+                        const JointTorques& reported_torques) {
   const Eigen::Matrix3d base_to_world = state_.orientation.toRotationMatrix();
   const Eigen::Matrix3d imu_to_world = base_to_world * imu_rotation_in_base_;
   const Eigen::Vector3d gravity = models::vector_at(model_->mj->opt.gravity, 0);
@@ -84,7 +84,7 @@ void Simulator::observe(const Eigen::Vector3d& imu_acceleration,
   observation_.time = static_cast<double>(step_count_) * control_period();
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     observation_.servo[i] = {state_.joint_position[i], state_.joint_velocity[i],
-                             measured_torques[i]};
+                             reported_torques[i]};
   }
   observation_.imu.orientation =
       Eigen::Quaterniond(Eigen::Matrix3d(world_to_ars.asDiagonal() * imu_to_world));

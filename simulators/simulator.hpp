@@ -11,12 +11,10 @@
 
 #include "models/robot.hpp"
 #include "models/robot_model.hpp"
+#include "simulators/actuators.hpp"
 #include "simulators/options.hpp"
 
 namespace touchdown::simulators {
-
-/// One number per joint, in servo order.
-using JointTorques = std::array<double, models::servo_count>;
 
 /// The configuration and velocity of the robot: all that an engine needs to start from.
 /// World frame: x forward, y left, z up.
@@ -59,8 +57,9 @@ struct ContactForces {
 
 /// The seam for physics engines: a robot on a terrain, stepped by actions.
 ///
-/// What every engine shares lives here: the servo law, the rolling resistance, the IMU and what
-/// counts as contact. An engine only has to move the bodies (see the protected functions).
+/// What every engine shares lives here: the servo law and its actuators, the rolling resistance,
+/// the IMU and what counts as contact. An engine only has to move the bodies (see the protected
+/// functions).
 class Simulator {
  public:
   virtual ~Simulator() = default;
@@ -105,10 +104,11 @@ class Simulator {
 
  private:
   Eigen::Vector3d imu_velocity() const;
-  void observe(const Eigen::Vector3d& imu_acceleration, const JointTorques& measured_torques);
+  void observe(const Eigen::Vector3d& imu_acceleration, const JointTorques& reported_torques);
 
   std::shared_ptr<const models::RobotModel> model_;
   SimulatorOptions options_;
+  Actuators actuators_;
   std::int64_t step_count_ = 0;
   RobotState state_;
   ContactForces forces_;

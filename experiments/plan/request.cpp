@@ -25,7 +25,7 @@ class Digest {
   explicit Digest(const Experiment& experiment) { fingerprint_.add(to_yaml(experiment)); }
   /// The robot's file counts under the path that the scenario has for it.
   void add(const scenarios::Scenario& scenario) {
-    fingerprint_.add(scenarios::to_yaml(scenario)).add(read_file(find_resource(scenario.robot)));
+    fingerprint_.add(scenarios::to_yaml(scenario)).add(scenarios::robot_text(scenario));
   }
   std::string text() const { return fingerprint_.text(); }
 

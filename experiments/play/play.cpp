@@ -28,7 +28,7 @@ std::string key_of(const PlannedRun& run) {
   return Fingerprint()
       .add(build_fingerprint())
       .add(scenarios::to_yaml(scenario))
-      .add(read_file(run.scenario.robot))
+      .add(scenarios::robot_text(run.scenario))
       .add(run.simulator)
       .add(fmt::format("{} {}", run.seed, run.run))
       .text();

@@ -82,7 +82,7 @@ class Reader {
   const NpzArrays& arrays_;
 };
 
-std::size_t needed(std::string_view name) {
+std::size_t most_values(std::string_view name) {
   constexpr std::size_t most_cells = std::size_t{1} << 25U;
   constexpr std::size_t most_text = std::size_t{1} << 20U;
   constexpr std::size_t most_else = 1000;
@@ -158,7 +158,7 @@ void write_phase_model(const PhaseModelFile& file, const std::filesystem::path& 
 }
 
 PhaseModelFile read_phase_model(const std::filesystem::path& path) {
-  return made_of_npz(path, needed,
+  return made_of_npz(path, most_values,
                      [](const NpzArrays& arrays) { return file_from(Reader(arrays)); });
 }
 

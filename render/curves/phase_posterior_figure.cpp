@@ -13,7 +13,7 @@
 namespace touchdown::render {
 namespace {
 
-enum Row : std::size_t { wheels, label, posterior, belief };
+enum PosteriorRow : std::size_t { wheel_row, label_row, posterior_row, belief_row };
 
 /// How a phase is named and coloured (0xRRGGBB).
 struct PhaseStyle {
@@ -87,7 +87,7 @@ std::string column_commands(const experiments::DropPosterior& drop, const PanelG
                             const std::string& name) {
   const std::string data = fmt::format("{}_{}.dat", name, column + 1);
   const std::string truth = fmt::format("{}_truth_{}.dat", name, column + 1);
-  const auto panel = [&](Row row, std::string_view text) {
+  const auto panel = [&](PosteriorRow row, std::string_view text) {
     return grid.panel(row, column, text) + (last ? grid.key(row) : "");
   };
   std::vector<bool> any;
@@ -95,15 +95,15 @@ std::string column_commands(const experiments::DropPosterior& drop, const PanelG
     any.push_back(drop.contact[0][k] != 0 || drop.contact[1][k] != 0);
   }
   std::string text = contact_bands(in_ms(drop.time), any) + "unset object\n";
-  text += panel(wheels, "truth");
+  text += panel(wheel_row, "truth");
   text += fmt::format(
       "set yrange [0:2]\nset ytics ({} 1.5, {} 0.5) scale 0\nunset grid\n"
       "plot {}, NaN with boxes fillcolor rgb '#8fcaa0' title 'wheel touches'\n",
       column == 0 ? "'left'" : "''", column == 0 ? "'right'" : "''", boxes(truth, 0));
-  text += panel(label, "");
+  text += panel(label_row, "");
   text += fmt::format("set yrange [0:1]\nset ytics ({} 0.5) scale 0\nplot {}\n",
                       column == 0 ? "'phase'" : "''", boxes(truth, 1));
-  text += panel(posterior, "P(phase)");
+  text += panel(posterior_row, "P(phase)");
   text += "set ytics 0,0.5,1 scale 0.5\nset grid\nplot ";
   // From the whole downwards, each painted over the ones above: no seams between neighbours.
   for (std::size_t phase = phase_count; phase-- > 0;) {
@@ -112,7 +112,7 @@ std::string column_commands(const experiments::DropPosterior& drop, const PanelG
         "'#{:06x}' title '{}'{}",
         data, phase + 2, styles[phase].colour, styles[phase].title, phase > 0 ? ", " : "\n");
   }
-  text += panel(belief, "P(contact)");
+  text += panel(belief_row, "P(contact)");
   text += fmt::format(
       "set yrange [-0.04:1.04]\nplot '{0}' using 1:{1} with lines lt 6 lw 4.5 dt 1 title 'left "
       "wheel', "

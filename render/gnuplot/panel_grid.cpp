@@ -15,7 +15,7 @@ constexpr double above = 84.0;  ///< the panels: the title and the columns' titl
 constexpr double below = 62.0;  ///< the panels: tics and label of the time axis (px)
 constexpr double left = 104.0;  ///< of the panels, for tics and labels (px)
 constexpr double gap_x = 22.0, gap_y = 22.0;  ///< between panels (px)
-constexpr double line = 21.0;                 ///< of the caption (px)
+constexpr double line_height = 21.0;          ///< of the caption (px)
 constexpr double letter = 9.3;                ///< of the caption, on average (px)
 
 }  // namespace
@@ -23,8 +23,8 @@ constexpr double letter = 9.3;                ///< of the caption, on average (p
 PanelGrid::PanelGrid(Layout layout, FigureText text)
     : layout_(std::move(layout)), text_(std::move(text)) {
   caption_lines_ = wrapped(text_.caption, static_cast<std::size_t>((width() - 40.0) / letter));
-  caption_height_ = line * static_cast<double>(
-                               1 + std::count(caption_lines_.begin(), caption_lines_.end(), '\n')) +
+  caption_height_ = line_height * static_cast<double>(1 + std::count(caption_lines_.begin(),
+                                                                     caption_lines_.end(), '\n')) +
                     18.0;
 }
 

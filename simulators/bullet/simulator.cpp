@@ -1,5 +1,6 @@
 #include "simulators/bullet/simulator.hpp"
 
+#include "simulators/bullet/rotors.hpp"
 #include "simulators/bullet/world.hpp"
 
 namespace touchdown::simulators {
@@ -16,6 +17,7 @@ BulletSimulator::~BulletSimulator() = default;
 
 void BulletSimulator::place(const RobotState& start) {
   world_ = std::make_unique<BulletWorld>(model(), options());
+  rotors_ = std::make_unique<Rotors>(model(), *world_);
   btMultiBody& robot = world_->robot();
   const Eigen::Vector3d com_offset = start.orientation * base_com_;
   robot.setBasePos(to_bullet(start.position + com_offset));
@@ -42,6 +44,7 @@ void BulletSimulator::advance(const JointTorques& torques,
     robot.addBaseForce(to_bullet(wrench.force));
     robot.addBaseTorque(to_bullet(torque_about(base_com_, wrench, state())));
   }
+  rotors_->take_back(robot, physics_period());
   // Zero sub-steps: one step of exactly this length.
   world_->world().stepSimulation(physics_period(), 0);
 }

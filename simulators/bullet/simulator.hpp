@@ -8,6 +8,7 @@
 namespace touchdown::simulators {
 
 class BulletWorld;
+class Rotors;
 
 /// Bullet behind the `Simulator` seam, in double precision. Every reset builds the world afresh:
 /// only a fresh world repeats itself bit by bit.
@@ -30,6 +31,7 @@ class BulletSimulator : public Simulator {
 
  private:
   std::unique_ptr<BulletWorld> world_;
+  std::unique_ptr<Rotors> rotors_;
   Eigen::Vector3d base_com_;           ///< centre of mass of the base body in its frame (m)
   Eigen::Quaterniond base_principal_;  ///< its principal axes in its frame
 };

@@ -1,5 +1,6 @@
 #include "simulators/bullet/world.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -53,10 +54,27 @@ std::unique_ptr<btCollisionShape> shape_of(const mjModel& model, int geom) {
 struct InertiaFrame {
   Eigen::Vector3d position;
   Eigen::Quaterniond orientation;
+  Eigen::Vector3d inertia;  ///< about its axes (kg·m²)
 };
 
+/// A joint's rotor turns with the joint's link (see rotors.hpp), which so has other principal axes.
 InertiaFrame inertia_frame(const mjModel& mj, int body) {
-  return {models::vector_at(mj.body_ipos, body), models::quaternion_at(mj.body_iquat, body)};
+  InertiaFrame frame = {models::vector_at(mj.body_ipos, body),
+                        models::quaternion_at(mj.body_iquat, body),
+                        models::vector_at(mj.body_inertia, body)};
+  const int joint = mj.body_jntadr[body];
+  const double rotor = joint < 0 ? 0.0 : mj.dof_armature[mj.jnt_dofadr[joint]];
+  if (rotor == 0.0) return frame;
+  const Eigen::Vector3d axis = models::vector_at(mj.jnt_axis, joint);
+  const Eigen::Matrix3d principal = frame.orientation.toRotationMatrix();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(
+      principal * frame.inertia.asDiagonal() * principal.transpose() +
+      rotor * axis * axis.transpose());
+  Eigen::Matrix3d axes = solved.eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
+  frame.orientation = Eigen::Quaterniond(axes);
+  frame.inertia = solved.eigenvalues();
+  return frame;
 }
 
 /// Place of a geom in the inertia frame of its body.
@@ -118,8 +136,7 @@ void BulletWorld::build_links(const models::RobotModel& model) {
         (models::vector_at(mj.body_pos, body) + body_in_parent * pivot - above.position);
     const Eigen::Vector3d pivot_to_link = own.orientation.conjugate() * (own.position - pivot);
     robot_->setupRevolute(link_of_body_[static_cast<std::size_t>(body)], mj.body_mass[body],
-                          to_bullet(models::vector_at(mj.body_inertia, body)),
-                          link_of_body_[static_cast<std::size_t>(parent)],
+                          to_bullet(own.inertia), link_of_body_[static_cast<std::size_t>(parent)],
                           to_bullet(link_in_parent.conjugate()), to_bullet(axis),
                           to_bullet(parent_to_pivot), to_bullet(pivot_to_link), true);
   }
@@ -134,12 +151,6 @@ void BulletWorld::build_links(const models::RobotModel& model) {
     const int dof = model.dof_address[servo];
     link_of_servo_[servo] =
         link_of_body_[static_cast<std::size_t>(mj.jnt_bodyid[mj.dof_jntid[dof]])];
-    if (mj.dof_armature[dof] != 0.0 || mj.dof_damping[dof] != 0.0 ||
-        mj.dof_frictionloss[dof] != 0.0) {
-      throw InputError(fmt::format(
-          "joint '{}': Bullet knows no armature, damping or frictionloss; expected them to be zero",
-          models::servo_names[servo]));
-    }
   }
 }
 

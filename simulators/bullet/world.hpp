@@ -31,7 +31,7 @@ inline Eigen::Quaterniond to_eigen(const btQuaternion& q) { return {q.w(), q.x()
 /// two, so the robot's colliders have one.
 class BulletWorld {
  public:
-  /// Errors: `InputError` for what Bullet cannot represent: ellipsoids and height fields, armature.
+  /// Errors: `InputError` for what Bullet cannot represent: ellipsoids and height fields.
   BulletWorld(const models::RobotModel& model, const SimulatorOptions& options);
 
   btMultiBodyDynamicsWorld& world() { return world_; }

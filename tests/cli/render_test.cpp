@@ -14,6 +14,7 @@
 
 #include "core/files.hpp"
 #include "program.hpp"
+#include "tests/cli/result_files.hpp"
 
 namespace touchdown::cli {
 namespace {
@@ -23,7 +24,7 @@ using ::testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-constexpr const char* small = " --width 320 --height 180 --fps 10 ";
+constexpr const char* small_film = " --width 320 --height 180 --fps 10 ";
 
 /// A folder with a recording, `a.mpack`.
 class Render : public ::testing::Test {
@@ -42,7 +43,7 @@ class Render : public ::testing::Test {
   }
 
   Ended render(const std::string& arguments) const {
-    return touchdown_program("render " + arguments + small, folder_.path());
+    return touchdown_program("render " + arguments + small_film, folder_.path());
   }
 
   const ScratchFolder folder_;
@@ -169,12 +170,6 @@ bool is_alive(pid_t process) {
   } catch (const std::exception&) {
     return false;
   }
-}
-
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
 }
 
 class Interrupted : public Render, public ::testing::WithParamInterface<int> {};

@@ -3,12 +3,22 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "core/files.hpp"
 
 namespace touchdown::cli {
+
+/// What stands in a folder.
+inline std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    names.insert(entry.path().filename().string());
+  }
+  return names;
+}
 
 /// Every file of a run directory that must not depend on when, where and in how many attempts it
 /// was computed, hidden ones included, by its path there, and what tells its content apart. The

@@ -10,6 +10,7 @@
 
 #include "core/files.hpp"
 #include "program.hpp"
+#include "tests/cli/result_files.hpp"
 
 namespace touchdown::cli {
 namespace {
@@ -177,14 +178,6 @@ TEST(Run, UsesRecordingsThatAreThereAlready) {
   run_tiny(folder, "--out a");
   EXPECT_EQ(fs::last_write_time(recording), written);
   EXPECT_EQ(reproducible_files(folder.path() / "a"), before);
-}
-
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    names.insert(entry.path().filename().string());
-  }
-  return names;
 }
 
 TEST(Run, KeepsTheRecordingsThatItIsAskedForAndTheSameTables) {

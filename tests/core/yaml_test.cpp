@@ -65,16 +65,16 @@ void describe(Fields& fields, Config& config) {
   fields.choose("engine", {"mujoco", "bullet"}, config.engine);
 }
 
-Config read(const YamlDocument& document) { return from_yaml<Config>(document); }
+Config read_yaml(const YamlDocument& document) { return from_yaml<Config>(document); }
 
-Config read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+Config read_yaml(const std::string& text, const std::vector<std::string>& overrides = {}) {
   YamlDocument document = YamlDocument::parse(text, "test.yaml");
   for (const std::string& assignment : overrides) document.override_value(assignment);
-  return read(document);
+  return read_yaml(document);
 }
 
-std::string complaint(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return message([&] { read(text, overrides); });
+std::string complaint_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return message([&] { read_yaml(text, overrides); });
 }
 
 constexpr const char* good = R"(name: stairs
@@ -92,7 +92,7 @@ engine: bullet
 )";
 
 TEST(Yaml, ReadsEveryKindOfValue) {
-  const Config config = read(good);
+  const Config config = read_yaml(good);
   EXPECT_EQ(config.name, "stairs");
   EXPECT_EQ(config.duration, 2.5);
   EXPECT_EQ(config.count, 4);
@@ -106,65 +106,66 @@ TEST(Yaml, ReadsEveryKindOfValue) {
 }
 
 TEST(Yaml, AbsentKeysKeepTheirDefaults) {
-  const Config config = read("name: x\n");
+  const Config config = read_yaml("name: x\n");
   EXPECT_EQ(config.duration, 1.0);
   EXPECT_TRUE(config.video);
   EXPECT_TRUE(config.runs.empty());
 }
 
 TEST(Yaml, ATypoIsPlacedAndTheNearestKeyNamed) {
-  EXPECT_THAT(complaint("name: x\ndurration: 2\n"), AllOf(StartsWith("test.yaml:2:1: durration: "),
-                                                          HasSubstr("did you mean 'duration'?")));
-  EXPECT_THAT(complaint("noise:\n  seed: 2\n"),
+  EXPECT_THAT(
+      complaint_of("name: x\ndurration: 2\n"),
+      AllOf(StartsWith("test.yaml:2:1: durration: "), HasSubstr("did you mean 'duration'?")));
+  EXPECT_THAT(complaint_of("noise:\n  seed: 2\n"),
               AllOf(StartsWith("test.yaml:2:3: noise.seed: "), HasSubstr("'seeds'")));
-  EXPECT_THAT(complaint("runs:\n  - name: a\n  - name: b\n    sped: 1\n"),
+  EXPECT_THAT(complaint_of("runs:\n  - name: a\n  - name: b\n    sped: 1\n"),
               AllOf(StartsWith("test.yaml:4:5: runs.1.sped: "), HasSubstr("'speed'")));
 }
 
 TEST(Yaml, AnUnknownKeyThatIsNearToNothingListsTheKnownOnes) {
-  EXPECT_THAT(complaint("zzzzzzzz: 1\n"), AllOf(HasSubstr("unknown key"), HasSubstr("duration"),
-                                                Not(HasSubstr("did you mean"))));
+  EXPECT_THAT(complaint_of("zzzzzzzz: 1\n"), AllOf(HasSubstr("unknown key"), HasSubstr("duration"),
+                                                   Not(HasSubstr("did you mean"))));
 }
 
 TEST(Yaml, AWrongTypeSaysWhatWasExpectedAndWhere) {
-  EXPECT_THAT(complaint("duration: long\n"),
+  EXPECT_THAT(complaint_of("duration: long\n"),
               AllOf(StartsWith("test.yaml:1:11: duration: "), HasSubstr("a number")));
-  EXPECT_THAT(complaint("count: 2.5\n"), HasSubstr("a whole number"));
-  EXPECT_THAT(complaint("video: perhaps\n"), HasSubstr("true or false"));
-  EXPECT_THAT(complaint("name: [1, 2]\n"), HasSubstr("a text"));
-  EXPECT_THAT(complaint("noise:\n  levels: 3\n"), HasSubstr("a list, each item a number"));
-  EXPECT_THAT(complaint("noise: 3\n"), HasSubstr("expected a mapping"));
-  EXPECT_THAT(complaint("runs: 3\n"), HasSubstr("expected a list"));
-  EXPECT_THAT(complaint("runs: [3]\n"), HasSubstr("runs.0: expected a mapping"));
+  EXPECT_THAT(complaint_of("count: 2.5\n"), HasSubstr("a whole number"));
+  EXPECT_THAT(complaint_of("video: perhaps\n"), HasSubstr("true or false"));
+  EXPECT_THAT(complaint_of("name: [1, 2]\n"), HasSubstr("a text"));
+  EXPECT_THAT(complaint_of("noise:\n  levels: 3\n"), HasSubstr("a list, each item a number"));
+  EXPECT_THAT(complaint_of("noise: 3\n"), HasSubstr("expected a mapping"));
+  EXPECT_THAT(complaint_of("runs: 3\n"), HasSubstr("expected a list"));
+  EXPECT_THAT(complaint_of("runs: [3]\n"), HasSubstr("runs.0: expected a mapping"));
 }
 
 TEST(Yaml, AValueOutOfRangeSaysTheRange) {
-  EXPECT_THAT(complaint("duration: -1\n"),
+  EXPECT_THAT(complaint_of("duration: -1\n"),
               AllOf(StartsWith("test.yaml:1:11: duration: "), HasSubstr("from 0 to 100")));
-  EXPECT_THAT(complaint("count: 11\n"), HasSubstr("from 1 to 10"));
-  EXPECT_THAT(complaint("duration: .nan\n"), HasSubstr("from 0 to 100"));
+  EXPECT_THAT(complaint_of("count: 11\n"), HasSubstr("from 1 to 10"));
+  EXPECT_THAT(complaint_of("duration: .nan\n"), HasSubstr("from 0 to 100"));
 }
 
 TEST(Yaml, AnUnknownChoiceNamesTheNearest) {
-  EXPECT_THAT(complaint("engine: mujocco\n"),
+  EXPECT_THAT(complaint_of("engine: mujocco\n"),
               AllOf(StartsWith("test.yaml:1:9: engine: "), HasSubstr("mujoco, bullet"),
                     HasSubstr("did you mean 'mujoco'?")));
 }
 
 TEST(Yaml, ARequiredKeyThatIsAbsentIsNamed) {
-  EXPECT_THAT(complaint("runs:\n  - speed: 1\n"),
+  EXPECT_THAT(complaint_of("runs:\n  - speed: 1\n"),
               AllOf(StartsWith("test.yaml:2:5: runs.0.name: "), HasSubstr("missing")));
 }
 
 TEST(Yaml, BrokenYamlIsPlaced) {
-  EXPECT_THAT(complaint("name: [1, 2\nduration: 3\n"),
+  EXPECT_THAT(complaint_of("name: [1, 2\nduration: 3\n"),
               AllOf(StartsWith("test.yaml:"), HasSubstr("not valid YAML")));
-  EXPECT_THAT(complaint("name: x\n\tcount: 3\n"), StartsWith("test.yaml:2:"));
+  EXPECT_THAT(complaint_of("name: x\n\tcount: 3\n"), StartsWith("test.yaml:2:"));
 }
 
 TEST(Yaml, EmptyFilesAndOtherDocumentsAreNoMappings) {
   for (const char* text : {"", "\n# only a comment\n", "- a\n- b\n", "just text\n"}) {
-    EXPECT_THAT(complaint(text), HasSubstr("test.yaml:1:1: expected a mapping")) << text;
+    EXPECT_THAT(complaint_of(text), HasSubstr("test.yaml:1:1: expected a mapping")) << text;
   }
 }
 
@@ -175,12 +176,12 @@ TEST(Yaml, AMissingFileIsNamed) {
 }
 
 TEST(Yaml, DuplicateKeysAreRefused) {
-  EXPECT_THAT(complaint("count: 3\nname: x\ncount: 4\n"),
+  EXPECT_THAT(complaint_of("count: 3\nname: x\ncount: 4\n"),
               AllOf(StartsWith("test.yaml:3:1: count: "), HasSubstr("twice")));
 }
 
 TEST(YamlOverride, ReplacesValuesByDottedKeysAndItemNumbers) {
-  const Config config = read(
+  const Config config = read_yaml(
       good, {"duration=7", "noise.levels=[2, 3]", "noise.seeds=9", "runs.1.speed=0.9", "name=a=b"});
   EXPECT_EQ(config.duration, 7.0);
   EXPECT_THAT(config.noise.levels, ElementsAre(2.0, 3.0));
@@ -188,39 +189,39 @@ TEST(YamlOverride, ReplacesValuesByDottedKeysAndItemNumbers) {
   EXPECT_EQ(config.runs[1].speed, 0.9);
   EXPECT_EQ(config.runs[0].speed, 0.4);
   EXPECT_EQ(config.name, "a=b");
-  EXPECT_THAT(read(good, {"noise.levels.1=0.75"}).noise.levels, ElementsAre(0.0, 0.75, 1.0));
+  EXPECT_THAT(read_yaml(good, {"noise.levels.1=0.75"}).noise.levels, ElementsAre(0.0, 0.75, 1.0));
 }
 
 TEST(YamlOverride, AddsKeysThatTheFileLeavesOut) {
-  EXPECT_EQ(read("name: x\n", {"noise.seeds=5"}).noise.seeds, 5);
+  EXPECT_EQ(read_yaml("name: x\n", {"noise.seeds=5"}).noise.seeds, 5);
 }
 
 TEST(YamlOverride, AnUnknownKeyIsCaughtByWhoeverReads) {
-  EXPECT_THAT(complaint(good, {"noise.seedz=5"}),
+  EXPECT_THAT(complaint_of(good, {"noise.seedz=5"}),
               AllOf(StartsWith("test.yaml: noise.seedz: "), HasSubstr("'seeds'")));
-  EXPECT_THAT(complaint(good, {"duration=-2"}), HasSubstr("duration: expected a number from 0"));
+  EXPECT_THAT(complaint_of(good, {"duration=-2"}), HasSubstr("duration: expected a number from 0"));
 }
 
 TEST(YamlOverride, WhatIsNoAssignmentIsRefused) {
   for (const char* assignment : {"duration", "=3", "", "noise..seeds=3", ".=1", "noise.=2"}) {
-    EXPECT_THAT(complaint(good, {assignment}), HasSubstr("--set")) << assignment;
+    EXPECT_THAT(complaint_of(good, {assignment}), HasSubstr("--set")) << assignment;
   }
-  EXPECT_THAT(complaint(good, {"duration=[1"}), HasSubstr("--set duration=[1"));
+  EXPECT_THAT(complaint_of(good, {"duration=[1"}), HasSubstr("--set duration=[1"));
 }
 
 TEST(YamlOverride, ItemsThatAreNotThereAreRefused) {
-  EXPECT_THAT(complaint(good, {"runs.2.speed=1"}), HasSubstr("0 to 1"));
-  EXPECT_THAT(complaint(good, {"runs.first.speed=1"}), HasSubstr("'first'"));
-  EXPECT_THAT(complaint(good, {"runs.-1.speed=1"}), HasSubstr("'-1'"));
-  EXPECT_THAT(complaint(good, {"name.first=1"}), HasSubstr("'name' holds no keys"));
-  EXPECT_THAT(complaint("runs: []\n", {"runs.0.speed=1"}), HasSubstr("--set"));
+  EXPECT_THAT(complaint_of(good, {"runs.2.speed=1"}), HasSubstr("0 to 1"));
+  EXPECT_THAT(complaint_of(good, {"runs.first.speed=1"}), HasSubstr("'first'"));
+  EXPECT_THAT(complaint_of(good, {"runs.-1.speed=1"}), HasSubstr("'-1'"));
+  EXPECT_THAT(complaint_of(good, {"name.first=1"}), HasSubstr("'name' holds no keys"));
+  EXPECT_THAT(complaint_of("runs: []\n", {"runs.0.speed=1"}), HasSubstr("--set"));
 }
 
 TEST(YamlOverride, OneDocumentsOverridesDoNotReachAnother) {
   const YamlDocument first = YamlDocument::parse(good, "a.yaml");
   YamlDocument second = YamlDocument::parse(good, "b.yaml");
   second.override_value("duration=9");
-  EXPECT_EQ(read(first).duration, 2.5);
+  EXPECT_EQ(read_yaml(first).duration, 2.5);
 }
 
 TEST(Nearest, FindsTheEntryThatIsFewestEditsAway) {

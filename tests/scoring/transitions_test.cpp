@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 using enum EventKind;
 using enum Judgement;
 
-constexpr double period = 1e-3;
+constexpr double millisecond = 1e-3;
 
 /// Contact everywhere but in the given stretches [takeoff, landing).
 ContactSequence with_flights(std::size_t steps, const std::vector<Flight>& all) {
@@ -27,7 +27,8 @@ ContactSequence with_flights(std::size_t steps, const std::vector<Flight>& all) 
 std::vector<JudgedTransition> judge(const std::vector<Flight>& truth,
                                     const std::vector<Flight>& predicted,
                                     std::size_t steps = 3000) {
-  return judge_transitions(with_flights(steps, truth), with_flights(steps, predicted), period, {});
+  return judge_transitions(with_flights(steps, truth), with_flights(steps, predicted), millisecond,
+                           {});
 }
 
 const std::vector<Flight> one_flight = {{1000, 1200}};
@@ -117,8 +118,8 @@ TEST(Transitions, OneDetectionServesOneEvent) {
 }
 
 TEST(Transitions, EmptyAndConstantSequencesHaveNone) {
-  EXPECT_THAT(judge_transitions({}, {}, period, {}), IsEmpty());
-  EXPECT_THAT(judge_transitions({1}, {0}, period, {}), IsEmpty());
+  EXPECT_THAT(judge_transitions({}, {}, millisecond, {}), IsEmpty());
+  EXPECT_THAT(judge_transitions({1}, {0}, millisecond, {}), IsEmpty());
   EXPECT_THAT(judge({{0, 3000}}, {{0, 3000}}), IsEmpty());
 }
 

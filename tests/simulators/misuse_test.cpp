@@ -37,17 +37,6 @@ TEST(Misuse, BulletSaysWhatItCannotRepresent) {
     const auto robot = upkie(change);
     return complaint([&] { (void)make_simulator("bullet", robot, {}); });
   };
-  const auto at = [](const models::RobotModel& robot, models::Servo servo) {
-    return robot.dof_address[models::index(servo)];
-  };
-  EXPECT_THAT(make([&](models::RobotModel& r) {
-                r.mj->dof_armature[at(r, models::Servo::left_knee)] = 0.01;
-              }),
-              AllOf(HasSubstr("'left_knee'"), HasSubstr("armature")));
-  EXPECT_THAT(make([&](models::RobotModel& r) {
-                r.mj->dof_damping[at(r, models::Servo::right_hip)] = 0.01;
-              }),
-              AllOf(HasSubstr("'right_hip'"), HasSubstr("damping")));
   EXPECT_THAT(
       make([&](models::RobotModel& r) { r.mj->geom_type[r.tyre_geom[0]] = mjGEOM_ELLIPSOID; }),
       AllOf(HasSubstr("'left_tire'"), HasSubstr("Bullet has no counterpart")));

@@ -15,7 +15,7 @@ SimulatorOptions read(const std::string& text) {
   return from_yaml<SimulatorOptions>(YamlDocument::parse(text, "options.yaml"));
 }
 
-std::string complaint(const std::string& text) {
+std::string complaint_about(const std::string& text) {
   try {
     (void)read(text);
   } catch (const InputError& error) {
@@ -51,14 +51,16 @@ TEST(SimulatorOptions, SurvivesTheRoundTrip) {
 }
 
 TEST(SimulatorOptions, ComplainsOnTheLine) {
-  EXPECT_THAT(complaint("physics_step_us: 300\ncontrol_step_us: 1000\n"),
+  EXPECT_THAT(complaint_about("physics_step_us: 300\ncontrol_step_us: 1000\n"),
               HasSubstr("options.yaml:2:18: control_step_us: expected a multiple"));
-  EXPECT_THAT(complaint("physics_step_us: 0.001\n"), HasSubstr("a whole number"));
-  EXPECT_THAT(complaint("physics_step_us: 0\n"), HasSubstr("options.yaml:1:"));
-  EXPECT_THAT(complaint("contact: {bullet_stifness: 1}\n"),
+  EXPECT_THAT(complaint_about("physics_step_us: 0.001\n"), HasSubstr("a whole number"));
+  EXPECT_THAT(complaint_about("physics_step_us: 0\n"), HasSubstr("options.yaml:1:"));
+  EXPECT_THAT(complaint_about("contact: {bullet_stifness: 1}\n"),
               HasSubstr("did you mean 'bullet_stiffness'"));
-  EXPECT_THAT(complaint("contact: {rolling_resistance: -1}\n"), HasSubstr("rolling_resistance"));
-  EXPECT_THAT(complaint("contact: {rolling_resistance: .nan}\n"), HasSubstr("rolling_resistance"));
+  EXPECT_THAT(complaint_about("contact: {rolling_resistance: -1}\n"),
+              HasSubstr("rolling_resistance"));
+  EXPECT_THAT(complaint_about("contact: {rolling_resistance: .nan}\n"),
+              HasSubstr("rolling_resistance"));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace touchdown::simulators {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_position = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Case {
@@ -21,7 +21,7 @@ TEST(Servo, FollowsTheLaw) {
       {"feedforward adds", {.feedforward_torque = 3.0}, 0.0, 1.0, 16.0, 2.0},
       {"position", {.position = 0.5}, 0.4, 0.0, 16.0, 2.0},
       {"position scaled", {.position = 0.5, .kp_scale = 2.0}, 0.4, 0.0, 16.0, 4.0},
-      {"no position", {.position = nan, .kp_scale = 2.0}, 0.4, 0.0, 16.0, 0.0},
+      {"no position", {.position = no_position, .kp_scale = 2.0}, 0.4, 0.0, 16.0, 0.0},
       {"velocity", {.velocity = 3.0}, 0.0, 1.0, 16.0, 2.0},
       {"velocity scaled", {.velocity = 3.0, .kd_scale = 0.2}, 0.0, 1.0, 16.0, 0.4},
       {"all of it",

@@ -1,0 +1,82 @@
+#include "simulators/actuators.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulators/servo.hpp"
+
+namespace touchdown::simulators {
+
+Actuators::Actuators(const models::RobotModel& model, const StepSizes& steps)
+    : ideal_(std::all_of(model.actuator.begin(), model.actuator.end(),
+                         [](const models::Actuator& a) { return a.is_ideal(); })) {
+  const double physics_period = 1e-6 * static_cast<double>(steps.physics_us);
+  const double control_period = 1e-6 * static_cast<double>(steps.control_us);
+  for (std::size_t i = 0; i < joint_.size(); ++i) {
+    Joint& joint = joint_[i];
+    joint.actuator = model.actuator[i];
+    joint.effort = model.effort[i];
+    // A spring on the joint's own inertia oscillates no faster than half a radian per time step.
+    const double inertia = 1.0 / model.mj->dof_invweight0[model.dof_address[i]];
+    joint.stiffness = std::min(joint.actuator.presliding_stiffness,
+                               0.25 * inertia / (physics_period * physics_period));
+    joint.damping = 2.0 * std::sqrt(joint.stiffness * inertia);  // critical
+    if (joint.actuator.torque_lag > 0.0) {
+      joint.lag_gain = -std::expm1(-physics_period / joint.actuator.torque_lag);
+    }
+    joint.delay =
+        static_cast<std::size_t>(std::lround(joint.actuator.command_delay / control_period));
+    longest_delay_ = std::max(longest_delay_, joint.delay);
+  }
+}
+
+void Actuators::reset() {
+  started_ = false;
+  commands_.clear();
+  for (Joint& joint : joint_) joint.torque = joint.held = 0.0;
+}
+
+const models::Action& Actuators::delayed(const models::Action& action) {
+  if (longest_delay_ == 0) return action;
+  if (commands_.empty()) commands_.assign(longest_delay_, action);
+  commands_.push_back(action);
+  for (std::size_t i = 0; i < joint_.size(); ++i) {
+    at_work_.servo[i] = commands_[commands_.size() - 1 - joint_[i].delay].servo[i];
+  }
+  commands_.pop_front();
+  return at_work_;
+}
+
+double Actuators::friction(Joint& joint, double position, double velocity) {
+  const double limit = joint.actuator.friction;
+  joint.held =
+      std::clamp(joint.held + joint.stiffness * (position - joint.position), -limit, limit);
+  joint.position = position;
+  return std::clamp(joint.held + joint.damping * velocity, -limit, limit);
+}
+
+Actuators::Torques Actuators::step(const models::Action& action, const JointTorques& position,
+                                   const JointTorques& velocity) {
+  Torques torques;
+  for (std::size_t i = 0; i < joint_.size(); ++i) {
+    torques.reported[i] = servo_torque(action.servo[i], position[i], velocity[i], joint_[i].effort);
+  }
+  if (ideal_) {
+    torques.felt = torques.reported;
+    return torques;
+  }
+  for (std::size_t i = 0; i < joint_.size(); ++i) {
+    Joint& joint = joint_[i];
+    if (!started_) joint.position = position[i];
+    joint.torque += joint.lag_gain * (torques.reported[i] - joint.torque);
+    const models::Actuator& a = joint.actuator;
+    torques.reported[i] = joint.torque;
+    torques.felt[i] = (1.0 + a.torque_error) * joint.torque +
+                      a.ripple * std::sin(a.ripple_cycles * position[i]) -
+                      friction(joint, position[i], velocity[i]) - a.viscous * velocity[i];
+  }
+  started_ = true;
+  return torques;
+}
+
+}  // namespace touchdown::simulators

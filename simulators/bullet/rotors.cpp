@@ -1,0 +1,51 @@
+#include "simulators/bullet/rotors.hpp"
+
+namespace touchdown::simulators {
+
+namespace {
+
+btVector3 axis_in_world(const btMultiBody& robot, int link) {
+  return robot.localDirToWorld(link, robot.getLink(link).getAxisTop(0));
+}
+
+btVector3 angular_velocity(const btMultiBody& robot, int link) {
+  btVector3 velocity = robot.getBaseOmega();
+  for (; link >= 0; link = robot.getParent(link)) {
+    velocity += axis_in_world(robot, link) * robot.getJointVel(link);
+  }
+  return velocity;
+}
+
+}  // namespace
+
+Rotors::Rotors(const models::RobotModel& model, const BulletWorld& world) {
+  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    const double inertia = model.mj->dof_armature[model.dof_address[servo]];
+    if (inertia > 0.0) rotors_.push_back({world.link_of(servo), inertia});
+  }
+}
+
+void Rotors::take_back(btMultiBody& robot, double period) {
+  for (Rotor& rotor : rotors_) {
+    const int parent = robot.getParent(rotor.link);
+    const btVector3 axis = axis_in_world(robot, rotor.link);
+    const double joint_velocity = robot.getJointVel(rotor.link);
+    const double parent_velocity = angular_velocity(robot, parent).dot(axis);
+    if (started_) {
+      const double joint = (joint_velocity - rotor.joint_velocity) / period;
+      const double above = (parent_velocity - rotor.parent_velocity) / period;
+      robot.addJointTorque(rotor.link, rotor.inertia * above);
+      const btVector3 torque = rotor.inertia * (joint + above) * axis;
+      if (parent < 0) {
+        robot.addBaseTorque(torque);
+      } else {
+        robot.addLinkTorque(parent, torque);
+      }
+    }
+    rotor.joint_velocity = joint_velocity;
+    rotor.parent_velocity = parent_velocity;
+  }
+  started_ = true;
+}
+
+}  // namespace touchdown::simulators

@@ -1,0 +1,228 @@
+#include "simulators/actuators.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/simulators/upkie.hpp"
+
+namespace touchdown::simulators {
+namespace {
+
+using models::Actuator;
+using models::Servo;
+
+constexpr std::size_t left_wheel = models::index(Servo::left_wheel);
+
+/// Weightless, from the left upper leg up too heavy to move: what the left knee and wheel do is
+/// their own doing.
+void hold_all_but_a_lower_leg(models::RobotModel& robot) {
+  without_gravity(robot);
+  const int lower = robot.mj->body_parentid[robot.mj->geom_bodyid[robot.tyre_geom[0]]];
+  for (const int body : {robot.base_body, robot.mj->body_parentid[lower]}) {
+    robot.mj->body_mass[body] = 1e7;
+    for (int axis = 0; axis < 3; ++axis) robot.mj->body_inertia[3 * body + axis] = 1e7;
+  }
+}
+
+/// The wheel's inertia about its axle (kg·m²), with its centre put there.
+double centred_wheel(models::RobotModel& robot) {
+  const int body = robot.mj->geom_bodyid[robot.tyre_geom[0]];
+  robot.mj->body_ipos[3 * body] = robot.mj->body_ipos[3 * body + 2] = 0.0;
+  const Eigen::Matrix3d axes = models::quaternion_at(robot.mj->body_iquat, body).toRotationMatrix();
+  const Eigen::Vector3d inertia = models::vector_at(robot.mj->body_inertia, body);
+  return (axes * inertia.asDiagonal() * axes.transpose())(1, 1);
+}
+
+/// With these actuators, as the compiler of models puts them into the model.
+void set(models::RobotModel& robot, std::size_t servo, const Actuator& actuator) {
+  robot.actuator[servo] = actuator;
+  robot.mj->dof_armature[robot.dof_address[servo]] = actuator.armature;
+  robot.effort[servo] = std::min(robot.effort[servo], actuator.maximum_torque);
+}
+
+class Actuated : public EveryEngine {
+ protected:
+  /// The left wheel alone in weightlessness.
+  std::unique_ptr<Simulator> wheel_with(const Actuator& actuator, double velocity = 0.0) {
+    const auto model = upkie([&](models::RobotModel& robot) {
+      hold_all_but_a_lower_leg(robot);
+      inertia_ = centred_wheel(robot);
+      // The lower leg is held too.
+      const int leg = robot.mj->body_parentid[robot.mj->geom_bodyid[robot.tyre_geom[0]]];
+      for (int axis = 0; axis < 3; ++axis) robot.mj->body_inertia[3 * leg + axis] = 1e7;
+      set(robot, left_wheel, actuator);
+    });
+    auto simulator = make(model);
+    RobotState start = at_height(5.0);
+    start.joint_velocity[left_wheel] = velocity;
+    simulator->reset(start);
+    return simulator;
+  }
+
+  static void push(Simulator& simulator, double torque, int steps) {
+    JointTorques all = {};
+    all[left_wheel] = torque;
+    for (int i = 0; i < steps; ++i) simulator.step(torques(all));
+  }
+  static double spin(const Simulator& simulator) {
+    return simulator.state().joint_velocity[left_wheel];
+  }
+
+  double inertia_ = 0.0;
+};
+
+TEST_P(Actuated, WheelIsSlowedDownEvenlyByCoulombFriction) {
+  const auto simulator = wheel_with({.friction = 0.01, .presliding_stiffness = 20.0}, 50.0);
+  push(*simulator, 0.0, 200);  // in some ten milliseconds the presliding is over
+  const double before = spin(*simulator);
+  push(*simulator, 0.0, 300);
+  EXPECT_NEAR(before - spin(*simulator), 0.3 * 0.01 / inertia_, 1e-3 * 0.3 * 0.01 / inertia_);
+}
+
+TEST_P(Actuated, WheelDoesNotCreepUnderLessThanItsFriction) {
+  const Actuator actuator{.friction = 0.01, .presliding_stiffness = 20.0, .viscous = 1e-3};
+  const auto simulator = wheel_with(actuator);
+  push(*simulator, 0.008, 1000);
+  const double settled = simulator->state().joint_position[left_wheel];
+  EXPECT_NEAR(settled, 0.008 / 20.0, 1e-6) << "where the presliding's spring holds it";
+  push(*simulator, 0.008, 2000);
+  EXPECT_NEAR(simulator->state().joint_position[left_wheel], settled, 1e-9);
+  push(*simulator, 0.012, 1000);
+  EXPECT_GT(spin(*simulator), 0.1) << "more than friction moves it";
+}
+
+TEST_P(Actuated, WheelFallsAsleepExponentiallyInViscousFriction) {
+  const double viscous = 1e-3;
+  const auto simulator = wheel_with({.viscous = viscous}, 30.0);
+  push(*simulator, 0.0, 300);
+  const double each = 1.0 - 1e-3 * viscous / inertia_;  // of the explicit step
+  EXPECT_NEAR(spin(*simulator), 30.0 * std::pow(each, 300), 1e-3 * 30.0);
+  EXPECT_NEAR(spin(*simulator), 30.0 * std::exp(-0.3 * viscous / inertia_), 0.05);
+}
+
+TEST_P(Actuated, RotorResistsAsItsInertiaDoes) {
+  const double rotor = 0.003;
+  const auto simulator = wheel_with({.armature = rotor});
+  push(*simulator, 0.5, 100);
+  const double expected = 0.1 * 0.5 / (inertia_ + rotor);
+  EXPECT_NEAR(spin(*simulator), expected, 1e-3 * expected);
+}
+
+TEST_P(Actuated, TorqueLagsBehindItsCommandAsAFirstOrderSystem) {
+  const auto simulator = wheel_with({.torque_lag = 0.005, .torque_error = 0.0});
+  for (int k = 1; k <= 20; ++k) {
+    push(*simulator, 0.4, 1);
+    EXPECT_NEAR(simulator->observation().servo[left_wheel].torque,
+                0.4 * (1.0 - std::exp(-1e-3 * k / 0.005)), 1e-12);
+  }
+}
+
+TEST_P(Actuated, CommandsArriveLaterByWholeSteps) {
+  const auto simulator = wheel_with({.command_delay = 0.003});
+  push(*simulator, 0.1, 10);
+  for (int k = 0; k < 3; ++k) {
+    push(*simulator, 0.2, 1);
+    EXPECT_EQ(simulator->observation().servo[left_wheel].torque, 0.1);
+  }
+  push(*simulator, 0.2, 1);
+  EXPECT_EQ(simulator->observation().servo[left_wheel].torque, 0.2);
+  simulator->reset(at_height(5.0));
+  push(*simulator, 0.3, 1);
+  EXPECT_EQ(simulator->observation().servo[left_wheel].torque, 0.3) << "a reset forgets";
+}
+
+TEST_P(Actuated, ServoReportsWhatItBelievesAndTruthSaysWhatTheJointFeels) {
+  const Actuator actuator{
+      .maximum_torque = 0.5, .ripple = 0.02, .ripple_cycles = 7.0, .torque_error = 0.1};
+  const auto simulator = wheel_with(actuator);
+  double position = 0.0;
+  for (int k = 0; k < 100; ++k) {
+    position = simulator->state().joint_position[left_wheel];
+    push(*simulator, 0.9, 1);
+    EXPECT_EQ(simulator->observation().servo[left_wheel].torque, 0.5) << "saturated";
+    ASSERT_TRUE(simulator->ground_truth().joint_torque);
+    EXPECT_NEAR((*simulator->ground_truth().joint_torque)[left_wheel],
+                0.55 + 0.02 * std::sin(7.0 * position), 1e-12);
+  }
+  EXPECT_GT(std::abs(position), 1.0);
+}
+
+TEST_P(Actuated, AnIdealOneHasNoTruthOfItsOwn) {
+  const auto simulator = wheel_with({});
+  push(*simulator, 0.1, 3);
+  EXPECT_FALSE(simulator->ground_truth().joint_torque);
+}
+
+TEST_P(Actuated, StiffPreslidingOfALightJointStaysStable) {
+  const auto simulator = wheel_with({.friction = 0.05, .presliding_stiffness = 1e5}, 5.0);
+  push(*simulator, 0.0, 3000);
+  EXPECT_LT(std::abs(spin(*simulator)), 5.0);
+  EXPECT_LT(std::abs(simulator->state().joint_position[left_wheel]), 1.0) << "it came to rest";
+}
+
+INSTANTIATE_TEST_SUITE_P(Engine, Actuated, ::testing::ValuesIn(simulator_names()), engine_name);
+
+/// Every joint of a robot in free flight.
+void all_joints(models::RobotModel& robot, const Actuator& leg, const Actuator& of_wheel) {
+  without_gravity(robot);
+  for (std::size_t i = 0; i < models::servo_count; ++i) set(robot, i, i % 3 == 2 ? of_wheel : leg);
+}
+
+/// The largest difference between the engines' joint and base velocities relative to the largest
+/// velocity of all, while sine torques play.
+double disagreement(const std::shared_ptr<const models::RobotModel>& model) {
+  const SimulatorOptions options = steps_of(100);
+  const auto mujoco = make_simulator("mujoco", model, options);
+  const auto bullet = make_simulator("bullet", model, options);
+  RobotState start = at_height(5.0);
+  start.joint_position = {0.5, -0.4, 0.0, 0.3, 0.2, 0.0};
+  mujoco->reset(start);
+  bullet->reset(start);
+  double difference = 0.0;
+  double largest = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    const double t = 1e-4 * i;
+    const JointTorques all = {0.5 * std::sin(30.0 * t),  0.4 * std::cos(40.0 * t), 0.1,
+                              -0.5 * std::sin(35.0 * t), 0.3 * std::cos(25.0 * t), -0.1};
+    mujoco->step(torques(all));
+    bullet->step(torques(all));
+    for (std::size_t j = 0; j < models::servo_count; ++j) {
+      largest = std::max(largest, std::abs(mujoco->state().joint_velocity[j]));
+      difference = std::max(difference, std::abs(mujoco->state().joint_velocity[j] -
+                                                 bullet->state().joint_velocity[j]));
+    }
+    difference = std::max(
+        difference, (mujoco->state().angular_velocity - bullet->state().angular_velocity).norm());
+  }
+  return difference / largest;
+}
+
+TEST(ActuatorParity, RotorsOfAFreeRobot) {
+  const auto model = upkie([](models::RobotModel& robot) {
+    all_joints(robot, {.armature = 0.003}, {.armature = 0.0002});
+  });
+  EXPECT_LT(disagreement(model), 1e-3);
+}
+
+TEST(ActuatorParity, FrictionLagDelayRippleAndErrorTogether) {
+  const auto model = upkie([](models::RobotModel& robot) {
+    all_joints(robot,
+               {.friction = 0.06,
+                .viscous = 0.01,
+                .armature = 0.003,
+                .torque_lag = 0.002,
+                .command_delay = 0.001,
+                .maximum_torque = 0.4,
+                .ripple = 0.01,
+                .ripple_cycles = 42.0,
+                .torque_error = 0.05},
+               {.friction = 0.01, .presliding_stiffness = 20.0});
+  });
+  EXPECT_LT(disagreement(model), 1e-3);
+}
+
+}  // namespace
+}  // namespace touchdown::simulators
