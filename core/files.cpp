@@ -1,8 +1,9 @@
 #include "core/files.hpp"
 
+#include <array>
+#include <cerrno>
 #include <fcntl.h>
 #include <fstream>
-#include <sstream>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -25,11 +26,14 @@ struct TemporaryFile {
   }
 };
 
+/// What the disk did not take after all is known here, and nowhere later.
 void flush_to_disk(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
+  // EINVAL: there is nothing to flush to, as in some file systems in memory.
+  const bool flushed = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);
+  const std::error_code why(errno, std::generic_category());
+  if (descriptor >= 0) ::close(descriptor);
+  if (!flushed) throw std::filesystem::filesystem_error("fsync", path, why);
 }
 
 /// Makes a folder that was not there before and that nobody else can write to, beside `path`. What
@@ -74,9 +78,15 @@ std::string read_file(const std::filesystem::path& path) {
   if (!file || std::filesystem::is_directory(path)) {
     throw InputError(fmt::format("{}: no such file", path.string()));
   }
-  std::stringstream content;
-  content << file.rdbuf();
-  return std::move(content).str();
+  std::string content;
+  std::array<char, 16384> piece;
+  do {
+    file.read(piece.data(), piece.size());
+    content.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+  } while (file);
+  // A stream that cannot read on looks like one at its end.
+  if (file.bad()) throw Error(fmt::format("{}: cannot be read", path.string()));
+  return content;
 }
 
 void require_writable(const std::filesystem::path& path) {

@@ -23,13 +23,17 @@ void write_recording(const Recording& recording, const std::filesystem::path& pa
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream file(temporary, std::ios::binary);
     if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
-    LogWriter writer(file, recording.info, with_truth);
-    for (std::size_t step = 0; step < recording.steps(); ++step) {
-      writer.write(recording.observation[step], recording.action[step],
-                   with_truth ? &recording.truth[step] : nullptr);
+    try {
+      LogWriter writer(file, recording.info, with_truth);
+      for (std::size_t step = 0; step < recording.steps(); ++step) {
+        writer.write(recording.observation[step], recording.action[step],
+                     with_truth ? &recording.truth[step] : nullptr);
+      }
+      writer.finish();
+      file.close();
+    } catch (const Error&) {
+      if (file) throw;  // or else it is about a stream without a name
     }
-    writer.finish();
-    file.close();
     if (!file) throw Error(fmt::format("{}: cannot be written: is the disk full?", path.string()));
   });
 }

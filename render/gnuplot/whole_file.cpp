@@ -1,10 +1,12 @@
 #include "render/gnuplot/whole_file.hpp"
 
 #include <cerrno>
+#include <fcntl.h>
 #include <fstream>
 #include <map>
 #include <string>
 #include <system_error>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -20,6 +22,20 @@ using namespace std::string_view_literals;
 const std::map<std::string, std::string_view> last_words = {
     {".png", "\0\0\0\0IEND\xae\x42\x60\x82"sv}, {".svg", "</svg>"sv}, {".pdf", "%%EOF"sv}};
 
+[[noreturn]] void complain(const std::filesystem::path& becomes, int reason) {
+  const std::string why = reason == 0 ? "" : ": " + std::generic_category().message(reason);
+  throw Error(fmt::format("{}: cannot be written{}", becomes.string(), why));
+}
+
+/// What the disk did not take after all is known here, and nowhere later.
+void flush(const std::filesystem::path& path, const std::filesystem::path& becomes) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool flushed = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!flushed) complain(becomes, reason);
+}
+
 }  // namespace
 
 void write_whole(const std::filesystem::path& path, std::string_view content,
@@ -28,9 +44,8 @@ void write_whole(const std::filesystem::path& path, std::string_view content,
   std::ofstream file(path, std::ios::binary);
   file.write(content.data(), static_cast<std::streamsize>(content.size()));
   file.close();
-  if (file) return;
-  const std::string why = errno == 0 ? "" : ": " + std::generic_category().message(errno);
-  throw Error(fmt::format("{}: cannot be written{}", becomes.string(), why));
+  if (!file) complain(becomes, errno);
+  flush(path, becomes);
 }
 
 bool is_whole(const std::filesystem::path& drawing) {
@@ -42,7 +57,10 @@ bool is_whole(const std::filesystem::path& drawing) {
 }
 
 void require_whole(const std::filesystem::path& drawing, const std::filesystem::path& becomes) {
-  if (is_whole(drawing)) return;
+  if (is_whole(drawing)) {
+    flush(drawing, becomes);
+    return;
+  }
   throw Error(fmt::format("{}: cannot be written: gnuplot left it unfinished; is the disk full?",
                           becomes.string()));
 }

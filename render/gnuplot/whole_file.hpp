@@ -5,8 +5,8 @@
 
 namespace touchdown::render {
 
-/// Writes a file that gets another name once all is well; errors call it by that name, `becomes`.
-/// Errors: `Error` when not all of it can be written.
+/// Writes a file that gets another name once all is well, onto the disk; errors call it by that
+/// name, `becomes`. Errors: `Error` when not all of it can be written.
 void write_whole(const std::filesystem::path& path, std::string_view content,
                  const std::filesystem::path& becomes);
 
@@ -15,7 +15,8 @@ void write_whole(const std::filesystem::path& path, std::string_view content,
 /// content.
 bool is_whole(const std::filesystem::path& drawing);
 
-/// Throws `Error` if it is not; `becomes` as above.
+/// Has what is whole on the disk. Throws `Error` if it is not whole, or cannot be flushed;
+/// `becomes` as above.
 void require_whole(const std::filesystem::path& drawing, const std::filesystem::path& becomes);
 
 }  // namespace touchdown::render

@@ -107,6 +107,12 @@ TEST_F(Files, APartFolderIsNewWhateverSomebodyPutUnderItsName) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 2);
 }
 
+TEST_F(Files, OneThatCannotBeReadToItsEndIsAnErrorAndNoShorterFile) {
+  // Nothing is mapped at its beginning: to read there is an I/O error.
+  EXPECT_THAT([] { read_file("/proc/self/mem"); },
+              ::testing::ThrowsMessage<Error>("/proc/self/mem: cannot be read"));
+}
+
 TEST_F(Files, AnEmptyFileIsRead) {
   write_atomically(folder_ / "empty", "");
   EXPECT_EQ(read_file(folder_ / "empty"), "");
