@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <new>
 #include <zip.h>
 
 #include <fmt/ranges.h>
@@ -22,6 +23,11 @@ struct DiscardZip {
 };
 using Zip = std::unique_ptr<zip_t, DiscardZip>;
 
+struct FreeSource {
+  void operator()(zip_source_t* source) const { zip_source_free(source); }
+};
+using Source = std::unique_ptr<zip_source_t, FreeSource>;
+
 struct CloseMember {
   void operator()(zip_file_t* member) const { zip_fclose(member); }
 };
@@ -31,11 +37,26 @@ Zip open_zip(const std::filesystem::path& path, int flags) {
   int code = 0;
   Zip archive(zip_open(path.c_str(), flags, &code));
   if (archive) return archive;
+  if (code == ZIP_ER_MEMORY) throw std::bad_alloc();
   zip_error_t error;
   zip_error_init_with_code(&error, code);
   const std::string reason = zip_error_strerror(&error);
   zip_error_fini(&error);
   throw InputError(fmt::format("{}: is not a readable .npz file: {}", path.string(), reason));
+}
+
+/// What a source holds, which an archive was written to.
+std::string content_of(zip_source_t& source) {
+  zip_stat_t status;
+  if (zip_source_stat(&source, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0 ||
+      zip_source_open(&source) != 0) {
+    throw std::bad_alloc();
+  }
+  std::string content(status.size, '\0');
+  const zip_int64_t size = zip_source_read(&source, content.data(), content.size());
+  zip_source_close(&source);
+  if (size != static_cast<zip_int64_t>(content.size())) throw std::bad_alloc();
+  return content;
 }
 
 NpyArray read_member(zip_t& archive, zip_uint64_t index, const std::string& where,
@@ -82,13 +103,18 @@ Zip open_npz(const std::filesystem::path& path) {
   return open_zip(path, ZIP_RDONLY | ZIP_CHECKCONS);
 }
 
+[[noreturn]] void complain(zip_t& archive, const std::string& where, const char* what) {
+  if (zip_error_code_zip(zip_get_error(&archive)) == ZIP_ER_MEMORY) throw std::bad_alloc();
+  throw Error(fmt::format("{}: {}: {}", where, what, zip_strerror(&archive)));
+}
+
 void add_member(zip_t& archive, const std::string& name, const std::string& bytes) {
   zip_source_t* source = zip_source_buffer(&archive, bytes.data(), bytes.size(), 0);
   const zip_int64_t added =
       source == nullptr ? -1 : zip_file_add(&archive, name.c_str(), source, ZIP_FL_ENC_UTF_8);
   if (added < 0) {
     zip_source_free(source);
-    throw Error(fmt::format("{}: cannot be added: {}", name, zip_strerror(&archive)));
+    complain(archive, name, "cannot be added");
   }
   const auto index = static_cast<zip_uint64_t>(added);
   // Neither compression nor the clock: the same arrays must give the same bytes.
@@ -99,7 +125,7 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
   if (zip_set_file_compression(&archive, index, is_large ? ZIP_CM_DEFLATE : ZIP_CM_STORE,
                                is_large ? 1 : 0) != 0 ||
       zip_file_set_dostime(&archive, index, midnight, first_of_january_1980, 0) != 0) {
-    throw Error(fmt::format("{}: cannot be added: {}", name, zip_strerror(&archive)));
+    complain(archive, name, "cannot be added");
   }
 }
 
@@ -137,20 +163,24 @@ void require_arrays(const NpzArrays& arrays, std::string_view what,
 }
 
 void write_npz(const NpzArrays& arrays, const std::filesystem::path& path) {
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::vector<std::string> contents;  // libzip reads them when the archive is closed
-    contents.reserve(arrays.size());
-    Zip archive = open_zip(temporary, ZIP_CREATE | ZIP_TRUNCATE);
-    for (const auto& [name, array] : arrays) {
-      contents.push_back(to_npy(array));
-      add_member(*archive, name + std::string(extension), contents.back());
-    }
-    if (zip_close(archive.get()) != 0) {
-      throw Error(
-          fmt::format("{}: cannot be written: {}", path.string(), zip_strerror(archive.get())));
-    }
-    static_cast<void>(archive.release());
-  });
+  // In memory: beside a file libzip would make one of its own, with a name that nobody knows again
+  // when it is left there.
+  const Source memory(zip_source_buffer_create(nullptr, 0, 0, nullptr));
+  if (!memory) throw std::bad_alloc();
+  std::vector<std::string> contents;  // libzip reads them when the archive is closed
+  contents.reserve(arrays.size());
+  Zip archive(zip_open_from_source(memory.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr));
+  if (!archive) throw std::bad_alloc();
+  zip_source_keep(memory.get());  // the archive's one is given back when it is closed
+  for (const auto& [name, array] : arrays) {
+    contents.push_back(to_npy(array));
+    add_member(*archive, name + std::string(extension), contents.back());
+  }
+  if (zip_close(archive.get()) != 0) {
+    complain(*archive, path.string(), "cannot be written");
+  }
+  static_cast<void>(archive.release());
+  write_atomically(path, content_of(*memory));
 }
 
 }  // namespace touchdown::recordings
