@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <new>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -101,6 +102,8 @@ int run_command_line(int argc, char** argv) {
     return complain(complaint(program, argc, argv, error), wrong_request);
   } catch (const InputError& error) {
     return complain(error.what(), wrong_request);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     return complain(error.what(), failed);
   }
@@ -111,5 +114,5 @@ int run_command_line(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   touchdown::open_standard_streams();
-  return touchdown::finished(touchdown::cli::run_command_line(argc, argv));
+  return touchdown::finished([&] { return touchdown::cli::run_command_line(argc, argv); });
 }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <new>
 #include <regex>
 #include <tinyxml2.h>
 
@@ -18,11 +19,19 @@
 namespace touchdown::models {
 namespace {
 
+/// Of MuJoCo's complaints.
+bool is_about_memory(std::string_view message) {
+  return message.find("ould not allocate") != std::string_view::npos;
+}
+
 /// MuJoCo's own handlers wait for a key press, or write MUJOCO_LOG.TXT into the working directory.
 void install_mujoco_handlers() {
   static std::once_flag once;
   std::call_once(once, [] {
-    mju_user_error = [](const char* message) { throw Error(std::string("MuJoCo: ") + message); };
+    mju_user_error = [](const char* message) {
+      if (is_about_memory(message)) throw std::bad_alloc();
+      throw Error(std::string("MuJoCo: ") + message);
+    };
     mju_user_warning = [](const char*) {};  // a simulator reports divergence as an outcome
   });
 }
@@ -83,6 +92,7 @@ MjModelPtr compile(const std::filesystem::path& robot_mjcf, const std::string& m
   const std::string beside = (robot_mjcf.parent_path() / file_name).string();
   MjModelPtr model(
       mj_loadXML(beside.c_str(), vfs.get(), complaint.data(), static_cast<int>(complaint.size())));
+  if (!model && is_about_memory(complaint.data())) throw std::bad_alloc();
   if (!model) throw InputError(located(robot_mjcf, complaint.data()));
   return model;
 }

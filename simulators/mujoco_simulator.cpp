@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 
 #include "core/error.hpp"
 #include "simulators/collision_model.hpp"
@@ -36,7 +37,7 @@ MujocoSimulator::MujocoSimulator(const std::shared_ptr<const models::RobotModel>
       mj_(copy_with_options(*model, options)),
       data_(mj_makeData(mj_.get())),
       base_com_(models::vector_at(mj_->body_ipos, model->base_body)) {
-  if (!data_) throw Error("MuJoCo could not make its data: out of memory");
+  if (!data_) throw std::bad_alloc();
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     const char* name = mj_id2name(model->mj.get(), mjOBJ_GEOM, model->tyre_geom[wheel]);
     tyre_geom_[wheel] = mj_name2id(mj_.get(), mjOBJ_GEOM, name);

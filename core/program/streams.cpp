@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <iostream>
+#include <new>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -30,7 +31,13 @@ int complain(const std::string& message, ExitCode code) {
   return code;
 }
 
-int finished(int code) {
+int finished(const std::function<int()>& work) {
+  int code = failed;
+  try {
+    code = work();
+  } catch (const std::bad_alloc&) {
+    complain("there is not enough memory", failed);
+  }
   errno = 0;
   std::cout.flush();
   const bool written = std::fflush(stdout) == 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -20,8 +21,8 @@ void print(std::string_view text);
 /// Says on standard error what is wrong; returns `code`.
 int complain(const std::string& message, ExitCode code);
 
-/// The end of a program: `code`, unless what it printed on standard output could not be written,
-/// which it complains about.
-int finished(int code);
+/// A whole program: what `work` returns, unless there was not enough memory for it, or what it
+/// printed on standard output could not be written, which it complains about.
+int finished(const std::function<int()>& work);
 
 }  // namespace touchdown

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <optional>
 
 #include <fmt/format.h>
@@ -98,6 +99,8 @@ PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
     recording = simulate(run, scenes, going_on);
   } catch (const InputError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // says nothing about the run
   } catch (const std::exception& error) {
     write_state(failure_of(run, directory), key, error.what());
     return failed(run, error.what());
@@ -105,7 +108,9 @@ PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
   if (!going_on()) throw Stopped();
   if (run.kept) {
     recordings::write_recording(recording, file);
-    write_state(stamp_of(run, directory), key, fmt::format("{:016x}", *file_checksum(file)));
+    const std::optional<std::uint64_t> sum = file_checksum(file);
+    if (!sum) throw Error(fmt::format("{}: cannot be read again", file.string()));
+    write_state(stamp_of(run, directory), key, fmt::format("{:016x}", *sum));
   }
   return played(run, recording, experiment);
 }

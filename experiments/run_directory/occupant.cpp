@@ -1,5 +1,7 @@
 #include "experiments/run_directory/occupant.hpp"
 
+#include <new>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -45,6 +47,7 @@ fs::path stranger_in(const fs::path& folder) {
     const bool is_lock = entry.path() == lock_file(folder.parent_path());
     if (!is_lock && !is_part_file_name(entry.path().filename())) return entry.path();
   }
+  if (unreadable == std::errc::not_enough_memory) throw std::bad_alloc();
   return unreadable ? folder : fs::path();
 }
 

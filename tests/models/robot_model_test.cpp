@@ -3,11 +3,13 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <new>
 #include <set>
 #include <tinyxml2.h>
 
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
 #include "tests/models/terrains.hpp"
 #include "tests/models/upkie_mjcf.hpp"
 
@@ -70,6 +72,12 @@ TEST(Upkie, JointsTurnTheRightWay) {
     EXPECT_NEAR(data->geom_xpos[3 * geom], (0.168 + 0.175) * std::sin(0.3), 1e-12);
   }
   mj_deleteData(data);
+}
+
+TEST(Upkie, ForWhichMemoryIsShortIsNoErrorOfTheEngine) {
+  compile_robot_model(upkie, stairs());  // from then on MuJoCo complains to us
+  EXPECT_THROW(mju_error("Could not allocate mjData buffer"), std::bad_alloc);
+  EXPECT_THROW(mju_error("mjData has no body"), Error);
 }
 
 TEST(Upkie, OnlyCollidesWithTheTerrain) {

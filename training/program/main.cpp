@@ -84,6 +84,8 @@ int run_program(int argc, char** argv) {
   } catch (const Stopped&) {
     return complain(
         "stopped; finished iterations are saved, and the same command goes on from there", failed);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     return complain(error.what(), failed);
   }
@@ -95,5 +97,5 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   touchdown::open_standard_streams();
-  return touchdown::finished(touchdown::training::run_program(argc, argv));
+  return touchdown::finished([&] { return touchdown::training::run_program(argc, argv); });
 }
