@@ -57,20 +57,25 @@ std::vector<Holder> holders_in(const std::string& lines) {
 }
 
 /// Of those who share a lock some may be dead; who is on another machine counts as alive.
-std::string who_holds(const fs::path& file) {
+std::optional<Holder> living_holder(const fs::path& file) {
   std::vector<Holder> holders;
   try {
     holders = holders_in(read_file(file));
   } catch (const Error&) {
-    return "somebody";
+    return std::nullopt;
   }
   const std::string here = this_host();
   const auto alive = std::find_if(holders.rbegin(), holders.rend(), [&](const Holder& one) {
     return one.host != here || ::kill(one.process, 0) == 0 || errno != ESRCH;
   });
-  if (alive == holders.rend()) return "somebody";
-  return fmt::format("process {} on {} since {} ({})", alive->process, alive->host, alive->since,
-                     alive->command);
+  return alive == holders.rend() ? std::nullopt : std::optional(*alive);
+}
+
+std::string who_holds(const fs::path& file) {
+  const std::optional<Holder> holder = living_holder(file);
+  if (!holder) return "somebody";
+  return fmt::format("process {} on {} since {} ({})", holder->process, holder->host, holder->since,
+                     holder->command);
 }
 
 std::shared_ptr<const int> opened(const fs::path& file, int flags) {
@@ -104,6 +109,22 @@ Answer ask(int descriptor, Access access) {
   return errno == EWOULDBLOCK ? Answer::busy : Answer::no_locks;
 }
 
+/// A process that was killed leaves its locks to those it had forked, for the moment that they take
+/// to die.
+constexpr std::chrono::seconds dying(5);
+
+/// Asks until `until`, and on while nobody of those who signed is alive.
+Answer ask_patiently(const fs::path& file, int descriptor, Access access,
+                     std::chrono::steady_clock::time_point until) {
+  for (;;) {
+    const Answer answer = ask(descriptor, access);
+    if (answer != Answer::busy) return answer;
+    const auto now = std::chrono::steady_clock::now();
+    if (now >= until && (now >= until + dying || living_holder(file))) return answer;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 void sign(int descriptor, Access access, const std::string& command) {
   const Holder holder{::getpid(), this_host(),
                       fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::floor<std::chrono::seconds>(
@@ -133,15 +154,13 @@ DirectoryLock::DirectoryLock(const fs::path& directory, Access access, const std
     fs::create_directories(file.parent_path(), error);
     descriptor_ = opened(file, O_RDWR | O_APPEND | O_CREAT);
     if (!descriptor_) {
-      const int why = errno;
-      throw Error(fmt::format("{}: cannot be opened: {}", file.string(),
-                              std::generic_category().message(why)));
+      if (!error) error.assign(errno, std::generic_category());
+      throw Error(fmt::format("{}: cannot be opened: {}", file.string(), error.message()));
     }
-    const Answer answer = ask(*descriptor_, access);
+    const Answer answer = ask_patiently(file, *descriptor_, access, until);
     if (answer == Answer::taken && !is_still_there(file, *descriptor_)) continue;
-    if (answer != Answer::busy) break;
-    if (std::chrono::steady_clock::now() >= until) refuse(directory);
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (answer == Answer::busy) refuse(directory);
+    break;
   }
   sign(*descriptor_, access, command);
 }
@@ -152,7 +171,10 @@ DirectoryLock DirectoryLock::for_reading(const fs::path& directory, const std::s
   lock.descriptor_ = opened(file, O_RDWR | O_APPEND);
   if (!lock.descriptor_) lock.descriptor_ = opened(file, O_RDONLY);
   if (!lock.descriptor_) return lock;
-  if (ask(*lock.descriptor_, Access::shared) == Answer::busy) refuse(directory);
+  const auto now = std::chrono::steady_clock::now();
+  if (ask_patiently(file, *lock.descriptor_, Access::shared, now) == Answer::busy) {
+    refuse(directory);
+  }
   sign(*lock.descriptor_, Access::shared, command);
   return lock;
 }

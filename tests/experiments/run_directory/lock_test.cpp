@@ -99,6 +99,30 @@ TEST_F(Lock, OfAKilledProcessIsGone) {
   ::close(ready[1]);
 }
 
+TEST_F(Lock, OfAKilledProcessIsWaitedForWhileThoseItForkedDie) {
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t holder = ::fork();
+  if (holder == 0) {
+    const DirectoryLock held = take(Access::alone);
+    if (::fork() == 0) {
+      // Outlives it, as a process that is busy when it is told to die.
+      ::usleep(300'000);
+      ::_exit(0);
+    }
+    [[maybe_unused]] const auto written = ::write(ready[1], "x", 1);
+    for (;;) ::pause();
+  }
+  char said = 0;
+  ASSERT_EQ(::read(ready[0], &said, 1), 1);
+  EXPECT_FALSE(is_free(Access::alone));
+  ::kill(holder, SIGKILL);
+  ::waitpid(holder, nullptr, 0);
+  EXPECT_TRUE(is_free(Access::alone));
+  ::close(ready[0]);
+  ::close(ready[1]);
+}
+
 TEST_F(Lock, OfADirectoryThatIsRemovedIsWorthNothing) {
   const DirectoryLock held = take(Access::alone);
   fs::remove_all(folder / "state");
