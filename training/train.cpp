@@ -16,6 +16,7 @@
 #include "core/progress.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/occupant.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "recordings/models/neural_network.hpp"
 #include "training/blas.hpp"
 #include "training/initial_weights.hpp"
@@ -66,6 +67,7 @@ class TrainingSession {
         history_file_(directory_.file("tables", "training.csv")) {
     experiments::require_place_beside(directory_.path(), to_yaml(config), "tables/training.csv");
     directory_.keep({directory_.path(), experiments::Access::alone, request.command});
+    experiments::remove_partial_files(directory_.path());
     write_atomically(directory_.path() / "config.yaml", to_yaml(config));
     if (fs::exists(history_file_)) history_ = read_history(history_file_);
   }
@@ -154,8 +156,7 @@ class TrainingSession {
     if (best) {
       recordings::write_neural_network(trainer_->network(), directory_.file("models", "nmn.npz"));
     }
-    write_atomically(checkpoint(history_.size()),
-                     [&](const fs::path& temporary) { trainer_->save(temporary); });
+    trainer_->save(checkpoint(history_.size()));
     write_history(history_, history_file_);
     std::error_code ignored;
     fs::remove(checkpoint(history_.size() - 1), ignored);

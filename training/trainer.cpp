@@ -3,6 +3,7 @@
 #include <ATen/Parallel.h>
 #include <algorithm>
 #include <exception>
+#include <sstream>
 #include <torch/nn/functional/loss.h>
 #include <torch/optim/adam.h>
 #include <torch/serialize.h>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "training/torch_network.hpp"
 
 namespace touchdown::training {
@@ -243,7 +245,10 @@ void Trainer::save(const std::filesystem::path& path) const {
   impl_->adam.save(adam);
   archive.write("network", network);
   archive.write("adam", adam);
-  archive.save_to(path.string());
+  // Given a path, libtorch would write its name into the file.
+  std::ostringstream bytes;
+  archive.save_to(bytes);
+  write_atomically(path, bytes.str());
 }
 
 void Trainer::load(const std::filesystem::path& path) {

@@ -75,6 +75,13 @@ TEST_F(Train, GoesOnWhereItWasStopped) {
   EXPECT_EQ(read_file(straight.network), read_file(resumed.network));
 }
 
+TEST_F(Train, RemovesWhatAKilledOneLeftHalfWritten) {
+  const std::filesystem::path part = folder_ / "a/checkpoints/.0003.12.0abcdef0.part.pt";
+  write_atomically(part, "half");
+  run("a");
+  EXPECT_FALSE(std::filesystem::exists(part));
+}
+
 TEST_F(Train, LeavesTheDirectoryOfAnExperimentAlone) {
   const std::filesystem::path taken = folder_ / "taken";
   write_atomically(taken / "state" / "key", "experiment 0123 build abcd\n");

@@ -18,6 +18,7 @@
 #include "experiments/listening/sweep_run.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/occupant.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "recordings/models/neural_network.hpp"
 #include "render/gnuplot/process.hpp"
@@ -221,6 +222,7 @@ std::filesystem::path sample_efficiency(const SampleEfficiencyConfig& config,
   experiments::require_place_beside(directory.path(), to_yaml(config),
                                     "tables/sample_efficiency.csv");
   directory.keep({directory.path(), experiments::Access::alone, request.command});
+  experiments::remove_partial_files(directory.path());
   write_atomically(directory.path() / "config.yaml", to_yaml(config));
   set_training_threads(request.thread_count());
   const Table table = SampleEfficiencyStudy(config, request).run();
