@@ -4,7 +4,7 @@ BUILD := build/release
 
 .DEFAULT_GOAL := help
 .PHONY: help setup program-packages trainer-packages test-packages fuzz-packages \
-	build run trainer everything test lint format bench asan fuzz clean
+	build run trainer everything test faults lint format bench asan fuzz clean
 
 help: ## Show this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -54,6 +54,10 @@ everything: $(BUILD)/CTestTestfile.cmake ## Build the program, the trainer, the 
 
 test: everything ## Build everything and run every test
 	ctest --preset release --parallel $(JOBS)
+
+faults: $(BUILD)/CTestTestfile.cmake ## Refuse the program each file, memory and disk; kill it 140 times
+	cmake --build --preset release --parallel $(JOBS) --target test_faults
+	@scripts/faults.sh $(BUILD)/test_faults $(JOBS)
 
 lint: setup $(BUILD)/CTestTestfile.cmake ## Check formatting, clang-tidy and the shell scripts
 	@cmake --build --preset release --target build.ninja >/dev/null # up to date with the lists

@@ -13,7 +13,8 @@
 
 namespace touchdown::cli {
 
-StartedProgram::StartedProgram(const std::string& arguments, const std::filesystem::path& folder)
+StartedProgram::StartedProgram(const std::string& arguments, const std::filesystem::path& folder,
+                               std::vector<std::string> environment)
     : out_(folder / ".started.stdout"), err_(folder / ".started.stderr") {
   std::vector<std::string> words = {TOUCHDOWN_PROGRAM};
   std::istringstream rest(arguments);
@@ -21,13 +22,17 @@ StartedProgram::StartedProgram(const std::string& arguments, const std::filesyst
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+  std::vector<char*> variables;
+  for (std::string& variable : environment) variables.push_back(variable.data());
+  for (char** variable = environ; *variable != nullptr; ++variable) variables.push_back(*variable);
+  variables.push_back(nullptr);
   process_ = ::fork();
   if (process_ != 0) return;
   // Nothing here may allocate.
   constexpr int mode = 0600;
   ::dup2(::open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, mode), STDOUT_FILENO);
   ::dup2(::open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, mode), STDERR_FILENO);
-  if (::chdir(folder.c_str()) == 0) ::execv(argv.front(), argv.data());
+  if (::chdir(folder.c_str()) == 0) ::execve(argv.front(), argv.data(), variables.data());
   ::_exit(127);
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <sys/types.h>
+#include <vector>
 
 #include "program.hpp"
 
@@ -12,8 +13,10 @@ namespace touchdown::cli {
 /// not outlive this object.
 class StartedProgram {
  public:
-  /// `arguments` are separated by blanks.
-  StartedProgram(const std::string& arguments, const std::filesystem::path& folder);
+  /// `arguments` are separated by blanks; `environment` is what it gets besides this process's,
+  /// NAME=VALUE each.
+  StartedProgram(const std::string& arguments, const std::filesystem::path& folder,
+                 std::vector<std::string> environment = {});
   StartedProgram(const StartedProgram&) = delete;
   StartedProgram& operator=(const StartedProgram&) = delete;
   ~StartedProgram();

@@ -1,0 +1,261 @@
+#include <csignal>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <random>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/started_program.hpp"
+#include "tests/faults/outcome.hpp"
+#include "tests/faults/small_experiment.hpp"
+
+namespace touchdown::faults {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+namespace fs = std::filesystem;
+
+using Command = std::function<std::string(const ScratchFolder&)>;
+
+/// When in a stage the time begins after which a program is killed.
+enum class From { any_call, last_call, start };
+
+/// A part of a program's work, known by the files that it writes: their paths hold `only`.
+struct Stage {
+  const char* name;
+  Command command;
+  const char* only;
+  double longest_wait;  ///< (s)
+  From from = From::any_call;
+  bool grows = false;         ///< its files are whole at more than one time
+  bool leaves_parts = false;  ///< somewhere in a folder of the user's
+};
+
+/// Kills programs and counts.
+class Kills {
+ public:
+  explicit Kills(const Stage& stage) : stage_(stage) {
+    const ScratchFolder folder;
+    const Injection injection(folder.path());
+    watch(injection);
+    const cli::Ended end =
+        cli::StartedProgram(stage.command(folder), folder.path(), injection.environment()).end();
+    EXPECT_EQ(end.exit_code, 0) << end.errors;
+    expected_ = files_of(folder / "a");
+    calls_ = injection->seen;
+    EXPECT_GT(calls_, 0U) << stage.name;
+  }
+
+  /// Kills it once, at a call of the stage by chance or a moment after, and lets the same command
+  /// end.
+  void kill(std::mt19937& random) {
+    const ScratchFolder folder;
+    const std::string command = stage_.command(folder);
+    const Injection injection(folder.path());
+    watch(injection);
+    const std::uint64_t any = std::uniform_int_distribution<std::uint64_t>(1, calls_)(random);
+    const double wait = std::uniform_real_distribution<double>(0.0, stage_.longest_wait)(random);
+    const bool at_once = stage_.from == From::any_call && random() % 2 == 0;
+    const std::uint64_t at = stage_.from == From::any_call ? any
+                             : stage_.from == From::start  ? 0
+                                                           : calls_;
+    if (at_once) {
+      injection->nth = at;
+      injection->kills = true;
+    }
+    cli::StartedProgram program(command, folder.path(), injection.environment());
+    while (program.is_running() && injection->seen < at) program.let_run(0.0005);
+    if (!at_once) {
+      program.let_run(wait);
+      program.send(SIGKILL);
+    }
+    if (program.end().exit_code == -SIGKILL) ++kills_;
+    Files left = files_of(folder / "a");
+    // Shards leave notes until they are merged; a training's files grow from iteration to
+    // iteration.
+    std::erase_if(left, [&](const auto& file) {
+      return file.first.starts_with("state/shards/") || stage_.grows;
+    });
+    std::vector<std::string> wrong = half_written(left, expected_);
+    if (stage_.leaves_parts) {
+      for (const std::string& part : parts_in(folder / "a")) fs::remove_all(folder / "a" / part);
+    }
+    for (const std::string& one :
+         wrong_after(cli::StartedProgram(command, folder.path()).end(), folder / "a", expected_)) {
+      wrong.push_back(one);
+    }
+    EXPECT_THAT(wrong, IsEmpty()) << stage_.name << " killed at " << at << " of " << calls_
+                                  << (at_once ? "" : fmt::format(" and {:.4f} s", wait));
+    wrong_ += wrong.size();
+  }
+
+  ~Kills() {
+    std::cout << fmt::format("{}: {} kills, {} differing files\n", stage_.name, kills_, wrong_);
+  }
+  Kills(const Kills&) = delete;
+  Kills& operator=(const Kills&) = delete;
+
+  int kills() const { return kills_; }
+
+ private:
+  void watch(const Injection& injection) const {
+    injection->counted = all_files & ~bit(Kind::read);
+    std::string_view(stage_.only).copy(injection->only.data(), injection->only.size() - 1);
+  }
+
+  const Stage& stage_;
+  Files expected_;
+  std::uint64_t calls_ = 0;
+  int kills_ = 0;
+  std::size_t wrong_ = 0;
+};
+
+void expect_going_on(const Stage& stage, int some, int all) {
+  std::mt19937 random(20261122);
+  Kills kills(stage);
+  const int count = all_of_them() ? all : some;
+  for (int i = 0; i < count; ++i) kills.kill(random);
+  EXPECT_GT(kills.kills(), 0);
+}
+
+/// A small film of a recording.
+std::string film(const ScratchFolder& folder) {
+  if (!fs::exists(folder / "fall.mpack")) {
+    small_run(folder);
+    const cli::Ended end =
+        cli::StartedProgram("simulate fall.yaml -o fall.mpack", folder.path()).end();
+    EXPECT_EQ(end.exit_code, 0) << end.errors;
+  }
+  return "render fall.mpack -o a/film.mp4 --width 320 --height 180 --workers 2";
+}
+
+/// Two shards, and their merge.
+std::string merge(const ScratchFolder& folder) {
+  const std::string run = small_run_without_pictures(folder);
+  if (!fs::exists(folder / "a")) {
+    for (const char* shard : {" --shard 1/2", " --shard 2/2"}) {
+      const cli::Ended end = cli::StartedProgram(run + shard, folder.path()).end();
+      EXPECT_EQ(end.exit_code, 0) << end.errors;
+    }
+  }
+  return "merge a --no-pictures";
+}
+
+TEST(Kills, WhileItSimulates) {
+  expect_going_on({"simulating", small_run_without_pictures, "/recordings/", 0.02}, 3, 30);
+}
+
+TEST(Kills, WhileItListens) {
+  expect_going_on({"listening", small_run_without_pictures, "/listening/", 0.01}, 1, 15);
+}
+
+TEST(Kills, WhileItWritesModels) {
+  expect_going_on({"models", small_run_without_pictures, "/models/", 0.01}, 1, 10);
+}
+
+TEST(Kills, WhileItWritesTables) {
+  expect_going_on({"tables", small_run_without_pictures, "/tables/", 0.01}, 1, 15);
+}
+
+TEST(Kills, WhileItDraws) { expect_going_on({"drawing", small_run, "/figures/", 0.1}, 1, 20); }
+
+TEST(Kills, WhileItFilms) {
+  expect_going_on({"filming", film, "", 1.0, From::start, false, true}, 1, 10);
+  if (!all_of_them()) return;
+  expect_going_on({"filming a run", small_run_with_film, "/figures/", 2.0, From::last_call}, 0, 10);
+}
+
+TEST(Kills, WhileItMerges) { expect_going_on({"merging", merge, "", 0.02}, 1, 15); }
+
+#ifdef TOUCHDOWN_HAS_TRAINER
+TEST(Kills, WhileItTrains) {
+  expect_going_on({"training", small_training, "", 0.2, From::any_call, true}, 1, 20);
+}
+#endif
+
+/// Starts a command and lets it be for as long as it takes to make so many calls.
+std::unique_ptr<cli::StartedProgram> started(const std::string& command,
+                                             const ScratchFolder& folder,
+                                             const Injection& injection, std::uint64_t calls) {
+  injection->counted = all_files & ~bit(Kind::read);
+  auto program =
+      std::make_unique<cli::StartedProgram>(command, folder.path(), injection.environment());
+  while (program->is_running() && injection->seen < calls) program->let_run(0.0005);
+  return program;
+}
+
+/// The small run from another folder, where it says what it does, into that one's directory.
+std::string run_into(const ScratchFolder& folder, const ScratchFolder& from) {
+  small_run(from);
+  return "run small.yaml --no-pictures --out " + (folder / "a").string();
+}
+
+/// Two programs in one directory at a time, the first of which is killed.
+struct Together : ::testing::Test {
+  Together() {
+    const ScratchFolder alone;
+    const cli::Ended end =
+        cli::StartedProgram(small_run_without_pictures(alone), alone.path()).end();
+    EXPECT_EQ(end.exit_code, 0) << end.errors;
+    expected = files_of(alone / "a");
+  }
+  int times(int some, int all) const { return all_of_them() ? all : some; }
+
+  Files expected;
+  std::mt19937 random{20261122};
+};
+
+TEST_F(Together, AShardThatIsKilledBesideAnotherIsComputedAgain) {
+  int kills = 0;
+  for (int i = 0; i < times(1, 10); ++i) {
+    const ScratchFolder folder;
+    const ScratchFolder elsewhere;
+    const std::string run = small_run_without_pictures(folder);
+    const Injection injection(folder.path());
+    // Until its end it makes more than a hundred calls.
+    const auto first = started(run + " --shard 2/2", folder, injection, 1 + random() % 100);
+    cli::StartedProgram second(run_into(folder, elsewhere) + " --shard 1/2", elsewhere.path());
+    first->let_run(0.0005 * static_cast<double>(random() % 100));
+    first->send(SIGKILL);
+    kills += first->end().exit_code == -SIGKILL ? 1 : 0;
+    const cli::Ended end = second.end();
+    EXPECT_EQ(end.exit_code, 0) << end.errors;
+    EXPECT_EQ(cli::StartedProgram(run + " --shard 2/2", folder.path()).end().exit_code, 0);
+    EXPECT_THAT(wrong_after(cli::StartedProgram("merge a --no-pictures", folder.path()).end(),
+                            folder / "a", expected),
+                IsEmpty());
+  }
+  EXPECT_GT(kills, 0);
+  std::cout << fmt::format("one of two shards: {} kills\n", kills);
+}
+
+TEST_F(Together, ASecondRunIsRefusedAndGoesOnOnceTheFirstIsKilled) {
+  int kills = 0;
+  for (int i = 0; i < times(1, 10); ++i) {
+    const ScratchFolder folder;
+    const ScratchFolder elsewhere;
+    const std::string run = small_run_without_pictures(folder);
+    const Injection injection(folder.path());
+    constexpr std::uint64_t with_lock = 20;
+    const auto first = started(run, folder, injection, with_lock + random() % 80);
+    first->send(SIGSTOP);
+    const cli::Ended refused =
+        cli::touchdown_program(run_into(folder, elsewhere), elsewhere.path());
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.errors, HasSubstr("is in use by process "));
+    first->send(SIGKILL);
+    kills += first->end().exit_code == -SIGKILL ? 1 : 0;
+    EXPECT_THAT(wrong_after(cli::StartedProgram(run, folder.path()).end(), folder / "a", expected),
+                IsEmpty());
+  }
+  EXPECT_GT(kills, 0);
+  std::cout << fmt::format("beside a run that is refused: {} kills\n", kills);
+}
+
+}  // namespace
+}  // namespace touchdown::faults

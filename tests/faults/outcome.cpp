@@ -1,0 +1,124 @@
+#include "tests/faults/outcome.hpp"
+
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/file_names.hpp"
+#include "core/files.hpp"
+
+namespace touchdown::faults {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string told(const std::string& name, std::string content) {
+  if (name == "manifest.json" || name == "models/nmn.json")
+    return nlohmann::json::accept(content) ? "whole" : content;
+  // Libtorch names the moments of a checkpoint by where in memory their weights were.
+  if (name.ends_with(".pt")) return "whole";
+  if (name == "report.html") return content.ends_with("</html>\n") ? "whole" : content;
+  return content;
+}
+
+bool is_part(const fs::path& path) {
+  return std::any_of(path.begin(), path.end(), [](const fs::path& name) {
+    return is_part_file_name(name) || is_part_folder_name(name);
+  });
+}
+
+/// What was said besides how far it is.
+std::vector<std::string> complaints(const std::string& errors) {
+  static const std::regex progress(R"([a-z ]+: \d+/\d+ .*)");
+  std::vector<std::string> lines;
+  std::istringstream text(errors);
+  for (std::string line; std::getline(text, line);) {
+    if (!std::regex_match(line, progress)) lines.push_back(line);
+  }
+  return lines;
+}
+
+std::vector<std::string> missing_or_other(const Files& left, const Files& expected) {
+  std::vector<std::string> wrong;
+  for (const auto& [name, content] : expected) {
+    const auto found = left.find(name);
+    if (found == left.end()) wrong.push_back(name + " is missing");
+  }
+  for (const auto& [name, content] : left) {
+    const auto should = expected.find(name);
+    if (should == expected.end() || should->second != content) {
+      wrong.push_back(name + (should == expected.end() ? " is too much" : " is another"));
+    }
+  }
+  return wrong;
+}
+
+}  // namespace
+
+Files files_of(const fs::path& directory) {
+  Files files;
+  if (!fs::exists(directory)) return files;
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    const fs::path name = entry.path().lexically_relative(directory);
+    if (!entry.is_regular_file() || name == "state/lock" || is_part(name)) continue;
+    files[name.string()] = told(name.string(), read_file(entry.path()));
+  }
+  return files;
+}
+
+std::vector<std::string> parts_in(const fs::path& directory) {
+  std::vector<std::string> parts;
+  if (!fs::exists(directory)) return parts;
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    const fs::path name = entry.path().lexically_relative(directory);
+    if (is_part(name)) parts.push_back(name.string());
+  }
+  return parts;
+}
+
+std::vector<std::string> wrong_in(const cli::Ended& ended, const Injection& injection,
+                                  const Files& left, const Files& expected) {
+  std::vector<std::string> wrong = missing_or_other(left, expected);
+  const std::vector<std::string> said = complaints(ended.errors);
+  if (ended.exit_code == 0) {
+    if (injection.has_refused(Kind::flush)) wrong.push_back("succeeded, and did not flush");
+    if (!said.empty()) wrong.push_back("succeeded, and said: " + ended.errors);
+    return wrong;
+  }
+  std::erase_if(wrong, [](const std::string& one) { return one.ends_with(" is missing"); });
+  if (ended.exit_code != 1) wrong.push_back(fmt::format("ended with {}", ended.exit_code));
+  const std::vector<std::string> subjects = injection.subjects();
+  const bool is_named =
+      said.size() == 1 && said.front().starts_with("touchdown: ") &&
+      std::any_of(subjects.begin(), subjects.end(), [&](const std::string& subject) {
+        return said.front().find(subject) != std::string::npos;
+      });
+  if (!is_named) {
+    wrong.push_back(fmt::format("expected one line about '{}', said: {}", fmt::join(subjects, ", "),
+                                ended.errors));
+  }
+  return wrong;
+}
+
+std::vector<std::string> half_written(const Files& left, const Files& expected) {
+  std::vector<std::string> wrong = missing_or_other(left, expected);
+  std::erase_if(wrong, [](const std::string& one) { return one.ends_with(" is missing"); });
+  return wrong;
+}
+
+std::vector<std::string> wrong_after(const cli::Ended& again, const fs::path& directory,
+                                     const Files& expected) {
+  std::vector<std::string> wrong = missing_or_other(files_of(directory), expected);
+  for (const std::string& part : parts_in(directory)) wrong.push_back(part + " was left");
+  if (again.exit_code != 0) {
+    wrong.push_back(fmt::format("ended with {}: {}", again.exit_code, again.errors));
+  }
+  for (std::string& one : wrong) one = "again: " + one;
+  return wrong;
+}
+
+}  // namespace touchdown::faults

@@ -1,0 +1,52 @@
+#include "tests/faults/small_experiment.hpp"
+
+#include <cstdlib>
+
+namespace touchdown::faults {
+
+std::string small_run(const ScratchFolder& folder) {
+  folder.write("fall.yaml", R"(name: fall
+terrain: {pieces: [{flat: {length: 3.0}}]}
+start: {clearance: 2.0}
+end: {duration: 0.7}
+simulation: {control_step_us: 5000}
+)");
+  folder.write("small.yaml", R"(name: small
+seed: 3
+simulators: [mujoco]
+estimators: [measurement_only]
+fit: {scenarios: [fall.yaml]}
+test: {scenarios: [fall.yaml], runs: 1}
+noise: {torque: [0.0], accelerometer: [0.0], seeds: 2}
+highlights: [{torque: 0.0, accelerometer: 0.0}]
+intervals: {resamples: 10}
+video: {enabled: false}
+recordings: all
+workers: 1
+)");
+  return "run small.yaml --out a";
+}
+
+std::string small_run_without_pictures(const ScratchFolder& folder) {
+  return small_run(folder) + " --no-pictures";
+}
+
+std::string small_run_with_film(const ScratchFolder& folder) {
+  return small_run(folder) + " --set video.enabled=true";
+}
+
+std::string small_training(const ScratchFolder& folder) {
+  folder.write("train.yaml", R"(name: small
+rollout:
+  scenario: )" TOUCHDOWN_SOURCE_DIR R"(/scenarios/lift_drive.yaml
+  environments: 4
+  steps: 20
+network: {hidden: 8, first: 8, second: 4}
+optimiser: {iterations: 2, epochs: 1, validation_episodes: 4}
+)");
+  return "train train.yaml --out a --threads 1";
+}
+
+bool all_of_them() { return std::getenv("TOUCHDOWN_ALL_FAULTS") != nullptr; }
+
+}  // namespace touchdown::faults
