@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/yaml_text.hpp"
+
 namespace touchdown {
 
 namespace {
@@ -142,6 +144,15 @@ void Fields::fail(const YAML::Node& node, std::string_view key, const std::strin
   const std::string place =
       mark.is_null() ? file_ : fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
   throw InputError(fmt::format("{}: {}{}{}", place, where, where.empty() ? "" : ": ", message));
+}
+
+void Fields::refuse_leading_zeros(const YAML::Node& given, std::string_view key) const {
+  if (given.IsSequence()) {
+    for (const auto& item : given) refuse_leading_zeros(item, key);
+  }
+  if (given.IsScalar() && has_leading_zero(given.Scalar())) {
+    fail(given, key, fmt::format("{}: a number has no leading zero", given.Scalar()));
+  }
 }
 
 std::string Fields::range_text(double low, double high) {

@@ -41,6 +41,7 @@ class Fields {
     if (!reading()) {
       node_[std::string(key)] = value;
     } else if (const YAML::Node given = take(key)) {
+      if constexpr (of_numbers<T>()) refuse_leading_zeros(given, key);
       try {
         value = given.as<T>();
       } catch (const YAML::Exception&) {
@@ -165,6 +166,16 @@ class Fields {
     }
   }
   static std::string range_text(double low, double high);
+  template <typename T>
+  static constexpr bool of_numbers() {
+    if constexpr (requires { typename T::value_type; } && !std::same_as<T, std::string>) {
+      return of_numbers<typename T::value_type>();
+    } else {
+      return std::is_arithmetic_v<T> && !std::same_as<T, bool>;
+    }
+  }
+  /// Of a number between quotes, which is a text until somebody reads it as a number.
+  void refuse_leading_zeros(const YAML::Node& given, std::string_view key) const;
 
   bool reading_ = false;
   YAML::Node node_;

@@ -54,12 +54,6 @@ YAML::Mark mark_behind(std::string_view text) {
   return mark;
 }
 
-bool has_leading_zero(std::string_view number) {
-  if (number.starts_with('-') || number.starts_with('+')) number.remove_prefix(1);
-  return number.size() > 1 && number.starts_with('0') &&
-         std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
 /// Counts what the parser comes by.
 class Checker : public YAML::EventHandler {
  public:
@@ -164,6 +158,12 @@ class Checker : public YAML::EventHandler {
 };
 
 }  // namespace
+
+bool has_leading_zero(std::string_view number) {
+  if (number.starts_with('-') || number.starts_with('+')) number.remove_prefix(1);
+  return number.size() > 1 && number.starts_with('0') &&
+         std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
 
 std::size_t utf8_size(std::string_view text) {
   std::size_t at = 0;

@@ -12,6 +12,9 @@ namespace touchdown {
 /// How many bytes at the beginning of a text are UTF-8; all of them in a text that is.
 std::size_t utf8_size(std::string_view text);
 
+/// Whether a text is a whole number with a leading zero, which is octal to some readers.
+bool has_leading_zero(std::string_view number);
+
 /// Looks through a YAML text before anything is made of it, so that whoever walks over its nodes
 /// meets neither a circle nor more of them than memory and patience hold. Errors: `InputError` that
 /// `place`, called with a mark, begins, for

@@ -115,5 +115,13 @@ TEST(Fields, NamesAreKnownDifferentAndNotNone) {
   EXPECT_THAT(complaint("drivers: [bob, bob]\n"), HasSubstr("'bob' stands there twice"));
 }
 
+TEST(Fields, ANumberBetweenQuotesHasNoLeadingZeroEither) {
+  EXPECT_EQ(complaint("engine: {power: \"010\"}\n"),
+            "car.yaml:1:17: engine.power: 010: a number has no leading zero");
+  EXPECT_EQ(complaint("owner: '010'\nplace: [1, '-08']\n"),
+            "car.yaml:2:12: place: -08: a number has no leading zero");
+  EXPECT_EQ(read("owner: \"010\"\nengine: {power: \"10\"}\n").owner, "010");
+}
+
 }  // namespace
 }  // namespace touchdown
