@@ -55,7 +55,7 @@ everything: $(BUILD)/CTestTestfile.cmake ## Build the program, the trainer, the 
 test: everything ## Build everything and run every test
 	ctest --preset release --parallel $(JOBS)
 
-faults: $(BUILD)/CTestTestfile.cmake ## Refuse the program each file, memory and disk; kill it 140 times
+faults: $(BUILD)/CTestTestfile.cmake ## Refuse the program each call, fill its disk, kill it in every stage
 	cmake --build --preset release --parallel $(JOBS) --target test_faults
 	@scripts/faults.sh $(BUILD)/test_faults $(JOBS)
 

@@ -256,14 +256,14 @@ __attribute__((constructor)) void begin() {
   install_filter();
 }
 
-bool is_refused(std::size_t size) {
+[[maybe_unused]] bool is_refused(std::size_t size) {
   return plan != nullptr && size >= plan->smallest_piece && falls(Kind::allocation, "memory");
 }
 
 }  // namespace
 }  // namespace touchdown::faults
 
-#ifndef __SANITIZE_ADDRESS__
+#ifndef TOUCHDOWN_LEAVES_MEMORY
 
 // The C library's own, under the names that it exports for who replaces these.
 extern "C" {

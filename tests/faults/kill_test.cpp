@@ -123,17 +123,6 @@ void expect_going_on(const Stage& stage, int some, int all) {
   EXPECT_GT(kills.kills(), 0);
 }
 
-/// A small film of a recording.
-std::string film(const ScratchFolder& folder) {
-  if (!fs::exists(folder / "fall.mpack")) {
-    small_run(folder);
-    const cli::Ended end =
-        cli::StartedProgram("simulate fall.yaml -o fall.mpack", folder.path()).end();
-    EXPECT_EQ(end.exit_code, 0) << end.errors;
-  }
-  return "render fall.mpack -o a/film.mp4 --width 320 --height 180 --workers 2";
-}
-
 /// Two shards, and their merge.
 std::string merge(const ScratchFolder& folder) {
   const std::string run = small_run_without_pictures(folder);
@@ -165,7 +154,7 @@ TEST(Kills, WhileItWritesTables) {
 TEST(Kills, WhileItDraws) { expect_going_on({"drawing", small_run, "/figures/", 0.1}, 1, 20); }
 
 TEST(Kills, WhileItFilms) {
-  expect_going_on({"filming", film, "", 1.0, From::start, false, true}, 1, 10);
+  expect_going_on({"filming", small_film, "", 1.0, From::start, false, true}, 1, 10);
   if (!all_of_them()) return;
   expect_going_on({"filming a run", small_run_with_film, "/figures/", 2.0, From::last_call}, 0, 10);
 }

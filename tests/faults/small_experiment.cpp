@@ -2,6 +2,8 @@
 
 #include <cstdlib>
 
+#include "tests/cli/program.hpp"
+
 namespace touchdown::faults {
 
 std::string small_run(const ScratchFolder& folder) {
@@ -33,6 +35,14 @@ std::string small_run_without_pictures(const ScratchFolder& folder) {
 
 std::string small_run_with_film(const ScratchFolder& folder) {
   return small_run(folder) + " --set video.enabled=true";
+}
+
+std::string small_film(const ScratchFolder& folder) {
+  if (!std::filesystem::exists(folder / "fall.mpack")) {
+    small_run(folder);
+    (void)cli::touchdown_program("simulate fall.yaml -o fall.mpack", folder.path());
+  }
+  return "render fall.mpack -o a/film.mp4 --to 0.2 --width 320 --height 180 --workers 2";
 }
 
 std::string small_training(const ScratchFolder& folder) {

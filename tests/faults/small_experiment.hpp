@@ -15,6 +15,9 @@ std::string small_run_without_pictures(const ScratchFolder& folder);
 /// With a film.
 std::string small_run_with_film(const ScratchFolder& folder);
 
+/// Simulates, unless that is done, and returns the command that films it in `a`.
+std::string small_film(const ScratchFolder& folder);
+
 /// Writes the configuration of the smallest training, and returns the command that trains in `a`.
 std::string small_training(const ScratchFolder& folder);
 
