@@ -171,12 +171,12 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
   }
   const std::filesystem::path pdf = scratch.path() / (name + ".pdf");
   write_whole(pdf, without_date(read_file(pdf)), folder / (name + ".pdf"));
-  try {
-    for (const std::string& file : files) {
-      std::filesystem::rename(scratch.path() / file, folder / file);
-    }
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw Error(fmt::format("{}: cannot be written: {}", stem.string(), error.code().message()));
+  for (const std::string& file : files) {
+    std::error_code error;
+    std::filesystem::rename(scratch.path() / file, folder / file, error);
+    if (!error) continue;
+    throw Error(
+        fmt::format("{}: cannot be written: {}", (folder / file).string(), error.message()));
   }
   return {stem.string() + ".png", stem.string() + ".svg", stem.string() + ".pdf"};
 }
