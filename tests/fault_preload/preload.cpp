@@ -75,8 +75,8 @@ std::array<char, 512> path_of(const Trapped& which, const greg_t* registers) {
   static constexpr std::array<int, 4> arguments = {REG_RDI, REG_RSI, REG_RDX, REG_R10};
   std::array<char, 512> path{};
   if (which.path >= 0) {
-    const auto* text =
-        reinterpret_cast<const char*>(registers[arguments.at(which.path)]);  // NOLINT
+    const auto* text = reinterpret_cast<const char*>(
+        registers[arguments.at(static_cast<std::size_t>(which.path))]);  // NOLINT
     if (text != nullptr) std::strncpy(path.data(), text, path.size() - 1);
     return path;
   }
@@ -142,7 +142,7 @@ std::int64_t room_for(std::int64_t size, long descriptor) {
 long write_pieces(greg_t* registers, const char* path) {
   const auto* given = reinterpret_cast<const iovec*>(registers[REG_RSI]);  // NOLINT
   std::array<iovec, 16> pieces{};
-  const std::size_t count = std::min<std::size_t>(registers[REG_RDX], pieces.size());
+  const std::size_t count = std::min(static_cast<std::size_t>(registers[REG_RDX]), pieces.size());
   std::int64_t size = 0;
   for (std::size_t i = 0; i < count; ++i) size += static_cast<std::int64_t>(given[i].iov_len);
   std::int64_t left = room_for(size, registers[REG_RDI]);
@@ -151,7 +151,7 @@ long write_pieces(greg_t* registers, const char* path) {
     return -ENOSPC;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    pieces.at(i) = {given[i].iov_base, std::min<std::size_t>(given[i].iov_len, left)};
+    pieces.at(i) = {given[i].iov_base, std::min(given[i].iov_len, static_cast<std::size_t>(left))};
     left -= static_cast<std::int64_t>(pieces.at(i).iov_len);
   }
   return call(registers[REG_RAX], registers[REG_RDI], reinterpret_cast<long>(pieces.data()),
@@ -266,11 +266,13 @@ __attribute__((constructor)) void begin() {
 #ifndef TOUCHDOWN_LEAVES_MEMORY
 
 // The C library's own, under the names that it exports for who replaces these.
+// NOLINTBEGIN(readability-identifier-naming): its names
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
+// NOLINTEND(readability-identifier-naming)
 
 void* malloc(std::size_t size) {
   if (!touchdown::faults::is_refused(size)) return __libc_malloc(size);

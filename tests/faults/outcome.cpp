@@ -117,7 +117,7 @@ std::vector<std::string> wrong_after(const cli::Ended& again, const fs::path& di
   if (again.exit_code != 0) {
     wrong.push_back(fmt::format("ended with {}: {}", again.exit_code, again.errors));
   }
-  for (std::string& one : wrong) one = "again: " + one;
+  for (std::string& one : wrong) one.insert(0, "again: ");
   return wrong;
 }
 
