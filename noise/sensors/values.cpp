@@ -1,0 +1,100 @@
+#include "noise/sensors/values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace touchdown::noise {
+
+namespace {
+
+double constant_of(const Constant& constant, DrawnFor what, const ChannelDraws& draws) {
+  return constant.value + (constant.sd > 0.0 ? constant.sd * draws.constant(what) : 0.0);
+}
+
+void add_walk(std::span<double> values, double step_sd, std::span<const double> normal) {
+  double walked = 0.0;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    walked += step_sd * normal[k];
+    values[k] += walked;
+  }
+}
+
+void add_vibration(std::span<double> values, double amplitude, const TurnsOfBoth& turns,
+                   const ChannelDraws& draws) {
+  for (std::size_t wheel = 0; wheel < turns.size(); ++wheel) {
+    const double phase = 2.0 * std::numbers::pi * draws.uniform(DrawnFor::vibration, wheel);
+    const double in_phase = amplitude * std::cos(phase);
+    const double across = amplitude * std::sin(phase);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      values[k] += in_phase * turns[wheel].sine[k] + across * turns[wheel].cosine[k];
+    }
+  }
+}
+
+void add_coloured(std::span<double> values, const ColouredNoise& noise, double period,
+                  std::span<const double> normal) {
+  const double kept = std::exp(-period / noise.time_constant);
+  const double fresh = noise.sd * std::sqrt(1.0 - kept * kept);
+  double process = noise.sd * normal.front();
+  values.front() += process;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    process = kept * process + fresh * normal[k];
+    values[k] += process;
+  }
+}
+
+void low_pass(std::span<double> values, double gain) {
+  double filtered = values.front();
+  for (double& value : values) {
+    filtered += gain * (value - filtered);
+    value = filtered;
+  }
+}
+
+}  // namespace
+
+WheelTurns wheel_turns(std::span<const double> position, std::span<const double> velocity,
+                       double order) {
+  WheelTurns turns{std::vector<double>(position.size()), std::vector<double>(position.size())};
+  for (std::size_t k = 0; k < position.size(); ++k) {
+    const double speed = std::abs(velocity[k]);
+    turns.sine[k] = speed * std::sin(order * position[k]);
+    turns.cosine[k] = speed * std::cos(order * position[k]);
+  }
+  return turns;
+}
+
+void disturb_values(std::span<double> values, const SensorChannel& channel, double period,
+                    ChannelDraws& draws, const TurnsOfBoth* turns) {
+  if (values.empty()) return;
+  if (!(channel.scale == Constant())) {
+    const double gain = 1.0 + constant_of(channel.scale, DrawnFor::scale, draws);
+    for (double& value : values) value *= gain;
+  }
+  if (!(channel.bias == Constant())) {
+    const double bias = constant_of(channel.bias, DrawnFor::bias, draws);
+    for (double& value : values) value += bias;
+  }
+  if (channel.walk > 0.0) {
+    add_walk(values, channel.walk * std::sqrt(period), draws.series(DrawnFor::walk, values.size()));
+  }
+  if (turns != nullptr) add_vibration(values, channel.vibration.amplitude, *turns, draws);
+  if (channel.coloured.sd > 0.0) {
+    add_coloured(values, channel.coloured, period, draws.series(DrawnFor::coloured, values.size()));
+  }
+  if (channel.low_pass > 0.0) low_pass(values, -std::expm1(-period / channel.low_pass));
+  if (channel.white > 0.0) {
+    const std::span<const double> normal = draws.series(DrawnFor::white, values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += channel.white * normal[k];
+  }
+  if (std::isfinite(channel.range)) {
+    for (double& value : values) value = std::clamp(value, -channel.range, channel.range);
+  }
+  if (channel.resolution > 0.0) {
+    const double step = channel.resolution;
+    for (double& value : values) value = step * std::nearbyint(value / step);
+  }
+}
+
+}  // namespace touchdown::noise

@@ -1,0 +1,145 @@
+#include "noise/sensors/clock.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "tests/noise/sensors/statistics.hpp"
+
+namespace touchdown::noise {
+namespace {
+
+constexpr double period = 0.001;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+const ChannelDraws draws({7, 3}, NoiseChannel::left_knee_torque);
+
+/// 0, 1, 2, …
+std::vector<double> counting(std::size_t steps) {
+  std::vector<double> values(steps);
+  std::iota(values.begin(), values.end(), 0.0);
+  return values;
+}
+
+std::vector<double> held(double samples_per_step, std::size_t steps = 11) {
+  std::vector<double> values = counting(steps);
+  hold<double>(values, samples_per_step);
+  return values;
+}
+
+TEST(HeldSamples, OfFourHundredHertzAreHeardInTurnsOfThreeAndTwoMilliseconds) {
+  EXPECT_EQ(held(0.4), (std::vector<double>{0, 0, 0, 3, 3, 5, 5, 5, 8, 8, 10}));
+}
+
+TEST(HeldSamples, OfAWholeShareOfTheRateAreHeldAlikeToTheEnd) {
+  const auto values = held(0.1, 100'000);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    ASSERT_EQ(values[k], static_cast<double>(k / 10 * 10)) << k;
+  }
+}
+
+TEST(HeldSamples, OfAnInstrumentThatIsAsFastAsTheReaderAreAllNew) {
+  EXPECT_EQ(held(1.0), counting(11));
+  EXPECT_EQ(held(8.0), counting(11));
+}
+
+TEST(Delay, RepeatsTheFirstValueAndThenTheOneOfSoManyStepsBefore) {
+  std::vector<double> values = counting(6);
+  delay<double>(values, 2);
+  EXPECT_EQ(values, (std::vector<double>{0, 0, 0, 1, 2, 3}));
+  delay<double>(values, 100);
+  EXPECT_EQ(values, std::vector<double>(6, 0.0));
+}
+
+TEST(Delay, IsRoundedToWholeStepsAndComesAfterTheHeldSamples) {
+  std::vector<double> values = counting(9);
+  std::vector<std::uint8_t> missing;
+  disturb_clock<double>(values, {.rate = 500.0, .delay = 0.0014}, period, draws, nan, missing);
+  EXPECT_EQ(values, (std::vector<double>{0, 0, 0, 2, 2, 4, 4, 6, 6}));
+  EXPECT_TRUE(missing.empty());
+}
+
+std::vector<Drop> many_drops(const Dropout& dropout, std::size_t steps = 4'000'000) {
+  return drops_of(dropout, period, steps, draws);
+}
+
+TEST(Drops, HaveTheirRateTheirMeanLengthAndTheirShare) {
+  const Dropout dropout{.rate = 0.004, .length = 0.02};
+  const auto drops = many_drops(dropout);
+  double dropped = 0.0;
+  for (const Drop& drop : drops) dropped += static_cast<double>(drop.end - drop.begin);
+  const auto count = static_cast<double>(drops.size());
+  const double steps = 4e6;
+  EXPECT_NEAR(count / (steps - dropped), dropout.rate, 5.0 * dropout.rate / std::sqrt(count));
+  EXPECT_NEAR(dropped / count, 20.0, 5.0 * 20.0 / std::sqrt(count));
+  // r·L of r·L + 1 − r steps.
+  EXPECT_NEAR(dropped / steps, 0.08 / (0.08 + 0.996), 0.004);
+}
+
+TEST(Drops, HaveGeometricLengths) {
+  const auto drops = many_drops({.rate = 0.05, .length = 0.005});
+  for (const std::size_t longer : {1U, 3U, 10U}) {
+    const auto count = static_cast<double>(drops.size());
+    const auto over =
+        static_cast<double>(std::count_if(drops.begin(), drops.end(), [&](const Drop& drop) {
+          return drop.end - drop.begin > longer;
+        }));
+    const double expected = std::pow(0.8, static_cast<double>(longer));
+    EXPECT_NEAR(over / count, expected, 5.0 * std::sqrt(expected / count)) << longer;
+  }
+}
+
+TEST(Drops, ShorterThanAStepLastOneStep) {
+  for (const Drop& drop : many_drops({.rate = 0.3, .length = 1e-4}, 1'000)) {
+    EXPECT_EQ(drop.end - drop.begin, 1U);
+  }
+}
+
+TEST(Drops, NeverBeginAtTheFirstStepAndEndWithTheRun) {
+  const auto drops = many_drops({.rate = 1.0, .length = 1e3}, 50);
+  ASSERT_EQ(drops.size(), 1U);
+  EXPECT_EQ(drops.front().begin, 1U);
+  EXPECT_EQ(drops.front().end, 50U);
+  EXPECT_TRUE(many_drops({.rate = 1.0}, 1).empty());
+}
+
+TEST(Drops, OfALongerRunBeginAsThoseOfAShorterOne) {
+  const Dropout dropout{.rate = 0.1, .length = 0.003};
+  const auto few = many_drops(dropout, 1'000);
+  const auto more = many_drops(dropout, 5'000);
+  ASSERT_GT(few.size(), 10U);
+  for (std::size_t i = 0; i + 1 < few.size(); ++i) {
+    EXPECT_EQ(few[i].begin, more[i].begin);
+    EXPECT_EQ(few[i].end, more[i].end);
+  }
+}
+
+/// Counting values with drops of a kind, and which records are missing.
+std::vector<double> dropped(DropKind kind, std::vector<std::uint8_t>& missing) {
+  std::vector<double> values = counting(1'000);
+  disturb_clock<double>(values, {.dropout = {.kind = kind, .rate = 0.05, .length = 0.004}}, period,
+                        draws, nan, missing);
+  return values;
+}
+
+TEST(Drops, FreezeBlankOrMarkWhatTheyCoverByKind) {
+  const auto drops = drops_of({.rate = 0.05, .length = 0.004}, period, 1'000, draws);
+  ASSERT_GT(drops.size(), 20U);
+  std::vector<std::uint8_t> none, missing;
+  const auto frozen = dropped(DropKind::frozen, none);
+  const auto blank = dropped(DropKind::nan, none);
+  EXPECT_TRUE(none.empty());
+  EXPECT_EQ(dropped(DropKind::missing, missing), counting(1'000));
+  auto next = drops.begin();
+  for (std::size_t k = 0; k < 1'000; ++k) {
+    while (next != drops.end() && next->end <= k) ++next;
+    const bool inside = next != drops.end() && k >= next->begin;
+    EXPECT_EQ(missing[k] != 0, inside) << k;
+    EXPECT_EQ(std::isnan(blank[k]), inside) << k;
+    EXPECT_EQ(frozen[k], inside ? frozen[next->begin - 1] : static_cast<double>(k));
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::noise

@@ -1,0 +1,137 @@
+#include "noise/sensors/profile.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+#include "core/resources.hpp"
+
+namespace touchdown::noise {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+SensorProfile read(const std::string& text) {
+  return from_yaml<SensorProfile>(YamlDocument::parse(text, "s.yaml"));
+}
+
+std::string complaint_about(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(SensorProfile, OfAnEmptyFileIsIdeal) {
+  EXPECT_EQ(read("{}"), SensorProfile());
+  EXPECT_TRUE(is_ideal(SensorProfile()));
+}
+
+TEST(SensorProfile, SaysOfASensorWhatHoldsForAllOfItAndOfAPartWhatIsDifferentThere) {
+  const SensorProfile profile = read(
+      "torque: {white: 0.1, resolution: 0.01, wheel: {white: 0.02}}\n"
+      "accelerometer: {rate: 400, bias: {sd: 0.2}, z: {bias: {value: 0.5}}}\n");
+  EXPECT_EQ(profile.torque[0].white, 0.1);
+  EXPECT_EQ(profile.torque[1].white, 0.1);
+  EXPECT_EQ(profile.torque[2].white, 0.02);
+  EXPECT_EQ(profile.torque[2].resolution, 0.01);
+  EXPECT_EQ(profile.accelerometer[0].bias, (Constant{0.0, 0.2}));
+  EXPECT_EQ(profile.accelerometer[2].bias, (Constant{0.5, 0.2}));
+  EXPECT_EQ(profile.accelerometer[2].rate, 400.0);
+  EXPECT_EQ(profile.position, SensorProfile().position);
+}
+
+TEST(SensorProfile, TakesACutOffFrequencyForATimeConstant) {
+  const SensorProfile profile = read("velocity: {low_pass: {cut_off: 100.0}}\n");
+  EXPECT_NEAR(profile.velocity[1].low_pass, 1.0 / 628.3185307179587, 1e-12);
+}
+
+TEST(SensorProfile, ThatIsWrittenReadsBackToTheSame) {
+  const SensorProfile profile = read(
+      "torque: {scale: {sd: 0.03}, knee: {dropout: {kind: nan, rate: 0.01, length: 0.02}}}\n"
+      "velocity: {low_pass: {cut_off: 123.4}, delay: 0.002, range: 28.8}\n"
+      "accelerometer: {range: 157, vibration: {amplitude: 0.1, order: 2}, rate: 333,\n"
+      "                dropout: {kind: missing, rate: 1e-3}, x: {white: 0.1}}\n"
+      "orientation: {coloured: {sd: 0.01, time_constant: 3}}\n"
+      "misalignment: {pitch: 0.02, sd: 0.01}\n");
+  EXPECT_EQ(read(to_yaml(profile)), profile);
+  EXPECT_FALSE(is_ideal(profile));
+}
+
+TEST(SensorProfile, IsNotIdealOnceAnyOfItsDisturbancesChangesAnything) {
+  for (const char* text :
+       {"torque: {scale: {value: 0.1}}", "torque: {bias: {sd: 0.1}}",
+        "position: {bias: {walk: 0.1}}", "gyroscope: {vibration: {amplitude: 0.1}}",
+        "velocity: {coloured: {sd: 0.1}}", "velocity: {hip: {low_pass: {time_constant: 0.1}}}",
+        "velocity: {white: 0.1}", "accelerometer: {z: {range: 100}}", "position: {resolution: 0.1}",
+        "gyroscope: {rate: 100}", "orientation: {delay: 0.1}",
+        "torque: {wheel: {dropout: {rate: 0.1}}}", "misalignment: {yaw: 0.1}"}) {
+    EXPECT_FALSE(is_ideal(read(text))) << text;
+  }
+  EXPECT_TRUE(is_ideal(read("gyroscope: {vibration: {order: 3}, dropout: {kind: nan}}")));
+}
+
+TEST(SensorProfile, AValueThatCannotBeIsShownWithItsPlaceAndWhatWasExpected) {
+  EXPECT_EQ(complaint_about("torque:\n  delay: -0.001\n"),
+            "s.yaml:2:10: torque.delay: expected a number from 0 to 10");
+  EXPECT_EQ(complaint_about("torque:\n  knee:\n    dropout: {rate: 2}\n"),
+            "s.yaml:3:21: torque.knee.dropout.rate: expected a number from 0 to 1");
+  EXPECT_EQ(complaint_about("gyroscope: {white: .nan}"),
+            "s.yaml:1:20: gyroscope.white: expected a number from 0 to 10000");
+  EXPECT_THAT(complaint_about("accelerometer: {range: 0}"),
+              HasSubstr("accelerometer.range: expected a number from 1e-09 to"));
+  EXPECT_THAT(complaint_about("accelerometer: {bias: 0.3}"),
+              HasSubstr("accelerometer.bias: expected a mapping of keys to values"));
+  EXPECT_THAT(complaint_about("accelerometer: {white: loud}"),
+              HasSubstr("accelerometer.white: expected a number"));
+}
+
+TEST(SensorProfile, ASensorOrAKeyThatDoesNotExistIsShownWithTheNearestOne) {
+  EXPECT_THAT(complaint_about("accelerometre: {white: 1}"),
+              AllOf(HasSubstr("s.yaml:1:1: accelerometre: unknown key"),
+                    HasSubstr("did you mean 'accelerometer'?")));
+  EXPECT_THAT(complaint_about("torque:\n  ancle: {white: 1}\n"),
+              HasSubstr("s.yaml:2:3: torque.ancle: unknown key"));
+  EXPECT_THAT(complaint_about("torque: {dropout: {kind: frosen}}"),
+              AllOf(HasSubstr("expected one of missing, frozen, nan"),
+                    HasSubstr("did you mean 'frozen'?")));
+  EXPECT_THAT(complaint_about("position: {resolutoin: 0.1}"),
+              HasSubstr("did you mean 'resolution'?"));
+}
+
+TEST(SensorProfile, HasNoDisturbanceWhereItWouldMeanNothing) {
+  EXPECT_THAT(complaint_about("torque: {vibration: {amplitude: 1}}"), HasSubstr("unknown key"));
+  EXPECT_THAT(complaint_about("orientation: {range: 1}"), HasSubstr("unknown key"));
+  // The axes of an IMU have one clock.
+  EXPECT_THAT(complaint_about("gyroscope: {x: {delay: 0.1}}"), HasSubstr("unknown key"));
+}
+
+TEST(SensorProfile, HasATimeConstantOrACutOffFrequencyButNotBoth) {
+  EXPECT_THAT(complaint_about("torque: {low_pass: {cut_off: 10, time_constant: 1}}"),
+              HasSubstr("torque.low_pass.cut_off: expected either"));
+}
+
+TEST(SensorProfile, ThatCannotBeFoundIsShownWithTheNearestFile) {
+  try {
+    find_sensor_profile("sensors/upkei.yaml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("sensors/upkei.yaml: no such file"),
+                                    HasSubstr("did you mean 'sensors/upkie.yaml'?")));
+  }
+}
+
+TEST(SensorProfile, OfEveryShippedFileIsReadAndOnlyTheIdealOneIsIdeal) {
+  const auto files = resources_in("sensors", ".yaml");
+  EXPECT_GE(files.size(), 3U);
+  for (const auto& file : files) {
+    EXPECT_EQ(is_ideal(find_sensor_profile(file)), file == "sensors/ideal.yaml") << file;
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::noise

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace touchdown::noise {
+
+inline double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// Mean of the products of values so many steps apart, of a process without a mean.
+inline double correlation(const std::vector<double>& values, std::size_t lag = 0) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k + lag < values.size(); ++k) sum += values[k] * values[k + lag];
+  return sum / static_cast<double>(values.size() - lag);
+}
+
+}  // namespace touchdown::noise
