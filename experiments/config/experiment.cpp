@@ -166,6 +166,11 @@ static void describe(Fields& fields, Experiment& experiment) {
     fit("seed", *experiment.fit_seed);
   });
   fields.section("test", experiment.test);
+  fields.know("sensors");
+  if (fields.present("sensors", !experiment.sensors.empty())) {
+    fields("sensors", experiment.sensors);
+    fields.check(!experiment.sensors.empty(), "sensors", "expected a file");
+  }
   const noise::NoiseGridConfig& noise = experiment.noise;
   fields.section("noise", experiment.noise);
   fields.list("highlights", experiment.highlights, noise);

@@ -8,6 +8,7 @@
 
 #include "core/yaml.hpp"
 #include "noise/grid.hpp"
+#include "noise/sensors/profile.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/transitions.hpp"
@@ -118,7 +119,9 @@ struct Experiment {
   /// What filters with a phase model are fitted to instead, if anything is named.
   std::vector<FitPieces> fit_pieces;
   std::optional<std::uint64_t> fit_seed;  ///< that these are drawn with, if not `seed`
-  RunsConfig test;  ///< runs that estimators are scored on; none of them is ever fitted to
+  RunsConfig test;      ///< runs that estimators are scored on; none of them is ever fitted to
+  std::string sensors;  ///< file of the sensors' profile; empty: ideal ones
+  noise::SensorProfile sensor_profile;  ///< what it says, once `read_sensors` has read it
   noise::NoiseGridConfig noise;
   std::vector<noise::NoiseCell> highlights;  ///< cells of the grid that are printed and marked
   scoring::LabelConfig labels;

@@ -73,8 +73,8 @@ Table verdicts_csv(const std::vector<Verdict>& verdicts) {
 CaptionedTable agreement_table(const CrossSimulatorResult& result) {
   const std::vector<std::string>& engine = result.experiment.simulators;
   CaptionedTable table{
-      fmt::format("Agreement before any estimator: the same {} runs in both engines.",
-                  result.agreement.runs),
+      fmt::format("Agreement before any estimator: the same {} runs in both engines{}.",
+                  result.agreement.runs, sensors_text(result.experiment)),
       "agreement",
       {{"quantity", "unit", engine[0], engine[1], engine[1] + " − " + engine[0]}, {}}};
   for (const QuantityAgreement& q : result.agreement.quantities) {
@@ -86,10 +86,12 @@ CaptionedTable agreement_table(const CrossSimulatorResult& result) {
   return table;
 }
 
-CaptionedTable torque_table(const Agreement& agreement) {
+CaptionedTable torque_table(const CrossSimulatorResult& result) {
+  const Agreement& agreement = result.agreement;
   CaptionedTable table{
-      "Torque distributions, engine against engine; \"within\" is the distance between one "
-      "engine's even and odd runs.",
+      fmt::format("Torque distributions, engine against engine; \"within\" is the distance between "
+                  "one engine's even and odd runs{}.",
+                  sensors_text(result.experiment)),
       "torques",
       {{"torque", "unit", "Wasserstein distance", "within", "overlap"}, {}}};
   for (const TorqueAgreement& t : agreement.torques) {
@@ -103,8 +105,8 @@ CaptionedTable torque_table(const Agreement& agreement) {
 CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::NoiseCell& cell) {
   CaptionedTable table{
       fmt::format("Transfer: success rate by engine of the fit and of the test; loss is that of "
-                  "fitting in the other engine ({}).",
-                  noise_text(cell)),
+                  "fitting in the other engine ({}{}).",
+                  noise_text(cell), sensors_text(result.experiment)),
       "transfer",
       {{"estimator", "fit → test", "success", "no contact recall", "loss", "gain over always"},
        {}}};
@@ -127,9 +129,10 @@ CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::N
 CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
   CaptionedTable table{
       fmt::format("Sensitivity: success rate of estimators fitted on the nominal scene (*), one "
-                  "factor at a time, {} runs each ({}).",
+                  "factor at a time, {} runs each ({}{}).",
                   result.experiment.cross_simulator->sensitivity_runs,
-                  noise_text(result.experiment.highlights.front())),
+                  noise_text(result.experiment.highlights.front()),
+                  sensors_text(result.experiment)),
       "sensitivity",
       {{"factor", "simulator", "value", "fell"}, {}}};
   std::string last;
@@ -164,7 +167,7 @@ std::string verdict_lines(const std::vector<Verdict>& verdicts, const char* bull
 }  // namespace
 
 std::vector<CaptionedTable> report_tables(const CrossSimulatorResult& result) {
-  std::vector<CaptionedTable> tables = {agreement_table(result), torque_table(result.agreement)};
+  std::vector<CaptionedTable> tables = {agreement_table(result), torque_table(result)};
   for (const noise::NoiseCell& cell : result.experiment.highlights) {
     tables.push_back(transfer_table(result, cell));
   }

@@ -39,8 +39,9 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
   const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));
   const noise::SensorNoise levels = config.noise.levels();
   const std::vector<Phase> truth = true_phases(run, entry.phase->fit.labels);
+  Belief belief;
   for (std::size_t k = 0; k < window.end; ++k) {
-    const Belief& belief = filter.update(noisy(run, noise, levels, k));
+    if (is_heard(run.signals[k])) belief = filter.update(noisy(run, noise, levels, k));
     if (k < window.begin) continue;
     posterior.truth.push_back(truth[k]);
     posterior.phases.push_back(filter.phases());

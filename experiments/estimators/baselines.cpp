@@ -1,6 +1,7 @@
 #include "experiments/estimators/baselines.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "estimator/free_fall.hpp"
 #include "estimator/upkie_observer.hpp"
@@ -40,8 +41,11 @@ void Oracle::reset() noexcept {
   belief_ = {};
 }
 
-const Belief& Oracle::update(const Signals& /*signals*/) noexcept {
+const Belief& Oracle::update(const Signals& signals) noexcept {
   belief_ = {};
+  const double steps = std::round((signals.time - time_) * sample_rate_);
+  if (step_ > 0 && steps > 1.0 && steps < 1e9) step_ += static_cast<std::size_t>(steps) - 1;
+  time_ = signals.time;
   if (step_ >= std::min(contact_[0].size(), contact_[1].size())) return belief_;
   for (std::size_t side = 0; side < 2; ++side) {
     const bool touches = contact_[side][step_] != 0;
@@ -63,7 +67,8 @@ EstimatorEntry oracle_entry() {
           .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
             return std::make_unique<Oracle>(
                 setup.truth == nullptr ? std::array<scoring::ContactSequence, models::wheel_count>{}
-                                       : *setup.truth);
+                                       : *setup.truth,
+                setup.sample_rate);
           }};
 }
 

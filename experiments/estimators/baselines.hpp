@@ -18,11 +18,13 @@ EstimatorEntry always_contact_entry();
 
 /// The ground truth as an estimator: it repeats a run's labels step by step, so that whatever
 /// scores, tables or draws an estimator can be held to perfect scores. `Signals` carry no truth: it
-/// is made for one run, with that run's labels. After the last one it believes the flat prior.
+/// is made for one run, with that run's labels. Those of steps that it does not hear of pass, by
+/// the time. After the last one it believes the flat prior.
 class Oracle : public ContactEstimator {
  public:
-  explicit Oracle(std::array<scoring::ContactSequence, models::wheel_count> contact)
-      : contact_(std::move(contact)) {}
+  explicit Oracle(std::array<scoring::ContactSequence, models::wheel_count> contact,
+                  double sample_rate = 1000.0)
+      : contact_(std::move(contact)), sample_rate_(sample_rate) {}
 
   /// Back to the first label.
   void reset() noexcept override;
@@ -30,7 +32,9 @@ class Oracle : public ContactEstimator {
 
  private:
   std::array<scoring::ContactSequence, models::wheel_count> contact_;
-  std::size_t step_ = 0;
+  double sample_rate_;
+  std::size_t step_ = 0;  ///< whose label is next
+  double time_ = 0.0;     ///< of the step before
   Belief belief_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
+#include "estimator/signal_guard.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/phase_fitting.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -83,6 +84,7 @@ MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementC
       // As the filter processes them, by the label of their wheel.
       TorqueChannel channel(config.torque, static_cast<Side>(leg), 1.0 / period);
       for (std::size_t k = 0; k < run->steps(); ++k) {
+        if (!has_torques(run->signals[k].leg[leg])) continue;  // nor does the filter use these
         const TorqueSample sample = channel.update(run->signals[k].leg[leg]);
         if (k >= skip) (run->contact[leg][k] != 0 ? contact : no_contact).push_back(sample);
       }

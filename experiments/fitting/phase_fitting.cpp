@@ -20,6 +20,25 @@ double period_of(const RunSignals& run) {
   return 1e-6 * static_cast<double>(run.info.control_period_us);
 }
 
+/// The signals that a fit listens to, finite: a value that is missing repeats the one before.
+std::vector<Signals> without_gaps(const std::vector<Signals>& signals) {
+  std::vector<Signals> filled = signals;
+  const auto fill = [&](const auto& value_of) {
+    double last = 0.0;
+    for (Signals& step : filled) {
+      double& value = value_of(step);
+      if (!std::isfinite(value)) value = last;
+      last = value;
+    }
+  };
+  fill([](Signals& step) -> double& { return step.vertical_acceleration; });
+  for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
+    fill([&](Signals& step) -> double& { return step.leg[leg].knee.torque; });
+    fill([&](Signals& step) -> double& { return step.leg[leg].wheel.torque; });
+  }
+  return filled;
+}
+
 std::size_t skipped_steps(const RunSignals& run, double skip) {
   return std::min(run.steps(), static_cast<std::size_t>(std::llround(skip / period_of(run))));
 }
@@ -59,12 +78,14 @@ recordings::PhaseModelFile fit_phases(std::span<const RunSignals* const> runs,
                                       const std::function<void()>& before_density) {
   if (runs.empty()) throw InputError("phase filter: there is no run to fit to");
   std::vector<PhaseFitRun> pieces;
+  std::vector<std::vector<Signals>> signals;
   for (const RunSignals* run : runs) {
     check_may_be_fitted(run->info);
     if (run->info.control_period_us != runs.front()->info.control_period_us) {
       throw InputError("phase filter: fitted runs must share one control period");
     }
-    pieces.push_back({run->signals,
+    signals.push_back(without_gaps(run->signals));
+    pieces.push_back({signals.back(),
                       {WheelContact(run->contact[0]), WheelContact(run->contact[1])},
                       may_be_held(run->info),
                       {run->normal_force[0], run->normal_force[1]},

@@ -75,9 +75,11 @@ scoring::Classification count(ContactEstimator& estimator, const RunSignals& run
   const std::size_t skip = scoring::first_scored_step(run.info.control_period_us, scoring);
   scoring::Classification sum;
   estimator.reset();
+  Belief belief;
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    const Belief& belief =
-        estimator.update(disturbed(run, heard, cell.cell.levels(), k, cell.disturbance));
+    if (is_heard(run.signals[k])) {
+      belief = estimator.update(disturbed(run, heard, cell.cell.levels(), k, cell.disturbance));
+    }
     for (std::size_t w = 0; w < models::wheel_count && k >= skip; ++w) {
       sum.add(run.contact[w][k] != 0, belief.wheel[w].contact);
     }

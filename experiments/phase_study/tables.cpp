@@ -8,6 +8,7 @@
 #include "core/table.hpp"
 #include "experiments/phase_study/fit.hpp"
 #include "experiments/phase_study/plan.hpp"
+#include "experiments/plan/sensors.hpp"
 #include "scoring/bootstrap.hpp"
 
 namespace touchdown::experiments {
@@ -225,7 +226,8 @@ std::string phase_study_text(const Listened& listened) {
   for (std::size_t g = 1; g < plan.groups.size(); ++g) {
     scenes.push_back(collect(plan, plan.runs_in(g), listened.saved));
   }
-  std::string text = fmt::format("# Phase filter, test runs of seed {}\n", experiment.seed);
+  std::string text = fmt::format("# Phase filter, test runs of seed {}{}\n", experiment.seed,
+                                 sensors_text(experiment));
   for (const std::string& simulator : experiment.simulators) {
     const Engine engine{experiment, plan.groups.front(), listened.own, simulator};
     const double fitted =

@@ -10,6 +10,7 @@
 #include "core/fingerprint.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
+#include "experiments/plan/sensors.hpp"
 #include "experiments/run_directory/occupant.hpp"
 #include "experiments/run_directory/own_files.hpp"
 
@@ -22,7 +23,10 @@ namespace fs = std::filesystem;
 /// The digest of a request, one scenario after the other.
 class Digest {
  public:
-  explicit Digest(const Experiment& experiment) { fingerprint_.add(to_yaml(experiment)); }
+  explicit Digest(const Experiment& experiment) {
+    fingerprint_.add(to_yaml(experiment));
+    if (!experiment.sensors.empty()) fingerprint_.add(noise::to_yaml(experiment.sensor_profile));
+  }
   /// The robot's file counts under the path that the scenario has for it.
   void add(const scenarios::Scenario& scenario) {
     fingerprint_.add(scenarios::to_yaml(scenario)).add(scenarios::robot_text(scenario));
@@ -60,7 +64,8 @@ RunRequest request_of(const Experiment& experiment) {
   request.scenarios = scenarios_of(experiment, [](const std::string& file, std::size_t /*n*/) {
     return scenarios::find_scenario(file);
   });
-  Digest digest(experiment);
+  read_sensors(request.experiment);
+  Digest digest(request.experiment);
   for (const NamedScenario& named : request.scenarios) digest.add(named.scenario);
   request.id = digest.text();
   return request;
@@ -103,6 +108,7 @@ void write_request(const RunRequest& request, const RunDirectory& directory, boo
     write_atomically(directory.file("state", scenario_file(i)),
                      scenarios::to_yaml(request.scenarios[i].scenario));
   }
+  write_sensors(request.experiment, directory.path());
   write_atomically(directory.path() / "config.yaml", to_yaml(request.experiment));
 }
 
@@ -118,6 +124,7 @@ RunRequest read_request(const fs::path& directory) {
   }
   RunRequest request;
   request.experiment = experiment_from_yaml(YamlDocument::load(directory / "config.yaml"));
+  read_sensors(request.experiment, directory);
   Digest digest(request.experiment);
   request.scenarios =
       scenarios_of(request.experiment, [&](const std::string& /*file*/, std::size_t number) {
@@ -129,9 +136,10 @@ RunRequest read_request(const fs::path& directory) {
   request.id = digest.text();
   if (request.id != occupant->request) {
     throw InputError(fmt::format(
-        "{}: config.yaml, a scenario in state or the robot was changed since: they make request "
+        "{}: config.yaml, a scenario{} in state or the robot was changed since: they make request "
         "{}, expected {}; undo the change, or run the changed experiment elsewhere",
-        directory.string(), request.id, occupant->request));
+        directory.string(), request.experiment.sensors.empty() ? "" : ", the sensors", request.id,
+        occupant->request));
   }
   return request;
 }

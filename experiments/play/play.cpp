@@ -12,6 +12,7 @@
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
 #include "core/progress.hpp"
+#include "experiments/plan/sensors.hpp"
 #include "experiments/run_directory/saved_state.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/compiled_scenes.hpp"
@@ -58,8 +59,9 @@ PlayedRun failed(const PlannedRun& plan, const std::string& why) {
   return run;
 }
 
-PlayedRun played(const PlannedRun& run, const recordings::Recording& recording,
+PlayedRun played(const PlannedRun& run, recordings::Recording recording,
                  const Experiment& experiment) {
+  report_through_sensors(experiment, run.run, recording.period(), recording.observation);
   RunSignals signals =
       signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
   const auto shortest = static_cast<std::size_t>(
@@ -112,7 +114,7 @@ PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
     if (!sum) throw Error(fmt::format("{}: cannot be read again", file.string()));
     write_state(stamp_of(run, directory), key, fmt::format("{:016x}", *sum));
   }
-  return played(run, recording, experiment);
+  return played(run, std::move(recording), experiment);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct FixedNames {
   const char* shape;
 };
 constexpr std::array fixed_names = {
-    FixedNames{"state", R"(scenario_\d{3,}\.yaml)"},
+    FixedNames{"state", R"((scenario_\d{3,}|sensors)\.yaml)"},
     FixedNames{"state/listening", R"(.+_seed_\d{4,})"},
     FixedNames{"state/shards", R"(\d+_of_\d+)"},
     FixedNames{

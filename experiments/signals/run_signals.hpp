@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,9 @@
 #include "scoring/score.hpp"
 
 namespace touchdown::experiments {
+
+/// Whether an estimator hears of a step at all: there is a record of it.
+inline bool is_heard(const Signals& signals) { return !std::isnan(signals.time); }
 
 /// What a study keeps of a recording: the signals at every step, and what is true.
 struct RunSignals {
@@ -80,7 +84,8 @@ NoiseRun with_heavy_tails(NoiseRun noise, const noise::NoiseKey& key);
 Signals disturbed(const RunSignals& run, const NoiseRun& noise, const noise::SensorNoise& levels,
                   std::size_t step, const noise::Disturbance& disturbance);
 
-/// The wheels' decisions of an estimator that, reset, listens to a whole run through noise.
+/// The wheels' decisions of an estimator that, reset, listens to a whole run through noise. At a
+/// step of which it does not hear, its last belief stands.
 std::array<scoring::ContactSequence, models::wheel_count> decide(ContactEstimator& estimator,
                                                                  const RunSignals& run,
                                                                  const NoiseRun& noise,

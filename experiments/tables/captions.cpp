@@ -29,8 +29,9 @@ std::string intervals_text(const Experiment& experiment) {
 }
 
 std::string conditions_text(const Experiment& experiment) {
-  return fmt::format("Both wheels; {}; first {} ms not scored; {}.", labels_text(experiment),
-                     1e3 * experiment.scoring.skip, intervals_text(experiment));
+  return fmt::format("Both wheels; {}{}; first {} ms not scored; {}.", labels_text(experiment),
+                     sensors_text(experiment), 1e3 * experiment.scoring.skip,
+                     intervals_text(experiment));
 }
 
 std::string noise_text(const noise::NoiseCell& cell) {
@@ -60,9 +61,9 @@ std::string scored_text(const ExperimentResult& result, const std::string& simul
   const auto scored = std::count_if(runs.begin(), runs.end(), [&](const RunSignals* run) {
     return run->info.simulator == simulator;
   });
-  return fmt::format("{} × {}; {}", plural(static_cast<std::size_t>(scored), "test run"),
+  return fmt::format("{} × {}; {}{}", plural(static_cast<std::size_t>(scored), "test run"),
                      plural(static_cast<std::size_t>(result.experiment.noise.seeds), "noise seed"),
-                     labels_text(result.experiment));
+                     labels_text(result.experiment), sensors_text(result.experiment));
 }
 
 }  // namespace touchdown::experiments

@@ -47,9 +47,10 @@ void write_score_tables(const ExperimentResult& result) {
   if (!result.experiment.paper_tables) return;
   const Table labels = label_sensitivity_table(result);
   directory.write_table("labels.csv", labels);
-  write_atomically(
-      directory.file("tables", "labels.md"),
-      to_markdown({"Point-wise scores by the definition of contact.", "labels", labels}));
+  write_atomically(directory.file("tables", "labels.md"),
+                   to_markdown({"Point-wise scores by the definition of contact" +
+                                    sensors_text(result.experiment) + ".",
+                                "labels", labels}));
   std::string markdown;
   std::string latex;
   for (const CaptionedTable& table : paper_tables(result)) {

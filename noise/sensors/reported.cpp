@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <span>
@@ -14,8 +15,6 @@ namespace touchdown::noise {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-using Observations = std::vector<models::Observation>;
 
 constexpr std::array<NoiseChannel, models::servo_count> torque_channels = {
     NoiseChannel::left_hip_torque,   NoiseChannel::left_knee_torque,
@@ -38,40 +37,64 @@ constexpr AxisNumbers gyroscope_channels = {NoiseChannel::gyroscope_x, NoiseChan
 constexpr AxisNumbers orientation_channels = {
     NoiseChannel::orientation_x, NoiseChannel::orientation_y, NoiseChannel::orientation_z};
 
+/// One number of every observation on its way through its sensor.
+struct Column {
+  SensorChannel channel;
+  NoiseChannel number;
+  NoiseChannel clock;  ///< whose drops it shares
+  std::function<void(std::span<const models::Observation>, double*)> take;
+  std::function<void(const double*, std::span<models::Observation>)> put;
+  std::vector<double> values = {};
+};
+
+template <typename At>
+Column column_of(const SensorChannel& channel, NoiseChannel number, NoiseChannel clock, At at) {
+  return {channel, number, clock,
+          [at](std::span<const models::Observation> from, double* to) {
+            for (const models::Observation& observation : from) *to++ = at(observation);
+          },
+          [at](const double* from, std::span<models::Observation> to) {
+            for (models::Observation& observation : to) at(observation) = *from++;
+          }};
+}
+
 /// One run on its way through the sensors.
 class Reporter {
  public:
-  Reporter(const NoiseKey& key, double period, Observations& observations)
-      : key_(key), period_(period), observations_(observations), values_(observations.size()) {}
+  Reporter(const NoiseKey& key, double period, std::vector<models::Observation>& observations)
+      : key_(key), period_(period), observations_(observations) {}
 
+  /// Turns what all of the IMU measures.
   void misalign(const Misalignment& misalignment);
-  void report_joints(const JointChannels& channels, double models::ServoReading::*member,
-                     const std::array<NoiseChannel, models::servo_count>& numbers);
-  /// Before the joints: wheels shake by how they turn, not by what their encoders report.
-  void report_vector(const AxisChannels& channels, Eigen::Vector3d models::ImuReading::*member,
-                     const AxisNumbers& numbers);
+  /// Each of these takes its values before any is put back: wheels shake by how they turn, not by
+  /// what their encoders report.
+  void add_joints(const JointChannels& channels, double models::ServoReading::*member,
+                  const std::array<NoiseChannel, models::servo_count>& numbers);
+  void add_vector(const AxisChannels& channels, Eigen::Vector3d models::ImuReading::*member,
+                  const AxisNumbers& numbers);
   void report_orientation(const AxisChannels& channels);
-  /// What is left of the reported proper acceleration without gravity along the reported vertical.
+  void report_columns();
+  /// Leaves of the reported proper acceleration what is not gravity along the reported vertical.
   void remove_gravity(const Eigen::Vector3d& gravity);
   void strike_out_missing();
 
  private:
-  /// Where a number stands in every observation; `at` gives it in one.
-  template <typename At>
-  void take(const At& at) {
-    for (std::size_t k = 0; k < values_.size(); ++k) values_[k] = at(observations_[k]);
-  }
-  template <typename At>
-  void put(const At& at) {
-    for (std::size_t k = 0; k < values_.size(); ++k) at(observations_[k]) = values_[k];
+  /// Calls `part(block, first step)` for block after block: so few observations that all of their
+  /// numbers stay at hand while column after column is copied.
+  template <typename Part>
+  void for_each_block(const Part& part) {
+    constexpr std::size_t steps = 64;
+    for (std::size_t k = 0; k < observations_.size(); k += steps) {
+      part(std::span(observations_).subspan(k, std::min(steps, observations_.size() - k)), k);
+    }
   }
 
   const TurnsOfBoth* turns_of(const Vibration& vibration);
 
   NoiseKey key_;
   double period_;
-  Observations& observations_;
-  std::vector<double> values_;           ///< of the channel that is being worked on
+  std::vector<models::Observation>& observations_;
+  std::vector<Column> columns_;
   std::vector<std::uint8_t> missing_;    ///< by step; empty while no record is
   std::map<double, TurnsOfBoth> turns_;  ///< by order
 };
@@ -97,54 +120,48 @@ void Reporter::misalign(const Misalignment& misalignment) {
   }
 }
 
+void Reporter::add_joints(const JointChannels& channels, double models::ServoReading::*member,
+                          const std::array<NoiseChannel, models::servo_count>& numbers) {
+  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    const SensorChannel& channel = channels[servo % channels.size()];
+    if (is_ideal(channel)) continue;
+    columns_.push_back(column_of(
+        channel, numbers[servo], numbers[servo], [ servo, member ](auto& observation) -> auto& {
+          return observation.servo[servo].*member;
+        }));
+  }
+}
+
+void Reporter::add_vector(const AxisChannels& channels, Eigen::Vector3d models::ImuReading::*member,
+                          const AxisNumbers& numbers) {
+  for (std::size_t axis = 0; axis < channels.size(); ++axis) {
+    if (is_ideal(channels[axis])) continue;
+    columns_.push_back(column_of(
+        channels[axis], numbers[axis], numbers.front(),
+        [ axis, member ](auto& observation) -> auto& {
+          return (observation.imu.*member)[static_cast<Eigen::Index>(axis)];
+        }));
+  }
+}
+
 const TurnsOfBoth* Reporter::turns_of(const Vibration& vibration) {
   if (vibration.amplitude == 0.0) return nullptr;
   const auto [found, is_new] = turns_.try_emplace(vibration.order);
   if (is_new) {
-    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      const std::size_t servo = models::index(models::wheel_servos[wheel]);
-      std::vector<double> position;
-      std::vector<double> velocity;
-      for (const models::Observation& observation : observations_) {
-        position.push_back(observation.servo[servo].position);
-        velocity.push_back(observation.servo[servo].velocity);
+    std::array<std::vector<double>, models::wheel_count> position, velocity;
+    for (const models::Observation& observation : observations_) {
+      for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+        const models::ServoReading& reading =
+            observation.servo[models::index(models::wheel_servos[wheel])];
+        position[wheel].push_back(reading.position);
+        velocity[wheel].push_back(reading.velocity);
       }
-      found->second[wheel] = wheel_turns(position, velocity, vibration.order);
+    }
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      found->second[wheel] = wheel_turns(position[wheel], velocity[wheel], vibration.order);
     }
   }
   return &found->second;
-}
-
-void Reporter::report_joints(const JointChannels& channels, double models::ServoReading::*member,
-                             const std::array<NoiseChannel, models::servo_count>& numbers) {
-  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
-    const SensorChannel& channel = channels[servo % channels.size()];
-    if (is_ideal(channel)) continue;
-    const auto at = [&](models::Observation& o) -> double& { return o.servo[servo].*member; };
-    ChannelDraws draws(key_, numbers[servo]);
-    take(at);
-    disturb_values(values_, channel, period_, draws);
-    disturb_clock<double>(values_, channel, period_, draws, nan, missing_);
-    put(at);
-  }
-}
-
-void Reporter::report_vector(const AxisChannels& channels,
-                             Eigen::Vector3d models::ImuReading::*member,
-                             const AxisNumbers& numbers) {
-  const ChannelDraws clock(key_, numbers.front());  // the axes are dropped together
-  for (std::size_t axis = 0; axis < channels.size(); ++axis) {
-    const SensorChannel& channel = channels[axis];
-    if (is_ideal(channel)) continue;
-    const auto at = [&](models::Observation& o) -> double& {
-      return (o.imu.*member)[static_cast<Eigen::Index>(axis)];
-    };
-    ChannelDraws draws(key_, numbers[axis]);
-    take(at);
-    disturb_values(values_, channel, period_, draws, turns_of(channel.vibration));
-    disturb_clock<double>(values_, channel, period_, clock, nan, missing_);
-    put(at);
-  }
 }
 
 void Reporter::report_orientation(const AxisChannels& channels) {
@@ -166,6 +183,23 @@ void Reporter::report_orientation(const AxisChannels& channels) {
   for (std::size_t k = 0; k < observations_.size(); ++k) {
     observations_[k].imu.orientation = reported[k];
   }
+}
+
+void Reporter::report_columns() {
+  for (Column& column : columns_) column.values.resize(observations_.size());
+  for_each_block([&](std::span<const models::Observation> block, std::size_t first) {
+    for (Column& column : columns_) column.take(block, column.values.data() + first);
+  });
+  for (Column& column : columns_) {
+    ChannelDraws draws(key_, column.number);
+    disturb_values(column.values, column.channel, period_, draws,
+                   turns_of(column.channel.vibration));
+    disturb_clock<double>(column.values, column.channel, period_, {key_, column.clock}, nan,
+                          missing_);
+  }
+  for_each_block([&](std::span<models::Observation> block, std::size_t first) {
+    for (const Column& column : columns_) column.put(column.values.data() + first, block);
+  });
 }
 
 void Reporter::remove_gravity(const Eigen::Vector3d& gravity) {
@@ -190,7 +224,7 @@ void Reporter::strike_out_missing() {
 
 void report_through(const SensorProfile& profile, const NoiseKey& key, double period,
                     std::vector<models::Observation>& observations) {
-  if (observations.empty()) return;
+  if (observations.empty() || is_ideal(profile)) return;
   Reporter reporter(key, period, observations);
   // In the frame of the attitude reference system, the same throughout the run.
   const models::ImuReading& first = observations.front().imu;
@@ -199,17 +233,17 @@ void report_through(const SensorProfile& profile, const NoiseKey& key, double pe
   const bool is_aligned = profile.misalignment == Misalignment();
   const bool is_attitude_ideal = is_ideal(profile.orientation);
   if (!is_aligned) reporter.misalign(profile.misalignment);
-  reporter.report_vector(profile.accelerometer, &models::ImuReading::raw_linear_acceleration,
-                         accelerometer_channels);
-  reporter.report_vector(profile.gyroscope, &models::ImuReading::angular_velocity,
-                         gyroscope_channels);
+  reporter.add_vector(profile.accelerometer, &models::ImuReading::raw_linear_acceleration,
+                      accelerometer_channels);
+  reporter.add_vector(profile.gyroscope, &models::ImuReading::angular_velocity, gyroscope_channels);
+  reporter.add_joints(profile.torque, &models::ServoReading::torque, torque_channels);
+  reporter.add_joints(profile.position, &models::ServoReading::position, position_channels);
+  reporter.add_joints(profile.velocity, &models::ServoReading::velocity, velocity_channels);
+  reporter.report_columns();
   if (!is_attitude_ideal) reporter.report_orientation(profile.orientation);
   if (!is_aligned || !is_attitude_ideal || !is_ideal(profile.accelerometer)) {
     reporter.remove_gravity(gravity);
   }
-  reporter.report_joints(profile.torque, &models::ServoReading::torque, torque_channels);
-  reporter.report_joints(profile.position, &models::ServoReading::position, position_channels);
-  reporter.report_joints(profile.velocity, &models::ServoReading::velocity, velocity_channels);
   reporter.strike_out_missing();
 }
 

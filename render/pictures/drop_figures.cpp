@@ -33,8 +33,9 @@ const experiments::PlayedRun& chosen_run(const experiments::ExperimentResult& re
 std::string which_drop(const experiments::Experiment& experiment,
                        const experiments::DropChoice& choice) {
   return fmt::format(
-      "Test run {}, drop {} of both wheels (from 0), experiment seed {}, noise seed {}; {}.",
-      choice.run, choice.drop, experiment.seed, choice.seed, experiments::labels_text(experiment));
+      "Test run {}, drop {} of both wheels (from 0), experiment seed {}, noise seed {}; {}{}.",
+      choice.run, choice.drop, experiment.seed, choice.seed, experiments::labels_text(experiment),
+      experiments::sensors_text(experiment));
 }
 
 /// "Not shown: NMN, Free fall."; nothing where all of the experiment's estimators are.

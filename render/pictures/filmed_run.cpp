@@ -12,6 +12,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
+#include "experiments/plan/sensors.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -49,8 +50,11 @@ BeliefTrack believe(const experiments::Condition& condition,
   const auto estimator = experiments::make_estimator(condition, models, run);
   BeliefTrack track;
   track.name = experiments::estimator_entry(condition.estimator).title;
+  Belief belief;
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    const Belief& belief = estimator->update(experiments::noisy(run, noise, levels, k));
+    if (experiments::is_heard(run.signals[k])) {
+      belief = estimator->update(experiments::noisy(run, noise, levels, k));
+    }
     const Evidence::Transition transition = estimator->evidence().transition;
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       track.p_contact[wheel].push_back(static_cast<float>(belief.wheel[wheel].p_contact));
@@ -65,7 +69,8 @@ BeliefTrack believe(const experiments::Condition& condition,
 }  // namespace
 
 std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
-  const experiments::Experiment& experiment = subject.experiment;
+  experiments::Experiment experiment = subject.experiment;
+  experiments::read_sensors(experiment, subject.directory);
   const experiments::VideoConfig& video = experiment.video;
   const noise::SensorNoise levels =
       noise::with_encoder_noise({video.torque_noise, video.accelerometer_noise}, experiment.noise)
@@ -77,8 +82,11 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
     const fs::path log = subject.directory / "recordings" / run.recording;
     if (!fs::exists(log)) continue;
     recordings::Recording recording = recordings::read_recording(log);
+    recordings::Recording reported = recording;
+    experiments::report_through_sensors(experiment, run.run, recording.period(),
+                                        reported.observation);
     const experiments::RunSignals heard = experiments::signals_of(
-        recording, experiment.labels, experiment.scoring, experiment.intervals.over);
+        reported, experiment.labels, experiment.scoring, experiment.intervals.over);
     const experiments::NoiseRun drawn = experiments::noise_run(heard, key);
     std::vector<BeliefTrack> beliefs;
     for (const std::string& estimator : video.estimators) {
@@ -88,8 +96,12 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
           believe({run.simulator, run.simulator, estimator}, models, heard, drawn, levels));
     }
     models::RobotModel robot = robot_of(recording);
-    // What the sensors report; the ground truth stays.
+    // What the sensors report; the ground truth stays, and so does the pose.
     for (std::size_t k = 0; k < recording.steps(); ++k) {
+      for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+        const double torque = reported.observation[k].servo[servo].torque;
+        if (std::isfinite(torque)) recording.observation[k].servo[servo].torque = torque;
+      }
       recording.observation[k] = noise::with_noise(recording.observation[k], key, k, levels);
     }
     filmed.push_back(

@@ -69,10 +69,11 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
   figure.title = fmt::format("Torques in contact and in the air: {}, {}", experiment.name,
                              simulators::simulator_title(simulator));
   figure.caption = fmt::format(
-      "Kernel densities fitted to {} without noise, both legs, seed {}; {}. Lines enclose 50, 90 "
+      "Kernel densities fitted to {} without noise, both legs, seed {}; {}{}. Lines enclose 50, 90 "
       "and 99 % of a density; on the right they are P = 0.5 and the decision, 0.8. Axes end where "
       "97 % of both densities lie.",
-      experiments::plural(runs, "run"), experiment.seed, experiments::labels_text(experiment));
+      experiments::plural(runs, "run"), experiment.seed, experiments::labels_text(experiment),
+      experiments::sensors_text(experiment));
   return figure;
 }
 

@@ -88,8 +88,8 @@ ReportSection results_section(const ReportSubject& subject) {
         fmt::format(
             "Share of steps that are judged rightly, with torque noise of {} N·m and "
             "accelerometer noise of {} m/s², and takeoffs per minute and wheel that "
-            "were announced and were none. “Always contact” is what a constant answer earns.",
-            cell.torque, cell.accelerometer),
+            "were announced and were none. “Always contact” is what a constant answer earns{}.",
+            cell.torque, cell.accelerometer, experiments::sensors_text(experiment)),
         fmt::format("success rates at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
         {{"estimator"}, {}}};
     for (const std::string& engine : engines_of(experiment)) {
@@ -123,9 +123,9 @@ ReportSection paper_section(const ReportSubject& subject) {
     const std::vector<experiments::ScoreSummary> scores = rows_at(subject.summary.scores, cell);
     if (scores.empty()) continue;
     const std::string how = fmt::format(
-        "Torque noise {} N·m, accelerometer noise {} m/s², {}.", cell.torque, cell.accelerometer,
-        experiments::plural(static_cast<std::size_t>(subject.experiment.noise.seeds),
-                            "noise seed"));
+        "Torque noise {} N·m, accelerometer noise {} m/s², {}{}.", cell.torque, cell.accelerometer,
+        experiments::plural(static_cast<std::size_t>(subject.experiment.noise.seeds), "noise seed"),
+        experiments::sensors_text(subject.experiment));
     std::string tables;
     for (const experiments::CaptionedTable& table : experiments::paper_tables(scores, how)) {
       tables += with_engine_titles(table);

@@ -1,0 +1,112 @@
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "program.hpp"
+#include "result_files.hpp"
+
+namespace touchdown::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+/// What a run of the tiny experiment wrote.
+std::map<std::string, std::size_t> run_tiny(const ScratchFolder& folder, const std::string& out,
+                                            const std::string& flags = "") {
+  const Ended ended = touchdown_program("run tiny.yaml --out " + out + " " + flags, folder.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+  return result_files(folder / out);
+}
+
+TEST(Sensors, ThatAreIdealGiveTheBytesOfAnExperimentThatNamesNone) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  const auto none = run_tiny(folder, "none");
+  const auto ideal = run_tiny(folder, "ideal", "--set sensors=sensors/ideal.yaml");
+  EXPECT_THAT(different_files(none, ideal), IsEmpty());
+  EXPECT_THAT(read_file(folder / "ideal/config.yaml"), Not(HasSubstr("sensors")));
+  EXPECT_THAT(read_file(folder / "none/tables/tables.md"), Not(HasSubstr("sensors as in")));
+}
+
+TEST(Sensors, ChangeWhatIsHeardAndFittedAndNotWhatIsRecorded) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  const auto none = run_tiny(folder, "none");
+  const auto harsh = run_tiny(folder, "harsh", "--set sensors=sensors/harsh.yaml");
+  const auto different = different_files(none, harsh);
+  EXPECT_THAT(different, Each(Not(StartsWith("recordings/"))));
+  for (const char* name : {"tables/success.csv", "tables/latency.csv", "models/mujoco_robust.npz",
+                           "models/bullet_robust.npz", "config.yaml"}) {
+    EXPECT_THAT(different, Contains(name));
+  }
+  EXPECT_THAT(read_file(folder / "harsh/config.yaml"), HasSubstr("sensors: sensors/harsh.yaml"));
+  EXPECT_THAT(read_file(folder / "harsh/tables/tables.md"),
+              HasSubstr("sensors as in sensors/harsh.yaml"));
+  EXPECT_THAT(read_file(folder / "harsh/tables/success.csv"), Not(HasSubstr("nan,nan")));
+}
+
+TEST(Sensors, GiveTheSameBytesAgainWhateverTheNumberOfThreadsAndTheEngines) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  const std::string harsh = "--set sensors=sensors/harsh.yaml --set workers=";
+  const auto first = run_tiny(folder, "a", harsh + "4");
+  EXPECT_THAT(different_files(first, run_tiny(folder, "b", harsh + "1")), IsEmpty());
+  const auto mujoco = run_tiny(folder, "c", harsh + "2 --set simulators=[mujoco]");
+  for (const char* same : {"models/mujoco_robust.npz", "recordings/mujoco_step_test_001.mpack"}) {
+    EXPECT_EQ(mujoco.at(same), first.at(same)) << same;
+  }
+}
+
+TEST(Sensors, OfAProfileThatWasEditedAreAnotherRequest) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  folder.write("mine.yaml", "# Mine.\ntorque: {white: 0.1}\n");
+  const std::string run = "run tiny.yaml --out a --set sensors=mine.yaml";
+  ASSERT_EQ(touchdown_program(run, folder.path()).exit_code, 0);
+  folder.write("mine.yaml", "# Mine, and better documented.\ntorque: {white: 0.1}\n");
+  EXPECT_EQ(touchdown_program(run, folder.path()).exit_code, 0);
+  folder.write("mine.yaml", "torque: {white: 0.2}\n");
+  const Ended other = touchdown_program(run, folder.path());
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.errors, HasSubstr("holds experiment 'tiny'"));
+  // What was run is drawn by what was run.
+  const Ended merged = touchdown_program("merge a", folder.path());
+  EXPECT_EQ(merged.exit_code, 0) << merged.errors;
+}
+
+TEST(Sensors, OfAProfileThatIsWrongStopTheRunBeforeItBegins) {
+  const ScratchFolder folder;
+  write_tiny_experiment(folder);
+  folder.write("mine.yaml", "torque:\n  delay: -0.001\n");
+  const auto complaint = [&](const std::string& file) {
+    const Ended ended =
+        touchdown_program("run tiny.yaml --out a --set sensors=" + file, folder.path());
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder / "a"));
+    return ended.errors;
+  };
+  EXPECT_THAT(complaint("mine.yaml"),
+              HasSubstr("mine.yaml:2:10: torque.delay: expected a number from 0 to 10"));
+  EXPECT_THAT(complaint("sensors/upkei.yaml"),
+              AllOf(HasSubstr("sensors/upkei.yaml: no such file"),
+                    HasSubstr("did you mean 'sensors/upkie.yaml'?")));
+}
+
+TEST(Sensors, AreListedWithWhatTheyAre) {
+  const ScratchFolder folder;
+  const Ended listed = touchdown_program("list", folder.path());
+  EXPECT_THAT(listed.output, HasSubstr("sensors/upkie.yaml   Upkie: servos by moteus"));
+  EXPECT_THAT(listed.output, HasSubstr("sensors/harsh.yaml"));
+}
+
+}  // namespace
+}  // namespace touchdown::cli

@@ -1,0 +1,66 @@
+#include "experiments/plan/sensors.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "experiments/plan/request.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+
+RunRequest request_with(const std::string& sensors) {
+  YamlDocument document = YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/stairs.yaml");
+  if (!sensors.empty()) document.override_value("sensors=" + sensors);
+  return request_of(experiment_from_yaml(document));
+}
+
+TEST(RequestedSensors, ThatAreIdealAreTheRequestOfNone) {
+  const RunRequest none = request_with("");
+  const RunRequest ideal = request_with("sensors/ideal.yaml");
+  EXPECT_EQ(none.id, ideal.id);
+  EXPECT_EQ(to_yaml(none.experiment), to_yaml(ideal.experiment));
+  EXPECT_EQ(sensors_text(ideal.experiment), "");
+}
+
+TEST(RequestedSensors, CountByTheirNameAndByWhatTheirFileSays) {
+  const ScratchFolder folder;
+  const std::string mine = folder.write("mine.yaml", "torque: {white: 0.1}\n").string();
+  const std::string first = request_with(mine).id;
+  EXPECT_NE(first, request_with("").id);
+  folder.write("mine.yaml", "torque: {white: 1e-1, delay: 0}  # said otherwise\n");
+  EXPECT_EQ(request_with(mine).id, first);
+  folder.write("mine.yaml", "torque: {white: 0.2}\n");
+  EXPECT_NE(request_with(mine).id, first);
+}
+
+TEST(RequestedSensors, AreReadBackAsTheyWereWhenTheyWereWritten) {
+  const ScratchFolder folder;
+  const std::string mine = folder.write("mine.yaml", "torque: {white: 0.1}\n").string();
+  const RunRequest request = request_with(mine);
+  const std::filesystem::path run = folder / "run";
+  write_request(request, RunDirectory("stairs", request.id, run), false);
+  folder.write("mine.yaml", "torque: {white: 0.2}\n");
+  EXPECT_EQ(read_request(run).id, request.id);
+  EXPECT_EQ(read_request(run).experiment.sensor_profile.torque[1].white, 0.1);
+  folder.write("run/state/sensors.yaml", "torque: {white: 0.3}\n");
+  EXPECT_THROW(read_request(run), InputError);
+}
+
+TEST(RequestedSensors, ReportARunInBothEnginesAlike) {
+  const RunRequest request = request_with("sensors/harsh.yaml");
+  std::vector<models::Observation> first(20), again(20), other(20);
+  report_through_sensors(request.experiment, 3, 0.001, first);
+  report_through_sensors(request.experiment, 3, 0.001, again);
+  report_through_sensors(request.experiment, 4, 0.001, other);
+  EXPECT_EQ(first[7].servo[1].torque, again[7].servo[1].torque);
+  EXPECT_NE(first[7].servo[1].torque, other[7].servo[1].torque);
+  EXPECT_NE(first[7].servo[1].torque, 0.0);
+  EXPECT_EQ(sensors_text(request.experiment), "; sensors as in sensors/harsh.yaml");
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,123 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "experiments/fitting/fitting.hpp"
+#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/listening/sweep_lanes.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Says how many steps it has heard of: contact where the number is odd.
+class Counter : public ContactEstimator {
+ public:
+  void reset() noexcept override { belief_ = {}, heard_ = 0; }
+  const Belief& update(const Signals& /*signals*/) noexcept override {
+    ++heard_;
+    belief_.wheel[0].contact = heard_ % 2 == 1;
+    belief_.wheel[0].p_contact = 1e-3 * heard_;
+    return belief_;
+  }
+
+ private:
+  Belief belief_;
+  int heard_ = 0;
+};
+
+Signals nothing() {
+  Signals signals;
+  signals.time = signals.vertical_acceleration = nan;
+  signals.linear_acceleration.setConstant(nan);
+  signals.angular_velocity.setConstant(nan);
+  signals.leg.fill({{nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}});
+  return signals;
+}
+
+/// Six steps of which the first, the fourth and the fifth have no record.
+RunSignals with_gaps() {
+  RunSignals run = synthetic_run(3, 6);
+  for (const std::size_t k : {0U, 3U, 4U}) run.signals[k] = nothing();
+  return run;
+}
+
+TEST(MissingRecords, AreNotHeardAndTheLastBeliefStands) {
+  const RunSignals run = with_gaps();
+  const NoiseRun noise = noise_run(run, {1, 2});
+  Counter counter;
+  const auto decided = decide(counter, run, noise, {});
+  EXPECT_EQ(decided[0], (scoring::ContactSequence{0, 1, 0, 0, 0, 1}));
+  const scoring::Prediction prediction = predict(counter, run, noise, {});
+  EXPECT_EQ(prediction[0].p_contact, (std::vector{0.5, 0.001, 0.002, 0.002, 0.002, 0.003}));
+}
+
+TEST(MissingRecords, PassTheOracleBy) {
+  RunSignals run = synthetic_run(3);
+  for (std::size_t k = 620; k < 650; ++k) run.signals[k] = nothing();
+  const NoiseRun noise = noise_run(run, {1, 2});
+  const auto oracle = make_estimator({"mujoco", "mujoco", "oracle"}, {}, run);
+  const auto decided = decide(*oracle, run, noise, {});
+  EXPECT_EQ(decided[0], run.contact[0]);
+  EXPECT_EQ(decided[1], run.contact[1]);
+}
+
+TEST(MissingRecords, AreNothingForLanes) {
+  const std::vector<noise::SensorNoise> levels(1);
+  EXPECT_TRUE(needs_no_guard(synthetic_run(3, 6), levels));
+  EXPECT_FALSE(needs_no_guard(with_gaps(), levels));
+}
+
+TEST(MissingRecords, AndTorquesThatAreNoNumbersAreLeftOutOfTheFitOfAMeasurement) {
+  RunSignals run = synthetic_run(first_fit_run);
+  run.signals[1500] = nothing();
+  run.signals[2650].leg[1].knee.torque = nan;
+  MeasurementConfig config;
+  config.torque.low_pass = 0.0;
+  const MeasurementModel with = fit(std::vector<const RunSignals*>{&run}, config, {});
+  std::vector<TorqueSample> contact, no_contact;
+  for (std::size_t leg = 0; leg < 2; ++leg) {
+    TorqueChannel channel(config.torque, static_cast<Side>(leg), 1000.0);
+    const std::size_t skip = scoring::first_scored_step(1000, {});
+    for (std::size_t k = skip; k < run.steps(); ++k) {
+      if (k == 1500 || (leg == 1 && k == 2650)) continue;
+      (run.contact[leg][k] != 0 ? contact : no_contact)
+          .push_back(channel.update(run.signals[k].leg[leg]));
+    }
+  }
+  const MeasurementModel without = fit_measurement_model(contact, no_contact, config.fit);
+  for (const TorqueSample sample : {TorqueSample{1.3, 0.3}, {0.1, 0.02}, {0.6, 0.1}}) {
+    EXPECT_EQ(with(sample).contact, without(sample).contact);
+    EXPECT_EQ(with(sample).no_contact, without(sample).no_contact);
+  }
+}
+
+TEST(MissingRecords, RepeatTheValuesBeforeInTheFitOfPhases) {
+  const Experiment experiment = synthetic_experiment({"phase"});
+  RunSignals gaps = synthetic_run(first_fit_run);
+  RunSignals repeats = gaps;
+  for (std::size_t k = 700; k < 710; ++k) {
+    gaps.signals[k] = nothing();
+    repeats.signals[k] = repeats.signals[699];
+  }
+  gaps.signals[1200].leg[0].wheel.torque = nan;
+  repeats.signals[1200].leg[0].wheel.torque = repeats.signals[1199].leg[0].wheel.torque;
+  const auto model = [&](const RunSignals& run) {
+    return fit_models(experiment, {run}).at("mujoco").at("phase").phase->model;
+  };
+  const PhaseModel with = model(gaps);
+  const PhaseModel expected = model(repeats);
+  EXPECT_EQ(with.seconds, expected.seconds);
+  ASSERT_EQ(with.torque.size(), expected.torque.size());
+  for (std::size_t i = 0; i < with.torque.size(); ++i) {
+    EXPECT_EQ(with.torque[i].log_density, expected.torque[i].log_density);
+  }
+  for (std::size_t i = 0; i < with.acceleration.size(); ++i) {
+    EXPECT_EQ(with.acceleration[i].log_density, expected.acceleration[i].log_density);
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
