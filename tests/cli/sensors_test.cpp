@@ -21,7 +21,8 @@ using ::testing::StartsWith;
 /// What a run of the tiny experiment wrote.
 std::map<std::string, std::size_t> run_tiny(const ScratchFolder& folder, const std::string& out,
                                             const std::string& flags = "") {
-  const Ended ended = touchdown_program("run tiny.yaml --out " + out + " " + flags, folder.path());
+  const Ended ended = touchdown_program(
+      "run tiny.yaml --set paper_tables=true --out " + out + " " + flags, folder.path());
   EXPECT_EQ(ended.exit_code, 0) << ended.errors;
   return result_files(folder / out);
 }
