@@ -1,7 +1,7 @@
 #include "noise/sensors/reported.hpp"
 
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <set>
 #include <thread>
 
@@ -89,7 +89,8 @@ std::set<std::string> different(const Steps& a, const Steps& b) {
   for (std::size_t k = 0; k < a.size(); ++k) {
     const auto left = numbers(a[k]), right = numbers(b[k]);
     for (std::size_t i = 0; i < left.size(); ++i) {
-      if (std::memcmp(&left[i].second, &right[i].second, sizeof(double)) != 0) {
+      if (std::bit_cast<std::uint64_t>(left[i].second) !=
+          std::bit_cast<std::uint64_t>(right[i].second)) {
         names.insert(left[i].first);
       }
     }
