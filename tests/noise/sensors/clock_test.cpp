@@ -53,11 +53,15 @@ TEST(Delay, RepeatsTheFirstValueAndThenTheOneOfSoManyStepsBefore) {
 }
 
 TEST(Delay, IsRoundedToWholeStepsAndComesAfterTheHeldSamples) {
-  std::vector<double> values = counting(9);
-  std::vector<std::uint8_t> missing;
-  disturb_clock<double>(values, {.rate = 500.0, .delay = 0.0014}, period, draws, nan, missing);
-  EXPECT_EQ(values, (std::vector<double>{0, 0, 0, 2, 2, 4, 4, 6, 6}));
-  EXPECT_TRUE(missing.empty());
+  const auto late_by = [](double seconds) {
+    std::vector<double> values = counting(9);
+    std::vector<std::uint8_t> missing;
+    disturb_clock<double>(values, {.rate = 500.0, .delay = seconds}, period, draws, nan, missing);
+    EXPECT_TRUE(missing.empty());
+    return values;
+  };
+  EXPECT_EQ(late_by(0.0014), (std::vector<double>{0, 0, 0, 2, 2, 4, 4, 6, 6}));
+  EXPECT_EQ(late_by(0.0016), (std::vector<double>{0, 0, 0, 0, 2, 2, 4, 4, 6}));
 }
 
 std::vector<Drop> many_drops(const Dropout& dropout, std::size_t steps = 4'000'000) {

@@ -144,20 +144,54 @@ TEST(Reported, AChannelMoreChangesNoOtherChannelsDraws) {
   }
 }
 
-TEST(Reported, DisturbancesDoNotShareDraws) {
-  // Two of them together are the sum of each alone.
-  const Steps still(300);
-  const auto torque = [&](const std::string& text) {
-    std::vector<double> values;
-    for (const auto& o : reported("torque: " + text, still)) values.push_back(o.servo[1].torque);
-    return values;
-  };
-  const auto both = torque("{white: 0.5, coloured: {sd: 1.0}, bias: {sd: 1.0, walk: 0.2}}");
+/// A knee's torque of nothing through a channel.
+std::vector<double> knee_torque(const std::string& channel, std::size_t steps) {
+  std::vector<double> values;
+  for (const auto& o : reported("torque: " + channel, Steps(steps))) {
+    values.push_back(o.servo[models::index(models::Servo::left_knee)].torque);
+  }
+  return values;
+}
+
+TEST(Reported, DisturbancesTogetherAreTheSumOfEachAlone) {
+  const auto torque = [](const std::string& channel) { return knee_torque(channel, 300); };
+  const auto all = torque("{white: 0.5, coloured: {sd: 1.0}, bias: {sd: 1.0, walk: 0.2}}");
   const auto white = torque("{white: 0.5}"), coloured = torque("{coloured: {sd: 1.0}}");
   const auto bias = torque("{bias: {sd: 1.0}}"), walk = torque("{bias: {walk: 0.2}}");
-  for (std::size_t k = 0; k < both.size(); ++k) {
-    EXPECT_NEAR(both[k], white[k] + coloured[k] + bias[k] + walk[k], 1e-12);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    EXPECT_NEAR(all[k], white[k] + coloured[k] + bias[k] + walk[k], 1e-12);
   }
+}
+
+TEST(Reported, DisturbancesDoNotShareDraws) {
+  constexpr std::size_t steps = 40'000;
+  const auto white = knee_torque("{white: 1.0}", steps);
+  // Of a process that forgets everything within a step, only its draws are left.
+  const auto coloured = knee_torque("{coloured: {sd: 1.0, time_constant: 1e-6}}", steps);
+  auto walk = knee_torque("{bias: {walk: 1.0}}", steps);
+  for (std::size_t k = steps; k-- > 1;) walk[k] = (walk[k] - walk[k - 1]) / std::sqrt(period);
+  const std::vector<std::vector<double>> all = {white, coloured, walk};
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    EXPECT_NEAR(correlation(all[a]), 1.0, 0.05) << a;
+    for (std::size_t b = 0; b < a; ++b) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < steps; ++k) sum += all[a][k] * all[b][k];
+      EXPECT_NEAR(sum / steps, 0.0, 5.0 / std::sqrt(steps)) << a << " and " << b;
+    }
+  }
+}
+
+TEST(Reported, EveryNumberOfEverySensorHasDrawsOfItsOwn) {
+  const std::string white = "{white: 1.0}\n";
+  const Steps all = reported("torque: " + white + "position: " + white + "velocity: " + white +
+                                 "accelerometer: " + white + "gyroscope: " + white,
+                             Steps(1));
+  std::set<double> draws;
+  for (const auto& [name, number] : numbers(all.front())) {
+    if (number == 0.0 || name.starts_with("linear") || name == "attitude") continue;
+    EXPECT_TRUE(draws.insert(number).second) << name;
+  }
+  EXPECT_EQ(draws.size(), 3 * models::servo_count + 6U);
 }
 
 TEST(Reported, LegsRunsAndSeedsHaveDrawsOfTheirOwn) {

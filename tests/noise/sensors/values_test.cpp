@@ -183,6 +183,11 @@ TEST(Vibration, OfBothWheelsAddsUpAndAWheelThatStandsDoesNotShake) {
   EXPECT_EQ(shaken({still, still}, 0.1, 0), std::vector<double>(100));
 }
 
+TEST(Vibration, HasAPhaseOfItsOwnForEachWheel) {
+  const WheelTurns turns = turning(10.0, 0.0, 1.0, 100), still = turning(0.0, 0.0, 1.0, 100);
+  EXPECT_NE(shaken({turns, still}, 0.1, 0), shaken({still, turns}, 0.1, 0));
+}
+
 TEST(Vibration, HasAPhaseThatIsUniformOverTheRuns) {
   const TurnsOfBoth turns = {turning(1.0, 0.0, 1.0, 1), turning(0.0, 0.0, 1.0, 1)};
   std::vector<double> first;
