@@ -48,9 +48,9 @@ void list() {
 }  // namespace
 
 void add_list(CLI::App& program, const CliSession& /*session*/) {
-  Verb verb(
-      program, "list",
-      "touchdown list\n\nShows the experiments, scenarios, sensors, simulators and estimators at hand.");
+  Verb verb(program, "list",
+            "touchdown list\n\nShows the experiments, scenarios, sensors, simulators and "
+            "estimators at hand.");
   verb.action(list);
 }
 
