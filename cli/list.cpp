@@ -40,6 +40,7 @@ std::string entries_text(const Entries& entries) {
 void list() {
   print_files("experiments", "experiments");
   print_files("scenarios", "scenarios");
+  print_files("robots, beside every MJCF", "models");
   print_files("sensors", "sensors");
   fmt::print("simulators\n{}\n", entries_text(simulators::simulator_entries()));
   fmt::print("estimators\n{}", entries_text(experiments::estimator_entries()));
@@ -49,7 +50,7 @@ void list() {
 
 void add_list(CLI::App& program, const CliSession& /*session*/) {
   Verb verb(program, "list",
-            "touchdown list\n\nShows the experiments, scenarios, sensors, simulators and "
+            "touchdown list\n\nShows the experiments, scenarios, robots, sensors, simulators and "
             "estimators at hand.");
   verb.action(list);
 }

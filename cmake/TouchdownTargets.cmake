@@ -152,14 +152,16 @@ set(TOUCHDOWN_REFERENCE_DATA ${PROJECT_SOURCE_DIR}/../shared/data CACHE PATH
 
 # touchdown_test(<folder> DEPENDS <target>...)
 # makes the program test_<folder> of every .cpp below this folder; every TEST in it becomes one CTest
-# test.
+# test. ONE_BY_ONE: as for a library.
 function(touchdown_test folder)
-  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "ONE_BY_ONE" "" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
   add_executable(test_${folder} ${sources})
   target_link_libraries(test_${folder} PRIVATE touchdown_flags ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   touchdown_precompile(test_${folder} touchdown_tests_precompiled)
-  touchdown_unity(test_${folder} ${sources})
+  if(NOT ARG_ONE_BY_ONE)
+    touchdown_unity(test_${folder} ${sources})
+  endif()
   target_compile_definitions(test_${folder} PRIVATE
     TOUCHDOWN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TOUCHDOWN_REFERENCE_DATA="${TOUCHDOWN_REFERENCE_DATA}")

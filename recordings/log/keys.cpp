@@ -13,6 +13,7 @@ namespace {
 using Role = LogKey::Role;
 
 constexpr std::array<std::string_view, 3> reading_names = {"position", "velocity", "torque"};
+constexpr std::array<std::string_view, 1> joint_truth_names = {"joint_torque"};
 constexpr std::array<std::string_view, 6> command_names = {
     "feedforward_torque", "position", "velocity", "kp_scale", "kd_scale", "maximum_torque"};
 constexpr std::array<std::string_view, models::wheel_count> sides = {"left", "right"};
@@ -72,6 +73,8 @@ std::vector<LogKey> make_keys() {
   }
   keys.push_back({"observation.sim.contact.body_touches_terrain", log_slot::body_touches_terrain, 1,
                   Role::truth, true});
+  add_servos(keys, "observation.sim.servo", joint_truth_names, log_slot::joint_torque,
+             Role::joint_truth);
   add_truth(keys, "observation.bullet", Role::alias);
   add_contact_counts(keys, "observation.sim");
   add_contact_counts(keys, "observation.bullet");

@@ -34,7 +34,8 @@ inline constexpr std::size_t true_imu_velocity = command + 49;      // 3
 inline constexpr std::size_t normal_force = command + 52;           // left, right
 inline constexpr std::size_t contact_points = command + 54;         // left, right
 inline constexpr std::size_t body_touches_terrain = command + 56;
-inline constexpr std::size_t count = command + 57;
+inline constexpr std::size_t joint_torque = command + 57;  // 6: what joints feel
+inline constexpr std::size_t count = command + 63;
 }  // namespace log_slot
 
 /// All numbers of one control step.
@@ -43,10 +44,11 @@ using LogValues = std::array<double, log_slot::count>;
 /// One key of Upkie's log layout that we know.
 struct LogKey {
   enum class Role {
-    needed,    ///< no estimator can do without it
-    optional,  ///< has a default or can be derived; we write it all the same
-    truth,     ///< ground truth; written for simulated runs
-    alias,     ///< where some version of Upkie keeps it; only ever read
+    needed,       ///< no estimator can do without it
+    optional,     ///< has a default or can be derived; we write it all the same
+    truth,        ///< ground truth; written for simulated runs
+    joint_truth,  ///< likewise, where joints feel other torques than servos report
+    alias,        ///< where some version of Upkie keeps it; only ever read
   };
   std::string path;  ///< dotted
   std::size_t slot = 0;

@@ -24,7 +24,7 @@ void write_recording(const Recording& recording, const std::filesystem::path& pa
     std::ofstream file(temporary, std::ios::binary);
     if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
     try {
-      LogWriter writer(file, recording.info, with_truth);
+      LogWriter writer(file, recording.info, truth_of(recording));
       for (std::size_t step = 0; step < recording.steps(); ++step) {
         writer.write(recording.observation[step], recording.action[step],
                      with_truth ? &recording.truth[step] : nullptr);

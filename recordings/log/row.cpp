@@ -132,6 +132,10 @@ LogValues to_values(const models::Observation& observation, const models::Action
     write(log_slot::normal_force + wheel, truth->wheel_normal_force[wheel]);
   }
   write(log_slot::body_touches_terrain, truth->body_touches_terrain ? 1.0 : 0.0);
+  if (truth->joint_torque) {
+    std::copy(truth->joint_torque->begin(), truth->joint_torque->end(),
+              values.begin() + log_slot::joint_torque);
+  }
   return values;
 }
 
@@ -160,6 +164,10 @@ LogRow to_row(const LogValues& values, const LogPresence& present) {
     truth.wheel_normal_force[wheel] = normal_force(values, present, wheel);
   }
   truth.body_touches_terrain = values[log_slot::body_touches_terrain] != 0.0;
+  if (present[log_slot::joint_torque]) {
+    std::copy_n(values.begin() + log_slot::joint_torque, models::servo_count,
+                truth.joint_torque.emplace().begin());
+  }
   return row;
 }
 

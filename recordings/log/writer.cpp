@@ -5,12 +5,27 @@
 
 namespace touchdown::recordings {
 
-LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, bool with_truth)
+WrittenTruth truth_of(const Recording& recording) {
+  if (recording.truth.empty()) return WrittenTruth::none;
+  return recording.truth.front().joint_torque ? WrittenTruth::of_robot_and_joints
+                                              : WrittenTruth::of_robot;
+}
+
+LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, WrittenTruth truth)
     : stream_(stream),
       info_(std::move(info)),
-      with_truth_(with_truth),
+      with_truth_(truth != WrittenTruth::none),
       tree_([&](const LogKey& key) {
-        return key.role != LogKey::Role::alias && (with_truth || key.role != LogKey::Role::truth);
+        switch (key.role) {
+          case LogKey::Role::alias:
+            return false;
+          case LogKey::Role::truth:
+            return truth != WrittenTruth::none;
+          case LogKey::Role::joint_truth:
+            return truth == WrittenTruth::of_robot_and_joints;
+          default:
+            return true;
+        }
       }),
       packer_(buffer_) {}
 

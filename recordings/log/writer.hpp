@@ -9,14 +9,20 @@
 
 namespace touchdown::recordings {
 
+/// Which ground truth a log holds.
+enum class WrittenTruth : int { none, of_robot, of_robot_and_joints };
+
+/// The truth that a run knows: of the joints where its actuators are not ideal.
+WrittenTruth truth_of(const Recording& recording);
+
 /// Writes a log in Upkie's layout, row by row, at a constant memory: one MessagePack map per
 /// control step, ground truth under `observation.sim`, `info` under `config.touchdown` of the first
 /// record. Reading it back gives the same bits. Wrap it in `write_atomically` to get a file whole
 /// or not at all.
 class LogWriter {
  public:
-  /// With `with_truth`, every row must have its ground truth. `stream` must outlive the writer.
-  LogWriter(std::ostream& stream, RecordingInfo info, bool with_truth);
+  /// Every row must have the ground truth that is to be written. `stream` must outlive the writer.
+  LogWriter(std::ostream& stream, RecordingInfo info, WrittenTruth truth);
 
   /// Errors: `Error` when the stream fails or the ground truth is missing.
   void write(const models::Observation& observation, const models::Action& action,

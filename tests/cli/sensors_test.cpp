@@ -19,7 +19,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 /// What a run of the tiny experiment wrote.
-std::map<std::string, std::size_t> run_tiny(const ScratchFolder& folder, const std::string& out,
+std::map<std::string, std::size_t> run_with(const ScratchFolder& folder, const std::string& out,
                                             const std::string& flags = "") {
   const Ended ended = touchdown_program(
       "run tiny.yaml --set paper_tables=true --out " + out + " " + flags, folder.path());
@@ -30,8 +30,8 @@ std::map<std::string, std::size_t> run_tiny(const ScratchFolder& folder, const s
 TEST(Sensors, ThatAreIdealGiveTheBytesOfAnExperimentThatNamesNone) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
-  const auto none = run_tiny(folder, "none");
-  const auto ideal = run_tiny(folder, "ideal", "--set sensors=sensors/ideal.yaml");
+  const auto none = run_with(folder, "none");
+  const auto ideal = run_with(folder, "ideal", "--set sensors=sensors/ideal.yaml");
   EXPECT_THAT(different_files(none, ideal), IsEmpty());
   EXPECT_THAT(read_file(folder / "ideal/config.yaml"), Not(HasSubstr("sensors")));
   EXPECT_THAT(read_file(folder / "none/tables/tables.md"), Not(HasSubstr("sensors as in")));
@@ -40,8 +40,8 @@ TEST(Sensors, ThatAreIdealGiveTheBytesOfAnExperimentThatNamesNone) {
 TEST(Sensors, ChangeWhatIsHeardAndFittedAndNotWhatIsRecorded) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
-  const auto none = run_tiny(folder, "none");
-  const auto harsh = run_tiny(folder, "harsh", "--set sensors=sensors/harsh.yaml");
+  const auto none = run_with(folder, "none");
+  const auto harsh = run_with(folder, "harsh", "--set sensors=sensors/harsh.yaml");
   const auto different = different_files(none, harsh);
   EXPECT_THAT(different, Each(Not(StartsWith("recordings/"))));
   for (const char* name : {"tables/success.csv", "tables/latency.csv", "models/mujoco_robust.npz",
@@ -58,9 +58,9 @@ TEST(Sensors, GiveTheSameBytesAgainWhateverTheNumberOfThreadsAndTheEngines) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
   const std::string harsh = "--set sensors=sensors/harsh.yaml --set workers=";
-  const auto first = run_tiny(folder, "a", harsh + "4");
-  EXPECT_THAT(different_files(first, run_tiny(folder, "b", harsh + "1")), IsEmpty());
-  const auto mujoco = run_tiny(folder, "c", harsh + "2 --set simulators=[mujoco]");
+  const auto first = run_with(folder, "a", harsh + "4");
+  EXPECT_THAT(different_files(first, run_with(folder, "b", harsh + "1")), IsEmpty());
+  const auto mujoco = run_with(folder, "c", harsh + "2 --set simulators=[mujoco]");
   for (const char* same : {"models/mujoco_robust.npz", "recordings/mujoco_step_test_001.mpack"}) {
     EXPECT_EQ(mujoco.at(same), first.at(same)) << same;
   }

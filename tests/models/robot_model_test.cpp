@@ -75,7 +75,7 @@ TEST(Upkie, JointsTurnTheRightWay) {
 }
 
 TEST(Upkie, ForWhichMemoryIsShortIsNoErrorOfTheEngine) {
-  compile_robot_model(upkie, stairs());  // from then on MuJoCo complains to us
+  compile_robot_model(upkie_mjcf, stairs());  // from then on MuJoCo complains to us
   EXPECT_THROW(mju_error("Could not allocate mjData buffer"), std::bad_alloc);
   EXPECT_THROW(mju_error("mjData has no body"), Error);
 }

@@ -46,6 +46,8 @@ std::vector<std::uint64_t> bits(const Recording& recording, std::size_t step) {
   add_vector(t.base_angular_velocity);
   add_vector(t.imu_linear_velocity);
   add({t.wheel_normal_force[0], t.wheel_normal_force[1], t.body_touches_terrain ? 1.0 : 0.0});
+  if (!t.joint_torque) return all;
+  for (const double torque : *t.joint_torque) add({torque});
   return all;
 }
 
@@ -72,6 +74,23 @@ TEST(RoundTrip, KeepsEveryBitOfASimulatedRun) {
   std::vector<std::string> warnings;
   expect_same(read_recording(folder / "run.mpack", &warnings), recording);
   EXPECT_THAT(warnings, ::testing::IsEmpty());
+}
+
+TEST(RoundTrip, KeepsWhatJointsFeelWhereServosDoNotKnowIt) {
+  const ScratchFolder folder;
+  Recording recording = sample_recording(5);
+  write_recording(recording, folder / "ideal.mpack");
+  for (std::size_t step = 0; step < recording.steps(); ++step) {
+    auto& torque = recording.truth[step].joint_torque.emplace();
+    for (std::size_t i = 0; i < torque.size(); ++i) {
+      torque[i] = 0.1 * static_cast<double>(step) - static_cast<double>(i);
+    }
+  }
+  write_recording(recording, folder / "run.mpack");
+  const Recording read = read_recording(folder / "run.mpack");
+  ASSERT_TRUE(read.truth.back().joint_torque);
+  expect_same(read, recording);
+  EXPECT_EQ(read_file(folder / "ideal.mpack").find("joint_torque"), std::string::npos);
 }
 
 TEST(RoundTrip, KeepsARunWithoutGroundTruthOrOutcome) {
@@ -117,7 +136,7 @@ TEST(RoundTrip, SameRecordingGivesTheSameBytes) {
 TEST(RoundTrip, StreamsRowByRow) {
   const Recording recording = sample_recording(5);
   std::stringstream stream;
-  LogWriter writer(stream, recording.info, true);
+  LogWriter writer(stream, recording.info, WrittenTruth::of_robot);
   for (std::size_t i = 0; i < recording.steps(); ++i) {
     writer.write(recording.observation[i], recording.action[i], &recording.truth[i]);
   }
@@ -135,7 +154,7 @@ TEST(RoundTrip, StreamsRowByRow) {
 
 TEST(RoundTrip, ARowWithoutItsTruthIsRefused) {
   std::stringstream stream;
-  LogWriter writer(stream, {}, true);
+  LogWriter writer(stream, {}, WrittenTruth::of_robot);
   EXPECT_THROW(writer.write({}, {}, nullptr), Error);
 }
 
@@ -149,7 +168,7 @@ TEST(RoundTrip, ColumnsOfDifferentLengthsAreRefusedAndLeaveNoFile) {
 
 TEST(RoundTrip, AFullDiskIsAnError) {
   std::ofstream full("/dev/full", std::ios::binary);
-  LogWriter writer(full, {}, false);
+  LogWriter writer(full, {}, WrittenTruth::none);
   const auto write_much = [&] {
     for (int i = 0; i < 1000; ++i) writer.write({}, {}, nullptr);
   };
