@@ -82,7 +82,7 @@ TEST_F(RobotFile, JointsOfAnMjcfMaySayTheirFrictionThemselves) {
 
 TEST_F(RobotFile, WithABadValueSaysWhereAndWhatWasExpected) {
   EXPECT_THAT(complaint_about("mjcf: upkie.xml\nactuators:\n  knee: {friction: -1}\n"),
-              AllOf(HasSubstr("robot.yaml:3:19"), HasSubstr("friction")));
+              AllOf(HasSubstr("robot.yaml:3:20"), HasSubstr("friction")));
   EXPECT_THAT(complaint_about("mjcf: upkie.xml\nactuators:\n  knee: {command_delay: -0.1}\n"),
               HasSubstr("command_delay"));
   EXPECT_THAT(complaint_about("mjcf: upkie.xml\nactuators:\n  knee: {fricton: 1}\n"),
