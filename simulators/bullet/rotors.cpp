@@ -4,6 +4,9 @@ namespace touchdown::simulators {
 
 namespace {
 
+/// Share of the newest acceleration. With 1, stiff servos of robots that stand ring; 0.5 suffices.
+constexpr double smoothing = 0.25;
+
 btVector3 axis_in_world(const btMultiBody& robot, int link) {
   return robot.localDirToWorld(link, robot.getLink(link).getAxisTop(0));
 }
@@ -27,19 +30,22 @@ Rotors::Rotors(const models::RobotModel& model, const BulletWorld& world) {
 
 void Rotors::take_back(btMultiBody& robot, double period) {
   for (Rotor& rotor : rotors_) {
-    const int parent = robot.getParent(rotor.link);
+    const int above = robot.getParent(rotor.link);
     const btVector3 axis = axis_in_world(robot, rotor.link);
     const double joint_velocity = robot.getJointVel(rotor.link);
-    const double parent_velocity = angular_velocity(robot, parent).dot(axis);
+    const double parent_velocity = angular_velocity(robot, above).dot(axis);
     if (started_) {
       const double joint = (joint_velocity - rotor.joint_velocity) / period;
-      const double above = (parent_velocity - rotor.parent_velocity) / period;
-      robot.addJointTorque(rotor.link, rotor.inertia * above);
-      const btVector3 torque = rotor.inertia * (joint + above) * axis;
-      if (parent < 0) {
+      const double parent = (parent_velocity - rotor.parent_velocity) / period;
+      rotor.joint_acceleration += smoothing * (joint - rotor.joint_acceleration);
+      rotor.parent_acceleration += smoothing * (parent - rotor.parent_acceleration);
+      robot.addJointTorque(rotor.link, rotor.inertia * rotor.parent_acceleration);
+      const btVector3 torque =
+          rotor.inertia * (rotor.joint_acceleration + rotor.parent_acceleration) * axis;
+      if (above < 0) {
         robot.addBaseTorque(torque);
       } else {
-        robot.addLinkTorque(parent, torque);
+        robot.addLinkTorque(above, torque);
       }
     }
     rotor.joint_velocity = joint_velocity;

@@ -15,8 +15,9 @@ namespace touchdown::simulators {
 ///
 ///     J·[a·(a·ẍ) − e·q̈]  =  J·α on the joint,  J·(q̈ + α) on the parent about the axis,
 ///
-/// is taken back as a force, with the accelerations of the last physics step. It converges while
-/// the rotor is lighter than the parent.
+/// is taken back as a force, with the accelerations of the last few physics steps: what is faster
+/// than that feels the rotor as a part of the link. It converges while the rotor is lighter than
+/// what the joint hangs on.
 class Rotors {
  public:
   Rotors(const models::RobotModel& model, const BulletWorld& world);
@@ -28,8 +29,10 @@ class Rotors {
   struct Rotor {
     int link;
     double inertia;
-    double joint_velocity = 0.0;   ///< at the last step (rad/s)
-    double parent_velocity = 0.0;  ///< about the joint's axis (rad/s)
+    double joint_velocity = 0.0;       ///< at the last step (rad/s)
+    double parent_velocity = 0.0;      ///< about the joint's axis (rad/s)
+    double joint_acceleration = 0.0;   ///< smoothed (rad/s²)
+    double parent_acceleration = 0.0;  ///< likewise
   };
 
   std::vector<Rotor> rotors_;

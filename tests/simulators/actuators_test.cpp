@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/simulators/upkie.hpp"
+#include "tests/simulators/standing.hpp"
 
 namespace touchdown::simulators {
 namespace {
@@ -163,8 +163,6 @@ TEST_P(Actuated, StiffPreslidingOfALightJointStaysStable) {
   EXPECT_LT(std::abs(simulator->state().joint_position[left_wheel]), 1.0) << "it came to rest";
 }
 
-INSTANTIATE_TEST_SUITE_P(Engine, Actuated, ::testing::ValuesIn(simulator_names()), engine_name);
-
 /// Every joint of a robot in free flight.
 void all_joints(models::RobotModel& robot, const Actuator& leg, const Actuator& of_wheel) {
   without_gravity(robot);
@@ -199,6 +197,31 @@ double disagreement(const std::shared_ptr<const models::RobotModel>& model) {
   }
   return difference / largest;
 }
+
+TEST_P(Actuated, RobotOnStiffLegsStandsWithHeavyRotors) {
+  const auto model = upkie([](models::RobotModel& robot) {
+    for (std::size_t i = 0; i < models::servo_count; ++i) {
+      if (i % 3 != 2) set(robot, i, {.armature = 0.003});
+    }
+  });
+  for (const double hip : {0.0, 0.455}) {  // straight legs ring first
+    const auto simulator = make(model);
+    RobotState start = upright();
+    start.joint_position = {hip, 1.7385 * hip, 0.0, -hip, -1.7385 * hip, 0.0};
+    simulator->reset(start);
+    double fastest = 0.0;
+    for (int i = 0; i < 1500; ++i) {
+      simulator->step(locked(start), guide(simulator->state()));
+      if (i < 1000) continue;
+      for (const double velocity : simulator->state().joint_velocity) {
+        fastest = std::max(fastest, std::abs(velocity));
+      }
+    }
+    EXPECT_LT(fastest, 0.05) << "hip at " << hip;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engine, Actuated, ::testing::ValuesIn(simulator_names()), engine_name);
 
 TEST(ActuatorParity, RotorsOfAFreeRobot) {
   const auto model = upkie([](models::RobotModel& robot) {
