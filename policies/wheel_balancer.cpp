@@ -16,11 +16,15 @@ double slewed(double value, double target, double most) {
 }  // namespace
 
 WheelBalancer::WheelBalancer(const WheelBalancerConfig& config, VelocityScript script,
-                             double wheel_radius, double period)
-    : config_(config), script_(std::move(script)), wheel_radius_(wheel_radius), period_(period) {}
+                             double wheel_radius, double period, CrouchScript crouch)
+    : config_(config),
+      script_(std::move(script)),
+      wheel_radius_(wheel_radius),
+      period_(period),
+      crouch_(std::move(crouch)) {}
 
 void WheelBalancer::reset(const models::Observation& observation) {
-  *this = WheelBalancer(config_, std::move(script_), wheel_radius_, period_);
+  *this = WheelBalancer(config_, std::move(script_), wheel_radius_, period_, std::move(crouch_));
   for (std::size_t i = 0; i < models::servo_count; ++i) posture_[i] = observation.servo[i].position;
   last_distance_ = rolled_distance(observation);
   last_yaw_ = observation.yaw;
@@ -49,6 +53,18 @@ void WheelBalancer::follow_script(double time) {
   target_velocity_ = slewed(target_velocity_, command.velocity, config_.max_acceleration * period_);
   target_position_ += target_velocity_ * period_;
   target_yaw_ += command.yaw_rate * period_;
+}
+
+void WheelBalancer::follow_crouch(double time) {
+  const CrouchCommand* command = crouch_at(crouch_, time);
+  if (command == nullptr) return;
+  double& left_hip = posture_[models::index(models::Servo::left_hip)];
+  const double hip = slewed(left_hip, command->hip, command->rate * period_);
+  const double bend = hip - left_hip;
+  left_hip = hip;
+  posture_[models::index(models::Servo::left_knee)] -= knee_per_hip * bend;
+  posture_[models::index(models::Servo::right_hip)] -= bend;
+  posture_[models::index(models::Servo::right_knee)] += knee_per_hip * bend;
 }
 
 bool WheelBalancer::in_the_air(const models::Observation& observation) {
@@ -95,6 +111,7 @@ double WheelBalancer::yaw_torque(const models::Observation& observation) const {
 models::Action WheelBalancer::act(const models::Observation& observation) {
   update_odometry(observation);
   follow_script(observation.time);
+  follow_crouch(observation.time);
   update_ground_velocity(observation);
 
   models::Action action;

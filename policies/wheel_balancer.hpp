@@ -3,20 +3,21 @@
 #include <array>
 
 #include "estimator/upkie_observer.hpp"
+#include "policies/crouching.hpp"
 #include "policies/driving.hpp"
 #include "policies/policy.hpp"
 
 namespace touchdown::policies {
 
 /// Keeps a wheeled biped upright on its wheels while it follows a velocity script, with its legs
-/// stiff in the posture they had at the reset: Upkie's PI law on pitch and position, plus feedback
-/// of the heading. It knows where it is by wheel odometry and whether it is in the air by Upkie's
-/// own wheel contact observer.
+/// stiff in the posture they had at the reset, or that a crouch script bends them to: Upkie's PI
+/// law on pitch and position, plus feedback of the heading. It knows where it is by wheel odometry
+/// and whether it is in the air by Upkie's own wheel contact observer.
 class WheelBalancer : public Policy {
  public:
   /// `wheel_radius` in m; `period` of the control loop in s.
   WheelBalancer(const WheelBalancerConfig& config, VelocityScript script, double wheel_radius,
-                double period);
+                double period, CrouchScript crouch = {});
 
   void reset(const models::Observation& observation) override;
   models::Action act(const models::Observation& observation) override;
@@ -26,6 +27,7 @@ class WheelBalancer : public Policy {
 
  private:
   void follow_script(double time);
+  void follow_crouch(double time);
   void update_odometry(const models::Observation& observation);
   bool in_the_air(const models::Observation& observation);
   void update_ground_velocity(const models::Observation& observation);
@@ -36,6 +38,7 @@ class WheelBalancer : public Policy {
   VelocityScript script_;
   double wheel_radius_;
   double period_;
+  CrouchScript crouch_;
   std::array<WheelContactObserver, models::wheel_count> contact_;
 
   std::array<double, models::servo_count> posture_ = {};

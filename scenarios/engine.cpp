@@ -94,7 +94,8 @@ recordings::Recording play(const Scenario& scenario, simulators::Simulator& simu
   recording.truth.reserve(most_steps);
 
   policies::WheelBalancer policy(scenario.balancer, scenario.velocity,
-                                 simulator.model().wheel_radius, simulator.control_period());
+                                 simulator.model().wheel_radius, simulator.control_period(),
+                                 scenario.crouch);
   simulator.reset(start_pose(simulator.model(), scenario.terrain, scenario.start));
   policy.reset(simulator.observation());
   Referee referee(scenario.end);

@@ -1,5 +1,7 @@
 #include "scenarios/perturbation.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/fields.hpp"
@@ -32,7 +34,9 @@ enum Stream : std::uint64_t {
   drive_standing,
   lift_hold,
   lift_pause,
-  lift_force
+  lift_force,
+  crouch_hold,
+  crouch_hip
 };
 
 void describe_range(Fields& fields, std::string_view key, Range& range, double low, double high) {
@@ -51,6 +55,14 @@ static void describe(Fields& fields, RandomDrive& drive) {
   fields("standing", drive.standing, 0.0, 1.0);
   describe_range(fields, "hold", drive.hold, 0.01, 1e4);
   fields("start", drive.start, 0.0, 1e4);
+}
+
+static void describe(Fields& fields, RandomCrouches& crouches) {
+  describe_range(fields, "hip", crouches.hip, -1.26, 1.26);
+  fields("exponent", crouches.exponent, 0.1, 10.0);
+  describe_range(fields, "hold", crouches.hold, 0.01, 1e4);
+  fields("rate", crouches.rate, 1e-3, 100.0);
+  fields("start", crouches.start, 0.0, 1e4);
 }
 
 static void describe(Fields& fields, RandomLifts& lifts) {
@@ -72,6 +84,8 @@ void describe(Fields& fields, Perturbation& perturbation) {
   fields("servo_gain_scale", perturbation.servo_gain_scale, 0.0, 0.9);
   fields("force_scale", perturbation.force_scale, 0.0, 1.0);
   fields.section("drive", perturbation.drive);
+  fields.know("crouching");
+  fields.section("crouching", perturbation.crouching);
   fields.section("lift", perturbation.lift);
 }
 
@@ -86,6 +100,20 @@ policies::VelocityScript random_drive(const RandomDrive& drive, double duration,
     const double yaw_rate = draw.between(drive_yaw_rate, {-drive.yaw_rate, drive.yaw_rate});
     script.push_back({time, stands ? 0.0 : velocity, stands ? 0.0 : yaw_rate});
     time += draw.between(drive_hold, drive.hold);
+  }
+  return script;
+}
+
+policies::CrouchScript random_crouches(const RandomCrouches& crouches, double duration,
+                                       std::uint64_t seed, std::int64_t run) {
+  policies::CrouchScript script;
+  const auto& [low, high] = crouches.hip;
+  double time = crouches.start;
+  for (std::uint64_t entry = 0; time < duration; ++entry) {
+    const Draw draw(seed, run, entry);
+    const double share = std::pow(draw.between(crouch_hip, {0.0, 1.0}), crouches.exponent);
+    script.push_back({time, low + (high - low) * share, crouches.rate});
+    time += draw.between(crouch_hold, crouches.hold);
   }
   return script;
 }

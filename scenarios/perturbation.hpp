@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "policies/crouching.hpp"
 #include "policies/driving.hpp"
 #include "policies/forces.hpp"
 
@@ -21,6 +22,15 @@ struct RandomDrive {
   double standing = 0.2;    ///< share of the commands that are to stand still
   Range hold = {1.0, 3.0};  ///< how long each command lasts (s)
   double start = 1.0;       ///< the first command's time (s)
+};
+
+/// Somebody making the robot crouch and rise: random heights, each held for a while.
+struct RandomCrouches {
+  Range hip = {0.0, 0.6};   ///< angle (rad)
+  double exponent = 1.0;    ///< of the draw between its ends: above 1 the first end is the likelier
+  Range hold = {2.0, 6.0};  ///< how long each command lasts, on its way and there (s)
+  double rate = 0.3;        ///< at which the hip gets there (rad/s)
+  double start = 0.0;       ///< the first command's time (s)
 };
 
 /// Somebody lifting the robot and letting go: random upward forces with pauses between.
@@ -45,8 +55,9 @@ struct Perturbation {
   double friction = 0.0;          ///< of the terrain
   double servo_gain_scale = 0.0;  ///< position and velocity gains of the legs' servos
   double force_scale = 0.0;       ///< every external force
-  std::optional<RandomDrive> drive;  ///< instead of the scenario's own velocity script
-  std::optional<RandomLifts> lift;   ///< besides the scenario's own forces
+  std::optional<RandomDrive> drive;         ///< instead of the scenario's own velocity script
+  std::optional<RandomCrouches> crouching;  ///< instead of the scenario's own crouch script
+  std::optional<RandomLifts> lift;          ///< besides the scenario's own forces
 };
 
 void describe(Fields& fields, Perturbation& perturbation);
@@ -54,6 +65,8 @@ void describe(Fields& fields, Perturbation& perturbation);
 /// The script of one run, until `duration` (s): a pure function of its arguments.
 policies::VelocityScript random_drive(const RandomDrive& drive, double duration, std::uint64_t seed,
                                       std::int64_t run);
+policies::CrouchScript random_crouches(const RandomCrouches& crouches, double duration,
+                                       std::uint64_t seed, std::int64_t run);
 policies::ForceScript random_lifts(const RandomLifts& lifts, double duration, std::uint64_t seed,
                                    std::int64_t run);
 

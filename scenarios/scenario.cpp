@@ -37,6 +37,7 @@ static void describe(Fields& fields, Scenario& scenario) {
   fields.section("start", scenario.start);
   fields.section("balancer", scenario.balancer);
   fields.list("velocity", scenario.velocity, scenario.velocity);
+  fields.list_if_any("crouch", scenario.crouch, scenario.crouch);
   fields.section("tether", scenario.tether);
   fields.list_if_any("guides", scenario.guides);
   fields.list_if_any("forces", scenario.forces);
@@ -93,6 +94,7 @@ Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t ru
   for (policies::TimedForce& timed : varied.forces) timed.force *= stronger;
   const double duration = scenario.end.duration;
   if (p.drive) varied.velocity = random_drive(*p.drive, duration, seed, run);
+  if (p.crouching) varied.crouch = random_crouches(*p.crouching, duration, seed, run);
   if (p.lift) {
     const policies::ForceScript lifts = random_lifts(*p.lift, duration, seed, run);
     varied.forces.insert(varied.forces.end(), lifts.begin(), lifts.end());

@@ -8,6 +8,7 @@
 
 #include "core/yaml.hpp"
 #include "models/terrain.hpp"
+#include "policies/crouching.hpp"
 #include "policies/driving.hpp"
 #include "policies/forces.hpp"
 #include "scenarios/perturbation.hpp"
@@ -42,6 +43,7 @@ struct Scenario {
   Start start;
   policies::WheelBalancerConfig balancer;
   policies::VelocityScript velocity;
+  policies::CrouchScript crouch;
   std::optional<policies::Tether> tether;
   std::vector<policies::Guide> guides;
   policies::ForceScript forces;

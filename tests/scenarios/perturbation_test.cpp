@@ -14,6 +14,7 @@ Perturbation all_of_it() {
           .servo_gain_scale = 0.2,
           .force_scale = 0.5,
           .drive = std::nullopt,
+          .crouching = std::nullopt,
           .lift = std::nullopt};
 }
 

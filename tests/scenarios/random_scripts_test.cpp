@@ -62,6 +62,55 @@ TEST(RandomLifts, LiftAndPauseWithinTheirRanges) {
   }
 }
 
+const RandomCrouches crouches = {
+    .hip = {-0.05, 0.27}, .exponent = 1.35, .hold = {2.0, 6.0}, .rate = 0.3, .start = 0.5};
+
+TEST(RandomCrouches, HoldEachHeightWithinItsRange) {
+  int commands = 0;
+  double mean = 0.0;
+  for (int run = 0; run < 200; ++run) {
+    const policies::CrouchScript script = random_crouches(crouches, 60.0, 3, run);
+    ASSERT_FALSE(script.empty());
+    EXPECT_EQ(script.front().time, 0.5);
+    EXPECT_GT(script.back().time, 54.0);
+    for (std::size_t i = 0; i < script.size(); ++i) {
+      EXPECT_GE(script[i].hip, -0.05);
+      EXPECT_LE(script[i].hip, 0.27);
+      EXPECT_EQ(script[i].rate, 0.3);
+      if (i > 0) {
+        EXPECT_GE(script[i].time - script[i - 1].time, 2.0);
+        EXPECT_LE(script[i].time - script[i - 1].time, 6.0);
+      }
+      ++commands;
+      mean += script[i].hip;
+    }
+  }
+  EXPECT_NEAR(mean / commands, -0.05 + 0.32 / 2.35, 0.005);  // the mean of U^1.35 is 1/2.35
+}
+
+TEST(RandomCrouches, AreAFunctionOfSeedAndRunAndALongerOneBeginsTheSame) {
+  const policies::CrouchScript one = random_crouches(crouches, 20.0, 3, 1);
+  const policies::CrouchScript longer = random_crouches(crouches, 40.0, 3, 1);
+  ASSERT_GT(longer.size(), one.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].time, longer[i].time);
+    EXPECT_EQ(one[i].hip, longer[i].hip);
+  }
+  EXPECT_NE(one[0].hip, random_crouches(crouches, 20.0, 3, 2)[0].hip);
+  EXPECT_NE(one[0].hip, random_crouches(crouches, 20.0, 4, 1)[0].hip);
+}
+
+TEST(RandomCrouches, ChangeNoOtherDraw) {
+  Scenario scenario = standing(10.0);
+  scenario.perturbation.drive = drive;
+  const Scenario without = perturbed(scenario, 3, 1);
+  scenario.perturbation.crouching = crouches;
+  Scenario with = perturbed(scenario, 3, 1);
+  EXPECT_FALSE(with.crouch.empty());
+  with.crouch.clear();
+  EXPECT_EQ(to_yaml(with), to_yaml(without));
+}
+
 TEST(RandomScripts, ReplaceTheSticksAndAddToTheForces) {
   Scenario scenario = standing(10.0);
   scenario.velocity = {{1.0, 0.5, 0.0}};
@@ -87,6 +136,11 @@ TEST(RandomScripts, ComplainOnTheLine) {
   EXPECT_THAT(complaint_about("drive:\n  hold: [2, 1]\n"),
               AllOf(HasSubstr("p.yaml:2:"), HasSubstr("[low, high]")));
   EXPECT_THAT(complaint_about("drive:\n  hold: [0, 1]\n"), HasSubstr("[low, high]"));
+  EXPECT_THAT(complaint_about("crouching:\n  hip: [0.3, 0.1]\n"),
+              AllOf(HasSubstr("p.yaml:2:"), HasSubstr("[low, high]")));
+  EXPECT_THAT(complaint_about("crouching: {exponnt: 2}\n"), HasSubstr("did you mean 'exponent'"));
+  EXPECT_THAT(complaint_about("crouching: {rate: 0}\n"), HasSubstr("rate: expected"));
+  EXPECT_THAT(complaint_about("crouchingg: {rate: 1}\n"), HasSubstr("did you mean 'crouching'"));
   EXPECT_THAT(complaint_about("lift:\n  force: 3\n"), HasSubstr("p.yaml:2:"));
   EXPECT_THAT(complaint_about("lift:\n  forse: [1, 2]\n"), HasSubstr("did you mean 'force'"));
   EXPECT_THAT(complaint_about("drive:\n  standing: 1.5\n"), HasSubstr("standing: expected"));

@@ -50,5 +50,21 @@ TEST(StartPose, StandsOnItsWheelsWithTheCentreOfMassAboveThem) {
   }
 }
 
+TEST(StartPose, KneesThatBendAsCrouchesDoKeepTheTorsoUpright) {
+  const models::RobotModel model =
+      models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml", {});
+  const auto lean = [&](double hip, double knee_per_hip) {
+    const simulators::RobotState state =
+        start_pose(model, {}, {.hip = hip, .knee = knee_per_hip * hip});
+    return std::abs(Eigen::AngleAxisd(state.orientation).angle());
+  };
+  for (const double hip : {-0.05, 0.0, 0.1, 0.2, 0.3, 0.455}) {
+    EXPECT_LT(lean(hip, policies::knee_per_hip), 0.026) << hip;
+  }
+  EXPECT_LT(lean(0.455, policies::knee_per_hip), 0.002);
+  // The axle below the hip is not the axle below the centre of mass.
+  EXPECT_NEAR(lean(0.455, 2.0), 0.066, 0.002);
+}
+
 }  // namespace
 }  // namespace touchdown::scenarios
