@@ -14,6 +14,11 @@ VelocityCommand command_at(const VelocityScript& script, double time) {
 }
 
 void describe(Fields& fields, WheelBalancerConfig& config) {
+  if (fields.reading()) {
+    std::string gains = "touchdown";
+    fields.choose("gains", {"touchdown", "upkie"}, gains);
+    if (gains == "upkie") config = with_upkie_gains(config);
+  }
   fields("pitch_stiffness", config.pitch_stiffness, 0.0, 1e4);
   fields("pitch_damping", config.pitch_damping, 0.0, 1e4);
   fields("position_stiffness", config.position_stiffness, 0.0, 1e4);

@@ -43,6 +43,18 @@ struct WheelBalancerConfig {
   double leg_kd_scale = 2.0;        ///< of the hips and knees
 };
 
+/// The gains that Upkie ships with (github.com/upkie/upkie, upkie/cpp/controllers/WheelBalancer.h,
+/// `WheelBalancer::Parameters`): a third of our pitch damping, less than a quarter of our position
+/// damping.
+inline WheelBalancerConfig with_upkie_gains(WheelBalancerConfig config) {
+  config.pitch_stiffness = 20.0;
+  config.pitch_damping = 1.8;
+  config.position_stiffness = 1.6;
+  config.position_damping = 0.7;
+  return config;
+}
+
+/// `gains: upkie` begins with `with_upkie_gains`; what is written are the numbers alone.
 void describe(Fields& fields, WheelBalancerConfig& config);
 /// One command of a script; while it is read, the last one so far, which must be the latest.
 void describe(Fields& fields, VelocityCommand& command, const VelocityScript& script);

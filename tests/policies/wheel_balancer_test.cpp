@@ -184,5 +184,28 @@ TEST(WheelBalancer, ReadsItsGainsStrictly) {
   }
 }
 
+TEST(WheelBalancer, HasUpkiesGainsByName) {
+  const auto read = [](const std::string& text) {
+    return from_yaml<WheelBalancerConfig>(YamlDocument::parse(text, "gains.yaml"));
+  };
+  const WheelBalancerConfig upkie = read("gains: upkie");
+  EXPECT_EQ(upkie.pitch_stiffness, 20.0);
+  EXPECT_EQ(upkie.pitch_damping, 1.8);
+  EXPECT_EQ(upkie.position_stiffness, 1.6);
+  EXPECT_EQ(upkie.position_damping, 0.7);
+  EXPECT_EQ(upkie.max_velocity, WheelBalancerConfig{}.max_velocity);
+  EXPECT_EQ(read("{gains: upkie, pitch_damping: 2}").pitch_damping, 2.0);
+  EXPECT_EQ(read("gains: touchdown").pitch_damping, WheelBalancerConfig{}.pitch_damping);
+  // What is written are the numbers.
+  EXPECT_EQ(YAML::Dump(to_node(read(YAML::Dump(to_node(upkie))))), YAML::Dump(to_node(upkie)));
+  EXPECT_THAT(YAML::Dump(to_node(upkie)), ::testing::Not(HasSubstr("gains")));
+  try {
+    (void)read("gains: upki");
+    FAIL() << "no complaint";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("gains.yaml:1:"), HasSubstr("upkie")));
+  }
+}
+
 }  // namespace
 }  // namespace touchdown::policies
