@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/cross_simulator/tables.hpp"
+#include "experiments/moments/tables.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/phase_study/fit.hpp"
 #include "experiments/phase_study/tables.hpp"
@@ -106,6 +107,11 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
     if (experiment.phase_study) {
       result.studies.push_back(phase_study_text(listened));
       write_atomically(running.directory.file("tables", "phase_study.md"), result.studies.back());
+    }
+    if (experiment.moments) {
+      const std::vector<EngineTorques> torques = torques_by_engine(listened);
+      write_tables(torques, running.directory);
+      result.studies.push_back(moments_text(torques, experiment));
     }
     return 0;
   });

@@ -198,6 +198,8 @@ static void describe(Fields& fields, Experiment& experiment) {
       !draws || experiment.recordings != KeptRecordings::none, "recordings",
       "expected all or pictured: the video, the detail and the cross-simulator overlay are "
       "drawn from them");
+  fields.know("moments");
+  if (fields.present("moments", experiment.moments)) fields("moments", experiment.moments);
   if (fields.present("phase_study", experiment.phase_study)) {
     fields("phase_study", experiment.phase_study);
     fields.check(!experiment.phase_study || !experiment.fit_pieces.empty(), "phase_study",

@@ -133,6 +133,7 @@ struct Experiment {
                                              ///< `enabled: false`; an empty one means its defaults
   std::optional<PosteriorConfig> posterior;  ///< likewise
   std::optional<CrossSimulatorConfig> cross_simulator;
+  bool moments = false;       ///< adds tables of torques beside the real robot's (docs/realism.md)
   bool phase_study = false;   ///< adds what the phase filter's study measures (docs/protocol.md)
   bool paper_tables = false;  ///< print the paper's Tables I to III for every highlighted cell
   int workers = 0;            ///< threads; 0: one per core. Never changes a result.

@@ -33,9 +33,10 @@ constexpr std::array fixed_names = {
     FixedNames{"state/shards", R"(\d+_of_\d+)"},
     FixedNames{
         "tables",
-        "(agreement|calibration|classification|differences|labels|latency|reliability|runs|"
-        "sample_efficiency|sensitivity|success|torques|training|transfer|transitions|"
-        "verdicts|views)\\.csv|(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|"
+        "(agreement|calibration|classification|differences|labels|latency|moments|overlap|"
+        "reliability|runs|sample_efficiency|sensitivity|success|torque_distributions|torques|"
+        "training|transfer|transitions|verdicts|views)\\.csv|(cross_simulator|labels|phase_study|"
+        "tables)\\.md|tables\\.tex|"
         "summary\\.json"},
     FixedNames{"videos", R"(report\.(mp4|jpg))"},
     FixedNames{"figures", R"((training|sample_efficiency)\.(gp|png))"},

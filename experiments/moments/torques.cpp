@@ -1,0 +1,114 @@
+#include "experiments/moments/torques.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace touchdown::experiments {
+
+namespace {
+
+constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
+
+/// How often each cell of the (knee, wheel) plane was visited, as a share of all steps.
+using Density = std::map<std::array<long, 2>, double>;
+
+Density density_of(const std::vector<Stretch>& stretches) {
+  const auto cell = [](double torque) { return std::lround(torque / overlap_cell); };
+  Density density;
+  double steps = 0.0;
+  for (const Stretch& stretch : stretches) {
+    for (std::size_t k = 0; k < stretch.knee.size(); ++k, ++steps) {
+      ++density[{cell(stretch.knee[k]), cell(stretch.wheel[k])}];
+    }
+  }
+  for (auto& [where, share] : density) share /= steps;
+  return density;
+}
+
+/// Covariance of steps that are `lag` (s) apart, within one stretch; NaN where there are none.
+double autocovariance(const std::vector<Stretch>& stretches, Joint joint, double mean, double lag) {
+  double sum = 0.0;
+  double pairs = 0.0;
+  for (const Stretch& stretch : stretches) {
+    const std::vector<double>& torque = (stretch.*joint);
+    const auto apart = static_cast<std::size_t>(std::llround(lag / stretch.period));
+    for (std::size_t k = apart; k < torque.size(); ++k, ++pairs) {
+      sum += (torque[k - apart] - mean) * (torque[k] - mean);
+    }
+  }
+  return sum / pairs;
+}
+
+double autocorrelation_time(const std::vector<Stretch>& stretches, Joint joint, double mean,
+                            double variance) {
+  constexpr double shortest = 0.001;
+  constexpr double longest = 10.0;
+  for (double lag = shortest; lag <= longest; lag = std::max(lag + shortest, 1.05 * lag)) {
+    if (autocovariance(stretches, joint, mean, lag) < variance / std::numbers::e) return lag;
+  }
+  return not_defined;
+}
+
+}  // namespace
+
+void add_torques(const RunSignals& run, double skip, HeardTorques& heard) {
+  const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+  for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
+    constexpr int gap = 2;
+    int last = gap;
+    for (auto k = static_cast<std::size_t>(std::llround(skip / period)); k < run.steps(); ++k) {
+      const Signals& signals = run.signals[k];
+      const int state = is_heard(signals) ? run.contact[leg][k] : gap;
+      if (state != gap) {
+        std::vector<Stretch>& stretches = heard[static_cast<std::size_t>(state)];
+        if (state != last) stretches.push_back({period});
+        stretches.back().knee.push_back(std::abs(signals.leg[leg].knee.torque));
+        stretches.back().wheel.push_back(std::abs(signals.leg[leg].wheel.torque));
+      }
+      last = state;
+    }
+  }
+}
+
+TorqueDistribution distribution_of(const std::vector<Stretch>& stretches, Joint joint) {
+  std::vector<double> all;
+  for (const Stretch& stretch : stretches) {
+    all.insert(all.end(), (stretch.*joint).begin(), (stretch.*joint).end());
+  }
+  if (all.empty()) {
+    return {0,           not_defined, not_defined, {not_defined, not_defined, not_defined},
+            not_defined, not_defined};
+  }
+  std::sort(all.begin(), all.end());
+  const auto count = static_cast<double>(all.size());
+  TorqueDistribution distribution{.samples = static_cast<std::int64_t>(all.size())};
+  for (const double torque : all) distribution.mean += torque / count;
+  double variance = 0.0;
+  for (const double torque : all) variance += std::pow(torque - distribution.mean, 2) / count;
+  distribution.deviation = std::sqrt(variance);
+  for (std::size_t q = 0; q < quantiles.size(); ++q) {
+    distribution.quantile[q] = all[static_cast<std::size_t>(std::ceil(quantiles[q] * count)) - 1];
+  }
+  distribution.largest = all.back();
+  distribution.autocorrelation_time =
+      autocorrelation_time(stretches, joint, distribution.mean, variance);
+  return distribution;
+}
+
+double overlap(const std::vector<Stretch>& a, const std::vector<Stretch>& b) {
+  const Density in_a = density_of(a);
+  const Density in_b = density_of(b);
+  if (in_a.empty() || in_b.empty()) return not_defined;
+  double common = 0.0;
+  for (const auto& [cell, share] : in_a) {
+    if (const auto other = in_b.find(cell); other != in_b.end()) {
+      common += std::min(share, other->second);
+    }
+  }
+  return common;
+}
+
+}  // namespace touchdown::experiments
