@@ -76,6 +76,35 @@ TEST_P(ScenarioFile, RoamingIsAlwaysContact) {
   }
 }
 
+/// Five seconds of it, with the actuators that Upkie has.
+Scenario crouching(const std::string& name, int run) {
+  Scenario scenario = scenario_called(name);
+  scenario.robot = TOUCHDOWN_SOURCE_DIR "/models/upkie_actuated.yaml";
+  scenario.end.duration = 5.0;
+  return perturbed(scenario, 7, run);
+}
+
+TEST_P(ScenarioFile, RoamingAndCrouchingStaysUprightAndInContact) {
+  for (int run = 0; run < 2; ++run) {
+    const Scenario scenario = crouching("roam_crouching", run);
+    const recordings::Recording recording = play(scenario, GetParam());
+    expect_contact(recording, 0.0);
+    // The hip follows what the script says at the end, if it had the time to get there.
+    const policies::CrouchCommand& last = *policies::crouch_at(scenario.crouch, 5.0);
+    if (last.time > 3.0) continue;
+    const std::size_t hip = models::index(models::Servo::left_hip);
+    EXPECT_NEAR(recording.observation.back().servo[hip].position, last.hip, 0.05);
+  }
+}
+
+TEST_P(ScenarioFile, HangingAndCrouchingIsNeverContact) {
+  const recordings::Recording recording = play(crouching("hang_crouching", 0), GetParam());
+  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+  for (const models::GroundTruth& truth : recording.truth) {
+    ASSERT_EQ(truth.wheel_normal_force, (std::array<double, 2>{0.0, 0.0}));
+  }
+}
+
 TEST_P(ScenarioFile, PushedOffAskewOneWheelGoesFirst) {
   Scenario askew = scenario_called("push_off");
   askew.start.yaw = 0.5;
