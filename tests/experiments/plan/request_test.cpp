@@ -19,7 +19,8 @@ RunRequest shipped(const std::string& name) {
 }
 
 TEST(Request, ThatIsWrittenIsReadBackAsTheSame) {
-  for (const char* name : {"stairs", "noise_study", "tables", "cross_simulator", "phase_study"}) {
+  for (const char* name :
+       {"stairs", "noise_study", "tables", "cross_simulator", "phase_study", "real_robot"}) {
     const ScratchFolder folder;
     const RunRequest request = shipped(name);
     const RunDirectory directory(name, request.id, folder.path());
