@@ -16,8 +16,8 @@ namespace touchdown::models {
 ///     joint feels (1 + torque_error)·τ + ripple·sin(ripple_cycles·q) − friction(q) − viscous·q̇
 ///
 /// friction(q) is Coulomb's with stiction: an elastic, critically damped presliding of
-/// `presliding_stiffness` that slides once it holds ± `friction`, so that a joint at rest stays where
-/// it is under any smaller torque, without creeping.
+/// `presliding_stiffness` that slides once it holds ± `friction`, so that a joint at rest stays
+/// where it is under any smaller torque, without creeping.
 struct Actuator {
   double friction = 0.0;              ///< Coulomb friction (N·m)
   double presliding_stiffness = 400;  ///< of the joint while it sticks (N·m/rad)
