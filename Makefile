@@ -39,7 +39,7 @@ build/fuzz/build.ninja: CMakePresets.json | test-packages fuzz-packages
 	@touch $@
 
 build: $(BUILD)/build.ninja ## Build the program alone: build/release/touchdown
-	@echo "== compiling what is new of the program: about six minutes on two cores the first time"
+	@echo "== compiling what is new of the program: about five minutes on two cores the first time"
 	@NINJA_STATUS="compiling %f of %t, %e s: " cmake --build --preset program --parallel $(JOBS) --target touchdown
 
 run: build ## Build the program, then run the first experiment
