@@ -111,7 +111,7 @@ void note(Kind kind, const char* path) {
   if (number >= plan->first.size()) return;
   Plan::Refused& refused = plan->first.at(number);
   refused.what = kind;
-  std::strncpy(refused.path.data(), path, refused.path.size() - 1);
+  std::memcpy(refused.path.data(), path, ::strnlen(path, refused.path.size() - 1));
 }
 
 /// Whether this one, which is counted now, is to fail; a killed program does not come back.

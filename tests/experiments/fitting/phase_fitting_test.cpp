@@ -32,7 +32,7 @@ RunSignals run_of_seed(std::uint64_t seed) {
 PhaseFitConfig coarse() {
   PhaseFitConfig config;
   config.torque_noise = {0.0};
-  config.acceleration_noise = {0.0};
+  config.acceleration_noise.assign(1, 0.0);
   return config;
 }
 
