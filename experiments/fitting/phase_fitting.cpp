@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <list>
 #include <set>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
+#include "estimator/signal_guard.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {
@@ -20,9 +22,14 @@ double period_of(const RunSignals& run) {
   return 1e-6 * static_cast<double>(run.info.control_period_us);
 }
 
+/// Whether a fit can listen to every step.
+bool is_whole(const Signals& step) {
+  return std::isfinite(step.vertical_acceleration) && has_torques(step.leg[0]) &&
+         has_torques(step.leg[1]);
+}
+
 /// The signals that a fit listens to, finite: a value that is missing repeats the one before.
-std::vector<Signals> without_gaps(const std::vector<Signals>& signals) {
-  std::vector<Signals> filled = signals;
+std::vector<Signals> without_gaps(std::vector<Signals> filled) {
   const auto fill = [&](const auto& value_of) {
     double last = 0.0;
     for (Signals& step : filled) {
@@ -78,14 +85,15 @@ recordings::PhaseModelFile fit_phases(std::span<const RunSignals* const> runs,
                                       const std::function<void()>& before_density) {
   if (runs.empty()) throw InputError("phase filter: there is no run to fit to");
   std::vector<PhaseFitRun> pieces;
-  std::vector<std::vector<Signals>> signals;
+  std::list<std::vector<Signals>> mended;
   for (const RunSignals* run : runs) {
     check_may_be_fitted(run->info);
     if (run->info.control_period_us != runs.front()->info.control_period_us) {
       throw InputError("phase filter: fitted runs must share one control period");
     }
-    signals.push_back(without_gaps(run->signals));
-    pieces.push_back({signals.back(),
+    const bool needs_mending = !std::all_of(run->signals.begin(), run->signals.end(), is_whole);
+    if (needs_mending) mended.push_back(without_gaps(run->signals));
+    pieces.push_back({needs_mending ? mended.back() : run->signals,
                       {WheelContact(run->contact[0]), WheelContact(run->contact[1])},
                       may_be_held(run->info),
                       {run->normal_force[0], run->normal_force[1]},

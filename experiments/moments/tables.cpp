@@ -29,12 +29,6 @@ constexpr double robot_overlap = 0.055;
 
 const char* name(Joint joint) { return joint == &Stretch::knee ? "knee" : "wheel"; }
 
-TorqueDistribution heard_by(const EngineTorques& engine, const Quantity& quantity) {
-  return distribution_of(engine.heard[quantity.contact], quantity.joint);
-}
-
-double overlap_of(const EngineTorques& engine) { return overlap(engine.heard[0], engine.heard[1]); }
-
 std::string with_deviation(double mean, double deviation) {
   return fmt::format("{:.3f} ± {:.3f}", mean, deviation);
 }
@@ -46,6 +40,7 @@ std::vector<EngineTorques> torques_by_engine(const Listened& listened) {
   std::vector<EngineTorques> engines;
   for (const std::string& simulator : experiment.simulators) {
     EngineTorques& engine = engines.emplace_back(EngineTorques{simulator});
+    HeardTorques heard;
     for (const std::size_t index : listened.plan.runs_in(0)) {
       const PlayedRun& run = listened.runs.at(index);
       if (run.plan.simulator != simulator) continue;
@@ -53,9 +48,13 @@ std::vector<EngineTorques> torques_by_engine(const Listened& listened) {
       if (run.failed()) {
         ++engine.failed;
       } else {
-        add_torques(run.signals, experiment.scoring.skip, engine.heard);
+        add_torques(run.signals, experiment.scoring.skip, heard);
       }
     }
+    for (std::size_t i = 0; i < robot.size(); ++i) {
+      engine.distribution[i] = distribution_of(heard[robot[i].contact], robot[i].joint);
+    }
+    engine.overlap = overlap(heard[0], heard[1]);
   }
   return engines;
 }
@@ -68,8 +67,9 @@ void write_tables(const std::vector<EngineTorques>& engines, const RunDirectory&
                       {}};
   Table overlaps{{"simulator", "overlap", "robot_overlap", "runs", "failed"}, {}};
   for (const EngineTorques& engine : engines) {
-    for (const Quantity& quantity : robot) {
-      const TorqueDistribution heard = heard_by(engine, quantity);
+    for (std::size_t i = 0; i < robot.size(); ++i) {
+      const Quantity& quantity = robot[i];
+      const TorqueDistribution& heard = engine.distribution[i];
       const std::vector<std::string> what = {engine.simulator, name(quantity.joint),
                                              std::to_string(quantity.contact)};
       moments.rows.push_back(what);
@@ -83,7 +83,7 @@ void write_tables(const std::vector<EngineTorques>& engines, const RunDirectory&
       distributions.rows.back().push_back(metric(heard.largest));
       distributions.rows.back().push_back(metric(1e3 * heard.autocorrelation_time));
     }
-    overlaps.rows.push_back({engine.simulator, metric(overlap_of(engine)), metric(robot_overlap),
+    overlaps.rows.push_back({engine.simulator, metric(engine.overlap), metric(robot_overlap),
                              std::to_string(engine.runs), std::to_string(engine.failed)});
   }
   directory.write_table("moments.csv", moments);
@@ -107,14 +107,15 @@ std::string moments_text(const std::vector<EngineTorques>& engines, const Experi
     auto row = table.rows.begin();
     double knee = 0.0;
     double wheel = 0.0;
-    for (const Quantity& quantity : robot) {
-      const TorqueDistribution heard = heard_by(engine, quantity);
+    for (std::size_t i = 0; i < robot.size(); ++i) {
+      const Quantity& quantity = robot[i];
+      const TorqueDistribution& heard = engine.distribution[i];
       row++->push_back(with_deviation(heard.mean, heard.deviation));
       double& largest = quantity.joint == &Stretch::knee ? knee : wheel;
       largest = std::fmax(largest, heard.largest);
     }
     for (const double value : {knee, wheel}) row++->push_back(fmt::format("{:.3f}", value));
-    row++->push_back(fmt::format("{:.3f}", overlap_of(engine)));
+    row++->push_back(fmt::format("{:.3f}", engine.overlap));
     row->push_back(fmt::format("{}/{}", engine.failed, engine.runs));
   }
   return fmt::format("Torques beside the real robot's: mean ± standard deviation in N·m{}\n\n{}",

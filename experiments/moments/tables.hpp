@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,16 @@
 #include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {
+
+/// What one engine's robot felt.
+struct EngineTorques {
+  std::string simulator;
+  /// Knee and wheel in contact, knee and wheel in the air.
+  std::array<TorqueDistribution, 4> distribution = {};
+  double overlap = 0.0;  ///< of contact and air
+  int runs = 0;          ///< that were played
+  int failed = 0;        ///< of these; nothing is heard of them
+};
 
 /// What the experiment's own test runs heard, an entry per engine.
 std::vector<EngineTorques> torques_by_engine(const Listened& listened);

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "experiments/signals/run_signals.hpp"
@@ -44,13 +43,5 @@ TorqueDistribution distribution_of(const std::vector<Stretch>& stretches, Joint 
 /// multiples: servos that report in steps of .01 N·m fill every cell alike. NaN without samples.
 double overlap(const std::vector<Stretch>& a, const std::vector<Stretch>& b);
 inline constexpr double overlap_cell = 0.01;  ///< N·m
-
-/// What one engine's robot did.
-struct EngineTorques {
-  std::string simulator;
-  HeardTorques heard = {};
-  int runs = 0;    ///< that were played
-  int failed = 0;  ///< of these; nothing is heard of them
-};
 
 }  // namespace touchdown::experiments
