@@ -13,6 +13,9 @@ namespace {
 /// Heights that differ by less are the same height: sums of rises do not cancel exactly.
 constexpr double level = 1e-9;
 
+/// Repetitions of repetitions grow fast; an engine would not carry more either.
+constexpr std::size_t most_segments = 10'000;
+
 /// Lays pieces end to end; heights are relative to the beginning.
 struct Pen {
   double x, z;
@@ -20,6 +23,9 @@ struct Pen {
   std::vector<double> nosing_radii;  ///< of the edge after each segment
 
   void go(double length, double rise) {
+    if (segments.size() == most_segments) {
+      throw InputError(fmt::format("more than {} stretches of ground", most_segments));
+    }
     segments.push_back({x, z, x + length, z + rise});
     nosing_radii.push_back(0.0);
     x += length;
@@ -47,6 +53,11 @@ struct Pen {
     drop(platform.height, platform.nosing_radius);
   }
   void operator()(const Step& step) { drop(step.drop, step.nosing_radius); }
+  void operator()(const Repetition& repetition) {
+    for (int i = 0; i < repetition.count; ++i) {
+      for (const TerrainPiece& piece : repetition.pieces) std::visit(*this, piece);
+    }
+  }
 };
 
 Profile::Edge rounded_edge(const Profile::Segment& segment, double bottom, double radius) {
@@ -64,11 +75,16 @@ Profile::Edge rounded_edge(const Profile::Segment& segment, double bottom, doubl
 
 }  // namespace
 
-Profile::Profile(const Terrain& terrain) {
-  Pen pen{terrain.start_x, 0.0, {}, {}};
-  for (int lap = 0; lap < terrain.repeat; ++lap) {
-    for (const TerrainPiece& piece : terrain.pieces) std::visit(pen, piece);
-  }
+std::vector<Strip> strips_of(const Terrain& terrain) {
+  std::vector<Strip> strips = {
+      {{Repetition{terrain.repeat, terrain.pieces}}, terrain.start_x, 0.0, terrain.width}};
+  strips.insert(strips.end(), terrain.beside.begin(), terrain.beside.end());
+  return strips;
+}
+
+Profile::Profile(const Strip& strip) {
+  Pen pen{strip.start_x, 0.0, {}, {}};
+  for (const TerrainPiece& piece : strip.pieces) std::visit(pen, piece);
   segments_ = std::move(pen.segments);
   for (Segment& segment : segments_) {
     for (double* z : {&segment.z0, &segment.z1}) {

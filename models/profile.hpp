@@ -32,7 +32,9 @@ class Profile {
     std::size_t segment;  ///< the one that ends here
   };
 
-  explicit Profile(const Terrain& terrain);
+  explicit Profile(const Strip& strip);
+  /// Of the pieces about y = 0.
+  explicit Profile(const Terrain& terrain) : Profile(strips_of(terrain).front()) {}
 
   const std::vector<Segment>& segments() const { return segments_; }
   const std::vector<Edge>& edges() const { return edges_; }

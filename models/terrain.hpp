@@ -41,17 +41,38 @@ struct Step {
   double nosing_radius = 0.025;
 };
 
-using TerrainPiece = std::variant<Flat, StairFlight, Ramp, Platform, Step>;
+struct Repetition;
+
+using TerrainPiece = std::variant<Flat, StairFlight, Ramp, Platform, Step, Repetition>;
+
+/// Pieces that are laid down `count` times.
+struct Repetition {
+  int count = 2;
+  std::vector<TerrainPiece> pieces = {};
+};
+
+/// Pieces laid end to end along +x from `start_x`, `width` wide about `y` (m). Their end is level
+/// with the floor; the height at which they begin follows.
+struct Strip {
+  std::vector<TerrainPiece> pieces;
+  double start_x = 1.0;
+  double y = 0.5;
+  double width = 0.9;
+};
 
 /// What the robot rolls over, as data: pieces laid end to end along +x from `start_x`. Their end is
 /// level with the floor, an infinite plane at z = 0 that lies everywhere else; the height at which
 /// they begin follows. No pieces: the floor alone.
 struct Terrain {
   std::vector<TerrainPiece> pieces;
-  double start_x = -2.0;  ///< where the first piece begins (m)
-  double width = 3.0;     ///< extent in y, centred on y = 0 (m)
-  int repeat = 1;         ///< the list of pieces is laid down this many times
-  double friction = 1.0;  ///< sliding friction of every robot–terrain contact
+  double start_x = -2.0;           ///< where the first piece begins (m)
+  double width = 3.0;              ///< extent in y, centred on y = 0 (m)
+  int repeat = 1;                  ///< the list of pieces is laid down this many times
+  double friction = 1.0;           ///< sliding friction of every robot–terrain contact
+  std::vector<Strip> beside = {};  ///< under one wheel alone, say; the robot starts on the pieces
 };
+
+/// The pieces about y = 0 first, then those beside them.
+std::vector<Strip> strips_of(const Terrain& terrain);
 
 }  // namespace touchdown::models

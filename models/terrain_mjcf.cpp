@@ -19,7 +19,7 @@ constexpr double stripe_height = 3e-4;
 
 class Composer {
  public:
-  explicit Composer(const Terrain& terrain) : terrain_(terrain), profile_(terrain) {
+  explicit Composer(const Terrain& terrain) : strips_(strips_of(terrain)) {
     // Everything is spelled out: the robot's defaults must not leak into the terrain. `solref` is
     // how hard a tyre's contact is: a time constant (s) and a damping ratio. Peak landing
     // acceleration from 0.25 m: 334, 224, 135 m/s² at 0.005, 0.01, 0.02 s.
@@ -30,21 +30,29 @@ class Composer {
   }
 
   std::string compose() {
-    const double reach = profile_.segments().empty() ? 0.0 : profile_.segments().back().x1;
+    double reach = 0.0;
+    for (const Strip& strip : strips_) {
+      const Profile profile(strip);
+      if (profile.segments().empty()) continue;
+      reach = std::max(reach, std::abs(profile.segments().back().x1));
+    }
     // The third size is the drawn grid's spacing; without it a plane is cut into 40,000 quads.
     geoms_ += fmt::format(
         "    <geom name=\"touchdown_floor\" type=\"plane\" size=\"{0} {0} 20\" "
         "material=\"touchdown_floor\" group=\"1\" {1}/>\n",
-        70.0 + std::abs(reach), contact_);
-    for (std::size_t i = 0; i < profile_.segments().size(); ++i) add_ground(i);
-    for (const Profile::Edge& edge : profile_.edges()) add_edge(edge);
-    const std::vector<Mesh> meshes = visual_meshes(profile_, terrain_.width);
-    for (std::size_t i = 0; i < meshes.size(); ++i) add_mesh(meshes[i], i);
+        70.0 + reach, contact_);
+    for (const Strip& strip : strips_) {
+      strip_ = &strip;
+      const Profile profile(strip);
+      for (std::size_t i = 0; i < profile.segments().size(); ++i) add_ground(profile, i);
+      for (const Profile::Edge& edge : profile.edges()) add_edge(profile, edge);
+      for (const Mesh& mesh : visual_meshes(profile, strip.width)) add_mesh(mesh);
+    }
     return "  <asset>\n" + assets_ + "  </asset>\n  <worldbody>\n" + geoms_ + "  </worldbody>\n";
   }
 
  private:
-  double half_width() const { return 0.5 * terrain_.width; }
+  double half_width() const { return 0.5 * strip_->width; }
 
   void add_collider(const std::string& attributes) {
     geoms_ += fmt::format("    <geom name=\"touchdown_terrain_{}\" {} group=\"3\" {}/>\n",
@@ -53,13 +61,13 @@ class Composer {
 
   void add_box(double x0, double x1, double height) {
     if (x1 <= x0 || height <= 0.0) return;
-    add_collider(fmt::format("type=\"box\" pos=\"{} 0 {}\" size=\"{} {} {}\"", 0.5 * (x0 + x1),
-                             0.5 * height, 0.5 * (x1 - x0), half_width(), 0.5 * height));
+    add_collider(fmt::format("type=\"box\" pos=\"{} {} {}\" size=\"{} {} {}\"", 0.5 * (x0 + x1),
+                             strip_->y, 0.5 * height, 0.5 * (x1 - x0), half_width(), 0.5 * height));
   }
 
-  void add_ground(std::size_t i) {
-    const Profile::Segment& segment = profile_.segments()[i];
-    const Profile::Edge* edge = profile_.edge_after(i);
+  void add_ground(const Profile& profile, std::size_t i) {
+    const Profile::Segment& segment = profile.segments()[i];
+    const Profile::Edge* edge = profile.edge_after(i);
     const double x1 = edge ? edge->tangent_x : segment.x1;
     if (segment.z0 == segment.z1) {
       add_box(segment.x0, x1, segment.z0);
@@ -76,33 +84,34 @@ class Composer {
     const double x = 0.5 * (segment.x0 + x1);
     const double nx = segment.nx();
     const double nz = segment.nz();
-    add_collider(fmt::format("type=\"box\" pos=\"{} 0 {}\" size=\"{} {} {}\" zaxis=\"{} 0 {}\"",
-                             x - 0.5 * thickness * nx, segment.z(x) - 0.5 * thickness * nz,
-                             0.5 * length, half_width(), 0.5 * thickness, nx, nz));
+    add_collider(fmt::format("type=\"box\" pos=\"{} {} {}\" size=\"{} {} {}\" zaxis=\"{} 0 {}\"",
+                             x - 0.5 * thickness * nx, strip_->y,
+                             segment.z(x) - 0.5 * thickness * nz, 0.5 * length, half_width(),
+                             0.5 * thickness, nx, nz));
   }
 
-  void add_edge(const Profile::Edge& edge) {
-    const Profile::Segment& segment = profile_.segments()[edge.segment];
+  void add_edge(const Profile& profile, const Profile::Edge& edge) {
+    const Profile::Segment& segment = profile.segments()[edge.segment];
     if (edge.radius > 0.0) {
       add_box(edge.centre_x, edge.x - riser_recess, edge.centre_z);
       add_collider(fmt::format("type=\"capsule\" fromto=\"{0} {2} {1} {0} {3} {1}\" size=\"{4}\"",
-                               edge.centre_x, edge.centre_z, -half_width(), half_width(),
-                               edge.radius));
+                               edge.centre_x, edge.centre_z, strip_->y - half_width(),
+                               strip_->y + half_width(), edge.radius));
     } else if (segment.z0 != segment.z1) {
       add_box(edge.x - 0.01, edge.x, edge.top - 0.01);
     }
     const double x = edge.tangent_x - 0.03;
     if (x - 0.012 < segment.x0) return;
     geoms_ += fmt::format(
-        "    <geom type=\"plane\" pos=\"{} 0 {}\" zaxis=\"{} 0 {}\" size=\"0.012 {} 1\" "
+        "    <geom type=\"plane\" pos=\"{} {} {}\" zaxis=\"{} 0 {}\" size=\"0.012 {} 1\" "
         "material=\"touchdown_edge\" group=\"1\" contype=\"0\" conaffinity=\"0\"/>\n",
-        x, segment.z(x) + stripe_height, segment.nx(), segment.nz(), half_width());
+        x, strip_->y, segment.z(x) + stripe_height, segment.nx(), segment.nz(), half_width());
   }
 
-  void add_mesh(const Mesh& mesh, std::size_t number) {
+  void add_mesh(const Mesh& mesh) {
     std::string vertices, normals, faces;
     for (const Mesh::Vertex& v : mesh.vertices) {
-      fmt::format_to(std::back_inserter(vertices), "{} {} {} ", v.x, v.y, v.z);
+      fmt::format_to(std::back_inserter(vertices), "{} {} {} ", v.x, strip_->y + v.y, v.z);
       fmt::format_to(std::back_inserter(normals), "{} {} {} ", v.nx, v.ny, v.nz);
     }
     for (const std::array<int, 3>& face : mesh.faces) {
@@ -111,19 +120,20 @@ class Composer {
     assets_ += fmt::format(
         "    <mesh name=\"touchdown_terrain_{}\" scale=\"1 1 1\" vertex=\"{}\" normal=\"{}\" "
         "face=\"{}\"/>\n",
-        number, vertices, normals, faces);
+        mesh_count_, vertices, normals, faces);
     geoms_ += fmt::format(
         "    <geom type=\"mesh\" mesh=\"touchdown_terrain_{}\" material=\"touchdown_step\" "
         "group=\"1\" contype=\"0\" conaffinity=\"0\"/>\n",
-        number);
+        mesh_count_++);
   }
 
-  const Terrain& terrain_;
-  Profile profile_;
+  std::vector<Strip> strips_;
+  const Strip* strip_ = nullptr;  ///< the one that is being composed
   std::string contact_;
   std::string assets_;
   std::string geoms_;
   int collider_count_ = 0;
+  int mesh_count_ = 0;
 };
 
 }  // namespace

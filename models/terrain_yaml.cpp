@@ -31,6 +31,14 @@ static void describe(Fields& fields, Step& step) {
   fields("nosing_radius", step.nosing_radius, 0.0, 1.0);
 }
 
+static void describe(Fields& fields, TerrainPiece& piece);
+
+static void describe(Fields& fields, Repetition& repetition) {
+  fields("count", repetition.count, 1, 1000);
+  fields.require("pieces");
+  fields.list("pieces", repetition.pieces);
+}
+
 /// The piece, if it is of this kind.
 template <typename Kind>
 static void describe_kind(Fields& fields, std::string_view name, TerrainPiece& piece) {
@@ -41,12 +49,24 @@ static void describe_kind(Fields& fields, std::string_view name, TerrainPiece& p
 }
 
 static void describe(Fields& fields, TerrainPiece& piece) {
-  fields.check(fields.size() == 1, "piece", "expected one of flat, stairs, ramp, platform, step");
+  fields.check(fields.size() == 1, "piece",
+               "expected one of flat, stairs, ramp, platform, step, repeat");
   describe_kind<Flat>(fields, "flat", piece);
   describe_kind<StairFlight>(fields, "stairs", piece);
   describe_kind<Ramp>(fields, "ramp", piece);
   describe_kind<Platform>(fields, "platform", piece);
   describe_kind<Step>(fields, "step", piece);
+  describe_kind<Repetition>(fields, "repeat", piece);
+}
+
+static void describe(Fields& fields, Strip& strip) {
+  fields("start_x", strip.start_x, -1000.0, 1000.0);
+  fields("y", strip.y, -1000.0, 1000.0);
+  fields("width", strip.width, 0.01, 1000.0);
+  fields.require("pieces");
+  fields.list("pieces", strip.pieces);
+  fields.finish();
+  fields.check("pieces", [&] { (void)Profile(strip); });
 }
 
 void describe(Fields& fields, Terrain& terrain) {
@@ -55,6 +75,7 @@ void describe(Fields& fields, Terrain& terrain) {
   fields("repeat", terrain.repeat, 1, 1000);
   fields("friction", terrain.friction, 0.0, 10.0);
   fields.list("pieces", terrain.pieces);
+  fields.list_if_any("beside", terrain.beside);
   fields.finish();
   fields.check("pieces", [&] { (void)Profile(terrain); });
 }

@@ -21,12 +21,12 @@ std::vector<Terrain> all_terrains() {
 }
 
 /// Height of what a ball would land on beside the robot.
-double highest_collider(const mjModel& model, const mjData& data, double x) {
+double highest_collider(const mjModel& model, const mjData& data, double x, double y = -1.1) {
   const mjtNum down[3] = {0, 0, -1};
   const mjtByte groups[mjNGROUP] = {0, 0, 0, 1, 0, 0};  // planes are hit whatever their group
   double z = 5.0;
   while (true) {
-    const mjtNum from[3] = {x, -1.1, z};
+    const mjtNum from[3] = {x, y, z};
     int geom = -1;
     const double distance = mj_ray(&model, &data, from, down, groups, 1, -1, &geom);
     if (distance < 0) return -1.0;
@@ -51,6 +51,24 @@ TEST(TerrainGeometry, CollisionSurfaceIsTheHeight) {
     }
     mj_deleteData(data);
   }
+}
+
+TEST(TerrainGeometry, StripsLieBesideEachOther) {
+  const Terrain terrain{.pieces = {Flat{3.0}, Step{0.1, 0.01}},
+                        .start_x = -1.0,
+                        .width = 1.0,
+                        .beside = {{{Ramp{10.0, 0.05}, Flat{0.5}, Step{0.05, 0.01}}, 1.0, 1.0, 0.8},
+                                   {{Flat{1.0}, Step{0.2, 0.0}}, 0.0, -0.9, 0.4}}};
+  const RobotModel robot = compile_robot_model(upkie_mjcf, terrain);
+  mjData* data = mj_makeData(robot.mj.get());
+  mj_forward(robot.mj.get(), data);
+  const auto height = [&](double x, double y) { return highest_collider(*robot.mj, *data, x, y); };
+  EXPECT_NEAR(height(1.6, 0.2), 0.1, 1e-6);  // what the robot starts on
+  EXPECT_NEAR(height(1.6, 1.0), 0.05, 1e-6);
+  EXPECT_NEAR(height(1.0 + 0.5 * 0.05 / std::tan(M_PI / 18.0), 1.3), 0.025, 1e-6);
+  EXPECT_NEAR(height(0.5, -1.0), 0.2, 1e-6);
+  for (const double y : {0.55, 1.45, -0.65, -1.15}) EXPECT_NEAR(height(0.5, y), 0.0, 1e-6) << y;
+  mj_deleteData(data);
 }
 
 using Point = std::tuple<long, long, long>;

@@ -93,6 +93,42 @@ TEST(Terrain, NosingLargerThanItsStepIsRefused) {
   EXPECT_THAT([&] { (void)edges(short_tread); }, ThrowsMessage<InputError>(HasSubstr("no room")));
 }
 
+TEST(Terrain, RepeatedPartsAreLaidDownInTurn) {
+  const Repetition ridges{
+      3, {Flat{0.2}, Step{0.01, 0.0}, Repetition{2, {Flat{0.1}}}, Ramp{45.0, 0.01}}};
+  const Terrain terrain{.pieces = {Flat{1.0}, ridges, Flat{1.0}, Step{0.05, 0.0}}, .start_x = 0.0};
+  EXPECT_THAT(edges(terrain), ElementsAre(DoubleNear(1.2, 1e-9), DoubleNear(1.61, 1e-9),
+                                          DoubleNear(2.02, 1e-9), DoubleNear(3.23, 1e-9)));
+}
+
+TEST(Terrain, OfMoreThanAnybodyCanUseIsRefused) {
+  const Repetition many{1000, {Repetition{1000, {Repetition{1000, {Flat{0.1}}}}}}};
+  EXPECT_THAT([&] { (void)edges(Terrain{.pieces = {many}}); },
+              ThrowsMessage<InputError>(HasSubstr("more than 10000 stretches of ground")));
+}
+
+TEST(TerrainYaml, ReadsWhatIsRepeatedAndWhatLiesBeside) {
+  const std::string text =
+      "pieces:\n  - repeat: {count: 4, pieces: [flat: {length: 0.3}, step: {drop: 0.1}]}\n"
+      "beside:\n  - {y: -0.4, width: 0.5, start_x: 2, pieces: [flat: {length: 1}]}\n";
+  const Terrain terrain = read(text);
+  const auto& ridges = std::get<Repetition>(terrain.pieces.at(0));
+  EXPECT_EQ(ridges.count, 4);
+  EXPECT_EQ(std::get<Step>(ridges.pieces.at(1)).drop, 0.1);
+  ASSERT_EQ(terrain.beside.size(), 1U);
+  EXPECT_EQ(terrain.beside[0].y, -0.4);
+  EXPECT_EQ(terrain.beside[0].width, 0.5);
+  EXPECT_EQ(std::get<Flat>(terrain.beside[0].pieces.at(0)).length, 1.0);
+  EXPECT_EQ(YAML::Dump(to_node(read(YAML::Dump(to_node(terrain))))), YAML::Dump(to_node(terrain)));
+  EXPECT_THAT(
+      [] { read("beside:\n  - {y: 0.4, pieces: [flat: {lenght: 1}]}\n"); },
+      ThrowsMessage<InputError>(::testing::AllOf(HasSubstr("scene.yaml:2"), HasSubstr("length"))));
+  EXPECT_THAT([] { read("beside:\n  - {y: 0.4}\n"); },
+              ThrowsMessage<InputError>(HasSubstr("pieces: is missing")));
+  EXPECT_THAT([] { read("beside: [{pieces: [flat: {length: 1}, ramp: {rise: 0.1}]}]\n"); },
+              ThrowsMessage<InputError>(HasSubstr("below the floor")));
+}
+
 TEST(TerrainYaml, ReadsEveryKindOfPiece) {
   const Terrain terrain = read(
       "start_x: -1\nwidth: 2\nfriction: 0.7\nrepeat: 2\n"
