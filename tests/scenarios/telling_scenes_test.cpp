@@ -1,0 +1,98 @@
+// Scenes that tell estimators apart: each has in it what its first lines say.
+#include <algorithm>
+#include <limits>
+
+#include "models/robot.hpp"
+#include "tests/scenarios/runs.hpp"
+
+namespace touchdown::scenarios {
+namespace {
+
+class TellingScene : public InEveryEngine {
+ protected:
+  static recordings::Recording played(const char* name, int run = 0) {
+    const recordings::Recording recording =
+        play(perturbed(scenario_called(name), 7, run), GetParam());
+    EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished) << name;
+    return recording;
+  }
+
+  /// The longest time with one wheel in the air and the other on the ground, by the wheel that is
+  /// in the air (s).
+  static std::array<double, 2> longest_single_flights(const recordings::Recording& recording) {
+    std::array<double, 2> longest = {};
+    std::array<double, 2> now = {};
+    for (const models::GroundTruth& truth : recording.truth) {
+      for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+        const bool alone = !in_contact(truth, wheel) && in_contact(truth, 1 - wheel);
+        now[wheel] = alone ? now[wheel] + recording.period() : 0.0;
+        longest[wheel] = std::max(longest[wheel], now[wheel]);
+      }
+    }
+    return longest;
+  }
+
+  static double lowest_acceleration(const recordings::Recording& recording) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 300; k < recording.steps(); ++k) {
+      lowest = std::min(lowest, models::vertical_acceleration(recording.observation[k].imu));
+    }
+    return lowest;
+  }
+};
+
+TEST_P(TellingScene, AKerbLiftsOneWheelThenTheOther) {
+  const recordings::Recording recording = played("kerb");
+  const auto [left, right] = longest_single_flights(recording);
+  EXPECT_GT(left, 0.04);
+  EXPECT_GT(right, 0.04);
+  EXPECT_THAT(flights(recording, 0.05), ::testing::IsEmpty());
+}
+
+TEST_P(TellingScene, ASquatFallsWithItsWheelsOnTheGround) {
+  const recordings::Recording recording = played("squat");
+  EXPECT_LT(lowest_acceleration(recording), -4.9);
+  EXPECT_THAT(flights(recording, 0.02), ::testing::IsEmpty());
+}
+
+TEST_P(TellingScene, AHandLiftsWithoutAFall) {
+  const recordings::Recording recording = played("lift_slowly");
+  const std::vector<double> durations = flights(recording, 0.2);
+  EXPECT_GE(durations.size(), 4U);
+  // Most of the time in the air is no fall.
+  int in_the_air = 0;
+  int falling = 0;
+  for (std::size_t k = 300; k < recording.steps(); ++k) {
+    if (in_contact(recording.truth[k], 0) || in_contact(recording.truth[k], 1)) continue;
+    ++in_the_air;
+    falling += models::vertical_acceleration(recording.observation[k].imu) < -4.9 ? 1 : 0;
+  }
+  EXPECT_LT(falling, in_the_air / 2);
+}
+
+TEST_P(TellingScene, ARampThrowsTheRobotUpwards) {
+  const recordings::Recording recording = played("ramp_jump");
+  EXPECT_EQ(flights(recording, 0.05).size(), 3U);
+}
+
+TEST_P(TellingScene, LegsHopByThemselves) { EXPECT_GE(flights(played("hop"), 0.03).size(), 2U); }
+
+TEST_P(TellingScene, AWashboardUnloadsTheWheels) {
+  const recordings::Recording recording = played("washboard");
+  int light = 0;
+  for (const models::GroundTruth& truth : recording.truth) {
+    light += truth.wheel_normal_force[0] < 10.0 ? 1 : 0;
+  }
+  EXPECT_GT(light, 100);
+}
+
+TEST_P(TellingScene, PushesDoNotLiftAStandingRobot) {
+  const recordings::Recording recording = played("pushed", 1);
+  EXPECT_THAT(flights(recording, 0.005), ::testing::IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Engine, TellingScene, ::testing::ValuesIn(simulators::simulator_names()),
+                         engine_name);
+
+}  // namespace
+}  // namespace touchdown::scenarios
