@@ -13,4 +13,5 @@
 #include "estimator/phase/filter.hpp"
 #include "estimator/phase/fit.hpp"
 #include "estimator/signals.hpp"
+#include "estimator/support_force.hpp"
 #include "estimator/upkie_observer.hpp"

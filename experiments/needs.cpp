@@ -22,15 +22,18 @@ constexpr double heard_step_bytes =
     sizeof(Signals) + sizeof(Eigen::Vector3d) +
     static_cast<double>(models::wheel_count) * (sizeof(double) + 1.0);
 
-/// Adds runs of a scenario, each of them heard under so many noise seeds.
-void add_runs(Needs& needs, const scenarios::Scenario& scenario, double runs, double seeds) {
+/// Adds runs of a scenario, each of them heard under so many noise seeds, and kept as so many
+/// different sensors hear it.
+void add_runs(Needs& needs, const scenarios::Scenario& scenario, double runs, double seeds,
+              double sensors = 1.0) {
   // Runs that are over once they have come far enough take about half of the time they may.
   const double share = std::isfinite(scenario.end.x) ? 0.5 : 1.0;
   const double seconds = runs * share * scenario.end.duration;
   needs.runs += runs;
-  needs.parts += runs * seeds;
+  needs.parts += runs * seeds * sensors;
   needs.seconds += seconds;
-  needs.steps += seconds / (1e-6 * static_cast<double>(scenario.simulation.steps.control_us));
+  needs.steps +=
+      sensors * seconds / (1e-6 * static_cast<double>(scenario.simulation.steps.control_us));
 }
 
 }  // namespace
@@ -46,8 +49,23 @@ Needs needs_of(const RunRequest& request) {
   for (const FitPieces& pieces : experiment.fit_pieces) {
     add_runs(needs, scenario_of(request, pieces.scenario).scenario, engines * pieces.runs, 0.0);
   }
+  double sensors = 1.0;
+  for (const SensorFactor& factor : experiment.sweep) {
+    sensors += static_cast<double>(factor.values.size());
+  }
+  if (experiment.benchmark) {
+    // Every robot may run differently, and every combination has runs that are fitted.
+    const auto robots = 1.0 + static_cast<double>(experiment.benchmark->robots.size());
+    const auto heard = 1.0 + static_cast<double>(experiment.benchmark->sensors.size());
+    for (const std::string& file : experiment.fit.scenarios) {
+      add_runs(needs, scenario_of(request, file).scenario,
+               (robots * heard - 1.0) * engines * experiment.fit.runs, 0.0);
+    }
+    sensors += robots * heard - 1.0;
+  }
   for (const std::string& file : experiment.test.scenarios) {
-    add_runs(needs, scenario_of(request, file).scenario, engines * experiment.test.runs, seeds);
+    add_runs(needs, scenario_of(request, file).scenario, engines * experiment.test.runs, seeds,
+             sensors);
   }
   const scenarios::Scenario& first =
       scenario_of(request, experiment.test.scenarios.front()).scenario;
@@ -101,7 +119,9 @@ double bytes_of_parts(const Plan& plan) {
     const auto counted = static_cast<double>(group.counted.size() + group.disturbed.size());
     const double bytes =
         head + most * (counted * sizeof(scoring::Classification) +
-                       static_cast<double>(group.scored.size()) * sizeof(scoring::RobotScore));
+                       static_cast<double>(group.scored.size()) *
+                           (sizeof(scoring::RobotScore) +
+                            (group.is_looked_at_closely ? sizeof(scoring::CloseScore) : 0)));
     of_group.push_back(block * std::ceil(bytes / block));
   }
   double bytes = 0.0;

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiments/benchmark/tables.hpp"
 #include "experiments/cross_simulator/tables.hpp"
 #include "experiments/moments/tables.hpp"
 #include "experiments/needs.hpp"
@@ -15,6 +16,7 @@
 #include "experiments/play/pieces.hpp"
 #include "experiments/run_directory/occupant.hpp"
 #include "experiments/run_directory/own_files.hpp"
+#include "experiments/sensor_sweep/tables.hpp"
 #include "experiments/tables/manifest.hpp"
 #include "experiments/tables/result_files.hpp"
 
@@ -28,27 +30,43 @@ bool is_any_scored(const PlayedRuns& runs) {
   });
 }
 
+/// One of the experiment's fits, of every engine.
+FittedModels fit(const Experiment& experiment, const PlayedRuns& runs, const std::string& name,
+                 const GoingOn& going_on) {
+  std::vector<RunSignals> fitted;
+  for (const auto& [index, run] : runs) {
+    const PlannedRun& plan = run.plan;
+    const bool is_wanted = plan.role == RunRole::fit && plan.fit == name && plan.group == 0;
+    if (is_wanted && !run.failed()) fitted.push_back(run.signals);
+  }
+  std::vector<RunSignals> pieces;
+  for (const std::string& simulator : experiment.simulators) {
+    for (RunSignals& piece : pieces_of(runs, simulator, experiment.fit_pieces, name)) {
+      pieces.push_back(std::move(piece));
+    }
+  }
+  return fit_models(experiment, fitted, pieces, going_on);
+}
+
 /// What the estimators need that listen to these runs; nothing when none can be scored.
 FittedModels fit(const RunningExperiment& running, const PlayedRuns& runs) {
   if (!is_any_scored(runs)) return {};
   Experiment experiment = running.request.experiment;
   std::set<std::string> played;
-  std::vector<RunSignals> fitted;
+  std::set<std::string> fits = {""};
   for (const auto& [index, run] : runs) {
     played.insert(run.plan.simulator);
-    if (run.failed()) continue;
-    if (run.plan.role == RunRole::fit && run.plan.group == 0) fitted.push_back(run.signals);
+    if (run.plan.role == RunRole::fit) fits.insert(run.plan.fit);
   }
   // A shard may have runs of one engine only.
   std::erase_if(experiment.simulators,
                 [&](const std::string& simulator) { return !played.contains(simulator); });
-  std::vector<RunSignals> pieces;
-  for (const std::string& simulator : experiment.simulators) {
-    for (RunSignals& piece : pieces_of(runs, simulator, experiment.fit_pieces)) {
-      pieces.push_back(std::move(piece));
+  FittedModels models;
+  for (const std::string& name : fits) {
+    for (auto& [simulator, by_estimator] : fit(experiment, runs, name, running.going_on)) {
+      models[simulator + name] = std::move(by_estimator);
     }
   }
-  FittedModels models = fit_models(experiment, fitted, pieces, running.going_on);
   if (experiment.phase_study) fit_learning_curve(experiment, runs, running.going_on, models);
   if (!running.going_on()) throw Stopped();
   return models;
@@ -94,9 +112,10 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
     }
     const CollectedCounts counts = collect(plan, plan.runs_in(0), running.saved);
     const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
-    result.summaries = summarise(counts.own(), result.cells, bootstrap);
-    result.scores = summarise(counts.scored, experiment.highlights, bootstrap);
-    result.differences = differences(counts.scored, experiment.highlights, bootstrap);
+    result.summaries = summarise(own(counts.counted), result.cells, bootstrap);
+    const std::vector<ConditionScores> scored = own(counts.scored);
+    result.scores = summarise(scored, experiment.highlights, bootstrap);
+    result.differences = differences(scored, experiment.highlights, bootstrap);
     const Listened listened{running.request, plan, done.runs, running.saved, counts};
     if (experiment.cross_simulator) {
       const CrossSimulatorResult check = check_across_simulators(listened);
@@ -112,6 +131,16 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
       const std::vector<EngineTorques> torques = torques_by_engine(listened);
       write_tables(torques, running.directory);
       result.studies.push_back(moments_text(torques, experiment));
+    }
+    if (experiment.benchmark) {
+      const std::vector<BenchmarkRow> rows = benchmark(listened);
+      write_tables(rows, result.models, listened, running.directory);
+      result.studies.push_back(benchmark_text(rows, experiment));
+    }
+    if (!experiment.sweep.empty()) {
+      const std::vector<SensorSweepPoint> sweep = sensor_sweep(listened);
+      write_tables(sweep, running.directory);
+      result.studies.push_back(sensor_sweep_text(sweep, experiment));
     }
     return 0;
   });

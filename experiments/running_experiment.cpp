@@ -8,11 +8,13 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "experiments/benchmark/plan.hpp"
 #include "experiments/cross_simulator/variations.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/phase_study/plan.hpp"
 #include "experiments/run_directory/free_space.hpp"
 #include "experiments/run_directory/shard.hpp"
+#include "experiments/sensor_sweep/plan.hpp"
 
 namespace touchdown::experiments {
 
@@ -82,6 +84,8 @@ Plan whole_plan(const RunRequest& request) {
   Plan plan = plan_of(request);
   if (request.experiment.cross_simulator) add_cross_simulator(request, plan);
   if (request.experiment.phase_study) add_phase_study(request, plan);
+  add_sensor_sweep(request, plan);
+  if (request.experiment.benchmark) add_benchmark(request, plan);
   keep_recordings(request.experiment, plan);
   return plan;
 }

@@ -43,6 +43,8 @@ void describe(Fields& fields, NoiseGridConfig& noise) {
       grid("accelerometer", apart.accelerometer, 0.0, 1e3);
     });
   }
+  fields.know("hips");
+  if (fields.present("hips", noise.hips)) fields("hips", noise.hips);
   fields("joint_position", noise.joint_position, 0.0, 1e3);
   fields("joint_velocity", noise.joint_velocity, 0.0, 1e3);
   fields("seeds", noise.seeds, 1, 100'000);
@@ -57,7 +59,7 @@ void describe(Fields& fields, NoiseCell& cell) {
 void describe(Fields& fields, NoiseCell& cell, const NoiseGridConfig& noise) {
   describe_level_on(fields, "torque", cell.torque, noise.torque);
   describe_level_on(fields, "accelerometer", cell.accelerometer, noise.accelerometer);
-  cell = with_encoder_noise({cell.torque, cell.accelerometer}, noise);
+  cell = as_on_grid({cell.torque, cell.accelerometer}, noise);
 }
 
 std::size_t cell_index(const std::vector<NoiseCell>& cells, const NoiseCell& wanted) {
@@ -69,7 +71,8 @@ NoiseCell knee_wheel_cell(double knee, double wheel, double accelerometer) {
   return {alike, accelerometer, knee, wheel};
 }
 
-NoiseCell with_encoder_noise(NoiseCell cell, const NoiseGridConfig& noise) {
+NoiseCell as_on_grid(NoiseCell cell, const NoiseGridConfig& noise) {
+  cell.hip = noise.hips ? cell.knee : 0.0;
   cell.joint_position = noise.joint_position;
   cell.joint_velocity = noise.joint_velocity;
   return cell;
@@ -87,7 +90,7 @@ std::vector<NoiseCell> noise_cells(const NoiseGridConfig& noise) {
       if (std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
     }
   }
-  for (NoiseCell& cell : cells) cell = with_encoder_noise(cell, noise);
+  for (NoiseCell& cell : cells) cell = as_on_grid(cell, noise);
   return cells;
 }
 

@@ -23,6 +23,7 @@ struct NoiseGridConfig {
   std::vector<double> torque = {0.0};         ///< on knees and wheels alike (N·m)
   std::vector<double> accelerometer = {0.0};  ///< on each axis (m/s²)
   KneeWheelGridConfig knee_wheel = {};        ///< a second grid
+  bool hips = false;                          ///< whether hips have the knees' torque noise
   double joint_position = 0.0;                ///< on every encoder, in every cell (rad)
   double joint_velocity = 0.0;                ///< on every encoder, in every cell (rad/s)
   int seeds = 1;
@@ -34,6 +35,7 @@ struct NoiseCell {
   double accelerometer = 0.0;   ///< on each axis (m/s²)
   double knee = torque;         ///< N·m
   double wheel = torque;        ///< N·m
+  double hip = 0.0;             ///< N·m: nothing or as the knees
   double joint_position = 0.0;  ///< rad; the same in every cell of an experiment
   double joint_velocity = 0.0;  ///< rad/s; likewise
 
@@ -42,7 +44,8 @@ struct NoiseCell {
             .wheel_torque = wheel,
             .acceleration = accelerometer,
             .joint_position = joint_position,
-            .joint_velocity = joint_velocity};
+            .joint_velocity = joint_velocity,
+            .hip_torque = hip};
   }
 
   friend bool operator==(const NoiseCell& a, const NoiseCell& b) {
@@ -62,8 +65,8 @@ std::size_t cell_index(const std::vector<NoiseCell>& cells, const NoiseCell& wan
 /// A cell of a knee × wheel grid.
 NoiseCell knee_wheel_cell(double knee, double wheel, double accelerometer);
 
-/// The cell with the encoder noise that belongs to every cell of the grid.
-NoiseCell with_encoder_noise(NoiseCell cell, const NoiseGridConfig& noise);
+/// The cell with the noise of hips and encoders that belongs to every cell of the grid.
+NoiseCell as_on_grid(NoiseCell cell, const NoiseGridConfig& noise);
 
 /// Every combination of the grid's noise levels: torque by torque, accelerometer within; then knee
 /// by knee, wheel within, without those that were there already.

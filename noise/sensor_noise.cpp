@@ -8,6 +8,10 @@ namespace {
 
 constexpr std::array<models::Servo, models::wheel_count> knees = {models::Servo::left_knee,
                                                                   models::Servo::right_knee};
+constexpr std::array<models::Servo, models::wheel_count> hips = {models::Servo::left_hip,
+                                                                 models::Servo::right_hip};
+constexpr std::array<NoiseChannel, models::wheel_count> hip_channels = {
+    NoiseChannel::left_hip_torque, NoiseChannel::right_hip_torque};
 constexpr std::array<NoiseChannel, models::wheel_count> knee_channels = {
     NoiseChannel::left_knee_torque, NoiseChannel::right_knee_torque};
 constexpr std::array<NoiseChannel, models::wheel_count> wheel_channels = {
@@ -24,6 +28,7 @@ models::Observation with_noise(const models::Observation& observation, const Noi
     if (sigma > 0.0) value += sigma * standard_normal(key, channel, step);
   };
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
+    add(noisy.servo[models::index(hips[leg])].torque, levels.hip_torque, hip_channels[leg]);
     add(noisy.servo[models::index(knees[leg])].torque, levels.knee_torque, knee_channels[leg]);
     add(noisy.servo[models::index(models::wheel_servos[leg])].torque, levels.wheel_torque,
         wheel_channels[leg]);

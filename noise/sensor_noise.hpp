@@ -15,6 +15,7 @@ struct SensorNoise {
   double acceleration = 0.0;    ///< m/s², each axis of the accelerometer
   double joint_position = 0.0;  ///< rad, each servo's encoder
   double joint_velocity = 0.0;  ///< rad/s, each servo's encoder
+  double hip_torque = 0.0;      ///< N·m, each hip
 
   bool operator==(const SensorNoise&) const = default;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -47,6 +48,16 @@ struct Calibration {
     squared_error += other.squared_error;
     points += other.points;
     return *this;
+  }
+
+  /// The expected calibration error: how far the bins' mean probabilities are from their shares of
+  /// contact, a bin weighing as much as it has points; NaN without points.
+  double expected_error() const {
+    double sum = 0.0;
+    for (const Bin& b : bin) {
+      if (b.points > 0) sum += std::abs(b.probability_sum - static_cast<double>(b.contact));
+    }
+    return sum / static_cast<double>(points);
   }
 
   /// Mean squared error of the probability; NaN without points.

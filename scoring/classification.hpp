@@ -45,6 +45,12 @@ struct Classification {
     return ratio(flight_as_flight, flight_as_flight + contact_as_flight);
   }
   double no_contact_recall() const { return ratio(flight_as_flight, flight()); }
+  /// The mean of the two recalls; where there was only one of the two states, its recall.
+  double balanced_accuracy() const {
+    if (flight() == 0) return contact_recall();
+    if (contact() == 0) return no_contact_recall();
+    return 0.5 * (contact_recall() + no_contact_recall());
+  }
 
   friend bool operator==(const Classification&, const Classification&) = default;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 
@@ -23,24 +24,112 @@ std::vector<bool> near_events(const ContactSequence& truth, std::int64_t period_
   return near;
 }
 
+/// Stretches that are told to be flights, from step `first` on.
+std::vector<Flight> told_flights(const ContactSequence& predicted, std::size_t first) {
+  std::vector<Flight> told = flights(predicted);
+  std::erase_if(told, [&](const Flight& flight) { return flight.landing <= first; });
+  for (Flight& flight : told) flight.takeoff = std::max(flight.takeoff, first);
+  return told;
+}
+
+std::size_t common_steps(const Flight& a, const Flight& b) {
+  const std::size_t begin = std::max(a.takeoff, b.takeoff);
+  return std::max(begin, std::min(a.landing, b.landing)) - begin;
+}
+
+std::size_t length(const Flight& flight) { return flight.landing - flight.takeoff; }
+
+FlightCounts match_flights(const ContactSequence& truth, const ContactSequence& predicted,
+                           std::size_t first, std::size_t shortest) {
+  FlightCounts counts;
+  std::vector<Flight> real = told_flights(truth, first);
+  std::vector<Flight> told = told_flights(predicted, first);
+  // What is told of a flight that need not be found is neither right nor wrong.
+  const auto is_short = [&](const Flight& flight) { return length(flight) < shortest; };
+  std::erase_if(told, [&](const Flight& one) {
+    return std::any_of(real.begin(), real.end(), [&](const Flight& flight) {
+      return is_short(flight) && common_steps(flight, one) > 0;
+    });
+  });
+  std::erase_if(real, is_short);
+  counts.truth = static_cast<std::int64_t>(real.size());
+  counts.told = static_cast<std::int64_t>(told.size());
+  for (const Flight& flight : real) {
+    counts.matched += std::count_if(told.begin(), told.end(), [&](const Flight& one) {
+      const std::size_t common = common_steps(flight, one);
+      return 2 * common > length(flight) + length(one) - common;
+    });
+  }
+  return counts;
+}
+
+std::int64_t switches(const ContactSequence& predicted, std::size_t first) {
+  std::int64_t count = 0;
+  for (std::size_t k = std::max<std::size_t>(first, 1); k < predicted.size(); ++k) {
+    count += predicted[k] != predicted[k - 1] ? 1 : 0;
+  }
+  return count;
+}
+
 }  // namespace
+
+void Latencies::add(std::int64_t latency_us) {
+  const std::int64_t bin = latency_us / 1000 - first_ms;
+  events[static_cast<std::size_t>(
+      std::clamp<std::int64_t>(bin, 0, static_cast<std::int64_t>(count) - 1))] += 1;
+}
+
+Latencies& Latencies::operator+=(const Latencies& other) {
+  for (std::size_t i = 0; i < count; ++i) events[i] += other.events[i];
+  return *this;
+}
+
+std::int64_t Latencies::total() const {
+  return std::accumulate(events.begin(), events.end(), std::int64_t{0});
+}
+
+double Latencies::percentile(double share) const {
+  const std::int64_t all = total();
+  const auto wanted = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(all)));
+  std::int64_t passed = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    passed += events[i];
+    if (all > 0 && passed >= wanted) return static_cast<double>(first_ms + static_cast<int>(i));
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+double Latencies::absolute_percentile(double share) const {
+  Latencies absolute;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto ms = std::abs(first_ms + static_cast<std::int64_t>(i));
+    absolute.events[static_cast<std::size_t>(ms - first_ms)] += events[i];
+  }
+  return absolute.percentile(share);
+}
+
+double Latencies::early_share() const {
+  const auto on_time = events.begin() - first_ms;
+  return ratio(std::accumulate(events.begin(), on_time, std::int64_t{0}), total());
+}
+
+FlightCounts& FlightCounts::operator+=(const FlightCounts& other) {
+  truth += other.truth;
+  told += other.told;
+  matched += other.matched;
+  return *this;
+}
 
 CloseScore& CloseScore::operator+=(const CloseScore& other) {
   away_from_events += other.away_from_events;
   firm += other.firm;
-  for (std::size_t i = 0; i < latencies; ++i) takeoff_ms[i] += other.takeoff_ms[i];
+  takeoff += other.takeoff;
+  landing += other.landing;
+  flights += other.flights;
+  extra_switches += other.extra_switches;
+  log_loss += other.log_loss;
+  steps += other.steps;
   return *this;
-}
-
-double CloseScore::takeoff_percentile(double share) const {
-  const auto all = std::accumulate(takeoff_ms.begin(), takeoff_ms.end(), std::int64_t{0});
-  const auto wanted = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(all)));
-  std::int64_t passed = 0;
-  for (std::size_t i = 0; i < latencies; ++i) {
-    passed += takeoff_ms[i];
-    if (all > 0 && passed >= wanted) return static_cast<double>(first_ms + static_cast<int>(i));
-  }
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 CloseScore close_score(const std::array<ContactSequence, models::wheel_count>& truth,
@@ -48,22 +137,37 @@ CloseScore close_score(const std::array<ContactSequence, models::wheel_count>& t
                        const Prediction& prediction, std::int64_t period_us,
                        const ScoringConfig& config) {
   constexpr double light = 10.0;  // N
+  constexpr double least_probability = 1e-6;
   CloseScore result;
+  const std::size_t first = first_scored_step(period_us, config);
+  const double period = 1e-6 * static_cast<double>(period_us);
+  ScoringConfig any_flight = config;
+  any_flight.minimum_flight = 0.0;
   for (std::size_t w = 0; w < models::wheel_count; ++w) {
     const ContactSequence& predicted = prediction[w].contact;
     const std::vector<bool> near = near_events(truth[w], period_us);
-    for (std::size_t k = first_scored_step(period_us, config); k < truth[w].size(); ++k) {
+    for (std::size_t k = first; k < truth[w].size(); ++k) {
       const bool touches = truth[w][k] != 0;
       if (!near[k]) result.away_from_events.add(touches, predicted[k] != 0);
       if (!touches || normal_force[w][k] >= light) result.firm.add(touches, predicted[k] != 0);
+      const double p_contact = prediction[w].p_contact[k];
+      result.log_loss -=
+          std::log(std::clamp(touches ? p_contact : 1.0 - p_contact, least_probability, 1.0));
+      result.steps += 1;
     }
-    const double period = 1e-6 * static_cast<double>(period_us);
     for (const JudgedTransition& judged : judge_transitions(truth[w], predicted, period, config)) {
-      if (judged.kind != EventKind::takeoff || judged.verdict != Judgement::detected) continue;
-      const std::int64_t bin = judged.latency * period_us / 1000 - CloseScore::first_ms;
-      result.takeoff_ms[static_cast<std::size_t>(
-          std::clamp<std::int64_t>(bin, 0, CloseScore::latencies - 1))] += 1;
+      if (judged.verdict != Judgement::detected) continue;
+      const bool is_takeoff = judged.kind == EventKind::takeoff;
+      (is_takeoff ? result.takeoff : result.landing).add(judged.latency * period_us);
     }
+    result.extra_switches += switches(predicted, first);
+    for (const JudgedTransition& judged :
+         judge_transitions(truth[w], predicted, period, any_flight)) {
+      result.extra_switches -= judged.verdict == Judgement::detected ? 1 : 0;
+    }
+    result.flights +=
+        match_flights(truth[w], predicted, first,
+                      static_cast<std::size_t>(std::llround(config.minimum_flight / period)));
   }
   return result;
 }

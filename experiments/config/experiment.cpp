@@ -7,6 +7,7 @@
 #include "core/fields.hpp"
 #include "core/file_names.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "noise/sensors/factor.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -85,13 +86,13 @@ static void describe(Fields& fields, DetailConfig& detail, const Experiment& exp
   fields.check(detail.estimators.size() <= most_estimators, "estimators",
                fmt::format("expected at most {} names", most_estimators));
   for (noise::NoiseCell& cell : detail.noise) {
-    cell = noise::with_encoder_noise(cell, experiment.noise);
+    cell = noise::as_on_grid(cell, experiment.noise);
   }
 }
 
 static void describe(Fields& fields, PosteriorConfig& posterior, const Experiment& experiment) {
   if (fields.present("noise", true)) fields.section("noise", posterior.noise);
-  posterior.noise = noise::with_encoder_noise(posterior.noise, experiment.noise);
+  posterior.noise = noise::as_on_grid(posterior.noise, experiment.noise);
 }
 
 /// A section that is drawn if it is there, and can be switched off where it stands.
@@ -119,6 +120,20 @@ static void describe(Fields& fields, Factor& factor, const std::vector<std::stri
   if (fields.reading() && factor.simulators.empty()) factor.simulators = simulators;
 }
 
+/// A mapping of keys to lists of values.
+static void describe(Fields& fields, std::vector<SensorFactor>& factors) {
+  if (fields.reading()) {
+    for (const auto& entry : fields.node()) factors.push_back({entry.first.as<std::string>(), {}});
+  }
+  for (SensorFactor& factor : factors) {
+    fields.in_line(factor.key, factor.values);
+    fields.check(!factor.values.empty(), factor.key, "expected at least one number");
+    fields.check(factor.key, [&] {
+      for (const double value : factor.values) noise::with_value({}, factor.key, value);
+    });
+  }
+}
+
 static void describe(Fields& section, CrossSimulatorConfig& config, const Experiment& experiment) {
   section.within("sensitivity", [&](Fields& fields) {
     if (fields.reading())
@@ -137,6 +152,19 @@ static void describe(Fields& section, CrossSimulatorConfig& config, const Experi
     fields("run", config.overlay.run, 0, experiment.test.runs - 1);
     fields("drop", config.overlay.drop, 0, 1000);
   });
+}
+
+static void describe(Fields& fields, BenchmarkConfig& benchmark) {
+  const auto describe_files = [&](const char* key, std::vector<std::string>& files) {
+    fields(key, files);
+    for (auto file = files.begin(); file != files.end(); ++file) {
+      fields.check(std::find(files.begin(), file, *file) == file, key,
+                   fmt::format("'{}' stands there twice", *file));
+    }
+  };
+  describe_files("robots", benchmark.robots);
+  describe_files("sensors", benchmark.sensors);
+  fields("transfer", benchmark.transfer);
 }
 
 static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
@@ -171,12 +199,14 @@ static void describe(Fields& fields, Experiment& experiment) {
     fields("sensors", experiment.sensors);
     fields.check(!experiment.sensors.empty(), "sensors", "expected a file");
   }
+  fields.know("sweep");
+  if (fields.present("sweep", !experiment.sweep.empty())) fields.section("sweep", experiment.sweep);
   const noise::NoiseGridConfig& noise = experiment.noise;
   fields.section("noise", experiment.noise);
   fields.list("highlights", experiment.highlights, noise);
   if (fields.reading() && experiment.highlights.empty()) {
     experiment.highlights = {
-        noise::with_encoder_noise({noise.torque.front(), noise.accelerometer.front()}, noise)};
+        noise::as_on_grid({noise.torque.front(), noise.accelerometer.front()}, noise)};
   }
   fields.section("labels", experiment.labels);
   fields.section("scoring", experiment.scoring);
@@ -198,6 +228,8 @@ static void describe(Fields& fields, Experiment& experiment) {
       !draws || experiment.recordings != KeptRecordings::none, "recordings",
       "expected all or pictured: the video, the detail and the cross-simulator overlay are "
       "drawn from them");
+  fields.know("benchmark");
+  fields.section("benchmark", experiment.benchmark);
   fields.know("moments");
   if (fields.present("moments", experiment.moments)) fields("moments", experiment.moments);
   if (fields.present("phase_study", experiment.phase_study)) {

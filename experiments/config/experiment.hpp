@@ -8,7 +8,6 @@
 
 #include "core/yaml.hpp"
 #include "noise/grid.hpp"
-#include "noise/sensors/profile.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/transitions.hpp"
@@ -109,6 +108,22 @@ struct CrossSimulatorConfig {
   OverlayConfig overlay;
 };
 
+/// A disturbance of the sensors that is varied while all others stay as they are.
+struct SensorFactor {
+  std::string key;             ///< as `noise::with_value` knows it
+  std::vector<double> values;  ///< in its own unit
+};
+
+/// The section `benchmark`: robots and sensors besides the experiment's own. Every estimator is
+/// fitted to, and tested on, each of their combinations, and every scene is scored by itself.
+struct BenchmarkConfig {
+  std::vector<std::string> robots;   ///< files
+  std::vector<std::string> sensors;  ///< likewise
+  /// Estimators that were fitted on another robot, other sensors or in the other engine are scored
+  /// beside those at home.
+  bool transfer = false;
+};
+
 /// An experiment file, seen whole: what is simulated, who listens through which noise, what counts.
 struct Experiment {
   std::string name;
@@ -121,7 +136,7 @@ struct Experiment {
   std::optional<std::uint64_t> fit_seed;  ///< that these are drawn with, if not `seed`
   RunsConfig test;      ///< runs that estimators are scored on; none of them is ever fitted to
   std::string sensors;  ///< file of the sensors' profile; empty: ideal ones
-  noise::SensorProfile sensor_profile;  ///< what it says, once `read_sensors` has read it
+  std::vector<SensorFactor> sweep;  ///< of these, one at a time
   noise::NoiseGridConfig noise;
   std::vector<noise::NoiseCell> highlights;  ///< cells of the grid that are printed and marked
   scoring::LabelConfig labels;
@@ -133,6 +148,7 @@ struct Experiment {
                                              ///< `enabled: false`; an empty one means its defaults
   std::optional<PosteriorConfig> posterior;  ///< likewise
   std::optional<CrossSimulatorConfig> cross_simulator;
+  std::optional<BenchmarkConfig> benchmark;
   bool moments = false;       ///< adds tables of torques beside the real robot's (docs/realism.md)
   bool phase_study = false;   ///< adds what the phase filter's study measures (docs/protocol.md)
   bool paper_tables = false;  ///< print the paper's Tables I to III for every highlighted cell

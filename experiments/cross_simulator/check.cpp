@@ -51,7 +51,7 @@ void add_sensitivity(const Variation& variation, const Listened& listened,
   const RunGroup& group = listened.plan.groups[listened.plan.runs[varied.front()].group];
   const std::size_t cell = noise::cell_index(group.counted, experiment.highlights.front());
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const ConditionCounts& count : counts.own()) {
+  for (const ConditionCounts& count : own(counts.counted)) {
     if (count.condition.test_simulator != variation.simulator) continue;
     Sensitivity row{
         variation, count.condition.estimator, varied.size() - failed, failed, {nan, nan, nan}};

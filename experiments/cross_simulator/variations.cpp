@@ -55,13 +55,16 @@ void plan_runs(const RunRequest& request, const Variation& variation, Plan& plan
         varied(scenario_of(request, experiment.test.scenarios.front()), factor, variation.value);
     for (int i = 0; i < config.sensitivity_runs; ++i) {
       plan.runs.push_back(
-          {RunRole::test, variation.simulator,
-           experiment.test.perturbed ? scenarios::perturbed(scenario, experiment.seed, i)
-                                     : scenario,
-           i,
-           fmt::format("{}_{}_factor_{}_{}_{:03}.mpack", variation.simulator, scenario.name,
-                       variation.factor_index, exact(variation.value), i),
-           experiment.seed, plan.groups.size()});
+          {.role = RunRole::test,
+           .simulator = variation.simulator,
+           .scenario = experiment.test.perturbed
+                           ? scenarios::perturbed(scenario, experiment.seed, i)
+                           : scenario,
+           .run = i,
+           .file = fmt::format("{}_{}_factor_{}_{}_{:03}.mpack", variation.simulator, scenario.name,
+                               variation.factor_index, exact(variation.value), i),
+           .seed = experiment.seed,
+           .group = plan.groups.size()});
     }
   } catch (const InputError& error) {
     throw InputError(fmt::format("cross_simulator.sensitivity.factors.{}: {}={}: {}",

@@ -7,7 +7,8 @@ noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& le
           .wheel_torque = sensors.wheel_torque ? levels.wheel_torque : 0.0,
           .acceleration = sensors.acceleration ? levels.acceleration : 0.0,
           .joint_position = sensors.joint_position ? levels.joint_position : 0.0,
-          .joint_velocity = sensors.joint_velocity ? levels.joint_velocity : 0.0};
+          .joint_velocity = sensors.joint_velocity ? levels.joint_velocity : 0.0,
+          .hip_torque = sensors.hip_torque ? levels.hip_torque : 0.0};
 }
 
 }  // namespace touchdown::experiments

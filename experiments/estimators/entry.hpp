@@ -28,6 +28,7 @@ struct EstimatorSetup {
 
 /// Sensors whose noise can change what an estimator decides about the wheels.
 struct Sensors {
+  bool hip_torque = false;
   bool knee_torque = false;
   bool wheel_torque = false;
   bool acceleration = false;

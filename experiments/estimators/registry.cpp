@@ -22,6 +22,7 @@ std::span<const EstimatorEntry> estimator_entries() {
       neural_entry(),
       upkie_observer_entry(),
       free_fall_entry(),
+      support_force_entry(),
       oracle_entry(),
       always_contact_entry(),
   };

@@ -89,8 +89,10 @@ scoring::Classification count(ContactEstimator& estimator, const RunSignals& run
 
 /// The name of a task's file.
 std::string name_of(const Plan& plan, const Task& task) {
-  return fmt::format("{}_seed_{:04}",
-                     std::filesystem::path(plan.runs[task.run].file).stem().string(), task.seed);
+  const PlannedRun& run = plan.runs[task.run];
+  const std::string& sensors = plan.sensors[run.sensors].name;
+  return fmt::format("{}{}{}_seed_{:04}", std::filesystem::path(run.file).stem().string(),
+                     sensors.empty() ? "" : "_", sensors, task.seed);
 }
 
 }  // namespace
@@ -138,7 +140,7 @@ TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,
   }
   const std::int64_t period_us = run.info.control_period_us;
   for (const Condition& condition : conditions) {
-    if (!condition.is_fitted_here()) continue;
+    if (!group.scores(condition)) continue;
     const auto estimator = make_estimator(condition, models, run);
     for (const noise::NoiseCell& cell : group.scored) {
       if (!going_on()) throw Stopped();
@@ -184,12 +186,6 @@ std::size_t listen(const Plan& plan, const TaskRange& tasks, const PlayedRuns& r
   return computed;
 }
 
-std::vector<ConditionCounts> CollectedCounts::own() const {
-  std::vector<ConditionCounts> own = counted;
-  std::erase_if(own, [](const ConditionCounts& c) { return !c.condition.is_fitted_here(); });
-  return own;
-}
-
 CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
                         const SavedCounts& saved) {
   CollectedCounts all;
@@ -201,7 +197,7 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
       conditions.back().samples.resize(cells);
     };
     add_to(all.counted, group.counted.size());
-    if (!condition.is_fitted_here()) continue;
+    if (!group.scores(condition)) continue;
     add_to(all.scored, group.scored.size());
     add_to(all.close, group.is_looked_at_closely ? group.scored.size() : 0);
     add_to(all.disturbed, group.disturbed.size());

@@ -68,6 +68,13 @@ struct ConditionSamples {
   std::vector<std::vector<Sample>> samples;
 };
 
+/// Those that were fitted where they are tested, with the experiment's own fit.
+template <typename Sample>
+std::vector<ConditionSamples<Sample>> own(std::vector<ConditionSamples<Sample>> all) {
+  std::erase_if(all, [](const auto& one) { return !one.condition.is_fitted_here(); });
+  return all;
+}
+
 /// What one of them has in one cell.
 template <typename Sample>
 const std::vector<Sample>& samples_of(const std::vector<ConditionSamples<Sample>>& all,
@@ -86,9 +93,6 @@ struct CollectedCounts {
   std::vector<ConditionScores> scored;
   std::vector<ConditionSamples<scoring::CloseScore>> close;  ///< a sample is a run
   std::vector<ConditionCounts> disturbed;  ///< of own-engine conditions; a sample is a run
-
-  /// Without the conditions that were fitted elsewhere than where they are tested.
-  std::vector<ConditionCounts> own() const;
 };
 
 /// The findings of all tasks that listen to these runs of one group, added up in the order of the

@@ -15,9 +15,13 @@ void plan_test_runs(const Experiment& experiment, const std::string& scene, std:
   scenario.simulation.steps.control_us = 1000;
   for (const std::string& simulator : experiment.simulators) {
     for (int run = 0; run < experiment.test.runs; ++run) {
-      plan.runs.push_back(
-          {RunRole::test, simulator, scenarios::perturbed(scenario, experiment.seed, run), run,
-           recording_name(simulator, scene, to_text(RunRole::test), run), experiment.seed, group});
+      plan.runs.push_back({.role = RunRole::test,
+                           .simulator = simulator,
+                           .scenario = scenarios::perturbed(scenario, experiment.seed, run),
+                           .run = run,
+                           .file = recording_name(simulator, scene, to_text(RunRole::test), run),
+                           .seed = experiment.seed,
+                           .group = group});
     }
   }
 }
@@ -46,7 +50,7 @@ std::string pieces_fit(int pieces) { return fmt::format("_{}_pieces", pieces); }
 
 void add_phase_study(const RunRequest& request, Plan& plan) {
   const Experiment& experiment = request.experiment;
-  plan_piece_runs(request, 0, experiment.fit_pieces.front().runs, learning_curve.back(), plan);
+  plan_piece_runs(request, {}, 0, experiment.fit_pieces.front().runs, learning_curve.back(), plan);
   RunGroup& stairs = plan.groups.front();
   RunGroup scene{.name = {}, .conditions = {}, .counted = {}, .scored = {}};
   scene.is_looked_at_closely = stairs.is_looked_at_closely = true;

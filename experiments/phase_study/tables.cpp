@@ -131,7 +131,7 @@ std::string details_row(const Engine& engine, std::size_t cell, const Condition&
       with_bounds(points(scores), &scoring::Classification::no_contact_recall, engine, 3),
       all.takeoff.precision(), all.takeoff.recall(), all.landing.precision(), all.landing.recall(),
       1e3 * all.takeoff.latency_mean(), 1e3 * all.takeoff.latency_deviation(),
-      close.takeoff_percentile(0.95), 1e3 * all.landing.latency_mean(),
+      close.takeoff.percentile(0.95), 1e3 * all.landing.latency_mean(),
       1e3 * all.landing.latency_deviation(), all.calibration.brier());
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
@@ -15,7 +17,10 @@ struct Condition {
   std::string estimator;
   std::string fit = {};  ///< which fit of that engine; empty: the experiment's
 
-  bool is_fitted_here() const { return fit_simulator == test_simulator && fit.empty(); }
+  /// Whether it was fitted where it is tested, with the fit that is at home there.
+  bool is_fitted_here(std::string_view own_fit = {}) const {
+    return fit_simulator == test_simulator && fit == own_fit;
+  }
   friend bool operator==(const Condition&, const Condition&) = default;
 };
 
@@ -25,7 +30,12 @@ std::vector<Condition> own_engine_conditions(const Experiment& experiment);
 /// Those that are tested on this engine.
 std::vector<Condition> tested_on(std::vector<Condition> conditions, const std::string& simulator);
 
-/// The key of one noise realisation; independent of everything else that the seed decides.
+/// The key of what is drawn for a run under this number of a stream; independent of everything else
+/// that the seed decides.
+noise::NoiseKey draws_of(const Experiment& experiment, std::uint64_t stream, std::uint64_t number,
+                         std::int64_t run);
+
+/// The key of one noise realisation.
 noise::NoiseKey noise_key(const Experiment& experiment, int noise_seed, std::int64_t run);
 
 }  // namespace touchdown::experiments

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/resources.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -13,24 +14,15 @@ namespace touchdown::experiments {
 
 namespace {
 
-void plan_runs(const RunRequest& request, RunRole role, Plan& plan) {
-  const Experiment& experiment = request.experiment;
-  const bool is_fit = role == RunRole::fit;
-  const RunsConfig& runs = is_fit ? experiment.fit : experiment.test;
-  const std::uint64_t seed = is_fit ? seed_of_fit(experiment) : experiment.seed;
-  for (const std::string& simulator : experiment.simulators) {
-    std::int64_t index = is_fit ? first_fit_run : 0;
-    for (const std::string& file : runs.scenarios) {
-      const scenarios::Scenario& scenario = scenario_of(request, file).scenario;
-      for (int i = 0; i < runs.runs; ++i, ++index) {
-        plan.runs.push_back({role, simulator,
-                             runs.perturbed ? perturbed(scenario, seed, index) : scenario, index,
-                             recording_name(simulator, scenario.name, to_text(role),
-                                            is_fit ? index - first_fit_run : index),
-                             seed, 0});
-      }
-    }
-  }
+/// The scenario with the setting's robot; its recordings are named after both.
+scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
+                             const Setting& setting) {
+  scenarios::Scenario scene = scenario_of(request, file).scenario;
+  if (setting.robot.empty()) return scene;
+  scene.robot = find_resource(setting.robot);
+  scene.name =
+      fmt::format("{}_{}", scene.name, std::filesystem::path(setting.robot).stem().string());
+  return scene;
 }
 
 bool is_fitted_to_phases(const std::string& estimator) {
@@ -54,10 +46,37 @@ std::vector<std::size_t> Plan::runs_in(std::size_t group) const {
   return indices;
 }
 
-void plan_piece_runs(const RunRequest& request, std::size_t entry, int first, int end, Plan& plan) {
+void plan_runs(const RunRequest& request, RunRole role, const Setting& setting, std::size_t group,
+               Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  const bool is_fit = role == RunRole::fit;
+  const RunsConfig& runs = is_fit ? experiment.fit : experiment.test;
+  const std::uint64_t seed = is_fit ? seed_of_fit(experiment) : experiment.seed;
+  for (const std::string& simulator : experiment.simulators) {
+    std::int64_t index = is_fit ? first_fit_run : 0;
+    for (const std::string& file : runs.scenarios) {
+      const scenarios::Scenario scene = scene_of(request, file, setting);
+      for (int i = 0; i < runs.runs; ++i, ++index) {
+        plan.runs.push_back({.role = role,
+                             .simulator = simulator,
+                             .scenario = runs.perturbed ? perturbed(scene, seed, index) : scene,
+                             .run = index,
+                             .file = recording_name(simulator, scene.name, to_text(role),
+                                                    is_fit ? index - first_fit_run : index),
+                             .seed = seed,
+                             .group = group,
+                             .sensors = setting.sensors,
+                             .fit = is_fit ? setting.fit : std::string()});
+      }
+    }
+  }
+}
+
+void plan_piece_runs(const RunRequest& request, const Setting& setting, std::size_t entry,
+                     int first, int end, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const std::uint64_t seed = seed_of_fit(experiment);
-  scenarios::Scenario scene = scenario_of(request, experiment.fit_pieces[entry].scenario).scenario;
+  scenarios::Scenario scene = scene_of(request, experiment.fit_pieces[entry].scenario, setting);
   // Models are fitted at the rate at which they listen.
   scene.simulation.steps.control_us =
       scenario_of(request, experiment.test.scenarios.front()).scenario.simulation.steps.control_us;
@@ -65,24 +84,35 @@ void plan_piece_runs(const RunRequest& request, std::size_t entry, int first, in
   for (const std::string& simulator : experiment.simulators) {
     for (int i = first; i < end; ++i) {
       const std::int64_t run = first_fit_run + i;
-      plan.runs.push_back({RunRole::fit, simulator, perturbed(scene, seed, run), run,
-                           recording_name(simulator, scene.name, role, i), seed,
-                           piece_group(entry)});
+      plan.runs.push_back({.role = RunRole::fit,
+                           .simulator = simulator,
+                           .scenario = perturbed(scene, seed, run),
+                           .run = run,
+                           .file = recording_name(simulator, scene.name, role, i),
+                           .seed = seed,
+                           .group = piece_group(entry),
+                           .sensors = setting.sensors,
+                           .fit = setting.fit});
     }
+  }
+}
+
+void plan_pieces(const RunRequest& request, const Setting& setting, Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  const auto& names = experiment.estimators;
+  if (std::none_of(names.begin(), names.end(), is_fitted_to_phases)) return;
+  for (std::size_t entry = 0; entry < experiment.fit_pieces.size(); ++entry) {
+    plan_piece_runs(request, setting, entry, 0, experiment.fit_pieces[entry].runs, plan);
   }
 }
 
 Plan plan_of(const RunRequest& request) {
   const Experiment& experiment = request.experiment;
   Plan plan;
-  plan_runs(request, RunRole::fit, plan);
-  const auto& names = experiment.estimators;
-  if (std::any_of(names.begin(), names.end(), is_fitted_to_phases)) {
-    for (std::size_t entry = 0; entry < experiment.fit_pieces.size(); ++entry) {
-      plan_piece_runs(request, entry, 0, experiment.fit_pieces[entry].runs, plan);
-    }
-  }
-  plan_runs(request, RunRole::test, plan);
+  plan.sensors.front().profile = profile_of(request.sensors, experiment.sensors);
+  plan_runs(request, RunRole::fit, {}, 0, plan);
+  plan_pieces(request, {}, plan);
+  plan_runs(request, RunRole::test, {}, 0, plan);
   plan.groups.push_back({"", own_engine_conditions(experiment),
                          noise::noise_cells(experiment.noise), experiment.highlights});
   plan_tasks(experiment, 0, plan);
@@ -91,18 +121,21 @@ Plan plan_of(const RunRequest& request) {
 
 std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks) {
   std::set<std::size_t> runs;
-  std::set<std::string> fitted;
+  std::set<std::string> fitted;  // engines
+  std::set<std::string> fits = {""};
   for (std::size_t t = tasks.begin; t < tasks.end; ++t) {
     runs.insert(plan.tasks[t].run);
     const std::string& simulator = plan.runs[plan.tasks[t].run].simulator;
     for (const Condition& condition :
          tested_on(plan.group_of(plan.tasks[t]).conditions, simulator)) {
       fitted.insert(condition.fit_simulator);
+      fits.insert(condition.fit);
     }
   }
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
     const PlannedRun& run = plan.runs[i];
-    if (run.role == RunRole::fit && fitted.contains(run.simulator)) runs.insert(i);
+    if (run.role != RunRole::fit) continue;
+    if (fitted.contains(run.simulator) && fits.contains(run.fit)) runs.insert(i);
   }
   return runs;
 }

@@ -19,6 +19,13 @@ enum class RunRole : int { fit, test };
 /// "fit", "test".
 std::string_view to_text(RunRole role);
 
+/// A robot and its sensors, to which estimators are fitted.
+struct Setting {
+  std::string fit = {};     ///< the name of that fit; empty: the experiment's own
+  std::string robot = {};   ///< file; empty: each scenario's own
+  std::size_t sensors = 0;  ///< index in the plan's
+};
+
 /// One run that an experiment asks for.
 struct PlannedRun {
   RunRole role = RunRole::test;
@@ -30,7 +37,9 @@ struct PlannedRun {
   /// Of test runs: index in the plan's groups. Of fitted ones: 0 for those that are fitted whole,
   /// `piece_group` for those that are fitted in pieces.
   std::size_t group = 0;
-  bool kept = true;  ///< whether its recording stays
+  std::size_t sensors = 0;  ///< that it is heard through: index in the plan's
+  std::string fit = {};     ///< of fitted runs: the name of the fit that they are for
+  bool kept = true;         ///< whether its recording stays
 };
 
 /// A noise setting with something besides noise.
@@ -48,6 +57,12 @@ struct RunGroup {
   std::vector<noise::NoiseCell> scored;       ///< settings that are scored in full
   std::vector<DisturbedCell> disturbed = {};  ///< settings that are counted besides
   bool is_looked_at_closely = false;          ///< whether scored settings get a `CloseScore` too
+  std::string fit = {};  ///< the name of the fit that is at home here; empty: the experiment's own
+  bool scores_guests = false;  ///< whether conditions that were fitted elsewhere are scored as well
+
+  bool scores(const Condition& condition) const {
+    return scores_guests || condition.is_fitted_here(fit);
+  }
 };
 
 /// The unit in which an experiment's listening is computed, saved and spread over machines: one
@@ -66,11 +81,18 @@ struct TaskRange {
   std::size_t size() const { return end - begin; }
 };
 
+/// Sensors that runs are heard through.
+struct PlannedSensors {
+  std::string name;  ///< different for each; empty for the experiment's own
+  noise::SensorProfile profile;
+};
+
 /// Everything that an experiment is going to do, before anything is done.
 struct Plan {
-  std::vector<PlannedRun> runs;  ///< by role (fit first), engine, scenario, index
-  std::vector<RunGroup> groups;  ///< the experiment's own test runs first
-  std::vector<Task> tasks;       ///< by test run, in the order of the plan, then noise seed
+  std::vector<PlannedSensors> sensors = {{}};  ///< the experiment's own first
+  std::vector<PlannedRun> runs;                ///< by role (fit first), engine, scenario, index
+  std::vector<RunGroup> groups;                ///< the experiment's own test runs first
+  std::vector<Task> tasks;  ///< by test run, in the order of the plan, then noise seed
 
   TaskRange all_tasks() const { return {0, tasks.size()}; }
   const RunGroup& group_of(const Task& task) const { return groups[runs[task.run].group]; }
@@ -87,8 +109,16 @@ std::uint64_t seed_of_fit(const Experiment& experiment);
 /// What the file's `fit`, `test`, `noise` and `highlights` ask for.
 Plan plan_of(const RunRequest& request);
 
+/// Adds the runs of one role in one setting, in every engine; of test runs, to a group.
+void plan_runs(const RunRequest& request, RunRole role, const Setting& setting, std::size_t group,
+               Plan& plan);
+
+/// Adds the runs whose pieces are fitted in one setting, where an estimator asks for pieces.
+void plan_pieces(const RunRequest& request, const Setting& setting, Plan& plan);
+
 /// Adds the fitted runs `first` to `end` of one entry of `fit.pieces`, in every engine.
-void plan_piece_runs(const RunRequest& request, std::size_t entry, int first, int end, Plan& plan);
+void plan_piece_runs(const RunRequest& request, const Setting& setting, std::size_t entry,
+                     int first, int end, Plan& plan);
 
 /// The runs that these tasks listen to, and those that their estimators are fitted to.
 std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks);

@@ -10,9 +10,9 @@
 #include "core/fingerprint.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
-#include "experiments/plan/sensors.hpp"
 #include "experiments/run_directory/occupant.hpp"
 #include "experiments/run_directory/own_files.hpp"
+#include "models/robot_description.hpp"
 
 namespace touchdown::experiments {
 
@@ -23,9 +23,13 @@ namespace fs = std::filesystem;
 /// The digest of a request, one scenario after the other.
 class Digest {
  public:
-  explicit Digest(const Experiment& experiment) {
+  Digest(const Experiment& experiment, const std::vector<NamedSensors>& sensors) {
     fingerprint_.add(to_yaml(experiment));
-    if (!experiment.sensors.empty()) fingerprint_.add(noise::to_yaml(experiment.sensor_profile));
+    for (const NamedSensors& named : sensors) fingerprint_.add(noise::to_yaml(named.profile));
+    if (!experiment.benchmark) return;
+    for (const std::string& robot : experiment.benchmark->robots) {
+      fingerprint_.add(models::robot_text(find_resource(robot)));
+    }
   }
   /// The robot's file counts under the path that the scenario has for it.
   void add(const scenarios::Scenario& scenario) {
@@ -60,12 +64,12 @@ std::string scenario_file(std::size_t number) { return fmt::format("scenario_{:0
 }  // namespace
 
 RunRequest request_of(const Experiment& experiment) {
-  RunRequest request{experiment, {}, {}};
+  RunRequest request{experiment, {}, {}, {}};
   request.scenarios = scenarios_of(experiment, [](const std::string& file, std::size_t /*n*/) {
     return scenarios::find_scenario(file);
   });
-  read_sensors(request.experiment);
-  Digest digest(request.experiment);
+  request.sensors = read_sensors(request.experiment);
+  Digest digest(request.experiment, request.sensors);
   for (const NamedScenario& named : request.scenarios) digest.add(named.scenario);
   request.id = digest.text();
   return request;
@@ -108,7 +112,7 @@ void write_request(const RunRequest& request, const RunDirectory& directory, boo
     write_atomically(directory.file("state", scenario_file(i)),
                      scenarios::to_yaml(request.scenarios[i].scenario));
   }
-  write_sensors(request.experiment, directory.path());
+  write_sensors(request.sensors, directory.path());
   write_atomically(directory.path() / "config.yaml", to_yaml(request.experiment));
 }
 
@@ -124,8 +128,8 @@ RunRequest read_request(const fs::path& directory) {
   }
   RunRequest request;
   request.experiment = experiment_from_yaml(YamlDocument::load(directory / "config.yaml"));
-  read_sensors(request.experiment, directory);
-  Digest digest(request.experiment);
+  request.sensors = read_sensors(request.experiment, directory);
+  Digest digest(request.experiment, request.sensors);
   request.scenarios =
       scenarios_of(request.experiment, [&](const std::string& /*file*/, std::size_t number) {
         scenarios::Scenario scenario = scenarios::scenario_from_yaml(
@@ -138,7 +142,7 @@ RunRequest read_request(const fs::path& directory) {
     throw InputError(fmt::format(
         "{}: config.yaml, a scenario{} in state or the robot was changed since: they make request "
         "{}, expected {}; undo the change, or run the changed experiment elsewhere",
-        directory.string(), request.experiment.sensors.empty() ? "" : ", the sensors", request.id,
+        directory.string(), request.sensors.empty() ? "" : ", the sensors", request.id,
         occupant->request));
   }
   return request;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
+#include "experiments/plan/sensors.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -20,10 +21,11 @@ struct NamedScenario {
 struct RunRequest {
   Experiment experiment;
   std::vector<NamedScenario> scenarios;  ///< in the order of first use
-  std::string id;                        ///< a digest of both
+  std::vector<NamedSensors> sensors;     ///< likewise
+  std::string id;                        ///< a digest of all
 };
 
-/// Errors: `InputError` for scenario files that are missing or wrong.
+/// Errors: `InputError` for scenarios and sensors that are missing or wrong.
 RunRequest request_of(const Experiment& experiment);
 
 /// One of the request's own scenarios.

@@ -1,51 +1,79 @@
 #include "experiments/plan/sensors.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "core/fields.hpp"
 #include "core/files.hpp"
-#include "core/random.hpp"
+#include "experiments/plan/condition.hpp"
 #include "noise/sensors/reported.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-std::filesystem::path kept_file(const std::filesystem::path& run_directory) {
-  return run_directory / "state" / "sensors.yaml";
+std::filesystem::path kept_file(const std::filesystem::path& run_directory, std::size_t number) {
+  return run_directory / "state" / fmt::format("sensors_{:03}.yaml", number);
 }
 
-/// Of the one realisation that a run of the experiment has, whatever noise is added to it.
-noise::NoiseKey sensor_key(const Experiment& experiment, std::int64_t run) {
-  constexpr std::uint64_t sensor_stream = 0x73656e736f7273;  // "sensors"
-  const auto bits = philox(experiment.seed, sensor_stream, 0);
-  return {.seed = (std::uint64_t{bits[0]} << 32U) | bits[1],
-          .run = static_cast<std::uint64_t>(run)};
+/// Every file that the experiment names, once.
+std::vector<std::string> named_files(const Experiment& experiment) {
+  std::vector<std::string> files;
+  const auto add = [&](const std::string& file) {
+    if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end()) {
+      files.push_back(file);
+    }
+  };
+  add(experiment.sensors);
+  if (experiment.benchmark) {
+    for (const std::string& file : experiment.benchmark->sensors) add(file);
+  }
+  return files;
 }
 
 }  // namespace
 
-void read_sensors(Experiment& experiment) {
-  if (experiment.sensors.empty()) return;
-  experiment.sensor_profile = noise::find_sensor_profile(experiment.sensors);
-  if (!noise::is_ideal(experiment.sensor_profile)) return;
-  experiment.sensors.clear();
-  experiment.sensor_profile = {};
+std::vector<NamedSensors> read_sensors(Experiment& experiment) {
+  if (!experiment.sensors.empty() &&
+      noise::is_ideal(noise::find_sensor_profile(experiment.sensors))) {
+    experiment.sensors.clear();
+  }
+  std::vector<NamedSensors> sensors;
+  for (const std::string& file : named_files(experiment)) {
+    sensors.push_back({file, noise::find_sensor_profile(file)});
+  }
+  return sensors;
 }
 
-void read_sensors(Experiment& experiment, const std::filesystem::path& run_directory) {
-  if (experiment.sensors.empty()) return;
-  experiment.sensor_profile =
-      from_yaml<noise::SensorProfile>(YamlDocument::load(kept_file(run_directory)));
+std::vector<NamedSensors> read_sensors(const Experiment& experiment,
+                                       const std::filesystem::path& run_directory) {
+  std::vector<NamedSensors> sensors;
+  for (const std::string& file : named_files(experiment)) {
+    const auto kept = YamlDocument::load(kept_file(run_directory, sensors.size()));
+    sensors.push_back({file, from_yaml<noise::SensorProfile>(kept)});
+  }
+  return sensors;
 }
 
-void write_sensors(const Experiment& experiment, const std::filesystem::path& run_directory) {
-  if (experiment.sensors.empty()) return;
-  write_atomically(kept_file(run_directory), noise::to_yaml(experiment.sensor_profile));
+void write_sensors(const std::vector<NamedSensors>& sensors,
+                   const std::filesystem::path& run_directory) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    write_atomically(kept_file(run_directory, i), noise::to_yaml(sensors[i].profile));
+  }
 }
 
-void report_through_sensors(const Experiment& experiment, std::int64_t run, double period,
+noise::SensorProfile profile_of(const std::vector<NamedSensors>& sensors, const std::string& file) {
+  const auto named = std::find_if(sensors.begin(), sensors.end(),
+                                  [&](const NamedSensors& one) { return one.file == file; });
+  return named == sensors.end() ? noise::SensorProfile{} : named->profile;
+}
+
+void report_through_sensors(const noise::SensorProfile& profile, const Experiment& experiment,
+                            std::int64_t run, double period,
                             std::vector<models::Observation>& observations) {
-  noise::report_through(experiment.sensor_profile, sensor_key(experiment, run), period,
-                        observations);
+  constexpr std::uint64_t sensor_stream = 0x73656e736f7273;  // "sensors"
+  noise::report_through(profile, draws_of(experiment, sensor_stream, 0, run), period, observations);
 }
 
 std::string sensors_text(const Experiment& experiment) {

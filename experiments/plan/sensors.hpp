@@ -7,22 +7,36 @@
 
 #include "experiments/config/experiment.hpp"
 #include "models/robot.hpp"
+#include "noise/sensors/profile.hpp"
 
 namespace touchdown::experiments {
 
-/// Reads the profile that an experiment names under `sensors`. One that changes nothing is ideal:
-/// the same request as none. Errors: `InputError` for a file that is missing or wrong.
-void read_sensors(Experiment& experiment);
+/// A profile as the experiment names it, found and read.
+struct NamedSensors {
+  std::string file;
+  noise::SensorProfile profile;
+};
 
-/// Reads it as it was when the request in this run directory was written.
-void read_sensors(Experiment& experiment, const std::filesystem::path& run_directory);
+/// Reads the profiles that an experiment names. Its own, under `sensors`, is not named any more if
+/// it changes nothing: ideal sensors are the same request as none. Errors: `InputError` for a file
+/// that is missing or wrong.
+std::vector<NamedSensors> read_sensors(Experiment& experiment);
 
-/// Keeps it there, beside the scenarios.
-void write_sensors(const Experiment& experiment, const std::filesystem::path& run_directory);
+/// Reads them as they were when the request in this run directory was written.
+std::vector<NamedSensors> read_sensors(const Experiment& experiment,
+                                       const std::filesystem::path& run_directory);
 
-/// Turns what a run recorded into what the experiment's sensors report. The same run of another
-/// engine gets the same draws.
-void report_through_sensors(const Experiment& experiment, std::int64_t run, double period,
+/// Keeps them there, beside the scenarios.
+void write_sensors(const std::vector<NamedSensors>& sensors,
+                   const std::filesystem::path& run_directory);
+
+/// The profile of this file; ideal sensors for no file.
+noise::SensorProfile profile_of(const std::vector<NamedSensors>& sensors, const std::string& file);
+
+/// Turns what a run of the experiment recorded into what such sensors report. The same run of
+/// another engine gets the same draws.
+void report_through_sensors(const noise::SensorProfile& profile, const Experiment& experiment,
+                            std::int64_t run, double period,
                             std::vector<models::Observation>& observations);
 
 /// What captions say of them: "; sensors as in sensors/upkie.yaml", nothing where they are ideal.

@@ -39,14 +39,14 @@ RunSignals piece_of(const RunSignals& run, const FitPieces& pieces, std::size_t 
 }  // namespace
 
 std::vector<RunSignals> pieces_of(const PlayedRuns& runs, const std::string& simulator,
-                                  std::span<const FitPieces> pieces) {
+                                  std::span<const FitPieces> pieces, const std::string& fit) {
   std::vector<RunSignals> all;
   for (std::size_t entry = 0; entry < pieces.size(); ++entry) {
     std::size_t taken = 0;
     for (const auto& [index, run] : runs) {
       const PlannedRun& plan = run.plan;
       const bool is_wanted = plan.role == RunRole::fit && plan.simulator == simulator &&
-                             plan.group == piece_group(entry) && !run.failed();
+                             plan.fit == fit && plan.group == piece_group(entry) && !run.failed();
       if (!is_wanted || taken == static_cast<std::size_t>(pieces[entry].runs)) continue;
       all.push_back(piece_of(run.signals, pieces[entry], taken++));
     }

@@ -60,8 +60,8 @@ PlayedRun failed(const PlannedRun& plan, const std::string& why) {
 }
 
 PlayedRun played(const PlannedRun& run, recordings::Recording recording,
-                 const Experiment& experiment) {
-  report_through_sensors(experiment, run.run, recording.period(), recording.observation);
+                 const noise::SensorProfile& sensors, const Experiment& experiment) {
+  report_through_sensors(sensors, experiment, run.run, recording.period(), recording.observation);
   RunSignals signals =
       signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
   const auto shortest = static_cast<std::size_t>(
@@ -85,15 +85,19 @@ recordings::Recording simulate(const PlannedRun& run, scenarios::CompiledScenes&
                          [&](double /*time*/) { return going_on(); });
 }
 
-PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
-                       const RunDirectory& directory, MissingRun missing,
-                       scenarios::CompiledScenes& scenes, const GoingOn& going_on) {
+/// What is recorded of a run, or why nothing is.
+struct Recorded {
+  std::optional<recordings::Recording> recording;
+  std::string error;
+};
+
+Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
+                          const RunDirectory& directory, MissingRun missing,
+                          scenarios::CompiledScenes& scenes, const GoingOn& going_on) {
   const auto file = directory.file("recordings", run.file);
-  const std::string key = key_of(run);
-  if (is_whole(run, directory, key))
-    return played(run, recordings::read_recording(file), experiment);
+  if (is_whole(run, directory, key)) return {recordings::read_recording(file), {}};
   if (missing == MissingRun::refuse) {
-    if (const auto why = read_state(failure_of(run, directory), key)) return failed(run, *why);
+    if (const auto why = read_state(failure_of(run, directory), key)) return {{}, *why};
     if (run.kept) throw Error(fmt::format("{}: is missing or not whole", file.string()));
   }
   recordings::Recording recording;
@@ -105,7 +109,7 @@ PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
     throw;  // says nothing about the run
   } catch (const std::exception& error) {
     write_state(failure_of(run, directory), key, error.what());
-    return failed(run, error.what());
+    return {{}, error.what()};
   }
   if (!going_on()) throw Stopped();
   if (run.kept) {
@@ -114,7 +118,7 @@ PlayedRun play_or_read(const PlannedRun& run, const Experiment& experiment,
     if (!sum) throw Error(fmt::format("{}: cannot be read again", file.string()));
     write_state(stamp_of(run, directory), key, fmt::format("{:016x}", *sum));
   }
-  return played(run, std::move(recording), experiment);
+  return {std::move(recording), {}};
 }
 
 }  // namespace
@@ -140,12 +144,30 @@ PlayedRuns play_runs(const Experiment& experiment, const Plan& plan,
                      const std::set<std::size_t>& needed, const RunDirectory& directory,
                      MissingRun missing, const GoingOn& going_on) {
   PlayedRuns runs;
-  for (const std::size_t index : needed) runs.emplace(index, PlayedRun{plan.runs[index], {}, {}});
+  // Runs that differ only in who hears them are one simulation.
+  struct Simulation {
+    std::string key;
+    std::vector<PlayedRun*> hearers;
+  };
+  std::vector<Simulation> simulations;
+  std::map<std::string, std::size_t> number;
+  for (const std::size_t index : needed) {
+    const PlannedRun& run = plan.runs[index];
+    const auto [known, is_new] = number.emplace(key_of(run), simulations.size());
+    if (is_new) simulations.push_back({known->first, {}});
+    simulations[known->second].hearers.push_back(
+        &runs.emplace(index, PlayedRun{run, {}, {}}).first->second);
+  }
   scenarios::CompiledScenes scenes;
-  Progress progress("simulating", "runs", static_cast<std::int64_t>(runs.size()));
-  tbb::parallel_for_each(runs, [&](auto& entry) {
-    entry.second =
-        play_or_read(plan.runs[entry.first], experiment, directory, missing, scenes, going_on);
+  Progress progress("simulating", "runs", static_cast<std::int64_t>(simulations.size()));
+  tbb::parallel_for_each(simulations, [&](const Simulation& simulation) {
+    const Recorded recorded = simulate_or_read(simulation.hearers.front()->plan, simulation.key,
+                                               directory, missing, scenes, going_on);
+    for (PlayedRun* run : simulation.hearers) {
+      *run = recorded.recording ? played(run->plan, *recorded.recording,
+                                         plan.sensors[run->plan.sensors].profile, experiment)
+                                : failed(run->plan, recorded.error);
+    }
     progress.advance();
     if (!going_on()) throw Stopped();
   });

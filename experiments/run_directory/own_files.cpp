@@ -28,16 +28,15 @@ struct FixedNames {
   const char* shape;
 };
 constexpr std::array fixed_names = {
-    FixedNames{"state", R"((scenario_\d{3,}|sensors)\.yaml)"},
+    FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml)"},
     FixedNames{"state/listening", R"(.+_seed_\d{4,})"},
     FixedNames{"state/shards", R"(\d+_of_\d+)"},
     FixedNames{
         "tables",
-        "(agreement|calibration|classification|differences|labels|latency|moments|overlap|"
-        "reliability|runs|sample_efficiency|sensitivity|success|torque_distributions|torques|"
-        "training|transfer|transitions|verdicts|views)\\.csv|(cross_simulator|labels|phase_study|"
-        "tables)\\.md|tables\\.tex|"
-        "summary\\.json"},
+        "(agreement|benchmark|calibration|classification|density_overlap|differences|labels|"
+        "latency|moments|overlap|reliability|runs|sample_efficiency|sensitivity|sensor_sweep|"
+        "success|torque_distributions|torques|training|transfer|transitions|verdicts|views)\\.csv|"
+        "(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|summary\\.json"},
     FixedNames{"videos", R"(report\.(mp4|jpg))"},
     FixedNames{"figures", R"((training|sample_efficiency)\.(gp|png))"},
     FixedNames{"models", R"(nmn\.(npz|json))"},

@@ -44,6 +44,8 @@ NoiseRun noise_run(const RunSignals& run, const noise::NoiseKey& key) {
     return draws;
   };
   NoiseRun noise;
+  noise.hip_torque = {column(noise::NoiseChannel::left_hip_torque),
+                      column(noise::NoiseChannel::right_hip_torque)};
   noise.knee_torque = {column(noise::NoiseChannel::left_knee_torque),
                        column(noise::NoiseChannel::right_knee_torque)};
   noise.wheel_torque = {column(noise::NoiseChannel::left_wheel_torque),
@@ -88,6 +90,7 @@ NoiseRun with_heavy_tails(NoiseRun noise, const noise::NoiseKey& key) {
   for (std::size_t k = 0; k < pick.size(); ++k) {
     if (pick[k] < upper_tenth) continue;
     for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
+      noise.hip_torque[leg][k] *= 4.0;
       noise.knee_torque[leg][k] *= 4.0;
       noise.wheel_torque[leg][k] *= 4.0;
     }

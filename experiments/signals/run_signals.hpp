@@ -45,6 +45,7 @@ struct EncoderNoise {
 /// Unit Gaussian noise on all signals of one run, to be scaled by every noise
 /// level of a sweep: the draws are those of `with_noise` with the same key.
 struct NoiseRun {
+  std::array<std::vector<double>, models::wheel_count> hip_torque;
   std::array<std::vector<double>, models::wheel_count> knee_torque;
   std::array<std::vector<double>, models::wheel_count> wheel_torque;
   std::array<std::vector<double>, 3> acceleration;  ///< in the IMU frame
@@ -63,6 +64,7 @@ inline Signals noisy(const RunSignals& run, const NoiseRun& noise, const noise::
                      std::size_t step) {
   Signals signals = run.signals[step];
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
+    signals.leg[leg].hip.torque += levels.hip_torque * noise.hip_torque[leg][step];
     signals.leg[leg].knee.torque += levels.knee_torque * noise.knee_torque[leg][step];
     signals.leg[leg].wheel.torque += levels.wheel_torque * noise.wheel_torque[leg][step];
   }

@@ -69,11 +69,12 @@ BeliefTrack believe(const experiments::Condition& condition,
 }  // namespace
 
 std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
-  experiments::Experiment experiment = subject.experiment;
-  experiments::read_sensors(experiment, subject.directory);
+  const experiments::Experiment& experiment = subject.experiment;
+  const noise::SensorProfile profile = experiments::profile_of(
+      experiments::read_sensors(experiment, subject.directory), experiment.sensors);
   const experiments::VideoConfig& video = experiment.video;
   const noise::SensorNoise levels =
-      noise::with_encoder_noise({video.torque_noise, video.accelerometer_noise}, experiment.noise)
+      noise::as_on_grid({video.torque_noise, video.accelerometer_noise}, experiment.noise)
           .levels();
   const noise::NoiseKey key = experiments::noise_key(experiment, 0, video.run);
   std::vector<FilmedRun> filmed;
@@ -83,7 +84,7 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
     if (!fs::exists(log)) continue;
     recordings::Recording recording = recordings::read_recording(log);
     recordings::Recording reported = recording;
-    experiments::report_through_sensors(experiment, run.run, recording.period(),
+    experiments::report_through_sensors(profile, experiment, run.run, recording.period(),
                                         reported.observation);
     const experiments::RunSignals heard = experiments::signals_of(
         reported, experiment.labels, experiment.scoring, experiment.intervals.over);

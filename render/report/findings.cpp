@@ -18,6 +18,7 @@ using Cells = std::vector<experiments::CellSummary>;
 /// "knee torques, wheel torques and the accelerometer"; "nothing".
 std::string heard(const experiments::Sensors& sensors) {
   std::vector<std::string> what;
+  if (sensors.hip_torque) what.emplace_back("hip torques");
   if (sensors.knee_torque) what.emplace_back("knee torques");
   if (sensors.wheel_torque) what.emplace_back("wheel torques");
   if (sensors.acceleration) what.emplace_back("the accelerometer");

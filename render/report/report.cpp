@@ -11,6 +11,7 @@
 #include "render/report/html.hpp"
 #include "render/report/noise.hpp"
 #include "render/report/results.hpp"
+#include "render/report/scenes.hpp"
 #include "render/report/tables.hpp"
 
 namespace touchdown::render {
@@ -85,9 +86,9 @@ std::string built_from(const nlohmann::ordered_json& manifest) {
 
 fs::path write_report(const ReportSubject& subject, const std::string& film_html) {
   std::vector<ReportSection> sections = {
-      {"film", "Watch it", film_html}, estimators_section(subject), results_section(subject),
-      heatmap_section(subject),        paper_section(subject),      figures_section(subject),
-      more_tables_section(subject),    reproduce_section(subject)};
+      {"film", "Watch it", film_html}, estimators_section(subject),  results_section(subject),
+      scenes_section(subject),         heatmap_section(subject),     paper_section(subject),
+      figures_section(subject),        more_tables_section(subject), reproduce_section(subject)};
   std::erase_if(sections, [](const ReportSection& section) { return section.html.empty(); });
 
   std::string body = "<header>\n" + header_html(subject) + "<nav aria-label=\"Contents\"><ul>\n";

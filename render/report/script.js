@@ -38,6 +38,22 @@
     }
   }
 
+  // Tables of shares: a heading sorts the rows by its column, the best first, then the worst.
+  for (const table of all("table.shares")) {
+    const body = table.tBodies[0];
+    for (const button of all("button.sort", table)) {
+      button.addEventListener("click", () => {
+        const heading = button.closest("th");
+        const order = heading.getAttribute("aria-sort") === "descending" ? "ascending" : "descending";
+        const sign = order === "descending" ? -1 : 1;
+        const value = (row) => Number(row.cells[heading.cellIndex].dataset.value ?? -1);
+        for (const other of all("th[aria-sort]", table)) other.removeAttribute("aria-sort");
+        heading.setAttribute("aria-sort", order);
+        body.append(...all("tr", body).sort((a, b) => sign * (value(a) - value(b))));
+      });
+    }
+  }
+
   // Drops: a button takes its video to shortly before the takeoff.
   for (const film of all(".film")) {
     const video = film.querySelector("video");

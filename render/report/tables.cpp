@@ -31,12 +31,6 @@ bool is_number(const std::string& cell) {
   return !cell.empty() && cell.find_first_not_of("0123456789.+-eE") == std::string::npos;
 }
 
-double number(const std::string& cell) {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return value;
-}
-
 std::string readable_cell(const std::string& name, const std::string& cell) {
   if (cell == "nan") return "–";
   if (name.ends_with("simulator")) return simulators::simulator_title(cell);
@@ -105,6 +99,12 @@ std::string title_of(const fs::path& file) {
 }
 
 }  // namespace
+
+double number(const std::string& cell) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return value;
+}
 
 std::string table_html(const experiments::CaptionedTable& captioned, std::size_t text_columns) {
   const Table& table = captioned.table;

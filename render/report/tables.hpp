@@ -9,6 +9,9 @@
 
 namespace touchdown::render {
 
+/// The number that a cell of a CSV table begins with; NaN where there is none.
+double number(const std::string& cell);
+
 /// The table with a caption; the first `text_columns` name the row.
 std::string table_html(const experiments::CaptionedTable& table, std::size_t text_columns);
 

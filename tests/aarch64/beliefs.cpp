@@ -106,6 +106,7 @@ void listen_all() {
   listen("phase", PhaseFilter(fit_phase_model(runs, rate, phase.fit), phase), heard);
   listen("neural", NeuralEstimator(test::shared(test::random_network())), heard);
   listen("free_fall", FreeFall(), heard);
+  listen("support_force", SupportForce(), heard);
   listen("upkie_observer", UpkieObserver(), heard);
 }
 

@@ -13,6 +13,7 @@
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/free_fall.hpp"
 #include "estimator/phase/filter.hpp"
+#include "estimator/support_force.hpp"
 #include "estimator/upkie_observer.hpp"
 #include "experiments/lanes/bayes.hpp"
 #include "tests/estimator/named_config.hpp"
@@ -103,9 +104,11 @@ TEST_F(RealTime, UpdateAndResetAllocateNothing) {
     MeasurementOnly ablation(model, config);
     UpkieObserver observer;
     FreeFall free_fall;
+    SupportForce support_force;
     for (ContactEstimator* const estimator :
          {static_cast<ContactEstimator*>(&filter), static_cast<ContactEstimator*>(&ablation),
-          static_cast<ContactEstimator*>(&observer), static_cast<ContactEstimator*>(&free_fall)}) {
+          static_cast<ContactEstimator*>(&observer), static_cast<ContactEstimator*>(&free_fall),
+          static_cast<ContactEstimator*>(&support_force)}) {
       EXPECT_EQ(allocations_of([&] {
                   for (const Signals& s : stream) {
                     estimator->update(s);

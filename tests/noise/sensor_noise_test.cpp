@@ -47,6 +47,7 @@ TEST(SensorNoise, EveryLevelTouchesItsOwnSensorsOnly) {
            (n.imu.raw_linear_acceleration != o.imu.raw_linear_acceleration ? 'r' : '.') +
            (n.pitch != o.pitch || n.imu.angular_velocity != o.imu.angular_velocity ? '!' : '.');
   };
+  EXPECT_EQ(changed({.hip_torque = 1.0}), "t........t...........");
   EXPECT_EQ(changed({.knee_torque = 1.0}), "...t........t........");
   EXPECT_EQ(changed({.wheel_torque = 1.0}), "......t........t.....");
   EXPECT_EQ(changed({.acceleration = 1.0}), "..................ar.");

@@ -23,9 +23,10 @@ TEST(Registry, TellsEstimatorsApartAndSaysWhatTheyDo) {
 }
 
 TEST(Registry, NoiseCountsOnlyOnTheSensorsThatAreUsed) {
-  const noise::SensorNoise all{1.0, 2.0, 3.0, 4.0, 5.0};
+  const noise::SensorNoise all{1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
   EXPECT_EQ(noise_of({}, all), noise::SensorNoise{});
-  EXPECT_EQ(noise_of({true, true, true, true, true}, all), all);
+  EXPECT_EQ(noise_of({true, true, true, true, true, true}, all), all);
+  EXPECT_EQ(noise_of({.hip_torque = true}, all), noise::SensorNoise{.hip_torque = 6.0});
   EXPECT_EQ(noise_of({.wheel_torque = true, .joint_velocity = true}, all),
             (noise::SensorNoise{.wheel_torque = 2.0, .joint_velocity = 5.0}));
 }

@@ -45,17 +45,18 @@ TEST(RequestedSensors, AreReadBackAsTheyWereWhenTheyWereWritten) {
   write_request(request, RunDirectory("stairs", request.id, run), false);
   folder.write("mine.yaml", "torque: {white: 0.2}\n");
   EXPECT_EQ(read_request(run).id, request.id);
-  EXPECT_EQ(read_request(run).experiment.sensor_profile.torque[1].white, 0.1);
-  folder.write("run/state/sensors.yaml", "torque: {white: 0.3}\n");
+  EXPECT_EQ(read_request(run).sensors.front().profile.torque[1].white, 0.1);
+  folder.write("run/state/sensors_000.yaml", "torque: {white: 0.3}\n");
   EXPECT_THROW(read_request(run), InputError);
 }
 
 TEST(RequestedSensors, ReportARunInBothEnginesAlike) {
   const RunRequest request = request_with("sensors/harsh.yaml");
   std::vector<models::Observation> first(20), again(20), other(20);
-  report_through_sensors(request.experiment, 3, 0.001, first);
-  report_through_sensors(request.experiment, 3, 0.001, again);
-  report_through_sensors(request.experiment, 4, 0.001, other);
+  const noise::SensorProfile profile = request.sensors.front().profile;
+  report_through_sensors(profile, request.experiment, 3, 0.001, first);
+  report_through_sensors(profile, request.experiment, 3, 0.001, again);
+  report_through_sensors(profile, request.experiment, 4, 0.001, other);
   EXPECT_EQ(first[7].servo[1].torque, again[7].servo[1].torque);
   EXPECT_NE(first[7].servo[1].torque, other[7].servo[1].torque);
   EXPECT_NE(first[7].servo[1].torque, 0.0);

@@ -47,7 +47,8 @@ TEST(RunSignals, ScaledUnitNoiseIsWhatNoisySensorsReport) {
                                   .wheel_torque = 0.25,
                                   .acceleration = 3.0,
                                   .joint_position = 0.01,
-                                  .joint_velocity = 0.4};
+                                  .joint_velocity = 0.4,
+                                  .hip_torque = 0.7};
   const NoiseRun noise = noise_run(run, key);
   for (std::size_t k = 0; k < run.steps(); ++k) {
     const Signals scaled = noisy(run, noise, levels, k);
@@ -57,7 +58,8 @@ TEST(RunSignals, ScaledUnitNoiseIsWhatNoisySensorsReport) {
     for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
       EXPECT_NEAR(scaled.leg[leg].knee.torque, reported.leg[leg].knee.torque, 1e-12);
       EXPECT_NEAR(scaled.leg[leg].wheel.torque, reported.leg[leg].wheel.torque, 1e-12);
-      EXPECT_EQ(scaled.leg[leg].hip.torque, reported.leg[leg].hip.torque);
+      EXPECT_NEAR(scaled.leg[leg].hip.torque, reported.leg[leg].hip.torque, 1e-12);
+      EXPECT_NE(scaled.leg[leg].hip.torque, run.signals[k].leg[leg].hip.torque);
       for (const auto joint : {&LegSignals::hip, &LegSignals::knee, &LegSignals::wheel}) {
         const JointSignals& left = scaled.leg[leg].*joint;
         const JointSignals& right = reported.leg[leg].*joint;

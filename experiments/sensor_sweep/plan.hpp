@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/plan/plan.hpp"
+
+namespace touchdown::experiments {
+
+/// One value of one disturbance of the sensors.
+struct SensorVariation {
+  std::string key;
+  double value = 0.0;
+};
+
+/// Every value of every one, in the order of the file.
+std::vector<SensorVariation> sensor_variations(const Experiment& experiment);
+
+/// Adds, for every value, the experiment's own test runs as they are heard through sensors with
+/// that value: by estimators fitted as the experiment's own, at the first highlighted noise
+/// setting. Nothing is simulated for it.
+void add_sensor_sweep(const RunRequest& request, Plan& plan);
+
+/// The group of a value's runs. Errors: `Error` if the plan has none.
+std::size_t group_of(const SensorVariation& variation, const Plan& plan);
+
+}  // namespace touchdown::experiments

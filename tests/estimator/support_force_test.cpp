@@ -1,0 +1,189 @@
+#include "estimator/support_force.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+namespace {
+
+constexpr double gravity = 9.81;
+
+/// Heights of the centres of mass of upper leg, lower leg and wheel, and the foot's place, below a
+/// hip at the origin.
+struct Places {
+  std::array<double, 3> height;
+  double x = 0.0;
+  double z = 0.0;
+};
+
+Places places(const LegGeometry& leg, double hip, double knee) {
+  const double bent = hip + knee;
+  const double knee_z = -leg.upper_length * std::cos(hip);
+  const double x = leg.upper_length * std::sin(hip) + leg.lower_length * std::sin(bent);
+  const double z = knee_z - leg.lower_length * std::cos(bent);
+  return {{leg.upper_centre * knee_z, knee_z + leg.lower_centre * (z - knee_z), z}, x, z};
+}
+
+/// The torques that hold a leg against a force on its foot while all of it accelerates, by the
+/// principle of virtual work: differences of places, no Jacobian.
+LegSignals holding(const LegGeometry& leg, double hip, double knee, double force_x, double force_z,
+                   double acceleration) {
+  constexpr double step = 1e-6;
+  const std::array<double, 3> mass = {leg.upper_mass, leg.lower_mass, leg.wheel_mass};
+  const auto torque = [&](double along_hip, double along_knee) {
+    const Places up = places(leg, hip + along_hip, knee + along_knee);
+    const Places down = places(leg, hip - along_hip, knee - along_knee);
+    double work = force_x * (up.x - down.x) + force_z * (up.z - down.z);
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+      work -= mass[i] * (gravity + acceleration) * (up.height[i] - down.height[i]);
+    }
+    return -work / (2.0 * step);
+  };
+  LegSignals signals;
+  signals.hip = {hip, 0.0, torque(step, 0.0)};
+  signals.knee = {knee, 0.0, torque(0.0, step)};
+  return signals;
+}
+
+LegSignals mirrored(LegSignals leg) {
+  for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
+    joint->position = -joint->position;
+    joint->torque = -joint->torque;
+  }
+  return leg;
+}
+
+TEST(VerticalForce, IsTheOneThatTheTorquesHoldAgainst) {
+  for (const LegGeometry& leg :
+       {LegGeometry(),
+        LegGeometry{
+            .upper_length = 0.3, .lower_length = 0.2, .upper_mass = 1.5, .wheel_mass = 0.4}}) {
+    for (const double hip : {-0.2, 0.1, 0.455, 1.0}) {
+      for (const double knee : {-1.5, -0.791, -0.17}) {
+        for (const double force : {0.0, 26.2, 120.0}) {
+          for (const double acceleration : {-gravity, 0.0, 7.0}) {
+            const LegSignals held = holding(leg, hip, knee, 3.0, force, acceleration);
+            EXPECT_NEAR(vertical_force(leg, held, false, acceleration), force, 1e-6);
+            EXPECT_NEAR(vertical_force(leg, mirrored(held), true, acceleration), force, 1e-6);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(VerticalForce, OfAStraightLegIsUnknown) {
+  LegSignals straight;
+  straight.hip.torque = 1.0;
+  EXPECT_FALSE(std::isfinite(vertical_force({}, straight, false, 0.0)));
+}
+
+/// Steps of one millisecond of a crouching robot whose wheels carry these forces.
+class Standing {
+ public:
+  const Belief& carry(double left, double right, int steps, double acceleration = 0.0) {
+    for (int i = 0; i < steps; ++i) {
+      signals_.time += 0.001;
+      signals_.vertical_acceleration = acceleration + 1e-9 * static_cast<double>(i % 2);
+      signals_.leg[0] = holding({}, 0.455, -0.791, 0.0, left, acceleration);
+      signals_.leg[1] = mirrored(holding({}, 0.455, -0.791, 0.0, right, acceleration));
+      estimator_.update(signals_);
+    }
+    return feel();
+  }
+  /// One step of what is there, whatever it is.
+  const Belief& feel() {
+    signals_.time += 0.001;
+    signals_.vertical_acceleration += 1e-9;
+    return belief_ = estimator_.update(signals_);
+  }
+  Signals& signals() { return signals_; }
+  const SupportForce& estimator() const { return estimator_; }
+
+ private:
+  SupportForce estimator_;
+  Signals signals_;
+  Belief belief_;
+};
+
+TEST(SupportForce, TellsOneWheelFromTheOther) {
+  Standing robot;
+  const Belief& both = robot.carry(26.0, 26.0, 200);
+  EXPECT_TRUE(both.wheel[0].contact && both.wheel[1].contact);
+  EXPECT_GT(both.p_both_wheels, 0.99);
+  const Belief& left_alone = robot.carry(52.0, 0.0, 100);
+  EXPECT_TRUE(left_alone.wheel[0].contact);
+  EXPECT_FALSE(left_alone.wheel[1].contact);
+  EXPECT_LT(left_alone.wheel[1].p_contact, 0.01);
+  EXPECT_NEAR(robot.estimator().force(Side::left), 52.0, 0.1);
+  EXPECT_GT(left_alone.p_any_wheel, 0.99);
+}
+
+TEST(SupportForce, SeesALiftThatIsNoFall) {
+  Standing robot;
+  robot.carry(26.0, 26.0, 200);
+  EXPECT_LT(robot.carry(0.0, 0.0, 100, 0.5).p_any_wheel, 0.02);
+}
+
+TEST(SupportForce, IsNotFooledByALegThatYields) {
+  // The torso falls at 6 m/s² while the wheels still carry a third of it.
+  Standing robot;
+  robot.carry(26.0, 26.0, 200);
+  EXPECT_TRUE(robot.carry(13.0, 13.0, 200, -6.0).wheel[0].contact);
+}
+
+TEST(SupportForce, HasHysteresis) {
+  Standing robot;
+  robot.carry(26.0, 26.0, 100);
+  EXPECT_TRUE(robot.carry(8.0, 8.0, 200).wheel[0].contact);  // above 6 N it stays
+  EXPECT_FALSE(robot.carry(5.0, 5.0, 200).wheel[0].contact);
+  EXPECT_FALSE(robot.carry(10.0, 10.0, 200).wheel[0].contact);  // below 12 N it stays away
+  EXPECT_TRUE(robot.carry(13.0, 13.0, 200).wheel[0].contact);
+}
+
+TEST(SupportForce, RelaxesWhereALegSaysNothing) {
+  Standing robot;
+  robot.carry(26.0, 26.0, 200);
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e9}) {
+    robot.signals().leg[1].hip.torque = bad;
+    for (int i = 0; i < 1000; ++i) robot.feel();
+    const Belief& belief = robot.feel();
+    EXPECT_EQ(belief.status, SignalStatus::invalid);
+    EXPECT_GT(belief.wheel[0].p_contact, 0.99);  // the other leg goes on
+    EXPECT_NEAR(belief.wheel[1].p_contact, 0.5, 0.01);
+    EXPECT_TRUE(belief.wheel[1].contact);  // the last decision
+    EXPECT_EQ(robot.carry(26.0, 26.0, 100).status, SignalStatus::good);
+  }
+  robot.signals().vertical_acceleration = std::nan("");
+  EXPECT_EQ(robot.feel().status, SignalStatus::invalid);
+}
+
+TEST(SupportForce, BeginsWithTheFlatPriorAndForgets) {
+  Standing robot;
+  EXPECT_EQ(SupportForce().update(Signals()).wheel[0].p_contact, 0.5);  // straight legs say nothing
+  robot.carry(0.0, 0.0, 100);
+  SupportForce estimator;
+  estimator.update(robot.signals());
+  estimator.reset();
+  EXPECT_EQ(estimator.force(Side::left), 0.0);
+}
+
+TEST(SupportForce, RefusesWhatMakesNoSense) {
+  const auto refused = [](const SupportForceConfig& config) {
+    EXPECT_THROW(SupportForce{config}, InputError);
+  };
+  refused({.sample_rate = 0.0});
+  refused({.low_pass = -1.0});
+  refused({.contact = 5.0, .release = 6.0});
+  refused({.width = 0.0});
+  refused({.geometry = {.lower_length = 0.0}});
+  refused({.low_pass = std::numeric_limits<double>::quiet_NaN()});
+}
+
+}  // namespace
+}  // namespace touchdown
