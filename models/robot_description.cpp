@@ -11,11 +11,32 @@ static void describe(Fields& fields, LegActuators& actuators) {
   fields.section("wheel", actuators.wheel);
 }
 
-static void describe(Fields& fields, RobotDescription& robot) {
+static void describe(Fields& fields, LegLengths& legs) {
+  const auto length = [](double& value) {
+    return [&value](Fields& leg) { leg("length", value, 0.2, 5.0); };
+  };
+  length(legs.both)(fields);
+  fields.within("left", length(legs.one[0]));
+  fields.within("right", length(legs.one[1]));
+}
+
+static void describe(Fields& fields, Stance& stance) {
+  fields("hip", stance.hip, -1.26, 1.26);
+  fields("knee", stance.knee, -2.51, 2.51);
+}
+
+void describe(Fields& fields, RobotDescription& robot) {
   std::string mjcf = robot.mjcf.string();
   fields.require("mjcf", mjcf);
   robot.mjcf = mjcf;
+  fields("mass", robot.mass, 0.01, 100.0);
+  double radius = robot.wheel_radius.value_or(0.0);
+  fields("wheel_radius", radius, 0.005, 1.0);
+  if (radius > 0.0) robot.wheel_radius = radius;
+  fields.section("legs", robot.legs);
+  fields.section("stance", robot.stance);
   fields.section("actuators", robot.actuators);
+  fields.know("balancer");
 }
 
 const std::optional<Actuator>& RobotDescription::actuator(Servo servo) const {
@@ -29,8 +50,14 @@ const std::optional<Actuator>& RobotDescription::actuator(Servo servo) const {
   }
 }
 
+bool is_about_an_mjcf(const std::filesystem::path& file) { return file.extension() == ".yaml"; }
+
 RobotDescription robot_description(const std::filesystem::path& file) {
-  if (file.extension() != ".yaml") return {.mjcf = file, .actuators = {}};
+  if (!is_about_an_mjcf(file)) {
+    RobotDescription alone;
+    alone.mjcf = file;
+    return alone;
+  }
   auto robot = from_yaml<RobotDescription>(YamlDocument::load(file));
   robot.mjcf = file.parent_path() / robot.mjcf;
   return robot;

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "models/resizing.hpp"
 #include "models/robot_description.hpp"
 #include "models/scene_mjcf.hpp"
 #include "models/terrain_mjcf.hpp"
@@ -170,9 +171,30 @@ void set_actuators(RobotModel& robot, const RobotDescription& description) {
   }
   if (std::any_of(robot.actuator.begin(), robot.actuator.end(),
                   [](const Actuator& actuator) { return actuator.armature != 0.0; })) {
-    const MjDataPtr data(mj_makeData(robot.mj.get()));
-    mj_setConst(robot.mj.get(), data.get());
+    recompute(*robot.mj);
   }
+}
+
+/// What the robot's file says about its size.
+void set_size(RobotModel& robot, const RobotDescription& description, const Contract& contract) {
+  const double wheels = description.wheel_radius.value_or(robot.wheel_radius) / robot.wheel_radius;
+  bool changed = description.mass != 1.0 || wheels != 1.0;
+  if (description.mass != 1.0) scale_mass(*robot.mj, description.mass);
+  if (wheels != 1.0) {
+    scale_wheels(*robot.mj, wheels);
+    robot.wheel_radius *= wheels;
+  }
+  for (std::size_t leg = 0; leg < description.legs.one.size(); ++leg) {
+    const double length = description.legs.both * description.legs.one[leg];
+    if (length == 1.0) continue;
+    try {
+      scale_leg(*robot.mj, leg, length);
+    } catch (const InputError& error) {
+      contract.fail(error.what());
+    }
+    changed = true;
+  }
+  if (changed) recompute(*robot.mj);
 }
 
 void find_tyres(RobotModel& robot, const Contract& contract) {
@@ -212,6 +234,7 @@ RobotModel compile_robot_model(const std::filesystem::path& robot_file, const Te
     contract.fail("site 'imu': expected it on the base body");
   }
   find_tyres(robot, contract);
+  set_size(robot, description, contract);
   return robot;
 }
 
