@@ -13,11 +13,20 @@ VelocityCommand command_at(const VelocityScript& script, double time) {
   return later == script.begin() ? VelocityCommand{} : *std::prev(later);
 }
 
-void describe(Fields& fields, WheelBalancerConfig& config) {
+static WheelBalancerConfig with_gains(const std::string& name, const WheelBalancerConfig& config,
+                                      const LqrGains& lqr) {
+  if (name == "touchdown") return with_touchdown_gains(config);
+  return name == "upkie" ? with_upkie_gains(config) : lqr(config);
+}
+
+void describe(Fields& fields, WheelBalancerConfig& config, const LqrGains& lqr) {
   if (fields.reading()) {
-    std::string gains = "touchdown";
-    fields.choose("gains", {"touchdown", "upkie"}, gains);
-    if (gains == "upkie") config = with_upkie_gains(config);
+    std::vector<std::string> known = {"touchdown", "upkie"};
+    if (lqr) known.emplace_back("lqr");
+    std::string gains = known.front();
+    const bool named = fields.present("gains", false);
+    fields.choose("gains", known, gains);
+    if (named) fields.check("gains", [&] { config = with_gains(gains, config, lqr); });
   }
   fields("pitch_stiffness", config.pitch_stiffness, 0.0, 1e4);
   fields("pitch_damping", config.pitch_damping, 0.0, 1e4);

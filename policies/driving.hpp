@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 namespace touchdown {
@@ -43,6 +44,16 @@ struct WheelBalancerConfig {
   double leg_kd_scale = 2.0;        ///< of the hips and knees
 };
 
+/// Our own, found for Upkie with bent legs on stairs.
+inline WheelBalancerConfig with_touchdown_gains(WheelBalancerConfig config) {
+  const WheelBalancerConfig ours;
+  config.pitch_stiffness = ours.pitch_stiffness;
+  config.pitch_damping = ours.pitch_damping;
+  config.position_stiffness = ours.position_stiffness;
+  config.position_damping = ours.position_damping;
+  return config;
+}
+
 /// The gains that Upkie ships with (github.com/upkie/upkie, upkie/cpp/controllers/WheelBalancer.h,
 /// `WheelBalancer::Parameters`): a third of our pitch damping, less than a quarter of our position
 /// damping.
@@ -54,8 +65,13 @@ inline WheelBalancerConfig with_upkie_gains(WheelBalancerConfig config) {
   return config;
 }
 
-/// `gains: upkie` begins with `with_upkie_gains`; what is written are the numbers alone.
-void describe(Fields& fields, WheelBalancerConfig& config);
+/// The balancer with gains that follow from the robot (policies/wheeled_pendulum.hpp).
+using LqrGains = std::function<WheelBalancerConfig(const WheelBalancerConfig&)>;
+
+/// `gains: upkie` begins with `with_upkie_gains`, `gains: touchdown` with the defaults of the same
+/// four, `gains: lqr` with `lqr`, where somebody knows the robot; what is written are the numbers
+/// alone.
+void describe(Fields& fields, WheelBalancerConfig& config, const LqrGains& lqr = {});
 /// One command of a script; while it is read, the last one so far, which must be the latest.
 void describe(Fields& fields, VelocityCommand& command, const VelocityScript& script);
 

@@ -207,5 +207,26 @@ TEST(WheelBalancer, HasUpkiesGainsByName) {
   }
 }
 
+TEST(WheelBalancer, HasLqrGainsByNameWhereTheRobotIsKnown) {
+  const auto read = [](const std::string& text, WheelBalancerConfig config = {}) {
+    Fields fields(YamlDocument::parse(text, "gains.yaml"));
+    describe(fields, config, [](WheelBalancerConfig robot) {
+      robot.pitch_stiffness = 77.0;
+      robot.leg_kp_scale = 3.0;
+      return robot;
+    });
+    fields.finish();
+    return config;
+  };
+  EXPECT_EQ(read("gains: lqr").pitch_stiffness, 77.0);
+  EXPECT_EQ(read("{pitch_stiffness: 5, gains: lqr}").pitch_stiffness, 5.0);
+  EXPECT_EQ(read("max_velocity: 1").pitch_stiffness, WheelBalancerConfig{}.pitch_stiffness);
+  // On top of a robot's own gains, a name replaces the four that it stands for.
+  const WheelBalancerConfig own = read("gains: lqr");
+  EXPECT_EQ(read("gains: touchdown", own).pitch_stiffness, 32.0);
+  EXPECT_EQ(read("gains: touchdown", own).leg_kp_scale, 3.0);
+  EXPECT_EQ(read("max_velocity: 1", own).pitch_stiffness, 77.0);
+}
+
 }  // namespace
 }  // namespace touchdown::policies
