@@ -10,6 +10,7 @@
 #include "experiments/config/yaml_kind.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/scenario_file.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::cli {
@@ -30,8 +31,7 @@ void simulate(const SimulateFlags& flags, const CliSession& session) {
   YamlDocument document = YamlDocument::load(file);
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
   experiments::require_yaml_kind(document, experiments::YamlKind::scenario);
-  scenarios::Scenario scenario = scenarios::scenario_from_yaml(document);
-  scenario.robot = find_resource(scenario.robot);
+  scenarios::Scenario scenario = scenarios::complete_scenario(document);
   check_outputs({{file, "scenario"}, {scenario.robot, "robot"}}, {flags.output});
   if (flags.run >= 0) scenario = scenarios::perturbed(scenario, flags.seed, flags.run);
 

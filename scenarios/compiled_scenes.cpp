@@ -1,20 +1,24 @@
 #include "scenarios/compiled_scenes.hpp"
 
 #include "core/fields.hpp"
+#include "models/resizing.hpp"
 #include "models/terrain_yaml.hpp"
 
 namespace touchdown::scenarios {
 
 namespace {
 
-/// Scales mass and inertia alike, so that the robot keeps its shape.
-void scale_mass(models::RobotModel& model, double scale) {
-  for (int body = 1; body < model.mj->nbody; ++body) {
-    model.mj->body_mass[body] *= scale;
-    for (int axis = 0; axis < 3; ++axis) model.mj->body_inertia[3 * body + axis] *= scale;
+/// The robot of this scenario from the one that its file describes.
+void deviate(models::RobotModel& model, const Deviations& deviations) {
+  models::shift_mass(*model.mj, model.base_body, {deviations.com_x, 0.0, deviations.com_z});
+  models::scale_wheels(*model.mj, deviations.wheel_radius_scale);
+  model.wheel_radius *= deviations.wheel_radius_scale;
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    models::Actuator& actuator = model.actuator[i];
+    actuator.friction *= deviations.actuator_friction_scale;
+    actuator.viscous *= deviations.actuator_friction_scale;
+    actuator.torque_error += deviations.torque_error[i];
   }
-  const models::MjDataPtr data(mj_makeData(model.mj.get()));
-  mj_setConst(model.mj.get(), data.get());
 }
 
 /// The parts of a scenario that its scene is made of, and no others.
@@ -23,16 +27,23 @@ std::string scene_of(const Scenario& scenario) {
   scene.robot = scenario.robot;
   scene.terrain = scenario.terrain;
   scene.mass_scale = scenario.mass_scale;
+  scene.deviations = scenario.deviations;
   return to_yaml(scene);
 }
 
 }  // namespace
 
-std::shared_ptr<const models::RobotModel> compile_scene(const Scenario& scenario) {
-  auto model = std::make_shared<models::RobotModel>(
-      models::compile_robot_model(scenario.robot, scenario.terrain));
-  if (scenario.mass_scale != 1.0) scale_mass(*model, scenario.mass_scale);
+models::RobotModel compile_robot(const Scenario& scenario) {
+  models::RobotModel model = models::compile_robot_model(scenario.robot, scenario.terrain);
+  const bool deviates = scenario.deviations != Deviations{};
+  if (scenario.mass_scale != 1.0) models::scale_mass(*model.mj, scenario.mass_scale);
+  if (deviates) deviate(model, scenario.deviations);
+  if (scenario.mass_scale != 1.0 || deviates) models::recompute(*model.mj);
   return model;
+}
+
+std::shared_ptr<const models::RobotModel> compile_scene(const Scenario& scenario) {
+  return std::make_shared<models::RobotModel>(compile_robot(scenario));
 }
 
 std::shared_ptr<const models::RobotModel> CompiledScenes::of(const Scenario& scenario) {

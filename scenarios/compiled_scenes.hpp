@@ -10,8 +10,10 @@
 
 namespace touchdown::scenarios {
 
-/// Robot and terrain of a scenario, which its simulators in all engines are made of.
-/// Errors: `InputError` for a robot that breaks the naming contract.
+/// Robot and terrain of a scenario, which its simulators in all engines and its pictures are made
+/// of. Errors: `InputError` for a robot that breaks the naming contract.
+models::RobotModel compile_robot(const Scenario& scenario);
+/// The same, to be shared.
 std::shared_ptr<const models::RobotModel> compile_scene(const Scenario& scenario);
 
 /// Scenes that runs have in common, compiled once: compiling takes as long as a second of a run.

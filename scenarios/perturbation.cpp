@@ -47,6 +47,11 @@ void describe_range(Fields& fields, std::string_view key, Range& range, double l
   range = {ends[0], ends[1]};
 }
 
+/// A half width that is written only if something varies by it.
+void rarely(Fields& fields, std::string_view key, double& half_width, double most) {
+  if (fields.reading() || half_width != 0.0) fields(key, half_width, 0.0, most);
+}
+
 }  // namespace
 
 static void describe(Fields& fields, RandomDrive& drive) {
@@ -83,6 +88,11 @@ void describe(Fields& fields, Perturbation& perturbation) {
   fields("friction", perturbation.friction, 0.0, 2.0);
   fields("servo_gain_scale", perturbation.servo_gain_scale, 0.0, 0.9);
   fields("force_scale", perturbation.force_scale, 0.0, 1.0);
+  rarely(fields, "com_x", perturbation.com_x, 0.5);
+  rarely(fields, "com_z", perturbation.com_z, 0.5);
+  rarely(fields, "wheel_radius_scale", perturbation.wheel_radius_scale, 0.5);
+  rarely(fields, "actuator_friction_scale", perturbation.actuator_friction_scale, 1.0);
+  rarely(fields, "torque_error", perturbation.torque_error, 0.5);
   fields.section("drive", perturbation.drive);
   fields.know("crouching");
   fields.section("crouching", perturbation.crouching);

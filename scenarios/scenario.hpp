@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "core/yaml.hpp"
+#include "models/robot_description.hpp"
 #include "models/terrain.hpp"
 #include "policies/crouching.hpp"
 #include "policies/driving.hpp"
@@ -18,12 +20,12 @@ namespace touchdown::scenarios {
 
 /// Where and how the robot stands when the run begins.
 struct Start {
-  double x = 0.0;          ///< of the wheels, along the course (m)
-  double y = 0.0;          ///< across it (m)
-  double yaw = 0.0;        ///< heading, positive to the left (rad)
-  double hip = 0.455;      ///< crouch: hip angle (rad)
-  double knee = 0.791;     ///< crouch: knee angle (rad)
-  double clearance = 0.0;  ///< between the tyres and the ground (m)
+  double x = 0.0;                       ///< of the wheels, along the course (m)
+  double y = 0.0;                       ///< across it (m)
+  double yaw = 0.0;                     ///< heading, positive to the left (rad)
+  double hip = models::Stance{}.hip;    ///< crouch: hip angle (rad)
+  double knee = models::Stance{}.knee;  ///< crouch: knee angle (rad)
+  double clearance = 0.0;               ///< between the tyres and the ground (m)
 };
 
 /// When a run is over.
@@ -32,6 +34,18 @@ struct End {
   double x = std::numeric_limits<double>::infinity();  ///< finished once the base is past (m)
   double settle = 1.0;                                 ///< and has gone on for (s)
   double fall_tilt = 1.0;                              ///< fell when tilted by more (rad)
+};
+
+/// How this very robot differs from its description.
+struct Deviations {
+  double com_x = 0.0;  ///< where the base body's centre of mass is besides, forward (m)
+  double com_z = 0.0;  ///< and upward (m)
+  double wheel_radius_scale = 1.0;
+  double actuator_friction_scale = 1.0;  ///< of Coulomb's and viscous friction, of every joint
+  /// Relative errors of the torque constants, besides what the robot's file says of them.
+  std::array<double, models::servo_count> torque_error = {};
+
+  bool operator==(const Deviations&) const = default;
 };
 
 /// One experiment's scene: which robot stands on which terrain, what drives it, when it is over.
@@ -48,17 +62,17 @@ struct Scenario {
   std::vector<policies::Guide> guides;
   policies::ForceScript forces;
   double mass_scale = 1.0;  ///< on the mass and inertia of every body of the robot
+  Deviations deviations;
   simulators::SimulatorOptions simulation;
   End end;
   Perturbation perturbation;
 };
 
-/// Read a scenario strictly. Errors: `InputError` with file:line:column.
-Scenario scenario_from_yaml(const YamlDocument& document);
+/// Read a scenario strictly, alone: what it does not say is as `defaults` has it, whatever its
+/// robot (scenarios/scenario_file.hpp asks that too). Errors: `InputError` with file:line:column.
+Scenario scenario_from_yaml(const YamlDocument& document, const Scenario& defaults = {},
+                            const policies::LqrGains& lqr = {});
 Scenario load_scenario(const std::filesystem::path& path);
-/// The scenario that something else names: its file and its robot's are where `find_resource` finds
-/// them.
-Scenario find_scenario(const std::filesystem::path& path);
 
 /// All that its robot is made from, for digests.
 std::string robot_text(const Scenario& scenario);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/LU>
+
 #include "core/error.hpp"
 #include "models/profile.hpp"
 
@@ -24,6 +26,61 @@ Kinematics kinematics(const models::RobotModel& model, mjData& data,
                  models::vector_at(data.geom_xpos, model.tyre_geom[1]))};
 }
 
+/// A point's place from the side: x and z.
+Eigen::Vector2d from_the_side(const mjtNum* x, int row) { return {x[3 * row], x[3 * row + 2]}; }
+
+/// Hip and knee of one leg, by servo.
+struct Leg {
+  std::size_t hip, knee;
+  int tyre;
+};
+
+/// Bends a leg until its tyre is at `target`, seen from the side of the upright base, by Newton's
+/// method. It starts bent a little more, for a straight leg does not know which way to bend.
+void reach(const models::RobotModel& model, mjData& data, simulators::RobotState& state,
+           const Leg& leg, const Eigen::Vector2d& target, double forward) {
+  constexpr double more_hip = 0.2;
+  constexpr double more_knee = 0.35;
+  state.joint_position[leg.hip] += forward * more_hip;
+  state.joint_position[leg.knee] -= forward * more_knee;
+  const int body = model.mj->geom_bodyid[leg.tyre];
+  Eigen::Matrix<mjtNum, 3, Eigen::Dynamic, Eigen::RowMajor> jacobian(3, model.mj->nv);
+  constexpr int most_steps = 50;
+  for (int step = 0; step < most_steps; ++step) {
+    kinematics(model, data, state);
+    const Eigen::Vector2d missing = target - from_the_side(data.geom_xpos, leg.tyre);
+    if (missing.norm() < 1e-12) return;
+    mj_jac(model.mj.get(), &data, jacobian.data(), nullptr, &data.geom_xpos[3 * leg.tyre], body);
+    Eigen::Matrix2d turn;
+    turn << jacobian(0, model.dof_address[leg.hip]), jacobian(0, model.dof_address[leg.knee]),
+        jacobian(2, model.dof_address[leg.hip]), jacobian(2, model.dof_address[leg.knee]);
+    const Eigen::Vector2d bend = turn.partialPivLu().solve(missing);
+    state.joint_position[leg.hip] += bend[0];
+    state.joint_position[leg.knee] += bend[1];
+  }
+  throw InputError("start: legs of this robot cannot stand on one axle with this hip and knee");
+}
+
+/// Legs of different lengths: the shorter one keeps the angles asked for, and hip and knee of the
+/// longer one give way until both wheels turn about one axle.
+void line_up(const models::RobotModel& model, mjData& data, simulators::RobotState& state) {
+  const std::array<Leg, 2> legs = {
+      Leg{models::index(models::Servo::left_hip), models::index(models::Servo::left_knee),
+          model.tyre_geom[0]},
+      Leg{models::index(models::Servo::right_hip), models::index(models::Servo::right_knee),
+          model.tyre_geom[1]}};
+  std::array<Eigen::Vector2d, 2> tyre;
+  std::array<double, 2> length;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const int hip = model.mj->dof_jntid[model.dof_address[legs[i].hip]];
+    tyre[i] = from_the_side(data.geom_xpos, legs[i].tyre);
+    length[i] = (tyre[i] - from_the_side(data.xanchor, hip)).norm();
+  }
+  if ((tyre[0] - tyre[1]).norm() < 1e-9) return;
+  const std::size_t longer = length[0] > length[1] ? 0 : 1;
+  reach(model, data, state, legs[longer], tyre[1 - longer], longer == 0 ? 1.0 : -1.0);
+}
+
 }  // namespace
 
 simulators::RobotState start_pose(const models::RobotModel& model, const models::Terrain& terrain,
@@ -34,6 +91,8 @@ simulators::RobotState start_pose(const models::RobotModel& model, const models:
   // The left hip swings the foot forward and the knee folds it back under the hip.
   state.joint_position = {start.hip, -start.knee, 0.0, -start.hip, start.knee, 0.0};
 
+  (void)kinematics(model, *data, state);
+  line_up(model, *data, state);
   const Kinematics upright = kinematics(model, *data, state);
   const Eigen::Vector3d lever = upright.centre_of_mass - upright.axle;
   const double pitch = -std::atan2(lever.x(), lever.z());

@@ -12,6 +12,7 @@
 #include "noise/sensor_noise.hpp"
 #include "recordings/signals_from.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/scenario_file.hpp"
 
 namespace touchdown::training {
 

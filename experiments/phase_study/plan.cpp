@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scenarios/perturbation.hpp"
+#include "scenarios/scenario_file.hpp"
 
 namespace touchdown::experiments {
 

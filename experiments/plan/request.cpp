@@ -13,6 +13,7 @@
 #include "experiments/run_directory/occupant.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "models/robot_description.hpp"
+#include "scenarios/scenario_file.hpp"
 
 namespace touchdown::experiments {
 

@@ -14,6 +14,7 @@
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/sensors.hpp"
 #include "recordings/log/recording_file.hpp"
+#include "scenarios/compiled_scenes.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace touchdown::render {
@@ -30,7 +31,7 @@ experiments::FittedModel model_of(const fs::path& directory, const std::string& 
       *kind, directory / "models" / experiments::model_name(simulator, estimator));
 }
 
-/// The robot on the terrain of the scenario that a recording says it was made in.
+/// The robot, as it was drawn, on the terrain of the scenario that a recording says it was made in.
 models::RobotModel robot_of(const recordings::Recording& recording) {
   const recordings::RecordingInfo& info = recording.info;
   if (info.scenario_yaml.empty()) {
@@ -38,9 +39,10 @@ models::RobotModel robot_of(const recordings::Recording& recording) {
         "the recording does not say on which terrain it was made: a robot's own log "
         "cannot be drawn");
   }
-  const scenarios::Scenario scenario = scenarios::scenario_from_yaml(
+  scenarios::Scenario scenario = scenarios::scenario_from_yaml(
       YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)"));
-  return models::compile_robot_model(find_resource(scenario.robot), scenario.terrain);
+  scenario.robot = find_resource(scenario.robot);
+  return scenarios::compile_robot(scenario);
 }
 
 /// What an estimator says along a noisy recording. `noise` was drawn for the run.

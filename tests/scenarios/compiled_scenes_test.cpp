@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/resources.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/scenario_file.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::scenarios {
@@ -28,6 +30,31 @@ TEST(CompiledScenes, SharesTheModelOfScenariosThatDifferInOtherThings) {
   Scenario smoother = scenario;
   smoother.terrain.friction *= 0.5;
   EXPECT_NE(scenes.of(smoother), model);
+}
+
+TEST(CompiledScenes, AreOfTheRobotAsItDeviates) {
+  CompiledScenes scenes;
+  Scenario scenario = stairs();
+  scenario.robot = find_resource("models/upkie_actuated.yaml");
+  const auto model = scenes.of(scenario);
+  scenario.deviations = {.com_x = 0.01,
+                         .com_z = -0.02,
+                         .wheel_radius_scale = 1.1,
+                         .actuator_friction_scale = 2.0,
+                         .torque_error = {0.0, 0.05, 0.0, 0.0, 0.0, -0.1}};
+  const auto other = scenes.of(scenario);
+  ASSERT_NE(other, model);
+  const int base = model->base_body;
+  EXPECT_NEAR(other->mj->body_ipos[3 * base], model->mj->body_ipos[3 * base] + 0.01, 1e-15);
+  EXPECT_NEAR(other->mj->body_ipos[3 * base + 2], model->mj->body_ipos[3 * base + 2] - 0.02, 1e-15);
+  EXPECT_NEAR(other->wheel_radius, 0.055, 1e-15);
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    EXPECT_EQ(other->actuator[i].friction, 2.0 * model->actuator[i].friction);
+    EXPECT_EQ(other->actuator[i].torque_error, scenario.deviations.torque_error[i]);
+  }
+  // They are part of what a recording is played again from.
+  const Scenario again = scenario_from_yaml(YamlDocument::parse(to_yaml(scenario), "again.yaml"));
+  EXPECT_TRUE(again.deviations == scenario.deviations);
 }
 
 TEST(CompiledScenes, ForgetsScenesThatNobodyNeedsAnyMore) {

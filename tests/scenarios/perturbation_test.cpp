@@ -1,3 +1,5 @@
+#include <set>
+
 #include "tests/scenarios/runs.hpp"
 
 namespace touchdown::scenarios {
@@ -13,6 +15,11 @@ Perturbation all_of_it() {
           .friction = 0.3,
           .servo_gain_scale = 0.2,
           .force_scale = 0.5,
+          .com_x = 0.01,
+          .com_z = 0.02,
+          .wheel_radius_scale = 0.03,
+          .actuator_friction_scale = 0.4,
+          .torque_error = 0.05,
           .drive = std::nullopt,
           .crouching = std::nullopt,
           .lift = std::nullopt};
@@ -50,6 +57,12 @@ TEST(Perturbed, StaysWithinTheHalfWidthsAndReachesThem) {
     EXPECT_NEAR(varied.balancer.leg_kd_scale, varied.balancer.leg_kp_scale, 1e-12);
     EXPECT_LE(std::abs(varied.forces[0].force.x() - 2.0), 1.0);
     EXPECT_NEAR(varied.forces[0].force.z(), 2.0 * varied.forces[0].force.x(), 1e-12);
+    const Deviations& d = varied.deviations;
+    EXPECT_LE(std::abs(d.com_x), 0.01);
+    EXPECT_LE(std::abs(d.com_z), 0.02);
+    EXPECT_LE(std::abs(d.wheel_radius_scale - 1.0), 0.03);
+    EXPECT_LE(std::abs(d.actuator_friction_scale - 1.0), 0.4);
+    for (const double error : d.torque_error) EXPECT_LE(std::abs(error), 0.05);
     lowest = std::min(lowest, varied.start.x);
     highest = std::max(highest, varied.start.x);
   }
@@ -74,6 +87,27 @@ TEST(Perturbed, OneQuantityMoreChangesNoOther) {
     EXPECT_EQ(some.mass_scale, all.mass_scale);
     EXPECT_EQ(some.forces[0].force, all.forces[0].force);
   }
+}
+
+TEST(Perturbed, ARobotThatVariesChangesNoOtherDrawAndEachOfItsDrawsIsItsOwn) {
+  Scenario fixed = base();
+  fixed.perturbation.com_x = fixed.perturbation.com_z = fixed.perturbation.torque_error = 0.0;
+  fixed.perturbation.wheel_radius_scale = fixed.perturbation.actuator_friction_scale = 0.0;
+  Scenario wheels = fixed;
+  wheels.perturbation.wheel_radius_scale = 0.03;
+  for (int run = 0; run < 5; ++run) {
+    Scenario all = perturbed(base(), 9, run);
+    EXPECT_EQ(perturbed(wheels, 9, run).deviations.wheel_radius_scale,
+              all.deviations.wheel_radius_scale);
+    const Deviations drawn = all.deviations;
+    std::set<double> shares = {drawn.com_x / 0.01, drawn.com_z / 0.02};
+    for (const double error : drawn.torque_error) shares.insert(error / 0.05);
+    EXPECT_EQ(shares.size(), 8U);
+    all.deviations = {};
+    EXPECT_EQ(to_yaml(all), to_yaml(perturbed(fixed, 9, run)));
+  }
+  EXPECT_THAT(to_yaml(fixed), ::testing::Not(::testing::HasSubstr("com_x")))
+      << "scenarios of before read and write as before";
 }
 
 TEST(Perturbed, NothingAllowedIsNothingChanged) {

@@ -66,5 +66,24 @@ TEST(StartPose, KneesThatBendAsCrouchesDoKeepTheTorsoUpright) {
   EXPECT_NEAR(lean(0.455, 2.0), 0.066, 0.002);
 }
 
+TEST(StartPose, LegsThatDifferStandOnOneAxleAndTheShorterOneKeepsItsAngles) {
+  const models::RobotModel model =
+      models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie_asymmetric.yaml", {});
+  for (const double hip : {-0.05, 0.0, 0.1, 0.455, 0.6}) {
+    const Start start = {.hip = hip, .knee = policies::knee_per_hip * hip};
+    const simulators::RobotState state = start_pose(model, {}, start);
+    const Pose at = pose(model, state);
+    EXPECT_NEAR(at.left.z(), model.wheel_radius, 1e-9) << hip;
+    EXPECT_NEAR(at.right.z(), model.wheel_radius, 1e-9) << hip;
+    EXPECT_NEAR(at.left.x(), at.right.x(), 1e-9) << hip;
+    EXPECT_NEAR(at.centre_of_mass.x(), at.left.x(), 1e-3) << hip;
+    // The left leg is the longer one: it gives way, by bending more.
+    EXPECT_EQ(state.joint_position[models::index(models::Servo::right_hip)], -start.hip);
+    EXPECT_EQ(state.joint_position[models::index(models::Servo::right_knee)], start.knee);
+    EXPECT_LT(state.joint_position[models::index(models::Servo::left_knee)], -start.knee) << hip;
+    EXPECT_GT(state.joint_position[models::index(models::Servo::left_knee)], -start.knee - 0.6);
+  }
+}
+
 }  // namespace
 }  // namespace touchdown::scenarios

@@ -23,6 +23,7 @@
 #include "recordings/models/neural_network.hpp"
 #include "render/gnuplot/process.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/scenario_file.hpp"
 #include "training/initial_weights.hpp"
 #include "training/rollout.hpp"
 #include "training/trainer.hpp"

@@ -1,0 +1,107 @@
+#include "scenarios/scenario_file.hpp"
+
+#include <filesystem>
+
+#include "core/files.hpp"
+#include "tests/scenarios/runs.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::scenarios {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class ScenarioOfARobot : public ::testing::Test {
+ protected:
+  /// A scenario of a robot about Upkie.
+  Scenario with(const std::string& robot, const std::string& scenario) const {
+    write_atomically(folder_ / "robot.yaml",
+                     "mjcf: " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml\n" + robot);
+    return complete_scenario(YamlDocument::parse(
+        "name: x\nrobot: " + (folder_ / "robot.yaml").string() + "\n" + scenario, "scene.yaml"));
+  }
+
+  std::string complaint_about(const std::string& robot, const std::string& scenario) const {
+    try {
+      (void)with(robot, scenario);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(ScenarioOfARobot, StandsAsTheRobotDoesUnlessItSaysHow) {
+  const std::string stance = "stance: {hip: 0.1, knee: 0.17}\n";
+  EXPECT_EQ(with(stance, "").start.hip, 0.1);
+  EXPECT_EQ(with(stance, "").start.knee, 0.17);
+  EXPECT_EQ(with(stance, "start: {hip: 0.3}\n").start.hip, 0.3);
+  EXPECT_EQ(with(stance, "start: {hip: 0.3}\n").start.knee, 0.17);
+  EXPECT_EQ(with("", "").start.hip, 0.455);
+}
+
+TEST_F(ScenarioOfARobot, BalancesAsTheRobotDoesUnlessItSaysHow) {
+  const std::string gains = "balancer: {gains: upkie, max_velocity: 1.5}\n";
+  EXPECT_EQ(with(gains, "").balancer.pitch_damping, 1.8);
+  EXPECT_EQ(with(gains, "").balancer.max_velocity, 1.5);
+  EXPECT_EQ(with(gains, "balancer: {pitch_damping: 4}\n").balancer.pitch_damping, 4.0);
+  EXPECT_EQ(with(gains, "balancer: {pitch_damping: 4}\n").balancer.pitch_stiffness, 20.0);
+  EXPECT_EQ(with(gains, "balancer: {gains: touchdown}\n").balancer.pitch_damping, 5.5);
+  EXPECT_EQ(with(gains, "balancer: {gains: touchdown}\n").balancer.max_velocity, 1.5)
+      << "no gain, but the robot's";
+}
+
+TEST_F(ScenarioOfARobot, FindsGainsForTheStanceItStartsIn) {
+  const Scenario bent = with("balancer: {gains: lqr}\n", "");
+  const Scenario straight = with("balancer: {gains: lqr}\n", "start: {hip: 0, knee: 0}\n");
+  EXPECT_NEAR(bent.balancer.pitch_damping, 6.37, 0.01);
+  EXPECT_GT(straight.balancer.pitch_damping, bent.balancer.pitch_damping + 0.1);
+  EXPECT_EQ(with("stance: {hip: 0, knee: 0}\nbalancer: {gains: lqr}\n", "").balancer.pitch_damping,
+            straight.balancer.pitch_damping);
+  EXPECT_EQ(with("", "balancer: {gains: lqr}\n").balancer.pitch_damping,
+            bent.balancer.pitch_damping);
+  EXPECT_EQ(with("", "balancer: {gains: lqr, pitch_damping: 2}\n").balancer.pitch_damping, 2.0);
+}
+
+TEST_F(ScenarioOfARobot, IsNumbersThatNeedNoRobotAfterwards) {
+  const Scenario scenario = with("stance: {hip: 0.1}\nbalancer: {gains: lqr}\n", "");
+  std::filesystem::remove(folder_ / "robot.yaml");
+  const Scenario again = scenario_from_yaml(YamlDocument::parse(to_yaml(scenario), "again.yaml"));
+  EXPECT_EQ(to_yaml(again), to_yaml(scenario));
+  EXPECT_EQ(again.balancer.pitch_damping, scenario.balancer.pitch_damping);
+}
+
+TEST_F(ScenarioOfARobot, OfAnMjcfAloneIsWhatItSaysItself) {
+  for (const char* name : {"stairs", "roam_crouching", "hang"}) {
+    const std::string file = std::string("scenarios/") + name + ".yaml";
+    Scenario alone = load_scenario(TOUCHDOWN_SOURCE_DIR "/" + file);
+    const Scenario found = find_scenario(file);
+    alone.robot = found.robot;
+    EXPECT_EQ(to_yaml(found), to_yaml(alone));
+  }
+}
+
+TEST_F(ScenarioOfARobot, WithABadValueSaysInWhichFile) {
+  EXPECT_THAT(complaint_about("balancer: {pitch_stifness: 3}\n", ""),
+              AllOf(HasSubstr("robot.yaml:2:12: balancer.pitch_stifness"),
+                    HasSubstr("did you mean 'pitch_stiffness'?")));
+  EXPECT_THAT(complaint_about("balancer: {gains: lqg}\n", ""),
+              AllOf(HasSubstr("robot.yaml:2:19"), HasSubstr("did you mean 'lqr'?")));
+  EXPECT_THAT(complaint_about("", "balancer: {gains: lqg}\n"), HasSubstr("scene.yaml:3:19"));
+  EXPECT_THAT(complaint_about("", "deviatons: {com_x: 1}\n"),
+              HasSubstr("did you mean 'deviations'?"));
+  EXPECT_THAT(complaint_about("", "deviations: {torque_error: [0, 0]}\n"),
+              AllOf(HasSubstr("scene.yaml:3:28"), HasSubstr("six numbers")));
+  EXPECT_THROW((void)complete_scenario(YamlDocument::parse("name: x\nrobot: no.yaml\n", "s")),
+               InputError);
+  // Who reads a scenario alone cannot know the robot.
+  EXPECT_THROW(
+      (void)scenario_from_yaml(YamlDocument::parse("name: x\nbalancer: {gains: lqr}\n", "s")),
+      InputError);
+}
+
+}  // namespace
+}  // namespace touchdown::scenarios
