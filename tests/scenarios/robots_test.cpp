@@ -1,9 +1,13 @@
+#include <regex>
+
+#include "core/files.hpp"
 #include "core/resources.hpp"
 #include "policies/wheeled_pendulum.hpp"
 #include "scenarios/compiled_scenes.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "scenarios/start_pose.hpp"
 #include "tests/scenarios/runs.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown::scenarios {
 namespace {
@@ -96,6 +100,36 @@ TEST_P(Robot, MovesLikeThePendulumThatItsGainsAreFoundFor) {
   EXPECT_LT(pushed * turned, 0.0) << "the wheels go the other way";
   EXPECT_NEAR(turned + pushed, pulled, 0.05 * std::abs(turned));
 }
+
+/// Four times Upkie's mass on legs twice as long, with motors to match.
+class LargeRobot : public InEveryEngine {
+ protected:
+  LargeRobot() {
+    std::string mjcf = read_file(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml");
+    for (const auto& [weak, strong] :
+         {std::pair{"\"-16 16\"", "\"-64 64\""}, std::pair{"\"-1.7 1.7\"", "\"-6.8 6.8\""}}) {
+      mjcf = std::regex_replace(mjcf, std::regex(weak), strong);
+    }
+    write_atomically(folder_ / "strong.xml", mjcf);
+    write_atomically(folder_ / "large.yaml", "mjcf: strong.xml\nmass: 4\nlegs: {length: 2}\n");
+  }
+
+  recordings::Outcome standing_with(const std::string& gains) const {
+    const std::string text = "name: large\nrobot: " + (folder_ / "large.yaml").string() +
+                             "\nend: {duration: 4}\nbalancer: {gains: " + gains + "}\n";
+    return *play(complete_scenario(YamlDocument::parse(text, "large")), GetParam()).info.outcome;
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_P(LargeRobot, StandsWithItsOwnGainsAndFallsWithUpkies) {
+  EXPECT_EQ(standing_with("lqr"), recordings::Outcome::finished);
+  EXPECT_EQ(standing_with("touchdown"), recordings::Outcome::fell);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engine, LargeRobot, ::testing::ValuesIn(simulators::simulator_names()),
+                         engine_name);
 
 std::string name_of(const ::testing::TestParamInfo<RobotAndEngine>& info) {
   const std::filesystem::path file = std::get<0>(info.param);
