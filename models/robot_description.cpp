@@ -31,7 +31,7 @@ void describe(Fields& fields, RobotDescription& robot) {
   robot.mjcf = mjcf;
   fields("mass", robot.mass, 0.01, 100.0);
   double radius = robot.wheel_radius.value_or(0.0);
-  fields("wheel_radius", radius, 0.005, 1.0);
+  if (fields.reading() || radius > 0.0) fields("wheel_radius", radius, 0.005, 1.0);
   if (radius > 0.0) robot.wheel_radius = radius;
   fields.section("legs", robot.legs);
   fields.section("stance", robot.stance);

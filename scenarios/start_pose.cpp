@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <Eigen/LU>
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "models/profile.hpp"
@@ -35,9 +36,17 @@ struct Leg {
   int tyre;
 };
 
+/// Whether a joint can have this angle.
+bool can_turn(const models::RobotModel& model, std::size_t servo, double angle) {
+  const int joint = model.mj->dof_jntid[model.dof_address[servo]];
+  const mjtNum* range = &model.mj->jnt_range[2 * joint];
+  return model.mj->jnt_limited[joint] == 0 || (range[0] <= angle && angle <= range[1]);
+}
+
 /// Bends a leg until its tyre is at `target`, seen from the side of the upright base, by Newton's
-/// method. It starts bent a little more, for a straight leg does not know which way to bend.
-void reach(const models::RobotModel& model, mjData& data, simulators::RobotState& state,
+/// method; whether it can. It starts bent a little more, with its knee to the side that `forward`
+/// says (±1), for a straight leg does not know which way to bend.
+bool reach(const models::RobotModel& model, mjData& data, simulators::RobotState& state,
            const Leg& leg, const Eigen::Vector2d& target, double forward) {
   constexpr double more_hip = 0.2;
   constexpr double more_knee = 0.35;
@@ -49,7 +58,10 @@ void reach(const models::RobotModel& model, mjData& data, simulators::RobotState
   for (int step = 0; step < most_steps; ++step) {
     kinematics(model, data, state);
     const Eigen::Vector2d missing = target - from_the_side(data.geom_xpos, leg.tyre);
-    if (missing.norm() < 1e-12) return;
+    if (missing.norm() < 1e-12) {
+      return can_turn(model, leg.hip, state.joint_position[leg.hip]) &&
+             can_turn(model, leg.knee, state.joint_position[leg.knee]);
+    }
     mj_jac(model.mj.get(), &data, jacobian.data(), nullptr, &data.geom_xpos[3 * leg.tyre], body);
     Eigen::Matrix2d turn;
     turn << jacobian(0, model.dof_address[leg.hip]), jacobian(0, model.dof_address[leg.knee]),
@@ -58,7 +70,7 @@ void reach(const models::RobotModel& model, mjData& data, simulators::RobotState
     state.joint_position[leg.hip] += bend[0];
     state.joint_position[leg.knee] += bend[1];
   }
-  throw InputError("start: legs of this robot cannot stand on one axle with this hip and knee");
+  return false;
 }
 
 /// Legs of different lengths: the shorter one keeps the angles asked for, and hip and knee of the
@@ -78,7 +90,13 @@ void line_up(const models::RobotModel& model, mjData& data, simulators::RobotSta
   }
   if ((tyre[0] - tyre[1]).norm() < 1e-9) return;
   const std::size_t longer = length[0] > length[1] ? 0 : 1;
-  reach(model, data, state, legs[longer], tyre[1 - longer], longer == 0 ? 1.0 : -1.0);
+  const bool backward = state.joint_position[models::index(models::Servo::right_knee)] < 0.0;
+  const double forward = (longer == 0) == backward ? -1.0 : 1.0;
+  if (!reach(model, data, state, legs[longer], tyre[1 - longer], forward)) {
+    throw InputError(fmt::format(
+        "{}: its legs are too unlike each other to stand on one axle, whatever the longer one does",
+        model.name));
+  }
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ void fuzz_npy(std::string_view input);
 void fuzz_npz(std::string_view input);
 void fuzz_phase_model(std::string_view input);
 void fuzz_yaml_experiment(std::string_view input);
+void fuzz_yaml_robot(std::string_view input);
 void fuzz_yaml_scenario(std::string_view input);
 void fuzz_yaml_set(std::string_view input);
 
@@ -54,6 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Corpus,
                                            Target{"npy", fuzz_npy}, Target{"npz", fuzz_npz},
                                            Target{"phase_model", fuzz_phase_model},
                                            Target{"yaml_experiment", fuzz_yaml_experiment},
+                                           Target{"yaml_robot", fuzz_yaml_robot},
                                            Target{"yaml_scenario", fuzz_yaml_scenario},
                                            Target{"yaml_set", fuzz_yaml_set}),
                          [](const auto& target) { return std::string(target.param.name); });

@@ -1,5 +1,6 @@
 #include "scenarios/start_pose.hpp"
 
+#include "models/resizing.hpp"
 #include "tests/scenarios/runs.hpp"
 
 namespace touchdown::scenarios {
@@ -69,7 +70,7 @@ TEST(StartPose, KneesThatBendAsCrouchesDoKeepTheTorsoUpright) {
 TEST(StartPose, LegsThatDifferStandOnOneAxleAndTheShorterOneKeepsItsAngles) {
   const models::RobotModel model =
       models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie_asymmetric.yaml", {});
-  for (const double hip : {-0.05, 0.0, 0.1, 0.455, 0.6}) {
+  for (const double hip : {-0.3, -0.05, 0.0, 0.1, 0.455, 0.6}) {
     const Start start = {.hip = hip, .knee = policies::knee_per_hip * hip};
     const simulators::RobotState state = start_pose(model, {}, start);
     const Pose at = pose(model, state);
@@ -77,11 +78,32 @@ TEST(StartPose, LegsThatDifferStandOnOneAxleAndTheShorterOneKeepsItsAngles) {
     EXPECT_NEAR(at.right.z(), model.wheel_radius, 1e-9) << hip;
     EXPECT_NEAR(at.left.x(), at.right.x(), 1e-9) << hip;
     EXPECT_NEAR(at.centre_of_mass.x(), at.left.x(), 1e-3) << hip;
-    // The left leg is the longer one: it gives way, by bending more.
+    // The left leg is the longer one: it gives way, by bending more to the side that its knee is
+    // on.
     EXPECT_EQ(state.joint_position[models::index(models::Servo::right_hip)], -start.hip);
     EXPECT_EQ(state.joint_position[models::index(models::Servo::right_knee)], start.knee);
-    EXPECT_LT(state.joint_position[models::index(models::Servo::left_knee)], -start.knee) << hip;
-    EXPECT_GT(state.joint_position[models::index(models::Servo::left_knee)], -start.knee - 0.6);
+    const double side = start.knee < 0.0 ? -1.0 : 1.0;
+    const double knee = -side * state.joint_position[models::index(models::Servo::left_knee)];
+    // The law of cosines with the links' lengths, from hip to axle.
+    const double squares = 0.168 * 0.168 + 0.175 * 0.175;
+    const double product = 2.0 * 0.168 * 0.175;
+    const double reach = 0.985 * 0.985 * (squares + product * std::cos(start.knee));
+    EXPECT_NEAR(std::cos(knee), (reach / (1.015 * 1.015) - squares) / product, 1e-9) << hip;
+    EXPECT_GT(knee, side * start.knee) << hip;
+  }
+}
+
+TEST(StartPose, LegsThatCannotStandOnOneAxleAreRefused) {
+  models::RobotModel model =
+      models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml", {});
+  models::scale_leg(*model.mj, 0, 4.0);
+  models::scale_leg(*model.mj, 1, 0.2);
+  models::recompute(*model.mj);
+  try {
+    (void)start_pose(model, {}, {});
+    FAIL() << "no complaint";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("upkie: its legs"));
   }
 }
 
