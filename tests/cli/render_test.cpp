@@ -72,6 +72,23 @@ TEST_F(Render, MakesPosters) {
   EXPECT_NE(read_file(folder_ / "scene.png"), read_file(folder_ / "x.png"));
 }
 
+TEST_F(Render, ShowsTheRobotAsItWasNotAsItsFileHasIt) {
+  // Wheels twice as large, by the robot's file and by this robot's deviation: one and the same.
+  write_atomically(folder_ / "large.yaml",
+                   "mjcf: " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml\nwheel_radius: 0.1\n");
+  const std::string simulate = "simulate step.yaml --set end.duration=0.01 ";
+  for (const char* arguments : {"-o plain.mpack", "--set robot=large.yaml -o file.mpack",
+                                "--set deviations.wheel_radius_scale=2 -o drawn.mpack"}) {
+    const Ended ended = touchdown_program(simulate + arguments, folder_.path());
+    ASSERT_EQ(ended.exit_code, 0) << ended.errors;
+  }
+  for (const std::string name : {"plain", "file", "drawn"}) {
+    ASSERT_EQ(render(name + ".mpack -o " + name + ".png --poster --scene --from 0").exit_code, 0);
+  }
+  EXPECT_EQ(read_file(folder_ / "drawn.png"), read_file(folder_ / "file.png"));
+  EXPECT_NE(read_file(folder_ / "drawn.png"), read_file(folder_ / "plain.png"));
+}
+
 TEST_F(Render, FilmsRunDirectoriesAndReportsThemAgain) {
   const Ended run = touchdown_program(
       "run tiny.yaml --out run --no-pictures --set video.enabled=true --set video.run=1 "
