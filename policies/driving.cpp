@@ -16,7 +16,10 @@ VelocityCommand command_at(const VelocityScript& script, double time) {
 static WheelBalancerConfig with_gains(const std::string& name, const WheelBalancerConfig& config,
                                       const LqrGains& lqr) {
   if (name == "touchdown") return with_touchdown_gains(config);
-  return name == "upkie" ? with_upkie_gains(config) : lqr(config);
+  if (name == "upkie") return with_upkie_gains(config);
+  // Of a robot out of all proportion they may be what nobody could write, or read again.
+  return from_yaml<WheelBalancerConfig>(
+      YamlDocument::parse(YAML::Dump(to_node(lqr(config))), "lqr"));
 }
 
 void describe(Fields& fields, WheelBalancerConfig& config, const LqrGains& lqr) {

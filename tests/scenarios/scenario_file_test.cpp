@@ -91,6 +91,9 @@ TEST_F(ScenarioOfARobot, WithABadValueSaysInWhichFile) {
   EXPECT_THAT(complaint_about("balancer: {gains: lqg}\n", ""),
               AllOf(HasSubstr("robot.yaml:2:19"), HasSubstr("did you mean 'lqr'?")));
   EXPECT_THAT(complaint_about("", "balancer: {gains: lqg}\n"), HasSubstr("scene.yaml:3:19"));
+  EXPECT_THAT(
+      complaint_about("mass: 100\nbalancer: {gains: lqr}\n", ""),
+      AllOf(HasSubstr("robot.yaml:3:19: balancer.gains: lqr"), HasSubstr("leg_kp_scale: ex")));
   EXPECT_THAT(complaint_about("", "deviatons: {com_x: 1}\n"),
               HasSubstr("did you mean 'deviations'?"));
   EXPECT_THAT(complaint_about("", "deviations: {torque_error: [0, 0]}\n"),
