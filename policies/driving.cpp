@@ -1,16 +1,13 @@
 #include "policies/driving.hpp"
 
-#include <algorithm>
-
 #include "core/fields.hpp"
+#include "policies/script.hpp"
 
 namespace touchdown::policies {
 
 VelocityCommand command_at(const VelocityScript& script, double time) {
-  const auto later =
-      std::upper_bound(script.begin(), script.end(), time,
-                       [](double t, const VelocityCommand& command) { return t < command.time; });
-  return later == script.begin() ? VelocityCommand{} : *std::prev(later);
+  const VelocityCommand* command = in_force(script, time);
+  return command == nullptr ? VelocityCommand{} : *command;
 }
 
 static WheelBalancerConfig with_gains(const std::string& name, const WheelBalancerConfig& config,
@@ -54,9 +51,7 @@ void describe(Fields& fields, VelocityCommand& command, const VelocityScript& sc
   fields("time", command.time, 0.0, 1e6);
   fields("velocity", command.velocity, -3.0, 3.0);
   fields("yaw_rate", command.yaw_rate, -10.0, 10.0);
-  fields.finish();
-  fields.check(script.size() < 2 || command.time > script[script.size() - 2].time, "time",
-               "expected a later time than the command before");
+  check_order(fields, command, script);
 }
 
 }  // namespace touchdown::policies

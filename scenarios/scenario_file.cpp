@@ -58,8 +58,10 @@ Scenario complete_scenario(const YamlDocument& document) {
   return scenario;
 }
 
-Scenario find_scenario(const std::filesystem::path& path) {
-  return complete_scenario(YamlDocument::load(find_resource(path)));
+Scenario find_scenario(const std::filesystem::path& path, const std::string& robot) {
+  YamlDocument document = YamlDocument::load(find_resource(path));
+  if (!robot.empty()) document.override_value("robot=" + robot);
+  return complete_scenario(document);
 }
 
 }  // namespace touchdown::scenarios

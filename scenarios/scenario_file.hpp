@@ -13,7 +13,8 @@ namespace touchdown::scenarios {
 /// without the robot. Errors: `InputError` with file:line:column, of whichever file.
 Scenario complete_scenario(const YamlDocument& document);
 
-/// The same of a file that something else names, which is where `find_resource` finds it.
-Scenario find_scenario(const std::filesystem::path& path);
+/// The same of a file that something else names, which is where `find_resource` finds it; with
+/// another robot, if one is named.
+Scenario find_scenario(const std::filesystem::path& path, const std::string& robot = {});
 
 }  // namespace touchdown::scenarios

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/resources.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -17,9 +16,8 @@ namespace {
 /// The scenario with the setting's robot; its recordings are named after both.
 scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
                              const Setting& setting) {
-  scenarios::Scenario scene = scenario_of(request, file).scenario;
+  scenarios::Scenario scene = scenario_of(request, file, setting.robot).scenario;
   if (setting.robot.empty()) return scene;
-  scene.robot = find_resource(setting.robot);
   scene.name =
       fmt::format("{}_{}", scene.name, std::filesystem::path(setting.robot).stem().string());
   return scene;

@@ -12,7 +12,6 @@
 #include "core/yaml.hpp"
 #include "experiments/run_directory/occupant.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "models/robot_description.hpp"
 #include "scenarios/scenario_file.hpp"
 
 namespace touchdown::experiments {
@@ -27,10 +26,6 @@ class Digest {
   Digest(const Experiment& experiment, const std::vector<NamedSensors>& sensors) {
     fingerprint_.add(to_yaml(experiment));
     for (const NamedSensors& named : sensors) fingerprint_.add(noise::to_yaml(named.profile));
-    if (!experiment.benchmark) return;
-    for (const std::string& robot : experiment.benchmark->robots) {
-      fingerprint_.add(models::robot_text(find_resource(robot)));
-    }
   }
   /// The robot's file counts under the path that the scenario has for it.
   void add(const scenarios::Scenario& scenario) {
@@ -42,20 +37,34 @@ class Digest {
   Fingerprint fingerprint_;
 };
 
-/// Every scenario file that the experiment names, once, as `read` finds the n-th of them.
+std::vector<NamedScenario>::const_iterator find_named(const std::vector<NamedScenario>& scenarios,
+                                                      const std::string& file,
+                                                      const std::string& robot) {
+  return std::find_if(scenarios.begin(), scenarios.end(), [&](const NamedScenario& named) {
+    return named.file == file && named.robot == robot;
+  });
+}
+
+/// Every scenario file that the experiment names, once with each of its robots, as `read` finds the
+/// n-th of them.
 template <typename Read>
 std::vector<NamedScenario> scenarios_of(const Experiment& experiment, const Read& read) {
   std::vector<NamedScenario> scenarios;
   std::vector<std::string> files = experiment.fit.scenarios;
   files.insert(files.end(), experiment.test.scenarios.begin(), experiment.test.scenarios.end());
   for (const FitPieces& pieces : experiment.fit_pieces) files.push_back(pieces.scenario);
-  for (const std::string& file : files) {
-    const bool known = std::any_of(scenarios.begin(), scenarios.end(),
-                                   [&](const NamedScenario& named) { return named.file == file; });
-    if (known) continue;
-    scenarios.push_back({file, read(file, scenarios.size())});
-    scenarios::Scenario& scenario = scenarios.back().scenario;
-    scenario.robot = find_resource(scenario.robot);
+  std::vector<std::string> robots = {""};
+  if (experiment.benchmark) {
+    const std::vector<std::string>& others = experiment.benchmark->robots;
+    robots.insert(robots.end(), others.begin(), others.end());
+  }
+  for (const std::string& robot : robots) {
+    for (const std::string& file : files) {
+      if (find_named(scenarios, file, robot) != scenarios.end()) continue;
+      scenarios.push_back({file, robot, read(file, robot, scenarios.size())});
+      scenarios::Scenario& scenario = scenarios.back().scenario;
+      scenario.robot = find_resource(scenario.robot);
+    }
   }
   return scenarios;
 }
@@ -66,9 +75,10 @@ std::string scenario_file(std::size_t number) { return fmt::format("scenario_{:0
 
 RunRequest request_of(const Experiment& experiment) {
   RunRequest request{experiment, {}, {}, {}};
-  request.scenarios = scenarios_of(experiment, [](const std::string& file, std::size_t /*n*/) {
-    return scenarios::find_scenario(file);
-  });
+  request.scenarios = scenarios_of(
+      experiment, [](const std::string& file, const std::string& robot, std::size_t /*n*/) {
+        return scenarios::find_scenario(file, robot);
+      });
   request.sensors = read_sensors(request.experiment);
   Digest digest(request.experiment, request.sensors);
   for (const NamedScenario& named : request.scenarios) digest.add(named.scenario);
@@ -76,9 +86,9 @@ RunRequest request_of(const Experiment& experiment) {
   return request;
 }
 
-const NamedScenario& scenario_of(const RunRequest& request, const std::string& file) {
-  return *std::find_if(request.scenarios.begin(), request.scenarios.end(),
-                       [&](const NamedScenario& named) { return named.file == file; });
+const NamedScenario& scenario_of(const RunRequest& request, const std::string& file,
+                                 const std::string& robot) {
+  return *find_named(request.scenarios, file, robot);
 }
 
 std::string state_key(const RunRequest& request) { return key_of(request.id, build_fingerprint()); }
@@ -131,8 +141,9 @@ RunRequest read_request(const fs::path& directory) {
   request.experiment = experiment_from_yaml(YamlDocument::load(directory / "config.yaml"));
   request.sensors = read_sensors(request.experiment, directory);
   Digest digest(request.experiment, request.sensors);
-  request.scenarios =
-      scenarios_of(request.experiment, [&](const std::string& /*file*/, std::size_t number) {
+  request.scenarios = scenarios_of(
+      request.experiment,
+      [&](const std::string& /*file*/, const std::string& /*robot*/, std::size_t number) {
         scenarios::Scenario scenario = scenarios::scenario_from_yaml(
             YamlDocument::load(directory / "state" / scenario_file(number)));
         digest.add(scenario);

@@ -14,6 +14,7 @@ namespace touchdown::experiments {
 /// A scenario as the experiment names it, found and read.
 struct NamedScenario {
   std::string file;
+  std::string robot;  ///< that a benchmark puts into it; empty: its own
   scenarios::Scenario scenario;
 };
 
@@ -28,8 +29,9 @@ struct RunRequest {
 /// Errors: `InputError` for scenarios and sensors that are missing or wrong.
 RunRequest request_of(const Experiment& experiment);
 
-/// One of the request's own scenarios.
-const NamedScenario& scenario_of(const RunRequest& request, const std::string& file);
+/// One of the request's own scenarios, with one of its robots.
+const NamedScenario& scenario_of(const RunRequest& request, const std::string& file,
+                                 const std::string& robot = {});
 
 /// The request and the build that a run directory's contents belong to: what state is saved under.
 std::string state_key(const RunRequest& request);

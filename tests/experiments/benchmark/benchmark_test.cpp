@@ -172,6 +172,23 @@ TEST(ABenchmark, SimulatesARobotOnceForAllItsSensors) {
   }
 }
 
+TEST(ABenchmark, LetsEveryRobotStandAndBalanceAsItsFileSays) {
+  const ScratchFolder folder;
+  const RunRequest request = request_of(with(folder, "{robots: [models/upkie_straight.yaml]}"));
+  Plan plan = plan_of(request);
+  add_benchmark(request, plan);
+  const auto straight = benchmark_settings(request, plan).at(1);
+  const scenarios::Scenario& own = plan.runs[plan.runs_in(0).front()].scenario;
+  const scenarios::Scenario& other = plan.runs[plan.runs_in(straight.group).front()].scenario;
+  EXPECT_LT(other.start.hip, 0.5 * own.start.hip);
+  EXPECT_NE(other.balancer.pitch_damping, own.balancer.pitch_damping);
+  EXPECT_EQ(other.terrain.pieces.size(), own.terrain.pieces.size());
+  // What was read is what is written, and read again.
+  const std::filesystem::path run = folder / "run";
+  write_request(request, RunDirectory("small", request.id, run), false);
+  EXPECT_EQ(read_request(run).id, request.id);
+}
+
 TEST(ABenchmark, CountsTheContentOfItsRobotsAndSensors) {
   const ScratchFolder folder;
   const std::string mine = folder.write("mine.yaml", "torque: {white: 0.1}\n").string();

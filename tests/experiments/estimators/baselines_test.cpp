@@ -10,6 +10,7 @@
 #include "experiments/listening/sweep_run.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/scenario_file.hpp"
 #include "scoring/score.hpp"
 #include "simulators/registry.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
