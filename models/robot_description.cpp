@@ -37,6 +37,7 @@ void describe(Fields& fields, RobotDescription& robot) {
   fields.section("stance", robot.stance);
   fields.section("actuators", robot.actuators);
   fields.know("balancer");
+  fields.section("tyre", robot.tyre);
 }
 
 const std::optional<Actuator>& RobotDescription::actuator(Servo servo) const {

@@ -7,6 +7,7 @@
 
 #include "models/actuator.hpp"
 #include "models/robot.hpp"
+#include "models/tyre.hpp"
 
 namespace touchdown::models {
 
@@ -40,6 +41,7 @@ struct Stance {
 ///     actuators:                 # of both legs (models/actuator.hpp); others stay as in the MJCF
 ///       knee: {friction: 0.06, armature: 0.003}
 ///     balancer: {gains: lqr}     # read by whoever balances (scenarios/scenario_file.hpp)
+///     tyre: {law: spring_damper} # of both wheels (models/tyre.hpp)
 struct RobotDescription {
   std::filesystem::path mjcf;
   double mass = 1.0;
@@ -47,6 +49,7 @@ struct RobotDescription {
   LegLengths legs;
   Stance stance;
   LegActuators actuators;
+  Tyre tyre;
 
   /// What the file says of a servo's actuator, if anything.
   const std::optional<Actuator>& actuator(Servo servo) const;

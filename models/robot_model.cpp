@@ -197,10 +197,16 @@ void set_size(RobotModel& robot, const RobotDescription& description, const Cont
   if (changed) recompute(*robot.mj);
 }
 
+constexpr std::array<const char*, wheel_count> tyre_names = {"left_tire", "right_tire"};
+
+std::string strip_name(std::size_t wheel, std::size_t strip) {
+  return fmt::format("touchdown_{}_{}", tyre_names[wheel], strip);
+}
+
 void find_tyres(RobotModel& robot, const Contract& contract) {
   const mjModel& model = *robot.mj;
   for (std::size_t i = 0; i < wheel_count; ++i) {
-    const std::string name = i == 0 ? "left_tire" : "right_tire";
+    const std::string name = tyre_names[i];
     const std::string servo(servo_names[index(wheel_servos[i])]);
     const int geom = contract.find(mjOBJ_GEOM, "geom", name);
     const int joint = mj_name2id(&model, mjOBJ_JOINT, servo.c_str());
@@ -212,19 +218,63 @@ void find_tyres(RobotModel& robot, const Contract& contract) {
       contract.fail(fmt::format("geom '{}': expected a sphere, a cylinder or a capsule", name));
     }
     robot.tyre_geom[i] = geom;
+    robot.tyre_strips[i] = {geom};
     robot.wheel_radius = model.geom_size[3 * geom];
   }
 }
 
-}  // namespace
+/// The MJCF with spheres beside those that are the tyres of the robot as it was compiled from it,
+/// in the tyres' own lines.
+std::string with_strips(std::string mjcf, const RobotModel& robot,
+                        const std::filesystem::path& file) {
+  const mjModel& model = *robot.mj;
+  const Contract contract(file, model);
+  const std::vector<double> strips = robot.tyre.strips();
+  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+    const int tyre = robot.tyre_geom[wheel];
+    if (model.geom_type[tyre] != mjGEOM_SPHERE) {
+      contract.fail(
+          fmt::format("geom '{}': expected a sphere, as the tyre has a width", tyre_names[wheel]));
+    }
+    std::smatch element;
+    const std::regex name(fmt::format("<geom\\s[^>]*name\\s*=\\s*[\"']{}[\"']", tyre_names[wheel]));
+    if (!std::regex_search(mjcf, element, name)) {
+      contract.fail(fmt::format("expected geom '{}' in this file itself, as the tyre has a width",
+                                tyre_names[wheel]));
+    }
+    const Eigen::Vector3d middle = vector_at(model.geom_pos, tyre);
+    const int dof = robot.dof_address[index(wheel_servos[wheel])];
+    const Eigen::Vector3d axle = vector_at(model.jnt_axis, model.dof_jntid[dof]);
+    std::string spheres;
+    for (std::size_t strip = 1; strip < strips.size(); ++strip) {
+      const Eigen::Vector3d at = middle + strips[strip] * axle;
+      spheres += fmt::format(
+          "<geom name=\"{}\" type=\"sphere\" size=\"{}\" pos=\"{} {} {}\" mass=\"0\" group=\"{}\" "
+          "contype=\"{}\" conaffinity=\"{}\" condim=\"{}\" margin=\"0\" gap=\"0\" priority=\"0\"/>",
+          strip_name(wheel, strip), model.geom_size[3 * tyre], at.x(), at.y(), at.z(),
+          model.geom_group[tyre], model.geom_contype[tyre], model.geom_conaffinity[tyre],
+          model.geom_condim[tyre]);
+    }
+    mjcf.insert(static_cast<std::size_t>(element.position()), spheres);
+  }
+  return mjcf;
+}
 
-RobotModel compile_robot_model(const std::filesystem::path& robot_file, const Terrain& terrain) {
-  install_mujoco_handlers();
-  const RobotDescription description = robot_description(robot_file);
-  const std::filesystem::path& robot_mjcf = description.mjcf;
+void find_strips(RobotModel& robot, const Contract& contract) {
+  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+    for (std::size_t strip = 1; strip < robot.tyre.strips().size(); ++strip) {
+      robot.tyre_strips[wheel].push_back(
+          contract.find(mjOBJ_GEOM, "geom", strip_name(wheel, strip)));
+    }
+  }
+}
+
+/// Compiles the MJCF, which is `description`'s with a terrain, and finds its way in it.
+RobotModel compile(const RobotDescription& description, const std::string& mjcf) {
   RobotModel robot;
-  robot.mj = compile(robot_mjcf, compose(robot_mjcf, terrain));
-  const Contract contract(robot_mjcf, *robot.mj);
+  robot.mj = compile(description.mjcf, mjcf);
+  robot.tyre = description.tyre;
+  const Contract contract(description.mjcf, *robot.mj);
   robot.name = robot.mj->names;  // the model's own name comes first
   robot.base_body = find_base(*robot.mj, contract);
   find_servos(robot, contract);
@@ -235,6 +285,25 @@ RobotModel compile_robot_model(const std::filesystem::path& robot_file, const Te
   }
   find_tyres(robot, contract);
   set_size(robot, description, contract);
+  return robot;
+}
+
+}  // namespace
+
+RobotModel compile_robot_model(const std::filesystem::path& robot_file, const Terrain& terrain) {
+  install_mujoco_handlers();
+  const RobotDescription description = robot_description(robot_file);
+  std::string mjcf = compose(description.mjcf, terrain);
+  const bool has_strips = description.tyre.strips().size() > 1;
+  if (has_strips) {
+    // Strips are the MJCF's own size; what the description makes of it, it makes of them, too.
+    RobotDescription as_drawn = description;
+    as_drawn.wheel_radius.reset();
+    as_drawn.legs = {};
+    mjcf = with_strips(mjcf, compile(as_drawn, mjcf), description.mjcf);
+  }
+  RobotModel robot = compile(description, mjcf);
+  if (has_strips) find_strips(robot, Contract(description.mjcf, *robot.mj));
   return robot;
 }
 

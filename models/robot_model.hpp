@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -12,6 +13,7 @@
 #include "models/actuator.hpp"
 #include "models/robot.hpp"
 #include "models/terrain.hpp"
+#include "models/tyre.hpp"
 
 namespace touchdown::models {
 
@@ -46,9 +48,12 @@ struct RobotModel {
   std::string name;  ///< the MJCF's model name
   int base_body = -1;
   int imu_site = -1;
-  std::array<int, servo_count> qpos_address = {};   ///< of each servo's joint in mjData::qpos
-  std::array<int, servo_count> dof_address = {};    ///< of each servo's joint in mjData::qvel
-  std::array<int, wheel_count> tyre_geom = {};      ///< left, right
+  std::array<int, servo_count> qpos_address = {};  ///< of each servo's joint in mjData::qpos
+  std::array<int, servo_count> dof_address = {};   ///< of each servo's joint in mjData::qvel
+  std::array<int, wheel_count> tyre_geom = {};     ///< left, right
+  Tyre tyre;                                       ///< what both are of
+  /// Every geom of each tyre: its `tyre_geom`, and the strips beside it of one that has a width.
+  std::array<std::vector<int>, wheel_count> tyre_strips = {};
   double wheel_radius = 0.0;                        ///< of the tyres (m)
   std::array<double, servo_count> effort = {};      ///< torque limit of each servo's motor (N·m)
   std::array<Actuator, servo_count> actuator = {};  ///< what each servo works through

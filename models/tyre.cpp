@@ -1,0 +1,24 @@
+#include "models/tyre.hpp"
+
+#include "core/fields.hpp"
+
+namespace touchdown::models {
+
+std::vector<double> Tyre::strips() const {
+  if (width == 0.0) return {0.0};
+  // Three resist tilting by 8/9 of what a whole cylinder does.
+  return {0.0, width / 3.0, -width / 3.0};
+}
+
+void describe(Fields& fields, Tyre& tyre) {
+  fields.choose("law", {"engine", "spring_damper"}, tyre.law);
+  fields("stiffness", tyre.stiffness, 100.0, 1e7);
+  fields("damping", tyre.damping, 1.0, 1e5);
+  fields("width", tyre.width, 0.0, 1.0);
+  for (const char* key : {"stiffness", "damping", "width"}) {
+    fields.check(tyre.law == Tyre::Law::spring_damper || !fields.present(key, false), key,
+                 "expected 'law: spring_damper' beside it");
+  }
+}
+
+}  // namespace touchdown::models
