@@ -21,7 +21,7 @@ struct Tyre {
 
   Law law = Law::engine;
   double stiffness = 2e4;  ///< of a whole wheel (N/m)
-  double damping = 50.0;   ///< of a whole wheel (N·s/m)
+  double damping = 80.0;   ///< of a whole wheel (N·s/m)
   double width = 0.0;      ///< across; 0 for a sphere, which carries at its middle alone (m)
 
   /// Where its strips are along the axle, from its middle (m): the middles of equal parts, the

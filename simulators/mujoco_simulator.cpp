@@ -1,6 +1,5 @@
 #include "simulators/mujoco_simulator.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <new>
 
@@ -34,14 +33,11 @@ bool gave_up(const mjData& data) {
 MujocoSimulator::MujocoSimulator(const std::shared_ptr<const models::RobotModel>& model,
                                  const SimulatorOptions& options)
     : Simulator(model, options),
-      mj_(copy_with_options(*model, options)),
+      mj_(copy_with_options(*model, this->options())),
       data_(mj_makeData(mj_.get())),
+      tyres_(*model, *mj_),
       base_com_(models::vector_at(mj_->body_ipos, model->base_body)) {
   if (!data_) throw std::bad_alloc();
-  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-    const char* name = mj_id2name(model->mj.get(), mjOBJ_GEOM, model->tyre_geom[wheel]);
-    tyre_geom_[wheel] = mj_name2id(mj_.get(), mjOBJ_GEOM, name);
-  }
 }
 
 void MujocoSimulator::place(const RobotState& start) {
@@ -67,7 +63,13 @@ void MujocoSimulator::advance(const JointTorques& torques,
     applied.head<3>() += wrench.force;
     applied.tail<3>() += torque_about(base_com_, wrench, state());
   }
-  mj_step(mj_.get(), data_.get());
+  if (model().tyre.law == models::Tyre::Law::engine) {
+    mj_step(mj_.get(), data_.get());
+    return;
+  }
+  mj_step1(mj_.get(), data_.get());
+  tyres_.press(*data_);
+  mj_step2(mj_.get(), data_.get());
 }
 
 void MujocoSimulator::read(RobotState& state) const {
@@ -99,9 +101,8 @@ void MujocoSimulator::read(ContactForces& forces) const {
     if (!first_is_terrain && mj_->geom_bodyid[contact.geom2] != 0) continue;
     mjtNum wrench[6];
     mj_contactForce(mj_.get(), data_.get(), i, wrench);
-    const auto tyre = std::find(tyre_geom_.begin(), tyre_geom_.end(), other);
-    if (tyre != tyre_geom_.end()) {
-      forces.wheel_normal_force[static_cast<std::size_t>(tyre - tyre_geom_.begin())] += wrench[0];
+    if (const auto wheel = tyres_.wheel_of(other)) {
+      forces.wheel_normal_force[*wheel] += wrench[0];
     } else if (wrench[0] > 0.0) {
       forces.body_touches_terrain = true;
     }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string_view>
 
+#include "simulators/mujoco_tyres.hpp"
 #include "simulators/simulator.hpp"
 
 namespace touchdown::simulators {
@@ -29,7 +30,7 @@ class MujocoSimulator : public Simulator {
  private:
   models::MjModelPtr mj_;
   models::MjDataPtr data_;
-  std::array<int, models::wheel_count> tyre_geom_ = {};  ///< in `mj_`: left, right
+  MujocoTyres tyres_;
   Eigen::Vector3d base_com_;  ///< centre of mass of the base body in its frame (m)
 };
 

@@ -10,7 +10,7 @@ namespace touchdown::simulators {
 
 /// How finely time is cut, as whole microseconds so that no step is ever rounded.
 struct StepSizes {
-  /// One step of the physics engine (µs).
+  /// One step of the physics engine (µs). A stiff tyre makes it shorter (simulators/tyres.hpp).
   std::int64_t physics_us = 1000;
   /// One turn of the control loop (µs): a multiple of the physics step.
   std::int64_t control_us = 1000;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulators/tyres.hpp"
+
 namespace touchdown::simulators {
 
 namespace {
@@ -21,8 +23,8 @@ double rolling_torque(double coefficient, double normal_force, double wheel_velo
 Simulator::Simulator(std::shared_ptr<const models::RobotModel> model,
                      const SimulatorOptions& options)
     : model_(std::move(model)),
-      options_(options),
-      actuators_(*model_, options.steps),
+      options_(with_steps_for_tyres(options, *model_)),
+      actuators_(*model_, options_.steps),
       imu_position_in_base_(models::vector_at(model_->mj->site_pos, model_->imu_site)),
       imu_rotation_in_base_(
           models::quaternion_at(model_->mj->site_quat, model_->imu_site).toRotationMatrix()) {}

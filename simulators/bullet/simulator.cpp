@@ -76,13 +76,12 @@ void BulletSimulator::read(ContactForces& forces) const {
       const btManifoldPoint& point = manifold.getContactPoint(p);
       // Contact points linger in the manifold while apart: only an impulse is contact.
       if (point.getAppliedImpulse() <= 0.0) continue;
-      const int tyre =
-          world_->tyre_of(robot_part, robot_is_first ? point.m_index0 : point.m_index1);
-      if (tyre == BulletWorld::not_a_tyre) {
+      const auto wheel =
+          world_->tyres().wheel_of(robot_part, robot_is_first ? point.m_index0 : point.m_index1);
+      if (!wheel) {
         forces.body_touches_terrain = true;
       } else {
-        forces.wheel_normal_force[static_cast<std::size_t>(tyre)] +=
-            point.getAppliedImpulse() / physics_period();
+        forces.wheel_normal_force[*wheel] += point.getAppliedImpulse() / physics_period();
       }
     }
   }

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "simulators/collision_model.hpp"
+#include "simulators/tyres.hpp"
 
 namespace touchdown::simulators {
 
@@ -12,6 +13,9 @@ namespace {
 
 constexpr int robot_group = 1;
 constexpr int terrain_group = 2;
+/// Bullet's boxes have edges that are rounded by 4 cm: a groove wherever two of them meet, which a
+/// tyre that is a spring feels (m).
+constexpr double edge_radius = 1e-4;
 
 std::unique_ptr<btCollisionShape> convex_hull(const mjModel& model, int mesh) {
   auto hull = std::make_unique<btConvexHullShape>();
@@ -87,14 +91,16 @@ btTransform geom_in_link(const mjModel& mj, int geom, const InertiaFrame& frame)
 }  // namespace
 
 BulletWorld::BulletWorld(const models::RobotModel& model, const SimulatorOptions& options)
-    : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+    : dispatcher_(&configuration_),
+      tyres_(model, options),
+      world_(tyres_, dispatcher_, broadphase_, solver_, configuration_) {
   const mjModel& mj = *model.mj;
   world_.setGravity(to_bullet(models::vector_at(mj.opt.gravity, 0)));
   build_links(model);
   world_.addMultiBody(robot_.get());
   add_joint_limits(model);
-  add_colliders(model, options);
-  add_terrain(mj);
+  add_colliders(model);
+  add_terrain(model);
 }
 
 BulletWorld::~BulletWorld() {
@@ -166,7 +172,7 @@ void BulletWorld::add_joint_limits(const models::RobotModel& model) {
   }
 }
 
-void BulletWorld::add_colliders(const models::RobotModel& model, const SimulatorOptions& options) {
+void BulletWorld::add_colliders(const models::RobotModel& model) {
   const mjModel& mj = *model.mj;
   for (int body = model.base_body; body < mj.nbody; ++body) {
     const int link = link_of_body_[static_cast<std::size_t>(body)];
@@ -174,15 +180,12 @@ void BulletWorld::add_colliders(const models::RobotModel& model, const Simulator
     const InertiaFrame frame = inertia_frame(mj, body);
     auto compound = std::make_unique<btCompoundShape>();
     auto collider = std::make_unique<btMultiBodyLinkCollider>(robot_.get(), link);
-    bool has_tyre = false;
+    std::vector<std::pair<int, std::size_t>> tyre;  // child shapes and their wheel
     for (int geom = mj.body_geomadr[body]; geom < mj.body_geomadr[body] + mj.body_geomnum[body];
          ++geom) {
       if (!collides(mj, geom)) continue;
-      for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-        if (geom != model.tyre_geom[wheel]) continue;
-        tyre_collider_[wheel] = collider.get();
-        tyre_child_[wheel] = compound->getNumChildShapes();
-        has_tyre = true;
+      if (const auto wheel = wheel_of_tyre(model, geom)) {
+        tyre.emplace_back(compound->getNumChildShapes(), *wheel);
       }
       compound->addChildShape(geom_in_link(mj, geom, frame), make_shape(mj, geom));
     }
@@ -190,10 +193,7 @@ void BulletWorld::add_colliders(const models::RobotModel& model, const Simulator
     collider->setCollisionShape(compound.get());
     shapes_.push_back(std::move(compound));
     collider->setFriction(1.0);
-    if (has_tyre) {
-      collider->setContactStiffnessAndDamping(options.contact.bullet_stiffness,
-                                              options.contact.bullet_damping);
-    }
+    for (const auto& [child, wheel] : tyre) tyres_.add(*collider, child, wheel);
     world_.addCollisionObject(collider.get(), robot_group, terrain_group);
     if (link < 0) {
       robot_->setBaseCollider(collider.get());
@@ -204,10 +204,15 @@ void BulletWorld::add_colliders(const models::RobotModel& model, const Simulator
   }
 }
 
-void BulletWorld::add_terrain(const mjModel& mj) {
+void BulletWorld::add_terrain(const models::RobotModel& model) {
+  const mjModel& mj = *model.mj;
   for (int geom = 0; geom < mj.ngeom; ++geom) {
     if (mj.geom_bodyid[geom] != 0 || !collides(mj, geom)) continue;
-    const btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, make_shape(mj, geom));
+    btCollisionShape* shape = make_shape(mj, geom);
+    if (mj.geom_type[geom] == mjGEOM_BOX && model.tyre.law != models::Tyre::Law::engine) {
+      shape->setMargin(edge_radius);
+    }
+    const btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, shape);
     auto& body = terrain_.emplace_back(std::make_unique<btRigidBody>(info));
     body->setWorldTransform(btTransform(to_bullet(models::quaternion_at(mj.geom_quat, geom)),
                                         to_bullet(models::vector_at(mj.geom_pos, geom))));
@@ -218,15 +223,6 @@ void BulletWorld::add_terrain(const mjModel& mj) {
 
 btCollisionShape* BulletWorld::make_shape(const mjModel& mj, int geom) {
   return shapes_.emplace_back(shape_of(mj, geom)).get();
-}
-
-int BulletWorld::tyre_of(const btCollisionObject& object, int child_shape) const {
-  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-    if (&object == tyre_collider_[wheel] && child_shape == tyre_child_[wheel]) {
-      return static_cast<int>(wheel);
-    }
-  }
-  return not_a_tyre;
 }
 
 }  // namespace touchdown::simulators

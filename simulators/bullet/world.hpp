@@ -12,6 +12,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include "models/robot_model.hpp"
+#include "simulators/bullet/tyres.hpp"
 #include "simulators/options.hpp"
 
 namespace touchdown::simulators {
@@ -42,15 +43,13 @@ class BulletWorld {
   /// Bullet's link that a servo's joint moves.
   int link_of(std::size_t servo) const { return link_of_servo_[servo]; }
 
-  /// Which tyre a collision object is: 0, 1, or -1 for anything else; and which geom touched.
-  static constexpr int not_a_tyre = -1;
-  int tyre_of(const btCollisionObject& object, int child_shape) const;
+  const BulletTyres& tyres() const { return tyres_; }
 
  private:
   void build_links(const models::RobotModel& model);
   void add_joint_limits(const models::RobotModel& model);
-  void add_colliders(const models::RobotModel& model, const SimulatorOptions& options);
-  void add_terrain(const mjModel& mj);
+  void add_colliders(const models::RobotModel& model);
+  void add_terrain(const models::RobotModel& model);
   /// Kept alive as long as the world.
   btCollisionShape* make_shape(const mjModel& mj, int geom);
 
@@ -66,9 +65,8 @@ class BulletWorld {
   std::vector<std::unique_ptr<btMultiBodyJointLimitConstraint>> joint_limits_;
   std::vector<int> link_of_body_;
   std::array<int, models::servo_count> link_of_servo_ = {};
-  std::array<const btCollisionObject*, models::wheel_count> tyre_collider_ = {};
-  std::array<int, models::wheel_count> tyre_child_ = {};
-  btMultiBodyDynamicsWorld world_;
+  BulletTyres tyres_;
+  WorldWithTyres world_;
 
  public:
   ~BulletWorld();

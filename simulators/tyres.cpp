@@ -1,0 +1,52 @@
+#include "simulators/tyres.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace touchdown::simulators {
+
+SimulatorOptions with_steps_for_tyres(SimulatorOptions options, const models::RobotModel& model) {
+  if (model.tyre.law == models::Tyre::Law::engine) return options;
+  constexpr double largest_angle = 0.1;  // rad
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const int tyre : model.tyre_geom) {
+    lightest = std::min(lightest, model.mj->body_mass[model.mj->geom_bodyid[tyre]]);
+  }
+  const double longest_us = 1e6 * largest_angle * std::sqrt(lightest / model.tyre.stiffness);
+  StepSizes& steps = options.steps;
+  for (std::int64_t count = steps.control_us / steps.physics_us; count <= steps.control_us;
+       ++count) {
+    if (steps.control_us % count != 0) continue;
+    steps.physics_us = steps.control_us / count;
+    if (static_cast<double>(steps.physics_us) <= longest_us) break;
+  }
+  return options;
+}
+
+std::optional<std::size_t> wheel_of_tyre(const models::RobotModel& robot, int geom) {
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+    const std::vector<int>& strips = robot.tyre_strips[wheel];
+    if (std::find(strips.begin(), strips.end(), geom) != strips.end()) return wheel;
+  }
+  return std::nullopt;
+}
+
+/// Whether two contacts press the same strip about the same way.
+static bool press_alike(const TyreContact& a, const TyreContact& b) {
+  constexpr double cosine = 0.7;  // of 45°
+  return a.strip == b.strip && a.normal.dot(b.normal) > cosine;
+}
+
+std::vector<bool> that_count(const std::vector<TyreContact>& contacts) {
+  std::vector<bool> count(contacts.size(), true);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    for (std::size_t j = 0; j < i && count[i]; ++j) {
+      if (!count[j] || !press_alike(contacts[i], contacts[j])) continue;
+      count[contacts[i].depth > contacts[j].depth ? j : i] = false;
+    }
+  }
+  return count;
+}
+
+}  // namespace touchdown::simulators

@@ -1,0 +1,282 @@
+#include "simulators/tyres.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/simulators/bodies.hpp"
+#include "tests/simulators/standing.hpp"
+
+namespace touchdown::simulators {
+namespace {
+
+using models::Servo;
+using models::Terrain;
+using models::Tyre;
+
+constexpr double half_track = 0.1524;  ///< from Upkie's middle plane to that of a tyre (m)
+
+/// The robot of a shipped file, after `change` had its way with it.
+std::shared_ptr<models::RobotModel> robot_called(
+    const std::string& file, const Terrain& terrain = {},
+    const std::function<void(models::RobotModel&)>& change = {}) {
+  auto model = std::make_shared<models::RobotModel>(
+      models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/" + file, terrain));
+  if (change) change(*model);
+  return model;
+}
+
+/// Upkie on rubber whose torso's mass is in the middle: with straight legs it is one mass.
+std::shared_ptr<models::RobotModel> one_mass() {
+  return robot_called("upkie_rubber.yaml", {}, [](models::RobotModel& robot) {
+    robot.mj->body_ipos[3 * robot.base_body] = 0.0;
+    const models::MjDataPtr data(mj_makeData(robot.mj.get()));
+    mj_setConst(robot.mj.get(), data.get());
+  });
+}
+
+/// What a drop is measured by.
+struct Landing {
+  double rebound = 0.0;  ///< height of the flight after it (m)
+  double peak = 0.0;     ///< largest acceleration upwards, averaged over milliseconds (m/s²)
+};
+
+/// A mass that falls on a spring and damper: Newton's law in steps of a microsecond.
+Landing textbook_landing(double mass, const Tyre& tyre, double drop) {
+  constexpr double step = 1e-6;
+  Landing landing;
+  double height = drop;
+  double velocity = 0.0;
+  double average = 0.0;
+  while (landing.peak == 0.0 || height < 0.0) {
+    const double force =
+        height < 0.0 ? std::max(0.0, -tyre.stiffness * height - tyre.damping * velocity) : 0.0;
+    const double acceleration = force / mass - g;
+    velocity += step * acceleration;
+    height += step * velocity;
+    average += 1e-3 * (acceleration - average);
+    landing.peak = std::max(landing.peak, average);
+  }
+  landing.rebound = 0.5 * velocity * velocity / g;
+  return landing;
+}
+
+/// The same of a robot that falls on both tyres, its joints held as `action` says.
+Landing landing_of(Simulator& simulator, const RobotState& start, double drop,
+                   const models::Action& action) {
+  RobotState raised = start;
+  raised.position.z() += drop;
+  simulator.reset(raised);
+  Landing landing;
+  bool landed = false;
+  for (int i = 0; i < 700; ++i) {
+    simulator.step(action, guide(simulator.state()));
+    landed = landed || simulator.ground_truth().wheel_normal_force[0] > 0.0;
+    const double up = simulator.state().linear_velocity.z();
+    if (landed && landing.rebound > 0.0 && up < 0.0) break;
+    if (landed && up > 0.0) {
+      landing.rebound = simulator.state().position.z() - start.position.z();
+    }
+    landing.peak =
+        std::max(landing.peak, models::vertical_acceleration(simulator.observation().imu));
+  }
+  return landing;
+}
+
+class TyreOfRubber : public EveryEngine {};
+
+TEST_P(TyreOfRubber, SagsAsItsSpringDoesUnderTheWeight) {
+  const auto simulator = make(one_mass());
+  simulator->reset(upright());
+  stand(*simulator, 1.5);
+  const double weight = g * motion(simulator->model(), simulator->state()).mass;
+  const double sag = 0.5 * weight / simulator->model().tyre.stiffness;
+  EXPECT_NEAR(upright().position.z() - simulator->state().position.z(), sag, 0.01 * sag);
+  const auto& force = simulator->ground_truth().wheel_normal_force;
+  EXPECT_NEAR(force[0] + force[1], weight, 1e-5 * weight) << "what labels are made from";
+  EXPECT_FALSE(simulator->ground_truth().body_touches_terrain);
+}
+
+TEST_P(TyreOfRubber, LandsAndReboundsAsAMassOnItsSpringAndDamper) {
+  const auto simulator = make(one_mass());
+  const double mass = motion(simulator->model(), upright()).mass;
+  for (const double drop : {0.02, 0.05, 0.25}) {
+    const Landing landing = landing_of(*simulator, upright(), drop, locked(upright()));
+    const Landing expected = textbook_landing(0.5 * mass, simulator->model().tyre, drop);
+    EXPECT_NEAR(landing.rebound, expected.rebound, 0.02 * expected.rebound) << drop;
+    EXPECT_NEAR(landing.peak, expected.peak, 0.02 * expected.peak) << drop;
+  }
+}
+
+TEST(Rubber, ReboundsToAThirdOfTheHeightOfAStair) {
+  const auto model = one_mass();
+  const double mass = motion(*model, upright()).mass;
+  EXPECT_NEAR(textbook_landing(0.5 * mass, model->tyre, 0.25).rebound, 0.25 / 3, 0.002);
+  EXPECT_NEAR(0.5 * mass * g / model->tyre.stiffness, 1.3e-3, 0.02e-3) << "and sags so far (m)";
+}
+
+TEST_P(TyreOfRubber, MakesPhysicsStepsAsShortAsItsSpringWantsThem) {
+  const auto step = [&](const std::string& file, double stiffness, StepSizes steps = {}) {
+    SimulatorOptions options;
+    options.steps = steps;
+    const auto simulator = make(
+        robot_called(file, {}, [&](auto& robot) { robot.tyre.stiffness = stiffness; }), options);
+    EXPECT_EQ(simulator->options().steps.control_us, steps.control_us);
+    return simulator->options().steps.physics_us;
+  };
+  EXPECT_EQ(step("upkie.xml", 2e4), 1000) << "whose contact is the engine's";
+  EXPECT_EQ(step("upkie_rubber.yaml", 2e4), 250);
+  EXPECT_EQ(step("upkie_rubber.yaml", 4 * 2e4), 125);
+  EXPECT_EQ(step("upkie_rubber.yaml", 2e2), 1000);
+  EXPECT_EQ(step("upkie_rubber.yaml", 2e4, {100, 1000}), 100) << "no longer than asked for";
+  EXPECT_EQ(step("upkie_rubber.yaml", 2e4, {5000, 5000}), 250);
+}
+
+/// Upkie with straight legs rolls along x at half a metre per second, pushed at two heights and
+/// kept from turning, but free to lean and to drift.
+class Roller {
+ public:
+  Roller(std::unique_ptr<Simulator> simulator, double y, double ground)
+      : simulator_(std::move(simulator)) {
+    RobotState start = upright();
+    start.position.y() = y;
+    start.position.z() += ground;
+    start.linear_velocity.x() = speed;
+    start.joint_velocity[models::index(Servo::left_wheel)] = speed / 0.05;
+    start.joint_velocity[models::index(Servo::right_wheel)] = -speed / 0.05;
+    simulator_->reset(start);
+    legs_ = stiff_legs(start);
+  }
+
+  void roll(int steps, const std::function<void()>& look = {}) {
+    for (int i = 0; i < steps; ++i) {
+      const double couple =
+          20.0 * simulator_->observation().yaw + 4.0 * simulator_->observation().yaw_rate;
+      const std::array<ExternalWrench, 4> wrenches = {
+          pushed_at({0.0, 0.0, 0.2}), pushed_at({0.0, 0.0, -0.4}),
+          ExternalWrench{{couple, 0.0, 0.0}, {0.0, 0.5, 0.0}},
+          ExternalWrench{{-couple, 0.0, 0.0}, {0.0, -0.5, 0.0}}};
+      simulator_->step(legs_, wrenches);
+      if (look) look();
+    }
+  }
+
+  const Simulator& simulator() const { return *simulator_; }
+  /// To the left (rad).
+  double lean() const {
+    const Eigen::Vector3d left = simulator_->state().orientation * Eigen::Vector3d::UnitY();
+    return -std::asin(left.z());
+  }
+  /// Where the middle between the wheels is across (m).
+  double y() const {
+    const Eigen::Vector3d axle(0.0, 0.0, -0.507);
+    return (simulator_->state().position + simulator_->state().orientation * axle).y();
+  }
+
+ private:
+  static constexpr double speed = 0.5;  // m/s
+
+  ExternalWrench pushed_at(const Eigen::Vector3d& point) const {
+    const RobotState& state = simulator_->state();
+    const Eigen::Vector3d arm = state.orientation * point;
+    const Eigen::Vector3d velocity = state.linear_velocity + state.angular_velocity.cross(arm);
+    const double late = speed * simulator_->observation().time - state.position.x() - arm.x();
+    return {{400.0 * late + 80.0 * (speed - velocity.x()), 0.0, 0.0}, point};
+  }
+
+  std::unique_ptr<Simulator> simulator_;
+  models::Action legs_;
+};
+
+TEST_P(TyreOfRubber, RollsAsSmoothlyAsASphere) {
+  Roller roller(make(robot_called("upkie_rubber.yaml")), 0.0, 0.0);
+  Roller sphere(make(robot_called("upkie.xml", {},
+                                  [](auto& robot) { robot.tyre.law = Tyre::Law::spring_damper; })),
+                0.0, 0.0);
+  roller.roll(500);
+  sphere.roll(500);
+  const double half_weight = 0.5 * g * motion(roller.simulator().model(), upright()).mass;
+  const auto watch = [&](Roller& rolling, double& ripple) {
+    return [&] {
+      const auto& force = rolling.simulator().ground_truth().wheel_normal_force;
+      ripple = std::max(ripple, std::abs(force[0] - half_weight));
+    };
+  };
+  double ripple = 0.0;
+  double ripple_of_sphere = 0.0;
+  roller.roll(1000, watch(roller, ripple));
+  sphere.roll(1000, watch(sphere, ripple_of_sphere));
+  EXPECT_LT(ripple, ripple_of_sphere + 0.001 * half_weight);
+  EXPECT_LT(std::abs(roller.y()), 1e-4);
+  EXPECT_NEAR(roller.simulator().state().position.x(), sphere.simulator().state().position.x(),
+              1e-4);
+  const std::size_t wheel = models::index(Servo::left_wheel);
+  EXPECT_NEAR(roller.simulator().state().joint_velocity[wheel],
+              sphere.simulator().state().joint_velocity[wheel], 0.01);
+}
+
+TEST_P(TyreOfRubber, DoesNotNoticeJointsOfTheGround) {
+  Terrain terrain;
+  terrain.start_x = -1.0;
+  terrain.pieces = {models::Flat{1.5}, models::Flat{3.0}, models::Step{.drop = 0.25}};
+  Roller roller(make(robot_called("upkie_rubber.yaml", terrain)), 0.0, 0.25);
+  roller.roll(700);
+  const double half_weight = 0.5 * g * motion(roller.simulator().model(), upright()).mass;
+  double ripple = 0.0;
+  roller.roll(600, [&] {  // over the joint at x = 0.5 m
+    const auto& force = roller.simulator().ground_truth().wheel_normal_force;
+    ripple = std::max(ripple, std::abs(force[0] - half_weight));
+  });
+  EXPECT_GT(roller.simulator().state().position.x(), 0.6);
+  EXPECT_LT(ripple, 0.01 * half_weight);
+}
+
+TEST_P(TyreOfRubber, IsCarriedByAnEdgeBelowAnyPartOfItsWidth) {
+  for (const double carried : {0.015, 0.002}) {  // of 40 mm of the left wheel's tyre
+    const double edge = 0.2;
+    Terrain terrain;
+    terrain.start_x = -1.0;
+    terrain.width = 2.0 * edge;
+    terrain.pieces = {models::Flat{4.0}, models::Step{.drop = 0.25}};
+    Roller roller(make(robot_called("upkie_rubber.yaml", terrain)),
+                  edge + 0.02 - carried - half_track, 0.25);
+    const double start = roller.y();
+    roller.roll(1000);
+    EXPECT_LT(std::abs(roller.lean()), 0.02) << carried;
+    EXPECT_LT(std::abs(roller.y() - start), 0.01) << carried;
+    const auto& force = roller.simulator().ground_truth().wheel_normal_force;
+    EXPECT_NEAR(force[0] + force[1], 52.4, 2.0) << carried;
+    EXPECT_GT(force[0], 20.0) << carried;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engine, TyreOfRubber, ::testing::ValuesIn(simulator_names()), engine_name);
+
+TEST(TyreParity, LandingOfACrouchedRobot) {
+  const auto model = robot_called("upkie_rubber.yaml");
+  RobotState crouched;
+  crouched.joint_position = {0.455, -0.791, 0.0, -0.455, 0.791, 0.0};
+  crouched.position.z() = 0.05 + 0.164 + 0.168 * std::cos(0.455) + 0.175 * std::cos(0.336);
+  models::Action legs = stiff_legs(crouched);
+  for (models::ServoCommand& servo : legs.servo) servo.kp_scale *= 0.2;
+  const Landing mujoco = landing_of(*make_simulator("mujoco", model, {}), crouched, 0.25, legs);
+  const Landing bullet = landing_of(*make_simulator("bullet", model, {}), crouched, 0.25, legs);
+  EXPECT_NEAR(mujoco.peak, bullet.peak, 0.03 * bullet.peak);
+  EXPECT_NEAR(mujoco.rebound, bullet.rebound, 0.05 * bullet.rebound);
+  EXPECT_GT(bullet.peak, 100.0);
+}
+
+TEST(ContactsOfTyres, CountOnceWhereTheyPressTheSameWay) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d back = -Eigen::Vector3d::UnitX();
+  const auto counted = [](const std::vector<TyreContact>& contacts) {
+    return that_count(contacts);
+  };
+  EXPECT_EQ(counted({}), std::vector<bool>{});
+  EXPECT_EQ(counted({{0, 1e-3, up}, {0, 2e-3, up}}), (std::vector{false, true}));
+  EXPECT_EQ(counted({{0, 1e-3, up}, {0, 1e-3, up}}), (std::vector{true, false})) << "one of both";
+  EXPECT_EQ(counted({{0, 1e-3, up}, {1, 2e-3, up}}), (std::vector{true, true})) << "two strips";
+  EXPECT_EQ(counted({{0, 1e-3, up}, {0, 2e-3, back}}), (std::vector{true, true})) << "a kerb";
+}
+
+}  // namespace
+}  // namespace touchdown::simulators
