@@ -13,7 +13,7 @@ std::vector<double> Tyre::strips() const {
 void describe(Fields& fields, Tyre& tyre) {
   fields.choose("law", {"engine", "spring_damper"}, tyre.law);
   fields("stiffness", tyre.stiffness, 100.0, 1e7);
-  fields("damping", tyre.damping, 1.0, 1e5);
+  fields("damping", tyre.damping, 1.0, 1e4);
   fields("width", tyre.width, 0.0, 1.0);
   for (const char* key : {"stiffness", "damping", "width"}) {
     fields.check(tyre.law == Tyre::Law::spring_damper || !fields.present(key, false), key,

@@ -11,10 +11,11 @@
 
 namespace touchdown::simulators {
 
-/// The options with physics steps as short as the robot's tyres want them: a wheel alone bouncing
-/// on a tyre that is a spring turns by no more than a tenth of a radian per step, which leaves
-/// landings within one percent of continuous time. Steps are never made longer, and a control step
-/// remains a whole number of them.
+/// The options with physics steps as short as the robot's tyres want them: of a wheel alone on a
+/// tyre that is a spring and a damper, the oscillation turns by no more than a tenth of a radian
+/// per step, which leaves landings within one percent of continuous time, and the damper takes no
+/// more than a quarter of the speed. Steps are never made longer, and a control step remains a
+/// whole number of them.
 SimulatorOptions with_steps_for_tyres(SimulatorOptions options, const models::RobotModel& model);
 
 /// Which wheel's tyre a geom of the robot's model is of, if any.

@@ -115,18 +115,24 @@ TEST(Rubber, ReboundsToAThirdOfTheHeightOfAStair) {
 }
 
 TEST_P(TyreOfRubber, MakesPhysicsStepsAsShortAsItsSpringWantsThem) {
-  const auto step = [&](const std::string& file, double stiffness, StepSizes steps = {}) {
+  const auto step = [&](const std::string& file, double stiffness, StepSizes steps = {},
+                        double damping = 80.0) {
     SimulatorOptions options;
     options.steps = steps;
-    const auto simulator = make(
-        robot_called(file, {}, [&](auto& robot) { robot.tyre.stiffness = stiffness; }), options);
+    const auto simulator = make(robot_called(file, {},
+                                             [&](auto& robot) {
+                                               robot.tyre.stiffness = stiffness;
+                                               robot.tyre.damping = damping;
+                                             }),
+                                options);
     EXPECT_EQ(simulator->options().steps.control_us, steps.control_us);
     return simulator->options().steps.physics_us;
   };
   EXPECT_EQ(step("upkie.xml", 2e4), 1000) << "whose contact is the engine's";
   EXPECT_EQ(step("upkie_rubber.yaml", 2e4), 250);
   EXPECT_EQ(step("upkie_rubber.yaml", 4 * 2e4), 125);
-  EXPECT_EQ(step("upkie_rubber.yaml", 2e2), 1000);
+  EXPECT_EQ(step("upkie_rubber.yaml", 2e2), 500) << "as its damper wants them";
+  EXPECT_EQ(step("upkie_rubber.yaml", 2e2, {}, 20.0), 1000);
   EXPECT_EQ(step("upkie_rubber.yaml", 2e4, {100, 1000}), 100) << "no longer than asked for";
   EXPECT_EQ(step("upkie_rubber.yaml", 2e4, {5000, 5000}), 250);
 }
