@@ -255,6 +255,35 @@ TEST_P(TyreOfRubber, IsCarriedByAnEdgeBelowAnyPartOfItsWidth) {
   }
 }
 
+TEST_P(TyreOfRubber, RepeatsItselfBitByBitAfterAReset) {
+  const auto simulator = make(robot_called("upkie_rubber.yaml"));
+  const auto run = [&] {
+    RobotState start = upright();
+    start.position.z() += 0.1;
+    simulator->reset(start);
+    stand(*simulator, 0.4);
+    const RobotState& end = simulator->state();
+    return std::vector<double>{
+        end.position.x(),      end.position.y(),
+        end.position.z(),      end.joint_velocity[0],
+        end.joint_velocity[2], simulator->ground_truth().wheel_normal_force[0]};
+  };
+  const std::vector<double> first = run();
+  EXPECT_EQ(run(), first);
+}
+
+TEST_P(TyreOfRubber, ThatMeetsNotANumberIsIllHealthNotACrash) {
+  const auto simulator = make(robot_called("upkie_rubber.yaml"));
+  simulator->reset(upright());
+  models::Action action = torques();
+  action.servo[0].feedforward_torque = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 5; ++i) simulator->step(action);
+  EXPECT_FALSE(simulator->healthy());
+  simulator->reset(upright());
+  simulator->step(torques());
+  EXPECT_TRUE(simulator->healthy());
+}
+
 INSTANTIATE_TEST_SUITE_P(Engine, TyreOfRubber, ::testing::ValuesIn(simulator_names()), engine_name);
 
 TEST(TyreParity, LandingOfACrouchedRobot) {
