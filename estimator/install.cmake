@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 # Programs write <touchdown/estimator.hpp> or <touchdown/estimator/…>, the headers among themselves
 # "estimator/…".
 set(public
-  contact_estimator free_fall signal_guard signals torque_channel upkie_observer
+  contact_estimator free_fall signal_guard signals support_force torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model
   neural/estimator neural/input neural/network

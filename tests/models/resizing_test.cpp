@@ -182,5 +182,23 @@ TEST_F(RobotOfAnotherSize, WhoseLegsAreNoChainOfTwoLinksSaysSo) {
               AllOf(HasSubstr("upkie.xml: legs: expected"), HasSubstr("'left_knee'")));
 }
 
+TEST_F(RobotOfAnotherSize, HasTyresOfItsSizeInEveryStrip) {
+  const RobotModel drawn = with("tyre: {law: spring_damper, width: 0.03}\n");
+  const RobotModel large =
+      with("wheel_radius: 0.08\nlegs: {length: 1.3}\ntyre: {law: spring_damper, width: 0.03}\n");
+  EXPECT_EQ(large.wheel_radius, 0.08);
+  for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
+    ASSERT_EQ(large.tyre_strips[wheel].size(), 3U);
+    for (std::size_t strip = 0; strip < 3; ++strip) {
+      const int here = large.tyre_strips[wheel][strip];
+      EXPECT_NEAR(large.mj->geom_size[3 * here], 0.08, 1e-12);
+      // Side by side as they were: neither wheels nor legs grow across.
+      EXPECT_TRUE(
+          vector_at(large.mj->geom_pos, here)
+              .isApprox(vector_at(drawn.mj->geom_pos, drawn.tyre_strips[wheel][strip]), 1e-12));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace touchdown::models
