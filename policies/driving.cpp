@@ -21,8 +21,8 @@ static WheelBalancerConfig with_gains(const std::string& name, const WheelBalanc
 
 void describe(Fields& fields, WheelBalancerConfig& config, const LqrGains& lqr) {
   if (fields.reading()) {
-    std::vector<std::string> known = {"touchdown", "upkie"};
-    if (lqr) known.emplace_back("lqr");
+    std::vector<std::string> known = {"touchdown", "upkie", "lqr"};
+    if (!lqr) known.pop_back();
     std::string gains = known.front();
     const bool named = fields.present("gains", false);
     fields.choose("gains", known, gains);

@@ -39,7 +39,7 @@ class Digest {
 
 std::vector<NamedScenario>::const_iterator find_named(const std::vector<NamedScenario>& scenarios,
                                                       const std::string& file,
-                                                      const std::string& robot) {
+                                                      std::string_view robot) {
   return std::find_if(scenarios.begin(), scenarios.end(), [&](const NamedScenario& named) {
     return named.file == file && named.robot == robot;
   });
@@ -87,7 +87,7 @@ RunRequest request_of(const Experiment& experiment) {
 }
 
 const NamedScenario& scenario_of(const RunRequest& request, const std::string& file,
-                                 const std::string& robot) {
+                                 std::string_view robot) {
   return *find_named(request.scenarios, file, robot);
 }
 

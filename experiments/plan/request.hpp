@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
@@ -31,7 +32,7 @@ RunRequest request_of(const Experiment& experiment);
 
 /// One of the request's own scenarios, with one of its robots.
 const NamedScenario& scenario_of(const RunRequest& request, const std::string& file,
-                                 const std::string& robot = {});
+                                 std::string_view robot = {});
 
 /// The request and the build that a run directory's contents belong to: what state is saved under.
 std::string state_key(const RunRequest& request);
