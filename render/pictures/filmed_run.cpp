@@ -76,8 +76,7 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
       experiments::read_sensors(experiment, subject.directory), experiment.sensors);
   const experiments::VideoConfig& video = experiment.video;
   const noise::SensorNoise levels =
-      noise::as_on_grid({video.torque_noise, video.accelerometer_noise}, experiment.noise)
-          .levels();
+      noise::as_on_grid({video.torque_noise, video.accelerometer_noise}, experiment.noise).levels();
   const noise::NoiseKey key = experiments::noise_key(experiment, 0, video.run);
   std::vector<FilmedRun> filmed;
   for (const experiments::RunSummary& run : subject.summary.runs) {
