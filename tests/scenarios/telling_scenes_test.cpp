@@ -11,8 +11,7 @@ namespace {
 class TellingScene : public InEveryEngine {
  protected:
   static recordings::Recording played(const char* name, int run = 0) {
-    const recordings::Recording recording =
-        play(perturbed(scenario_called(name), 7, run), GetParam());
+    recordings::Recording recording = play(perturbed(scenario_called(name), 7, run), GetParam());
     EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished) << name;
     return recording;
   }
