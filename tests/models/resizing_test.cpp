@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "models/robot_description.hpp"
+#include "models/robot_model.hpp"
 #include "tests/models/upkie_mjcf.hpp"
 #include "tests/scratch_folder.hpp"
 
