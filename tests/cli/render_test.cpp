@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -82,8 +83,9 @@ TEST_F(Render, ShowsTheRobotAsItWasNotAsItsFileHasIt) {
     const Ended ended = touchdown_program(simulate + arguments, folder_.path());
     ASSERT_EQ(ended.exit_code, 0) << ended.errors;
   }
-  for (const std::string name : {"plain", "file", "drawn"}) {
-    ASSERT_EQ(render(name + ".mpack -o " + name + ".png --poster --scene --from 0").exit_code, 0);
+  for (const char* name : {"plain", "file", "drawn"}) {
+    ASSERT_EQ(render(fmt::format("{0}.mpack -o {0}.png --poster --scene --from 0", name)).exit_code,
+              0);
   }
   EXPECT_EQ(read_file(folder_ / "drawn.png"), read_file(folder_ / "file.png"));
   EXPECT_NE(read_file(folder_ / "drawn.png"), read_file(folder_ / "plain.png"));
