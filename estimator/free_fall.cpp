@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "estimator/low_pass.hpp"
 
 namespace touchdown {
 
@@ -11,7 +12,7 @@ FreeFall::FreeFall(const FreeFallConfig& config)
   if (!(config.low_pass >= 0.0 && config.width > 0.0)) {
     throw InputError("free fall: width must be positive (m/s²), low_pass not negative (s)");
   }
-  gain_ = config.low_pass > 0.0 ? -std::expm1(-1.0 / (config.sample_rate * config.low_pass)) : 1.0;
+  gain_ = exact_low_pass_gain(config.low_pass, config.sample_rate);
   reset();
 }
 

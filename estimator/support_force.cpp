@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "estimator/low_pass.hpp"
 
 namespace touchdown {
 
@@ -48,7 +49,7 @@ SupportForce::SupportForce(const SupportForceConfig& config)
         "support force: width (N) and lengths (m) must be positive, low_pass not negative (s), "
         "contact not below release (N)");
   }
-  gain_ = config.low_pass > 0.0 ? -std::expm1(-1.0 / (config.sample_rate * config.low_pass)) : 1.0;
+  gain_ = exact_low_pass_gain(config.low_pass, config.sample_rate);
   reset();
 }
 

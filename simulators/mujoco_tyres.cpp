@@ -7,7 +7,9 @@
 namespace touchdown::simulators {
 
 MujocoTyres::MujocoTyres(const models::RobotModel& robot, const mjModel& engine_model)
-    : tyre_(robot.tyre), wheel_of_geom_(static_cast<std::size_t>(engine_model.ngeom)) {
+    : tyre_(robot.tyre),
+      share_(1.0 / static_cast<double>(tyre_.strips().size())),
+      wheel_of_geom_(static_cast<std::size_t>(engine_model.ngeom)) {
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     for (const int strip : robot.tyre_strips[wheel]) {
       const char* name = mj_id2name(robot.mj.get(), mjOBJ_GEOM, strip);
@@ -32,14 +34,13 @@ void MujocoTyres::press(mjData& data) const {
 
   constexpr double softness = 1e3;  // of R beside the inverse mass
   constexpr double none = -1e6;     // N: a pull, which no contact does
-  const double share = 1.0 / static_cast<double>(tyre_.strips().size());
   const std::vector<bool> counts = that_count(contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     mjContact& contact = data.contact[numbers[i]];
     const int row = contact.efc_address;
     const double pressing_in = -data.efc_vel[row];  // m/s
     const double force =
-        share * (tyre_.stiffness * contacts[i].depth + tyre_.damping * pressing_in);
+        share_ * (tyre_.stiffness * contacts[i].depth + tyre_.damping * pressing_in);
     data.efc_R[row] = softness * data.efc_diagApprox[row];
     data.efc_D[row] = 1.0 / data.efc_R[row];
     data.efc_aref[row] = data.efc_R[row] * (counts[i] ? force : none);

@@ -31,6 +31,7 @@ class MujocoTyres {
 
  private:
   models::Tyre tyre_;
+  double share_;  ///< of a strip in its tyre
   std::vector<std::optional<std::size_t>> wheel_of_geom_;
 };
 

@@ -236,26 +236,23 @@ std::vector<BenchmarkRow> benchmark(const Listened& listened) {
 
 void write_tables(const std::vector<BenchmarkRow>& rows, const FittedModels& models,
                   const Listened& listened, const RunDirectory& directory) {
-  Table table{{"simulator", "robot", "sensors", "scene", "split", "estimator", "balanced_accuracy",
-               "balanced_accuracy_low", "balanced_accuracy_high"},
-              {}};
-  for (const Column& column : columns) table.header.emplace_back(column.name);
-  for (const char* name :
-       {"torque_noise_nm", "accelerometer_noise_mps2", "takeoffs", "runs", "failed", "fitted_on"}) {
-    table.header.emplace_back(name);
-  }
+  std::vector<std::string> last;
+  for (const Column& column : columns) last.emplace_back(column.name);
+  last.insert(last.end(), {"torque_noise_nm", "accelerometer_noise_mps2", "takeoffs", "runs",
+                           "failed", "fitted_on"});
+  Table table{
+      header_with_intervals({"simulator", "robot", "sensors", "scene", "split", "estimator"},
+                            {"balanced_accuracy"}, last),
+      {}};
   for (const BenchmarkRow& row : rows) {
-    std::vector<std::string> cells = {row.simulator, row.robot, row.sensors,
-                                      row.scene,     row.split, row.estimator};
-    const Interval& accuracy = row.balanced_accuracy;
-    for (const double value : {accuracy.estimate, accuracy.low, accuracy.high}) {
-      cells.push_back(metric(value));
-    }
+    std::vector<std::string> cells;
     for (const Column& column : columns) cells.push_back(metric(column.of(row)));
     cells.insert(cells.end(), {exact(row.noise.torque), exact(row.noise.accelerometer),
                                std::to_string(row.score.takeoff.events), std::to_string(row.runs),
                                std::to_string(row.failed), row.fitted_on});
-    table.rows.push_back(std::move(cells));
+    table.rows.push_back(row_with_intervals(
+        {row.simulator, row.robot, row.sensors, row.scene, row.split, row.estimator},
+        {row.balanced_accuracy}, cells));
   }
   directory.write_table("benchmark.csv", table);
   const Table overlaps = overlap_table(models, listened);

@@ -122,12 +122,7 @@ void add_cross_simulator(const RunRequest& request, Plan& plan) {
 
 std::vector<std::size_t> runs_of(const Variation& variation, const RunRequest& request,
                                  const Plan& plan) {
-  const auto group = std::find_if(
-      plan.groups.begin(), plan.groups.end(),
-      [&](const RunGroup& candidate) { return candidate.name == group_name(variation); });
-  if (group != plan.groups.end()) {
-    return plan.runs_in(static_cast<std::size_t>(group - plan.groups.begin()));
-  }
+  if (const auto group = plan.group_called(group_name(variation))) return plan.runs_in(*group);
   std::vector<std::size_t> runs = plan.runs_in(0);
   std::erase_if(runs,
                 [&](std::size_t run) { return plan.runs[run].simulator != variation.simulator; });

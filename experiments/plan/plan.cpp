@@ -36,6 +36,13 @@ std::uint64_t seed_of_fit(const Experiment& experiment) {
   return experiment.fit_seed.value_or(fit_seed(experiment.seed));
 }
 
+std::optional<std::size_t> Plan::group_called(std::string_view name) const {
+  const auto group = std::find_if(groups.begin(), groups.end(),
+                                  [&](const RunGroup& one) { return one.name == name; });
+  if (group == groups.end()) return std::nullopt;
+  return static_cast<std::size_t>(group - groups.begin());
+}
+
 std::vector<std::size_t> Plan::runs_in(std::size_t group) const {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < runs.size(); ++i) {

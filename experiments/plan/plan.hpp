@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -96,6 +97,8 @@ struct Plan {
 
   TaskRange all_tasks() const { return {0, tasks.size()}; }
   const RunGroup& group_of(const Task& task) const { return groups[runs[task.run].group]; }
+  /// The group of this name, if there is one.
+  std::optional<std::size_t> group_called(std::string_view name) const;
   /// The test runs of a group, in the order of the plan.
   std::vector<std::size_t> runs_in(std::size_t group) const;
 };

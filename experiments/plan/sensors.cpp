@@ -35,13 +35,13 @@ std::vector<std::string> named_files(const Experiment& experiment) {
 }  // namespace
 
 std::vector<NamedSensors> read_sensors(Experiment& experiment) {
-  if (!experiment.sensors.empty() &&
-      noise::is_ideal(noise::find_sensor_profile(experiment.sensors))) {
-    experiment.sensors.clear();
-  }
   std::vector<NamedSensors> sensors;
   for (const std::string& file : named_files(experiment)) {
     sensors.push_back({file, noise::find_sensor_profile(file)});
+  }
+  if (!experiment.sensors.empty() && noise::is_ideal(sensors.front().profile)) {
+    experiment.sensors.clear();
+    sensors.erase(sensors.begin());
   }
   return sensors;
 }

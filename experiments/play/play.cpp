@@ -161,12 +161,16 @@ PlayedRuns play_runs(const Experiment& experiment, const Plan& plan,
   scenarios::CompiledScenes scenes;
   Progress progress("simulating", "runs", static_cast<std::int64_t>(simulations.size()));
   tbb::parallel_for_each(simulations, [&](const Simulation& simulation) {
-    const Recorded recorded = simulate_or_read(simulation.hearers.front()->plan, simulation.key,
-                                               directory, missing, scenes, going_on);
+    Recorded recorded = simulate_or_read(simulation.hearers.front()->plan, simulation.key,
+                                         directory, missing, scenes, going_on);
     for (PlayedRun* run : simulation.hearers) {
-      *run = recorded.recording ? played(run->plan, *recorded.recording,
-                                         plan.sensors[run->plan.sensors].profile, experiment)
-                                : failed(run->plan, recorded.error);
+      if (!recorded.recording) {
+        *run = failed(run->plan, recorded.error);
+        continue;
+      }
+      const bool is_last = run == simulation.hearers.back();
+      *run = played(run->plan, is_last ? std::move(*recorded.recording) : *recorded.recording,
+                    plan.sensors[run->plan.sensors].profile, experiment);
     }
     progress.advance();
     if (!going_on()) throw Stopped();

@@ -1,7 +1,5 @@
 #include "experiments/sensor_sweep/plan.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -43,10 +41,9 @@ void add_sensor_sweep(const RunRequest& request, Plan& plan) {
 
 std::size_t group_of(const SensorVariation& variation, const Plan& plan) {
   const std::string name = name_of(variation);
-  const auto group = std::find_if(plan.groups.begin(), plan.groups.end(),
-                                  [&](const RunGroup& one) { return one.name == name; });
-  if (group == plan.groups.end()) throw Error(fmt::format("{} is not in the plan", name));
-  return static_cast<std::size_t>(group - plan.groups.begin());
+  const std::optional<std::size_t> group = plan.group_called(name);
+  if (!group) throw Error(fmt::format("{} is not in the plan", name));
+  return *group;
 }
 
 }  // namespace touchdown::experiments

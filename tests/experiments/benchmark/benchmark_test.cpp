@@ -37,6 +37,16 @@ Experiment with(const ScratchFolder& folder, const std::string& benchmark) {
       "small.yaml"));
 }
 
+/// What it asks for, as planned.
+struct Planned {
+  Planned(const ScratchFolder& folder, const std::string& benchmark)
+      : request(request_of(with(folder, benchmark))), plan(plan_of(request)) {
+    add_benchmark(request, plan);
+  }
+  RunRequest request;
+  Plan plan;
+};
+
 std::string cell(const Table& table, std::size_t row, const std::string& column) {
   const auto found = std::find(table.header.begin(), table.header.end(), column);
   return table.rows.at(row).at(static_cast<std::size_t>(found - table.header.begin()));
@@ -159,9 +169,7 @@ TEST(ABenchmark, ScoresGuestsBesideThoseAtHome) {
 
 TEST(ABenchmark, SimulatesARobotOnceForAllItsSensors) {
   const ScratchFolder folder;
-  const RunRequest request = request_of(with(folder, "{sensors: [sensors/harsh.yaml]}"));
-  Plan plan = plan_of(request);
-  add_benchmark(request, plan);
+  const auto [request, plan] = Planned(folder, "{sensors: [sensors/harsh.yaml]}");
   const auto harsh = benchmark_settings(request, plan).at(1);
   const auto own = plan.runs_in(0);
   const auto heard = plan.runs_in(harsh.group);
@@ -174,9 +182,7 @@ TEST(ABenchmark, SimulatesARobotOnceForAllItsSensors) {
 
 TEST(ABenchmark, LetsEveryRobotStandAndBalanceAsItsFileSays) {
   const ScratchFolder folder;
-  const RunRequest request = request_of(with(folder, "{robots: [models/upkie_straight.yaml]}"));
-  Plan plan = plan_of(request);
-  add_benchmark(request, plan);
+  const auto [request, plan] = Planned(folder, "{robots: [models/upkie_straight.yaml]}");
   const auto straight = benchmark_settings(request, plan).at(1);
   const scenarios::Scenario& own = plan.runs[plan.runs_in(0).front()].scenario;
   const scenarios::Scenario& other = plan.runs[plan.runs_in(straight.group).front()].scenario;
@@ -207,11 +213,7 @@ TEST(ABenchmark, CountsTheContentOfItsRobotsAndSensors) {
 
 TEST(ABenchmark, RefusesWhatItCouldNotTellApart) {
   const ScratchFolder folder;
-  const auto planned = [&](const std::string& benchmark) {
-    const RunRequest request = request_of(with(folder, benchmark));
-    Plan plan = plan_of(request);
-    add_benchmark(request, plan);
-  };
+  const auto planned = [&](const std::string& benchmark) { (void)Planned(folder, benchmark); };
   EXPECT_THAT([&] { planned("{sensors: [sensors/ideal.yaml]}"); },
               ThrowsMessage<InputError>(
                   HasSubstr("benchmark.sensors: 'ideal' is there already: the experiment's own")));
