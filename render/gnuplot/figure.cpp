@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "render/gnuplot/dateless_pdf.hpp"
 #include "render/gnuplot/process.hpp"
 #include "render/gnuplot/whole_file.hpp"
 #include "render/palette.hpp"
@@ -109,19 +110,6 @@ void require_ours(const std::filesystem::path& folder, const std::string& name,
 
 }  // namespace
 
-std::string without_date(std::string pdf) {
-  constexpr std::string_view key = "/CreationDate (";
-  constexpr std::string_view date = "D:19700101000000Z)";
-  const std::size_t begin = pdf.find(key);
-  if (begin == std::string::npos) return pdf;
-  const std::size_t end = pdf.find(')', begin);
-  const std::size_t start = begin + key.size();
-  if (end == std::string::npos || end + 1 - start < date.size()) return pdf;
-  std::string stands_there(date);
-  stands_there.resize(end + 1 - start, ' ');
-  return pdf.replace(start, stands_there.size(), stands_there);
-}
-
 FigureText figure_text(const std::string& script) {
   FigureText text;
   std::istringstream lines(script);
@@ -170,7 +158,7 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
     require_whole(scratch.path() / (name + kind), folder / (name + kind));
   }
   const std::filesystem::path pdf = scratch.path() / (name + ".pdf");
-  write_whole(pdf, without_date(read_file(pdf)), folder / (name + ".pdf"));
+  write_whole(pdf, dateless_pdf(read_file(pdf), pdf.filename().string()), folder / (name + ".pdf"));
   for (const std::string& file : files) {
     std::error_code error;
     std::filesystem::rename(scratch.path() / file, folder / file, error);

@@ -43,10 +43,6 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
 /// Ends what `set multiplot` began.
 inline constexpr const char* end_multiplot = "unset multiplot\n";
 
-/// A PDF's bytes with 1 January 1970 for the time at which it was drawn: the same figure is the
-/// same file, whenever it is drawn. Its length stays, because a PDF counts its bytes.
-std::string without_date(std::string pdf);
-
 /// What the script of a figure says about it; empty where it says nothing.
 FigureText figure_text(const std::string& script);
 
