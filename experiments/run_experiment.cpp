@@ -7,6 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiments/benchmark/plan.hpp"
+#include "experiments/benchmark/refits.hpp"
 #include "experiments/benchmark/tables.hpp"
 #include "experiments/cross_simulator/tables.hpp"
 #include "experiments/moments/tables.hpp"
@@ -30,7 +32,7 @@ bool is_any_scored(const PlayedRuns& runs) {
   });
 }
 
-/// One of the experiment's fits, of every engine.
+/// One of the experiment's fits, of every engine, with its refits.
 FittedModels fit(const Experiment& experiment, const PlayedRuns& runs, const std::string& name,
                  const GoingOn& going_on) {
   std::vector<RunSignals> fitted;
@@ -45,7 +47,19 @@ FittedModels fit(const Experiment& experiment, const PlayedRuns& runs, const std
       pieces.push_back(std::move(piece));
     }
   }
-  return fit_models(experiment, fitted, pieces, going_on);
+  FittedModels models;
+  const auto add = [&](int refit, FittedModels of_refit) {
+    for (auto& [simulator, by_estimator] : of_refit) {
+      models[model_key(simulator, name, refit)] = std::move(by_estimator);
+    }
+  };
+  add(0, fit_models(experiment, fitted, pieces, going_on));
+  const int refits = experiment.benchmark ? refits_of(*experiment.benchmark, name) : 0;
+  for (int refit = 1; refit <= refits; ++refit) {
+    add(refit, fit_models(experiment, drawn_anew(fitted, experiment.seed, refit),
+                          drawn_anew(pieces, experiment.seed, refit), going_on));
+  }
+  return models;
 }
 
 /// What the estimators need that listen to these runs; nothing when none can be scored.
@@ -63,9 +77,7 @@ FittedModels fit(const RunningExperiment& running, const PlayedRuns& runs) {
                 [&](const std::string& simulator) { return !played.contains(simulator); });
   FittedModels models;
   for (const std::string& name : fits) {
-    for (auto& [simulator, by_estimator] : fit(experiment, runs, name, running.going_on)) {
-      models[simulator + name] = std::move(by_estimator);
-    }
+    models.merge(fit(experiment, runs, name, running.going_on));
   }
   if (experiment.phase_study) fit_learning_curve(experiment, runs, running.going_on, models);
   if (!running.going_on()) throw Stopped();
@@ -133,9 +145,10 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
       result.studies.push_back(moments_text(torques, experiment));
     }
     if (experiment.benchmark) {
-      const std::vector<BenchmarkRow> rows = benchmark(listened);
-      write_tables(rows, result.models, listened, running.directory);
-      result.studies.push_back(benchmark_text(rows, experiment));
+      BenchmarkResult found{benchmark(listened), {}};
+      found.standings = standings(found.rows, bootstrap.level);
+      write_tables(found, result.models, listened, running.directory);
+      result.studies.push_back(benchmark_text(found, experiment));
     }
     if (!experiment.sweep.empty()) {
       const std::vector<SensorSweepPoint> sweep = sensor_sweep(listened);

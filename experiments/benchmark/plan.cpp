@@ -58,7 +58,24 @@ void add_guests(const Experiment& experiment, const std::vector<BenchmarkSetting
   group.scores_guests = true;
 }
 
+/// The refits of those that are at home in a group, after all others.
+void add_refits(const BenchmarkConfig& benchmark, RunGroup& group) {
+  const std::vector<Condition> all = group.conditions;
+  for (const Condition& condition : all) {
+    if (!condition.is_fitted_here(group.fit)) continue;
+    if (!estimator_entry(condition.estimator).fits()) continue;
+    for (int refit = 1; refit <= refits_of(benchmark, group.fit); ++refit) {
+      group.conditions.push_back(condition);
+      group.conditions.back().refit = refit;
+    }
+  }
+}
+
 }  // namespace
+
+int refits_of(const BenchmarkConfig& benchmark, const std::string& fit) {
+  return fit.empty() || benchmark.refits_everywhere ? benchmark.refits : 0;
+}
 
 std::vector<BenchmarkSetting> benchmark_settings(const RunRequest& request, const Plan& plan) {
   const Experiment& experiment = request.experiment;
@@ -99,6 +116,7 @@ void add_benchmark(const RunRequest& request, Plan& plan) {
     if (where.fit.empty()) {
       plan.groups.front().is_looked_at_closely = true;
       if (experiment.benchmark->transfer) add_guests(experiment, settings, plan.groups.front());
+      add_refits(*experiment.benchmark, plan.groups.front());
       continue;
     }
     RunGroup group{fmt::format("{} {}", setting.robot, setting.sensors),
@@ -109,6 +127,7 @@ void add_benchmark(const RunRequest& request, Plan& plan) {
     group.is_looked_at_closely = true;
     group.fit = where.fit;
     if (experiment.benchmark->transfer) add_guests(experiment, settings, group);
+    add_refits(*experiment.benchmark, group);
     plan_runs(request, RunRole::fit, where, 0, plan);
     plan_pieces(request, where, plan);
     plan_runs(request, RunRole::test, where, plan.groups.size(), plan);

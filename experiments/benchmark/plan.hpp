@@ -15,6 +15,9 @@ struct BenchmarkSetting {
   std::size_t group = 0;
 };
 
+/// How often the fit of this name is repeated.
+int refits_of(const BenchmarkConfig& benchmark, const std::string& fit);
+
 /// Every combination of a robot and sensors, the experiment's own first.
 std::vector<BenchmarkSetting> benchmark_settings(const RunRequest& request, const Plan& plan);
 

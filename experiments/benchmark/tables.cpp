@@ -1,114 +1,21 @@
 #include "experiments/benchmark/tables.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/table.hpp"
-#include "experiments/estimators/registry.hpp"
+#include "core/files.hpp"
+#include "experiments/benchmark/overlap.hpp"
 #include "experiments/tables/captions.hpp"
-#include "scoring/bootstrap.hpp"
+#include "experiments/tables/json_table.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
-
-bool is_fitted_scene(const Experiment& experiment, const std::string& file) {
-  const std::vector<std::string>& fitted = experiment.fit.scenarios;
-  return std::find(fitted.begin(), fitted.end(), file) != fitted.end() ||
-         std::any_of(experiment.fit_pieces.begin(), experiment.fit_pieces.end(),
-                     [&](const FitPieces& pieces) { return pieces.scenario == file; });
-}
-
-/// The runs of a group in one of the experiment's scenes.
-std::vector<std::size_t> runs_in_scene(const Plan& plan, const Experiment& experiment,
-                                       std::size_t group, std::size_t scene) {
-  std::vector<std::size_t> runs = plan.runs_in(group);
-  std::erase_if(runs, [&](std::size_t run) {
-    return plan.runs[run].run / experiment.test.runs != static_cast<std::int64_t>(scene);
-  });
-  return runs;
-}
-
-/// Over runs: an estimator that is right in one of them is likely to be right throughout it.
-Interval balanced_accuracy(const std::vector<scoring::RobotScore>& samples,
-                           const scoring::BootstrapConfig& bootstrap) {
-  std::vector<scoring::Classification> points;
-  for (const scoring::RobotScore& sample : samples) points.push_back(sample.wheels().points);
-  return scoring::bootstrap<scoring::Classification>(
-             points, {[](const auto& all) { return all.balanced_accuracy(); }}, bootstrap)
-      .front();
-}
-
-std::string fitted_on(const Condition& condition, const BenchmarkSetting& here,
-                      const std::vector<BenchmarkSetting>& settings) {
-  if (condition.is_fitted_here(here.setting.fit)) return "own";
-  if (condition.fit_simulator != condition.test_simulator) return condition.fit_simulator;
-  const auto there = std::find_if(
-      settings.begin(), settings.end(),
-      [&](const BenchmarkSetting& setting) { return setting.setting.fit == condition.fit; });
-  return fmt::format("{} {}", there->robot, there->sensors);
-}
-
-/// What two fitted densities have in common, ∫ min(p, q), over the first one's grid: in contact or
-/// in the air. Each is taken to be one on its own grid: kernels reach below a torque of zero.
-double common_part(const MeasurementModel& first, const MeasurementModel& second,
-                   double Likelihoods::*density, std::vector<double> LikelihoodGrids::*grid) {
-  const auto share = [&](const LikelihoodGrids& grids) {
-    const std::vector<double>& values = grids.*grid;
-    return 1.0 / std::accumulate(values.begin(), values.end(), 0.0);
-  };
-  const LikelihoodGrids grids = first.grids();
-  const LikelihoodGrids others = second.grids();
-  const double area = grids.knee.step() * grids.wheel.step();
-  const double other_area = others.knee.step() * others.wheel.step();
-  const double one = share(grids);
-  const double other = share(others) * area / other_area;
-  double sum = 0.0;
-  std::size_t i = 0;
-  for (int wheel = 0; wheel < grids.wheel.count; ++wheel) {
-    for (int knee = 0; knee < grids.knee.count; ++knee, ++i) {
-      const Likelihoods there = second({grids.knee[knee], grids.wheel[wheel]});
-      sum += std::fmin(one * (grids.*grid)[i], other * there.*density);
-    }
-  }
-  return sum;
-}
-
-/// Of the first estimator that has densities.
-Table overlap_table(const FittedModels& models, const Listened& listened) {
-  Table table{{"simulator", "estimator", "robot", "sensors", "other_robot", "other_sensors",
-               "no_contact_overlap", "contact_overlap"},
-              {}};
-  const Experiment& experiment = listened.request.experiment;
-  const auto estimator = std::find_if(
-      experiment.estimators.begin(), experiment.estimators.end(), [](const std::string& name) {
-        return estimator_entry(name).fits() == ModelKind::measurement;
-      });
-  if (estimator == experiment.estimators.end()) return table;
-  const auto settings = benchmark_settings(listened.request, listened.plan);
-  for (const std::string& simulator : experiment.simulators) {
-    const auto model = [&](const BenchmarkSetting& setting) -> const MeasurementModel& {
-      return *models.at(simulator + setting.setting.fit).at(*estimator).measurement;
-    };
-    for (const BenchmarkSetting& first : settings) {
-      for (const BenchmarkSetting& second : settings) {
-        const auto common = [&](auto density, auto grid) {
-          return metric(common_part(model(first), model(second), density, grid));
-        };
-        table.rows.push_back({simulator, *estimator, first.robot, first.sensors, second.robot,
-                              second.sensors,
-                              common(&Likelihoods::no_contact, &LikelihoodGrids::no_contact),
-                              common(&Likelihoods::contact, &LikelihoodGrids::contact)});
-      }
-    }
-  }
-  return table;
-}
 
 double per_minute(std::int64_t count, std::int64_t microseconds) {
   return 60e6 * scoring::ratio(count, microseconds);
@@ -152,11 +59,6 @@ constexpr std::array columns = {
     Column{"landing_early_share",
            [](const BenchmarkRow& r) { return r.close.landing.early_share(); }}};
 
-std::string title_of(const BenchmarkRow& row) {
-  return fmt::format("{}, {}, sensors {}, {}", row.simulator, row.robot, row.sensors,
-                     noise_text(row.noise));
-}
-
 /// Estimators down, scenes across; the worst scene and the mean beside them.
 Table scene_table(std::span<const BenchmarkRow> rows) {
   Table table{{""}, {}};
@@ -188,58 +90,11 @@ Table scene_table(std::span<const BenchmarkRow> rows) {
   return table;
 }
 
-}  // namespace
-
-std::vector<BenchmarkRow> benchmark(const Listened& listened) {
-  const Experiment& experiment = listened.request.experiment;
-  const std::vector<std::string>& scenes = experiment.test.scenarios;
-  std::vector<BenchmarkRow> rows;
-  const auto settings = benchmark_settings(listened.request, listened.plan);
-  for (const BenchmarkSetting& setting : settings) {
-    for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
-      const auto runs = runs_in_scene(listened.plan, experiment, setting.group, scene);
-      const CollectedCounts counts = collect(listened.plan, runs, listened.saved);
-      for (std::size_t c = 0; c < counts.scored.size(); ++c) {
-        const ConditionScores& scored = counts.scored[c];
-        const std::string& simulator = scored.condition.test_simulator;
-        BenchmarkRow row{simulator,
-                         setting.robot,
-                         setting.sensors,
-                         scenario_of(listened.request, scenes[scene]).scenario.name,
-                         is_fitted_scene(experiment, scenes[scene]) ? "test" : "unseen",
-                         {},
-                         scored.condition.estimator,
-                         fitted_on(scored.condition, setting, settings),
-                         {},
-                         {},
-                         {}};
-        for (const std::size_t index : runs) {
-          const PlayedRun& run = listened.runs.at(index);
-          if (run.plan.simulator != simulator) continue;
-          ++row.runs;
-          row.failed += run.failed() ? 1 : 0;
-        }
-        for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {
-          if (scored.samples[cell].empty()) continue;
-          row.noise = experiment.highlights[cell];
-          row.balanced_accuracy =
-              balanced_accuracy(scored.samples[cell], experiment.intervals.bootstrap);
-          row.score = scoring::sum(scored.samples[cell]).wheels();
-          row.close = scoring::sum(counts.close[c].samples[cell]);
-          rows.push_back(row);
-        }
-      }
-    }
-  }
-  return rows;
-}
-
-void write_tables(const std::vector<BenchmarkRow>& rows, const FittedModels& models,
-                  const Listened& listened, const RunDirectory& directory) {
+Table rows_table(const std::vector<BenchmarkRow>& rows, double level) {
   std::vector<std::string> last;
   for (const Column& column : columns) last.emplace_back(column.name);
   last.insert(last.end(), {"torque_noise_nm", "accelerometer_noise_mps2", "takeoffs", "runs",
-                           "failed", "fitted_on"});
+                           "failed", "fitted_on", "refits"});
   Table table{
       header_with_intervals({"simulator", "robot", "sensors", "scene", "split", "estimator"},
                             {"balanced_accuracy"}, last),
@@ -247,38 +102,124 @@ void write_tables(const std::vector<BenchmarkRow>& rows, const FittedModels& mod
   for (const BenchmarkRow& row : rows) {
     std::vector<std::string> cells;
     for (const Column& column : columns) cells.push_back(metric(column.of(row)));
-    cells.insert(cells.end(), {exact(row.noise.torque), exact(row.noise.accelerometer),
-                               std::to_string(row.score.takeoff.events), std::to_string(row.runs),
-                               std::to_string(row.failed), row.fitted_on});
+    cells.insert(cells.end(),
+                 {exact(row.noise.torque), exact(row.noise.accelerometer),
+                  std::to_string(row.score.takeoff.events), std::to_string(row.runs),
+                  std::to_string(row.failed), row.fitted_on, std::to_string(row.refits)});
     table.rows.push_back(row_with_intervals(
         {row.simulator, row.robot, row.sensors, row.scene, row.split, row.estimator},
-        {row.balanced_accuracy}, cells));
+        {interval_of(row.balanced_accuracy, level)}, cells));
   }
-  directory.write_table("benchmark.csv", table);
+  return table;
+}
+
+/// What the rows of the two tables below begin with.
+const std::vector<std::string> setting_columns = {"robot", "sensors", "torque_noise_nm",
+                                                  "accelerometer_noise_mps2"};
+
+std::vector<std::string> setting_cells(const Standings& standings) {
+  return {standings.robot, standings.sensors, exact(standings.noise.torque),
+          exact(standings.noise.accelerometer)};
+}
+
+template <typename... Texts>
+std::vector<std::string> followed_by(std::vector<std::string> first, const Texts&... more) {
+  (first.emplace_back(more), ...);
+  return first;
+}
+
+Table standings_table(const std::vector<Standings>& all) {
+  Table table{
+      header_with_intervals(
+          followed_by(setting_columns, "estimator"), {"mean_balanced_accuracy"},
+          {"worst_balanced_accuracy", "worst_scene", "worst_simulator", "is_level_with_first"}),
+      {}};
+  for (const Standings& standings : all) {
+    for (const Standings::Place& place : standings.places) {
+      table.rows.push_back(
+          row_with_intervals(followed_by(setting_cells(standings), place.estimator), {place.mean},
+                             {metric(place.worst), place.worst_scene, place.worst_simulator,
+                              place.is_level_with_first ? "1" : "0"}));
+    }
+  }
+  return table;
+}
+
+Table differences_table(const std::vector<Standings>& all) {
+  Table table{header_with_intervals(followed_by(setting_columns, "scene", "first", "second"),
+                                    {"difference"}),
+              {}};
+  for (const Standings& standings : all) {
+    for (const Standings::Difference& pair : standings.differences) {
+      table.rows.push_back(row_with_intervals(
+          followed_by(setting_cells(standings), pair.scene, pair.first, pair.second),
+          {pair.value}));
+    }
+  }
+  return table;
+}
+
+std::string standings_text(const Standings& standings) {
+  Table table{{"", "mean", "level with the first", "worst", "in"}, {}};
+  for (const Standings::Place& place : standings.places) {
+    table.rows.push_back({estimator_title(place.estimator), with_interval(place.mean),
+                          place.is_level_with_first ? "yes" : "",
+                          fmt::format("{:.3f}", place.worst),
+                          fmt::format("{}, {}", place.worst_scene, place.worst_simulator)});
+  }
+  return fmt::format("\n{}, sensors {}, {}: all scenes and engines\n{}", standings.robot,
+                     standings.sensors, noise_text(standings.noise), to_text(table));
+}
+
+/// Every scene of one engine, robot, sensors and noise.
+std::string scenes_text(const Standings& setting, const std::string& simulator,
+                        const std::vector<BenchmarkRow>& rows) {
+  std::vector<BenchmarkRow> alike;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(alike), [&](const BenchmarkRow& row) {
+    return row.fitted_on == "own" && row.simulator == simulator && row.robot == setting.robot &&
+           row.sensors == setting.sensors && row.noise == setting.noise;
+  });
+  if (alike.empty()) return {};
+  std::string text =
+      fmt::format("\n{}, {}, sensors {}, {}\n{}", simulator, setting.robot, setting.sensors,
+                  noise_text(setting.noise), to_text(scene_table(alike)));
+  std::set<std::string> failures;
+  for (const BenchmarkRow& row : alike) {
+    if (row.failed == 0) continue;
+    failures.insert(fmt::format("{} of {} in {}", row.failed, row.runs, row.scene));
+  }
+  if (!failures.empty()) {
+    text += fmt::format("Runs that failed and are not scored: {}\n", fmt::join(failures, ", "));
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_tables(const BenchmarkResult& result, const FittedModels& models,
+                  const Listened& listened, const RunDirectory& directory) {
+  const double level = listened.request.experiment.intervals.bootstrap.level;
+  nlohmann::ordered_json json;
+  const auto write = [&](const std::string& name, const char* key, const Table& table) {
+    directory.write_table(name + ".csv", table);
+    json[key] = json_of(table);
+  };
+  write("benchmark", "rows", rows_table(result.rows, level));
+  write("benchmark_standings", "standings", standings_table(result.standings));
+  write("benchmark_differences", "differences", differences_table(result.standings));
+  write_atomically(directory.file("tables", "benchmark.json"), json.dump(1) + "\n");
   const Table overlaps = overlap_table(models, listened);
   if (!overlaps.rows.empty()) directory.write_table("density_overlap.csv", overlaps);
 }
 
-std::string benchmark_text(const std::vector<BenchmarkRow>& rows, const Experiment& experiment) {
+std::string benchmark_text(const BenchmarkResult& result, const Experiment& experiment) {
   std::string text = fmt::format("Balanced accuracy by scene ({})\n", labels_text(experiment));
-  std::vector<std::string> titles;
-  for (const BenchmarkRow& row : rows) {
-    const std::string title = title_of(row);
-    if (std::find(titles.begin(), titles.end(), title) == titles.end()) titles.push_back(title);
-  }
-  for (const std::string& title : titles) {
-    std::vector<BenchmarkRow> alike;
-    std::copy_if(rows.begin(), rows.end(), std::back_inserter(alike), [&](const BenchmarkRow& row) {
-      return row.fitted_on == "own" && title_of(row) == title;
-    });
-    text += fmt::format("\n{}\n{}", title, to_text(scene_table(alike)));
-    std::set<std::string> failures;
-    for (const BenchmarkRow& row : alike) {
-      if (row.failed == 0) continue;
-      failures.insert(fmt::format("{} of {} in {}", row.failed, row.runs, row.scene));
-    }
-    if (!failures.empty()) {
-      text += fmt::format("Runs that failed and are not scored: {}\n", fmt::join(failures, ", "));
+  const Standings& first = result.standings.front();
+  for (const Standings& standings : result.standings) {
+    text += standings_text(standings);
+    if (standings.robot != first.robot || standings.sensors != first.sensors) continue;
+    for (const std::string& simulator : experiment.simulators) {
+      text += scenes_text(standings, simulator, result.rows);
     }
   }
   return text;

@@ -165,6 +165,8 @@ static void describe(Fields& fields, BenchmarkConfig& benchmark) {
   describe_files("robots", benchmark.robots);
   describe_files("sensors", benchmark.sensors);
   fields("transfer", benchmark.transfer);
+  fields("refits", benchmark.refits, 0, 1000);
+  fields("refits_everywhere", benchmark.refits_everywhere);
 }
 
 static void describe_cross_simulator(Fields& fields, Experiment& experiment) {

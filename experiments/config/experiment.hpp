@@ -122,6 +122,11 @@ struct BenchmarkConfig {
   /// Estimators that were fitted on another robot, other sensors or in the other engine are scored
   /// beside those at home.
   bool transfer = false;
+  /// Every fit is repeated so often, each time to as many runs drawn from the fitted ones with
+  /// replacement: then intervals know how much depends on which runs were fitted …
+  int refits = 0;
+  /// … of the experiment's own robot and sensors alone, or of all.
+  bool refits_everywhere = false;
 };
 
 /// An experiment file, seen whole: what is simulated, who listens through which noise, what counts.

@@ -8,7 +8,8 @@ EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,
                         const RunSignals& run) {
   const FittedModel* model =
       estimator_entry(condition.estimator).fits()
-          ? &models.at(condition.fit_simulator + condition.fit).at(condition.estimator)
+          ? &models.at(model_key(condition.fit_simulator, condition.fit, condition.refit))
+                 .at(condition.estimator)
           : nullptr;
   return {1e6 / static_cast<double>(run.info.control_period_us), model, &run.contact};
 }

@@ -135,9 +135,9 @@ TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,
   const std::vector<Condition> conditions = tested_on(group.conditions, run.info.simulator);
   const NoiseRun noise = noise_run(run, task.noise);
   TaskCounts counts;
-  if (!group.counted.empty()) {
-    counts.counted = sweep_run(conditions, group.counted, run, noise, models, scoring, going_on);
-  }
+  std::vector<Condition> counted = conditions;
+  std::erase_if(counted, [&](const Condition& one) { return !group.counts(one); });
+  counts.counted = sweep_run(counted, group.counted, run, noise, models, scoring, going_on);
   const std::int64_t period_us = run.info.control_period_us;
   for (const Condition& condition : conditions) {
     if (!group.scores(condition)) continue;
@@ -148,11 +148,12 @@ TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,
       const std::vector<scoring::RobotScore> scores =
           scoring::score(run.contact, prediction, run.pieces, period_us, scoring);
       counts.scored.insert(counts.scored.end(), scores.begin(), scores.end());
-      if (group.is_looked_at_closely) {
+      if (group.is_looked_at_closely && condition.refit == 0) {
         counts.close.push_back(
             scoring::close_score(run.contact, run.normal_force, prediction, period_us, scoring));
       }
     }
+    if (condition.refit > 0) continue;
     for (const DisturbedCell& cell : group.disturbed) {
       if (!going_on()) throw Stopped();
       counts.disturbed.push_back(count(*estimator, run, noise, task.noise, cell, scoring));
@@ -196,9 +197,10 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
       conditions.push_back({condition, {}});
       conditions.back().samples.resize(cells);
     };
-    add_to(all.counted, group.counted.size());
+    if (group.counts(condition)) add_to(all.counted, group.counted.size());
     if (!group.scores(condition)) continue;
     add_to(all.scored, group.scored.size());
+    if (condition.refit > 0) continue;
     add_to(all.close, group.is_looked_at_closely ? group.scored.size() : 0);
     add_to(all.disturbed, group.disturbed.size());
   }

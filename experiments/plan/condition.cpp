@@ -1,9 +1,17 @@
 #include "experiments/plan/condition.hpp"
 
+#include <fmt/format.h>
+
 #include "core/random.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
+
+std::string model_key(const std::string& simulator, const std::string& fit, int refit) {
+  return simulator + fit + (refit > 0 ? fmt::format("~{}", refit) : "");
+}
+
+bool is_of_refit(std::string_view model_key) { return model_key.find('~') != model_key.npos; }
 
 std::vector<Condition> own_engine_conditions(const Experiment& experiment) {
   std::vector<Condition> conditions;

@@ -16,13 +16,22 @@ struct Condition {
   std::string test_simulator;
   std::string estimator;
   std::string fit = {};  ///< which fit of that engine; empty: the experiment's
+  int refit = 0;         ///< 0: to all of its runs; else to the so-manieth draw from them
 
   /// Whether it was fitted where it is tested, with the fit that is at home there.
   bool is_fitted_here(std::string_view own_fit = {}) const {
+    return refit == 0 && is_fit_of_home(own_fit);
+  }
+  /// Likewise, or to a draw from the runs of that fit.
+  bool is_fit_of_home(std::string_view own_fit) const {
     return fit_simulator == test_simulator && fit == own_fit;
   }
   friend bool operator==(const Condition&, const Condition&) = default;
 };
+
+/// Under which its model is found among the fitted ones.
+std::string model_key(const std::string& simulator, const std::string& fit, int refit = 0);
+bool is_of_refit(std::string_view model_key);
 
 /// The experiment's estimators on the engine they were fitted on, "always contact" last.
 std::vector<Condition> own_engine_conditions(const Experiment& experiment);

@@ -62,7 +62,11 @@ struct RunGroup {
   bool scores_guests = false;  ///< whether conditions that were fitted elsewhere are scored as well
 
   bool scores(const Condition& condition) const {
-    return scores_guests || condition.is_fitted_here(fit);
+    return scores_guests || condition.is_fit_of_home(fit);
+  }
+  /// A refit is scored alone.
+  bool counts(const Condition& condition) const {
+    return !counted.empty() && condition.refit == 0;
   }
 };
 

@@ -33,10 +33,10 @@ constexpr std::array fixed_names = {
     FixedNames{"state/shards", R"(\d+_of_\d+)"},
     FixedNames{
         "tables",
-        "(agreement|benchmark|calibration|classification|density_overlap|differences|labels|"
+        "(agreement|benchmark|benchmark_differences|benchmark_standings|calibration|classification|density_overlap|differences|labels|"
         "latency|moments|overlap|reliability|runs|sample_efficiency|sensitivity|sensor_sweep|"
         "success|torque_distributions|torques|training|transfer|transitions|verdicts|views)\\.csv|"
-        "(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|summary\\.json"},
+        "(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
     FixedNames{"videos", R"(report\.(mp4|jpg))"},
     FixedNames{"figures", R"((training|sample_efficiency)\.(gp|png))"},
     FixedNames{"models", R"(nmn\.(npz|json))"},

@@ -18,6 +18,7 @@ namespace {
 
 void write_models(const FittedModels& models, const RunDirectory& directory) {
   for (const auto& [simulator, by_estimator] : models) {
+    if (is_of_refit(simulator)) continue;
     for (const auto& [estimator, model] : by_estimator) {
       write_fitted_model(model, directory.file("models", model_name(simulator, estimator)));
     }

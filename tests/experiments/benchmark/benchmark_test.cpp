@@ -167,6 +167,50 @@ TEST(ABenchmark, ScoresGuestsBesideThoseAtHome) {
   }
 }
 
+TEST(ABenchmark, ResamplesFitsAndRunsTogether) {
+  const ScratchFolder folder;
+  const auto table_of = [&](const std::string& benchmark, const char* out) {
+    RunOptions options;
+    options.out = folder / out;
+    run_experiment(with(folder, benchmark), options);
+    return from_csv(read_file(folder / out / "tables/benchmark.csv"));
+  };
+  const std::string robots = "{robots: [models/upkie_actuated.yaml]";
+  const Table once = table_of(robots + "}", "once");
+  const Table own = table_of(robots + ", refits: 3}", "own");
+  const Table all = table_of(robots + ", refits: 2, refits_everywhere: true}", "all");
+  ASSERT_EQ(own.rows.size(), once.rows.size());
+  int wider = 0;
+  for (std::size_t row = 0; row < own.rows.size(); ++row) {
+    const bool is_fitted = cell(own, row, "estimator") == "measurement_only";
+    const bool is_own = cell(own, row, "robot") == "upkie";
+    EXPECT_EQ(cell(once, row, "refits"), "0");
+    EXPECT_EQ(cell(own, row, "refits"), is_fitted && is_own ? "3" : "0");
+    EXPECT_EQ(cell(all, row, "refits"), is_fitted ? "2" : "0");
+    // What is scored is the fit to all runs.
+    for (const char* column : {"balanced_accuracy", "flight_f1", "log_loss"}) {
+      EXPECT_EQ(cell(own, row, column), cell(once, row, column)) << column;
+    }
+    const auto width = [&](const Table& table) {
+      return std::stod(cell(table, row, "balanced_accuracy_high")) -
+             std::stod(cell(table, row, "balanced_accuracy_low"));
+    };
+    if (!(is_fitted && is_own)) {
+      EXPECT_EQ(width(own), width(once));
+    } else if (width(own) > width(once)) {
+      ++wider;
+    }
+  }
+  EXPECT_GT(wider, 0);
+  for (const auto& file : std::filesystem::directory_iterator(folder / "own" / "models")) {
+    EXPECT_EQ(file.path().string().find('~'), std::string::npos) << file.path();
+  }
+  EXPECT_THAT(own_files(folder / "own"),
+              IsSupersetOf({std::filesystem::path("tables") / "benchmark_standings.csv",
+                            std::filesystem::path("tables") / "benchmark_differences.csv",
+                            std::filesystem::path("tables") / "benchmark.json"}));
+}
+
 TEST(ABenchmark, SimulatesARobotOnceForAllItsSensors) {
   const ScratchFolder folder;
   const auto [request, plan] = Planned(folder, "{sensors: [sensors/harsh.yaml]}");

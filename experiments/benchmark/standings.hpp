@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/interval.hpp"
+#include "experiments/benchmark/rows.hpp"
+
+namespace touchdown::experiments {
+
+/// Estimators on one robot with its sensors, at one noise setting, in both engines.
+struct Standings {
+  std::string robot;
+  std::string sensors;
+  noise::NoiseCell noise;
+
+  /// One estimator over all scenes and engines, each of which counts alike.
+  struct Place {
+    std::string estimator;
+    Interval mean;  ///< of balanced accuracy
+    double worst = 0.0;
+    std::string worst_scene;
+    std::string worst_simulator;
+    /// The simultaneous band of its difference from the first includes zero.
+    bool is_level_with_first = false;
+  };
+  std::vector<Place> places;  ///< by mean, the best first
+
+  /// The balanced accuracy of one estimator minus that of another, on the same runs, resampled
+  /// together: in one scene, the mean of its engines, or, without a name, the mean of everything.
+  struct Difference {
+    std::string scene;
+    std::string first;
+    std::string second;
+    Interval value;
+  };
+  /// All pairs, by scene. The bands of a scene hold all at once: each reaches as many standard
+  /// errors as the largest deviation of any pair does in 95 % of the resamples.
+  std::vector<Difference> differences;
+};
+
+/// Of estimators that are scored where they were fitted.
+std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double level);
+
+}  // namespace touchdown::experiments

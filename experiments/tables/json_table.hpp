@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/table.hpp"
+
+namespace touchdown::experiments {
+
+/// A list of its rows, each an object by column; cells that are numbers as numbers, `nan` as null.
+nlohmann::ordered_json json_of(const Table& table);
+
+}  // namespace touchdown::experiments
