@@ -170,7 +170,7 @@ std::vector<fs::path> own_files(const fs::path& directory) {
   std::stable_partition(names.begin(), names.end(), [](const fs::path& name) {
     return !name.filename().string().starts_with("scenario_");
   });
-  for (const char* const file : {"report.html", "manifest.json", "config.yaml"}) {
+  for (const char* const file : {"report.html", "benchmark.html", "manifest.json", "config.yaml"}) {
     names.emplace_back(file);
   }
   std::erase_if(names, [&](const fs::path& name) { return !is_file(directory / name); });

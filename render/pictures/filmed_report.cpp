@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "render/benchmark/page.hpp"
 #include "render/film/video.hpp"
 #include "render/report/html.hpp"
 #include "render/report/report.hpp"
@@ -106,6 +107,7 @@ std::string film_html(const std::vector<FilmedRun>& runs, const fs::path& direct
 
 fs::path make_report(const ReportSubject& subject, const std::vector<FilmedRun>& filmed,
                      const std::atomic<bool>* stop) {
+  if (subject.experiment.benchmark) write_benchmark_page(subject);
   return write_report(subject, filmed.empty() ? "" : film_html(filmed, subject.directory, stop));
 }
 

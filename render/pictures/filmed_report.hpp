@@ -10,7 +10,7 @@
 namespace touchdown::render {
 
 /// Writes `report.html` into a run directory, with a small film of the runs, two of them beside
-/// each other, if there are any. Returns the report.
+/// each other, if there are any; of a benchmark `benchmark.html` too. Returns the report.
 std::filesystem::path make_report(const ReportSubject& subject,
                                   const std::vector<FilmedRun>& filmed,
                                   const std::atomic<bool>* stop);

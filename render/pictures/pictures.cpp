@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/progress.hpp"
+#include "render/benchmark/standings_figure.hpp"
 #include "render/film/video.hpp"
 #include "render/pictures/drop_figures.hpp"
 #include "render/pictures/heatmaps.hpp"
@@ -38,6 +39,9 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     draw_score_figures(result);
     progress.advance();
     draw_drop_figures(result);
+    if (result.experiment.benchmark) {
+      draw_standings_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
+    }
     progress.advance();
   }
   for (const FilmedRun& run : filmed) film(result, run, stop);

@@ -4,14 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "core/files.hpp"
-#include "render/report/assets.hpp"
 #include "render/report/figures.hpp"
 #include "render/report/findings.hpp"
 #include "render/report/html.hpp"
 #include "render/report/noise.hpp"
+#include "render/report/page.hpp"
 #include "render/report/results.hpp"
-#include "render/report/scenes.hpp"
 #include "render/report/tables.hpp"
 
 namespace touchdown::render {
@@ -72,50 +70,31 @@ ReportSection reproduce_section(const ReportSubject& subject) {
   return {"reproduce", "Reproduce it", html};
 }
 
-/// ", built from commit a1b2c3d4e5f6", of the program that computed the numbers.
-std::string built_from(const nlohmann::ordered_json& manifest) {
-  const auto versions = manifest.find("versions");
-  if (versions == manifest.end() || !versions->is_object()) return {};
-  const std::string commit = versions->value("commit", "");
-  if (commit.empty()) return {};
-  return escaped(commit.starts_with("unknown") ? " (commit " + commit + ")"
-                                               : ", built from commit " + commit);
+/// Where the benchmark's own page is.
+ReportSection benchmark_section(const ReportSubject& subject) {
+  ReportSection section{"scenes", "Scene by scene", {}};
+  if (subject.experiment.benchmark) {
+    section.html =
+        "<p><a href=\"benchmark.html\">Which estimator, where?</a> Every scene by itself, on every "
+        "robot with its sensors, has a page of its own.</p>\n";
+  }
+  return section;
 }
 
 }  // namespace
 
 fs::path write_report(const ReportSubject& subject, const std::string& film_html) {
-  std::vector<ReportSection> sections = {
-      {"film", "Watch it", film_html}, estimators_section(subject),  results_section(subject),
-      scenes_section(subject),         heatmap_section(subject),     paper_section(subject),
-      figures_section(subject),        more_tables_section(subject), reproduce_section(subject)};
-  std::erase_if(sections, [](const ReportSection& section) { return section.html.empty(); });
-
-  std::string body = "<header>\n" + header_html(subject) + "<nav aria-label=\"Contents\"><ul>\n";
-  for (const ReportSection& section : sections) {
-    body += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, escaped(section.title));
-  }
-  body += "</ul></nav>\n</header>\n<main id=\"main\">\n";
-  for (const ReportSection& section : sections) {
-    body += fmt::format(
-        "<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}"
-        "</h2>\n{2}</section>\n",
-        section.id, escaped(section.title), section.html);
-  }
-  body += fmt::format(
-      "</main>\n<footer><p>Computed by touchdown{}. This page needs no network.</p></footer>\n",
-      built_from(subject.manifest));
-
-  const std::string policy = fmt::format(
-      "default-src 'none'; img-src data:; media-src data:; style-src {}; script-src {}; "
-      "base-uri 'none'; form-action 'none'",
-      policy_source(report_style.sha256), policy_source(report_script.sha256));
   fs::path path = subject.directory / "report.html";
-  write_atomically(path,
-                   fmt::format(fmt::runtime(report_page.content), fmt::arg("policy", policy),
-                               fmt::arg("title", escaped(subject.experiment.name) + " – touchdown"),
-                               fmt::arg("style", report_style.content), fmt::arg("body", body),
-                               fmt::arg("script", report_script.content)));
+  write_page(subject, path, header_html(subject),
+             {{"film", "Watch it", film_html},
+              estimators_section(subject),
+              results_section(subject),
+              benchmark_section(subject),
+              heatmap_section(subject),
+              paper_section(subject),
+              figures_section(subject),
+              more_tables_section(subject),
+              reproduce_section(subject)});
   return path;
 }
 

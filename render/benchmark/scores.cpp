@@ -1,0 +1,80 @@
+#include "render/benchmark/scores.hpp"
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "render/report/tables.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+/// A table's rows, whose cells are asked for by the names of their columns.
+class Rows {
+ public:
+  explicit Rows(const std::filesystem::path& file) {
+    if (std::filesystem::exists(file)) table_ = from_csv(read_file(file));
+  }
+
+  template <typename Each>
+  void for_each(const Each& each) {
+    for (row_ = 0; row_ < table_.rows.size(); ++row_) each();
+  }
+
+  /// Of the row that it is at.
+  std::string text(const std::string& column) const {
+    const auto found = std::find(table_.header.begin(), table_.header.end(), column);
+    const auto index = static_cast<std::size_t>(found - table_.header.begin());
+    return index < table_.rows[row_].size() ? table_.rows[row_][index] : "nan";
+  }
+  double value(const std::string& column) const { return number(text(column)); }
+  Interval interval(const std::string& column) const {
+    return {value(column), value(column + "_low"), value(column + "_high")};
+  }
+  std::string setting() const {
+    return fmt::format("{}, {} sensors", text("robot"), text("sensors"));
+  }
+  std::string noise() const {
+    return fmt::format("{} N·m, {} m/s²", text("torque_noise_nm"),
+                       text("accelerometer_noise_mps2"));
+  }
+
+ private:
+  Table table_;
+  std::size_t row_ = 0;
+};
+
+}  // namespace
+
+BenchmarkScores benchmark_scores(const std::filesystem::path& run_directory) {
+  const std::filesystem::path tables = run_directory / "tables";
+  BenchmarkScores scores;
+  Rows rows(tables / "benchmark.csv");
+  rows.for_each([&] {
+    if (rows.text("fitted_on") != "own") return;
+    scores.scenes.push_back(
+        {rows.text("simulator"), rows.setting(), rows.noise(), rows.text("scene"),
+         rows.text("estimator"), rows.text("split") == "unseen", rows.interval("balanced_accuracy"),
+         rows.value("no_contact_precision"), rows.value("no_contact_recall"),
+         rows.value("flight_f1"), rows.value("extra_switches_per_minute"),
+         rows.value("false_takeoffs_per_minute"), rows.value("takeoff_latency_median_ms")});
+  });
+  Rows places(tables / "benchmark_standings.csv");
+  places.for_each([&] {
+    scores.places.push_back(
+        {places.setting(), places.text("robot"), places.text("sensors"), places.noise(),
+         places.text("estimator"), places.interval("mean_balanced_accuracy"),
+         places.value("worst_balanced_accuracy"), places.text("worst_scene"),
+         places.text("worst_simulator"), places.text("is_level_with_first") == "1"});
+  });
+  Rows pairs(tables / "benchmark_differences.csv");
+  pairs.for_each([&] {
+    scores.pairs.push_back({pairs.setting(), pairs.noise(), pairs.text("scene"),
+                            pairs.text("first"), pairs.text("second"),
+                            pairs.interval("difference")});
+  });
+  return scores;
+}
+
+}  // namespace touchdown::render

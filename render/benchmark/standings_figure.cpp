@@ -1,0 +1,169 @@
+#include "render/benchmark/standings_figure.hpp"
+
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "experiments/tables/captions.hpp"
+#include "render/gnuplot/frame.hpp"
+#include "render/gnuplot/text.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+constexpr double row_height = 26.0, names_width = 190.0, mean_width = 380.0, bars_width = 96.0;
+constexpr double worst_width = 230.0, words_width = 170.0, gap_y = 84.0;
+
+using StandingRows = std::vector<Standing>;
+
+/// Ranks from the first to the last of those who cannot be told apart.
+struct Level {
+  std::size_t first, last;
+};
+
+bool are_told_apart(const BenchmarkScores& scores, const Standing& one, const Standing& other) {
+  return std::any_of(scores.pairs.begin(), scores.pairs.end(), [&](const PairedBand& pair) {
+    const bool is_theirs = pair.scene.empty() && pair.setting == one.setting &&
+                           pair.noise == one.noise &&
+                           ((pair.first == one.estimator && pair.second == other.estimator) ||
+                            (pair.second == one.estimator && pair.first == other.estimator));
+    return is_theirs && (pair.difference.low > 0.0 || pair.difference.high < 0.0);
+  });
+}
+
+/// The longest rows of neighbours of whom no two are told apart; not of one alone.
+std::vector<Level> levels(const BenchmarkScores& scores, const StandingRows& places) {
+  std::vector<Level> all;
+  for (std::size_t first = 0; first < places.size(); ++first) {
+    std::size_t last = first;
+    const auto joins = [&](std::size_t next) {
+      for (std::size_t i = first; i < next; ++i) {
+        if (are_told_apart(scores, places[i], places[next])) return false;
+      }
+      return true;
+    };
+    while (last + 1 < places.size() && joins(last + 1)) ++last;
+    const bool is_part = !all.empty() && all.back().last >= last;
+    if (last > first && !is_part) all.push_back({first, last});
+  }
+  return all;
+}
+
+/// Blocks (gnuplot's `index`): for every noise setting the places (mean, low, high, height, worst,
+/// its words) and the bars (place of the bar, lower end, upper end).
+std::string data_of(const std::vector<StandingRows>& panels, const BenchmarkScores& scores) {
+  std::string text = "#mean\tlow\thigh\theight\tworst\twhere\n";
+  const auto out = std::back_inserter(text);
+  for (const StandingRows& places : panels) {
+    const std::size_t count = places.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Standing& place = places[i];
+      fmt::format_to(out, "{}\t{}\t{}\t{}\t{}\t\"{:.3f} {}, {}\"\n", number(place.mean.estimate),
+                     number(place.mean.low), number(place.mean.high), count - 1 - i,
+                     number(place.worst), place.worst, place.worst_scene,
+                     simulators::simulator_title(place.worst_simulator));
+    }
+    text += "\n\n";
+    const std::vector<Level> all = levels(scores, places);
+    if (all.empty()) text += "NaN\tNaN\tNaN\n";
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      fmt::format_to(out, "{}\t{}\t{}\n", i, static_cast<double>(count - 1 - all[i].last) - 0.3,
+                     static_cast<double>(count - 1 - all[i].first) + 0.3);
+    }
+    text += "\n\n";
+  }
+  return text;
+}
+
+std::string described(const std::vector<StandingRows>& panels) {
+  std::string text = "Mean balanced accuracy, the best first.";
+  for (const StandingRows& places : panels) {
+    fmt::format_to(std::back_inserter(text), " {}:", places.front().noise);
+    for (const Standing& place : places) {
+      fmt::format_to(std::back_inserter(text), " {} {:.3f} (worst {:.3f}, {});",
+                     experiments::estimator_title(place.estimator), place.mean.estimate,
+                     place.worst, place.worst_scene);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::filesystem::path standings_stem(const std::filesystem::path& run_directory,
+                                     const Standing& place) {
+  return run_directory / "figures" / fmt::format("benchmark_{}_{}", place.robot, place.sensors);
+}
+
+Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& setting,
+                             double level, const std::filesystem::path& stem) {
+  std::vector<StandingRows> panels;
+  double lowest = 1.0;
+  for (const Standing& place : scores.places) {
+    if (place.setting != setting) continue;
+    if (panels.empty() || panels.back().front().noise != place.noise) panels.emplace_back();
+    panels.back().push_back(place);
+    lowest = std::fmin(lowest, std::isnan(place.mean.low) ? place.mean.estimate : place.mean.low);
+  }
+  const double height = row_height * static_cast<double>(panels.front().size());
+  const FigureFrame frame(
+      fmt::format("Who stands where: {}", setting),
+      fmt::format("Balanced accuracy, the mean over all scenes and engines, with {:.0f} % "
+                  "intervals over runs, and over fits where they were repeated. A bar joins "
+                  "estimators of whom no two can be told apart: the simultaneous bands of their "
+                  "paired differences include zero. On the right, each one's worst scene.",
+                  100.0 * level),
+      names_width + mean_width + bars_width + worst_width + words_width,
+      static_cast<double>(panels.size()) * (height + gap_y));
+  const std::string file = gnuplot_text(stem.filename().string() + ".dat");
+  std::string commands = "unset key\nset grid noytics\n";
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const StandingRows& places = panels[p];
+    std::string estimators;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      estimators += fmt::format("{}{} {}", i > 0 ? ", " : "",
+                                gnuplot_text(experiments::estimator_title(places[i].estimator)),
+                                places.size() - 1 - i);
+    }
+    const double top = 24.0 + static_cast<double>(p) * (height + gap_y);
+    commands += frame.panel(names_width, top, mean_width, height);
+    commands += fmt::format(
+        "set border 1\nset title {} offset 0,-0.6\nset yrange [-0.6:{}]\nset xrange [{:.2f}:1]\n"
+        "set xtics nomirror autofreq\nset ytics scale 0 ({})\nset xlabel 'mean balanced accuracy'\n"
+        "plot {} index {} using 1:4:2:3 with xerrorbars lt 1 lw 1.6 dt 1 pt 7 ps 0.9\n",
+        gnuplot_text("noise: " + places.front().noise), static_cast<double>(places.size()) - 0.4,
+        std::floor(20.0 * lowest) / 20.0, estimators, file, 2 * p);
+    commands += FigureFrame::end_panel();
+    commands += frame.panel(names_width + mean_width + 14.0, top, bars_width - 28.0, height);
+    commands += fmt::format(
+        "unset border\nunset title\nunset xlabel\nunset xtics\nunset ytics\nset xrange [-0.5:8]\n"
+        "plot {} index {} using 1:2:(0):($3-$2) with vectors nohead lc rgb '#22262b' lw 4 dt 1\n",
+        file, 2 * p + 1);
+    commands += FigureFrame::end_panel();
+    commands += frame.panel(names_width + mean_width + bars_width, top, worst_width, height);
+    commands += fmt::format(
+        "set border 1\nset xtics nomirror 0.25\nset xrange [0:1]\nset xlabel 'worst scene'\n"
+        "plot {0} index {1} using (0):4:5:(0) with vectors nohead lc rgb '#9aa1a8' lw 2 dt 1, \\\n"
+        "     '' index {1} using 5:4 with points lt 2 pt 7 ps 0.8, \\\n"
+        "     '' index {1} using (1):4:6 with labels left offset 1,0 font ',9'\n",
+        file, 2 * p);
+    commands += FigureFrame::end_panel();
+  }
+  return frame.draw(stem, commands, data_of(panels, scores), described(panels));
+}
+
+void draw_standings_figures(const std::filesystem::path& run_directory, double level) {
+  const BenchmarkScores scores = benchmark_scores(run_directory);
+  std::string last;
+  for (const Standing& place : scores.places) {
+    const std::string stem = standings_stem(run_directory, place).string();
+    if (stem == last) continue;
+    last = stem;
+    draw_standings_figure(scores, place.setting, level, stem);
+  }
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,104 @@
+#include "render/benchmark/page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "experiments/tables/summary_file.hpp"
+#include "render/benchmark/standings_figure.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::render {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const char* const config = R"(name: study
+simulators: [mujoco]
+estimators: [robust]
+fit: {scenarios: [scenarios/stairs.yaml]}
+test: {scenarios: [scenarios/stairs.yaml]}
+benchmark: {}
+)";
+
+/// Four estimators in two scenes. The first three are level with their neighbours, but the first
+/// with the third.
+class BenchmarkPage : public ::testing::Test {
+ protected:
+  BenchmarkPage() {
+    folder_.write("config.yaml", config);
+    folder_.write("manifest.json", "{}");
+    experiments::write_summary({}, folder_.path());
+    folder_.write(
+        "tables/benchmark.csv",
+        "simulator,robot,sensors,scene,split,estimator,balanced_accuracy,balanced_accuracy_low,"
+        "balanced_accuracy_high,no_contact_precision,no_contact_recall,torque_noise_nm,"
+        "accelerometer_noise_mps2,fitted_on\n"
+        "mujoco,upkie,harsh,stairs,test,robust,0.99,0.98,0.995,1,1,0,0,own\n"
+        "mujoco,upkie,harsh,stairs,test,free_fall,0.5,0.4,0.6,nan,0,0,0,own\n"
+        "mujoco,upkie,harsh,stairs,test,robust,0.1,0,0.2,1,1,0,0,bullet\n"  // a guest
+        "mujoco,upkie,harsh,<i>hop,unseen,robust,0.7,0.6,0.8,0.9,0.45,0,0,own\n"
+        "mujoco,upkie,harsh,<i>hop,unseen,free_fall,nan,nan,nan,nan,nan,0,0,own\n"
+        "mujoco,upkie,harsh,<i>hop\n");  // torn
+    folder_.write("tables/benchmark_standings.csv",
+                  "robot,sensors,torque_noise_nm,accelerometer_noise_mps2,estimator,"
+                  "mean_balanced_accuracy,mean_balanced_accuracy_low,mean_balanced_accuracy_high,"
+                  "worst_balanced_accuracy,worst_scene,worst_simulator,is_level_with_first\n"
+                  "upkie,harsh,0,0,robust,0.845,0.83,0.85,0.7,<i>hop,mujoco,1\n"
+                  "upkie,harsh,0,0,phase,0.84,0.83,0.85,0.7,<i>hop,mujoco,1\n"
+                  "upkie,harsh,0,0,paper,0.83,0.82,0.84,0.7,<i>hop,mujoco,0\n"
+                  "upkie,harsh,0,0,free_fall,0.5,0.4,0.6,0.5,stairs,mujoco,0\n");
+    folder_.write("tables/benchmark_differences.csv",
+                  "robot,sensors,torque_noise_nm,accelerometer_noise_mps2,scene,first,second,"
+                  "difference,difference_low,difference_high\n"
+                  "upkie,harsh,0,0,,robust,phase,0.005,-0.01,0.02\n"
+                  "upkie,harsh,0,0,,robust,paper,0.015,0.001,0.03\n"
+                  "upkie,harsh,0,0,,robust,free_fall,0.345,0.3,0.4\n"
+                  "upkie,harsh,0,0,,phase,paper,0.01,-0.005,0.025\n"
+                  "upkie,harsh,0,0,,phase,free_fall,0.34,0.3,0.4\n"
+                  "upkie,harsh,0,0,,paper,free_fall,0.33,0.3,0.4\n"
+                  "upkie,harsh,0,0,stairs,phase,paper,0.5,0.4,0.6\n");
+  }
+  std::string page() const { return read_file(write_benchmark_page(read_subject(folder_.path()))); }
+
+  const ScratchFolder folder_;
+};
+
+TEST_F(BenchmarkPage, ShowsEveryScenesBestAndWorst) {
+  const std::string html = page();
+  EXPECT_THAT(html, AllOf(HasSubstr("upkie, harsh sensors"),
+                          HasSubstr("level-5 best\" data-value=\"0.99\""),
+                          HasSubstr("level-0\" data-value=\"0.5\""),
+                          HasSubstr("0.99 [0.98, 0.995]; F1 of flights –"),
+                          HasSubstr("&lt;i&gt;hop *"),  // nothing like it was fitted
+                          HasSubstr("0.845</td>"),      // the mean of both scenes
+                          Not(HasSubstr("<i>hop")), Not(HasSubstr("data-value=\"0.1\""))));
+}
+
+TEST_F(BenchmarkPage, SaysWhereEachFailsAndHow) {
+  EXPECT_THAT(page(), AllOf(HasSubstr("<b>&lt;i&gt;hop</b> 0.700: misses 55 % of the time in the "
+                                      "air; 10 % of what it calls flight is contact (MuJoCo"),
+                            HasSubstr("<b>stairs</b> 0.500: misses 100 % of the time in the air "
+                                      "and says nothing else"),
+                            HasSubstr("Level with the first in 1 of 1 settings")));
+}
+
+TEST_F(BenchmarkPage, ShowsTheFilmOfTheWorstMomentWhereThereIsOne) {
+  EXPECT_THAT(page(), Not(HasSubstr("<video")));
+  folder_.write("videos/worst_robust.mp4", "film");
+  EXPECT_THAT(page(), HasSubstr("The worst two seconds of Bayes filter (robust)"));
+}
+
+TEST_F(BenchmarkPage, JoinsThoseWhoCannotBeToldApart) {
+  draw_standings_figures(folder_.path(), 0.95);
+  // Three places from above: 3, 2, 1, 0. Bars over the first and second, the second and third.
+  EXPECT_THAT(read_file(folder_ / "figures/benchmark_upkie_harsh.dat"),
+              HasSubstr("\n\n\n0\t1.7\t3.3\n1\t0.7\t2.3\n\n"));
+  EXPECT_THAT(page(), AllOf(HasSubstr("src=\"data:image/svg+xml;base64,"),
+                            HasSubstr("Bayes filter (robust) 0.845 (worst 0.700, &lt;i&gt;hop)")));
+}
+
+}  // namespace
+}  // namespace touchdown::render
