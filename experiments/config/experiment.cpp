@@ -167,6 +167,7 @@ static void describe(Fields& fields, BenchmarkConfig& benchmark) {
   fields("transfer", benchmark.transfer);
   fields("refits", benchmark.refits, 0, 1000);
   fields("refits_everywhere", benchmark.refits_everywhere);
+  fields("clips", benchmark.clips);
 }
 
 static void describe_cross_simulator(Fields& fields, Experiment& experiment) {

@@ -127,6 +127,8 @@ struct BenchmarkConfig {
   int refits = 0;
   /// … of the experiment's own robot and sensors alone, or of all.
   bool refits_everywhere = false;
+  /// The worst moment of every estimator is filmed, on the experiment's own robot.
+  bool clips = false;
 };
 
 /// An experiment file, seen whole: what is simulated, who listens through which noise, what counts.

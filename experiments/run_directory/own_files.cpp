@@ -37,7 +37,7 @@ constexpr std::array fixed_names = {
         "latency|moments|overlap|reliability|runs|sample_efficiency|sensitivity|sensor_sweep|"
         "success|torque_distributions|torques|training|transfer|transitions|verdicts|views)\\.csv|"
         "(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
-    FixedNames{"videos", R"(report\.(mp4|jpg))"},
+    FixedNames{"videos", R"(report\.(mp4|jpg)|worst_.+\.mp4)"},
     FixedNames{"figures", R"((training|sample_efficiency)\.(gp|png))"},
     FixedNames{"models", R"(nmn\.(npz|json))"},
     FixedNames{"checkpoints", R"(\d{4,}\.pt)"}};

@@ -46,7 +46,7 @@ std::string card(const BenchmarkScores& scores, const std::string& estimator,
   const Standing* worst = nullptr;
   std::size_t level = 0;
   std::size_t settings = 0;
-  for (const Standing& place : scores.places) {
+  for (const Standing& place : scores.standings) {
     if (place.estimator != estimator) continue;
     ++settings;
     level += place.is_level_with_first ? 1U : 0U;
@@ -99,7 +99,7 @@ std::string card(const BenchmarkScores& scores, const std::string& estimator,
 std::string cards_html(const BenchmarkScores& scores, const std::filesystem::path& run_directory) {
   std::string html = "<div class=\"cards\">\n";
   for (const std::string& estimator :
-       names(scores.places, [](const Standing& place) { return place.estimator; })) {
+       names(scores.standings, [](const Standing& place) { return place.estimator; })) {
     if (estimator == experiments::always_contact_name) continue;
     html += card(scores, estimator, run_directory);
   }

@@ -28,12 +28,14 @@ std::string header_of(const ReportSubject& subject, const BenchmarkScores& score
              "share. 0.5 is what a constant answer earns where both happen.</p>\n<dl "
              "class=\"facts\">\n",
              escaped(subject.experiment.name)) +
-         fact(count(scores.places, [](const Standing& p) { return p.estimator; }), "estimators") +
+         fact(count(scores.standings, [](const Standing& p) { return p.estimator; }),
+              "estimators") +
          fact(count(scores.scenes, [](const SceneScore& s) { return s.scene; }), "scenes") +
-         fact(count(scores.places, [](const Standing& p) { return p.robot; }), "robots") +
-         fact(count(scores.places, [](const Standing& p) { return p.sensors; }),
+         fact(count(scores.standings, [](const Standing& p) { return p.robot; }), "robots") +
+         fact(count(scores.standings, [](const Standing& p) { return p.sensors; }),
               "kinds of sensors") +
-         fact(count(scores.places, [](const Standing& p) { return p.noise; }), "noise settings") +
+         fact(count(scores.standings, [](const Standing& p) { return p.noise; }),
+              "noise settings") +
          fact(subject.experiment.simulators.size(), "physics engines") +
          fmt::format(
              "</dl>\n<p class=\"note\">{} {} runs a scene and engine. Everything here as "
@@ -69,7 +71,7 @@ fs::path write_benchmark_page(const ReportSubject& subject) {
       "anything "
       "was fitted to. A heading sorts; a cell says more.</p>\n";
   std::string last;
-  for (const Standing& place : scores.places) {
+  for (const Standing& place : scores.standings) {
     if (place.setting == last) continue;
     const char* open = last.empty() ? " open" : "";
     last = place.setting;

@@ -100,13 +100,14 @@ std::string scene_table(const std::vector<SceneScore>& scores, const std::string
 }  // namespace
 
 std::string matrix_html(const BenchmarkScores& scores) {
-  const auto estimators = names(scores.places, [](const Standing& p) { return p.estimator; });
-  const auto settings = names(scores.places, [](const Standing& p) { return p.setting; });
+  const auto estimators = names(scores.standings, [](const Standing& p) { return p.estimator; });
+  const auto settings = names(scores.standings, [](const Standing& p) { return p.setting; });
   std::string html;
-  for (const std::string& noise : names(scores.places, [](const Standing& p) { return p.noise; })) {
+  for (const std::string& noise :
+       names(scores.standings, [](const Standing& p) { return p.noise; })) {
     std::vector<std::vector<ShareCell>> cells(estimators.size(),
                                               std::vector<ShareCell>(settings.size()));
-    for (const Standing& place : scores.places) {
+    for (const Standing& place : scores.standings) {
       if (place.noise != noise) continue;
       const auto index = [](const std::vector<std::string>& all, const std::string& one) {
         return static_cast<std::size_t>(std::find(all.begin(), all.end(), one) - all.begin());

@@ -62,7 +62,7 @@ BenchmarkScores benchmark_scores(const std::filesystem::path& run_directory) {
   });
   Rows places(tables / "benchmark_standings.csv");
   places.for_each([&] {
-    scores.places.push_back(
+    scores.standings.push_back(
         {places.setting(), places.text("robot"), places.text("sensors"), places.noise(),
          places.text("estimator"), places.interval("mean_balanced_accuracy"),
          places.value("worst_balanced_accuracy"), places.text("worst_scene"),

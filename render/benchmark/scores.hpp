@@ -53,7 +53,7 @@ struct PairedBand {
 /// What a benchmark found out, as its tables have it.
 struct BenchmarkScores {
   std::vector<SceneScore> scenes;
-  std::vector<Standing> places;
+  std::vector<Standing> standings;
   std::vector<PairedBand> pairs;
 };
 

@@ -102,7 +102,7 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
                              double level, const std::filesystem::path& stem) {
   std::vector<StandingRows> panels;
   double lowest = 1.0;
-  for (const Standing& place : scores.places) {
+  for (const Standing& place : scores.standings) {
     if (place.setting != setting) continue;
     if (panels.empty() || panels.back().front().noise != place.noise) panels.emplace_back();
     panels.back().push_back(place);
@@ -158,7 +158,7 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
 void draw_standings_figures(const std::filesystem::path& run_directory, double level) {
   const BenchmarkScores scores = benchmark_scores(run_directory);
   std::string last;
-  for (const Standing& place : scores.places) {
+  for (const Standing& place : scores.standings) {
     const std::string stem = standings_stem(run_directory, place).string();
     if (stem == last) continue;
     last = stem;

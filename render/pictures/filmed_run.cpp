@@ -70,6 +70,34 @@ BeliefTrack believe(const experiments::Condition& condition,
 
 }  // namespace
 
+FilmedRun filmed(recordings::Recording recording, const experiments::Experiment& experiment,
+                 const noise::SensorProfile& profile, const FilmedListeners& listeners) {
+  const std::int64_t run = recording.info.run;
+  const noise::NoiseKey key = experiments::noise_key(experiment, 0, run);
+  recordings::Recording reported = recording;
+  experiments::report_through_sensors(profile, experiment, run, recording.period(),
+                                      reported.observation);
+  const experiments::RunSignals heard = experiments::signals_of(
+      reported, experiment.labels, experiment.scoring, experiment.intervals.over);
+  const experiments::NoiseRun drawn = experiments::noise_run(heard, key);
+  const std::string& simulator = recording.info.simulator;
+  std::vector<BeliefTrack> beliefs;
+  for (const std::string& estimator : listeners.estimators) {
+    beliefs.push_back(believe({simulator, simulator, estimator}, listeners.models, heard, drawn,
+                              listeners.noise));
+  }
+  models::RobotModel robot = robot_of(recording);
+  // What the sensors report; the ground truth stays, and so does the pose.
+  for (std::size_t k = 0; k < recording.steps(); ++k) {
+    for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+      const double torque = reported.observation[k].servo[servo].torque;
+      if (std::isfinite(torque)) recording.observation[k].servo[servo].torque = torque;
+    }
+    recording.observation[k] = noise::with_noise(recording.observation[k], key, k, listeners.noise);
+  }
+  return {std::move(robot), std::move(recording), std::move(beliefs), experiment.labels};
+}
+
 std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
   const experiments::Experiment& experiment = subject.experiment;
   const noise::SensorProfile profile = experiments::profile_of(
@@ -77,39 +105,19 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
   const experiments::VideoConfig& video = experiment.video;
   const noise::SensorNoise levels =
       noise::as_on_grid({video.torque_noise, video.accelerometer_noise}, experiment.noise).levels();
-  const noise::NoiseKey key = experiments::noise_key(experiment, 0, video.run);
-  std::vector<FilmedRun> filmed;
+  std::vector<FilmedRun> all;
   for (const experiments::RunSummary& run : subject.summary.runs) {
     if (run.role != experiments::RunRole::test || run.run != video.run) continue;
     const fs::path log = subject.directory / "recordings" / run.recording;
     if (!fs::exists(log)) continue;
-    recordings::Recording recording = recordings::read_recording(log);
-    recordings::Recording reported = recording;
-    experiments::report_through_sensors(profile, experiment, run.run, recording.period(),
-                                        reported.observation);
-    const experiments::RunSignals heard = experiments::signals_of(
-        reported, experiment.labels, experiment.scoring, experiment.intervals.over);
-    const experiments::NoiseRun drawn = experiments::noise_run(heard, key);
-    std::vector<BeliefTrack> beliefs;
+    experiments::FittedModels models;
     for (const std::string& estimator : video.estimators) {
-      experiments::FittedModels models;
       models[run.simulator][estimator] = model_of(subject.directory, run.simulator, estimator);
-      beliefs.push_back(
-          believe({run.simulator, run.simulator, estimator}, models, heard, drawn, levels));
     }
-    models::RobotModel robot = robot_of(recording);
-    // What the sensors report; the ground truth stays, and so does the pose.
-    for (std::size_t k = 0; k < recording.steps(); ++k) {
-      for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
-        const double torque = reported.observation[k].servo[servo].torque;
-        if (std::isfinite(torque)) recording.observation[k].servo[servo].torque = torque;
-      }
-      recording.observation[k] = noise::with_noise(recording.observation[k], key, k, levels);
-    }
-    filmed.push_back(
-        {std::move(robot), std::move(recording), std::move(beliefs), experiment.labels});
+    all.push_back(filmed(recordings::read_recording(log), experiment, profile,
+                         {video.estimators, models, levels}));
   }
-  return filmed;
+  return all;
 }
 
 FilmedRun filmed_recording(const fs::path& log, std::vector<std::string>& warnings) {

@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "experiments/estimators/fitted_model.hpp"
 #include "models/robot_model.hpp"
+#include "noise/sensor_noise.hpp"
+#include "noise/sensors/profile.hpp"
 #include "recordings/recording.hpp"
 #include "render/film/video.hpp"
 #include "render/report/subject.hpp"
@@ -22,6 +25,18 @@ struct FilmedRun {
 
   VideoSource source() const { return {robot, recording, beliefs}; }
 };
+
+/// Who listens to a filmed run, through which noise.
+struct FilmedListeners {
+  std::vector<std::string> estimators;
+  const experiments::FittedModels& models;
+  noise::SensorNoise noise;
+};
+
+/// A run of an experiment as its sensors report it, with the noise of its first realisation, and
+/// what estimators that were fitted in its engine make of it.
+FilmedRun filmed(recordings::Recording recording, const experiments::Experiment& experiment,
+                 const noise::SensorProfile& profile, const FilmedListeners& listeners);
 
 /// The run that an experiment films, for each of its engines: the recording with the noise that the
 /// experiment asks for, and what the estimators made of it. An engine without that recording is

@@ -10,6 +10,7 @@
 #include "render/pictures/drop_figures.hpp"
 #include "render/pictures/heatmaps.hpp"
 #include "render/pictures/score_figures.hpp"
+#include "render/pictures/worst_moments.hpp"
 
 namespace touchdown::render {
 
@@ -43,6 +44,9 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
       draw_standings_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
     }
     progress.advance();
+  }
+  if (result.experiment.benchmark && result.experiment.benchmark->clips) {
+    film_worst_moments(result, stop);
   }
   for (const FilmedRun& run : filmed) film(result, run, stop);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
