@@ -33,6 +33,9 @@ struct PhaseFitConfig {
   double knee_range = 17.0;
   double wheel_range = 1.8;
   double acceleration_range = 300.0;
+  /// With less labelled time on a single wheel than this (s) its legs borrow densities: that of
+  /// rolling, and that of flight.
+  double least_single_wheel = 0.5;
   /// Added to every transition count.
   double pseudo_count = 0.01;
   /// A density is made of at most so many samples, evenly thinned out (0: no limit).

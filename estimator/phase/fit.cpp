@@ -85,6 +85,11 @@ class Collector {
     for (std::size_t k = skip; k < steps; ++k) add_step(run.signals[k], phases[k]);
   }
 
+  void forget_single_wheels() {
+    samples_.torque[supporting_leg].clear();
+    samples_.torque[airborne_leg].clear();
+  }
+
   [[nodiscard]] const PhaseSamples& samples() const { return samples_; }
   [[nodiscard]] const PhaseTransition& counts() const { return counts_; }
   [[nodiscard]] const std::array<double, phase_count>& seconds() const { return seconds_; }
@@ -94,12 +99,14 @@ class Collector {
     seconds_[index(phase)] += 1.0 / sample_rate_;
     samples_.acceleration[std::min(index(phase), acceleration_density_count - 1)].push_back(
         signals.vertical_acceleration);
-    if (index(phase) >= torque_density_count) return;
+    const bool touches[2] = {left_touches(phase), right_touches(phase)};
     for (std::size_t side = 0; side < 2; ++side) {
       const double mirror = side == 0 ? 1.0 : -1.0;
       const LegSignals& leg = signals.leg[side];
-      samples_.torque[index(phase)].push_back(
-          {mirror * leg.knee.torque, mirror * leg.wheel.torque});
+      const std::size_t density = touches[0] == touches[1] ? index(phase)
+                                  : touches[side]          ? supporting_leg
+                                                           : airborne_leg;
+      samples_.torque[density].push_back({mirror * leg.knee.torque, mirror * leg.wheel.torque});
     }
   }
 
@@ -164,6 +171,14 @@ PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, const TorqueS
   const auto cells =
       static_cast<std::size_t>(result.knee.count) * static_cast<std::size_t>(result.wheel.count);
   result.log_density = log_mixtures(samples.torque, cells, uniform, config, density);
+  const auto borrow = [&](std::size_t borrower, Phase lender) {
+    if (!samples.torque[borrower].empty()) return;
+    for (std::size_t cell = 0; cell < result.log_density.size(); cell += torque_density_count) {
+      result.log_density[cell + borrower] = result.log_density[cell + index(lender)];
+    }
+  };
+  borrow(supporting_leg, Phase::rolling);
+  borrow(airborne_leg, Phase::flight);
   return result;
 }
 
@@ -196,6 +211,9 @@ PhaseModel fit_phase_model(std::span<const PhaseFitRun> runs, double sample_rate
       throw InputError("phase fit: the runs contain no " + std::string(phase_names[index(needed)]));
     }
   }
+  const double single_wheel =
+      collector.seconds()[index(Phase::left_only)] + collector.seconds()[index(Phase::right_only)];
+  if (single_wheel < config.least_single_wheel) collector.forget_single_wheels();
   PhaseModel model;
   model.sample_rate = sample_rate;
   model.transition = transition_probabilities(collector.counts(), config.pseudo_count);

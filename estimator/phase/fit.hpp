@@ -27,14 +27,15 @@ PhaseTransition count_transitions(std::span<const Phase> phases);
 /// A_ij = (n_ij + c) / Σ_j (n_ij + c).
 PhaseTransition transition_probabilities(const PhaseTransition& counts, double pseudo_count);
 
-/// Torques of both legs in the left leg's sign, and accelerations, by phase.
+/// Torques of both legs in the left leg's sign, and accelerations, by density.
 struct PhaseSamples {
   std::array<std::vector<TorqueSample>, torque_density_count> torque;
   std::array<std::vector<double>, acceleration_density_count> acceleration;
 };
 
 /// The mixture of a phase's kernel density and the uniform one, at one level of noise, on grids
-/// that cover all samples. A phase without samples gets the uniform density.
+/// that cover all samples. A phase without samples gets the uniform density; a leg on or beside a
+/// single wheel then borrows that of rolling or of flight.
 PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, const TorqueSample& noise,
                                       const PhaseFitConfig& config);
 PhaseAccelerationDensity fit_acceleration_density(const PhaseSamples& samples, double noise,

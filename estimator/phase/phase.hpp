@@ -26,9 +26,11 @@ enum class Phase : std::uint8_t {
 
 inline constexpr std::size_t phase_count = 12;
 
-/// Phases with a torque density of their own. The two single-wheel phases borrow: rolling for the
-/// leg that touches, flight for the other one.
-inline constexpr std::size_t torque_density_count = 10;
+/// Torque densities: those of the phases in which both legs are alike, and two for the phases in
+/// which they are not: of the leg that carries the robot alone, and of the one in the air.
+inline constexpr std::size_t torque_density_count = 12;
+inline constexpr std::size_t supporting_leg = 10;
+inline constexpr std::size_t airborne_leg = 11;
 
 /// Phases with an acceleration density of their own; the two single-wheel phases share the last.
 inline constexpr std::size_t acceleration_density_count = 11;

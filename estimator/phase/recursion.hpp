@@ -32,17 +32,15 @@ class PhaseRecursion {
                         const PhaseRow& vertical) noexcept {
     /// The padding's log likelihood: e^−700 of the largest.
     constexpr double impossible = -1e9;
-    constexpr std::size_t touching = index(Phase::rolling);
-    constexpr std::size_t free = index(Phase::flight);
     Lanes log_likelihood;
     for (std::size_t k = 0; k < phase_lanes; ++k) {
       log_likelihood[k] = static_cast<double>(left[k] + right[k] + vertical[k]);
     }
     const float single = vertical[acceleration_density_count - 1];
     log_likelihood[index(Phase::left_only)] =
-        static_cast<double>(left[touching] + right[free] + single);
+        static_cast<double>(left[supporting_leg] + right[airborne_leg] + single);
     log_likelihood[index(Phase::right_only)] =
-        static_cast<double>(left[free] + right[touching] + single);
+        static_cast<double>(left[airborne_leg] + right[supporting_leg] + single);
     for (std::size_t k = phase_count; k < phase_lanes; ++k) log_likelihood[k] = impossible;
     return log_likelihood;
   }

@@ -33,11 +33,11 @@ class DirectForward {
       }
       const Signals& s = run.signals[k];
       acceleration_[std::min(j, 10)].push_back(s.vertical_acceleration);
-      if (j < 10) {
-        torque_[j].push_back({s.leg[0].knee.torque, s.leg[0].wheel.torque});
-        torque_[j].push_back({-s.leg[1].knee.torque, -s.leg[1].wheel.torque});
-      }
+      torque_[j].push_back({s.leg[0].knee.torque, s.leg[0].wheel.torque});
+      torque_[mirror(j)].push_back({-s.leg[1].knee.torque, -s.leg[1].wheel.torque});
     }
+    // In the left leg's eyes: 10 it carries the robot alone, 11 the other one does.
+    is_borrowed_ = static_cast<double>(torque_[10].size()) / 1000.0 < config.fit.least_single_wheel;
     for (int i = 0; i < 12; ++i) {
       double sum = 0.0;
       for (int j = 0; j < 12; ++j) sum += count[i][j] + config.fit.pseudo_count;
@@ -52,8 +52,11 @@ class DirectForward {
     std::array<double, 12> next{};
     double sum = 0.0;
     for (int j = 0; j < 12; ++j) {
-      const int left = j == 10 ? 0 : (j == 11 ? 4 : j);
-      const int right = j == 10 ? 4 : (j == 11 ? 0 : j);
+      const auto density_of = [&](int k) {
+        return !is_borrowed_ || k < 10 ? k : (k == 10 ? 0 : 4);
+      };
+      const int left = density_of(j);
+      const int right = density_of(j == 10 ? 11 : (j == 11 ? 10 : j));
       for (int i = 0; i < 12; ++i) {
         next[static_cast<std::size_t>(j)] += alpha_[static_cast<std::size_t>(i)] * a_[i][j];
       }
@@ -101,7 +104,8 @@ class DirectForward {
 
   PhaseFilterConfig config_;
   PhaseNoise noise_;
-  std::vector<TorqueSample> torque_[10];
+  std::vector<TorqueSample> torque_[12];
+  bool is_borrowed_ = false;
   std::vector<double> acceleration_[11];
   double a_[12][12] = {};
   std::array<double, 12> alpha_{};
@@ -112,11 +116,14 @@ double nearest_point(const Axis& axis, double value) {
   return axis[static_cast<int>(std::clamp(i, 0.0, axis.count - 1.0))];
 }
 
+class PhaseForward : public testing::TestWithParam<double> {};
+
 /// With the signals moved to the grids' points, nothing is interpolated and the filter must agree
 /// to the grids' single precision, at a noise level that was prepared.
-TEST(PhaseFilter, IsTheForwardAlgorithmWithKernelDensities) {
+TEST_P(PhaseForward, IsTheForwardAlgorithmWithKernelDensities) {
   PhaseFilterConfig config;
   config.fit = test::small_phase_fit();
+  config.fit.least_single_wheel = GetParam();
   config.noise = PhaseNoise{0.4, 0.0, 2.0};
   const test::PhaseRun run = test::phase_run(2, 11, 25);
   const PhaseModel model = fit_phase_model(std::vector{run.view()}, 1000.0, config.fit);
@@ -148,6 +155,8 @@ TEST(PhaseFilter, IsTheForwardAlgorithmWithKernelDensities) {
     ASSERT_NEAR(belief.p_both_wheels, 1.0 - a[4] - a[8] - a[10] - a[11], 1e-4);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(BorrowedAndOwnSingleWheels, PhaseForward, testing::Values(0.5, 0.0));
 
 class PhaseFilterInNoise : public testing::TestWithParam<PhaseNoise> {};
 

@@ -86,6 +86,25 @@ TEST(PhaseDensities, AreTheDirectSumWithNoiseInTheBandwidth) {
   }
 }
 
+TEST(PhaseDensities, OfASingleWheelAreBorrowedWhereThereAreNone) {
+  PhaseSamples samples;
+  samples.torque[index(Phase::rolling)] = {{1.0, 0.1}, {1.2, 0.2}};
+  samples.torque[index(Phase::flight)] = {{-0.1, 0.0}};
+  const auto at = [&](std::size_t density) {
+    std::vector<float> values;
+    const auto all = fit_torque_density(samples, {0.0, 0.0}, test::small_phase_fit()).log_density;
+    for (std::size_t i = density; i < all.size(); i += torque_density_count) {
+      values.push_back(all[i]);
+    }
+    return values;
+  };
+  EXPECT_EQ(at(supporting_leg), at(index(Phase::rolling)));
+  EXPECT_EQ(at(airborne_leg), at(index(Phase::flight)));
+  samples.torque[supporting_leg] = {{2.4, 0.1}};
+  EXPECT_NE(at(supporting_leg), at(index(Phase::rolling)));
+  EXPECT_EQ(at(airborne_leg), at(index(Phase::flight)));
+}
+
 TEST(PhaseDensities, AreUniformWithoutSamples) {
   PhaseSamples samples;
   samples.acceleration[0] = {-1.0, 0.0, 1.0};
