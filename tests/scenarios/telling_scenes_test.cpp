@@ -48,6 +48,28 @@ TEST_P(TellingScene, AKerbLiftsOneWheelThenTheOther) {
   EXPECT_THAT(flights(recording, 0.05), ::testing::IsEmpty());
 }
 
+TEST_P(TellingScene, AKerbInACurveTakesOneWheelLongBeforeTheOther) {
+  const recordings::Recording recording = played("kerb_turn");
+  const auto [left, right] = longest_single_flights(recording);
+  EXPECT_GT(std::max(left, right), 0.1);
+  EXPECT_GT(recording.observation.back().yaw - recording.observation.front().yaw, 0.8);
+}
+
+TEST_P(TellingScene, WheelsArePutDownAtAnotherSpeedThanTheGrounds) {
+  const recordings::Recording recording = played("put_down");
+  const double radius = 0.05;  // m
+  int spinning = 0;
+  for (std::size_t k = 1000; k < recording.steps(); ++k) {
+    if (!in_contact(recording.truth[k], 0) || in_contact(recording.truth[k - 1], 0)) continue;
+    const double rim =
+        radius *
+        recording.observation[k - 1].servo[models::index(models::Servo::left_wheel)].velocity;
+    const double ground = recording.truth[k].base_linear_velocity.head<2>().norm();
+    spinning += std::abs(std::abs(rim) - ground) > 0.25 ? 1 : 0;
+  }
+  EXPECT_GE(spinning, 2);
+}
+
 TEST_P(TellingScene, ASquatFallsWithItsWheelsOnTheGround) {
   const recordings::Recording recording = played("squat");
   EXPECT_LT(lowest_acceleration(recording), -4.9);
