@@ -5,8 +5,11 @@
 #include <optional>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/fingerprint.hpp"
 #include "experiments/benchmark/plan.hpp"
 #include "experiments/benchmark/refits.hpp"
 #include "experiments/benchmark/tables.hpp"
@@ -18,7 +21,9 @@
 #include "experiments/play/pieces.hpp"
 #include "experiments/run_directory/occupant.hpp"
 #include "experiments/run_directory/own_files.hpp"
+#include "experiments/run_directory/touches.hpp"
 #include "experiments/sensor_sweep/tables.hpp"
+#include "experiments/signals/reserved_seeds.hpp"
 #include "experiments/tables/manifest.hpp"
 #include "experiments/tables/result_files.hpp"
 
@@ -157,6 +162,14 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
     }
     return 0;
   });
+  if (is_reserved(experiment.seed)) {
+    const int others =
+        note_touch(running.directory.path(), {experiment.seed, result.id, build_commit()});
+    result.studies.push_back(fmt::format(
+        "Seed {} is reserved for numbers that are reported once: other configurations or builds "
+        "scored its runs {} times before (reserved_seeds.csv beside the run directory)\n",
+        experiment.seed, others));
+  }
   for (auto& [index, run] : done.runs) {
     if (run.plan.group == 0) result.runs.push_back(std::move(run));
   }
