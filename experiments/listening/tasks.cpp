@@ -87,37 +87,60 @@ scoring::Classification count(ContactEstimator& estimator, const RunSignals& run
   return sum;
 }
 
-/// The name of a task's file.
-std::string name_of(const Plan& plan, const Task& task) {
+}  // namespace
+
+std::string to_bytes(const TaskCounts& counts) {
+  std::string bytes;
+  for_each_part([&](const auto& part) { append(bytes, part); }, counts);
+  return bytes;
+}
+
+TaskCounts take_counts(std::string_view& bytes) {
+  TaskCounts counts;
+  for_each_part([&](auto& part) { take(part, bytes); }, counts);
+  return counts;
+}
+
+void add_scores(const RunSignals& run, const scoring::Prediction& prediction,
+                const scoring::ScoringConfig& scoring, bool is_looked_at_closely,
+                TaskCounts& counts) {
+  const std::int64_t period_us = run.info.control_period_us;
+  const std::vector<scoring::RobotScore> scores =
+      scoring::score(run.contact, prediction, run.pieces, period_us, scoring);
+  counts.scored.insert(counts.scored.end(), scores.begin(), scores.end());
+  if (!is_looked_at_closely) return;
+  counts.close.push_back(
+      scoring::close_score(run.contact, run.normal_force, prediction, period_us, scoring));
+}
+
+std::string task_name(const Plan& plan, const Task& task) {
   const PlannedRun& run = plan.runs[task.run];
   const std::string& sensors = plan.sensors[run.sensors].name;
   return fmt::format("{}{}{}_seed_{:04}", std::filesystem::path(run.file).stem().string(),
                      sensors.empty() ? "" : "_", sensors, task.seed);
 }
 
-}  // namespace
-
 SavedCounts::SavedCounts(std::filesystem::path folder, std::string key)
     : folder_(std::move(folder)), key_(std::move(key)) {}
 
 std::optional<TaskCounts> SavedCounts::read(const Plan& plan, const Task& task) const {
+  if (at_hand_) {
+    const auto found = at_hand_->find(task_name(plan, task));
+    return found == at_hand_->end() ? std::nullopt : std::optional(found->second);
+  }
   const std::optional<std::string> bytes =
-      read_state(folder_ / name_of(plan, task), key_of(plan, task));
+      read_state(folder_ / task_name(plan, task), key_of(plan, task));
   if (!bytes) return std::nullopt;
   std::string_view rest = *bytes;
-  TaskCounts counts;
-  for_each_part([&](auto& part) { take(part, rest); }, counts);
-  return counts;
+  return take_counts(rest);
 }
 
 void SavedCounts::write(const Plan& plan, const Task& task, const TaskCounts& counts) const {
-  std::string bytes;
-  for_each_part([&](const auto& part) { append(bytes, part); }, counts);
-  write_state(folder_ / name_of(plan, task), key_of(plan, task), bytes);
+  write_state(folder_ / task_name(plan, task), key_of(plan, task), to_bytes(counts));
 }
 
 std::optional<WrongPart> SavedCounts::wrong_part(const Plan& plan, const Task& task) const {
-  const std::filesystem::path file = folder_ / name_of(plan, task);
+  const std::filesystem::path file = folder_ / task_name(plan, task);
   const std::optional<SavedState> state = read_any_state(file);
   const std::string expected = key_of(plan, task);
   if (!state || state->key == expected) return std::nullopt;
@@ -125,7 +148,7 @@ std::optional<WrongPart> SavedCounts::wrong_part(const Plan& plan, const Task& t
 }
 
 std::string SavedCounts::key_of(const Plan& plan, const Task& task) const {
-  return fmt::format("{} part {}", key_, name_of(plan, task));
+  return fmt::format("{} part {}", key_, task_name(plan, task));
 }
 
 TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,
@@ -138,20 +161,14 @@ TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,
   std::vector<Condition> counted = conditions;
   std::erase_if(counted, [&](const Condition& one) { return !group.counts(one); });
   counts.counted = sweep_run(counted, group.counted, run, noise, models, scoring, going_on);
-  const std::int64_t period_us = run.info.control_period_us;
   for (const Condition& condition : conditions) {
     if (!group.scores(condition)) continue;
     const auto estimator = make_estimator(condition, models, run);
     for (const noise::NoiseCell& cell : group.scored) {
       if (!going_on()) throw Stopped();
       const scoring::Prediction prediction = predict(*estimator, run, noise, cell.levels());
-      const std::vector<scoring::RobotScore> scores =
-          scoring::score(run.contact, prediction, run.pieces, period_us, scoring);
-      counts.scored.insert(counts.scored.end(), scores.begin(), scores.end());
-      if (group.is_looked_at_closely && condition.refit == 0) {
-        counts.close.push_back(
-            scoring::close_score(run.contact, run.normal_force, prediction, period_us, scoring));
-      }
+      add_scores(run, prediction, scoring, group.is_looked_at_closely && condition.refit == 0,
+                 counts);
     }
     if (condition.refit > 0) continue;
     for (const DisturbedCell& cell : group.disturbed) {
@@ -207,7 +224,7 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
   for (const Task& task : plan.tasks) {
     if (std::find(runs.begin(), runs.end(), task.run) == runs.end()) continue;
     const std::optional<TaskCounts> found = saved.read(plan, task);
-    if (!found) throw Error(fmt::format("the results of {} are missing", name_of(plan, task)));
+    if (!found) throw Error(fmt::format("the results of {} are missing", task_name(plan, task)));
     if (found->counted.empty() && found->scored.empty()) continue;
     const std::string& simulator = plan.runs[task.run].simulator;
     for_each_part(

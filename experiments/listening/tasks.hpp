@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/fitting/fitting.hpp"
@@ -22,6 +24,19 @@ struct TaskCounts {
   std::vector<scoring::Classification> disturbed;  ///< likewise
 };
 
+/// As they lie in memory: for this build alone.
+std::string to_bytes(const TaskCounts& counts);
+/// Takes them off the front. Errors: `Error` when the bytes end before.
+TaskCounts take_counts(std::string_view& bytes);
+
+/// Adds what an estimator said about a run to what a task found out, in full.
+void add_scores(const RunSignals& run, const scoring::Prediction& prediction,
+                const scoring::ScoringConfig& scoring, bool is_looked_at_closely,
+                TaskCounts& counts);
+
+/// A task by a name that no other task of the plan has.
+std::string task_name(const Plan& plan, const Task& task);
+
 /// A file that is whole and in a task's place, but is not that task's of that request.
 struct WrongPart {
   std::filesystem::path file;
@@ -35,6 +50,8 @@ class SavedCounts {
   /// `key` names the experiment and the build; with it a part carries its task's name. Nothing else
   /// is believed.
   SavedCounts(std::filesystem::path folder, std::string key);
+  /// What is at hand instead of saved, by the tasks' names. Not to be written to.
+  explicit SavedCounts(std::map<std::string, TaskCounts> at_hand) : at_hand_(std::move(at_hand)) {}
 
   std::optional<TaskCounts> read(const Plan& plan, const Task& task) const;
   void write(const Plan& plan, const Task& task, const TaskCounts& counts) const;
@@ -47,6 +64,7 @@ class SavedCounts {
 
   std::filesystem::path folder_;
   std::string key_;
+  std::optional<std::map<std::string, TaskCounts>> at_hand_;
 };
 
 /// Computes one task. Errors: `Stopped`.

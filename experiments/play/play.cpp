@@ -140,41 +140,48 @@ const PlayedRun* test_run(const std::vector<PlayedRun>& runs, const std::string&
   return found == runs.end() ? nullptr : &*found;
 }
 
-PlayedRuns play_runs(const Experiment& experiment, const Plan& plan,
+void for_each_played(const Experiment& experiment, const Plan& plan,
                      const std::set<std::size_t>& needed, const RunDirectory& directory,
-                     MissingRun missing, const GoingOn& going_on) {
-  PlayedRuns runs;
+                     MissingRun missing, const GoingOn& going_on, const UsePlayed& use) {
   // Runs that differ only in who hears them are one simulation.
   struct Simulation {
     std::string key;
-    std::vector<PlayedRun*> hearers;
+    std::vector<std::size_t> hearers;  // in the plan
   };
   std::vector<Simulation> simulations;
   std::map<std::string, std::size_t> number;
   for (const std::size_t index : needed) {
-    const PlannedRun& run = plan.runs[index];
-    const auto [known, is_new] = number.emplace(key_of(run), simulations.size());
+    const auto [known, is_new] = number.emplace(key_of(plan.runs[index]), simulations.size());
     if (is_new) simulations.push_back({known->first, {}});
-    simulations[known->second].hearers.push_back(
-        &runs.emplace(index, PlayedRun{run, {}, {}}).first->second);
+    simulations[known->second].hearers.push_back(index);
   }
   scenarios::CompiledScenes scenes;
   Progress progress("simulating", "runs", static_cast<std::int64_t>(simulations.size()));
   tbb::parallel_for_each(simulations, [&](const Simulation& simulation) {
-    Recorded recorded = simulate_or_read(simulation.hearers.front()->plan, simulation.key,
+    Recorded recorded = simulate_or_read(plan.runs[simulation.hearers.front()], simulation.key,
                                          directory, missing, scenes, going_on);
-    for (PlayedRun* run : simulation.hearers) {
+    for (const std::size_t index : simulation.hearers) {
+      const PlannedRun& run = plan.runs[index];
       if (!recorded.recording) {
-        *run = failed(run->plan, recorded.error);
+        use(index, failed(run, recorded.error));
         continue;
       }
-      const bool is_last = run == simulation.hearers.back();
-      *run = played(run->plan, is_last ? std::move(*recorded.recording) : *recorded.recording,
-                    plan.sensors[run->plan.sensors].profile, experiment);
+      const bool is_last = index == simulation.hearers.back();
+      use(index, played(run, is_last ? std::move(*recorded.recording) : *recorded.recording,
+                        plan.sensors[run.sensors].profile, experiment));
     }
     progress.advance();
     if (!going_on()) throw Stopped();
   });
+}
+
+PlayedRuns play_runs(const Experiment& experiment, const Plan& plan,
+                     const std::set<std::size_t>& needed, const RunDirectory& directory,
+                     MissingRun missing, const GoingOn& going_on) {
+  PlayedRuns runs;
+  for (const std::size_t index : needed) runs.emplace(index, PlayedRun{plan.runs[index], {}, {}});
+  for_each_played(experiment, plan, needed, directory, missing, going_on,
+                  [&](std::size_t index, PlayedRun run) { runs.at(index) = std::move(run); });
   return runs;
 }
 

@@ -58,6 +58,14 @@ PlayedRuns play_runs(const Experiment& experiment, const Plan& plan,
                      const std::set<std::size_t>& needed, const RunDirectory& directory,
                      MissingRun missing, const GoingOn& going_on);
 
+/// Given each run when it is played, with its index in the plan, by several threads at once.
+using UsePlayed = std::function<void(std::size_t index, PlayedRun run)>;
+
+/// The same for many runs of which not all need be in memory at once. Errors: also those of `use`.
+void for_each_played(const Experiment& experiment, const Plan& plan,
+                     const std::set<std::size_t>& needed, const RunDirectory& directory,
+                     MissingRun missing, const GoingOn& going_on, const UsePlayed& use);
+
 /// Whether `play_runs` would find the run's recording, or the reason why it has none; true of a run
 /// that keeps none.
 bool is_recorded(const PlannedRun& run, const RunDirectory& directory);

@@ -108,7 +108,8 @@ Zip open_npz(const std::filesystem::path& path) {
   throw Error(fmt::format("{}: {}: {}", where, what, zip_strerror(&archive)));
 }
 
-void add_member(zip_t& archive, const std::string& name, const std::string& bytes) {
+void add_member(zip_t& archive, const std::string& name, const std::string& bytes,
+                Deflated deflated) {
   zip_source_t* source = zip_source_buffer(&archive, bytes.data(), bytes.size(), 0);
   const zip_int64_t added =
       source == nullptr ? -1 : zip_file_add(&archive, name.c_str(), source, ZIP_FL_ENC_UTF_8);
@@ -121,9 +122,9 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
   constexpr zip_uint16_t midnight = 0;
   constexpr zip_uint16_t first_of_january_1980 = (1U << 5U) | 1U;
   // The grids of a phase model take 40 MB, and a third of that deflated, at whatever level.
-  const bool is_large = bytes.size() > 400'000;
-  if (zip_set_file_compression(&archive, index, is_large ? ZIP_CM_DEFLATE : ZIP_CM_STORE,
-                               is_large ? 1 : 0) != 0 ||
+  const bool is_deflated = deflated == Deflated::all || bytes.size() > 400'000;
+  if (zip_set_file_compression(&archive, index, is_deflated ? ZIP_CM_DEFLATE : ZIP_CM_STORE,
+                               is_deflated ? 1 : 0) != 0 ||
       zip_file_set_dostime(&archive, index, midnight, first_of_january_1980, 0) != 0) {
     complain(archive, name, "cannot be added");
   }
@@ -162,7 +163,7 @@ void require_arrays(const NpzArrays& arrays, std::string_view what,
   throw InputError(fmt::format("is no {}: missing {}", what, fmt::join(names, ", ")));
 }
 
-void write_npz(const NpzArrays& arrays, const std::filesystem::path& path) {
+std::string to_npz(const NpzArrays& arrays, const std::string& name, Deflated deflated) {
   // In memory: beside a file libzip would make one of its own, with a name that nobody knows again
   // when it is left there.
   const Source memory(zip_source_buffer_create(nullptr, 0, 0, nullptr));
@@ -172,15 +173,17 @@ void write_npz(const NpzArrays& arrays, const std::filesystem::path& path) {
   Zip archive(zip_open_from_source(memory.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr));
   if (!archive) throw std::bad_alloc();
   zip_source_keep(memory.get());  // the archive's one is given back when it is closed
-  for (const auto& [name, array] : arrays) {
+  for (const auto& [member, array] : arrays) {
     contents.push_back(to_npy(array));
-    add_member(*archive, name + std::string(extension), contents.back());
+    add_member(*archive, member + std::string(extension), contents.back(), deflated);
   }
-  if (zip_close(archive.get()) != 0) {
-    complain(*archive, path.string(), "cannot be written");
-  }
+  if (zip_close(archive.get()) != 0) complain(*archive, name, "cannot be written");
   static_cast<void>(archive.release());
-  write_atomically(path, content_of(*memory));
+  return content_of(*memory);
+}
+
+void write_npz(const NpzArrays& arrays, const std::filesystem::path& path) {
+  write_atomically(path, to_npz(arrays, path.string(), Deflated::large));
 }
 
 }  // namespace touchdown::recordings

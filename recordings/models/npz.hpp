@@ -47,8 +47,14 @@ auto made_of_npz(const std::filesystem::path& path, const NpzNeeds& needs, const
 /// Errors: `InputError` that `what` lacks arrays of these names, if it does.
 void require_arrays(const NpzArrays& arrays, std::string_view what, std::vector<std::string> names);
 
-/// Writes a `.npz` whole or not at all; the same arrays give the same bytes. Large arrays are
-/// deflated, as NumPy's `savez_compressed` does it. Errors: `Error`.
+/// Which arrays are deflated, as NumPy's `savez_compressed` does it.
+enum class Deflated { large, all };
+
+/// The content of a `.npz`; the same arrays give the same bytes. `name` starts the message of an
+/// `Error`.
+std::string to_npz(const NpzArrays& arrays, const std::string& name, Deflated deflated);
+
+/// Writes a `.npz` whole or not at all, its large arrays deflated. Errors: `Error`.
 void write_npz(const NpzArrays& arrays, const std::filesystem::path& path);
 
 }  // namespace touchdown::recordings

@@ -28,5 +28,15 @@ TEST(FreeSpace, ThatIsLackingIsSaidWithWhatAsksForIt) {
               ThrowsMessage<Error>(HasSubstr("may need 4611686018.4 GB (so many parts), and ")));
 }
 
+TEST(FreeSpace, ThatIsLackingForSomethingElseIsSaidWithItsOwnAdvice) {
+  const ScratchFolder folder;
+  EXPECT_THAT(
+      [&] {
+        require_free_space(folder.path(), std::uintmax_t{1} << 62, "", {"export", "choose a part"});
+      },
+      ThrowsMessage<Error>(
+          AllOf(HasSubstr("this export may need"), HasSubstr("are free: choose a part"))));
+}
+
 }  // namespace
 }  // namespace touchdown::experiments

@@ -1,7 +1,6 @@
 #include "tests/recordings/log/sample_recording.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace touchdown::recordings::test {
@@ -73,14 +72,6 @@ Recording sample_recording(std::size_t steps, bool with_truth) {
     recording.observation[1].servo[1].position = 3.0;
   }
   return recording;
-}
-
-std::string python_with_numpy() {
-  for (const char* python : {"python3", "/usr/bin/python3"}) {
-    const std::string command = std::string(python) + " -c 'import numpy' 2>/dev/null";
-    if (std::system(command.c_str()) == 0) return python;
-  }
-  return {};
 }
 
 }  // namespace touchdown::recordings::test

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "recordings/models/npz.hpp"
-#include "tests/recordings/log/sample_recording.hpp"
+#include "tests/python_with_numpy.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::recordings {
@@ -95,7 +95,7 @@ TEST(ModelFile, NumPySeesTheSameKeysShapesAndTypesAsInTheAuthorsFile) {
   if (!std::filesystem::exists(reference)) {
     GTEST_SKIP() << "the authors' grids are not here: " << reference;
   }
-  const std::string python = test::python_with_numpy();
+  const std::string python = python_with_numpy();
   if (python.empty()) {
     GTEST_SKIP() << "python3 with NumPy is not installed";
   }

@@ -11,13 +11,12 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "tests/recordings/log/sample_recording.hpp"
+#include "tests/python_with_numpy.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::recordings {
 namespace {
 
-using test::python_with_numpy;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -81,6 +80,16 @@ TEST(Npz, LargeArraysTakeLessRoomAndComeBackToTheBit) {
   if (python_with_numpy().empty()) return;
   EXPECT_TRUE(
       runs("assert abs(np.load('a.npz')['grid'][399, 499] - np.log(3124.001)) < 1e-12", folder));
+}
+
+TEST(Npz, SmallArraysAreDeflatedWhereAllAre) {
+  const ScratchFolder folder;
+  const NpzArrays labels = {{"contact", {{4000}, std::vector<double>(4000, 1.0)}}};
+  const std::string large = to_npz(labels, "labels.npz", Deflated::large);
+  const std::string all = to_npz(labels, "labels.npz", Deflated::all);
+  EXPECT_GT(large.size(), 32'000U);
+  EXPECT_LT(all.size(), 1'000U);
+  EXPECT_EQ(read_npz(folder.write("all.npz", all)).at("contact").data, labels.at("contact").data);
 }
 
 TEST(Npz, SameArraysGiveTheSameBytesAtAnyTimeAndPlace) {
