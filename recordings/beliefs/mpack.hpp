@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "recordings/beliefs/beliefs.hpp"
+
+namespace touchdown::recordings {
+
+/// Beliefs as MessagePack dictionaries, as Upkie logs: one after the other, one per step, numbers
+/// (decisions also as booleans) by name. Errors: `InputError` that names the file and the
+/// dictionary, counted from 0.
+Beliefs read_belief_mpack(const std::filesystem::path& path);
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "recordings/beliefs/beliefs.hpp"
+
+namespace touchdown::recordings {
+
+/// Beliefs as NumPy's arrays, one per name and of equal length. Errors: `InputError` that names the
+/// file, the array and the index.
+Beliefs read_belief_npz(const std::filesystem::path& path);
+
+}  // namespace touchdown::recordings
