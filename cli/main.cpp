@@ -85,6 +85,8 @@ int run_command_line(int argc, char** argv) {
   add_train(program, session);
   add_fit(program, session);
   add_estimate(program, session);
+  add_export(program, session);
+  add_score(program, session);
   add_clean(program, session);
   add_list(program, session);
   add_manual(program, session);

@@ -10,10 +10,12 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
+#include "experiments/benchmark/overlap.hpp"
 #include "experiments/benchmark/plan.hpp"
 #include "experiments/benchmark/refits.hpp"
 #include "experiments/benchmark/tables.hpp"
 #include "experiments/cross_simulator/tables.hpp"
+#include "experiments/foreign/rows.hpp"
 #include "experiments/moments/tables.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/phase_study/fit.hpp"
@@ -150,9 +152,11 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
       result.studies.push_back(moments_text(torques, experiment));
     }
     if (experiment.benchmark) {
-      BenchmarkResult found{benchmark(listened), {}};
-      found.standings = standings(found.rows, bootstrap.level);
-      write_tables(found, result.models, listened, running.directory);
+      std::vector<BenchmarkRow> rows = benchmark(listened);
+      add_foreign_rows(listened, running.directory, rows);
+      const BenchmarkResult found = with_standings(std::move(rows), bootstrap.level);
+      write_tables(found, bootstrap.level, running.directory);
+      write_overlap(result.models, listened, running.directory);
       result.studies.push_back(benchmark_text(found, experiment));
     }
     if (!experiment.sweep.empty()) {

@@ -38,7 +38,8 @@ double common_part(const MeasurementModel& first, const MeasurementModel& second
 
 }  // namespace
 
-Table overlap_table(const FittedModels& models, const Listened& listened) {
+void write_overlap(const FittedModels& models, const Listened& listened,
+                   const RunDirectory& directory) {
   Table table{{"simulator", "estimator", "robot", "sensors", "other_robot", "other_sensors",
                "no_contact_overlap", "contact_overlap"},
               {}};
@@ -47,7 +48,7 @@ Table overlap_table(const FittedModels& models, const Listened& listened) {
       experiment.estimators.begin(), experiment.estimators.end(), [](const std::string& name) {
         return estimator_entry(name).fits() == ModelKind::measurement;
       });
-  if (estimator == experiment.estimators.end()) return table;
+  if (estimator == experiment.estimators.end()) return;
   const auto settings = benchmark_settings(listened.request, listened.plan);
   for (const std::string& simulator : experiment.simulators) {
     const auto model = [&](const BenchmarkSetting& setting) -> const MeasurementModel& {
@@ -65,7 +66,7 @@ Table overlap_table(const FittedModels& models, const Listened& listened) {
       }
     }
   }
-  return table;
+  directory.write_table("density_overlap.csv", table);
 }
 
 }  // namespace touchdown::experiments

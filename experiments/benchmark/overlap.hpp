@@ -1,12 +1,14 @@
 #pragma once
 
-#include "core/table.hpp"
 #include "experiments/listening/tasks.hpp"
+#include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {
 
-/// How much the densities of every two robots and sensors have in common, ∫ min(p, q), in contact
-/// and in the air: those of the first estimator that has some. No rows where none has.
-Table overlap_table(const FittedModels& models, const Listened& listened);
+/// `density_overlap.csv`: how much the densities of every two robots and sensors have in common,
+/// ∫ min(p, q), in contact and in the air: those of the first estimator that has some. Nothing
+/// where none has.
+void write_overlap(const FittedModels& models, const Listened& listened,
+                   const RunDirectory& directory);
 
 }  // namespace touchdown::experiments

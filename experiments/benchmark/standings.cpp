@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <tuple>
 
 namespace touchdown::experiments {
@@ -87,6 +88,20 @@ std::vector<Interval> simultaneous(const std::vector<Resampled>& all, double lev
   return bands;
 }
 
+/// Without those who were not scored in every run in which somebody was: who is compared has to
+/// have heard the same.
+Rows complete_ones(const Rows& rows) {
+  std::map<std::string, int> runs;
+  int most = 0;
+  for (const BenchmarkRow* row : rows) {
+    most = std::max(most, runs[row->estimator] += row->runs - row->failed);
+  }
+  Rows complete = rows;
+  std::erase_if(complete,
+                [&](const BenchmarkRow* row) { return runs.at(row->estimator) < most; });
+  return complete;
+}
+
 std::vector<Standings::Difference> all_pairs(const std::string& scene,
                                              const std::vector<Named>& estimators, double level) {
   std::vector<Standings::Difference> pairs;
@@ -148,7 +163,8 @@ std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double l
     return std::tuple(row.robot, row.sensors, row.noise.knee, row.noise.wheel,
                       row.noise.accelerometer);
   };
-  for (const Rows& alike : grouped(own, setting)) {
+  for (const Rows& scored : grouped(own, setting)) {
+    const Rows alike = complete_ones(scored);
     const std::vector<Named> means = means_by_estimator(alike);
     Standings standings{alike.front()->robot, alike.front()->sensors, alike.front()->noise,
                         places_of(alike, means, level), all_pairs("", means, level)};

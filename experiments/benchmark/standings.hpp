@@ -39,7 +39,7 @@ struct Standings {
   std::vector<Difference> differences;
 };
 
-/// Of estimators that are scored where they were fitted.
+/// Of estimators that are scored where they were fitted, in every run in which one of them is.
 std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double level);
 
 }  // namespace touchdown::experiments

@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "core/files.hpp"
-#include "experiments/benchmark/overlap.hpp"
 #include "experiments/tables/captions.hpp"
 #include "experiments/tables/json_table.hpp"
 
@@ -59,7 +58,8 @@ constexpr std::array columns = {
     Column{"landing_early_share",
            [](const BenchmarkRow& r) { return r.close.landing.early_share(); }}};
 
-/// Estimators down, scenes across; the worst scene and the mean beside them.
+/// Estimators down, scenes across; the worst scene and the mean beside them, of those that were
+/// scored in every scene.
 Table scene_table(std::span<const BenchmarkRow> rows) {
   Table table{{""}, {}};
   std::vector<std::vector<double>> values;
@@ -74,11 +74,18 @@ Table scene_table(std::span<const BenchmarkRow> rows) {
       line = table.rows.end() - 1;
     }
     const double value = row.balanced_accuracy.estimate;
+    const auto scene = std::find(table.header.begin(), table.header.end(), row.scene);
+    line->resize(static_cast<std::size_t>(scene - table.header.begin()), "–");
     line->push_back(fmt::format("{:.3f}", value));
     values[static_cast<std::size_t>(line - table.rows.begin())].push_back(value);
   }
+  const std::size_t scenes = table.header.size() - 1;
   table.header.insert(table.header.end(), {"mean", "worst"});
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (values[i].size() < scenes) {
+      table.rows[i].resize(table.header.size(), "–");
+      continue;
+    }
     double mean = 0.0;
     double worst = 1.0;
     for (const double value : values[i]) {
@@ -196,9 +203,13 @@ std::string scenes_text(const Standings& setting, const std::string& simulator,
 
 }  // namespace
 
-void write_tables(const BenchmarkResult& result, const FittedModels& models,
-                  const Listened& listened, const RunDirectory& directory) {
-  const double level = listened.request.experiment.intervals.bootstrap.level;
+BenchmarkResult with_standings(std::vector<BenchmarkRow> rows, double level) {
+  BenchmarkResult result{std::move(rows), {}};
+  result.standings = standings(result.rows, level);
+  return result;
+}
+
+void write_tables(const BenchmarkResult& result, double level, const RunDirectory& directory) {
   nlohmann::ordered_json json;
   const auto write = [&](const std::string& name, const char* key, const Table& table) {
     directory.write_table(name + ".csv", table);
@@ -208,8 +219,6 @@ void write_tables(const BenchmarkResult& result, const FittedModels& models,
   write("benchmark_standings", "standings", standings_table(result.standings));
   write("benchmark_differences", "differences", differences_table(result.standings));
   write_atomically(directory.file("tables", "benchmark.json"), json.dump(1) + "\n");
-  const Table overlaps = overlap_table(models, listened);
-  if (!overlaps.rows.empty()) directory.write_table("density_overlap.csv", overlaps);
 }
 
 std::string benchmark_text(const BenchmarkResult& result, const Experiment& experiment) {

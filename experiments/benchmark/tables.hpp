@@ -14,10 +14,12 @@ struct BenchmarkResult {
   std::vector<Standings> standings;
 };
 
-/// `benchmark.csv`, `benchmark_standings.csv`, `benchmark_differences.csv`, all three as
-/// `benchmark.json`, and where measurement models were fitted, `density_overlap.csv`.
-void write_tables(const BenchmarkResult& result, const FittedModels& models,
-                  const Listened& listened, const RunDirectory& directory);
+/// `level`, here and below, is that of the intervals.
+BenchmarkResult with_standings(std::vector<BenchmarkRow> rows, double level);
+
+/// `benchmark.csv`, `benchmark_standings.csv`, `benchmark_differences.csv`, and all three as
+/// `benchmark.json`.
+void write_tables(const BenchmarkResult& result, double level, const RunDirectory& directory);
 
 /// For people: who stands where with every robot and its sensors, and scene by scene with the
 /// experiment's own.

@@ -31,6 +31,7 @@ constexpr std::array fixed_names = {
     FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml)"},
     FixedNames{"state/listening", R"(.+_seed_\d{4,})"},
     FixedNames{"state/shards", R"(\d+_of_\d+)"},
+    FixedNames{"state/foreign", R"([^.].*)"},
     FixedNames{
         "tables",
         "(agreement|benchmark|benchmark_differences|benchmark_standings|calibration|classification|density_overlap|differences|labels|"
@@ -44,8 +45,9 @@ constexpr std::array fixed_names = {
 
 /// Every folder that a run makes, the inner ones first.
 constexpr std::array all_folders = {
-    "state/listening", "state/recordings", "state/shards", "state",       "recordings", "models",
-    "tables",          "figures",          "videos",       "checkpoints", "logs"};
+    "state/listening", "state/recordings", "state/shards", "state/foreign",
+    "state",           "recordings",       "models",       "tables",
+    "figures",         "videos",           "checkpoints",  "logs"};
 
 /// The files in a folder itself; none where the folder is a link or is not there.
 Names files_in(const fs::path& folder) {

@@ -69,6 +69,19 @@ TEST(Standings, AreApartForEverySettingAndOfThoseAtHomeAlone) {
   EXPECT_EQ(all[2].noise.torque, 1.0);
 }
 
+TEST(Standings, LeaveOutWhoDidNotHearWhatOthersHeard) {
+  BenchmarkRow stairs = row("stairs", "ours", {0.9});
+  BenchmarkRow kerb = row("kerb", "ours", {0.5});
+  BenchmarkRow partly = row("stairs", "theirs", {1.0});
+  for (BenchmarkRow* one : {&stairs, &kerb, &partly}) one->runs = 4;
+  const auto some_scenes = standings({stairs, kerb, partly}, level);
+  ASSERT_EQ(some_scenes.at(0).places.size(), 1U);
+  EXPECT_EQ(some_scenes[0].places[0].estimator, "ours");
+  BenchmarkRow few = row("kerb", "theirs", {1.0});
+  few.runs = 3;
+  EXPECT_EQ(standings({stairs, kerb, partly, few}, level).at(0).places.size(), 1U);
+}
+
 TEST(Standings, BandOfOnePairIsTheNormalOne) {
   const auto all = standings(
       {row("stairs", "a", normal(0.9, 0.03, 1)), row("stairs", "b", normal(0.8, 0.04, 2))}, level);

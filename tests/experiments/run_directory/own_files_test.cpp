@@ -60,10 +60,10 @@ struct OwnFiles : ::testing::Test {
     for (const char* file :
          {"state/recordings/mujoco_step_test_000.mpack.sum",
           "recordings/mujoco_step_test_000.mpack", "state/listening/mujoco_step_test_000_seed_0000",
-          "state/shards/1_of_2", "models/mujoco_robust.npz", "tables/success.csv",
-          "tables/summary.json", "figures/success_mujoco.png", "figures/success_mujoco.dat",
-          "figures/success_mujoco_2.dat", "figures/style.gp", "videos/mujoco_step.mp4",
-          "videos/report.jpg", "manifest.json", "report.html"}) {
+          "state/shards/1_of_2", "state/foreign/mine", "models/mujoco_robust.npz",
+          "tables/success.csv", "tables/summary.json", "figures/success_mujoco.png",
+          "figures/success_mujoco.dat", "figures/success_mujoco_2.dat", "figures/style.gp",
+          "videos/mujoco_step.mp4", "videos/report.jpg", "manifest.json", "report.html"}) {
       folder.write(file, "ours");
     }
     for (const std::string& file : theirs) folder.write(file, "precious");

@@ -1,0 +1,85 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/verbs.hpp"
+#include "core/program/streams.hpp"
+#include "experiments/score_beliefs.hpp"
+#include "render/pictures/filmed_report.hpp"
+
+namespace touchdown::cli {
+
+namespace {
+
+/// What was not scored, and why; a line each.
+std::string left_out(const experiments::BeliefReport& report) {
+  std::string text;
+  if (!report.without.empty()) {
+    constexpr std::size_t most = 5;
+    std::vector<std::string> some = report.without;
+    if (some.size() > most) {
+      some.resize(most);
+      some.push_back(fmt::format("{} more", report.without.size() - most));
+    }
+    text += fmt::format("No beliefs about {} files, which are not scored: {}\n",
+                        report.without.size(), fmt::join(some, ", "));
+  }
+  if (report.about_fitted > 0) {
+    text +=
+        fmt::format("{} files are about fitted runs, which are not scored\n", report.about_fitted);
+  }
+  if (report.about_failed > 0) {
+    text += fmt::format("{} files are about runs that fell, which are not scored\n",
+                        report.about_failed);
+  }
+  if (report.missing_steps > 0) {
+    text += fmt::format("{} steps in {} files have no belief: the last one stands there\n",
+                        report.missing_steps, report.files_with_missing);
+  }
+  return text;
+}
+
+void write_report_again(const std::filesystem::path& run, const CliSession& session) {
+  const render::ReportSubject subject = render::read_subject(run);
+  std::vector<render::FilmedRun> filmed;
+  if (subject.experiment.video.enabled) filmed = render::filmed_runs(subject);
+  print(fmt::format("report    {}\n", render::make_report(subject, filmed, session.stop).string()));
+}
+
+void score(const experiments::BeliefRequest& request, const CliSession& session) {
+  const experiments::BeliefReport report = experiments::score_beliefs(
+      request, {.out = {}, .command = session.command, .stop = session.stop});
+  print(fmt::format("{}\n{}: {} runs scored, each through one noise setting\n{}", report.table,
+                    report.name, report.scored, left_out(report)));
+  print(fmt::format("table     {}\n", (request.run / "tables" / "benchmark.csv").string()));
+  if (std::filesystem::exists(request.run / "report.html"))
+    write_report_again(request.run, session);
+}
+
+}  // namespace
+
+void add_score(CLI::App& program, const CliSession& session) {
+  struct ScoreFlags {
+    std::string run;
+    std::string beliefs;
+    std::string name;
+  };
+  Verb verb(program, "score",
+            "touchdown score runs/benchmark/latest --beliefs mine\n\n"
+            "Scores beliefs about what `touchdown export` wrote, of an estimator in any language,\n"
+            "beside the benchmark's own.");
+  const auto flags = std::make_shared<ScoreFlags>();
+  verb.option("directory", &flags->run, "Run directory of a finished benchmark")
+      .value_name("RUN")
+      .required();
+  verb.option("--beliefs", &flags->beliefs,
+              "Folder of files named as those of the export, .csv, .npz or .mpack; or one file")
+      .value_name("FOLDER_OR_FILE")
+      .required();
+  verb.option("--name", &flags->name, "Of the estimator (default: the folder's)")
+      .value_name("NAME");
+  verb.action([flags, &session] { score({flags->run, flags->beliefs, flags->name}, session); });
+}
+
+}  // namespace touchdown::cli

@@ -1,0 +1,84 @@
+#include "experiments/export_benchmark.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/resources.hpp"
+#include "core/table.hpp"
+#include "experiments/config/yaml_kind.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+RunRequest request_in(const std::filesystem::path& source) {
+  if (std::filesystem::is_directory(source)) return read_request(source);
+  const YamlDocument document = YamlDocument::load(find_resource(source));
+  require_yaml_kind(document, YamlKind::experiment);
+  return request_of(experiment_from_yaml(document));
+}
+
+}  // namespace
+
+std::string export_outline(const ExportRequest& wanted) {
+  const RunRequest request = request_in(wanted.source);
+  const Plan plan = whole_plan(request);
+  const std::vector<HeardRun> runs = part_of(heard_runs(request, plan), wanted.part, plan);
+  std::map<std::array<std::string, 3>, std::vector<HeardRun>> parts;
+  for (const HeardRun& run : runs) {
+    parts[{run.robot, run.sensors, plan.runs[run.run].simulator}].push_back(run);
+  }
+  const auto megabytes = [&](const std::vector<HeardRun>& of) {
+    return fmt::format("{:.0f}", 1e-6 * bytes_at_most(of, plan));
+  };
+  const auto test_files = [](const std::vector<HeardRun>& of) {
+    return std::count_if(of.begin(), of.end(), [](const HeardRun& run) { return run.task; });
+  };
+  Table table{{"robot", "sensors", "simulator", "fit files", "test files", "MB at most"}, {}};
+  const auto add = [&](const std::array<std::string, 3>& name, const std::vector<HeardRun>& of) {
+    const auto test = static_cast<std::size_t>(test_files(of));
+    table.rows.push_back({name[0], name[1], name[2], std::to_string(of.size() - test),
+                          std::to_string(test), megabytes(of)});
+  };
+  for (const auto& [name, of] : parts) add(name, of);
+  add({"all", "", ""}, runs);
+  return to_text(table, 3);
+}
+
+ExportReport export_benchmark(const ExportRequest& wanted, const RunOptions& options) {
+  RunRequest request = request_in(wanted.source);
+  const auto write = [&](RunDirectory directory) {
+    RunningExperiment running = start(std::move(request), std::move(directory), options);
+    Plan& plan = running.plan;
+    const std::vector<HeardRun> runs =
+        part_of(heard_runs(running.request, plan), wanted.part, plan);
+    for (const HeardRun& heard : runs) {
+      PlannedRun& run = plan.runs[heard.run];
+      run.kept = run.kept && is_recorded(run, running.directory);
+    }
+    try {
+      return export_runs(running.request, plan, runs, running.directory, wanted.folder,
+                         running.going_on);
+    } catch (const Stopped&) {
+      throw Stopped("stopped; nothing was written");
+    }
+  };
+  const std::string name = request.experiment.name;
+  const std::string id = request.id;
+  if (std::filesystem::is_directory(wanted.source)) {
+    RunDirectory directory(name, id, wanted.source);
+    directory.keep(DirectoryLock::for_reading(wanted.source, options.command));
+    return write(std::move(directory));
+  }
+  // Somewhere has to be noted which runs could not be simulated.
+  request.experiment.recordings = KeptRecordings::none;
+  const PartFolder notes(std::filesystem::temp_directory_path() / "touchdown_export");
+  return write(RunDirectory(name, id, notes.path()));
+}
+
+}  // namespace touchdown::experiments
