@@ -21,7 +21,7 @@ std::string key_for(const RunRequest& request, const std::string& name) {
 std::string take_line(std::string_view& bytes) {
   const std::size_t end = bytes.find('\n');
   if (end == std::string_view::npos) throw Error("a state file is too short");
-  const std::string line(bytes.substr(0, end));
+  std::string line(bytes.substr(0, end));
   bytes.remove_prefix(end + 1);
   return line;
 }
