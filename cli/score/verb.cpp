@@ -6,6 +6,7 @@
 #include "cli/verbs.hpp"
 #include "core/program/streams.hpp"
 #include "experiments/score_beliefs.hpp"
+#include "render/benchmark/standings_figure.hpp"
 #include "render/pictures/filmed_report.hpp"
 
 namespace touchdown::cli {
@@ -42,6 +43,7 @@ std::string left_out(const experiments::BeliefReport& report) {
 
 void write_report_again(const std::filesystem::path& run, const CliSession& session) {
   const render::ReportSubject subject = render::read_subject(run);
+  render::draw_standings_figures(run, subject.experiment.intervals.bootstrap.level);
   std::vector<render::FilmedRun> filmed;
   if (subject.experiment.video.enabled) filmed = render::filmed_runs(subject);
   print(fmt::format("report    {}\n", render::make_report(subject, filmed, session.stop).string()));

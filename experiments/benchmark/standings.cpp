@@ -97,8 +97,7 @@ Rows complete_ones(const Rows& rows) {
     most = std::max(most, runs[row->estimator] += row->runs - row->failed);
   }
   Rows complete = rows;
-  std::erase_if(complete,
-                [&](const BenchmarkRow* row) { return runs.at(row->estimator) < most; });
+  std::erase_if(complete, [&](const BenchmarkRow* row) { return runs.at(row->estimator) < most; });
   return complete;
 }
 
