@@ -50,14 +50,19 @@ struct Belief {
   SignalStatus status = SignalStatus::good;
 };
 
-/// From the wheels' probabilities to their decisions and to the robot's probabilities, for an
-/// estimator whose wheels are independent of each other: then their probabilities multiply.
-inline void conclude(Belief& belief, double threshold) noexcept {
-  for (WheelBelief& wheel : belief.wheel) wheel.contact = wheel.p_contact >= threshold;
+/// From the wheels' probabilities to the robot's, for an estimator whose wheels are independent of
+/// each other: then they multiply.
+inline void multiply_wheels(Belief& belief) noexcept {
   const double left = belief.wheel[0].p_contact;
   const double right = belief.wheel[1].p_contact;
   belief.p_both_wheels = left * right;
   belief.p_any_wheel = left + (1.0 - left) * right;
+}
+
+/// As above, and to the wheels' decisions.
+inline void conclude(Belief& belief, double threshold) noexcept {
+  for (WheelBelief& wheel : belief.wheel) wheel.contact = wheel.p_contact >= threshold;
+  multiply_wheels(belief);
 }
 
 /// What a belief was computed from; NaN for what an estimator does not compute.

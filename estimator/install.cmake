@@ -7,14 +7,15 @@ include(CMakePackageConfigHelpers)
 # Programs write <touchdown/estimator.hpp> or <touchdown/estimator/…>, the headers among themselves
 # "estimator/…".
 set(public
-  contact_estimator free_fall signal_guard signals support_force torque_channel upkie_observer
+  contact_estimator free_fall signal_guard signals torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model
+  force/leg_geometry force/support_force
   neural/estimator neural/input neural/network
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
 # What these hold by value. Not for programs, and not promised to stay.
 set(detail
-  neural/forward numerics/axis numerics/exponential phase/noise phase/recursion phase/senses
+  force/wheel_loads neural/forward numerics/axis numerics/exponential phase/noise phase/recursion phase/senses
   phase/tables spectrum/sliding_dft spectrum/summary)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 target_include_directories(touchdown_estimator PUBLIC

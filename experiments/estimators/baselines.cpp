@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
-#include "estimator/support_force.hpp"
 #include "estimator/upkie_observer.hpp"
 
 namespace touchdown::experiments {

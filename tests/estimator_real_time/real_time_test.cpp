@@ -11,9 +11,9 @@
 
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
+#include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
 #include "estimator/phase/filter.hpp"
-#include "estimator/support_force.hpp"
 #include "estimator/upkie_observer.hpp"
 #include "experiments/lanes/bayes.hpp"
 #include "tests/estimator/named_config.hpp"

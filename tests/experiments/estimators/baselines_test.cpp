@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "estimator/support_force.hpp"
+#include "estimator/force/support_force.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/listening/sweep_run.hpp"

@@ -1,87 +1,18 @@
-#include "estimator/support_force.hpp"
+#include "estimator/force/support_force.hpp"
 
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "tests/estimator/force/held_leg.hpp"
 
 namespace touchdown {
 namespace {
 
-constexpr double gravity = 9.81;
-
-/// Heights of the centres of mass of upper leg, lower leg and wheel, and the foot's place, below a
-/// hip at the origin.
-struct Places {
-  std::array<double, 3> height;
-  double x = 0.0;
-  double z = 0.0;
-};
-
-Places places(const LegGeometry& leg, double hip, double knee) {
-  const double bent = hip + knee;
-  const double knee_z = -leg.upper_length * std::cos(hip);
-  const double x = leg.upper_length * std::sin(hip) + leg.lower_length * std::sin(bent);
-  const double z = knee_z - leg.lower_length * std::cos(bent);
-  return {{leg.upper_centre * knee_z, knee_z + leg.lower_centre * (z - knee_z), z}, x, z};
-}
-
-/// The torques that hold a leg against a force on its foot while all of it accelerates, by the
-/// principle of virtual work: differences of places, no Jacobian.
-LegSignals holding(const LegGeometry& leg, double hip, double knee, double force_x, double force_z,
-                   double acceleration) {
-  constexpr double step = 1e-6;
-  const std::array<double, 3> mass = {leg.upper_mass, leg.lower_mass, leg.wheel_mass};
-  const auto torque = [&](double along_hip, double along_knee) {
-    const Places up = places(leg, hip + along_hip, knee + along_knee);
-    const Places down = places(leg, hip - along_hip, knee - along_knee);
-    double work = force_x * (up.x - down.x) + force_z * (up.z - down.z);
-    for (std::size_t i = 0; i < mass.size(); ++i) {
-      work -= mass[i] * (gravity + acceleration) * (up.height[i] - down.height[i]);
-    }
-    return -work / (2.0 * step);
-  };
-  LegSignals signals;
-  signals.hip = {hip, 0.0, torque(step, 0.0)};
-  signals.knee = {knee, 0.0, torque(0.0, step)};
-  return signals;
-}
-
-LegSignals mirrored(LegSignals leg) {
-  for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
-    joint->position = -joint->position;
-    joint->torque = -joint->torque;
-  }
-  return leg;
-}
-
-TEST(VerticalForce, IsTheOneThatTheTorquesHoldAgainst) {
-  for (const LegGeometry& leg :
-       {LegGeometry(),
-        LegGeometry{
-            .upper_length = 0.3, .lower_length = 0.2, .upper_mass = 1.5, .wheel_mass = 0.4}}) {
-    for (const double hip : {-0.2, 0.1, 0.455, 1.0}) {
-      for (const double knee : {-1.5, -0.791, -0.17}) {
-        for (const double force : {0.0, 26.2, 120.0}) {
-          for (const double acceleration : {-gravity, 0.0, 7.0}) {
-            const LegSignals held = holding(leg, hip, knee, 3.0, force, acceleration);
-            EXPECT_NEAR(vertical_force(leg, held, false, acceleration), force, 1e-6);
-            EXPECT_NEAR(vertical_force(leg, mirrored(held), true, acceleration), force, 1e-6);
-          }
-        }
-      }
-    }
-  }
-}
-
-TEST(VerticalForce, OfAStraightLegIsUnknown) {
-  LegSignals straight;
-  straight.hip.torque = 1.0;
-  EXPECT_FALSE(std::isfinite(vertical_force({}, straight, false, 0.0)));
-}
+using test::holding;
+using test::mirrored;
 
 /// Steps of one millisecond of a crouching robot whose wheels carry these forces.
 class Standing {

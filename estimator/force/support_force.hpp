@@ -1,38 +1,9 @@
 #pragma once
 
-#include <array>
-
 #include "estimator/contact_estimator.hpp"
-#include "estimator/signal_guard.hpp"
+#include "estimator/force/wheel_loads.hpp"
 
 namespace touchdown {
-
-/// One leg in its plane, hip to axle: two links whose centres of mass lie on the lines between the
-/// joints. The values are Upkie's.
-struct LegGeometry {
-  double upper_length = 0.168;  ///< hip to knee (m)
-  double lower_length = 0.175;  ///< knee to axle (m)
-  double upper_mass = 0.69241;  ///< kg
-  double lower_mass = 0.3954;   ///< kg
-  double wheel_mass = 0.18455;  ///< kg, at the axle
-  double upper_centre = 0.855;  ///< of mass, as a share of the length from the hip
-  double lower_centre = 0.742;  ///< likewise, from the knee
-
-  bool operator==(const LegGeometry&) const = default;
-};
-
-/// The vertical force of the ground on a leg's foot (N) that explains its torques, if the torso is
-/// level and all of the leg accelerates upwards with `acceleration` (m/s², without gravity). With
-/// the hip at q₁ and the knee at q₂ from straight, forward positive,
-///
-///     x = L₁ sin q₁ + L₂ sin(q₁ + q₂),   z = −L₁ cos q₁ − L₂ cos(q₁ + q₂),
-///     Jᵀ F = −τ + Σ_i m_i (g + a) ∂z_i/∂q,
-///
-/// over the links and the wheel, solved for F = (F_x, F_z). `mirrored`: the joints' signs are those
-/// of the right leg. Not finite where the knee is straight: a straight leg carries any load without
-/// torques.
-[[nodiscard]] double vertical_force(const LegGeometry& geometry, const LegSignals& leg,
-                                    bool mirrored, double acceleration) noexcept;
 
 struct SupportForceConfig {
   double sample_rate = 1000.0;  ///< at which `update` is called (Hz)
@@ -63,15 +34,12 @@ class SupportForce : public ContactEstimator {
 
   /// The low-passed force on one wheel (N).
   [[nodiscard]] double force(Side side) const noexcept {
-    return force_[static_cast<std::size_t>(side)];
+    return loads_.force(static_cast<std::size_t>(side));
   }
 
  private:
   SupportForceConfig config_;
-  SignalGuard guard_;
-  double gain_;
-  std::array<double, 2> force_ = {};
-  std::array<bool, 2> is_started_ = {};
+  WheelLoads loads_;
   Belief belief_;
 };
 

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "estimator/force/leg_geometry.hpp"
+#include "estimator/signal_guard.hpp"
+
+namespace touchdown {
+
+struct WheelLoadsConfig {
+  double sample_rate = 1000.0;  ///< at which `update` is called (Hz)
+  LegGeometry geometry = {};
+  double low_pass = 0.01;  ///< time constant of the low-pass of the force (s)
+  /// A force beyond this, up or down, counts as this (N): near a straight knee it may be anything,
+  /// and one such value would stay in the low-pass for long.
+  double largest = std::numeric_limits<double>::infinity();
+  SignalGuardConfig guard = {};
+};
+
+/// Whether lengths are positive and the time constant is not negative.
+[[nodiscard]] bool is_sensible(const WheelLoadsConfig& config) noexcept;
+
+/// What the ground carries each wheel with, low-passed, as long as signals can be used. Alike for
+/// those that listen and for what they are fitted to.
+class WheelLoads {
+ public:
+  /// What became of one step.
+  struct Step {
+    SignalStatus status = SignalStatus::good;
+    double elapsed = 0.0;                  ///< since the previous step (s)
+    bool restart = false;                  ///< as the guard says
+    bool acceleration_good = true;         ///< as the guard says
+    std::array<bool, 2> is_measured = {};  ///< whether there is a force of this step
+  };
+
+  /// Throws InputError for what the guard refuses.
+  explicit WheelLoads(const WheelLoadsConfig& config);
+
+  void reset() noexcept;
+  Step update(const Signals& signals) noexcept;
+
+  /// Of the left, of the right wheel (N); the last that was measured.
+  [[nodiscard]] double force(std::size_t side) const noexcept { return force_[side]; }
+
+  /// A belief after `elapsed` seconds without a measurement.
+  [[nodiscard]] double relaxed(double p_contact, double elapsed) const noexcept {
+    return guard_.relaxed(p_contact, elapsed);
+  }
+
+ private:
+  WheelLoadsConfig config_;
+  SignalGuard guard_;
+  double gain_;
+  std::array<double, 2> force_ = {};
+  std::array<bool, 2> is_started_ = {};
+};
+
+}  // namespace touchdown
