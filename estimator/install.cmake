@@ -10,7 +10,7 @@ set(public
   contact_estimator free_fall signal_guard signals torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model
-  force/leg_geometry force/support_force
+  force/labelled_run force/leg_geometry force/support_force
   neural/estimator neural/input neural/network
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
 # What these hold by value. Not for programs, and not promised to stay.

@@ -54,14 +54,15 @@ std::vector<experiments::FitLog> logs_of(const FitFlags& flags) {
 
 /// Shapes the estimator's densities as the flags say.
 void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) {
-  if (entry.phase) {
+  if (!entry.config) {
     if (flags.grid.empty() && flags.bandwidth.empty() && flags.bandwidth_floor.empty() &&
         flags.knee_range.empty() && flags.wheel_range.empty()) {
       return;
     }
     throw InputError(
-        "fit: --grid, --bandwidth, --bandwidth-floor, --knee-range and "
-        "--wheel-range are not for the phase filter");
+        fmt::format("fit: --grid, --bandwidth, --bandwidth-floor, --knee-range and "
+                    "--wheel-range are not for {}",
+                    entry.phase ? "the phase filter" : fmt::format("'{}'", entry.name)));
   }
   MeasurementFitConfig& fit = entry.config->measurement.fit;
   if (!flags.grid.empty()) {

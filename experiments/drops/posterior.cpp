@@ -2,9 +2,9 @@
 
 #include "estimator/phase/labels.hpp"
 #include "experiments/estimators/filters.hpp"
+#include "experiments/estimators/phase_fitting.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
-#include "experiments/fitting/phase_fitting.hpp"
 #include "experiments/plan/condition.hpp"
 
 namespace touchdown::experiments {

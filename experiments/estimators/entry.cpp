@@ -11,4 +11,10 @@ noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& le
           .hip_torque = sensors.hip_torque ? levels.hip_torque : 0.0};
 }
 
+bool share_model(const EstimatorEntry& one, const EstimatorEntry& other) {
+  if (one.fit == nullptr || one.fit != other.fit || one.fits() != other.fits()) return false;
+  if (one.config) return one.config->measurement == other.config->measurement;
+  return !one.phase || one.phase->fit == other.phase->fit;
+}
+
 }  // namespace touchdown::experiments

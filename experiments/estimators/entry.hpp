@@ -11,6 +11,7 @@
 #include "estimator/bayes/config.hpp"
 #include "estimator/contact_estimator.hpp"
 #include "estimator/phase/config.hpp"
+#include "experiments/estimators/fit_runs.hpp"
 #include "experiments/estimators/fitted_model.hpp"
 #include "experiments/lanes/noise_level.hpp"
 #include "noise/sensor_noise.hpp"
@@ -58,7 +59,10 @@ struct EstimatorEntry {
   std::optional<BayesFilterConfig> config = {};
   /// The configuration whose phase model it needs, if it needs one.
   std::optional<PhaseFilterConfig> phase = {};
-  /// What made its model, if that is neither of the two and no part of an experiment.
+  /// How it is fitted, if it is: to one of the two above, or else to parameters of its own, which
+  /// experiments/estimators/parameter_fitting.hpp makes a model of.
+  FittedModel (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
+  /// What made its model, if that is no part of an experiment.
   std::string trained_by = {};
   /// It is told the labels of the runs it listens to: nothing for logs without.
   bool needs_truth = false;
@@ -71,8 +75,12 @@ struct EstimatorEntry {
   /// Which kind of model it is fitted with, if it is.
   std::optional<ModelKind> fits() const {
     if (config) return ModelKind::measurement;
-    return phase ? std::optional(ModelKind::phase) : std::nullopt;
+    if (phase) return ModelKind::phase;
+    return fit != nullptr ? std::optional(ModelKind::parameters) : std::nullopt;
   }
 };
+
+/// Whether one fit serves both.
+bool share_model(const EstimatorEntry& one, const EstimatorEntry& other);
 
 }  // namespace touchdown::experiments

@@ -1,6 +1,8 @@
 #include "experiments/estimators/filters.hpp"
 
 #include "estimator/bayes/measurement_only.hpp"
+#include "experiments/estimators/measurement_fitting.hpp"
+#include "experiments/estimators/phase_fitting.hpp"
 #include "experiments/lanes/bayes.hpp"
 #include "experiments/lanes/neural.hpp"
 #include "experiments/lanes/phase.hpp"
@@ -62,6 +64,19 @@ std::optional<EstimatorLanes> phase_lanes(const EstimatorEntry& entry, const Est
   return EstimatorLanes{update_of(all), [all](Side side) { return all->contact(side); }, 0.5};
 }
 
+FittedModel fit_measurement(const EstimatorEntry& entry, const FitRuns& runs) {
+  return {.measurement = fit(runs.whole, entry.config->measurement, runs.scoring)};
+}
+
+/// To the pieces, if there are any.
+FittedModel fit_phase(const EstimatorEntry& entry, const FitRuns& runs) {
+  const PhaseFitConfig& config = entry.phase->fit;
+  return {.phase = std::make_shared<const recordings::PhaseModelFile>(
+              runs.pieces.empty()
+                  ? fit_phases(runs.whole, config, runs.scoring.skip, runs.before_density)
+                  : fit_phases(runs.pieces, config, 0.0, runs.before_density))};
+}
+
 std::shared_ptr<const NeuralNetwork> network() {
   return std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network());
 }
@@ -92,6 +107,7 @@ EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
           .summary = summary,
           .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
           .config = config,
+          .fit = fit_measurement,
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<BayesFilter>(*setup.model->measurement,
                                                  at_rate(*entry.config, setup.sample_rate));
@@ -105,6 +121,7 @@ EstimatorEntry measurement_only_entry() {
           .summary = "the paper's ablation: each wheel from its torques now, without transitions",
           .sensors = {.knee_torque = true, .wheel_torque = true},
           .config = BayesFilterConfig::robust(),
+          .fit = fit_measurement,
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<MeasurementOnly>(*setup.model->measurement,
                                                      at_rate(*entry.config, setup.sample_rate));
@@ -118,6 +135,7 @@ EstimatorEntry phase_entry() {
           .summary = "a hidden Markov model over the phases between rolling and falling",
           .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
           .phase = PhaseFilterConfig{},
+          .fit = fit_phase,
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<PhaseFilter>(phase_filter(entry, setup));
           },

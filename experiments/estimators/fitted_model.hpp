@@ -7,23 +7,29 @@
 #include <string>
 
 #include "estimator/bayes/measurement_model.hpp"
+#include "recordings/models/parameter_model.hpp"
 #include "recordings/models/phase_model.hpp"
 
 namespace touchdown::experiments {
 
-/// What an estimator was fitted with: one of the two.
+/// What an estimator was fitted with: one of the three.
 struct FittedModel {
-  std::optional<MeasurementModel> measurement;
-  std::shared_ptr<const recordings::PhaseModelFile> phase;
+  std::optional<MeasurementModel> measurement = {};
+  std::shared_ptr<const recordings::PhaseModelFile> phase = {};
+  std::shared_ptr<const recordings::ParameterModelFile> parameters = {};
 };
 
 /// Models by engine that was fitted on, then by estimator. Estimators that need the same model
 /// share it.
 using FittedModels = std::map<std::string, std::map<std::string, FittedModel>>;
 
-enum class ModelKind : int { measurement, phase };
+enum class ModelKind : int {
+  measurement,  ///< densities of torques
+  phase,
+  parameters,  ///< a handful of numbers that only one estimator knows the meaning of
+};
 
-/// Which of the two a model file holds; one that is no phase model counts as the other.
+/// Which of them a model file holds; one that is neither of the latter counts as the first.
 /// Errors: `InputError` for an unreadable one.
 ModelKind kind_of_model_file(const std::filesystem::path& path);
 

@@ -1,20 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <vector>
 
-#include "estimator/bayes/config.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/fitted_model.hpp"
 #include "experiments/signals/run_signals.hpp"
 
 namespace touchdown::experiments {
-
-/// The measurement model that a configuration fits to noiseless runs, as in the paper's Section
-/// III. Errors: `InputError` when the runs lack contact or flight.
-MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementConfig& config,
-                     const scoring::ScoringConfig& scoring);
 
 /// Fits what the experiment's estimators need, for each engine on its own runs, in parallel: phase
 /// models to the pieces of an engine that has any. `going_on` is asked before each density; false

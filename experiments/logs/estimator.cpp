@@ -12,11 +12,31 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The first estimator that is fitted with such a model.
-const EstimatorEntry& usual_estimator(ModelKind kind) {
+/// The estimator that such a model is usually for: the first that is fitted with one, or the one
+/// that the parameters in the file belong to.
+const EstimatorEntry& usual_estimator(ModelKind kind, const std::filesystem::path& path) {
+  if (kind == ModelKind::parameters) {
+    return estimator_entry(recordings::read_parameter_model(path).estimator);
+  }
   const std::span<const EstimatorEntry> all = estimator_entries();
   return *std::find_if(all.begin(), all.end(),
                        [&](const EstimatorEntry& entry) { return entry.fits() == kind; });
+}
+
+std::string described(ModelKind kind, const EstimatorEntry& usual, const EstimatorEntry& entry) {
+  if (kind == ModelKind::parameters) return fmt::format("a model of '{}'", usual.name);
+  if (kind == ModelKind::phase) return "a phase model";
+  return entry.fits() == ModelKind::phase ? "no phase model" : "a model of torques' densities";
+}
+
+/// Errors: `InputError` that names the file, for parameters that the estimator cannot be made with.
+void check_parameters(const EstimatorEntry& entry, const FittedModel& model,
+                      const std::filesystem::path& path) {
+  try {
+    entry.make(entry, {.model = &model});
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
 }
 
 FittedModel read_model(const EstimatorEntry& entry, const std::filesystem::path& path) {
@@ -31,13 +51,17 @@ FittedModel read_model(const EstimatorEntry& entry, const std::filesystem::path&
         entry.name));
   }
   const ModelKind kind = kind_of_model_file(path);
-  if (kind != entry.fits()) {
+  const EstimatorEntry& usual = usual_estimator(kind, path);
+  const bool fits =
+      kind == ModelKind::parameters ? share_model(entry, usual) : kind == entry.fits();
+  if (!fits) {
     throw InputError(fmt::format("{}: is {}, which '{}' cannot use (did you mean --estimator {}?)",
-                                 path.string(),
-                                 kind == ModelKind::phase ? "a phase model" : "no phase model",
-                                 entry.name, usual_estimator(kind).name));
+                                 path.string(), described(kind, usual, entry), entry.name,
+                                 usual.name));
   }
-  return read_fitted_model(kind, path);
+  FittedModel model = read_fitted_model(kind, path);
+  if (kind == ModelKind::parameters) check_parameters(entry, model, path);
+  return model;
 }
 
 }  // namespace
@@ -57,7 +81,8 @@ LogEstimator log_estimator(const std::string& name, const std::filesystem::path&
   const EstimatorEntry& entry =
       !name.empty()
           ? estimator_entry(name)
-          : usual_estimator(model.empty() ? ModelKind::measurement : kind_of_model_file(model));
+          : usual_estimator(model.empty() ? ModelKind::measurement : kind_of_model_file(model),
+                            model);
   if (entry.needs_truth) {
     throw InputError(fmt::format(
         "--estimator: the {} repeats the ground truth, it does not listen to logs", entry.name));

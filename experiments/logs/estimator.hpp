@@ -20,9 +20,9 @@ struct LogEstimator {
 };
 
 /// The estimator of this name with the model in this file; empty where nothing was said: the name
-/// then follows from the model (`phase` or `robust`). Errors: `InputError` for an unknown name
-/// (with the nearest one), a model that is missing, not needed, another estimator's or unreadable,
-/// and for an estimator that does not listen to logs.
+/// then follows from the model (`phase`, `robust`, or who the parameters belong to). Errors:
+/// `InputError` for an unknown name (with the nearest one), a model that is missing, not needed,
+/// another estimator's or unreadable, and for an estimator that does not listen to logs.
 LogEstimator log_estimator(const std::string& name, const std::filesystem::path& model);
 
 }  // namespace touchdown::experiments

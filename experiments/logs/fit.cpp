@@ -11,9 +11,9 @@
 #include "core/error.hpp"
 #include "estimator/bayes/measurement_fit.hpp"
 #include "estimator/signal_guard.hpp"
-#include "experiments/fitting/phase_fitting.hpp"
 #include "experiments/logs/listener.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
+#include "experiments/signals/run_signals.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
@@ -75,6 +75,15 @@ bool is_gap(double elapsed, const SignalGuardConfig& guard) {
   return !(elapsed >= 0.0 && elapsed <= guard.maximum_gap);
 }
 
+/// Errors: `InputError` for a step of which nobody says whether the wheels touch.
+void check_truth(const FitLog& log, const LogStep& step) {
+  if (log.contact || step.normal_force) return;
+  throw InputError(
+      fmt::format("{}: at {:.3f} s: no ground truth of contact: name the log after --contact or "
+                  "--no-contact if all of it is one of them",
+                  log.path.string(), step.signals.time));
+}
+
 void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitConfig& config,
               const Sink& sink, LogFitReport& report) {
   recordings::LogReader reader(log.path, config.stop);
@@ -88,12 +97,7 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
   double before = NAN;
   std::int64_t k = 0;
   for (; const LogStep* step = listener.next(); ++k) {
-    if (!log.contact && !step->normal_force) {
-      throw InputError(
-          fmt::format("{}: at {:.3f} s: no ground truth of contact: name the log after --contact "
-                      "or --no-contact if all of it is one of them",
-                      log.path.string(), step->signals.time));
-    }
+    check_truth(log, *step);
     for (std::size_t side = 0; side < legs.size(); ++side) {
       if (k > 0 && is_gap(step->signals.time - before, filter.guard)) legs[side].restart();
       const double force = log.contact ? 0.0 : (*step->normal_force)[side];
@@ -108,13 +112,14 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
   report.seconds += static_cast<double>(std::max<std::int64_t>(k - skipped, 0)) * listener.period();
 }
 
-void require_both_classes(const MeasurementFit& fit) {
-  if (fit.count(false) < 2) {
+/// How many samples there are without contact, and in contact.
+void require_both_classes(std::size_t no_contact, std::size_t contact) {
+  if (no_contact < 2) {
     throw InputError(
         "fit: no step of the logs is without contact: add a log with flights, or one of a robot "
         "that hangs after --no-contact");
   }
-  if (fit.count(true) < 2) {
+  if (contact < 2) {
     throw InputError(
         "fit: no step of the logs is in contact: add a log of a robot that rolls, after --contact "
         "if it has no ground truth");
@@ -132,7 +137,7 @@ MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
         log, filter, config,
         [&](bool contact, const TorqueSample& sample) { fit.survey(contact, sample); }, report);
   }
-  require_both_classes(fit);
+  require_both_classes(fit.count(false), fit.count(true));
   fit.prepare();
   LogFitReport again;
   for (const FitLog& log : logs) {
@@ -147,6 +152,7 @@ MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
   return fit.model();
 }
 
+/// What the phase filter can be fitted to.
 void check_step(const FitLog& log, const LogStep& step, double before) {
   const auto refuse = [&](std::string_view what) {
     throw InputError(
@@ -165,7 +171,11 @@ void check_step(const FitLog& log, const LogStep& step, double before) {
   }
 }
 
-RunSignals signals_of_log(const FitLog& log, const LogFitConfig& config, LogFitReport& report) {
+/// What a step of the log can be used for, or an error.
+using CheckStep = void (*)(const FitLog& log, const LogStep& step, double before);
+
+RunSignals signals_of_log(const FitLog& log, const LogFitConfig& config, CheckStep check,
+                          LogFitReport& report) {
   recordings::LogReader reader(log.path, config.stop);
   LogListener listener(reader);
   RunSignals run;
@@ -178,8 +188,12 @@ RunSignals signals_of_log(const FitLog& log, const LogFitConfig& config, LogFitR
   };
   std::array<scoring::LabelStream, models::wheel_count> labels = {labels_of(0), labels_of(1)};
   while (const LogStep* step = listener.next()) {
-    check_step(log, *step, run.signals.empty() ? NAN : run.signals.back().time);
+    check(log, *step, run.signals.empty() ? NAN : run.signals.back().time);
     for (std::size_t wheel = 0; wheel < labels.size(); ++wheel) {
+      if (log.contact) {
+        run.contact[wheel].push_back(*log.contact ? 1 : 0);
+        continue;
+      }
       labels[wheel].add((*step->normal_force)[wheel]);
       run.normal_force[wheel].push_back((*step->normal_force)[wheel]);
     }
@@ -190,6 +204,23 @@ RunSignals signals_of_log(const FitLog& log, const LogFitConfig& config, LogFitR
   return run;
 }
 
+/// All logs in memory, and what is used of them in the report.
+std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogFitConfig& config,
+                                        CheckStep check, LogFitReport& report) {
+  report = {};
+  std::vector<RunSignals> runs;
+  for (const FitLog& log : logs) {
+    runs.push_back(signals_of_log(log, config, check, report));
+    const RunSignals& run = runs.back();
+    const std::size_t skipped = skipped_steps(run, config.skip);
+    report.seconds += static_cast<double>(run.steps() - skipped) * period_of(run);
+    for (const scoring::ContactSequence& contact : run.contact) {
+      for (std::size_t k = skipped; k < contact.size(); ++k) ++report.samples[contact[k] & 1U];
+    }
+  }
+  return runs;
+}
+
 /// Whether both wheels leave the ground together somewhere in what is used of the run.
 bool has_takeoff(const RunSignals& run, std::size_t skipped) {
   const scoring::ContactSequence any = scoring::any_wheel(run.contact);
@@ -198,46 +229,48 @@ bool has_takeoff(const RunSignals& run, std::size_t skipped) {
                      [&](const scoring::Flight& flight) { return flight.takeoff > skipped; });
 }
 
-recordings::PhaseModelFile fit_phases_to_logs(std::span<const FitLog> logs,
-                                              const PhaseFitConfig& phases,
-                                              const LogFitConfig& config, LogFitReport& report) {
-  report = {};
-  std::vector<RunSignals> runs;
-  bool takeoff = false;
+std::vector<RunSignals> logs_with_takeoffs(std::span<const FitLog> logs, const LogFitConfig& config,
+                                           LogFitReport& report) {
   for (const FitLog& log : logs) {
-    if (log.contact) {
-      throw InputError(fmt::format(
-          "{}: the phase filter learns how wheels leave the ground and land: it has to be fitted "
-          "to logs with ground truth, not to --contact and --no-contact",
-          log.path.string()));
-    }
-    runs.push_back(signals_of_log(log, config, report));
-    const RunSignals& run = runs.back();
-    const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
-    const auto skipped = static_cast<std::size_t>(std::llround(config.skip / period));
-    takeoff = takeoff || has_takeoff(run, skipped);
-    const std::size_t used = run.steps() - std::min(run.steps(), skipped);
-    report.seconds += static_cast<double>(used) * period;
-    for (const scoring::ContactSequence& contact : run.contact) {
-      for (std::size_t k = skipped; k < contact.size(); ++k) ++report.samples[contact[k] & 1U];
-    }
+    if (!log.contact) continue;
+    throw InputError(fmt::format(
+        "{}: the phase filter learns how wheels leave the ground and land: it has to be fitted "
+        "to logs with ground truth, not to --contact and --no-contact",
+        log.path.string()));
   }
+  std::vector<RunSignals> runs = signals_of_logs(logs, config, check_step, report);
+  const bool takeoff = std::any_of(runs.begin(), runs.end(), [&](const RunSignals& run) {
+    return has_takeoff(run, skipped_steps(run, config.skip));
+  });
   if (!takeoff) {
     throw InputError("fit: the phase filter learns from takeoffs, and the logs hold none");
   }
-  std::vector<const RunSignals*> fitted;
-  for (const RunSignals& run : runs) fitted.push_back(&run);
-  return fit_phases(fitted, phases, config.skip);
+  return runs;
+}
+
+std::vector<RunSignals> logs_of_both_classes(std::span<const FitLog> logs,
+                                             const LogFitConfig& config, LogFitReport& report) {
+  std::vector<RunSignals> runs = signals_of_logs(
+      logs, config,
+      [](const FitLog& log, const LogStep& step, double /*before*/) { check_truth(log, step); },
+      report);
+  require_both_classes(report.samples[0], report.samples[1]);
+  return runs;
 }
 
 }  // namespace
 
 FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                         const LogFitConfig& config, LogFitReport& report) {
-  if (entry.config) return {fit_measurement_to_logs(logs, *entry.config, config, report), nullptr};
-  return {{},
-          std::make_shared<const recordings::PhaseModelFile>(
-              fit_phases_to_logs(logs, entry.phase->fit, config, report))};
+  if (entry.config) {
+    return {.measurement = fit_measurement_to_logs(logs, *entry.config, config, report)};
+  }
+  const std::vector<RunSignals> runs = entry.phase ? logs_with_takeoffs(logs, config, report)
+                                                   : logs_of_both_classes(logs, config, report);
+  FitRuns fitted;
+  for (const RunSignals& run : runs) fitted.whole.push_back(&run);
+  fitted.scoring.skip = config.skip;
+  return entry.fit(entry, fitted);
 }
 
 }  // namespace touchdown::experiments

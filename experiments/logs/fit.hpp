@@ -48,6 +48,9 @@ struct LogFitReport {
 ///
 /// A phase model is fitted to logs with ground truth, held in memory (0.25 MB/s at 1 kHz). Errors:
 /// `InputError` for values that are not finite, gaps in time, or logs without a takeoff.
+///
+/// Parameters are fitted to logs in memory, too, of one class or with ground truth; what cannot be
+/// used is left out as when listening. Errors: `InputError` for logs without one of the classes.
 FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                         const LogFitConfig& config, LogFitReport& report);
 

@@ -1,7 +1,6 @@
 #include "recordings/models/phase_model.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -17,29 +16,6 @@ NpyArray ends(const Axis& axis) {
 
 NpyArray table(const std::vector<float>& values, std::size_t columns) {
   return {{values.size() / columns, columns}, {values.begin(), values.end()}};
-}
-
-NpyArray text(const ModelProvenance& provenance) {
-  std::string lines;
-  for (const auto& [key, value] : provenance) lines += fmt::format("{}: {}\n", key, value);
-  NpyArray array{{lines.size()}, {}};
-  for (const char c : lines) array.data.push_back(static_cast<unsigned char>(c));
-  return array;
-}
-
-ModelProvenance provenance_from(const NpyArray& array) {
-  std::string text;
-  for (const double byte : array.data) {
-    if (!(byte >= 0.0 && byte <= 255.0)) throw InputError("provenance: expected bytes of a text");
-    text += static_cast<char>(static_cast<int>(byte));
-  }
-  ModelProvenance provenance;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t colon = line.find(": ");
-    if (colon != std::string::npos) provenance[line.substr(0, colon)] = line.substr(colon + 2);
-  }
-  return provenance;
 }
 
 /// Takes arrays out of a file, and says which one is missing or has the wrong size.
@@ -153,7 +129,7 @@ void write_phase_model(const PhaseModelFile& file, const std::filesystem::path& 
     arrays[name + "axis"] = ends(density.axis);
     arrays[name + "log_density"] = table(density.log_density, acceleration_density_count);
   }
-  arrays["provenance"] = text(file.provenance);
+  arrays["provenance"] = array_of(file.provenance);
   write_npz(arrays, path);
 }
 

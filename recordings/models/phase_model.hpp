@@ -1,15 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <string>
 
 #include "estimator/phase/model.hpp"
+#include "recordings/models/provenance.hpp"
 
 namespace touchdown::recordings {
-
-/// Where a model comes from: scenario, simulator, seeds, runs, seconds, … as text.
-using ModelProvenance = std::map<std::string, std::string>;
 
 struct PhaseModelFile {
   PhaseModel model;

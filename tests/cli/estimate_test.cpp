@@ -11,7 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "estimator/bayes/filter.hpp"
-#include "experiments/fitting/fitting.hpp"
+#include "experiments/estimators/measurement_fitting.hpp"
+#include "experiments/signals/run_signals.hpp"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "recordings/models/measurement_model.hpp"

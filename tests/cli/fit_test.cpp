@@ -4,9 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "experiments/estimators/measurement_fitting.hpp"
+#include "experiments/estimators/phase_fitting.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/fitting/fitting.hpp"
-#include "experiments/fitting/phase_fitting.hpp"
+#include "experiments/signals/run_signals.hpp"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "recordings/models/measurement_model.hpp"

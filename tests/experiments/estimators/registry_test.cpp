@@ -16,6 +16,7 @@ TEST(Registry, TellsEstimatorsApartAndSaysWhatTheyDo) {
     EXPECT_FALSE(entry.title.empty()) << entry.name;
     EXPECT_FALSE(entry.summary.empty()) << entry.name;
     EXPECT_NE(entry.make, nullptr) << entry.name;
+    EXPECT_EQ(entry.fits().has_value(), entry.fit != nullptr) << entry.name;
     EXPECT_EQ(&estimator_entry(entry.name), &entry);
   }
   EXPECT_TRUE(names.contains(std::string(always_contact_name)));

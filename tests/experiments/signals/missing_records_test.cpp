@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/estimators/measurement_fitting.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/listening/sweep_lanes.hpp"

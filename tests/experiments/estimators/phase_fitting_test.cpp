@@ -1,4 +1,4 @@
-#include "experiments/fitting/phase_fitting.hpp"
+#include "experiments/estimators/phase_fitting.hpp"
 
 #include <vector>
 

@@ -1,26 +1,19 @@
-#include "experiments/fitting/phase_fitting.hpp"
+#include "experiments/estimators/phase_fitting.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <list>
-#include <set>
 #include <vector>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
 #include "estimator/signal_guard.hpp"
+#include "experiments/estimators/fit_runs.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
-
-double period_of(const RunSignals& run) {
-  return 1e-6 * static_cast<double>(run.info.control_period_us);
-}
 
 /// Whether a fit can listen to every step.
 bool is_whole(const Signals& step) {
@@ -44,28 +37,6 @@ std::vector<Signals> without_gaps(std::vector<Signals> filled) {
     fill([&](Signals& step) -> double& { return step.leg[leg].wheel.torque; });
   }
   return filled;
-}
-
-std::size_t skipped_steps(const RunSignals& run, double skip) {
-  return std::min(run.steps(), static_cast<std::size_t>(std::llround(skip / period_of(run))));
-}
-
-recordings::ModelProvenance provenance_of(std::span<const RunSignals* const> runs, double skip) {
-  std::set<std::string> scenarios;
-  std::set<std::string> simulators;
-  std::set<std::string> drawn;
-  double seconds = 0.0;
-  for (const RunSignals* run : runs) {
-    scenarios.insert(run->info.scenario);
-    simulators.insert(run->info.simulator);
-    drawn.insert(fmt::format("{}:{}", run->info.seed, run->info.run));
-    seconds += static_cast<double>(run->steps() - skipped_steps(*run, skip)) * period_of(*run);
-  }
-  return {{"estimator", "phase"},
-          {"scenarios", fmt::format("{}", fmt::join(scenarios, ", "))},
-          {"simulators", fmt::format("{}", fmt::join(simulators, ", "))},
-          {"seed:run", fmt::format("{}", fmt::join(drawn, ", "))},
-          {"seconds", fmt::format("{:.3f}", seconds)}};
 }
 
 }  // namespace
@@ -100,7 +71,7 @@ recordings::PhaseModelFile fit_phases(std::span<const RunSignals* const> runs,
                       skipped_steps(*run, skip)});
   }
   return {fit_phase_model(pieces, 1.0 / period_of(*runs.front()), config, before_density),
-          provenance_of(runs, skip)};
+          provenance_of("phase", runs, skip)};
 }
 
 }  // namespace touchdown::experiments

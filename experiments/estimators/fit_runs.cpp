@@ -1,0 +1,42 @@
+#include "experiments/estimators/fit_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiments/signals/run_signals.hpp"
+
+namespace touchdown::experiments {
+
+double period_of(const RunSignals& run) {
+  return 1e-6 * static_cast<double>(run.info.control_period_us);
+}
+
+std::size_t skipped_steps(const RunSignals& run, double skip) {
+  return std::min(run.steps(), static_cast<std::size_t>(std::llround(skip / period_of(run))));
+}
+
+recordings::ModelProvenance provenance_of(std::string_view estimator,
+                                          std::span<const RunSignals* const> runs, double skip) {
+  std::set<std::string> scenarios;
+  std::set<std::string> simulators;
+  std::set<std::string> drawn;
+  double seconds = 0.0;
+  for (const RunSignals* run : runs) {
+    scenarios.insert(run->info.scenario);
+    simulators.insert(run->info.simulator);
+    drawn.insert(fmt::format("{}:{}", run->info.seed, run->info.run));
+    seconds += static_cast<double>(run->steps() - skipped_steps(*run, skip)) * period_of(*run);
+  }
+  return {{"estimator", std::string(estimator)},
+          {"scenarios", fmt::format("{}", fmt::join(scenarios, ", "))},
+          {"simulators", fmt::format("{}", fmt::join(simulators, ", "))},
+          {"seed:run", fmt::format("{}", fmt::join(drawn, ", "))},
+          {"seconds", fmt::format("{:.3f}", seconds)}};
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,34 @@
+#include "experiments/estimators/measurement_fitting.hpp"
+
+#include <vector>
+
+#include "estimator/bayes/measurement_fit.hpp"
+#include "estimator/signal_guard.hpp"
+#include "experiments/signals/reserved_seeds.hpp"
+#include "experiments/signals/run_signals.hpp"
+#include "scoring/score.hpp"
+
+namespace touchdown::experiments {
+
+MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementConfig& config,
+                     const scoring::ScoringConfig& scoring) {
+  std::vector<TorqueSample> contact;
+  std::vector<TorqueSample> no_contact;
+  for (const RunSignals* run : runs) {
+    check_may_be_fitted(run->info);
+    const double period = 1e-6 * static_cast<double>(run->info.control_period_us);
+    const std::size_t skip = scoring::first_scored_step(run->info.control_period_us, scoring);
+    for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
+      // As the filter processes them, by the label of their wheel.
+      TorqueChannel channel(config.torque, static_cast<Side>(leg), 1.0 / period);
+      for (std::size_t k = 0; k < run->steps(); ++k) {
+        if (!has_torques(run->signals[k].leg[leg])) continue;  // nor does the filter use these
+        const TorqueSample sample = channel.update(run->signals[k].leg[leg]);
+        if (k >= skip) (run->contact[leg][k] != 0 ? contact : no_contact).push_back(sample);
+      }
+    }
+  }
+  return fit_measurement_model(contact, no_contact, config.fit);
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+
+#include "estimator/force/labelled_run.hpp"
+#include "experiments/estimators/entry.hpp"
+
+namespace touchdown::experiments {
+
+/// What an estimator learns from labelled runs, by name.
+using FitParameters = recordings::Parameters (*)(std::span<const LabelledRun> runs);
+
+/// The model of an entry that is fitted to parameters of its own: to whole runs, each without its
+/// beginning, with where it comes from. Errors: `InputError` for runs of reserved seeds, and what
+/// `fit` throws.
+FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs, FitParameters fit);
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,79 @@
+#include "experiments/estimators/fitted_model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/fitting.hpp"
+#include "experiments/signals/reserved_seeds.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+std::vector<std::string> fitted_estimators() {
+  std::vector<std::string> names;
+  for (const EstimatorEntry& entry : estimator_entries()) {
+    if (entry.fits()) names.push_back(entry.name);
+  }
+  return names;
+}
+
+TEST(FittedModel, BelievesTheSameReadBackFromItsFile) {
+  const ScratchFolder folder;
+  const RunSignals run = synthetic_run(3);
+  const NoiseRun noise = noise_run(run, {});
+  const FittedModels models =
+      fit_models(synthetic_experiment(fitted_estimators()), {synthetic_run(first_fit_run)});
+  for (const std::string& name : fitted_estimators()) {
+    const EstimatorEntry& entry = estimator_entry(name);
+    const FittedModel& fitted = models.at("mujoco").at(name);
+    write_fitted_model(fitted, folder.path() / "m.npz");
+    const ModelKind kind = kind_of_model_file(folder.path() / "m.npz");
+    EXPECT_EQ(kind, entry.fits()) << name;
+    const FittedModel read = read_fitted_model(kind, folder.path() / "m.npz");
+    const auto told = [&](const FittedModel& model) {
+      return predict(*entry.make(entry, {.model = &model}), run, noise, {})[0].p_contact;
+    };
+    const std::vector<double> expected = told(fitted);
+    const std::vector<double> found = told(read);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-6);
+    const auto [least, most] = std::minmax_element(found.begin(), found.end());
+    EXPECT_GT(*most - *least, 0.5) << name;
+  }
+}
+
+TEST(FittedModel, IsNeverFittedToReservedSeeds) {
+  RunSignals reserved = synthetic_run(first_fit_run);
+  reserved.info.seed = first_reserved_seed;
+  for (const std::string& name : fitted_estimators()) {
+    try {
+      fit_models(synthetic_experiment({name}), {reserved});
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("reserved")) << name;
+    }
+    // Nor by a fit that nobody else watches over.
+    const EstimatorEntry& entry = estimator_entry(name);
+    EXPECT_THROW(entry.fit(entry, {.whole = {&reserved}}), InputError) << name;
+  }
+}
+
+TEST(FittedModel, IsSharedByThoseWhoseFitIsTheSame) {
+  const auto shares = [](const char* one, const char* other) {
+    return share_model(estimator_entry(one), estimator_entry(other));
+  };
+  EXPECT_TRUE(shares("robust", "measurement_only"));
+  EXPECT_FALSE(shares("robust", "paper"));
+  EXPECT_FALSE(shares("robust", "phase"));
+  EXPECT_FALSE(shares("free_fall", "free_fall"));
+  EstimatorEntry variant = estimator_entry("robust");
+  variant.name = "variant";
+  EXPECT_TRUE(share_model(variant, estimator_entry("robust")));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
