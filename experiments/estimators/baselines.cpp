@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
 #include "estimator/upkie_observer.hpp"
 
@@ -81,20 +80,6 @@ EstimatorEntry free_fall_entry() {
           .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
             return std::make_unique<FreeFall>(FreeFallConfig{.sample_rate = setup.sample_rate});
           }};
-}
-
-EstimatorEntry support_force_entry() {
-  return {
-      .name = "support_force",
-      .title = "Support force",
-      .summary = "a threshold on each wheel's load, from its leg's torques and geometry",
-      .sensors = {.hip_torque = true,
-                  .knee_torque = true,
-                  .acceleration = true,
-                  .joint_position = true},
-      .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
-        return std::make_unique<SupportForce>(SupportForceConfig{.sample_rate = setup.sample_rate});
-      }};
 }
 
 EstimatorEntry upkie_observer_entry() {

@@ -42,7 +42,6 @@ EstimatorEntry oracle_entry();
 
 /// The baseline that anyone would try first.
 EstimatorEntry free_fall_entry();
-EstimatorEntry support_force_entry();
 
 /// What runs on Upkie.
 EstimatorEntry upkie_observer_entry();

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/yaml.hpp"
 #include "experiments/estimators/filters.hpp"
+#include "experiments/estimators/forces.hpp"
 
 namespace touchdown::experiments {
 
@@ -23,6 +24,8 @@ std::span<const EstimatorEntry> estimator_entries() {
       upkie_observer_entry(),
       free_fall_entry(),
       support_force_entry(),
+      load_logistic_entry(),
+      force_kinematics_entry(),
       oracle_entry(),
       always_contact_entry(),
   };

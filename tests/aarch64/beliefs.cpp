@@ -82,6 +82,10 @@ MeasurementModel fitted(const test::PhaseRun& run, MeasurementConfig config) {
   return fit_measurement_model(samples[1], samples[0], config.fit);
 }
 
+LabelledRun labelled(const test::PhaseRun& run) {
+  return {run.signals, {run.contact[0], run.contact[1]}, rate};
+}
+
 void listen(const char* name, ContactEstimator&& estimator, const std::vector<Signals>& signals) {
   for (std::size_t k = 0; k < signals.size(); ++k) {
     const Belief& b = estimator.update(signals[k]);
@@ -107,6 +111,9 @@ void listen_all() {
   listen("neural", NeuralEstimator(test::shared(test::random_network())), heard);
   listen("free_fall", FreeFall(), heard);
   listen("support_force", SupportForce(), heard);
+  const std::vector<LabelledRun> labels = {labelled(run)};
+  listen("load_logistic", LoadLogistic(fit_load_logistic(labels)), heard);
+  listen("force_kinematics", ForceKinematics(fit_force_kinematics(labels)), heard);
   listen("upkie_observer", UpkieObserver(), heard);
 }
 

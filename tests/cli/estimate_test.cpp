@@ -16,6 +16,7 @@
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "recordings/models/measurement_model.hpp"
+#include "recordings/models/parameter_model.hpp"
 #include "recordings/signals_from.hpp"
 #include "scoring/score.hpp"
 #include "synthetic_log.hpp"
@@ -239,6 +240,26 @@ TEST_F(Estimate, TellsAPhaseModelFromAGrid) {
               HasSubstr("did you mean --estimator phase?"));
   EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator phase"),
               HasSubstr("did you mean --estimator robust?"));
+}
+
+TEST_F(Estimate, KnowsWhoseParametersAModelHolds) {
+  log("a.mpack", test::synthetic_log(3.0));
+  ASSERT_EQ(
+      touchdown_program("fit a.mpack -o l.npz --estimator load_logistic", folder_.path()).exit_code,
+      0);
+  EXPECT_THAT(estimate("a.mpack --model l.npz"), HasSubstr("Load, logistic"));
+  EXPECT_THAT(estimate("a.mpack --model l.npz --estimator load_logistic"), HasSubstr("truth"));
+  for (const std::string other : {"robust", "phase", "force_kinematics"}) {
+    EXPECT_THAT(complaint_about("a.mpack --model l.npz --estimator " + other),
+                AllOf(HasSubstr("l.npz: is a model of 'load_logistic', which '" + other),
+                      HasSubstr("did you mean --estimator load_logistic?")));
+  }
+  EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator load_logistic"),
+              HasSubstr("m.npz: is a model of torques' densities"));
+  recordings::write_parameter_model({"load_logistic", {{"slope", {1.0}}}, {}}, folder_ / "l.npz");
+  EXPECT_THAT(complaint_about("a.mpack --model l.npz"), HasSubstr("l.npz: parameter 'intercept'"));
+  recordings::write_parameter_model({"lode", {{"slope", {1.0}}}, {}}, folder_ / "l.npz");
+  EXPECT_THAT(complaint_about("a.mpack --model l.npz"), HasSubstr("unknown estimator 'lode'"));
 }
 
 TEST_F(Estimate, DrawsThePartOfTheLogThatWasAskedFor) {

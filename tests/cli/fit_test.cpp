@@ -11,6 +11,7 @@
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "recordings/models/measurement_model.hpp"
+#include "recordings/models/parameter_model.hpp"
 #include "synthetic_log.hpp"
 
 namespace touchdown::cli {
@@ -121,6 +122,36 @@ TEST_F(Fit, OfThePhaseFilterIsTheOneThatExperimentsMake) {
   EXPECT_EQ(written.provenance.at("seed:run"), "5:0");
 }
 
+TEST_F(Fit, OfParametersIsTheOneThatExperimentsMake) {
+  log("a.mpack", test::synthetic_log(3.0));
+  const experiments::RunSignals run = experiments::signals_of(
+      recordings::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
+  for (const std::string name : {"load_logistic", "force_kinematics"}) {
+    EXPECT_THAT(fit("a.mpack -o m.npz --estimator " + name), HasSubstr("2.700 s of 1 log"));
+    const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
+    const recordings::ParameterModelFile written =
+        recordings::read_parameter_model(folder_ / "m.npz");
+    EXPECT_EQ(written.parameters, entry.fit(entry, {.whole = {&run}}).parameters->parameters);
+    EXPECT_EQ(written.estimator, name);
+    EXPECT_EQ(written.provenance.at("seed:run"), "5:0");
+  }
+}
+
+TEST_F(Fit, OfParametersTakesLogsOfOneClassAtTheirWord) {
+  log("both.mpack", test::synthetic_log(2.0));
+  log("rolling.mpack", test::one_class_log(2.0, true));
+  EXPECT_THAT(fit("both.mpack --contact rolling.mpack -o m.npz --estimator load_logistic"),
+              HasSubstr("2 logs"));
+  fs::remove(folder_ / "m.npz");
+  EXPECT_THAT(complaint_about("--contact rolling.mpack -o m.npz --estimator load_logistic"),
+              HasSubstr("no step of the logs is without contact"));
+  log("robot.mpack", test::robot_log(1.0));
+  EXPECT_THAT(complaint_about("robot.mpack -o m.npz --estimator load_logistic"),
+              HasSubstr("no ground truth"));
+  EXPECT_THAT(complaint_about("both.mpack -o m.npz --estimator load_logistic --grid 9 9"),
+              HasSubstr("not for 'load_logistic'"));
+}
+
 TEST_F(Fit, LeavesOutTorquesThatAreNotFinite) {
   recordings::Recording broken = test::synthetic_log(3.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -153,6 +184,7 @@ TEST_F(Fit, RefusesRunsOfReservedSeeds) {
   log("a.mpack", reserved);
   EXPECT_THAT(complaint_about("a.mpack -o m.npz"), HasSubstr("reserved"));
   EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator phase"), HasSubstr("reserved"));
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator load_logistic"), HasSubstr("reserved"));
   EXPECT_THAT(complaint_about("--contact a.mpack -o m.npz"), HasSubstr("reserved"));
 }
 

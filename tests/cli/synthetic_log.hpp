@@ -31,6 +31,8 @@ inline recordings::Recording synthetic_log(double seconds, std::int64_t period_u
     for (std::size_t side = 0; side < models::wheel_count; ++side) {
       const bool air = phase >= (side == 0 ? 0.6 : 0.606) && phase < 0.8;
       const double sign = side == 0 ? 1.0 : -1.0;
+      o.servo[3 * side].position = sign * 0.455;
+      o.servo[3 * side + 1].position = sign * -0.791;
       o.servo[3 * side + 1].torque = sign * (air ? 0.05 : 1.3 + 4.0 * shock) + 0.05 * jitter;
       o.servo[3 * side + 2].torque = sign * (air ? 0.01 : 0.3 - 0.5 * shock) + 0.02 * jitter;
       o.servo[3 * side + 2].velocity = sign * 10.0 + jitter;

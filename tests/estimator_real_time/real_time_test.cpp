@@ -11,6 +11,8 @@
 
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
+#include "estimator/force/force_kinematics.hpp"
+#include "estimator/force/load_logistic.hpp"
 #include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
 #include "estimator/phase/filter.hpp"
@@ -118,6 +120,37 @@ TEST_F(RealTime, UpdateAndResetAllocateNothing) {
                 0)
           << name;
     }
+  }
+}
+
+TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
+  auto stream = test::drops(3000);
+  for (Signals& s : stream) {
+    for (const double sign : {1.0, -1.0}) {  // bent, so that there are forces
+      LegSignals& leg = s.leg[sign > 0.0 ? 0 : 1];
+      leg.hip.position = 0.455 * sign;
+      leg.knee.position = -0.791 * sign;
+    }
+  }
+  stream[100].vertical_acceleration = std::nan("");
+  stream[200].leg[0].knee.torque = HUGE_VAL;
+  stream[300].leg[1].knee.velocity = std::nan("");
+  stream[400].time = 1e9;
+  SupportForce support_force;
+  LoadLogistic load_logistic({.slope = 0.5, .intercept = -5.0});
+  ForceKinematics force_kinematics({.air = {}, .contact = {.force_mean = 26.0}});
+  for (ContactEstimator* const estimator : {static_cast<ContactEstimator*>(&support_force),
+                                            static_cast<ContactEstimator*>(&load_logistic),
+                                            static_cast<ContactEstimator*>(&force_kinematics)}) {
+    estimator->update(stream.front());
+    EXPECT_NE(estimator->update(stream[1]).wheel[0].p_contact, 0.5);
+    EXPECT_EQ(allocations_of([&] {
+                for (const Signals& s : stream) {
+                  estimator->update(s);
+                }
+                estimator->reset();
+              }),
+              0);
   }
 }
 

@@ -36,6 +36,8 @@ inline RunSignals synthetic_run(std::int64_t number, std::size_t steps = 4000) {
       const bool air = phase >= 0.6 + lag && phase < 0.8;
       const double sign = side == 0 ? 1.0 : -1.0;
       LegSignals& leg = s.leg[side];
+      leg.hip.position = sign * 0.455;
+      leg.knee.position = sign * -0.791;
       leg.knee.torque = sign * (air ? 0.05 : 1.3 + 4.0 * shock) + 0.02 * jitter;
       leg.wheel.torque = sign * (air ? 0.01 : 0.3 - 0.5 * shock) + 0.01 * jitter;
       leg.wheel.position = sign * 10.0 * s.time;

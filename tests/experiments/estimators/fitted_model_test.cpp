@@ -62,6 +62,16 @@ TEST(FittedModel, IsNeverFittedToReservedSeeds) {
   }
 }
 
+TEST(FittedModel, OfParametersSaysWhoseTheyAreAndWhereTheyComeFrom) {
+  const FittedModels models =
+      fit_models(synthetic_experiment({"robust", "load_logistic"}), {synthetic_run(first_fit_run)});
+  const FittedModel& fitted = models.at("mujoco").at("load_logistic");
+  EXPECT_FALSE(fitted.measurement || fitted.phase);
+  EXPECT_EQ(fitted.parameters->estimator, "load_logistic");
+  EXPECT_EQ(fitted.parameters->provenance.at("seed:run"), "1:1000000");
+  EXPECT_EQ(fitted.parameters->provenance.at("seconds"), "3.700");
+}
+
 TEST(FittedModel, IsSharedByThoseWhoseFitIsTheSame) {
   const auto shares = [](const char* one, const char* other) {
     return share_model(estimator_entry(one), estimator_entry(other));
@@ -69,10 +79,11 @@ TEST(FittedModel, IsSharedByThoseWhoseFitIsTheSame) {
   EXPECT_TRUE(shares("robust", "measurement_only"));
   EXPECT_FALSE(shares("robust", "paper"));
   EXPECT_FALSE(shares("robust", "phase"));
+  EXPECT_FALSE(shares("load_logistic", "force_kinematics"));
   EXPECT_FALSE(shares("free_fall", "free_fall"));
-  EstimatorEntry variant = estimator_entry("robust");
+  EstimatorEntry variant = estimator_entry("load_logistic");
   variant.name = "variant";
-  EXPECT_TRUE(share_model(variant, estimator_entry("robust")));
+  EXPECT_TRUE(share_model(variant, estimator_entry("load_logistic")));
 }
 
 }  // namespace

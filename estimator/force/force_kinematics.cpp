@@ -1,0 +1,112 @@
+#include "estimator/force/force_kinematics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+
+namespace {
+
+WheelLoadsConfig loads_of(const ForceKinematicsConfig& config) noexcept {
+  return {.sample_rate = config.sample_rate,
+          .geometry = config.geometry,
+          .low_pass = config.low_pass,
+          .largest = config.largest_force,
+          .guard = config.guard};
+}
+
+bool is_sensible(const WheelState& state) noexcept {
+  const auto is_scale = [](double value) { return std::isfinite(value) && value > 0.0; };
+  return std::isfinite(state.force_mean) && is_scale(state.force_deviation) &&
+         is_scale(state.axle_deviation) && is_scale(state.leaving_rate);
+}
+
+/// log N(x; 0, deviation) without the constant that all Gaussians share.
+double log_gaussian(double x, double deviation) noexcept {
+  const double z = x / deviation;
+  return -0.5 * z * z - std::log(deviation);
+}
+
+}  // namespace
+
+WheelObservations::WheelObservations(const ForceKinematicsConfig& config)
+    : loads_(loads_of(config)),
+      motion_(
+          {.sample_rate = config.sample_rate, .geometry = config.geometry, .leak = config.leak}) {}
+
+void WheelObservations::reset() noexcept {
+  loads_.reset();
+  motion_.reset();
+}
+
+WheelLoads::Step WheelObservations::update(const Signals& signals) noexcept {
+  WheelLoads::Step step = loads_.update(signals);
+  if (step.restart) motion_.reset();
+  motion_.update(signals, step.acceleration_good ? signals.vertical_acceleration : 0.0);
+  for (std::size_t side = 0; side < 2; ++side) {
+    step.is_measured[side] = step.is_measured[side] && motion_.is_measured(side);
+  }
+  return step;
+}
+
+double log_likelihood_ratio(const ForceKinematicsModel& model,
+                            const WheelObservation& observation) noexcept {
+  const auto [least, most] = std::minmax(model.air.force_mean, model.contact.force_mean);
+  const double force = std::clamp(observation.force, least, most);
+  const auto log_likelihood = [&](const WheelState& state) {
+    return log_gaussian(force - state.force_mean, state.force_deviation) +
+           log_gaussian(observation.axle_velocity, state.axle_deviation);
+  };
+  return log_likelihood(model.contact) - log_likelihood(model.air);
+}
+
+ForceKinematics::ForceKinematics(const ForceKinematicsModel& model,
+                                 const ForceKinematicsConfig& config)
+    : model_(model), observations_(config), threshold_(config.threshold) {
+  if (!(is_sensible(model.air) && is_sensible(model.contact))) {
+    throw InputError(
+        "force kinematics: means must be finite, deviations and rates positive and finite");
+  }
+  if (!(touchdown::is_sensible(loads_of(config)) && config.leak > 0.0 && config.threshold > 0.0 &&
+        config.threshold < 1.0)) {
+    throw InputError(
+        "force kinematics: lengths (m), largest_force (N) and leak (s) must be positive, low_pass "
+        "not negative (s), threshold between 0 and 1");
+  }
+  const double step = 1.0 / config.sample_rate;
+  takeoff_ = -std::expm1(-step * model.contact.leaving_rate);
+  landing_ = -std::expm1(-step * model.air.leaving_rate);
+}
+
+void ForceKinematics::reset() noexcept {
+  observations_.reset();
+  p_air_ = {0.5, 0.5};
+  belief_ = Belief{};
+}
+
+const Belief& ForceKinematics::update(const Signals& signals) noexcept {
+  const WheelLoads::Step step = observations_.update(signals);
+  belief_.status = step.status;
+  for (std::size_t side = 0; side < 2; ++side) {
+    WheelBelief& wheel = belief_.wheel[side];
+    double& p_air = p_air_[side];
+    if (!step.is_measured[side] || step.status == SignalStatus::gap) {
+      wheel.p_contact = observations_.relaxed(wheel.p_contact, step.elapsed);
+      p_air = observations_.relaxed(p_air, step.elapsed);
+    }
+    if (!step.is_measured[side]) continue;  // the last decision stands
+    const double contact = (1.0 - takeoff_) * wheel.p_contact + landing_ * p_air;
+    const double air = takeoff_ * wheel.p_contact + (1.0 - landing_) * p_air;
+    const double logit =
+        std::log(contact / air) + log_likelihood_ratio(model_, observations_.of(side));
+    wheel.p_contact = 1.0 / (1.0 + std::exp(-logit));
+    p_air = 1.0 / (1.0 + std::exp(logit));
+    wheel.contact = wheel.p_contact >= threshold_;
+  }
+  multiply_wheels(belief_);
+  return belief_;
+}
+
+}  // namespace touchdown

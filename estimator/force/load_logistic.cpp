@@ -1,0 +1,50 @@
+#include "estimator/force/load_logistic.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+
+WheelLoadsConfig loads_of(const LoadLogisticConfig& config) noexcept {
+  return {.sample_rate = config.sample_rate,
+          .geometry = config.geometry,
+          .low_pass = config.low_pass,
+          .largest = config.largest_force,
+          .guard = config.guard};
+}
+
+LoadLogistic::LoadLogistic(const LogisticCurve& curve, const LoadLogisticConfig& config)
+    : curve_(curve), threshold_(config.threshold), loads_(loads_of(config)) {
+  if (!(std::isfinite(curve.slope) && std::isfinite(curve.intercept))) {
+    throw InputError("load logistic: slope (1/N) and intercept must be finite");
+  }
+  if (!(is_sensible(loads_of(config)) && config.threshold > 0.0 && config.threshold < 1.0)) {
+    throw InputError(
+        "load logistic: lengths (m) and largest_force (N) must be positive, low_pass not negative "
+        "(s), threshold between 0 and 1");
+  }
+}
+
+void LoadLogistic::reset() noexcept {
+  loads_.reset();
+  belief_ = Belief{};
+}
+
+const Belief& LoadLogistic::update(const Signals& signals) noexcept {
+  const WheelLoads::Step step = loads_.update(signals);
+  belief_.status = step.status;
+  for (std::size_t side = 0; side < 2; ++side) {
+    WheelBelief& wheel = belief_.wheel[side];
+    if (step.is_measured[side]) {
+      wheel.p_contact = curve_(loads_.force(side));
+      wheel.contact = wheel.p_contact >= threshold_;
+    } else {  // the last decision stands
+      wheel.p_contact = loads_.relaxed(wheel.p_contact, step.elapsed);
+    }
+  }
+  multiply_wheels(belief_);
+  return belief_;
+}
+
+}  // namespace touchdown

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+
+#include "estimator/force/labelled_run.hpp"
+#include "estimator/force/load_logistic.hpp"
+
+namespace touchdown {
+
+/// The curve that `LoadLogistic` needs, from the steps of both wheels of all runs in which it would
+/// have a force; each run is heard at its own rate. Errors: `InputError` for steps of one class
+/// only and for labels that are not one per step.
+[[nodiscard]] LogisticCurve fit_load_logistic(std::span<const LabelledRun> runs,
+                                              const LoadLogisticConfig& config = {});
+
+}  // namespace touchdown

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "estimator/force/labelled_run.hpp"
+#include "tests/estimator/force/held_leg.hpp"
+
+namespace touchdown::test {
+
+/// Steps of one millisecond of a crouching robot whose wheels carry what they are told to.
+struct CarriedRun {
+  std::vector<Signals> signals;
+  std::array<std::vector<std::uint8_t>, 2> contact;
+
+  /// Adds a step; more of it may be changed afterwards.
+  Signals& add(double left, double right, double acceleration = 0.0) {
+    Signals s;
+    const auto k = static_cast<double>(signals.size());
+    s.time = 0.001 * (k + 1.0);
+    s.vertical_acceleration = acceleration + 1e-9 * static_cast<double>(signals.size() % 2);
+    s.leg[0] = holding({}, 0.455, -0.791, 0.0, left, acceleration);
+    s.leg[1] = mirrored(holding({}, 0.455, -0.791, 0.0, right, acceleration));
+    signals.push_back(s);
+    for (auto& wheel : contact) wheel.push_back(0);
+    return signals.back();
+  }
+  /// Whether the wheels touch at the last step.
+  void touch(bool left, bool right) {
+    contact[0].back() = left ? 1 : 0;
+    contact[1].back() = right ? 1 : 0;
+  }
+  [[nodiscard]] LabelledRun view() const { return {signals, {contact[0], contact[1]}}; }
+};
+
+}  // namespace touchdown::test
