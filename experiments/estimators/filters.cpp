@@ -1,5 +1,7 @@
 #include "experiments/estimators/filters.hpp"
 
+#include <limits>
+
 #include "estimator/bayes/measurement_only.hpp"
 #include "experiments/estimators/measurement_fitting.hpp"
 #include "experiments/estimators/phase_fitting.hpp"
@@ -140,6 +142,26 @@ EstimatorEntry phase_entry() {
             return std::make_unique<PhaseFilter>(phase_filter(entry, setup));
           },
           .lanes = phase_lanes};
+}
+
+EstimatorEntry hmm_entry() {
+  EstimatorEntry entry = phase_entry();
+  entry.name = "hmm";
+  entry.title = "Two-state HMM";
+  entry.summary = "the phase filter that knows no phases: each wheel touches or does not";
+  PhaseLabelConfig& labels = entry.phase->fit.labels;
+  labels.unloading = labels.impact = {0.0, 0.0, 0.0};
+  labels.held_margin = std::numeric_limits<double>::infinity();
+  return entry;
+}
+
+EstimatorEntry hmm_without_memory_entry() {
+  EstimatorEntry entry = hmm_entry();
+  entry.name = "hmm_without_memory";
+  entry.title = "Two states, no memory";
+  entry.summary = "the two-state HMM with every step as likely as any other after the last one";
+  entry.phase->fit.pseudo_count = 1e12;
+  return entry;
 }
 
 PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup) {

@@ -17,6 +17,11 @@ EstimatorEntry measurement_only_entry();
 /// The hidden Markov model over phases of contact.
 EstimatorEntry phase_entry();
 
+/// Rungs from the paper's ablation to the phase filter, with all of its inputs, bandwidths and
+/// hysteresis: without phases, and without memory too.
+EstimatorEntry hmm_entry();
+EstimatorEntry hmm_without_memory_entry();
+
 /// Its filter as such, for who wants to see the phases.
 PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup);
 

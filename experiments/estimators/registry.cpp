@@ -20,6 +20,8 @@ std::span<const EstimatorEntry> estimator_entries() {
       bayes_entry("paper", "the paper's filter to the letter", BayesFilterConfig::paper()),
       measurement_only_entry(),
       phase_entry(),
+      hmm_entry(),
+      hmm_without_memory_entry(),
       neural_entry(),
       upkie_observer_entry(),
       free_fall_entry(),
