@@ -53,7 +53,7 @@ class DictionaryReader {
       if (entry.key.type != msgpack::type::STR) complain("expected names for keys");
       names.emplace_back(entry.key.via.str.ptr, entry.key.via.str.size);
     }
-    if (names != names_) {
+    if (names_.empty() || names != names_) {
       if (!names_.empty() && sorted(names) != sorted(names_)) {
         complain(fmt::format("expected the names of the first: {}", fmt::join(names_, ", ")));
       }

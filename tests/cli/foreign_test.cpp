@@ -253,6 +253,22 @@ TEST_F(Foreign, ExportsAreTheSameBytesFromARunAndFromItsExperimentOnAnyThreads) 
             (std::set<std::string>{"README.md", "SHA256SUMS", "index.csv", "upkie"}));
 }
 
+TEST_F(Foreign, ExportsAreTheSameBytesFromRecordingsAndWhereTheseAreGone) {
+  const std::string text = read_file(*folder / "bench.yaml");
+  folder->write("kept.yaml",
+                std::regex_replace(text, std::regex("recordings: none"), "recordings: all"));
+  ran("run kept.yaml --no-pictures --out kept", *folder);
+  ran("export --benchmark recorded kept", *folder);
+  fs::remove_all(*folder / "kept/recordings");
+  ran("export --benchmark simulated kept", *folder);
+  const auto recorded = result_files(*folder / "recorded");
+  EXPECT_THAT(different_files(recorded, result_files(*folder / "simulated")), IsEmpty());
+  EXPECT_FALSE(fs::exists(*folder / "kept/recordings"));
+  // Another request by its digest, which the page names, and the same signals.
+  EXPECT_THAT(different_files(recorded, result_files(*folder / "signals")),
+              ElementsAre("README.md", "SHA256SUMS"));
+}
+
 TEST_F(Foreign, PartsOfAnExportAreChosenByName) {
   ran("export --benchmark harsh run --sensors harsh --robot upkie --simulator mujoco", *folder);
   EXPECT_EQ(names_in(*folder / "harsh/upkie"), std::set<std::string>{"harsh"});

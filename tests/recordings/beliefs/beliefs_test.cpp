@@ -144,6 +144,7 @@ TEST(Beliefs, InDictionariesThatAreWrongAreRefusedByTheirNumber) {
   complaint(dictionaries({{{"time", 0.0}, {"p_left", 0.5}}}), "dictionary 0: 'p_right' is missing");
   complaint(good + dictionaries({{{"time", 1.0}, {"p_left", 0.5}, {"p_right", 0.5}}}),
             "dictionary 2: expected the names of the first: ");
+  complaint("\x80", "dictionary 0: 'time' is missing");
   complaint("", "a.mpack: holds no beliefs");
 }
 
