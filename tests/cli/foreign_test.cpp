@@ -219,6 +219,26 @@ TEST_F(Foreign, FilesOfOneRunCanBeHandedInAlone) {
               HasSubstr("the benchmark has 2 runs of this name"));
 }
 
+TEST_F(Foreign, RunsThatFellAreNotHandedOutAndCountAsOurs) {
+  const std::string step = read_file(*folder / "step.yaml");
+  folder->write("deep.yaml", std::regex_replace(step, std::regex("rise: 0.25"), "rise: 0.7"));
+  folder->write("falls.yaml",
+                "name: falls\nseed: 3\nsimulators: [mujoco]\nestimators: [free_fall]\n"
+                "fit: {scenarios: [step.yaml]}\ntest: {scenarios: [deep.yaml], runs: 6}\n"
+                "highlights: [{torque: 0, accelerometer: 0}]\nbenchmark: {}\nrecordings: none\n"
+                "video: {enabled: false}\n");
+  ran("run falls.yaml --no-pictures --out fell", *folder);
+  const auto ours = rows_of(*folder / "fell", "always_contact");
+  ASSERT_EQ(ours.size(), 1U);
+  const int failed = std::stoi(ours[0].at(ours[0].size() - 2));
+  ASSERT_GT(failed, 0) << "no robot falls down this step any more";
+  ran("export --benchmark upright fell", *folder);
+  EXPECT_EQ(from_csv(read_file(*folder / "upright/index.csv")).rows.size(), 7U - failed);
+  write_constant(*folder, "upright", "stays", "1");
+  EXPECT_THAT(ran("score fell --beliefs stays", *folder), Not(HasSubstr("not scored: upkie")));
+  EXPECT_EQ(rows_of(*folder / "fell", "stays"), ours);
+}
+
 TEST_F(Foreign, RunsThatAreNoFinishedBenchmarkAreRefused) {
   EXPECT_THAT(refused("score nowhere --beliefs signals", *folder),
               HasSubstr("nowhere: holds no part of an experiment"));
