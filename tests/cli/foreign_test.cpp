@@ -230,8 +230,8 @@ TEST_F(Foreign, RunsThatFellAreNotHandedOutAndCountAsOurs) {
   ran("run falls.yaml --no-pictures --out fell", *folder);
   const auto ours = rows_of(*folder / "fell", "always_contact");
   ASSERT_EQ(ours.size(), 1U);
-  const int failed = std::stoi(ours[0].at(ours[0].size() - 2));
-  ASSERT_GT(failed, 0) << "no robot falls down this step any more";
+  const std::size_t failed = std::stoul(ours[0].at(ours[0].size() - 2));
+  ASSERT_GT(failed, 0U) << "no robot falls down this step any more";
   ran("export --benchmark upright fell", *folder);
   EXPECT_EQ(from_csv(read_file(*folder / "upright/index.csv")).rows.size(), 7U - failed);
   write_constant(*folder, "upright", "stays", "1");
