@@ -20,6 +20,12 @@ BayesFilterConfig BayesFilterConfig::paper() {
   return config;
 }
 
+BayesFilterConfig BayesFilterConfig::paper_rms() {
+  BayesFilterConfig config = paper();
+  config.transition.power = PowerMeasure::root_mean_square;
+  return config;
+}
+
 BayesFilterConfig BayesFilterConfig::reference() {
   BayesFilterConfig config;
   config.measurement.torque = {TorqueSign::mirrored, 0.025};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "estimator/numerics/exponential.hpp"
 #include "estimator/spectrum/sliding_dft.hpp"
 #include "estimator/spectrum/summary.hpp"
@@ -24,6 +26,8 @@ enum class PowerMeasure : int {
   mean_square,
   /// ‖â_t‖²/N, the sum over all bins of A_t(ω): N times the mean square (m²/s⁴).
   energy,
+  /// The window's root mean square (m/s²).
+  root_mean_square,
 };
 
 struct TransitionConfig {
@@ -35,7 +39,7 @@ struct TransitionConfig {
   SpectrumKind median_of = SpectrumKind::power;
   /// Whether the median counts the bin of the Nyquist frequency.
   bool nyquist = true;
-  /// σ_1 of Eq. (11), of the power (m²/s⁴).
+  /// σ_1 of Eq. (11), of the power (in its unit).
   Sigmoid switch_sigmoid{8.0, 1.0};
   /// σ_2 of Eq. (13), of the median frequency (Hz).
   Sigmoid landing_sigmoid{7.5, 2.5};
@@ -60,7 +64,7 @@ struct Transition {
   double air_to_contact = 0.0;  ///< landing, Eq. (8)
   double air_to_air = 1.0;
 
-  double power = 0.0;                      ///< m²/s⁴
+  double power = 0.0;                      ///< m²/s⁴; as a root mean square m/s²
   double median_frequency = 0.0;           ///< Hz
   double filtered_median_frequency = 0.0;  ///< Hz; equals median_frequency without memory
   double p_switch = 0.0;                   ///< P(S_t ≠ S_t−1), Eq. (11)
@@ -77,7 +81,7 @@ class TransitionLaw {
   /// The transition after one whose filtered median frequency was `remembered` (Hz).
   [[nodiscard]] Transition next(const SpectrumValues& spectrum, double remembered) const noexcept {
     Transition t;
-    t.power = power_scale_ * spectrum.mean_square;
+    t.power = is_root_ ? root_of(spectrum.mean_square) : power_scale_ * spectrum.mean_square;
     const Odds switching = odds(switching_, t.power);  // Eq. (11)
     t.p_switch = switching.p;
 
@@ -106,6 +110,10 @@ class TransitionLaw {
     double offset;
     double inverse_slope;
   };
+  /// Rounding may leave less than nothing of a window that is empty.
+  [[nodiscard]] static double root_of(double square) noexcept {
+    return std::sqrt(square > 0.0 ? square : 0.0);
+  }
   /// A sigmoid and its complement, both to full relative precision: next to certainty 1 − p would
   /// be rounding noise, and that noise the probability to stay.
   [[nodiscard]] Odds odds(const Steepness& sigmoid, double x) const noexcept {
@@ -122,6 +130,7 @@ class TransitionLaw {
   Steepness landing_;
   double margin_;
   double highest_;
+  bool is_root_;
   double power_scale_;
   double bin_width_;
   /// Of both steps that the low-pass makes at once.

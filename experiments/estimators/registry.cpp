@@ -18,6 +18,8 @@ std::span<const EstimatorEntry> estimator_entries() {
       bayes_entry("reference", "the paper's filter as its authors' robot code has it",
                   BayesFilterConfig::reference()),
       bayes_entry("paper", "the paper's filter to the letter", BayesFilterConfig::paper()),
+      bayes_entry("paper_rms", "the paper's filter, its power read as a root mean square",
+                  BayesFilterConfig::paper_rms()),
       measurement_only_entry(),
       phase_entry(),
       hmm_entry(),

@@ -142,7 +142,7 @@ TEST_P(NamedBayesFilter, StartsAnewAfterAReset) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Configurations, NamedBayesFilter,
-                         testing::Values("paper", "reference", "robust"));
+                         testing::Values("paper", "paper_rms", "reference", "robust"));
 
 TEST(BayesFilter, TellsFlightsFromRolling) {
   const BayesFilterConfig config = BayesFilterConfig::robust();

@@ -143,6 +143,37 @@ TEST(TransitionModel, MeasuresPowerAsMeanOrAsEnergy) {
   EXPECT_NEAR(energy.transition().power, 128.0 * 0.25, 1e-9);
 }
 
+TEST(TransitionModel, TakesARootMeanSquareOfEightForAnEvenChance) {
+  // The mean square does so for 2.8 m/s².
+  test::Normal normal(4);
+  for (const double deviation : {std::sqrt(8.0), 8.0}) {
+    TransitionModel square(BayesFilterConfig::paper().transition, 1000.0);
+    TransitionModel root(BayesFilterConfig::paper_rms().transition, 1000.0);
+    std::vector<double> window;
+    for (int t = 0; t < 128; ++t) window.push_back(deviation * normal());
+    double squares = 0.0;
+    for (const double a : window) squares += a * a / 128.0;
+    for (double& a : window) a *= deviation / std::sqrt(squares);
+    for (const double a : window) {
+      square.update(a);
+      root.update(a);
+    }
+    EXPECT_NEAR(root.transition().power, deviation, 1e-9);
+    EXPECT_NEAR(square.transition().power, deviation * deviation, 1e-9);
+    EXPECT_NEAR((deviation == 8.0 ? root : square).transition().p_switch, 0.5, 1e-9);
+    if (deviation == 8.0) {
+      EXPECT_GT(square.transition().p_switch, 0.999);
+    } else {
+      EXPECT_LT(root.transition().p_switch, 0.01);
+    }
+  }
+  TransitionModel empty(BayesFilterConfig::paper_rms().transition, 1000.0);
+  empty.update(300.0);
+  for (int t = 0; t < 300; ++t) {
+    EXPECT_GE(empty.update(0.0).power, 0.0);  // whatever rounding leaves
+  }
+}
+
 TEST(TransitionModel, RowsSumToOneOrAsPublished) {
   for (const bool row_stochastic : {true, false}) {
     TransitionConfig config;

@@ -72,7 +72,7 @@ TEST_P(NamedLanes, EqualTheScalarFilterInEveryLane) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Configurations, NamedLanes,
-                         testing::Values("paper", "reference", "robust"));
+                         testing::Values("paper", "paper_rms", "reference", "robust"));
 
 TEST(BayesFilterLanes, EqualTheScalarFilterForAnyWindow) {
   for (const char* name : {"reference", "robust"}) {
