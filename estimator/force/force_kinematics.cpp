@@ -23,10 +23,26 @@ bool is_sensible(const WheelState& state) noexcept {
          is_scale(state.axle_deviation) && is_scale(state.leaving_rate);
 }
 
-/// log N(x; 0, deviation) without the constant that all Gaussians share.
-double log_gaussian(double x, double deviation) noexcept {
-  const double z = x / deviation;
-  return -0.5 * z * z - std::log(deviation);
+double square(double x) noexcept { return x * x; }
+
+/// What of a ratio of likelihoods does not depend on what is observed.
+double log_deviation_ratio(const ForceKinematicsModel& model) noexcept {
+  const auto log_deviations = [](const WheelState& state) {
+    return std::log(state.force_deviation) + std::log(state.axle_deviation);
+  };
+  return log_deviations(model.air) - log_deviations(model.contact);
+}
+
+/// What does.
+double exponent_ratio(const ForceKinematicsModel& model,
+                      const WheelObservation& observation) noexcept {
+  const auto [least, most] = std::minmax(model.air.force_mean, model.contact.force_mean);
+  const double force = std::clamp(observation.force, least, most);
+  const auto exponent = [&](const WheelState& state) {
+    return square((force - state.force_mean) / state.force_deviation) +
+           square(observation.axle_velocity / state.axle_deviation);
+  };
+  return 0.5 * (exponent(model.air) - exponent(model.contact));
 }
 
 }  // namespace
@@ -53,13 +69,7 @@ WheelLoads::Step WheelObservations::update(const Signals& signals) noexcept {
 
 double log_likelihood_ratio(const ForceKinematicsModel& model,
                             const WheelObservation& observation) noexcept {
-  const auto [least, most] = std::minmax(model.air.force_mean, model.contact.force_mean);
-  const double force = std::clamp(observation.force, least, most);
-  const auto log_likelihood = [&](const WheelState& state) {
-    return log_gaussian(force - state.force_mean, state.force_deviation) +
-           log_gaussian(observation.axle_velocity, state.axle_deviation);
-  };
-  return log_likelihood(model.contact) - log_likelihood(model.air);
+  return log_deviation_ratio(model) + exponent_ratio(model, observation);
 }
 
 ForceKinematics::ForceKinematics(const ForceKinematicsModel& model,
@@ -75,6 +85,7 @@ ForceKinematics::ForceKinematics(const ForceKinematicsModel& model,
         "force kinematics: lengths (m), largest_force (N) and leak (s) must be positive, low_pass "
         "not negative (s), threshold between 0 and 1");
   }
+  log_deviation_ratio_ = log_deviation_ratio(model);
   const double step = 1.0 / config.sample_rate;
   takeoff_ = -std::expm1(-step * model.contact.leaving_rate);
   landing_ = -std::expm1(-step * model.air.leaving_rate);
@@ -99,8 +110,8 @@ const Belief& ForceKinematics::update(const Signals& signals) noexcept {
     if (!step.is_measured[side]) continue;  // the last decision stands
     const double contact = (1.0 - takeoff_) * wheel.p_contact + landing_ * p_air;
     const double air = takeoff_ * wheel.p_contact + (1.0 - landing_) * p_air;
-    const double logit =
-        std::log(contact / air) + log_likelihood_ratio(model_, observations_.of(side));
+    const double logit = std::log(contact / air) + log_deviation_ratio_ +
+                         exponent_ratio(model_, observations_.of(side));
     wheel.p_contact = 1.0 / (1.0 + std::exp(-logit));
     p_air = 1.0 / (1.0 + std::exp(logit));
     wheel.contact = wheel.p_contact >= threshold_;

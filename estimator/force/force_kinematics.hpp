@@ -107,6 +107,7 @@ class ForceKinematics : public ContactEstimator {
   ForceKinematicsModel model_;
   WheelObservations observations_;
   double threshold_;
+  double log_deviation_ratio_;
   double takeoff_;  ///< P(no contact now | contact before)
   double landing_;
   std::array<double, 2> p_air_ = {0.5, 0.5};  ///< beside the belief, which may round to one

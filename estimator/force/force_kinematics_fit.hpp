@@ -3,7 +3,7 @@
 #include <span>
 
 #include "estimator/force/force_kinematics.hpp"
-#include "estimator/force/labelled_run.hpp"
+#include "estimator/labelled_run.hpp"
 
 namespace touchdown {
 

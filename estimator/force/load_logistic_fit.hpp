@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "estimator/force/labelled_run.hpp"
 #include "estimator/force/load_logistic.hpp"
+#include "estimator/labelled_run.hpp"
 
 namespace touchdown {
 

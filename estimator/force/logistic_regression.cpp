@@ -21,6 +21,10 @@ struct Loss {
   double slope_slope = 0.0;
 };
 
+double steepness(const Loss& loss) noexcept {
+  return std::max(std::abs(loss.offset), std::abs(loss.slope));
+}
+
 struct Standardised {
   std::span<const double> x;
   std::span<const std::uint8_t> is_one;
@@ -100,13 +104,13 @@ LogisticCurve fit_logistic(std::span<const double> x, std::span<const std::uint8
   const Standardised data{x, is_one, mean, deviation, ridge};
 
   constexpr int most_steps = 200;
-  constexpr double flat = 1e-13;
+  constexpr double flat = 1e-9;
   constexpr double rounding = 1e-15;
+  constexpr double least_share = 1e-10;
   double offset = std::log(share / (1.0 - share));
   double slope = 0.0;
   Loss here = data.loss(offset, slope);
   for (int i = 0; i < most_steps; ++i) {
-    if (std::max(std::abs(here.offset), std::abs(here.slope)) <= flat) break;
     const double determinant =
         here.offset_offset * here.slope_slope - here.offset_slope * here.offset_slope;
     if (!(determinant > std::numeric_limits<double>::min())) break;
@@ -116,13 +120,14 @@ LogisticCurve fit_logistic(std::span<const double> x, std::span<const std::uint8
         (here.offset_offset * here.slope - here.offset_slope * here.offset) / determinant;
     // A whole step, or as much of it as does not climb: far from the minimum a whole one may.
     double share_of_step = 1.0;
-    constexpr double least_share = 1e-10;
     Loss there = data.loss(offset - along_offset, slope - along_slope);
     while (!(there.value <= here.value + rounding) && share_of_step > least_share) {
       share_of_step *= 0.5;
       there = data.loss(offset - share_of_step * along_offset, slope - share_of_step * along_slope);
     }
+    // As flat as numbers get: where classes are nearly apart little steepness is still far to go.
     if (!(there.value <= here.value + rounding)) break;
+    if (steepness(here) <= flat && steepness(there) >= steepness(here)) break;
     offset -= share_of_step * along_offset;
     slope -= share_of_step * along_slope;
     here = there;

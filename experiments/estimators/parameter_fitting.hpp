@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "estimator/force/labelled_run.hpp"
+#include "estimator/labelled_run.hpp"
 #include "experiments/estimators/entry.hpp"
 
 namespace touchdown::experiments {

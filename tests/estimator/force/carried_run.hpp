@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "estimator/force/labelled_run.hpp"
+#include "estimator/labelled_run.hpp"
 #include "tests/estimator/force/held_leg.hpp"
 
 namespace touchdown::test {

@@ -1,4 +1,4 @@
-#include "estimator/force/labelled_run.hpp"
+#include "estimator/labelled_run.hpp"
 
 #include "core/error.hpp"
 
