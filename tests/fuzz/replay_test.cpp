@@ -16,6 +16,7 @@ void fuzz_measurement_model(std::string_view input);
 void fuzz_neural_network(std::string_view input);
 void fuzz_npy(std::string_view input);
 void fuzz_npz(std::string_view input);
+void fuzz_parameter_model(std::string_view input);
 void fuzz_phase_model(std::string_view input);
 void fuzz_yaml_experiment(std::string_view input);
 void fuzz_yaml_robot(std::string_view input);
@@ -54,6 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Corpus,
                                            Target{"measurement_model", fuzz_measurement_model},
                                            Target{"neural_network", fuzz_neural_network},
                                            Target{"npy", fuzz_npy}, Target{"npz", fuzz_npz},
+                                           Target{"parameter_model", fuzz_parameter_model},
                                            Target{"phase_model", fuzz_phase_model},
                                            Target{"yaml_experiment", fuzz_yaml_experiment},
                                            Target{"yaml_robot", fuzz_yaml_robot},
