@@ -78,14 +78,26 @@ class TransitionLaw {
   /// Throws InputError for a rate, slope, margin or memory that makes no sense.
   TransitionLaw(const TransitionConfig& config, double sample_rate);
 
-  /// The transition after one whose filtered median frequency was `remembered` (Hz).
-  [[nodiscard]] Transition next(const SpectrumValues& spectrum, double remembered) const noexcept {
+  /// Calls `use` with how a mean square becomes A_t of Eq. (11): decided once, so that a loop over
+  /// noise levels has no choice to make.
+  template <typename Use>
+  void with_power(const Use& use) const noexcept {
+    if (is_root_) {
+      use([](double mean_square) { return root_of(mean_square); });
+    } else {
+      use([scale = power_scale_](double mean_square) { return scale * mean_square; });
+    }
+  }
+
+  /// The transition under this power and median (in bins), after one whose filtered median
+  /// frequency was `remembered` (Hz).
+  [[nodiscard]] Transition next(double power, double median_bin, double remembered) const noexcept {
     Transition t;
-    t.power = is_root_ ? root_of(spectrum.mean_square) : power_scale_ * spectrum.mean_square;
+    t.power = power;
     const Odds switching = odds(switching_, t.power);  // Eq. (11)
     t.p_switch = switching.p;
 
-    t.median_frequency = bin_width_ * spectrum.median_bin;
+    t.median_frequency = bin_width_ * median_bin;
     const double input = t.median_frequency * t.p_switch;
     const double filtered = remembered + memory_gain_ * (input - remembered);
     t.filtered_median_frequency = memory_ > 0.0 ? filtered : t.median_frequency;

@@ -48,18 +48,21 @@ void TransitionLanes::update(double vertical_acceleration, double draw) noexcept
   double* const landing = landing_.data();
   double* const fly = fly_.data();
   const TransitionLaw law = law_;
+  law.with_power([=](const auto& power) {
   // The arrays do not overlap, which the compiler cannot know.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC ivdep
 #endif
-  for (std::size_t i = 0; i < count; ++i) {
-    const Transition t = law.next(spectrum[i], filtered_median[i]);
-    filtered_median[i] = t.filtered_median_frequency;
-    stay[i] = t.contact_to_contact;
-    takeoff[i] = t.contact_to_air;
-    landing[i] = t.air_to_contact;
-    fly[i] = t.air_to_air;
-  }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Transition t =
+          law.next(power(spectrum[i].mean_square), spectrum[i].median_bin, filtered_median[i]);
+      filtered_median[i] = t.filtered_median_frequency;
+      stay[i] = t.contact_to_contact;
+      takeoff[i] = t.contact_to_air;
+      landing[i] = t.air_to_contact;
+      fly[i] = t.air_to_air;
+    }
+  });
 }
 
 BayesFilterLanes::BayesFilterLanes(MeasurementModel model, const BayesFilterConfig& config,
