@@ -55,7 +55,7 @@ FittedModels fit(const Experiment& experiment, const PlayedRuns& runs, const std
     }
   }
   FittedModels models;
-  const auto add = [&](int refit, FittedModels of_refit) {
+  const auto add = [&](int refit, FittedModels&& of_refit) {
     for (auto& [simulator, by_estimator] : of_refit) {
       models[model_key(simulator, name, refit)] = std::move(by_estimator);
     }
