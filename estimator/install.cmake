@@ -17,7 +17,7 @@ set(public
 # What these hold by value. Not for programs, and not promised to stay.
 set(detail
   force/axle_motion force/wheel_loads neural/forward numerics/axis numerics/exponential
-  phase/noise phase/recursion phase/senses phase/tables spectrum/sliding_dft spectrum/summary)
+  numerics/noise_estimate phase/recursion phase/senses phase/tables spectrum/sliding_dft spectrum/summary)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 target_include_directories(touchdown_estimator PUBLIC
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "estimator/numerics/noise_estimate.hpp"
 #include "estimator/phase/config.hpp"
 #include "estimator/phase/model.hpp"
-#include "estimator/phase/noise.hpp"
 #include "estimator/phase/recursion.hpp"
 #include "estimator/phase/tables.hpp"
 

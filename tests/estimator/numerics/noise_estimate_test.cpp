@@ -1,10 +1,9 @@
-#include "estimator/phase/noise.hpp"
+#include "estimator/numerics/noise_estimate.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "estimator/phase/tables.hpp"
 #include "tests/estimator/random.hpp"
 
 namespace touchdown {
@@ -60,19 +59,6 @@ TEST(NoiseEstimate, StaysBelowItsCeiling) {
   for (int k = 0; k < 3000; ++k) estimate.update({1e6 * normal()});
   EXPECT_GE(estimate.sigma(), 16.0);
   EXPECT_LE(estimate.sigma(), 16.5);
-}
-
-TEST(PhaseNoiseLevels, InterpolateInTheLogarithmOfTheBandwidth) {
-  const PhaseNoiseLadder ladder = {{0.1, 0.2, 0.8}, 0.1};
-  EXPECT_EQ(ladder.place(0.0).level, 0U);
-  EXPECT_EQ(ladder.place(0.0).weight, 0.0F);
-  const PhaseNoiseLevel middle = ladder.place(std::sqrt(0.4 * 0.4 - 0.01));
-  EXPECT_EQ(middle.level, 1U);
-  EXPECT_NEAR(middle.weight, 0.5F, 1e-6F);
-  const PhaseNoiseLevel beyond = ladder.place(100.0);
-  EXPECT_EQ(beyond.level, 1U);
-  EXPECT_EQ(beyond.weight, 1.0F);
-  EXPECT_EQ(PhaseNoiseLadder({{0.1}, 0.1}).place(3.0).weight, 0.0F);
 }
 
 }  // namespace

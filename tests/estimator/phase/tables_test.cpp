@@ -1,0 +1,24 @@
+#include "estimator/phase/tables.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace touchdown {
+namespace {
+
+TEST(PhaseNoiseLevels, InterpolateInTheLogarithmOfTheBandwidth) {
+  const PhaseNoiseLadder ladder = {{0.1, 0.2, 0.8}, 0.1};
+  EXPECT_EQ(ladder.place(0.0).level, 0U);
+  EXPECT_EQ(ladder.place(0.0).weight, 0.0F);
+  const PhaseNoiseLevel middle = ladder.place(std::sqrt(0.4 * 0.4 - 0.01));
+  EXPECT_EQ(middle.level, 1U);
+  EXPECT_NEAR(middle.weight, 0.5F, 1e-6F);
+  const PhaseNoiseLevel beyond = ladder.place(100.0);
+  EXPECT_EQ(beyond.level, 1U);
+  EXPECT_EQ(beyond.weight, 1.0F);
+  EXPECT_EQ(PhaseNoiseLadder({{0.1}, 0.1}).place(3.0).weight, 0.0F);
+}
+
+}  // namespace
+}  // namespace touchdown
