@@ -26,7 +26,7 @@ using FittedModels = std::map<std::string, std::map<std::string, FittedModel>>;
 enum class ModelKind : int {
   measurement,  ///< densities of torques
   phase,
-  parameters,  ///< a handful of numbers that only one estimator knows the meaning of
+  parameters,  ///< named numbers that only one estimator knows the meaning of
 };
 
 /// Which of them a model file holds; one that is neither of the latter counts as the first.

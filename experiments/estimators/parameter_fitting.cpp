@@ -5,7 +5,8 @@
 
 namespace touchdown::experiments {
 
-FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs, FitParameters fit) {
+FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs,
+                           const FitParameters& fit) {
   std::vector<LabelledRun> labelled;
   for (const RunSignals* run : runs.whole) {
     check_may_be_fitted(run->info);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "estimator/labelled_run.hpp"
@@ -8,11 +9,12 @@
 namespace touchdown::experiments {
 
 /// What an estimator learns from labelled runs, by name.
-using FitParameters = recordings::Parameters (*)(std::span<const LabelledRun> runs);
+using FitParameters = std::function<recordings::Parameters(std::span<const LabelledRun> runs)>;
 
 /// The model of an entry that is fitted to parameters of its own: to whole runs, each without its
 /// beginning, with where it comes from. Errors: `InputError` for runs of reserved seeds, and what
 /// `fit` throws.
-FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs, FitParameters fit);
+FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs,
+                           const FitParameters& fit);
 
 }  // namespace touchdown::experiments

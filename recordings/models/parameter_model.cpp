@@ -15,11 +15,11 @@ constexpr std::string_view provenance_array = "provenance";
 
 bool is_text(std::string_view name) { return name == estimator_array || name == provenance_array; }
 
-/// A handful, and texts of any sensible length.
+/// As many as a small network has, and texts of any sensible length.
 std::size_t most_parameters(std::string_view name) {
   constexpr std::size_t most_text = std::size_t{1} << 20U;
-  constexpr std::size_t handful = 1000;
-  return is_text(name) ? most_text : handful;
+  constexpr std::size_t small_network = 100'000;
+  return is_text(name) ? most_text : small_network;
 }
 
 ParameterModelFile file_from(const NpzArrays& arrays) {

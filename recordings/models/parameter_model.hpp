@@ -12,7 +12,7 @@
 
 namespace touchdown::recordings {
 
-/// A model that is a handful of numbers: by name, each one or a few of them.
+/// A model that is a few named arrays of numbers: a handful, or the weights of a small network.
 using Parameters = std::map<std::string, std::vector<double>, std::less<>>;
 
 struct ParameterModelFile {
