@@ -8,6 +8,8 @@
 #include "estimator/bayes/measurement_fit.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/contact_estimator.hpp"
+#include "estimator/decision/filter.hpp"
+#include "estimator/decision/fit.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/force_kinematics_fit.hpp"
 #include "estimator/force/load_logistic.hpp"

@@ -10,14 +10,16 @@ set(public
   contact_estimator free_fall labelled_run signal_guard signals torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model
+  decision/config decision/filter decision/fit decision/network decision/training
   force/force_kinematics force/force_kinematics_fit force/leg_geometry force/load_logistic
   force/load_logistic_fit force/logistic_regression force/support_force
   neural/estimator neural/input neural/network
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
 # What these hold by value. Not for programs, and not promised to stay.
 set(detail
-  force/axle_motion force/wheel_loads neural/forward numerics/axis numerics/exponential
-  numerics/noise_estimate phase/recursion phase/senses phase/tables spectrum/sliding_dft spectrum/summary)
+  decision/channels decision/senses force/axle_motion force/wheel_loads neural/forward
+  numerics/axis numerics/exponential numerics/noise_estimate phase/recursion phase/senses
+  phase/tables spectrum/sliding_dft spectrum/summary)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 target_include_directories(touchdown_estimator PUBLIC
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
+#include "experiments/estimators/decision.hpp"
 #include "experiments/estimators/filters.hpp"
 #include "experiments/estimators/forces.hpp"
 
@@ -30,6 +31,7 @@ std::span<const EstimatorEntry> estimator_entries() {
       support_force_entry(),
       load_logistic_entry(),
       force_kinematics_entry(),
+      decision_network_entry(),
       oracle_entry(),
       always_contact_entry(),
   };

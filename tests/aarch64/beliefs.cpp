@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "estimator/estimator.hpp"
+#include "tests/estimator/decision/random_model.hpp"
 #include "tests/estimator/named_config.hpp"
 #include "tests/estimator/neural/sample.hpp"
 #include "tests/estimator/phase/synthetic.hpp"
@@ -114,6 +115,7 @@ void listen_all() {
   const std::vector<LabelledRun> labels = {labelled(run)};
   listen("load_logistic", LoadLogistic(fit_load_logistic(labels)), heard);
   listen("force_kinematics", ForceKinematics(fit_force_kinematics(labels)), heard);
+  listen("decision_network", DecisionNetwork(test::random_model(2)), heard);
   listen("upkie_observer", UpkieObserver(), heard);
 }
 

@@ -11,6 +11,7 @@
 
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
+#include "estimator/decision/filter.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/load_logistic.hpp"
 #include "estimator/force/support_force.hpp"
@@ -18,6 +19,7 @@
 #include "estimator/phase/filter.hpp"
 #include "estimator/upkie_observer.hpp"
 #include "experiments/lanes/bayes.hpp"
+#include "tests/estimator/decision/random_model.hpp"
 #include "tests/estimator/named_config.hpp"
 #include "tests/estimator/phase/synthetic.hpp"
 #include "tests/estimator/synthetic.hpp"
@@ -139,9 +141,11 @@ TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
   SupportForce support_force;
   LoadLogistic load_logistic({.slope = 0.5, .intercept = -5.0});
   ForceKinematics force_kinematics({.air = {}, .contact = {.force_mean = 26.0}});
+  DecisionNetwork decision_network(test::random_model(1));
   for (ContactEstimator* const estimator : {static_cast<ContactEstimator*>(&support_force),
                                             static_cast<ContactEstimator*>(&load_logistic),
-                                            static_cast<ContactEstimator*>(&force_kinematics)}) {
+                                            static_cast<ContactEstimator*>(&force_kinematics),
+                                            static_cast<ContactEstimator*>(&decision_network)}) {
     estimator->update(stream.front());
     EXPECT_NE(estimator->update(stream[1]).wheel[0].p_contact, 0.5);
     EXPECT_EQ(allocations_of([&] {

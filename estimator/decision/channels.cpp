@@ -1,0 +1,53 @@
+#include "estimator/decision/channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchdown {
+
+namespace {
+
+constexpr double least_area = 0.002;     // m²
+constexpr double largest_load = 200.0;   // N: four times Upkie's weight
+constexpr double largest_channel = 1e4;  // of any other, so that floats hold it
+
+/// What is beyond counts as the limit, what is no number as nothing.
+double within(double value, double largest) noexcept {
+  return std::isnan(value) ? 0.0 : std::clamp(value, -largest, largest);
+}
+
+}  // namespace
+
+LegListener::LegListener(const DecisionConfig& config, bool mirrored)
+    : geometry_(config.geometry), inertia_(config.wheel_inertia), mirrored_(mirrored) {
+  const double steps = std::clamp(std::round(config.difference * config.sample_rate), 1.0, 1e4);
+  velocities_.resize(static_cast<std::size_t>(steps));
+  rate_ = config.sample_rate / steps;
+}
+
+LegChannels LegListener::update(const LegSignals& leg, double vertical_acceleration) noexcept {
+  const double sign = mirrored_ ? -1.0 : 1.0;
+  const std::array<double, 2> now = {sign * leg.wheel.velocity,
+                                     within(axle_velocity(geometry_, leg), largest_channel)};
+  const std::array<double, 2> before = heard_ < velocities_.size() ? now : velocities_[next_];
+  velocities_[next_] = now;
+  next_ = next_ + 1 == velocities_.size() ? 0 : next_ + 1;
+  heard_ = std::min(heard_ + 1, velocities_.size());
+
+  const double area = geometry_.upper_length * geometry_.lower_length * std::sin(leg.knee.position);
+  const double load = vertical_force(geometry_, leg, mirrored_, vertical_acceleration) * area *
+                      area / (area * area + least_area * least_area);
+  return {
+      within(load, largest_load),
+      within(sign * leg.wheel.torque - inertia_ * rate_ * (now[0] - before[0]), largest_channel),
+      now[1], within(vertical_acceleration + rate_ * (now[1] - before[1]), largest_channel)};
+}
+
+bool is_usable(const LegSignals& leg, const SignalGuardConfig& guard) noexcept {
+  return is_torque(leg.hip.torque, guard) && has_torques(leg, guard) &&
+         std::isfinite(leg.hip.position) && std::isfinite(leg.knee.position) &&
+         std::isfinite(leg.hip.velocity) && std::isfinite(leg.knee.velocity) &&
+         std::isfinite(leg.wheel.velocity);
+}
+
+}  // namespace touchdown

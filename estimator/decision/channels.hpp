@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "estimator/decision/config.hpp"
+
+namespace touchdown {
+
+/// What the decision network hears of one leg, in the left leg's signs.
+struct LegChannels {
+  /// What the wheel carries (N): F of `vertical_force` times d²/(d² + ε²), with the determinant of
+  /// the leg's Jacobian, d = L₁ L₂ sin q₂, and ε = 0.002 m². A bent leg is hardly changed (Upkie's
+  /// crouch: 1 %); towards a straight one, which carries without torques, it fades to nothing.
+  double load = 0.0;
+  /// The torque of the ground on the wheel (N·m): what its servo's does not turn into its
+  /// acceleration.
+  double reaction = 0.0;
+  /// How fast the axle moves upwards beneath the hip (m/s).
+  double axle_velocity = 0.0;
+  /// How fast the axle accelerates upwards (m/s²): 0 where it rolls on level ground, however the
+  /// torso falls.
+  double axle_acceleration = 0.0;
+};
+
+/// From signals to channels, one leg.
+class LegListener {
+ public:
+  LegListener(const DecisionConfig& config, bool mirrored);
+
+  void reset() noexcept { heard_ = 0; }
+  /// Signals must be usable.
+  LegChannels update(const LegSignals& leg, double vertical_acceleration) noexcept;
+
+ private:
+  LegGeometry geometry_;
+  double inertia_;
+  bool mirrored_;
+  double rate_;
+  /// Of the wheel (rad/s) and of the axle beneath the hip (m/s): the last few, in turn.
+  std::vector<std::array<double, 2>> velocities_;
+  std::size_t next_ = 0;
+  std::size_t heard_ = 0;
+};
+
+/// Whether all that the network hears of a leg can be used.
+[[nodiscard]] bool is_usable(const LegSignals& leg, const SignalGuardConfig& guard) noexcept;
+
+}  // namespace touchdown

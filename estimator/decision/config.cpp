@@ -1,0 +1,56 @@
+#include "estimator/decision/config.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+
+namespace {
+
+bool is_share(double x) { return x >= 0.0 && x <= 1.0; }
+bool is_level(double x) { return std::isfinite(x) && x >= 0.0; }
+
+}  // namespace
+
+void check_decision_fit_config(const DecisionFitConfig& config) {
+  if (config.passes == 0 || config.rows == 0 || config.batch == 0 || config.epochs == 0) {
+    throw InputError("decision network: passes, rows, batch and epochs must be positive");
+  }
+  if (!(std::isfinite(config.learning_rate) && config.learning_rate > 0.0 &&
+        is_level(config.decay) && std::isfinite(config.class_exponent))) {
+    throw InputError(
+        "decision network: learning_rate must be positive, decay not negative, class_exponent "
+        "finite");
+  }
+  if (!(is_level(config.largest_torque_noise) && is_level(config.largest_acceleration_noise) &&
+        is_level(config.torque_bias) && is_level(config.position_bias) &&
+        is_share(config.share_without_noise) && is_share(config.share_with_bias) &&
+        config.gain_error >= 0.0 && config.gain_error < 1.0)) {
+    throw InputError(
+        "decision network: noise and biases must not be negative (N·m, m/s², rad), shares lie "
+        "between 0 "
+        "and 1, gain_error below 1");
+  }
+}
+
+void check_decision_config(const DecisionConfig& config) {
+  const LegGeometry& leg = config.geometry;
+  if (!(std::isfinite(config.sample_rate) && config.sample_rate > 0.0 && leg.upper_length > 0.0 &&
+        leg.lower_length > 0.0)) {
+    throw InputError("decision network: sample_rate (Hz), lengths (m) must be positive");
+  }
+  if (!(is_level(config.wheel_inertia) && is_level(config.difference) &&
+        is_level(config.smoothing))) {
+    throw InputError(
+        "decision network: wheel_inertia (kg·m²), difference (s) and smoothing (s per N·m) must "
+        "not be negative");
+  }
+  if (!(config.leave_below > 0.0 && config.leave_below <= config.return_above &&
+        config.return_above < 1.0)) {
+    throw InputError(
+        "decision network: leave_below and return_above must be probabilities in this order");
+  }
+}
+
+}  // namespace touchdown

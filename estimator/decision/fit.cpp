@@ -1,0 +1,146 @@
+#include "estimator/decision/fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/error.hpp"
+#include "estimator/decision/draws.hpp"
+#include "estimator/decision/senses.hpp"
+
+namespace touchdown {
+
+namespace {
+
+/// What one hearing of a run is disturbed with.
+class Disturbance {
+ public:
+  Disturbance(const DecisionFitConfig& config, Draws& draws) : draws_(draws) {
+    torque_noise_ = level(config, config.largest_torque_noise);
+    acceleration_noise_ = level(config, config.largest_acceleration_noise);
+    scale_ = 1.0 + config.gain_error * draws.uniform(-1.0, 1.0);
+    if (draws.uniform() >= config.share_with_bias) return;
+    for (Bias& bias : bias_) {
+      bias = {config.torque_bias * draws.normal(), config.position_bias * draws.normal()};
+    }
+  }
+
+  Signals operator()(Signals signals) {
+    const Bias* bias = bias_.data();
+    for (LegSignals& leg : signals.leg) {
+      for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
+        joint->torque = scale_ * joint->torque + bias->torque;
+        joint->position += bias->position;
+        ++bias;
+        if (torque_noise_ > 0.0) joint->torque += torque_noise_ * draws_.normal();
+      }
+    }
+    if (acceleration_noise_ > 0.0) {
+      signals.vertical_acceleration += acceleration_noise_ * draws_.normal();
+    }
+    return signals;
+  }
+
+ private:
+  struct Bias {
+    double torque = 0.0;    ///< N·m
+    double position = 0.0;  ///< rad
+  };
+
+  /// Nothing, or log-uniform over two decades.
+  double level(const DecisionFitConfig& config, double largest) {
+    constexpr double smallest = 0.01;
+    const bool is_silent = draws_.uniform() < config.share_without_noise;
+    const double share = std::pow(smallest, draws_.uniform());
+    return is_silent ? 0.0 : share * largest;
+  }
+
+  Draws& draws_;
+  double torque_noise_ = 0.0;
+  double acceleration_noise_ = 0.0;
+  double scale_ = 1.0;
+  std::array<Bias, 6> bias_{};  ///< left hip, knee, wheel, right ones
+};
+
+std::size_t steps_of(const LabelledRun& run) {
+  return run.signals.size() - std::min(run.signals.size(), run.skip);
+}
+
+/// The weight of each class: no contact, contact.
+std::array<double, 2> class_weights(const DecisionRows& rows, double exponent) {
+  const double contact = rows.is_contact.cast<double>().sum();
+  const double air = static_cast<double>(rows.is_contact.size()) - contact;
+  if (!(contact > 0.0 && air > 0.0)) {
+    throw InputError("decision network: runs with contact and without are needed");
+  }
+  return {std::pow(air, exponent), std::pow(contact, exponent)};
+}
+
+}  // namespace
+
+DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConfig& config,
+                           const DecisionFitConfig& fit) {
+  std::size_t steps = 0;
+  for (const LabelledRun& run : runs) {
+    check_labels(run);
+    steps += steps_of(run);
+  }
+  // So many steps apart a pass takes both wheels.
+  const std::size_t stride = std::max<std::size_t>(1, 2 * steps * fit.passes / fit.rows);
+  std::vector<DecisionInputs> inputs;
+  std::vector<float> is_contact;
+  Draws draws(fit.seed);
+  for (std::size_t pass = 0; pass < fit.passes; ++pass) {
+    for (const LabelledRun& run : runs) {
+      DecisionConfig own = config;
+      own.sample_rate = run.sample_rate;
+      DecisionSenses senses(own);
+      Disturbance disturbed(fit, draws);
+      std::size_t next = run.skip + draws.below(stride);
+      for (std::size_t k = 0; k < run.signals.size(); ++k) {
+        const DecisionSenses::Step step = senses.update(disturbed(run.signals[k]));
+        if (k < next) continue;
+        next += stride;
+        senses.arrange();
+        for (std::size_t side = 0; side < 2; ++side) {
+          if (!step.is_heard[side]) continue;
+          inputs.push_back(senses.inputs(side));
+          is_contact.push_back(run.contact[side][k] != 0 ? 1.0F : 0.0F);
+        }
+      }
+    }
+  }
+  DecisionRows rows;
+  const auto count = static_cast<Eigen::Index>(inputs.size());
+  rows.inputs.resize(static_cast<int>(decision_inputs), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const DecisionInputs& row = inputs[static_cast<std::size_t>(i)];
+    std::copy(row.begin(), row.end(), rows.inputs.col(i).data());
+  }
+  rows.is_contact = Eigen::Map<const Eigen::RowVectorXf>(is_contact.data(), count);
+  rows.weight.resize(count);
+  const std::array<double, 2> weights = class_weights(rows, fit.class_exponent);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    rows.weight[i] = static_cast<float>(weights[rows.is_contact[i] > 0.0F ? 1 : 0] / weights[1]);
+  }
+  return rows;
+}
+
+DecisionModel fit_decision_model(std::span<const LabelledRun> runs, const DecisionConfig& config,
+                                 const DecisionFitConfig& fit,
+                                 const std::function<void()>& before_step) {
+  check_decision_config(config);
+  check_decision_fit_config(fit);
+  const DecisionRows rows = decision_rows(runs, config, fit);
+  DecisionModel model = train_decision_model(rows, fit, before_step);
+  // Rows in contact weigh 1 here, those without this much.
+  const float air_weight =
+      rows.weight.cwiseProduct(Eigen::RowVectorXf::Ones(rows.weight.size()) - rows.is_contact)
+          .sum() /
+      (static_cast<float>(rows.is_contact.size()) - rows.is_contact.sum());
+  model.last_bias += std::log(air_weight);
+  return model;
+}
+
+}  // namespace touchdown

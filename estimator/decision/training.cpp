@@ -1,0 +1,151 @@
+#include "estimator/decision/training.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "estimator/decision/draws.hpp"
+
+namespace touchdown {
+
+namespace {
+
+constexpr int inputs = static_cast<int>(decision_inputs);
+constexpr int first = static_cast<int>(decision_first);
+constexpr int second = static_cast<int>(decision_second);
+
+// A model's weights, outputs × inputs: by input, as they lie.
+template <typename Model>
+auto weights_of_first(Model& model) {
+  using Matrix = Eigen::Matrix<float, first, inputs>;
+  return Eigen::Map<std::conditional_t<std::is_const_v<Model>, const Matrix, Matrix>>(
+      model.first_weight.data());
+}
+template <typename Model>
+auto weights_of_second(Model& model) {
+  using Matrix = Eigen::Matrix<float, second, first>;
+  return Eigen::Map<std::conditional_t<std::is_const_v<Model>, const Matrix, Matrix>>(
+      model.second_weight.data());
+}
+template <std::size_t size>
+Eigen::Map<const Eigen::Matrix<float, static_cast<int>(size), 1>> column(
+    const std::array<float, size>& values) {
+  return Eigen::Map<const Eigen::Matrix<float, static_cast<int>(size), 1>>(values.data());
+}
+template <std::size_t size>
+Eigen::Map<Eigen::Matrix<float, static_cast<int>(size), 1>> column(
+    std::array<float, size>& values) {
+  return Eigen::Map<Eigen::Matrix<float, static_cast<int>(size), 1>>(values.data());
+}
+
+/// All parameters, part by part, of as many models at once.
+template <typename Part, typename... Models>
+void for_each_part(const Part& part, Models&... models) {
+  part(std::span(models.first_weight)...);
+  part(std::span(models.first_bias)...);
+  part(std::span(models.second_weight)...);
+  part(std::span(models.second_bias)...);
+  part(std::span(models.last_weight)...);
+  part(std::span(&models.last_bias, 1)...);
+}
+
+/// He's rule: what is behind a rectifier keeps the size of its inputs.
+DecisionModel drawn(Draws& draws) {
+  DecisionModel model;
+  const auto fill = [&](auto& weights, int fan_in) {
+    for (float& weight : weights) {
+      weight = static_cast<float>(std::sqrt(2.0 / fan_in) * draws.normal());
+    }
+  };
+  fill(model.first_weight, inputs);
+  fill(model.second_weight, first);
+  fill(model.last_weight, second);
+  return model;
+}
+
+}  // namespace
+
+double decision_loss(const DecisionModel& model, const DecisionRows& rows,
+                     DecisionModel* gradient) {
+  using Values = Eigen::MatrixXf;
+  const Values h1 =
+      ((weights_of_first(model) * rows.inputs).colwise() + column(model.first_bias)).cwiseMax(0.0F);
+  const Values h2 =
+      ((weights_of_second(model) * h1).colwise() + column(model.second_bias)).cwiseMax(0.0F);
+  const Eigen::RowVectorXf logit =
+      (column(model.last_weight).transpose() * h2).array() + model.last_bias;
+  const float all = rows.weight.sum();
+  // log(1 + e^z) − y z, for any z.
+  const Eigen::RowVectorXf tail = (-logit.array().abs()).exp();
+  const float loss = ((logit.array().max(0.0F) + (tail.array() + 1.0F).log() -
+                       rows.is_contact.array() * logit.array()) *
+                      rows.weight.array())
+                         .sum() /
+                     all;
+  if (gradient == nullptr) return loss;
+
+  const Eigen::RowVectorXf p =
+      (logit.array() >= 0.0F).select(1.0F, tail.array()) / (tail.array() + 1.0F);
+  const Eigen::RowVectorXf to_logit = (p - rows.is_contact).cwiseProduct(rows.weight) / all;
+  gradient->last_bias = to_logit.sum();
+  column(gradient->last_weight) = h2 * to_logit.transpose();
+  const Values to_second = (column(model.last_weight) * to_logit)
+                               .cwiseProduct((h2.array() > 0.0F).cast<float>().matrix());
+  column(gradient->second_bias) = to_second.rowwise().sum();
+  weights_of_second(*gradient) = to_second * h1.transpose();
+  const Values to_first = (weights_of_second(model).transpose() * to_second)
+                              .cwiseProduct((h1.array() > 0.0F).cast<float>().matrix());
+  column(gradient->first_bias) = to_first.rowwise().sum();
+  weights_of_first(*gradient) = to_first * rows.inputs.transpose();
+  return loss;
+}
+
+DecisionModel train_decision_model(const DecisionRows& rows, const DecisionFitConfig& config,
+                                   const std::function<void()>& before_step) {
+  constexpr double keep_mean = 0.9;
+  constexpr double keep_square = 0.999;
+  constexpr float tiny = 1e-8F;
+  constexpr std::size_t between_calls = 64;
+  Draws draws(config.seed);
+  DecisionModel model = drawn(draws);
+  DecisionModel gradient;
+  DecisionModel mean;
+  DecisionModel square;
+  DecisionRows batch;
+  const auto count = static_cast<Eigen::Index>(config.batch);
+  batch.inputs.resize(inputs, count);
+  batch.is_contact.resize(count);
+  batch.weight.resize(count);
+  const auto all = static_cast<std::uint64_t>(rows.inputs.cols());
+  const std::size_t steps =
+      (static_cast<std::size_t>(all) * config.epochs + config.batch - 1) / config.batch;
+  for (std::size_t step = 0; step < steps; ++step) {
+    if (before_step && step % between_calls == 0) before_step();
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto row = static_cast<Eigen::Index>(draws.below(all));
+      batch.inputs.col(i) = rows.inputs.col(row);
+      batch.is_contact[i] = rows.is_contact[row];
+      batch.weight[i] = rows.weight[row];
+    }
+    static_cast<void>(decision_loss(model, batch, &gradient));
+    const double progress = static_cast<double>(step) / static_cast<double>(steps);
+    const double rate = 0.5 * config.learning_rate * (1.0 + std::cos(std::numbers::pi * progress));
+    const double n = static_cast<double>(step + 1);
+    const auto of_mean = static_cast<float>(rate / (1.0 - std::pow(keep_mean, n)));
+    const auto of_square = static_cast<float>(1.0 / (1.0 - std::pow(keep_square, n)));
+    const auto kept = static_cast<float>(1.0 - rate * config.decay);
+    for_each_part(
+        [&](auto w, auto g, auto m, auto v) {
+          for (std::size_t i = 0; i < w.size(); ++i) {
+            m[i] += static_cast<float>(1.0 - keep_mean) * (g[i] - m[i]);
+            v[i] += static_cast<float>(1.0 - keep_square) * (g[i] * g[i] - v[i]);
+            w[i] = kept * w[i] - of_mean * m[i] / (std::sqrt(of_square * v[i]) + tiny);
+          }
+        },
+        model, gradient, mean, square);
+  }
+  return model;
+}
+
+}  // namespace touchdown

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "experiments/estimators/entry.hpp"
+
+namespace touchdown::experiments {
+
+/// A small network that is fitted to decide, from channels that one can name.
+EstimatorEntry decision_network_entry();
+
+}  // namespace touchdown::experiments

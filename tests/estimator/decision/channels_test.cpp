@@ -1,0 +1,110 @@
+#include "estimator/decision/channels.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/estimator/force/held_leg.hpp"
+
+namespace touchdown {
+namespace {
+
+constexpr double crouched_hip = 0.455;  // rad
+constexpr double crouched_knee = -0.791;
+
+LegChannels channels_of(const LegSignals& leg, bool mirrored, double acceleration = 0.0) {
+  return LegListener({}, mirrored).update(leg, acceleration);
+}
+
+TEST(LegListener, HearsTheLoadOfABentLegInEitherLegsSigns) {
+  for (const double force : {0.0, 26.0, 60.0}) {
+    for (const double acceleration : {0.0, -9.81, 5.0}) {
+      const LegSignals leg =
+          test::holding({}, crouched_hip, crouched_knee, 0.0, force, acceleration);
+      const double found = channels_of(leg, false, acceleration).load;
+      EXPECT_NEAR(found, force, 0.02 * force + 1e-6);
+      EXPECT_EQ(channels_of(test::mirrored(leg), true, acceleration).load, found);
+    }
+  }
+}
+
+TEST(LegListener, HearsOfAStraightLegNothingThatJumps) {
+  double before = 0.0;
+  for (double knee = -0.02; knee <= 0.02; knee += 1e-5) {
+    LegSignals leg = test::holding({}, 0.1, knee, 0.0, 26.0, 0.0);
+    leg.knee.torque += 0.3;  // what a straight leg would take for any force
+    const double load = channels_of(leg, false).load;
+    ASSERT_TRUE(std::isfinite(load)) << knee;
+    ASSERT_LE(std::abs(load), 200.0) << knee;
+    if (knee > -0.0199) {
+      ASSERT_NEAR(load, before, 1.0) << knee;
+    }
+    before = load;
+  }
+  LegSignals straight;
+  straight.knee.torque = 1.0;
+  EXPECT_EQ(channels_of(straight, false).load, 0.0);
+}
+
+TEST(LegListener, TakesTheWheelsOwnInertiaOffItsTorque) {
+  const DecisionConfig config;
+  LegListener left(config, false);
+  LegListener right(config, true);
+  constexpr double acceleration = 300.0;  // rad/s²
+  constexpr double ground = -0.2;         // N·m
+  LegChannels last;
+  LegChannels mirror;
+  for (int k = 0; k < 20; ++k) {
+    LegSignals leg;
+    leg.wheel.velocity = 4.0 + 0.001 * acceleration * k;
+    leg.wheel.torque = config.wheel_inertia * acceleration + ground;
+    last = left.update(leg, 0.0);
+    mirror = right.update(test::mirrored(leg), 0.0);
+  }
+  EXPECT_NEAR(last.reaction, ground, 1e-12);
+  EXPECT_EQ(mirror.reaction, last.reaction);
+}
+
+TEST(LegListener, HearsTheAxleRiseBeneathTheHip) {
+  LegSignals leg;
+  leg.hip = {crouched_hip, 2.0, 0.0};
+  leg.knee = {crouched_knee, -3.0, 0.0};
+  constexpr double step = 1e-6;  // s
+  const auto height = [](double time) {
+    return test::places({}, crouched_hip + 2.0 * time, crouched_knee - 3.0 * time).z;
+  };
+  EXPECT_NEAR(channels_of(leg, false).axle_velocity, (height(step) - height(-step)) / (2.0 * step),
+              1e-6);
+  EXPECT_EQ(channels_of(test::mirrored(leg), true).axle_velocity,
+            channels_of(leg, false).axle_velocity);
+}
+
+TEST(LegListener, HearsNoAccelerationOfAnAxleThatStaysWhileTheTorsoFalls) {
+  // The hip falls at 6 m/s², the knee bends as it must.
+  const auto leg_at = [](double time) {
+    const double height = 0.32 - 0.5 * 6.0 * time * time;
+    const double hip = std::acos(0.5 * height / 0.17);
+    return std::array<double, 2>{hip, -2.0 * hip};
+  };
+  DecisionConfig config;
+  config.geometry.upper_length = config.geometry.lower_length = 0.17;
+  LegListener listener(config, false);
+  LegChannels last;
+  for (int k = 0; k < 100; ++k) {
+    constexpr double step = 1e-5;
+    const double time = 0.001 * k;
+    const auto now = leg_at(time);
+    const auto later = leg_at(time + step);
+    const auto before = leg_at(time - step);
+    LegSignals leg;
+    leg.hip = {now[0], (later[0] - before[0]) / (2.0 * step), 0.0};
+    leg.knee = {now[1], (later[1] - before[1]) / (2.0 * step), 0.0};
+    last = listener.update(leg, -6.0);
+  }
+  EXPECT_NEAR(last.axle_velocity, 6.0 * 0.099, 1e-3);
+  EXPECT_NEAR(last.axle_acceleration, 0.0, 0.01);
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,286 @@
+#include "estimator/decision/filter.hpp"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/decision/fit.hpp"
+#include "tests/estimator/force/carried_run.hpp"
+#include "tests/estimator/random.hpp"
+
+namespace touchdown {
+namespace {
+
+constexpr DecisionFitConfig quick = {.passes = 4, .rows = 40'000, .batch = 256, .epochs = 8};
+
+/// A robot that stands, lifts its left wheel, its right one, falls, is lifted, in turn, with a
+/// little noise.
+test::CarriedRun lifted_run(int rounds, std::uint32_t seed, double noise = 0.02) {
+  test::Normal normal(seed);
+  test::CarriedRun run;
+  const auto go_on = [&](double left, double right, double acceleration, int steps) {
+    for (int k = 0; k < steps; ++k) {
+      Signals& s = run.add(left, right, acceleration);
+      for (LegSignals& leg : s.leg) {
+        for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
+          joint->torque += noise * normal();
+        }
+      }
+      s.vertical_acceleration += 0.1 * normal();
+      s.angular_velocity.x() = left == right ? 0.02 * normal() : 0.3 + 0.02 * normal();
+      if (left > right) s.angular_velocity.x() *= -1.0;
+      run.touch(left > 1.0, right > 1.0);
+    }
+  };
+  for (int round = 0; round < rounds; ++round) {
+    go_on(26.0, 26.0, 0.0, 300);
+    go_on(0.0, 52.0, 0.0, 150);
+    go_on(26.0, 26.0, 0.0, 250);
+    go_on(52.0, 0.0, 0.0, 150);
+    go_on(20.0, 20.0, 0.0, 250);
+    go_on(0.0, 0.0, -9.81, 150);
+    go_on(35.0, 35.0, 1.0, 250);
+    go_on(0.0, 0.0, 0.3, 200);
+  }
+  return run;
+}
+
+const DecisionModel& lifted_network() {
+  static const DecisionModel model = [] {
+    const test::CarriedRun run = lifted_run(4, 1);
+    return fit_decision_model(std::vector<LabelledRun>{run.view()}, {}, quick);
+  }();
+  return model;
+}
+
+Belief last_of(ContactEstimator& estimator, const test::CarriedRun& run) {
+  Belief belief;
+  for (const Signals& s : run.signals) belief = estimator.update(s);
+  return belief;
+}
+
+double share_right(ContactEstimator& estimator, const test::CarriedRun& run) {
+  std::size_t right = 0;
+  for (std::size_t k = 0; k < run.signals.size(); ++k) {
+    const Belief& belief = estimator.update(run.signals[k]);
+    for (std::size_t w = 0; w < 2; ++w) {
+      right += belief.wheel[w].contact == (run.contact[w][k] != 0) ? 1 : 0;
+    }
+  }
+  return static_cast<double>(right) / static_cast<double>(2 * run.signals.size());
+}
+
+TEST(DecisionNetwork, LearnsToTellWheelsThatCarryFromThoseThatDoNot) {
+  DecisionNetwork estimator(lifted_network());
+  EXPECT_GT(share_right(estimator, lifted_run(2, 2)), 0.99);
+  DecisionNetwork in_noise(lifted_network());
+  EXPECT_GT(share_right(in_noise, lifted_run(2, 3, 0.5)), 0.95);
+}
+
+TEST(DecisionNetwork, IsFittedToTheSameBits) {
+  const test::CarriedRun run = lifted_run(1, 4);
+  const std::vector<LabelledRun> runs = {run.view()};
+  const DecisionFitConfig config{.passes = 1, .rows = 2000, .batch = 64, .epochs = 1};
+  EXPECT_EQ(fit_decision_model(runs, {}, config), fit_decision_model(runs, {}, config));
+}
+
+TEST(DecisionNetwork, BelievesOfTheMirroredRobotWhatItBelievedOfTheOtherWheel) {
+  DecisionNetwork estimator(lifted_network());
+  DecisionNetwork mirror(lifted_network());
+  for (Signals s : lifted_run(1, 5, 0.3).signals) {
+    const Belief belief = estimator.update(s);
+    std::swap(s.leg[0], s.leg[1]);
+    for (LegSignals& leg : s.leg) leg = test::mirrored(leg);
+    s.angular_velocity.x() *= -1.0;
+    const Belief& mirrored = mirror.update(s);
+    for (std::size_t side = 0; side < 2; ++side) {
+      ASSERT_NEAR(mirrored.wheel[side].p_contact, belief.wheel[1 - side].p_contact, 1e-4);
+    }
+  }
+}
+
+TEST(DecisionNetwork, MeansItsProbabilityWhateverItsClassesWeigh) {
+  // Wheels that carry something between nothing and a little: a coin's class, three in four
+  // contact.
+  test::Normal normal(7);
+  const auto drawn = [&] {
+    test::CarriedRun run;
+    for (int k = 0; k < 20'000; ++k) {
+      const std::array<bool, 2> touches = {normal() < 0.6745, normal() < 0.6745};
+      run.add(touches[0] ? 8.0 + 4.0 * normal() : 4.0 * normal(),
+              touches[1] ? 8.0 + 4.0 * normal() : 4.0 * normal());
+      run.touch(touches[0], touches[1]);
+    }
+    return run;
+  };
+  const test::CarriedRun seen = drawn();
+  const test::CarriedRun others = drawn();
+  for (const double exponent : {0.0, -1.0}) {
+    DecisionFitConfig config{.passes = 1, .rows = 40'000, .batch = 256, .epochs = 8};
+    config.class_exponent = exponent;
+    config.largest_torque_noise = config.largest_acceleration_noise = 0.0;
+    config.torque_bias = config.gain_error = 0.0;
+    DecisionNetwork estimator(fit_decision_model(std::vector<LabelledRun>{seen.view()}, {}, config),
+                              {.smoothing = 0.0});
+    double believed = 0.0;
+    double brier = 0.0;
+    double best = 0.0;
+    for (std::size_t k = 0; k < others.signals.size(); ++k) {
+      const double p = estimator.update(others.signals[k]).wheel[0].p_contact;
+      const double load =
+          LegListener({}, false)
+              .update(others.signals[k].leg[0], others.signals[k].vertical_acceleration)
+              .load;
+      // Bayes' rule on two Gaussians: the logit is linear in the load.
+      const double truth = 1.0 / (1.0 + std::exp(-(std::log(3.0) + 0.5 * load - 2.0)));
+      believed += p - (others.contact[0][k] != 0 ? 1.0 : 0.0);
+      brier += std::pow(p - (others.contact[0][k] != 0 ? 1.0 : 0.0), 2);
+      best += std::pow(truth - (others.contact[0][k] != 0 ? 1.0 : 0.0), 2);
+    }
+    const auto steps = static_cast<double>(others.signals.size());
+    EXPECT_NEAR(believed / steps, 0.0, 0.03) << exponent;
+    EXPECT_LT(brier / steps, best / steps + 0.02) << exponent;
+  }
+}
+
+TEST(DecisionNetwork, GoesOnWithOneLegWhileTheOtherOneSaysNothing) {
+  const std::array<std::function<void(LegSignals&)>, 4> faults = {
+      [](LegSignals& leg) { leg.hip.torque = std::nan(""); },
+      [](LegSignals& leg) { leg.knee.velocity = HUGE_VAL; },
+      [](LegSignals& leg) { leg.wheel.torque = 1e9; },
+      [](LegSignals& leg) { leg.wheel.velocity = std::nan(""); }};
+  for (const auto& fault : faults) {
+    DecisionNetwork estimator(lifted_network());
+    test::CarriedRun run;
+    for (int k = 0; k < 300; ++k) run.add(26.0, 26.0).vertical_acceleration += 1e-3 * (k % 3);
+    last_of(estimator, run);
+    Belief belief;
+    for (int k = 0; k < 1000; ++k) {
+      Signals& s = run.add(26.0, 26.0);
+      s.vertical_acceleration += 1e-3 * (k % 3);
+      fault(s.leg[1]);
+      belief = estimator.update(s);
+    }
+    EXPECT_EQ(belief.status, SignalStatus::invalid);
+    EXPECT_GT(belief.wheel[0].p_contact, 0.95);
+    EXPECT_NEAR(belief.wheel[1].p_contact, 0.5, 0.01);
+    EXPECT_TRUE(belief.wheel[1].contact);  // the last decision
+    belief = estimator.update(run.add(26.0, 26.0));
+    EXPECT_EQ(belief.status, SignalStatus::good);
+    EXPECT_GT(belief.wheel[1].p_contact, 0.95);
+  }
+}
+
+TEST(DecisionNetwork, RelaxesWithoutAnImuSaysWhyAndRecovers) {
+  DecisionNetwork estimator(lifted_network());
+  test::CarriedRun run = lifted_run(1, 8);
+  const std::size_t standing = 250;
+  run.signals.resize(standing);
+  last_of(estimator, run);
+  Signals s = run.signals.back();
+  Belief belief;
+  for (int k = 0; k < 1000; ++k) {
+    s.time += 0.001;
+    s.vertical_acceleration = std::nan("");
+    belief = estimator.update(s);
+  }
+  EXPECT_EQ(belief.status, SignalStatus::invalid);
+  EXPECT_NEAR(belief.wheel[0].p_contact, 0.5, 0.01);
+  EXPECT_TRUE(belief.wheel[0].contact);
+  s.vertical_acceleration = 0.01;
+  s.time += 0.001;
+  EXPECT_GT(estimator.update(s).wheel[0].p_contact, 0.9);
+  s.angular_velocity.x() = std::nan("");
+  s.time += 0.001;
+  EXPECT_EQ(estimator.update(s).status, SignalStatus::invalid);
+  s.angular_velocity.x() = 0.0;
+  for (int k = 0; k < 1000; ++k) {  // the accelerometer hangs
+    s.time += 0.001;
+    belief = estimator.update(s);
+  }
+  EXPECT_EQ(belief.status, SignalStatus::frozen);
+  EXPECT_NEAR(belief.wheel[1].p_contact, 0.5, 0.01);
+  s.time += 1.0;
+  s.vertical_acceleration = 0.02;
+  belief = estimator.update(s);
+  EXPECT_EQ(belief.status, SignalStatus::gap);
+  EXPECT_GT(belief.wheel[1].p_contact, 0.9);
+  estimator.reset();
+  EXPECT_EQ(estimator.update(s).status, SignalStatus::good);
+}
+
+TEST(DecisionNetwork, BelievesAfterAGapWhatANewOneWould) {
+  constexpr DecisionConfig slow = {.smoothing = 10.0};
+  DecisionNetwork estimator(lifted_network(), slow);
+  test::CarriedRun run;
+  for (int k = 0; k < 300; ++k) estimator.update(run.add(26.0, 26.0));
+  Signals& s = run.add(0.0, 0.0, -9.81);
+  s.time += 1.0;
+  const Belief belief = estimator.update(s);
+  EXPECT_EQ(belief.status, SignalStatus::gap);
+  DecisionNetwork other(lifted_network(), slow);
+  EXPECT_NEAR(belief.wheel[0].p_contact, other.update(s).wheel[0].p_contact, 0.01);
+  EXPECT_LT(belief.wheel[0].p_contact, 0.5);
+}
+
+TEST(DecisionNetwork, IsNeverLostWhateverItHears) {
+  DecisionNetwork estimator(lifted_network());
+  constexpr double huge = std::numeric_limits<double>::max();
+  Signals s = lifted_run(1, 9).signals.front();
+  for (const double extreme : {huge, -huge, 1e308, 1e4, -1e4, 0.0}) {
+    for (int k = 0; k < 50; ++k) {
+      s.time += 0.001;
+      s.vertical_acceleration = 0.5 * k;
+      s.angular_velocity.setConstant(extreme);
+      for (LegSignals& leg : s.leg) {
+        for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
+          *joint = {extreme, extreme, std::clamp(extreme, -1e4, 1e4)};
+        }
+      }
+      for (const WheelBelief& wheel : estimator.update(s).wheel) {
+        ASSERT_TRUE(wheel.p_contact >= 0.0 && wheel.p_contact <= 1.0) << extreme;
+      }
+    }
+  }
+}
+
+TEST(DecisionNetwork, RefusesWhatMakesNoSense) {
+  const auto refused = [](const DecisionConfig& config) {
+    EXPECT_THROW((DecisionNetwork{DecisionModel(), config}), InputError);
+  };
+  refused({.sample_rate = 0.0});
+  refused({.geometry = {.lower_length = 0.0}});
+  refused({.wheel_inertia = -1.0});
+  refused({.smoothing = std::numeric_limits<double>::quiet_NaN()});
+  refused({.leave_below = 0.9, .return_above = 0.5});
+  refused({.leave_below = 0.0});
+  DecisionModel broken;
+  broken.last_bias = std::numeric_limits<float>::infinity();
+  EXPECT_THROW(DecisionNetwork{broken}, InputError);
+
+  const test::CarriedRun run = lifted_run(1, 10);
+  const std::vector<LabelledRun> runs = {run.view()};
+  const auto refused_fit = [&](const DecisionFitConfig& config) {
+    EXPECT_THROW(static_cast<void>(fit_decision_model(runs, {}, config)), InputError);
+  };
+  refused_fit({.passes = 0});
+  refused_fit({.learning_rate = -1.0});
+  refused_fit({.share_with_bias = 2.0});
+  EXPECT_THROW(static_cast<void>(fit_decision_model({}, {}, quick)), InputError);
+  test::CarriedRun standing = run;
+  for (auto& wheel : standing.contact) wheel.assign(wheel.size(), 1);
+  EXPECT_THROW(
+      static_cast<void>(fit_decision_model(std::vector<LabelledRun>{standing.view()}, {}, quick)),
+      InputError);
+  standing.contact[0].pop_back();
+  EXPECT_THROW(
+      static_cast<void>(fit_decision_model(std::vector<LabelledRun>{standing.view()}, {}, quick)),
+      InputError);
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,128 @@
+#include "estimator/decision/senses.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/estimator/force/carried_run.hpp"
+#include "tests/estimator/random.hpp"
+
+namespace touchdown {
+namespace {
+
+TEST(TimeScales, FollowAStepAsFirstOrderLowPassesOfOneToAHundredAndTwentyEightMilliseconds) {
+  for (const double rate : {1000.0, 200.0}) {
+    TimeScales scales(rate);
+    scales.update(2.0);
+    for (const float value : scales.values()) EXPECT_EQ(value, 2.0F);
+    for (int k = 1; k <= 100; ++k) {
+      scales.update(5.0);
+      for (std::size_t i = 0; i < decision_scales; ++i) {
+        const double time_constant = 0.001 * std::pow(2.0, static_cast<double>(i));
+        const double expected = 5.0 - 3.0 * std::exp(-k / rate / time_constant);
+        ASSERT_NEAR(scales.values()[i], expected, 1e-5) << i;
+      }
+    }
+  }
+}
+
+TEST(TimeScales, BeginAnewWithWhatComesAfterAReset) {
+  TimeScales scales(1000.0);
+  scales.update(2.0);
+  scales.reset();
+  scales.update(-7.0);
+  for (const float value : scales.values()) EXPECT_EQ(value, -7.0F);
+}
+
+/// A robot whose loads, torques, motions and accelerations all wander.
+std::vector<Signals> wandering(std::size_t steps) {
+  test::Normal normal(5);
+  test::CarriedRun run;
+  for (std::size_t k = 0; k < steps; ++k) {
+    Signals& s = run.add(20.0 + 8.0 * normal(), 20.0 + 8.0 * normal(), 2.0 * normal());
+    s.angular_velocity.x() = 0.3 * normal();
+    for (LegSignals& leg : s.leg) {
+      leg.hip.velocity = normal();
+      leg.knee.velocity = normal();
+      leg.wheel = {0.0, 10.0 * normal(), 0.2 * normal()};
+    }
+  }
+  return run.signals;
+}
+
+/// As a mirror at the robot's plane shows it.
+Signals in_the_mirror(Signals s) {
+  std::swap(s.leg[0], s.leg[1]);
+  for (LegSignals& leg : s.leg) leg = test::mirrored(leg);
+  s.angular_velocity.x() *= -1.0;
+  return s;
+}
+
+TEST(DecisionSenses, HearTheOtherWheelOfAMirroredRobot) {
+  DecisionSenses robot({});
+  DecisionSenses mirror({});
+  for (const Signals& s : wandering(500)) {
+    robot.update(s);
+    robot.arrange();
+    mirror.update(in_the_mirror(s));
+    mirror.arrange();
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t i = 0; i < decision_inputs; ++i) {
+        ASSERT_NEAR(mirror.inputs(side)[i], robot.inputs(1 - side)[i], 1e-5) << i;
+      }
+    }
+  }
+  EXPECT_NE(robot.inputs(0), robot.inputs(1));
+}
+
+TEST(DecisionSenses, CompressEveryChannelByAnInverseHyperbolicSine) {
+  DecisionSenses senses({});
+  Signals s;
+  s.vertical_acceleration = -9.0;
+  s.angular_velocity.x() = 0.6;
+  senses.update(s);
+  senses.arrange();
+  constexpr std::size_t acceleration = 2 * decision_leg_channels * decision_scales;
+  for (std::size_t i = acceleration; i < acceleration + decision_scales; ++i) {
+    EXPECT_NEAR(senses.inputs(0)[i], std::asinh(-9.0 / 3.0), 1e-6);
+    EXPECT_NEAR(senses.inputs(0)[i + decision_scales], std::asinh(0.6 / 0.3), 1e-6);
+    EXPECT_NEAR(senses.inputs(1)[i + decision_scales], -std::asinh(0.6 / 0.3), 1e-6);
+  }
+}
+
+TEST(DecisionSenses, EstimateTheNoiseThatTheyHear) {
+  DecisionSenses senses({});
+  test::Normal normal(6);
+  test::CarriedRun run;
+  for (int k = 0; k < 4000; ++k) {
+    Signals& s = run.add(26.0, 26.0);
+    for (LegSignals& leg : s.leg) leg.knee.torque += 0.8 * normal();
+    s.vertical_acceleration += 4.0 * normal();
+    senses.update(s);
+  }
+  senses.arrange();
+  EXPECT_NEAR(senses.torque_noise(), 0.8, 0.12);
+  EXPECT_NEAR(senses.inputs(1)[decision_inputs - 2], std::log(0.8), 0.15);
+  EXPECT_NEAR(senses.inputs(1)[decision_inputs - 1], std::log(4.0), 0.25);
+}
+
+TEST(DecisionSenses, TakeASilentLegToFareLikeTheOther) {
+  DecisionSenses senses({});
+  test::CarriedRun run;
+  senses.update(run.add(26.0, 0.0));
+  senses.arrange();
+  EXPECT_NE(senses.inputs(0)[0], senses.inputs(1)[0]);
+  run.add(26.0, 0.0).leg[1].hip.torque = std::nan("");
+  const DecisionSenses::Step step = senses.update(run.signals.back());
+  senses.arrange();
+  EXPECT_EQ(step.status, SignalStatus::invalid);
+  EXPECT_TRUE(step.is_heard[0]);
+  EXPECT_FALSE(step.is_heard[1]);
+  constexpr std::size_t leg = decision_leg_channels * decision_scales;
+  for (std::size_t i = 0; i < leg; ++i) {
+    EXPECT_EQ(senses.inputs(0)[leg + i], senses.inputs(0)[i]);
+  }
+}
+
+}  // namespace
+}  // namespace touchdown

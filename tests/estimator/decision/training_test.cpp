@@ -1,0 +1,146 @@
+#include "estimator/decision/training.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/estimator/decision/random_model.hpp"
+#include "tests/estimator/random.hpp"
+
+namespace touchdown {
+namespace {
+
+/// Rows whose class is a coin that the inputs load: P(contact) = 1 / (1 + exp(−logit)).
+struct Coins {
+  DecisionRows rows;
+  std::vector<double> p;
+};
+
+Coins coins(int count, double steepness, double offset, std::uint32_t seed) {
+  test::Normal normal(seed);
+  Coins all;
+  all.rows.inputs.resize(static_cast<int>(decision_inputs), count);
+  all.rows.is_contact.resize(count);
+  all.rows.weight = Eigen::RowVectorXf::Ones(count);
+  for (int i = 0; i < count; ++i) {
+    for (int k = 0; k < static_cast<int>(decision_inputs); ++k) {
+      all.rows.inputs(k, i) = static_cast<float>(normal());
+    }
+    const double logit =
+        offset + steepness * (all.rows.inputs(0, i) - std::abs(all.rows.inputs(7, i)));
+    all.p.push_back(1.0 / (1.0 + std::exp(-logit)));
+    const double coin = 0.5 * std::erfc(-normal() / std::sqrt(2.0));
+    all.rows.is_contact[i] = coin < all.p.back() ? 1.0F : 0.0F;
+  }
+  return all;
+}
+
+/// All numbers of a model, one after the other.
+std::vector<double> numbers_of(const DecisionModel& model) {
+  std::vector<double> all(model.first_weight.begin(), model.first_weight.end());
+  all.insert(all.end(), model.first_bias.begin(), model.first_bias.end());
+  all.insert(all.end(), model.second_weight.begin(), model.second_weight.end());
+  all.insert(all.end(), model.second_bias.begin(), model.second_bias.end());
+  all.insert(all.end(), model.last_weight.begin(), model.last_weight.end());
+  all.push_back(model.last_bias);
+  return all;
+}
+
+/// The loss by its definition, row by row, in double precision.
+double loss_of(const std::vector<double>& numbers, const DecisionRows& rows) {
+  double sum = 0.0;
+  double weights = 0.0;
+  for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
+    std::vector<double> x;
+    for (Eigen::Index i = 0; i < rows.inputs.rows(); ++i) x.push_back(rows.inputs(i, row));
+    std::size_t next = 0;
+    for (const std::size_t outputs : {decision_first, decision_second, std::size_t{1}}) {
+      std::vector<double> y(outputs);
+      for (std::size_t k = 0; k < outputs; ++k) {
+        y[k] = numbers[next + x.size() * outputs + k];
+        for (std::size_t i = 0; i < x.size(); ++i) y[k] += numbers[next + i * outputs + k] * x[i];
+        if (outputs > 1) y[k] = std::max(y[k], 0.0);
+      }
+      next += (x.size() + 1) * outputs;
+      x = y;
+    }
+    const double p = 1.0 / (1.0 + std::exp(-x[0]));
+    sum -= rows.weight[row] * std::log(rows.is_contact[row] > 0.0F ? p : 1.0 - p);
+    weights += rows.weight[row];
+  }
+  return sum / weights;
+}
+
+DecisionRows weighted_coins() {
+  DecisionRows rows = coins(40, 2.0, 0.3, 2).rows;
+  for (Eigen::Index i = 0; i < rows.weight.size(); ++i) {
+    rows.weight[i] = 1.0F + static_cast<float>(i % 3);
+  }
+  return rows;
+}
+
+TEST(DecisionLoss, IsTheWeightedCrossEntropy) {
+  const DecisionModel model = test::random_model(1);
+  const DecisionRows rows = weighted_coins();
+  EXPECT_NEAR(decision_loss(model, rows), loss_of(numbers_of(model), rows), 1e-5);
+}
+
+TEST(DecisionLoss, HasTheGradientThatItsDifferencesHave) {
+  const DecisionModel model = test::random_model(3);
+  const DecisionRows rows = weighted_coins();
+  DecisionModel gradient;
+  static_cast<void>(decision_loss(model, rows, &gradient));
+  const std::vector<double> found = numbers_of(gradient);
+  const std::vector<double> numbers = numbers_of(model);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const bool is_behind_inputs = i >= decision_inputs * decision_first;
+    if (!is_behind_inputs && i % 13 != 0) continue;  // a sample of the many
+    constexpr double step = 1e-6;
+    std::vector<double> moved = numbers;
+    moved[i] += step;
+    const double up = loss_of(moved, rows);
+    moved[i] -= 2.0 * step;
+    const double expected = (up - loss_of(moved, rows)) / (2.0 * step);
+    ASSERT_NEAR(found[i], expected, 1e-6) << i;
+    largest = std::max(largest, std::abs(expected));
+  }
+  EXPECT_GT(largest, 0.01);
+}
+
+TEST(DecisionTraining, FindsTheProbabilityThatAWeighedCoinHas) {
+  const Coins seen = coins(40'000, 3.0, 1.0, 5);
+  const DecisionModel model = train_decision_model(seen.rows, {.batch = 256, .epochs = 10});
+  const Coins others = coins(4000, 3.0, 1.0, 6);
+  double found = 0.0;
+  double best = 0.0;
+  double error = 0.0;
+  for (Eigen::Index i = 0; i < others.rows.inputs.cols(); ++i) {
+    DecisionInputs inputs;
+    std::copy_n(others.rows.inputs.col(i).data(), decision_inputs, inputs.begin());
+    const double p = 1.0 / (1.0 + std::exp(-static_cast<double>(decision_logit(model, inputs))));
+    const double truth = others.p[static_cast<std::size_t>(i)];
+    const bool contact = others.rows.is_contact[i] > 0.0F;
+    found -= std::log(contact ? p : 1.0 - p);
+    best -= std::log(contact ? truth : 1.0 - truth);
+    error += p - truth;
+  }
+  const double count = static_cast<double>(others.p.size());
+  EXPECT_LT(found / count, best / count + 0.03);
+  EXPECT_NEAR(error / count, 0.0, 0.02);
+}
+
+TEST(DecisionTraining, RepeatsItselfToTheBit) {
+  const DecisionRows rows = coins(2000, 3.0, 0.0, 7).rows;
+  const DecisionFitConfig config{.batch = 64, .epochs = 2};
+  const DecisionModel once = train_decision_model(rows, config);
+  EXPECT_EQ(train_decision_model(rows, config), once);
+  DecisionFitConfig other = config;
+  other.seed = 2;
+  EXPECT_FALSE(train_decision_model(rows, other) == once);
+}
+
+}  // namespace
+}  // namespace touchdown
