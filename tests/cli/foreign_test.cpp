@@ -110,7 +110,7 @@ TEST_F(Foreign, ProgramThatFollowsTheSameEquationsHasTheScoresOfOurOwnToTheLastD
   const auto ours = rows_of(*folder / "run", "free_fall");
   ASSERT_EQ(ours.size(), 8U);  // two kinds of sensors, two scenes, two noise settings
   EXPECT_EQ(rows_of(*folder / "run", "falls"), ours);
-  EXPECT_THAT(read_file(*folder / "run/report.html"), HasSubstr("scope=\"row\">falls</th>"));
+  EXPECT_THAT(read_file(*folder / "run/benchmark.html"), HasSubstr("scope=\"row\">falls</th>"));
 }
 
 TEST_F(Foreign, ProgramThatTheDocumentsShowIsTheOneThatIsTried) {
@@ -137,7 +137,7 @@ TEST_F(Foreign, ScoresStayBesideEachOtherAndAreReplacedByName) {
   ran("merge run --no-pictures", *folder);
   EXPECT_EQ(read_file(*folder / "run/tables/benchmark.csv"), table);
   ran("report run", *folder);
-  EXPECT_THAT(read_file(*folder / "run/report.html"), HasSubstr("scope=\"row\">second</th>"));
+  EXPECT_THAT(read_file(*folder / "run/benchmark.html"), HasSubstr("scope=\"row\">second</th>"));
 }
 
 TEST_F(Foreign, RunsThatNothingIsHandedInForAreNamedAndNotScored) {
@@ -151,7 +151,7 @@ TEST_F(Foreign, RunsThatNothingIsHandedInForAreNamedAndNotScored) {
   const auto rows = rows_of(*folder / "run", "part");
   ASSERT_EQ(rows.size(), 4U);
   std::map<std::string, int> runs;
-  for (const auto& row : rows) ++runs[row.at(3) + " " + row.at(row.size() - 3)];
+  for (const auto& row : rows) ++runs[row.at(3) + " " + row.at(row.size() - 4)];
   EXPECT_EQ(runs, (std::map<std::string, int>{{"roll 2", 2}, {"step 1", 1}, {"step 2", 1}}));
 }
 
@@ -230,7 +230,7 @@ TEST_F(Foreign, RunsThatFellAreNotHandedOutAndCountAsOurs) {
   ran("run falls.yaml --no-pictures --out fell", *folder);
   const auto ours = rows_of(*folder / "fell", "always_contact");
   ASSERT_EQ(ours.size(), 1U);
-  const std::size_t failed = std::stoul(ours[0].at(ours[0].size() - 2));
+  const std::size_t failed = std::stoul(ours[0].at(ours[0].size() - 3));
   ASSERT_GT(failed, 0U) << "no robot falls down this step any more";
   ran("export --benchmark upright fell", *folder);
   EXPECT_EQ(from_csv(read_file(*folder / "upright/index.csv")).rows.size(), 7U - failed);
