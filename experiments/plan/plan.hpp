@@ -65,9 +65,7 @@ struct RunGroup {
     return scores_guests || condition.is_fit_of_home(fit);
   }
   /// A refit is scored alone.
-  bool counts(const Condition& condition) const {
-    return !counted.empty() && condition.refit == 0;
-  }
+  bool counts(const Condition& condition) const { return !counted.empty() && condition.refit == 0; }
 };
 
 /// The unit in which an experiment's listening is computed, saved and spread over machines: one

@@ -34,7 +34,8 @@ constexpr std::array fixed_names = {
     FixedNames{"state/foreign", R"([^.].*)"},
     FixedNames{
         "tables",
-        "(agreement|benchmark|benchmark_differences|benchmark_standings|calibration|classification|density_overlap|differences|labels|"
+        "(agreement|benchmark|benchmark_differences|benchmark_standings|calibration|classification|"
+        "density_overlap|differences|labels|"
         "latency|moments|overlap|reliability|runs|sample_efficiency|sensitivity|sensor_sweep|"
         "success|torque_distributions|torques|training|transfer|transitions|verdicts|views)\\.csv|"
         "(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
