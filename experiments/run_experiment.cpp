@@ -152,10 +152,7 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
       result.studies.push_back(moments_text(torques, experiment));
     }
     if (experiment.benchmark) {
-      std::vector<BenchmarkRow> rows = benchmark(listened);
-      add_foreign_rows(listened, running.directory, rows);
-      const BenchmarkResult found = with_standings(std::move(rows), bootstrap.level);
-      write_tables(found, bootstrap.level, running.directory);
+      const BenchmarkResult found = write_benchmark(listened, running.directory);
       write_overlap(result.models, listened, running.directory);
       result.studies.push_back(benchmark_text(found, experiment));
     }

@@ -143,13 +143,8 @@ BeliefReport scored(const BeliefRequest& wanted, RunningExperiment& running) {
   const Plan& plan = running.plan;
   const CollectedCounts own = collect(plan, plan.runs_in(0), running.saved);
   const Listened listened{running.request, plan, runs, running.saved, own};
-  std::vector<BenchmarkRow> rows = benchmark(listened);
-  add_foreign_rows(listened, running.directory, rows);
-  const Experiment& experiment = running.request.experiment;
-  const double level = experiment.intervals.bootstrap.level;
-  const BenchmarkResult found = with_standings(std::move(rows), level);
-  write_tables(found, level, running.directory);
-  report.table = benchmark_text(found, experiment);
+  report.table =
+      benchmark_text(write_benchmark(listened, running.directory), running.request.experiment);
   return report;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/force/wheel_loads.hpp"
+
 namespace touchdown {
 
 namespace {
@@ -44,8 +46,7 @@ LegChannels LegListener::update(const LegSignals& leg, double vertical_accelerat
 }
 
 bool is_usable(const LegSignals& leg, const SignalGuardConfig& guard) noexcept {
-  return is_torque(leg.hip.torque, guard) && has_torques(leg, guard) &&
-         std::isfinite(leg.hip.position) && std::isfinite(leg.knee.position) &&
+  return tells_of_load(leg, guard) && is_torque(leg.wheel.torque, guard) &&
          std::isfinite(leg.hip.velocity) && std::isfinite(leg.knee.velocity) &&
          std::isfinite(leg.wheel.velocity);
 }

@@ -41,10 +41,7 @@ const Belief& DecisionNetwork::update(const Signals& signals) noexcept {
       is_started_[side] = false;
     }
   }
-  const double left = belief_.wheel[0].p_contact;
-  const double right = belief_.wheel[1].p_contact;
-  belief_.p_both_wheels = left * right;
-  belief_.p_any_wheel = left + (1.0 - left) * right;
+  multiply_wheels(belief_);
   return belief_;
 }
 

@@ -32,18 +32,10 @@ void LoadLogistic::reset() noexcept {
 }
 
 const Belief& LoadLogistic::update(const Signals& signals) noexcept {
-  const WheelLoads::Step step = loads_.update(signals);
-  belief_.status = step.status;
-  for (std::size_t side = 0; side < 2; ++side) {
-    WheelBelief& wheel = belief_.wheel[side];
-    if (step.is_measured[side]) {
-      wheel.p_contact = curve_(loads_.force(side));
-      wheel.contact = wheel.p_contact >= threshold_;
-    } else {  // the last decision stands
-      wheel.p_contact = loads_.relaxed(wheel.p_contact, step.elapsed);
-    }
-  }
-  multiply_wheels(belief_);
+  loads_.update(signals, belief_, [this](WheelBelief& wheel, double force) {
+    wheel.p_contact = curve_(force);
+    wheel.contact = wheel.p_contact >= threshold_;
+  });
   return belief_;
 }
 

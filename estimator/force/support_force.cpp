@@ -33,20 +33,11 @@ void SupportForce::reset() noexcept {
 }
 
 const Belief& SupportForce::update(const Signals& signals) noexcept {
-  const WheelLoads::Step step = loads_.update(signals);
-  belief_.status = step.status;
-  for (std::size_t side = 0; side < 2; ++side) {
-    WheelBelief& wheel = belief_.wheel[side];
-    if (step.is_measured[side]) {
-      const double force = loads_.force(side);
-      const double middle = 0.5 * (config_.contact + config_.release);
-      wheel.p_contact = 1.0 / (1.0 + std::exp(-(force - middle) / config_.width));
-      wheel.contact = force >= (wheel.contact ? config_.release : config_.contact);
-    } else {  // the last decision stands
-      wheel.p_contact = loads_.relaxed(wheel.p_contact, step.elapsed);
-    }
-  }
-  multiply_wheels(belief_);
+  loads_.update(signals, belief_, [this](WheelBelief& wheel, double force) {
+    const double middle = 0.5 * (config_.contact + config_.release);
+    wheel.p_contact = 1.0 / (1.0 + std::exp(-(force - middle) / config_.width));
+    wheel.contact = force >= (wheel.contact ? config_.release : config_.contact);
+  });
   return belief_;
 }
 

@@ -7,14 +7,10 @@
 
 namespace touchdown {
 
-namespace {
-
-bool is_usable(const LegSignals& leg, const SignalGuardConfig& guard) noexcept {
+bool tells_of_load(const LegSignals& leg, const SignalGuardConfig& guard) noexcept {
   return is_torque(leg.hip.torque, guard) && is_torque(leg.knee.torque, guard) &&
          std::isfinite(leg.hip.position) && std::isfinite(leg.knee.position);
 }
-
-}  // namespace
 
 bool is_sensible(const WheelLoadsConfig& config) noexcept {
   return config.low_pass >= 0.0 && config.geometry.upper_length > 0.0 &&
@@ -38,7 +34,7 @@ WheelLoads::Step WheelLoads::update(const Signals& signals) noexcept {
   if (verdict.restart) is_started_ = {};
   for (std::size_t side = 0; side < 2; ++side) {
     const LegSignals& leg = signals.leg[side];
-    const bool usable = is_usable(leg, config_.guard);
+    const bool usable = tells_of_load(leg, config_.guard);
     if (!usable && verdict.status == SignalStatus::good) step.status = SignalStatus::invalid;
     if (!usable || !verdict.acceleration_good) continue;
     const double measured =

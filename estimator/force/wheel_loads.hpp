@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "estimator/contact_estimator.hpp"
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/signal_guard.hpp"
 
@@ -17,6 +18,9 @@ struct WheelLoadsConfig {
   double largest = std::numeric_limits<double>::infinity();
   SignalGuardConfig guard = {};
 };
+
+/// Whether all that a load is computed from can be used.
+[[nodiscard]] bool tells_of_load(const LegSignals& leg, const SignalGuardConfig& guard) noexcept;
 
 /// Whether lengths are positive and the time constant is not negative.
 [[nodiscard]] bool is_sensible(const WheelLoadsConfig& config) noexcept;
@@ -39,6 +43,23 @@ class WheelLoads {
 
   void reset() noexcept;
   Step update(const Signals& signals) noexcept;
+
+  /// As above, and what to believe then: `decide(wheel, force)` of each wheel whose force was
+  /// measured; that of the others relaxes, and their last decision stands.
+  template <typename Decide>
+  void update(const Signals& signals, Belief& belief, const Decide& decide) noexcept {
+    const Step step = update(signals);
+    belief.status = step.status;
+    for (std::size_t side = 0; side < 2; ++side) {
+      WheelBelief& wheel = belief.wheel[side];
+      if (step.is_measured[side]) {
+        decide(wheel, force_[side]);
+      } else {
+        wheel.p_contact = relaxed(wheel.p_contact, step.elapsed);
+      }
+    }
+    multiply_wheels(belief);
+  }
 
   /// Of the left, of the right wheel (N); the last that was measured.
   [[nodiscard]] double force(std::size_t side) const noexcept { return force_[side]; }

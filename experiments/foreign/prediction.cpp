@@ -20,16 +20,12 @@ std::size_t step_of(const recordings::Beliefs& beliefs, std::size_t index, const
                                period * static_cast<double>(run.steps() - 1)));
 }
 
-/// The wheels' decisions may be other than by the threshold that `conclude` takes.
 Belief belief_of(const recordings::Beliefs& beliefs, std::size_t index) {
   Belief belief;
   for (std::size_t w = 0; w < models::wheel_count; ++w) {
-    belief.wheel[w].p_contact = beliefs.p_contact[w][index];
+    belief.wheel[w] = {beliefs.p_contact[w][index], beliefs.contact[w][index] != 0};
   }
-  conclude(belief, 0.5);
-  for (std::size_t w = 0; w < models::wheel_count; ++w) {
-    belief.wheel[w].contact = beliefs.contact[w][index] != 0;
-  }
+  multiply_wheels(belief);
   return belief;
 }
 

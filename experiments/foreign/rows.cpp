@@ -23,8 +23,6 @@ Plan plan_for(const std::string& estimator, const noise::NoiseCell& cell,
   return plan;
 }
 
-}  // namespace
-
 void add_foreign_rows(const Listened& listened, const RunDirectory& directory,
                       std::vector<BenchmarkRow>& rows) {
   for (const ForeignScores& scores : saved_foreign(listened.request, directory)) {
@@ -47,6 +45,17 @@ void add_foreign_rows(const Listened& listened, const RunDirectory& directory,
       for (BenchmarkRow& row : benchmark(alone)) rows.push_back(std::move(row));
     }
   }
+}
+
+}  // namespace
+
+BenchmarkResult write_benchmark(const Listened& listened, const RunDirectory& directory) {
+  std::vector<BenchmarkRow> rows = benchmark(listened);
+  add_foreign_rows(listened, directory, rows);
+  const double level = listened.request.experiment.intervals.bootstrap.level;
+  BenchmarkResult result = with_standings(std::move(rows), level);
+  write_tables(result, level, directory);
+  return result;
 }
 
 }  // namespace touchdown::experiments

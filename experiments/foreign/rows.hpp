@@ -1,16 +1,13 @@
 #pragma once
 
-#include <vector>
-
-#include "experiments/benchmark/rows.hpp"
-#include "experiments/run_directory/directory.hpp"
+#include "experiments/benchmark/tables.hpp"
 
 namespace touchdown::experiments {
 
-/// Adds to a benchmark's rows those of every estimator that is none of ours and that was scored in
+/// A benchmark's rows, then those of every estimator that is none of ours and that was scored in
 /// this run directory: by estimator, noise, then as the others. `runs` of a row are those that it
-/// handed beliefs in for, and those that failed.
-void add_foreign_rows(const Listened& listened, const RunDirectory& directory,
-                      std::vector<BenchmarkRow>& rows);
+/// handed beliefs in for, and those that failed. With their standings; all of it is written into
+/// the directory's tables.
+BenchmarkResult write_benchmark(const Listened& listened, const RunDirectory& directory);
 
 }  // namespace touchdown::experiments

@@ -1,77 +1,37 @@
 #include "experiments/foreign/sha256.hpp"
 
 #include <array>
-#include <bit>
 #include <cstdint>
+#include <memory>
+#include <new>
+
+extern "C" {
+#include <libavutil/mem.h>
+#include <libavutil/sha.h>
+}
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace touchdown::experiments {
 
 namespace {
 
-using Words = std::array<std::uint32_t, 8>;
-constexpr std::size_t block_size = 64;
-
-/// First 32 bits of the fractional parts of the cube roots of the first 64 primes.
-constexpr std::array<std::uint32_t, 64> constants = {
-    0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
-    0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
-    0xe49b69c1, 0xefbe4786, 0x0fc19dc6, 0x240ca1cc, 0x2de92c6f, 0x4a7484aa, 0x5cb0a9dc, 0x76f988da,
-    0x983e5152, 0xa831c66d, 0xb00327c8, 0xbf597fc7, 0xc6e00bf3, 0xd5a79147, 0x06ca6351, 0x14292967,
-    0x27b70a85, 0x2e1b2138, 0x4d2c6dfc, 0x53380d13, 0x650a7354, 0x766a0abb, 0x81c2c92e, 0x92722c85,
-    0xa2bfe8a1, 0xa81a664b, 0xc24b8b70, 0xc76c51a3, 0xd192e819, 0xd6990624, 0xf40e3585, 0x106aa070,
-    0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
-    0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
-
-void mix(Words& state, std::string_view block) {
-  std::array<std::uint32_t, 64> w{};
-  for (std::size_t i = 0; i < block_size; ++i) {
-    w[i / 4] = w[i / 4] << 8U | static_cast<unsigned char>(block[i]);
-  }
-  for (std::size_t i = 16; i < w.size(); ++i) {
-    const std::uint32_t a = w[i - 15];
-    const std::uint32_t b = w[i - 2];
-    w[i] = w[i - 16] + w[i - 7] + (std::rotr(a, 7) ^ std::rotr(a, 18) ^ a >> 3U) +
-           (std::rotr(b, 17) ^ std::rotr(b, 19) ^ b >> 10U);
-  }
-  auto [a, b, c, d, e, f, g, h] = state;
-  for (std::size_t i = 0; i < w.size(); ++i) {
-    const std::uint32_t first = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
-                                ((e & f) ^ (~e & g)) + constants[i] + w[i];
-    const std::uint32_t second =
-        (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
-    h = g;
-    g = f;
-    f = e;
-    e = d + first;
-    d = c;
-    c = b;
-    b = a;
-    a = first + second;
-  }
-  const Words mixed = {a, b, c, d, e, f, g, h};
-  for (std::size_t i = 0; i < state.size(); ++i) state[i] += mixed[i];
-}
+struct Free {
+  void operator()(AVSHA* sum) const { av_free(sum); }
+};
 
 }  // namespace
 
 std::string sha256(std::string_view bytes) {
-  Words state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  const std::uint64_t bits = 8 * std::uint64_t{bytes.size()};
-  for (; bytes.size() >= block_size; bytes.remove_prefix(block_size)) mix(state, bytes);
-  // The end: a one, zeros, and the length in bits.
-  std::string end(bytes);
-  end += '\x80';
-  while (end.size() % block_size != block_size - 8) end += '\0';
-  for (int shift = 56; shift >= 0; shift -= 8) end += static_cast<char>(bits >> shift & 0xffU);
-  for (std::size_t i = 0; i < end.size(); i += block_size) {
-    mix(state, std::string_view(end).substr(i, block_size));
-  }
-  std::string text;
-  for (const std::uint32_t word : state) text += fmt::format("{:08x}", word);
-  return text;
+  constexpr int bits = 256;
+  const std::unique_ptr<AVSHA, Free> sum(av_sha_alloc());
+  if (!sum) throw std::bad_alloc();
+  av_sha_init(sum.get(), bits);
+  av_sha_update(sum.get(), reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  std::array<std::uint8_t, bits / 8> digest{};
+  av_sha_final(sum.get(), digest.data());
+  return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
 }  // namespace touchdown::experiments

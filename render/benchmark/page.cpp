@@ -17,9 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string header_of(const ReportSubject& subject, const BenchmarkScores& scores) {
-  const auto count = [&](const auto& rows, const auto& name) { return names(rows, name).size(); };
-  const auto fact = [](std::size_t number, const char* name) {
-    return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, number);
+  const auto fact = [](const char* name, const auto& rows, const auto& of) {
+    return fact_html(name, std::to_string(names(rows, of).size()));
   };
   return fmt::format(
              "<p class=\"kicker\">Contact estimation on a wheeled biped</p>\n<h1>{}: which "
@@ -28,15 +27,12 @@ std::string header_of(const ReportSubject& subject, const BenchmarkScores& score
              "share. 0.5 is what a constant answer earns where both happen.</p>\n<dl "
              "class=\"facts\">\n",
              escaped(subject.experiment.name)) +
-         fact(count(scores.standings, [](const Standing& p) { return p.estimator; }),
-              "estimators") +
-         fact(count(scores.scenes, [](const SceneScore& s) { return s.scene; }), "scenes") +
-         fact(count(scores.standings, [](const Standing& p) { return p.robot; }), "robots") +
-         fact(count(scores.standings, [](const Standing& p) { return p.sensors; }),
-              "kinds of sensors") +
-         fact(count(scores.standings, [](const Standing& p) { return p.noise; }),
-              "noise settings") +
-         fact(subject.experiment.simulators.size(), "physics engines") +
+         fact("estimators", scores.standings, [](const Standing& s) { return s.estimator; }) +
+         fact("scenes", scores.scenes, [](const SceneScore& s) { return s.scene; }) +
+         fact("robots", scores.standings, [](const Standing& s) { return s.robot; }) +
+         fact("kinds of sensors", scores.standings, [](const Standing& s) { return s.sensors; }) +
+         fact("noise settings", scores.standings, [](const Standing& s) { return s.noise; }) +
+         fact_html("physics engines", std::to_string(subject.experiment.simulators.size())) +
          fmt::format(
              "</dl>\n<p class=\"note\">{} {} runs a scene and engine. Everything here as "
              "numbers: <a href=\"tables/benchmark.csv\">benchmark.csv</a>, <a "

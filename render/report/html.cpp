@@ -28,6 +28,10 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+std::string fact_html(std::string_view name, std::string_view value) {
+  return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped(name), escaped(value));
+}
+
 std::string in_words(const std::vector<std::string>& things) {
   std::string text;
   for (std::size_t i = 0; i < things.size(); ++i) {

@@ -17,6 +17,9 @@ struct ReportSection {
 /// `text` with nothing left in it that HTML takes for markup, inside and outside of attributes.
 std::string escaped(std::string_view text);
 
+/// One of the `facts` at the head of a page.
+std::string fact_html(std::string_view name, std::string_view value);
+
 /// "a", "a and b", "a, b and c".
 std::string in_words(const std::vector<std::string>& things);
 

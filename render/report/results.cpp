@@ -23,10 +23,6 @@ std::vector<std::string> engines_of(const experiments::Experiment& experiment) {
   return engines;
 }
 
-std::string fact(const std::string& name, const std::string& value) {
-  return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped(name), escaped(value));
-}
-
 template <typename Row>
 std::vector<Row> rows_at(const std::vector<Row>& rows, const noise::NoiseCell& cell) {
   std::vector<Row> found;
@@ -61,11 +57,11 @@ std::string header_html(const ReportSubject& subject) {
       "accelerometer, in {}, through sensor noise.</p>\n<dl class=\"facts\">\n",
       escaped(experiment.name), experiments::plural(experiment.estimators.size(), "estimator"),
       escaped(in_words(engines_of(experiment))));
-  html += fact("physics engines", std::to_string(experiment.simulators.size()));
-  html += fact("test runs scored", std::to_string(test_runs));
-  html += fact("flights in them", std::to_string(flights));
-  html += fact("noise settings", std::to_string(settings.size()));
-  html += fact("noise seeds each", std::to_string(experiment.noise.seeds));
+  html += fact_html("physics engines", std::to_string(experiment.simulators.size()));
+  html += fact_html("test runs scored", std::to_string(test_runs));
+  html += fact_html("flights in them", std::to_string(flights));
+  html += fact_html("noise settings", std::to_string(settings.size()));
+  html += fact_html("noise seeds each", std::to_string(experiment.noise.seeds));
   html += "</dl>\n";
   html += fmt::format("<p class=\"note\">{}", escaped(experiments::conditions_text(experiment)));
   if (unusable > 0) {
