@@ -3,8 +3,8 @@ JOBS ?= $(shell nproc)
 BUILD := build/release
 
 .DEFAULT_GOAL := help
-.PHONY: help setup program-packages trainer-packages test-packages fuzz-packages \
-	build run trainer everything test faults lint format bench asan fuzz clean
+.PHONY: help setup program-packages trainer-packages python-packages test-packages fuzz-packages \
+	build run trainer python everything test faults lint format bench asan fuzz clean
 
 help: ## Show this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -16,17 +16,22 @@ program-packages:
 	@scripts/install_packages.sh program
 trainer-packages:
 	@scripts/install_packages.sh program trainer
+python-packages:
+	@scripts/install_packages.sh program python
 fuzz-packages:
 	@scripts/install_packages.sh lint
 test-packages:
-	@scripts/install_packages.sh program trainer tests
+	@scripts/install_packages.sh program trainer python tests
 
 # Configured once; from then on ninja itself notices when a CMakeLists.txt changes. Each target is a
-# file that only a configuration which succeeded writes: of the program, with the trainer, with the tests.
+# file that only a configuration which succeeded writes: of the program, with the trainer, with Python,
+# with the tests.
 $(BUILD)/build.ninja: | program-packages
 	cmake --preset program
 $(BUILD)/training/cmake_install.cmake: | trainer-packages
-	cmake --preset program -DTOUCHDOWN_TRAINER=ON
+	cmake --preset program -DTOUCHDOWN_TRAINER=ON $(if $(wildcard $(BUILD)/python/cmake_install.cmake),-DTOUCHDOWN_PYTHON=ON)
+$(BUILD)/python/cmake_install.cmake: | python-packages
+	cmake --preset program -DTOUCHDOWN_PYTHON=ON $(if $(wildcard $(BUILD)/training/cmake_install.cmake),-DTOUCHDOWN_TRAINER=ON)
 $(BUILD)/CTestTestfile.cmake: CMakePresets.json | test-packages
 	cmake --preset release
 	@touch $@
@@ -49,7 +54,10 @@ run: build ## Build the program, then run the first experiment
 trainer: $(BUILD)/training/cmake_install.cmake ## Build the program and the trainer of the neural network
 	cmake --build --preset program --parallel $(JOBS) --target touchdown touchdown-train
 
-everything: $(BUILD)/CTestTestfile.cmake ## Build the program, the trainer, the tests and the benchmarks
+python: $(BUILD)/python/cmake_install.cmake ## Build the Python package: build/release/python
+	cmake --build --preset program --parallel $(JOBS) --target touchdown_python
+
+everything: $(BUILD)/CTestTestfile.cmake ## Build the program, the trainer, the Python package, the tests and the benchmarks
 	cmake --build --preset release --parallel $(JOBS)
 
 test: everything ## Build everything and run every test

@@ -1,5 +1,8 @@
 #include "core/fingerprint.hpp"
 
+#include <dlfcn.h>
+#include <link.h>
+
 #include <fmt/format.h>
 
 #include "core/files.hpp"
@@ -8,8 +11,18 @@ namespace touchdown {
 
 std::string Fingerprint::text() const { return fmt::format("{:016x}", state_); }
 
+std::filesystem::path own_binary() {
+  Dl_info info = {};
+  void* map = nullptr;
+  const bool found = ::dladdr1(reinterpret_cast<const void*>(&build_fingerprint), &info, &map,
+                               RTLD_DL_LINKMAP) != 0;
+  // The program itself has an empty name there.
+  const char* const library = found && map != nullptr ? static_cast<link_map*>(map)->l_name : "";
+  return *library == '\0' ? "/proc/self/exe" : library;
+}
+
 std::string build_fingerprint() {
-  static const std::string name = Fingerprint().add(read_file("/proc/self/exe")).text();
+  static const std::string name = Fingerprint().add(read_file(own_binary())).text();
   return name;
 }
 

@@ -27,12 +27,15 @@ class Fingerprint {
   std::uint64_t state_ = 0xcbf29ce484222325ULL;
 };
 
-/// A name for the program that is running: equal programs have equal names.
+/// The program that is running, or the shared library that holds this code inside of another one.
+std::filesystem::path own_binary();
+
+/// A name for it: equal ones have equal names.
 std::string build_fingerprint();
 
 /// The commit of the sources that a program was built from, as `git describe` calls it; "-dirty" at
 /// its end where files had been changed since. The build notes it in a file beside the program, so
 /// that a commit alone makes no other program. Says so when there is no such note.
-std::string build_commit(const std::filesystem::path& program = "/proc/self/exe");
+std::string build_commit(const std::filesystem::path& program = own_binary());
 
 }  // namespace touchdown

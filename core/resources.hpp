@@ -7,7 +7,8 @@
 namespace touchdown {
 
 /// Where a file that an experiment, a scenario or a command names really is: `path` itself if it
-/// exists from here, otherwise the same path in the project's sources or in its installation.
+/// exists from here, otherwise the same path in the project's sources, in its installation, or in
+/// `share/touchdown` beside the program or library that asks.
 /// Errors: `InputError` naming the nearest existing file.
 std::filesystem::path find_resource(const std::filesystem::path& path);
 

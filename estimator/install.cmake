@@ -1,5 +1,5 @@
-# `cmake --install` of the estimator: the one part of touchdown that goes to a robot. Afterwards
-# find_package(touchdown) gives touchdown::estimator.
+# `cmake --install` of the estimator: what of touchdown goes to a robot. Afterwards
+# find_package(touchdown) gives touchdown::estimator; onboard/install.cmake adds touchdown::models.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -7,12 +7,14 @@ include(CMakePackageConfigHelpers)
 # Programs write <touchdown/estimator.hpp> or <touchdown/estimator/…>, the headers among themselves
 # "estimator/…".
 set(public
+  assembly/record assembly/signal_assembler
   contact_estimator free_fall labelled_run signal_guard signals torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
-  bayes/transition_model
-  decision/config decision/filter decision/fit decision/network decision/training
+  bayes/transition_model c_interface/handle
+  decision/config decision/disturbance decision/draws decision/filter decision/fit decision/network decision/training
   force/force_kinematics force/force_kinematics_fit force/leg_geometry force/load_logistic
   force/load_logistic_fit force/logistic_regression force/support_force
+  models/arrays models/compiled models/make_estimator models/passport
   neural/estimator neural/input neural/network
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
 # What these hold by value. Not for programs, and not promised to stay.
@@ -29,7 +31,8 @@ set_target_properties(touchdown_estimator PROPERTIES EXPORT_NAME estimator)
 
 install(TARGETS touchdown_estimator EXPORT touchdownTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES estimator.hpp DESTINATION ${include_dir})
+install(FILES estimator.hpp c_interface/touchdown.h DESTINATION ${include_dir})
+install(FILES c_interface/touchdown.h DESTINATION ${include_dir}/estimator/c_interface)
 foreach(header ${public})
   cmake_path(GET header PARENT_PATH room)
   install(FILES ${header}.hpp DESTINATION ${include_dir}/estimator/${room})

@@ -22,6 +22,9 @@ constexpr double heard_step_bytes =
     sizeof(Signals) + sizeof(Eigen::Vector3d) +
     static_cast<double>(models::wheel_count) * (sizeof(double) + 1.0);
 
+/// And what it keeps for odometry.
+constexpr double moved_step_bytes = sizeof(Eigen::Vector3d) + sizeof(scoring::TimedPose);
+
 /// Adds runs of a scenario, each of them heard under so many noise seeds, and kept as so many
 /// different sensors hear it.
 void add_runs(Needs& needs, const scenarios::Scenario& scenario, double runs, double seeds,
@@ -92,7 +95,8 @@ double memory_of_machine() {
 void require_memory(const RunRequest& request, double share_of_runs, double memory) {
   const Needs needs = needs_of(request);
   const double planned = needs.runs * planned_bytes + needs.parts * sizeof(Task);
-  const double played = share_of_runs * needs.steps * heard_step_bytes;
+  const double step = heard_step_bytes + (request.experiment.odometry ? moved_step_bytes : 0.0);
+  const double played = share_of_runs * needs.steps * step;
   if (planned + played <= memory) return;
   const Experiment& experiment = request.experiment;
   const bool too_long = played > planned;
@@ -117,11 +121,14 @@ double bytes_of_parts(const Plan& plan) {
       most = std::max(most, heard);
     }
     const auto counted = static_cast<double>(group.counted.size() + group.disturbed.size());
+    const double told =
+        group.odometry ? most + 1.0 + static_cast<double>(group.odometry->late.size()) : 0.0;
     const double bytes =
-        head + most * (counted * sizeof(scoring::Classification) +
-                       static_cast<double>(group.scored.size()) *
-                           (sizeof(scoring::RobotScore) +
-                            (group.is_looked_at_closely ? sizeof(scoring::CloseScore) : 0)));
+        head + told * sizeof(scoring::TrajectoryScore) +
+        most * (counted * sizeof(scoring::Classification) +
+                static_cast<double>(group.scored.size()) *
+                    (sizeof(scoring::RobotScore) +
+                     (group.is_looked_at_closely ? sizeof(scoring::CloseScore) : 0)));
     of_group.push_back(block * std::ceil(bytes / block));
   }
   double bytes = 0.0;

@@ -18,6 +18,8 @@
 #include "experiments/foreign/rows.hpp"
 #include "experiments/moments/tables.hpp"
 #include "experiments/needs.hpp"
+#include "experiments/odometry_study/tables.hpp"
+#include "experiments/odometry_study/trajectories.hpp"
 #include "experiments/phase_study/fit.hpp"
 #include "experiments/phase_study/tables.hpp"
 #include "experiments/play/pieces.hpp"
@@ -155,6 +157,12 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
       const BenchmarkResult found = write_benchmark(listened, running.directory);
       write_overlap(result.models, listened, running.directory);
       result.studies.push_back(benchmark_text(found, experiment));
+    }
+    if (experiment.odometry) {
+      const std::vector<OdometryRow> rows = odometry_rows(listened);
+      write_tables(rows, running.directory);
+      write_trajectories(listened, result.models, running.directory);
+      result.studies.push_back(odometry_text(rows, experiment));
     }
     if (!experiment.sweep.empty()) {
       const std::vector<SensorSweepPoint> sweep = sensor_sweep(listened);

@@ -11,6 +11,7 @@
 #include "experiments/benchmark/plan.hpp"
 #include "experiments/cross_simulator/variations.hpp"
 #include "experiments/needs.hpp"
+#include "experiments/odometry_study/plan.hpp"
 #include "experiments/phase_study/plan.hpp"
 #include "experiments/run_directory/free_space.hpp"
 #include "experiments/run_directory/shard.hpp"
@@ -86,6 +87,7 @@ Plan whole_plan(const RunRequest& request) {
   if (request.experiment.phase_study) add_phase_study(request, plan);
   add_sensor_sweep(request, plan);
   if (request.experiment.benchmark) add_benchmark(request, plan);
+  if (request.experiment.odometry) add_odometry_study(request, plan);
   keep_recordings(request.experiment, plan);
   return plan;
 }

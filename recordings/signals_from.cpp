@@ -1,19 +1,6 @@
 #include "recordings/signals_from.hpp"
 
-#include <cmath>
-#include <limits>
-
 namespace touchdown::recordings {
-
-namespace {
-
-/// Sensors round, and so do the formats they are logged in.
-bool is_orientation(const Eigen::Quaterniond& q) {
-  constexpr double tolerance = 0.02;
-  return std::abs(q.squaredNorm() - 1.0) <= tolerance;  // written so that NaN fails
-}
-
-}  // namespace
 
 double ground_velocity_command(const models::Action& action, double wheel_radius) {
   const double left = action.servo[models::index(models::Servo::left_wheel)].velocity;
@@ -21,25 +8,31 @@ double ground_velocity_command(const models::Action& action, double wheel_radius
   return 0.5 * wheel_radius * (left - right);
 }
 
+RobotRecord record_of(const models::Observation& observation,
+                      double previous_ground_velocity_command, RecordedJoints& joints) {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const models::ServoReading& reading = observation.servo[i];
+    joints[i] = {reading.position, reading.velocity, reading.torque};
+  }
+  const models::ImuReading& imu = observation.imu;
+  const Eigen::Quaterniond& q = imu.orientation;
+  // Older logs do not have it.
+  Eigen::Vector3d proper = imu.raw_linear_acceleration;
+  if (proper.isZero(0.0)) proper.setConstant(not_reported);
+  return {.time = observation.time,
+          .joints = joints,
+          .orientation = {q.w(), q.x(), q.y(), q.z()},
+          .angular_velocity = imu.angular_velocity,
+          .linear_acceleration = imu.linear_acceleration,
+          .proper_acceleration = proper,
+          .ground_velocity_command = previous_ground_velocity_command};
+}
+
 Signals signals_from(const models::Observation& observation,
                      double previous_ground_velocity_command) {
-  const auto joint = [&](models::Servo servo) {
-    const models::ServoReading& reading = observation.servo[models::index(servo)];
-    return JointSignals{reading.position, reading.velocity, reading.torque};
-  };
-  Signals signals;
-  signals.time = observation.time;
-  signals.leg[0] = {joint(models::Servo::left_hip), joint(models::Servo::left_knee),
-                    joint(models::Servo::left_wheel)};
-  signals.leg[1] = {joint(models::Servo::right_hip), joint(models::Servo::right_knee),
-                    joint(models::Servo::right_wheel)};
-  signals.linear_acceleration = observation.imu.linear_acceleration;
-  signals.angular_velocity = observation.imu.angular_velocity;
-  signals.vertical_acceleration = is_orientation(observation.imu.orientation)
-                                      ? models::vertical_acceleration(observation.imu)
-                                      : std::numeric_limits<double>::quiet_NaN();
-  signals.ground_velocity_command = previous_ground_velocity_command;
-  return signals;
+  RecordedJoints joints;
+  static const AssemblyConfig upkie;
+  return signals_of(record_of(observation, previous_ground_velocity_command, joints), upkie);
 }
 
 }  // namespace touchdown::recordings

@@ -5,8 +5,10 @@
 #include <limits>
 #include <memory>
 
+#include "policies/soft_lander.hpp"
 #include "policies/wheel_balancer.hpp"
 #include "scenarios/compiled_scenes.hpp"
+#include "scenarios/policy_contact.hpp"
 #include "scenarios/start_pose.hpp"
 #include "simulators/registry.hpp"
 
@@ -43,6 +45,20 @@ class Referee {
   const End& end_;
   double passed_ = std::numeric_limits<double>::infinity();  ///< when the base was past the end (s)
 };
+
+std::unique_ptr<policies::Policy> make_policy(const Scenario& scenario,
+                                              const simulators::Simulator& simulator) {
+  const double radius = simulator.model().wheel_radius;
+  const double period = simulator.control_period();
+  policies::WheelContact contact = policy_contact(scenario, simulator);
+  if (scenario.policy.law == policies::PolicyConfig::Law::soft_landing) {
+    return std::make_unique<policies::SoftLander>(
+        scenario.balancer, policies::Course{scenario.velocity, scenario.crouch, radius, period},
+        policies::side_view(simulator.model()), std::move(contact));
+  }
+  return std::make_unique<policies::WheelBalancer>(scenario.balancer, scenario.velocity, radius,
+                                                   period, scenario.crouch, std::move(contact));
+}
 
 }  // namespace
 
@@ -93,15 +109,13 @@ recordings::Recording play(const Scenario& scenario, simulators::Simulator& simu
   recording.action.reserve(most_steps);
   recording.truth.reserve(most_steps);
 
-  policies::WheelBalancer policy(scenario.balancer, scenario.velocity,
-                                 simulator.model().wheel_radius, simulator.control_period(),
-                                 scenario.crouch);
   simulator.reset(start_pose(simulator.model(), scenario.terrain, scenario.start));
-  policy.reset(simulator.observation());
+  const std::unique_ptr<policies::Policy> policy = make_policy(scenario, simulator);
+  policy->reset(simulator.observation());
   Referee referee(scenario.end);
   for (std::size_t step = 0;; ++step) {
     recording.observation.push_back(simulator.observation());
-    recording.action.push_back(policy.act(simulator.observation()));
+    recording.action.push_back(policy->act(simulator.observation()));
     recording.truth.push_back(simulator.ground_truth());
     recording.info.outcome = referee.judge(simulator);
     if (recording.info.outcome) return recording;

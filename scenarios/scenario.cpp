@@ -52,6 +52,10 @@ static void describe(Fields& fields, Scenario& scenario, const policies::LqrGain
   fields.section("terrain", scenario.terrain);
   fields.section("start", scenario.start);
   fields.section("balancer", scenario.balancer, lqr);
+  fields.know("policy");
+  if (fields.present("policy", scenario.policy != policies::PolicyConfig{})) {
+    fields.section("policy", scenario.policy);
+  }
   fields.list("velocity", scenario.velocity, scenario.velocity);
   fields.list_if_any("crouch", scenario.crouch, scenario.crouch);
   fields.section("tether", scenario.tether);

@@ -13,6 +13,7 @@
 #include "policies/crouching.hpp"
 #include "policies/driving.hpp"
 #include "policies/forces.hpp"
+#include "policies/wheel_contact.hpp"
 #include "scenarios/perturbation.hpp"
 #include "simulators/options.hpp"
 
@@ -56,6 +57,7 @@ struct Scenario {
   models::Terrain terrain;
   Start start;
   policies::WheelBalancerConfig balancer;
+  policies::PolicyConfig policy;
   policies::VelocityScript velocity;
   policies::CrouchScript crouch;
   std::optional<policies::Tether> tether;

@@ -42,6 +42,11 @@ std::vector<std::uint32_t> resampled_indices(std::size_t samples, const Bootstra
 /// resample held nothing to divide by) are left out. `values` is reordered.
 Interval percentile_interval(double estimate, std::vector<double>& values, double level);
 
+/// The interval of a share of so many events, all or none of which went well: no resample knows
+/// another, so the end that the bootstrap cannot see is the exact one of Clopper and Pearson
+/// (1934), which takes the events for independent. Any other interval stays.
+Interval with_exact_end(const Interval& share, std::int64_t events, double level);
+
 template <typename Sample>
 Sample sum(const std::vector<Sample>& samples) {
   Sample all{};

@@ -9,6 +9,22 @@
 
 namespace touchdown::scoring {
 
+namespace {
+
+using Counts = TransitionCounts Score::*;
+
+Metric transition_precision(const char* name, Counts of) {
+  return {name, [of](const Score& s) { return (s.*of).precision(); },
+          [of](const Score& s) { return (s.*of).detected + (s.*of).false_alarms; }};
+}
+
+Metric transition_recall(const char* name, Counts of) {
+  return {name, [of](const Score& s) { return (s.*of).recall(); },
+          [of](const Score& s) { return (s.*of).events; }};
+}
+
+}  // namespace
+
 // N_ab: steps in truth a that were told to be b, C contact and F flight. Of transitions: found,
 // missed and false alarms; t: steps from a true event to its detection, negative if early; T: the
 // length of a step.
@@ -25,11 +41,11 @@ const std::vector<Metric>& metrics() {
       // Flight that is told: N_FF / (N_FF + N_FC).
       {"no_contact_recall", [](const Score& s) { return s.points.no_contact_recall(); }},
       // Announcements that are not false: found / (found + false alarms), of takeoffs, of landings.
-      {"takeoff_precision", [](const Score& s) { return s.takeoff.precision(); }},
+      transition_precision("takeoff_precision", &Score::takeoff),
       // True events that are announced in time: found / (found + missed).
-      {"takeoff_recall", [](const Score& s) { return s.takeoff.recall(); }},
-      {"landing_precision", [](const Score& s) { return s.landing.precision(); }},
-      {"landing_recall", [](const Score& s) { return s.landing.recall(); }},
+      transition_recall("takeoff_recall", &Score::takeoff),
+      transition_precision("landing_precision", &Score::landing),
+      transition_recall("landing_recall", &Score::landing),
       // False alarms of takeoffs by the time that was scored, the time of each wheel: per minute.
       {"false_takeoffs_per_minute", [](const Score& s) { return s.false_takeoffs_per_minute(); }},
       // Mean of t·T over found events, and its sample standard deviation (n − 1).

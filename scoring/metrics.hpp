@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@ namespace touchdown::scoring {
 struct Metric {
   std::string name;  ///< as in a CSV header, unit last
   std::function<double(const Score&)> of;
+  /// Of how many events it is the share that went well, where it is such a share.
+  std::function<std::int64_t(const Score&)> events = {};
 };
 
 /// All of them, in the order of the tables: classification, transitions, latency, calibration.

@@ -31,6 +31,8 @@ struct EstimateFlags {
   std::vector<std::string> logs;
   std::string model;
   std::string estimator;
+  std::string robot;
+  bool transfer = false;
   std::vector<std::string> outputs;
   std::string figure;
   DrawnPart drawn;
@@ -109,11 +111,24 @@ class Listeners {
   render::LogTrace trace_;
 };
 
+std::string model_line(const experiments::LogEstimator& chosen) {
+  const std::string text = chosen.model_text();
+  return text.empty() ? "" : fmt::format("{:<12} {}\n", "model", text);
+}
+
+std::string gravity_line(const experiments::LogListener& log) {
+  if (log.upside_down() == 0) return {};
+  return fmt::format(
+      "{:<12} at {} steps the IMU's orientation contradicts gravity: is it upside down, or a "
+      "quaternion of another order than w x y z?\n",
+      "imu", log.upside_down());
+}
+
 /// Runs over the log and returns the summary.
 std::string listen(recordings::LogReader& reader, const experiments::LogEstimator& chosen,
                    Listeners& listeners) {
   experiments::LogListener log(reader);
-  const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate());
+  const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), reader.info());
   listeners.begin(log);
   try {
     while (const experiments::LogStep* step = log.next()) {
@@ -127,7 +142,7 @@ std::string listen(recordings::LogReader& reader, const experiments::LogEstimato
   return fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), listeners.steps(),
                      static_cast<double>(listeners.steps()) * log.period(), log.sample_rate(),
                      chosen.entry.title) +
-         summary;
+         summary + gravity_line(log) + model_line(chosen);
 }
 
 /// Where the table does not go.
@@ -178,7 +193,7 @@ void estimate_log(const std::string& path, const experiments::LogEstimator& esti
 
 void estimate(const EstimateFlags& flags, const CliSession& session) {
   const experiments::LogEstimator estimator =
-      experiments::log_estimator(flags.estimator, flags.model);
+      experiments::log_estimator({flags.estimator, flags.model, flags.robot, flags.transfer});
   const std::vector<EstimateOutputs> outputs =
       estimate_outputs(flags.logs, flags.model, flags.outputs, flags.figure);
   for (std::size_t i = 0; i < flags.logs.size(); ++i) {
@@ -200,7 +215,12 @@ void add_estimate(CLI::App& program, const CliSession& session) {
   verb.option("log", &flags->logs, "Logs; - is standard input").value_name("LOG").required();
   verb.option("--model", &flags->model, "What `touchdown fit` wrote").value_name("FILE.npz");
   verb.option("--estimator", &flags->estimator,
-              "Any that `touchdown list` shows (default: robust; phase for a phase model)");
+              "Any that `touchdown list` shows (default: whom the model was fitted for)");
+  verb.option("--robot", &flags->robot,
+              "Whose logs they are (default: as a simulated log says): not the model's is an error")
+      .value_name("NAME");
+  verb.flag("--transfer", &flags->transfer,
+            "Use a model at another rate or on another robot than it was fitted for");
   verb.option("-o,--output", &flags->outputs,
               "Beliefs as FILE.csv, or the log with beliefs in it as FILE.mpack, or both; - "
               "prints the table. With several logs, the log's name is put before FILE")

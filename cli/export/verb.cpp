@@ -1,10 +1,16 @@
+#include <algorithm>
+#include <cctype>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/program/outputs.hpp"
 #include "core/progress.hpp"
 #include "experiments/export_benchmark.hpp"
+#include "recordings/models/header.hpp"
 
 namespace touchdown::cli {
 
@@ -15,7 +21,33 @@ struct ExportFlags {
   std::string folder;
   experiments::BenchmarkPart part;
   bool dry_run = false;
+  std::string header;
+  ModelUse use;
 };
+
+/// A header's name as one of C++. Errors: `InputError` for an extension that is none of a header's.
+std::string name_of(const std::filesystem::path& header) {
+  const std::string extension = header.extension().string();
+  if (extension != ".hpp" && extension != ".h") {
+    throw InputError(fmt::format("-o: {}: expected a header, FILE.hpp", header.string()));
+  }
+  std::string name = header.stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return std::isdigit(static_cast<unsigned char>(name.front())) != 0 ? "model_" + name : name;
+}
+
+void export_model(const ExportFlags& flags) {
+  const std::string name = name_of(flags.header);
+  check_outputs({{flags.source, "model"}}, {flags.header});
+  ModelUse use = flags.use;
+  if (!flags.part.robots.empty()) use.robot = flags.part.robots.front();
+  const std::string text = recordings::header_of_model(flags.source, name, use);
+  write_atomically(flags.header, text);
+  fmt::print("header    {}, {:.2f} MB\n", flags.header, 1e-6 * static_cast<double>(text.size()));
+  fmt::print("next      #include \"{}\"; touchdown::make_estimator(touchdown::compiled::{})\n",
+             std::filesystem::path(flags.header).filename().string(), name);
+}
 
 void export_benchmark(const ExportFlags& flags, const CliSession& session) {
   const experiments::ExportRequest request{flags.source, flags.folder, flags.part};
@@ -35,24 +67,42 @@ void export_benchmark(const ExportFlags& flags, const CliSession& session) {
   fmt::print("next      touchdown score RUN --beliefs FOLDER --name NAME\n");
 }
 
+void export_either(const ExportFlags& flags, const CliSession& session) {
+  if (flags.header.empty() == flags.folder.empty()) {
+    throw InputError(
+        "export: expected either --benchmark DIR, for what estimators hear, or -o FILE.hpp, for a "
+        "model");
+  }
+  if (!flags.header.empty()) {
+    export_model(flags);
+  } else {
+    export_benchmark(flags, session);
+  }
+}
+
 }  // namespace
 
 void add_export(CLI::App& program, const CliSession& session) {
   Verb verb(program, "export",
             "touchdown export --benchmark signals experiments/benchmark.yaml\n"
-            "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n\n"
+            "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
+            "touchdown export model.npz -o model.hpp\n\n"
             "Writes what estimators of a benchmark hear, for an estimator in any language. What\n"
-            "it believes is then scored by `touchdown score`.");
+            "it believes is then scored by `touchdown score`. Or writes a fitted model as a C++\n"
+            "header, for a robot without files.");
   const auto flags = std::make_shared<ExportFlags>();
   verb.option("source", &flags->source,
               "Experiment file with a section `benchmark`, or the run "
-              "directory of one")
-      .value_name("RUN_OR_EXPERIMENT")
+              "directory of one; or what `touchdown fit` wrote")
+      .value_name("RUN_OR_EXPERIMENT_OR_MODEL")
       .required();
-  verb.option("--benchmark", &flags->folder, "New or empty folder for the files")
-      .value_name("DIR")
-      .required();
-  verb.option("--robot", &flags->part.robots, "Only this robot, as the benchmark's table names it")
+  verb.option("--benchmark", &flags->folder, "New or empty folder for the files").value_name("DIR");
+  verb.option("-o,--output", &flags->header, "Header for the model").value_name("FILE.hpp");
+  verb.option("--estimator", &flags->use.estimator,
+              "Of a model that does not say: whom it was fitted for");
+  verb.option("--rate", &flags->use.sample_rate, "Likewise: at which rate (Hz)").not_negative();
+  verb.option("--robot", &flags->part.robots,
+              "Only this robot, as the benchmark's table names it; or the model's")
       .value_name("NAME")
       .one_at_a_time();
   verb.option("--sensors", &flags->part.sensors, "Only these sensors, likewise")
@@ -62,7 +112,7 @@ void add_export(CLI::App& program, const CliSession& session) {
       .value_name("NAME")
       .one_at_a_time();
   verb.flag("--dry-run", &flags->dry_run, "Only show how many files it would be, and how large");
-  verb.action([flags, &session] { export_benchmark(*flags, session); });
+  verb.action([flags, &session] { export_either(*flags, session); });
 }
 
 }  // namespace touchdown::cli

@@ -98,6 +98,9 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
       .value_name("LOG");
   verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
   verb.option("--estimator", &flags.estimator, fitted_estimators()).shows_default();
+  verb.option("--robot", &flags.config.robot,
+              "Whose logs they are, for the model to say (default: as simulated logs do)")
+      .value_name("NAME");
   verb.option("--skip", &flags.config.skip, "Not used at the beginning of each log (s)")
       .not_negative()
       .shows_default();

@@ -8,7 +8,6 @@ namespace touchdown {
 
 namespace {
 
-bool is_share(double x) { return x >= 0.0 && x <= 1.0; }
 bool is_level(double x) { return std::isfinite(x) && x >= 0.0; }
 
 }  // namespace
@@ -23,15 +22,7 @@ void check_decision_fit_config(const DecisionFitConfig& config) {
         "decision network: learning_rate must be positive, decay not negative, class_exponent "
         "finite");
   }
-  if (!(is_level(config.largest_torque_noise) && is_level(config.largest_acceleration_noise) &&
-        is_level(config.torque_bias) && is_level(config.position_bias) &&
-        is_share(config.share_without_noise) && is_share(config.share_with_bias) &&
-        config.gain_error >= 0.0 && config.gain_error < 1.0)) {
-    throw InputError(
-        "decision network: noise and biases must not be negative (N·m, m/s², rad), shares lie "
-        "between 0 "
-        "and 1, gain_error below 1");
-  }
+  check_disturbance_config(config.disturbance);
 }
 
 void check_decision_config(const DecisionConfig& config) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "estimator/decision/disturbance.hpp"
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/signal_guard.hpp"
 
@@ -19,16 +20,7 @@ struct DecisionFitConfig {
   double decay = 0.6;           ///< of the weights, relative to the learning rate
   /// A class weighs as the power of its count: 0 every step alike, −1 both classes alike.
   double class_exponent = -0.5;
-  /// What runs are disturbed with: white noise of levels log-uniform up to these (N·m, m/s²) …
-  double largest_torque_noise = 4.0;
-  double largest_acceleration_noise = 14.0;
-  double share_without_noise = 0.25;  ///< of each of the two
-  /// … constant errors of each joint's torque (N·m) and of its zero (rad), normal, in a share of
-  /// the draws …
-  double torque_bias = 0.1;
-  double position_bias = 0.01;
-  double share_with_bias = 0.5;
-  double gain_error = 0.1;  ///< … and an error of all torques' scale, uniform on both sides.
+  DisturbanceConfig disturbance = {};  ///< what runs are heard through
 
   bool operator==(const DecisionFitConfig&) const = default;
 };

@@ -6,62 +6,13 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "estimator/decision/disturbance.hpp"
 #include "estimator/decision/draws.hpp"
 #include "estimator/decision/senses.hpp"
 
 namespace touchdown {
 
 namespace {
-
-/// What one hearing of a run is disturbed with.
-class Disturbance {
- public:
-  Disturbance(const DecisionFitConfig& config, Draws& draws) : draws_(draws) {
-    torque_noise_ = level(config, config.largest_torque_noise);
-    acceleration_noise_ = level(config, config.largest_acceleration_noise);
-    scale_ = 1.0 + config.gain_error * draws.uniform(-1.0, 1.0);
-    if (draws.uniform() >= config.share_with_bias) return;
-    for (Bias& bias : bias_) {
-      bias = {config.torque_bias * draws.normal(), config.position_bias * draws.normal()};
-    }
-  }
-
-  Signals operator()(Signals signals) {
-    const Bias* bias = bias_.data();
-    for (LegSignals& leg : signals.leg) {
-      for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
-        joint->torque = scale_ * joint->torque + bias->torque;
-        joint->position += bias->position;
-        ++bias;
-        if (torque_noise_ > 0.0) joint->torque += torque_noise_ * draws_.normal();
-      }
-    }
-    if (acceleration_noise_ > 0.0) {
-      signals.vertical_acceleration += acceleration_noise_ * draws_.normal();
-    }
-    return signals;
-  }
-
- private:
-  struct Bias {
-    double torque = 0.0;    ///< N·m
-    double position = 0.0;  ///< rad
-  };
-
-  /// Nothing, or log-uniform over two decades.
-  double level(const DecisionFitConfig& config, double largest) {
-    constexpr double smallest = 0.01;
-    const bool is_silent = draws_.uniform() < config.share_without_noise;
-    const double share = std::pow(smallest, draws_.uniform());
-    return is_silent ? 0.0 : share * largest;
-  }
-
-  Draws& draws_;
-  double torque_noise_ = 0.0;
-  double acceleration_noise_ = 0.0;
-  double scale_ = 1.0;
-  std::array<Bias, 6> bias_{};  ///< left hip, knee, wheel, right ones
-};
 
 std::size_t steps_of(const LabelledRun& run) {
   return run.signals.size() - std::min(run.signals.size(), run.skip);
@@ -96,7 +47,7 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
       DecisionConfig own = config;
       own.sample_rate = run.sample_rate;
       DecisionSenses senses(own);
-      Disturbance disturbed(fit, draws);
+      Disturbance disturbed(fit.disturbance, draws);
       std::size_t next = run.skip + draws.below(stride);
       for (std::size_t k = 0; k < run.signals.size(); ++k) {
         const DecisionSenses::Step step = senses.update(disturbed(run.signals[k]));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -57,6 +58,81 @@ Eigen::ArrayXd points_of(const Axis& axis) {
 
 }  // namespace
 
+/// The kernels of a block of samples along one axis.
+class AxisKernels {
+ public:
+  AxisKernels(const KernelAxis& axis, const char* name) : bandwidth_(axis.bandwidth) {
+    check_bandwidth(axis.bandwidth);
+    check_axis(axis.axis, name);
+    points_ = points_of(axis.axis);
+    kernels_.resize(points_.size(), block);
+  }
+
+  void fill(std::span<const double> samples) {
+    fill_kernels(samples, bandwidth_, points_, kernels_);
+    columns_ = static_cast<Eigen::Index>(samples.size());
+  }
+
+  [[nodiscard]] auto filled() const { return kernels_.leftCols(columns_); }
+  [[nodiscard]] Eigen::Index points() const { return points_.size(); }
+  [[nodiscard]] double bandwidth() const { return bandwidth_; }
+
+ private:
+  double bandwidth_;
+  Eigen::ArrayXd points_;
+  Matrix kernels_;
+  Eigen::Index columns_ = 0;
+};
+
+/// The sums of products of kernels, for each axis along x with each along y.
+class KernelSums {
+ public:
+  KernelSums(std::span<const KernelAxis> x_axes, std::span<const KernelAxis> y_axes) {
+    for (const KernelAxis& axis : x_axes) x_.emplace_back(axis, "first");
+    for (const KernelAxis& axis : y_axes) y_.emplace_back(axis, "second");
+    for (const AxisKernels& along_x : x_) {
+      // Column-major with y along the rows is row-major with y along the columns.
+      for (const AxisKernels& along_y : y_) {
+        sums_.emplace_back(Matrix::Zero(along_y.points(), along_x.points()));
+      }
+    }
+  }
+
+  /// At most `block` samples.
+  void add(std::span<const double> x, std::span<const double> y) {
+    const FlushDenormals flush;
+    for (AxisKernels& axis : x_) axis.fill(x);
+    for (AxisKernels& axis : y_) axis.fill(y);
+    auto sum = sums_.begin();
+    for (const AxisKernels& along_x : x_) {
+      for (const AxisKernels& along_y : y_) {
+        sum++->noalias() += along_y.filled() * along_x.filled().transpose();
+      }
+    }
+    count_ += x.size();
+  }
+
+  [[nodiscard]] std::vector<std::vector<double>> densities() const {
+    if (count_ == 0) throw InputError("a kernel density needs at least 1 sample, got 0");
+    std::vector<std::vector<double>> all;
+    auto sum = sums_.begin();
+    for (const AxisKernels& along_x : x_) {
+      for (const AxisKernels& along_y : y_) {
+        const Matrix density = *sum++ / (static_cast<double>(count_) * 2.0 * std::numbers::pi *
+                                         along_x.bandwidth() * along_y.bandwidth());
+        all.emplace_back(density.data(), density.data() + density.size());
+      }
+    }
+    return all;
+  }
+
+ private:
+  std::vector<AxisKernels> x_;
+  std::vector<AxisKernels> y_;
+  std::vector<Matrix> sums_;
+  std::size_t count_ = 0;
+};
+
 double scott_bandwidth(std::span<const double> samples, int dimensions, double floor) {
   check_samples(samples, 2);
   const auto n = static_cast<double>(samples.size());
@@ -91,61 +167,48 @@ std::vector<double> kernel_density(std::span<const double> x, double bandwidth, 
 std::vector<double> kernel_density(std::span<const double> x, std::span<const double> y,
                                    double x_bandwidth, double y_bandwidth, const Axis& x_axis,
                                    const Axis& y_axis) {
+  const KernelAxis along_x{x_bandwidth, x_axis};
+  const KernelAxis along_y{y_bandwidth, y_axis};
+  return std::move(kernel_densities(x, y, {&along_x, 1}, {&along_y, 1}).front());
+}
+
+std::vector<std::vector<double>> kernel_densities(std::span<const double> x,
+                                                  std::span<const double> y,
+                                                  std::span<const KernelAxis> x_axes,
+                                                  std::span<const KernelAxis> y_axes) {
   if (x.size() != y.size()) {
     throw InputError("a kernel density needs as many x as y samples, got " +
                      std::to_string(x.size()) + " and " + std::to_string(y.size()));
   }
   check_samples(x, 1);
   check_samples(y, 1);
-  KernelDensityGrid grid(x_bandwidth, y_bandwidth, x_axis, y_axis);
-  for (std::size_t i = 0; i < x.size(); ++i) grid.add(x[i], y[i]);
-  return grid.density();
+  KernelSums sums(x_axes, y_axes);
+  for (std::size_t first = 0; first < x.size(); first += block) {
+    const std::size_t count = std::min(block, x.size() - first);
+    sums.add(x.subspan(first, count), y.subspan(first, count));
+  }
+  return sums.densities();
 }
 
 struct KernelDensityGrid::Sums {
-  Sums(double x_width, double y_width, const Axis& x_axis, const Axis& y_axis)
-      : x_bandwidth(x_width),
-        y_bandwidth(y_width),
-        x_points(points_of(x_axis)),
-        y_points(points_of(y_axis)),
-        x_kernels(x_axis.count, block),
-        y_kernels(y_axis.count, block),
-        sum(Matrix::Zero(y_axis.count, x_axis.count)) {
-    x.reserve(block);
-    y.reserve(block);
-  }
+  KernelSums of_blocks;
+  std::vector<double> x;  ///< samples that are not in the sums yet
+  std::vector<double> y;
 
   void add_block() {
-    const FlushDenormals flush;
-    const auto columns = static_cast<Eigen::Index>(x.size());
-    fill_kernels(x, x_bandwidth, x_points, x_kernels);
-    fill_kernels(y, y_bandwidth, y_points, y_kernels);
-    sum.noalias() += y_kernels.leftCols(columns) * x_kernels.leftCols(columns).transpose();
-    count += x.size();
+    of_blocks.add(x, y);
     x.clear();
     y.clear();
   }
-
-  double x_bandwidth;
-  double y_bandwidth;
-  Eigen::ArrayXd x_points;
-  Eigen::ArrayXd y_points;
-  std::vector<double> x;  // samples that are not in the sum yet
-  std::vector<double> y;
-  Matrix x_kernels;
-  Matrix y_kernels;
-  // Column-major with y along the rows is row-major with y along the columns.
-  Matrix sum;
-  std::size_t count = 0;
 };
 
 KernelDensityGrid::KernelDensityGrid(double x_bandwidth, double y_bandwidth, const Axis& x_axis,
                                      const Axis& y_axis) {
-  check_bandwidth(x_bandwidth);
-  check_bandwidth(y_bandwidth);
-  check_axis(x_axis, "first");
-  check_axis(y_axis, "second");
-  sums_ = std::make_unique<Sums>(x_bandwidth, y_bandwidth, x_axis, y_axis);
+  const KernelAxis along_x{x_bandwidth, x_axis};
+  const KernelAxis along_y{y_bandwidth, y_axis};
+  sums_ = std::make_unique<Sums>(Sums{KernelSums({&along_x, 1}, {&along_y, 1}), {}, {}});
+  sums_->x.reserve(block);
+  sums_->y.reserve(block);
 }
 
 KernelDensityGrid::~KernelDensityGrid() = default;
@@ -164,10 +227,7 @@ void KernelDensityGrid::add(double x, double y) {
 
 std::vector<double> KernelDensityGrid::density() {
   if (!sums_->x.empty()) sums_->add_block();
-  if (sums_->count == 0) throw InputError("a kernel density needs at least 1 sample, got 0");
-  const Matrix density = sums_->sum / (static_cast<double>(sums_->count) * 2.0 * std::numbers::pi *
-                                       sums_->x_bandwidth * sums_->y_bandwidth);
-  return {density.data(), density.data() + density.size()};
+  return std::move(sums_->of_blocks.densities().front());
 }
 
 }  // namespace touchdown

@@ -37,6 +37,19 @@ std::vector<double> kernel_density(std::span<const double> x, std::span<const do
                                    double x_bandwidth, double y_bandwidth, const Axis& x_axis,
                                    const Axis& y_axis);
 
+/// One direction of a density: how wide its kernels are, and where it is wanted.
+struct KernelAxis {
+  double bandwidth = 1.0;
+  Axis axis;
+};
+
+/// What the function above returns for each of `x_axes` with each of `y_axes`, all of the first one
+/// first: they share the kernels, which take as long as the sums. Errors: the same.
+std::vector<std::vector<double>> kernel_densities(std::span<const double> x,
+                                                  std::span<const double> y,
+                                                  std::span<const KernelAxis> x_axes,
+                                                  std::span<const KernelAxis> y_axes);
+
 /// The same sum for samples that come one by one and are not kept: its memory is that of the grid.
 class KernelDensityGrid {
  public:

@@ -39,23 +39,52 @@ std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t larg
   return kept;
 }
 
-/// log((1 − ε) f + ε u) at every cell, phase by phase within; f is the `density` of what is kept of
-/// a phase's samples, and nothing for a phase without any.
-template <typename Samples, typename Density>
-std::vector<float> log_mixtures(const Samples& samples, std::size_t cells, double uniform,
-                                const PhaseFitConfig& config, const Density& density) {
-  std::vector<float> log_density(cells * samples.size());
-  for (std::size_t phase = 0; phase < samples.size(); ++phase) {
-    const auto kept = thinned(samples[phase], config.largest_sample);
-    const std::vector<double> f = kept.empty() ? std::vector<double>() : density(kept);
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-      const double mixture =
-          f.empty() ? uniform
-                    : (1.0 - config.contamination) * f[cell] + config.contamination * uniform;
-      log_density[cell * samples.size() + phase] = static_cast<float>(std::log(mixture));
+/// Where in a table of several densities, cell after cell, one of them stands.
+struct Column {
+  std::size_t number = 0;
+  std::size_t count = 1;
+};
+
+/// log((1 − ε) f + ε u) at every cell; without f, log u.
+void put_log_mixture(const std::vector<double>& f, double uniform, const PhaseFitConfig& config,
+                     const Column& column, std::vector<float>& table) {
+  for (std::size_t cell = 0; cell * column.count < table.size(); ++cell) {
+    const double mixture =
+        f.empty() ? uniform
+                  : (1.0 - config.contamination) * f[cell] + config.contamination * uniform;
+    table[cell * column.count + column.number] = static_cast<float>(std::log(mixture));
+  }
+}
+
+/// Torques of many steps, joint by joint.
+struct TorqueSamples {
+  explicit TorqueSamples(const std::vector<TorqueSample>& samples) {
+    for (const TorqueSample& sample : samples) {
+      knee.push_back(sample.knee);
+      wheel.push_back(sample.wheel);
     }
   }
-  return log_density;
+  std::vector<double> knee;
+  std::vector<double> wheel;
+};
+
+/// The kernels of one joint's torque under each noise.
+std::vector<KernelAxis> kernel_axes(const Range& range, std::span<const double> noise,
+                                    const PhaseFitConfig& config, double largest_step) {
+  std::vector<KernelAxis> axes;
+  for (const double sigma : noise) {
+    const double h = std::hypot(config.torque_bandwidth, sigma);
+    axes.push_back({h, axis_over(range, h, std::min(config.grid_step * h, largest_step))});
+  }
+  return axes;
+}
+
+void borrow_if_none(const PhaseSamples& samples, std::size_t borrower, Phase lender,
+                    PhaseTorqueDensity& density) {
+  if (!samples.torque[borrower].empty()) return;
+  for (std::size_t cell = 0; cell < density.log_density.size(); cell += torque_density_count) {
+    density.log_density[cell + borrower] = density.log_density[cell + index(lender)];
+  }
 }
 
 /// Adds one run's samples, transitions and labelled time.
@@ -140,10 +169,11 @@ PhaseTransition transition_probabilities(const PhaseTransition& counts, double p
   return transition;
 }
 
-PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, const TorqueSample& noise,
-                                      const PhaseFitConfig& config) {
-  const TorqueSample h = {std::hypot(config.torque_bandwidth, noise.knee),
-                          std::hypot(config.torque_bandwidth, noise.wheel)};
+std::vector<PhaseTorqueDensity> fit_torque_densities(const PhaseSamples& samples,
+                                                     std::span<const double> knee_noise,
+                                                     std::span<const double> wheel_noise,
+                                                     const PhaseFitConfig& config,
+                                                     const std::function<void()>& before_density) {
   Range knee_range;
   Range wheel_range;
   for (const auto& of_phase : samples.torque) {
@@ -152,34 +182,44 @@ PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, const TorqueS
       wheel_range.include(sample.wheel);
     }
   }
-  PhaseTorqueDensity result{
-      noise,
-      h,
-      axis_over(knee_range, h.knee, std::min(config.grid_step * h.knee, config.largest_knee_step)),
-      axis_over(wheel_range, h.wheel,
-                std::min(config.grid_step * h.wheel, config.largest_wheel_step)),
-      {}};
-  const double uniform =
-      1.0 / (4.0 * (config.knee_range + 4.0 * h.knee) * (config.wheel_range + 4.0 * h.wheel));
-  const auto density = [&](const std::vector<TorqueSample>& kept) {
-    std::vector<double> knee(kept.size());
-    std::vector<double> wheel(kept.size());
-    std::transform(kept.begin(), kept.end(), knee.begin(), [](const auto& s) { return s.knee; });
-    std::transform(kept.begin(), kept.end(), wheel.begin(), [](const auto& s) { return s.wheel; });
-    return kernel_density(wheel, knee, h.wheel, h.knee, result.wheel, result.knee);
-  };
-  const auto cells =
-      static_cast<std::size_t>(result.knee.count) * static_cast<std::size_t>(result.wheel.count);
-  result.log_density = log_mixtures(samples.torque, cells, uniform, config, density);
-  const auto borrow = [&](std::size_t borrower, Phase lender) {
-    if (!samples.torque[borrower].empty()) return;
-    for (std::size_t cell = 0; cell < result.log_density.size(); cell += torque_density_count) {
-      result.log_density[cell + borrower] = result.log_density[cell + index(lender)];
+  const std::vector<KernelAxis> knees =
+      kernel_axes(knee_range, knee_noise, config, config.largest_knee_step);
+  const std::vector<KernelAxis> wheels =
+      kernel_axes(wheel_range, wheel_noise, config, config.largest_wheel_step);
+  std::vector<PhaseTorqueDensity> results;
+  for (std::size_t i = 0; i < knees.size(); ++i) {
+    for (std::size_t j = 0; j < wheels.size(); ++j) {
+      PhaseTorqueDensity& result = results.emplace_back();
+      result.noise = {knee_noise[i], wheel_noise[j]};
+      result.bandwidth = {knees[i].bandwidth, wheels[j].bandwidth};
+      result.knee = knees[i].axis;
+      result.wheel = wheels[j].axis;
+      result.log_density.resize(static_cast<std::size_t>(result.knee.count) *
+                                static_cast<std::size_t>(result.wheel.count) *
+                                torque_density_count);
     }
-  };
-  borrow(supporting_leg, Phase::rolling);
-  borrow(airborne_leg, Phase::flight);
-  return result;
+  }
+  for (std::size_t phase = 0; phase < torque_density_count; ++phase) {
+    if (before_density) before_density();
+    const TorqueSamples kept(thinned(samples.torque[phase], config.largest_sample));
+    // The wheel's torque along the rows.
+    const std::vector<std::vector<double>> densities =
+        kept.knee.empty() ? std::vector<std::vector<double>>()
+                          : kernel_densities(kept.wheel, kept.knee, wheels, knees);
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      const TorqueSample& h = results[k].bandwidth;
+      const double uniform =
+          1.0 / (4.0 * (config.knee_range + 4.0 * h.knee) * (config.wheel_range + 4.0 * h.wheel));
+      const std::size_t at = k % wheels.size() * knees.size() + k / wheels.size();
+      put_log_mixture(densities.empty() ? std::vector<double>() : densities[at], uniform, config,
+                      {phase, torque_density_count}, results[k].log_density);
+    }
+  }
+  for (PhaseTorqueDensity& result : results) {
+    borrow_if_none(samples, supporting_leg, Phase::rolling, result);
+    borrow_if_none(samples, airborne_leg, Phase::flight, result);
+  }
+  return results;
 }
 
 PhaseAccelerationDensity fit_acceleration_density(const PhaseSamples& samples, double noise,
@@ -191,9 +231,13 @@ PhaseAccelerationDensity fit_acceleration_density(const PhaseSamples& samples, d
   }
   PhaseAccelerationDensity result{noise, h, axis_over(range, h, config.grid_step * h), {}};
   const double uniform = 1.0 / (2.0 * (config.acceleration_range + 4.0 * h));
-  result.log_density = log_mixtures(
-      samples.acceleration, static_cast<std::size_t>(result.axis.count), uniform, config,
-      [&](const std::vector<double>& kept) { return kernel_density(kept, h, result.axis); });
+  result.log_density.resize(static_cast<std::size_t>(result.axis.count) *
+                            acceleration_density_count);
+  for (std::size_t phase = 0; phase < acceleration_density_count; ++phase) {
+    const std::vector<double> kept = thinned(samples.acceleration[phase], config.largest_sample);
+    put_log_mixture(kept.empty() ? kept : kernel_density(kept, h, result.axis), uniform, config,
+                    {phase, acceleration_density_count}, result.log_density);
+  }
   return result;
 }
 
@@ -218,12 +262,8 @@ PhaseModel fit_phase_model(std::span<const PhaseFitRun> runs, double sample_rate
   model.sample_rate = sample_rate;
   model.transition = transition_probabilities(collector.counts(), config.pseudo_count);
   model.seconds = collector.seconds();
-  for (const double knee : config.torque_noise) {
-    for (const double wheel : config.torque_noise) {
-      if (before_density) before_density();
-      model.torque.push_back(fit_torque_density(collector.samples(), {knee, wheel}, config));
-    }
-  }
+  model.torque = fit_torque_densities(collector.samples(), config.torque_noise, config.torque_noise,
+                                      config, before_density);
   for (const double noise : config.acceleration_noise) {
     if (before_density) before_density();
     model.acceleration.push_back(fit_acceleration_density(collector.samples(), noise, config));

@@ -33,11 +33,14 @@ struct PhaseSamples {
   std::array<std::vector<double>, acceleration_density_count> acceleration;
 };
 
-/// The mixture of a phase's kernel density and the uniform one, at one level of noise, on grids
-/// that cover all samples. A phase without samples gets the uniform density; a leg on or beside a
-/// single wheel then borrows that of rolling or of flight.
-PhaseTorqueDensity fit_torque_density(const PhaseSamples& samples, const TorqueSample& noise,
-                                      const PhaseFitConfig& config);
+/// The mixture of a phase's kernel density and the uniform one, for each noise at the knee with
+/// each at the wheel (N·m; all of the first at the knee first), on grids that cover all samples. A
+/// phase without samples gets the uniform density; a leg on or beside a single wheel then borrows
+/// that of rolling or of flight.
+std::vector<PhaseTorqueDensity> fit_torque_densities(
+    const PhaseSamples& samples, std::span<const double> knee_noise,
+    std::span<const double> wheel_noise, const PhaseFitConfig& config,
+    const std::function<void()>& before_density = {});
 PhaseAccelerationDensity fit_acceleration_density(const PhaseSamples& samples, double noise,
                                                   const PhaseFitConfig& config);
 

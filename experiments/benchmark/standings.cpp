@@ -4,7 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <tuple>
+
+#include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
 
@@ -116,19 +119,39 @@ std::vector<Standings::Difference> all_pairs(const std::string& scene,
   return pairs;
 }
 
+bool is_ceiling_place(const Standings::Place& place) { return is_ceiling(place.estimator); }
+
+double bits_of(const BenchmarkRow& row) {
+  return row.close.log_loss / static_cast<double>(row.close.steps) / std::numbers::ln2;
+}
+
 std::vector<Standings::Place> places_of(const Rows& rows, const std::vector<Named>& means,
                                         double level) {
   std::vector<Standings::Place> places;
   for (const Named& mean : means) {
-    Standings::Place place{mean.name, interval_of(mean.value, level), 1.0, {}, {}, false};
+    Standings::Place place;
+    place.estimator = mean.name;
+    place.mean = interval_of(mean.value, level);
+    place.worst = 1.0;
+    double scored = 0.0;
     for (const BenchmarkRow* row : rows) {
+      if (row->estimator == mean.name) {
+        place.log_loss += bits_of(*row);
+        scored += 1.0;
+      }
       const double value = row->balanced_accuracy.estimate;
       if (row->estimator != mean.name || value > place.worst) continue;
       place.worst = value;
       place.worst_scene = row->scene;
       place.worst_simulator = row->simulator;
     }
+    place.log_loss /= scored;
     places.push_back(std::move(place));
+  }
+  const auto ceiling = std::find_if(places.begin(), places.end(), is_ceiling_place);
+  for (Standings::Place& place : places) {
+    place.bits_left = ceiling == places.end() ? std::numeric_limits<double>::quiet_NaN()
+                                              : place.log_loss - ceiling->log_loss;
   }
   std::stable_sort(places.begin(), places.end(), [](const auto& one, const auto& other) {
     return one.mean.estimate > other.mean.estimate;
@@ -139,7 +162,9 @@ std::vector<Standings::Place> places_of(const Rows& rows, const std::vector<Name
 /// Those who are not told apart from the first.
 void mark_level_ones(std::vector<Standings::Place>& places,
                      const std::vector<Standings::Difference>& means) {
-  const std::string& best = places.front().estimator;
+  const auto first = std::find_if_not(places.begin(), places.end(), is_ceiling_place);
+  if (first == places.end()) return;
+  const std::string& best = first->estimator;
   for (Standings::Place& place : places) {
     place.is_level_with_first =
         place.estimator == best || std::any_of(means.begin(), means.end(), [&](const auto& pair) {

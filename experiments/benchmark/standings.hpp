@@ -21,8 +21,14 @@ struct Standings {
     double worst = 0.0;
     std::string worst_scene;
     std::string worst_simulator;
-    /// The simultaneous band of its difference from the first includes zero.
+    /// The simultaneous band of its difference from the first includes zero; the learned ceiling
+    /// is nobody's first.
     bool is_level_with_first = false;
+    /// Mean over scenes and engines (bits per wheel and step).
+    double log_loss = 0.0;
+    /// So much more than the learned ceiling's: what it leaves of what there is to be had. NaN
+    /// without a ceiling.
+    double bits_left = 0.0;
   };
   std::vector<Place> places;  ///< by mean, the best first
 

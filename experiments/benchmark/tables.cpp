@@ -137,16 +137,17 @@ std::vector<std::string> followed_by(std::vector<std::string> first, const Texts
 
 Table standings_table(const std::vector<Standings>& all) {
   Table table{
-      header_with_intervals(
-          followed_by(setting_columns, "estimator"), {"mean_balanced_accuracy"},
-          {"worst_balanced_accuracy", "worst_scene", "worst_simulator", "is_level_with_first"}),
+      header_with_intervals(followed_by(setting_columns, "estimator"), {"mean_balanced_accuracy"},
+                            {"worst_balanced_accuracy", "worst_scene", "worst_simulator",
+                             "is_level_with_first", "log_loss_bits", "bits_left"}),
       {}};
   for (const Standings& standings : all) {
     for (const Standings::Place& place : standings.places) {
       table.rows.push_back(
           row_with_intervals(followed_by(setting_cells(standings), place.estimator), {place.mean},
                              {metric(place.worst), place.worst_scene, place.worst_simulator,
-                              place.is_level_with_first ? "1" : "0"}));
+                              place.is_level_with_first ? "1" : "0", metric(place.log_loss),
+                              metric(place.bits_left)}));
     }
   }
   return table;
@@ -167,12 +168,15 @@ Table differences_table(const std::vector<Standings>& all) {
 }
 
 std::string standings_text(const Standings& standings) {
+  const bool has_ceiling = !std::isnan(standings.places.front().bits_left);
   Table table{{"", "mean", "level with the first", "worst", "in"}, {}};
+  if (has_ceiling) table.header.emplace_back("bits left");
   for (const Standings::Place& place : standings.places) {
     table.rows.push_back({estimator_title(place.estimator), with_interval(place.mean),
                           place.is_level_with_first ? "yes" : "",
                           fmt::format("{:.3f}", place.worst),
                           fmt::format("{}, {}", place.worst_scene, place.worst_simulator)});
+    if (has_ceiling) table.rows.back().push_back(fmt::format("{:.3f}", place.bits_left));
   }
   return fmt::format("\n{}, sensors {}, {}: all scenes and engines\n{}", standings.robot,
                      standings.sensors, noise_text(standings.noise), to_text(table));

@@ -170,6 +170,15 @@ static void describe(Fields& fields, BenchmarkConfig& benchmark) {
   fields("clips", benchmark.clips);
 }
 
+static void describe(Fields& fields, OdometryStudyConfig& odometry) {
+  fields.in_line("late", odometry.late);
+  for (auto late = odometry.late.begin(); late != odometry.late.end(); ++late) {
+    fields.check(*late > 0.0 && *late <= 1.0, "late", "expected times between 0 and 1 s");
+    fields.check(std::find(odometry.late.begin(), late, *late) == late, "late",
+                 fmt::format("{} stands there twice", *late));
+  }
+}
+
 static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
   constexpr const char* key = "cross_simulator";
   std::optional<CrossSimulatorConfig>& config = experiment.cross_simulator;
@@ -181,11 +190,27 @@ static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
   fields.section(key, *config, experiment);
 }
 
+/// Estimators that are written in Python are there where Python runs the experiment.
+static void require_python(const Fields& fields) {
+  if (!fields.reading()) return;
+  const YAML::Node given = fields.node()["estimators"];
+  if (!given || !given.IsSequence()) return;
+  const std::vector<std::string> known = estimator_names();
+  for (const auto& item : given) {
+    if (!item.IsScalar() || !item.Scalar().starts_with(python_prefix)) continue;
+    fields.check(std::find(known.begin(), known.end(), item.Scalar()) != known.end(), "estimators",
+                 fmt::format("'{}' is written in Python: run the experiment from there, by "
+                             "'python3 -m touchdown run' or touchdown.run",
+                             item.Scalar()));
+  }
+}
+
 static void describe(Fields& fields, Experiment& experiment) {
   fields.require("name", experiment.name);
   fields.check(is_name_word(experiment.name), "name", expected_name_word);
   fields("seed", experiment.seed);
   fields.names("simulators", simulators::simulator_names(), experiment.simulators);
+  require_python(fields);
   fields.names("estimators", estimator_names(), experiment.estimators);
   fields.require("fit");
   fields.require("test");
@@ -233,6 +258,8 @@ static void describe(Fields& fields, Experiment& experiment) {
       "drawn from them");
   fields.know("benchmark");
   fields.section("benchmark", experiment.benchmark);
+  fields.know("odometry");
+  fields.section("odometry", experiment.odometry);
   fields.know("moments");
   if (fields.present("moments", experiment.moments)) fields("moments", experiment.moments);
   if (fields.present("phase_study", experiment.phase_study)) {

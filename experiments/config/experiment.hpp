@@ -131,6 +131,12 @@ struct BenchmarkConfig {
   bool clips = false;
 };
 
+/// The section `odometry`: every test run is heard by odometry that is told about contact by every
+/// estimator, by the truth, and by the truth so late (docs/odometry.md).
+struct OdometryStudyConfig {
+  std::vector<double> late;  ///< s
+};
+
 /// An experiment file, seen whole: what is simulated, who listens through which noise, what counts.
 struct Experiment {
   std::string name;
@@ -156,6 +162,7 @@ struct Experiment {
   std::optional<PosteriorConfig> posterior;  ///< likewise
   std::optional<CrossSimulatorConfig> cross_simulator;
   std::optional<BenchmarkConfig> benchmark;
+  std::optional<OdometryStudyConfig> odometry;
   bool moments = false;       ///< adds tables of torques beside the real robot's (docs/realism.md)
   bool phase_study = false;   ///< adds what the phase filter's study measures (docs/protocol.md)
   bool paper_tables = false;  ///< print the paper's Tables I to III for every highlighted cell

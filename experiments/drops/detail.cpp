@@ -101,9 +101,8 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
     NoisyDrop drop{
         cell, trace_torque(window, heard), trace_spectrum(transition, rate, window, heard), {}};
     for (const std::string& name : config.estimators) {
-      const auto estimator =
-          make_estimator({detail.simulator, detail.simulator, name}, models, run);
-      const scoring::Prediction prediction = predict(*estimator, run, noise, levels);
+      Listener listener = listener_of({detail.simulator, detail.simulator, name}, models, run);
+      const scoring::Prediction prediction = predict(listener, run, noise, levels);
       drop.beliefs.push_back(
           {name, estimator_entry(name).title, inside(prediction[left].p_contact, window)});
     }

@@ -11,6 +11,10 @@ noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& le
           .hip_torque = sensors.hip_torque ? levels.hip_torque : 0.0};
 }
 
+Listener listener_of(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return entry.at_once ? Listener(entry.at_once(setup)) : Listener(entry.make(entry, setup));
+}
+
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other) {
   if (one.fit == nullptr || one.fit != other.fit || one.fits() != other.fits()) return false;
   if (one.config) return one.config->measurement == other.config->measurement;

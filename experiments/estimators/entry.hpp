@@ -14,6 +14,7 @@
 #include "experiments/estimators/fit_runs.hpp"
 #include "experiments/estimators/fitted_model.hpp"
 #include "experiments/lanes/noise_level.hpp"
+#include "experiments/signals/listener.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scoring/labels.hpp"
 
@@ -55,6 +56,8 @@ struct EstimatorEntry {
   std::string title;    ///< for tables and figures
   std::string summary;  ///< one line: what it does
   Sensors sensors;
+  /// Whether it stands for what there is to be had, and not for what one would take.
+  bool is_ceiling = false;
   /// The configuration whose measurement model it needs, if it needs one.
   std::optional<BayesFilterConfig> config = {};
   /// The configuration whose phase model it needs, if it needs one.
@@ -62,6 +65,8 @@ struct EstimatorEntry {
   /// How it is fitted, if it is: to one of the two above, or else to parameters of its own, which
   /// experiments/estimators/parameter_fitting.hpp makes a model of.
   FittedModel (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
+  /// Whether it is fitted to an experiment's pieces, too, if there are any.
+  bool learns_from_pieces = false;
   /// What made its model, if that is no part of an experiment.
   std::string trained_by = {};
   /// It is told the labels of the runs it listens to: nothing for logs without.
@@ -71,6 +76,11 @@ struct EstimatorEntry {
   /// Null for an estimator without lanes; nothing where its lanes do not know noise of that kind.
   std::optional<EstimatorLanes> (*lanes)(const EstimatorEntry& entry, const EstimatorSetup& setup,
                                          std::span<const noise::SensorNoise> levels) = nullptr;
+  /// Instead of `make`, for one that hears a whole run at once.
+  std::function<BelieveRun(const EstimatorSetup& setup)> at_once = {};
+  /// What decides about its numbers and is no part of the program: saved under another one they do
+  /// not count.
+  std::string revision = {};
 
   /// Which kind of model it is fitted with, if it is.
   std::optional<ModelKind> fits() const {
@@ -79,6 +89,9 @@ struct EstimatorEntry {
     return fit != nullptr ? std::optional(ModelKind::parameters) : std::nullopt;
   }
 };
+
+/// The estimator, however it listens, made for this.
+Listener listener_of(const EstimatorEntry& entry, const EstimatorSetup& setup);
 
 /// Whether one fit serves both.
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other);

@@ -138,6 +138,7 @@ EstimatorEntry phase_entry() {
           .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
           .phase = PhaseFilterConfig{},
           .fit = fit_phase,
+          .learns_from_pieces = true,
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<PhaseFilter>(phase_filter(entry, setup));
           },

@@ -2,18 +2,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/yaml.hpp"
 #include "experiments/signals/run_signals.hpp"
 
 namespace touchdown::experiments {
 
+FitRuns FitRuns::together() const {
+  FitRuns all = *this;
+  all.whole.insert(all.whole.end(), pieces.begin(), pieces.end());
+  all.pieces.clear();
+  return all;
+}
+
 double period_of(const RunSignals& run) {
   return 1e-6 * static_cast<double>(run.info.control_period_us);
+}
+
+std::string robot_of(const recordings::RecordingInfo& info) {
+  if (info.scenario_yaml.empty()) return {};
+  const YamlDocument scenario =
+      YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)");
+  const YAML::Node robot = scenario.root()["robot"];
+  return robot.IsDefined() && robot.IsScalar()
+             ? std::filesystem::path(robot.Scalar()).stem().string()
+             : "";
+}
+
+void FittedTo::add(const recordings::RecordingInfo& info) {
+  if (sample_rate == 0.0) sample_rate = 1e6 / static_cast<double>(info.control_period_us);
+  if (const std::string robot = robot_of(info); !robot.empty()) robots.insert(robot);
 }
 
 std::size_t skipped_steps(const RunSignals& run, double skip) {

@@ -3,38 +3,58 @@
 #include <algorithm>
 #include <string_view>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "estimator/models/make_estimator.hpp"
 #include "recordings/models/measurement_model.hpp"
 #include "recordings/models/npz.hpp"
 
 namespace touchdown::experiments {
+
+ModelPassport new_passport(const std::string& estimator, const FittedTo& fitted_to) {
+  return {.estimator = estimator,
+          .sample_rate = fitted_to.sample_rate,
+          .robot = fmt::format("{}", fmt::join(fitted_to.robots, ", ")),
+          .configuration = makes_estimator(estimator)
+                               ? default_configuration(estimator, fitted_to.sample_rate)
+                               : ConfigurationText{},
+          .fingerprint = {}};
+}
 
 ModelKind kind_of_model_file(const std::filesystem::path& path) {
   const std::vector<std::string> names = recordings::npz_names(path);
   const auto has = [&](std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  if (has(recordings::estimator_array)) return ModelKind::parameters;
+  if (has(estimator_array)) return ModelKind::parameters;
   return has("transition") ? ModelKind::phase : ModelKind::measurement;
 }
 
 FittedModel read_fitted_model(ModelKind kind, const std::filesystem::path& path) {
+  FittedModel model;
   switch (kind) {
     case ModelKind::measurement:
-      return {.measurement = recordings::read_measurement_model(path)};
+      model.measurement = recordings::read_measurement_model(path, &model.passport);
+      break;
     case ModelKind::phase:
-      return {.phase = std::make_shared<const recordings::PhaseModelFile>(
-                  recordings::read_phase_model(path))};
+      model.phase = std::make_shared<const recordings::PhaseModelFile>(
+          recordings::read_phase_model(path, &model.passport));
+      break;
     case ModelKind::parameters:
-      return {.parameters = std::make_shared<const recordings::ParameterModelFile>(
-                  recordings::read_parameter_model(path))};
+      model.parameters = std::make_shared<const recordings::ParameterModelFile>(
+          recordings::read_parameter_model(path, &model.passport));
+      break;
   }
-  return {};
+  return model;
 }
 
 void write_fitted_model(const FittedModel& model, const std::filesystem::path& path) {
-  if (model.measurement) recordings::write_measurement_model(*model.measurement, path);
-  if (model.phase) recordings::write_phase_model(*model.phase, path);
-  if (model.parameters) recordings::write_parameter_model(*model.parameters, path);
+  if (model.measurement) {
+    recordings::write_measurement_model(*model.measurement, path, model.passport);
+  }
+  if (model.phase) recordings::write_phase_model(*model.phase, path, model.passport);
+  if (model.parameters) recordings::write_parameter_model(*model.parameters, path, model.passport);
 }
 
 }  // namespace touchdown::experiments

@@ -7,17 +7,24 @@
 #include <string>
 
 #include "estimator/bayes/measurement_model.hpp"
+#include "estimator/models/passport.hpp"
+#include "experiments/estimators/fit_runs.hpp"
 #include "recordings/models/parameter_model.hpp"
 #include "recordings/models/phase_model.hpp"
 
 namespace touchdown::experiments {
 
-/// What an estimator was fitted with: one of the three.
+/// What an estimator was fitted with: one of the three, and what it says about itself; files that
+/// are older than passports, or come from elsewhere, say nothing.
 struct FittedModel {
   std::optional<MeasurementModel> measurement = {};
   std::shared_ptr<const recordings::PhaseModelFile> phase = {};
   std::shared_ptr<const recordings::ParameterModelFile> parameters = {};
+  std::optional<ModelPassport> passport = {};
 };
+
+/// The passport of a model that is fitted now.
+ModelPassport new_passport(const std::string& estimator, const FittedTo& fitted_to);
 
 /// Models by engine that was fitted on, then by estimator. Estimators that need the same model
 /// share it.

@@ -10,8 +10,6 @@ namespace touchdown::experiments {
 namespace {
 
 using Made = std::unique_ptr<ContactEstimator>;
-using recordings::parameter;
-using recordings::Parameters;
 
 /// What a leg's load is computed from.
 constexpr Sensors of_a_load = {
@@ -19,49 +17,26 @@ constexpr Sensors of_a_load = {
 
 FittedModel fit_logistic_curve(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs, [](std::span<const LabelledRun> labelled) {
-    const LogisticCurve curve = fit_load_logistic(labelled);
-    return Parameters{{"slope", {curve.slope}}, {"intercept", {curve.intercept}}};
+    return parameters_of(fit_load_logistic(labelled));
   });
 }
 
-Made make_load_logistic(const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) {
-  const Parameters& fitted = setup.model->parameters->parameters;
-  return std::make_unique<LoadLogistic>(LogisticCurve{.slope = parameter(fitted, "slope"),
-                                                      .intercept = parameter(fitted, "intercept")},
-                                        LoadLogisticConfig{.sample_rate = setup.sample_rate});
+Made make_load_logistic(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return std::make_unique<LoadLogistic>(
+      logistic_curve_of(setup.model->parameters->parameters),
+      configured(LoadLogisticConfig{.sample_rate = setup.sample_rate}, entry, setup));
 }
-
-/// What of a wheel's state each parameter holds: without contact, in contact.
-struct StateParameter {
-  const char* name;
-  double WheelState::*of;
-};
-constexpr std::array<StateParameter, 4> state_parameters = {
-    {{"force_mean", &WheelState::force_mean},
-     {"force_deviation", &WheelState::force_deviation},
-     {"axle_deviation", &WheelState::axle_deviation},
-     {"leaving_rate", &WheelState::leaving_rate}}};
 
 FittedModel fit_wheel_states(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs, [](std::span<const LabelledRun> labelled) {
-    const ForceKinematicsModel model = fit_force_kinematics(labelled);
-    Parameters parameters;
-    for (const auto& [name, of] : state_parameters) {
-      parameters[name] = {model.air.*of, model.contact.*of};
-    }
-    return parameters;
+    return parameters_of(fit_force_kinematics(labelled));
   });
 }
 
-Made make_force_kinematics(const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) {
-  ForceKinematicsModel model;
-  for (const auto& [name, of] : state_parameters) {
-    const std::vector<double>& values = parameter(setup.model->parameters->parameters, name, 2);
-    model.air.*of = values[0];
-    model.contact.*of = values[1];
-  }
-  return std::make_unique<ForceKinematics>(model,
-                                           ForceKinematicsConfig{.sample_rate = setup.sample_rate});
+Made make_force_kinematics(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return std::make_unique<ForceKinematics>(
+      force_kinematics_model_of(setup.model->parameters->parameters),
+      configured(ForceKinematicsConfig{.sample_rate = setup.sample_rate}, entry, setup));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "estimator/labelled_run.hpp"
+#include "estimator/models/configuration.hpp"
 #include "experiments/estimators/entry.hpp"
 
 namespace touchdown::experiments {
@@ -16,5 +17,13 @@ using FitParameters = std::function<recordings::Parameters(std::span<const Label
 /// `fit` throws.
 FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs,
                            const FitParameters& fit);
+
+/// As the model's passport says, if it is the entry's own.
+template <typename Config>
+Config configured(Config config, const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  const std::optional<ModelPassport>& passport = setup.model->passport;
+  if (passport && passport->estimator == entry.name) configure(config, passport->configuration);
+  return config;
+}
 
 }  // namespace touchdown::experiments

@@ -1,16 +1,41 @@
 #include "experiments/estimators/registry.hpp"
 
 #include <algorithm>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
+#include "experiments/estimators/boosting.hpp"
 #include "experiments/estimators/decision.hpp"
 #include "experiments/estimators/filters.hpp"
 #include "experiments/estimators/forces.hpp"
 
 namespace touchdown::experiments {
+
+namespace {
+
+/// Who is there, and whether somebody lets them in.
+struct GuestBook {
+  std::mutex mutex;
+  std::optional<std::vector<EstimatorEntry>> guests;
+};
+
+GuestBook& guest_book() {
+  static GuestBook book;
+  return book;
+}
+
+const EstimatorEntry* find(std::span<const EstimatorEntry> entries, std::string_view name) {
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [&](const EstimatorEntry& entry) { return entry.name == name; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+}  // namespace
 
 std::span<const EstimatorEntry> estimator_entries() {
   static const std::vector<EstimatorEntry> entries = {
@@ -32,6 +57,7 @@ std::span<const EstimatorEntry> estimator_entries() {
       load_logistic_entry(),
       force_kinematics_entry(),
       decision_network_entry(),
+      gradient_boosting_entry(),
       oracle_entry(),
       always_contact_entry(),
   };
@@ -41,18 +67,48 @@ std::span<const EstimatorEntry> estimator_entries() {
 std::vector<std::string> estimator_names() {
   std::vector<std::string> names;
   for (const EstimatorEntry& entry : estimator_entries()) names.push_back(entry.name);
+  const std::scoped_lock lock(guest_book().mutex);
+  if (!guest_book().guests) return names;
+  for (const EstimatorEntry& guest : *guest_book().guests) names.push_back(guest.name);
   return names;
 }
 
 const EstimatorEntry& estimator_entry(std::string_view name) {
-  const std::span<const EstimatorEntry> entries = estimator_entries();
-  const auto found = std::find_if(entries.begin(), entries.end(),
-                                  [&](const EstimatorEntry& entry) { return entry.name == name; });
-  if (found != entries.end()) return *found;
+  if (const EstimatorEntry* own = find(estimator_entries(), name)) return *own;
+  {
+    const std::scoped_lock lock(guest_book().mutex);
+    const auto& guests = guest_book().guests;
+    if (const EstimatorEntry* guest = guests ? find(*guests, name) : nullptr) return *guest;
+  }
   const std::string near = nearest(name, estimator_names());
   throw InputError(fmt::format("unknown estimator '{}': expected one of {}{}", name,
                                fmt::join(estimator_names(), ", "),
                                near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+}
+
+bool is_ceiling(std::string_view estimator) {
+  const std::span<const EstimatorEntry> entries = estimator_entries();
+  return std::any_of(entries.begin(), entries.end(), [&](const EstimatorEntry& entry) {
+    return entry.is_ceiling && entry.name == estimator;
+  });
+}
+
+GuestEstimators::GuestEstimators(std::vector<EstimatorEntry> guests) {
+  for (const EstimatorEntry& guest : guests) {
+    if (find(estimator_entries(), guest.name) == nullptr) continue;
+    throw InputError(
+        fmt::format("the name '{}' is taken by one of touchdown's own estimators", guest.name));
+  }
+  const std::scoped_lock lock(guest_book().mutex);
+  if (guest_book().guests) {
+    throw InputError("an experiment with estimators of its caller runs already");
+  }
+  guest_book().guests = std::move(guests);
+}
+
+GuestEstimators::~GuestEstimators() {
+  const std::scoped_lock lock(guest_book().mutex);
+  guest_book().guests.reset();
 }
 
 }  // namespace touchdown::experiments

@@ -79,9 +79,18 @@ FittedModels fit_models(const Experiment& experiment, const std::vector<RunSigna
     }
     progress.advance();
   });
+  const auto fitted_to_of = [&](const std::string& simulator) {
+    FittedTo fitted_to;
+    for (const auto* runs : {&fit_runs, &pieces}) {
+      for (const RunSignals* run : of_engine(*runs, simulator)) fitted_to.add(run->info);
+    }
+    return fitted_to;
+  };
   FittedModels models;
-  for (const Job& job : jobs) {
+  for (Job& job : jobs) {
+    const FittedTo fitted_to = fitted_to_of(job.simulator);
     for (const std::string& name : job.estimators) {
+      job.model.passport = new_passport(name, fitted_to);
       models[job.simulator].emplace(name, job.model);
     }
   }

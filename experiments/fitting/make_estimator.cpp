@@ -1,5 +1,8 @@
 #include "experiments/fitting/make_estimator.hpp"
 
+#include <fmt/format.h>
+
+#include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -18,7 +21,15 @@ std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
                                                  const FittedModels& models,
                                                  const RunSignals& run) {
   const EstimatorEntry& entry = estimator_entry(condition.estimator);
+  if (entry.make == nullptr) {
+    throw InputError(fmt::format("'{}' hears whole runs, and this goes step by step", entry.name));
+  }
   return entry.make(entry, setup_of(condition, models, run));
+}
+
+Listener listener_of(const Condition& condition, const FittedModels& models,
+                     const RunSignals& run) {
+  return listener_of(estimator_entry(condition.estimator), setup_of(condition, models, run));
 }
 
 }  // namespace touchdown::experiments

@@ -13,8 +13,12 @@ namespace touchdown::experiments {
 EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,
                         const RunSignals& run);
 
-/// A fresh estimator as the condition wants it, for this run.
+/// A fresh estimator as the condition wants it, for this run, step by step. Errors: `InputError`
+/// for one that hears whole runs.
 std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
                                                  const FittedModels& models, const RunSignals& run);
+
+/// Likewise, however it listens.
+Listener listener_of(const Condition& condition, const FittedModels& models, const RunSignals& run);
 
 }  // namespace touchdown::experiments

@@ -43,13 +43,18 @@ std::vector<ScoreSummary> summarise(const std::vector<ConditionScores>& scores,
     const std::size_t cell = i / views / scores.size();
     const ConditionScores& condition = scores[i / views % scores.size()];
     const std::vector<scoring::Score> samples = samples_of(condition, cell, i % views);
-    const std::vector<Interval> intervals =
+    const scoring::Score sum = scoring::sum(samples);
+    std::vector<Interval> intervals =
         scoring::bootstrap<scoring::Score>(samples, functions_with_reliability(), config);
+    for (std::size_t m = 0; m < scoring::metrics().size(); ++m) {
+      const auto& events = scoring::metrics()[m].events;
+      if (events) intervals[m] = scoring::with_exact_end(intervals[m], events(sum), config.level);
+    }
     const auto bins = intervals.end() - static_cast<std::ptrdiff_t>(scoring::Calibration::bins);
     summaries[i] = {condition.condition,
                     cells[cell],
                     scoring::scored_views()[i % views],
-                    scoring::sum(samples),
+                    sum,
                     {intervals.begin(), bins},
                     {bins, intervals.end()}};
   });

@@ -32,13 +32,12 @@ std::vector<noise::SensorNoise> levels_of(std::span<const noise::NoiseCell> cell
   return levels;
 }
 
-}  // namespace
-
-std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
-                                                  std::span<const noise::SensorNoise> levels,
-                                                  const RunSignals& run, const NoiseRun& noise,
-                                                  const scoring::ScoringConfig& scoring,
-                                                  const GoingOn& going_on) {
+template <typename Estimator>
+std::vector<scoring::Classification> counts_by_level(Estimator& estimator,
+                                                     std::span<const noise::SensorNoise> levels,
+                                                     const RunSignals& run, const NoiseRun& noise,
+                                                     const scoring::ScoringConfig& scoring,
+                                                     const GoingOn& going_on) {
   const std::size_t pieces = run.pieces.size();
   std::vector<scoring::Classification> counts(levels.size() * pieces);
   for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -51,6 +50,24 @@ std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
     }
   }
   return counts;
+}
+
+}  // namespace
+
+std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
+                                                  std::span<const noise::SensorNoise> levels,
+                                                  const RunSignals& run, const NoiseRun& noise,
+                                                  const scoring::ScoringConfig& scoring,
+                                                  const GoingOn& going_on) {
+  return counts_by_level(estimator, levels, run, noise, scoring, going_on);
+}
+
+std::vector<scoring::Classification> sweep_levels(Listener& listener,
+                                                  std::span<const noise::SensorNoise> levels,
+                                                  const RunSignals& run, const NoiseRun& noise,
+                                                  const scoring::ScoringConfig& scoring,
+                                                  const GoingOn& going_on) {
+  return counts_by_level(listener, levels, run, noise, scoring, going_on);
 }
 
 std::vector<scoring::Classification> sweep_run(std::span<const Condition> conditions,
@@ -70,10 +87,13 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
     const DifferentLevels levels(entry.sensors, all_levels);
     std::optional<EstimatorLanes> lanes;
     if (lanes_apply && entry.lanes != nullptr) lanes = entry.lanes(entry, setup, levels.different);
+    const auto one_by_one = [&] {
+      Listener listener = listener_of(entry, setup);
+      return sweep_levels(listener, levels.different, run, noise, scoring, going_on);
+    };
     const std::vector<scoring::Classification> by_level =
         lanes ? count_in_lanes(*lanes, levels.different.size(), run, noise, scoring, going_on)
-              : sweep_levels(*entry.make(entry, setup), levels.different, run, noise, scoring,
-                             going_on);
+              : one_by_one();
     for (const std::size_t level : levels.of_cell) {
       const auto first = by_level.begin() + static_cast<std::ptrdiff_t>(level * pieces);
       counts.insert(counts.end(), first, first + static_cast<std::ptrdiff_t>(pieces));

@@ -26,5 +26,10 @@ std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
                                                   const RunSignals& run, const NoiseRun& noise,
                                                   const scoring::ScoringConfig& scoring,
                                                   const GoingOn& going_on);
+std::vector<scoring::Classification> sweep_levels(Listener& listener,
+                                                  std::span<const noise::SensorNoise> levels,
+                                                  const RunSignals& run, const NoiseRun& noise,
+                                                  const scoring::ScoringConfig& scoring,
+                                                  const GoingOn& going_on);
 
 }  // namespace touchdown::experiments

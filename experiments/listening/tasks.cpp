@@ -11,6 +11,8 @@
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "experiments/listening/sweep_run.hpp"
+#include "experiments/odometry/contact_sources.hpp"
+#include "experiments/odometry/dead_reckoning.hpp"
 #include "experiments/run_directory/saved_state.hpp"
 
 namespace touchdown::experiments {
@@ -38,7 +40,7 @@ void take(std::vector<T>& values, std::string_view& bytes) {
   bytes.remove_prefix(count * sizeof(T));
 }
 
-/// Calls `part(counts, ...)` for each of the four.
+/// Calls `part(counts, ...)` for each of the four that belong to cells.
 template <typename Part, typename... Counts>
 void for_each_part(const Part& part, Counts&... counts) {
   part(counts.counted...);
@@ -68,22 +70,20 @@ void add_samples(std::vector<ConditionSamples<Sample>>& all, const std::vector<S
 }
 
 /// Both wheels of a whole run whose signals are disturbed.
-scoring::Classification count(ContactEstimator& estimator, const RunSignals& run,
-                              const NoiseRun& noise, const noise::NoiseKey& key,
-                              const DisturbedCell& cell, const scoring::ScoringConfig& scoring) {
+scoring::Classification count(Listener& listener, const RunSignals& run, const NoiseRun& noise,
+                              const noise::NoiseKey& key, const DisturbedCell& cell,
+                              const scoring::ScoringConfig& scoring) {
   const NoiseRun heard = cell.disturbance.heavy_tails ? with_heavy_tails(noise, key) : noise;
   const std::size_t skip = scoring::first_scored_step(run.info.control_period_us, scoring);
   scoring::Classification sum;
-  estimator.reset();
-  Belief belief;
-  for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (is_heard(run.signals[k])) {
-      belief = estimator.update(disturbed(run, heard, cell.cell.levels(), k, cell.disturbance));
-    }
-    for (std::size_t w = 0; w < models::wheel_count && k >= skip; ++w) {
-      sum.add(run.contact[w][k] != 0, belief.wheel[w].contact);
-    }
-  }
+  listener.listen_to(
+      run,
+      [&](std::size_t k) { return disturbed(run, heard, cell.cell.levels(), k, cell.disturbance); },
+      [&](std::size_t k, const Belief& belief) {
+        for (std::size_t w = 0; w < models::wheel_count && k >= skip; ++w) {
+          sum.add(run.contact[w][k] != 0, belief.wheel[w].contact);
+        }
+      });
   return sum;
 }
 
@@ -92,12 +92,14 @@ scoring::Classification count(ContactEstimator& estimator, const RunSignals& run
 std::string to_bytes(const TaskCounts& counts) {
   std::string bytes;
   for_each_part([&](const auto& part) { append(bytes, part); }, counts);
+  append(bytes, counts.odometry);
   return bytes;
 }
 
 TaskCounts take_counts(std::string_view& bytes) {
   TaskCounts counts;
   for_each_part([&](auto& part) { take(part, bytes); }, counts);
+  take(counts.odometry, bytes);
   return counts;
 }
 
@@ -161,19 +163,32 @@ TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,
   std::vector<Condition> counted = conditions;
   std::erase_if(counted, [&](const Condition& one) { return !group.counts(one); });
   counts.counted = sweep_run(counted, group.counted, run, noise, models, scoring, going_on);
+  const auto add_odometry = [&](const TrackView& p_contact) {
+    if (!going_on()) throw Stopped();
+    counts.odometry.push_back(
+        score_odometry(run, noise, group.scored.front().levels(), p_contact, scoring));
+  };
+  if (group.odometry) {
+    for (const ContactTrack& told : oracle_tracks(*group.odometry, run)) {
+      add_odometry({told[0], told[1]});
+    }
+  }
   for (const Condition& condition : conditions) {
     if (!group.scores(condition)) continue;
-    const auto estimator = make_estimator(condition, models, run);
+    Listener listener = listener_of(condition, models, run);
     for (const noise::NoiseCell& cell : group.scored) {
       if (!going_on()) throw Stopped();
-      const scoring::Prediction prediction = predict(*estimator, run, noise, cell.levels());
+      const scoring::Prediction prediction = predict(listener, run, noise, cell.levels());
       add_scores(run, prediction, scoring, group.is_looked_at_closely && condition.refit == 0,
                  counts);
+      if (&cell == &group.scored.front() && group.tells_odometry(condition)) {
+        add_odometry({prediction[0].p_contact, prediction[1].p_contact});
+      }
     }
     if (condition.refit > 0) continue;
     for (const DisturbedCell& cell : group.disturbed) {
       if (!going_on()) throw Stopped();
-      counts.disturbed.push_back(count(*estimator, run, noise, task.noise, cell, scoring));
+      counts.disturbed.push_back(count(listener, run, noise, task.noise, cell, scoring));
     }
   }
   return counts;

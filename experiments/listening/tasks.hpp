@@ -12,6 +12,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/play/play.hpp"
 #include "scoring/close_score.hpp"
+#include "scoring/trajectory.hpp"
 
 namespace touchdown::experiments {
 
@@ -22,6 +23,8 @@ struct TaskCounts {
   std::vector<scoring::RobotScore> scored;         ///< of own-engine conditions
   std::vector<scoring::CloseScore> close;          ///< likewise; the whole run is one piece
   std::vector<scoring::Classification> disturbed;  ///< likewise
+  /// What odometry makes of the oracles, then of conditions at home; the whole run.
+  std::vector<scoring::TrajectoryScore> odometry;
 };
 
 /// As they lie in memory: for this build alone.

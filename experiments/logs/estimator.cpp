@@ -1,30 +1,31 @@
 #include "experiments/logs/estimator.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "estimator/models/configuration.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-/// The estimator that such a model is usually for: the first that is fitted with one, or the one
-/// that the parameters in the file belong to.
-const EstimatorEntry& usual_estimator(ModelKind kind, const std::filesystem::path& path) {
-  if (kind == ModelKind::parameters) {
-    return estimator_entry(recordings::read_parameter_model(path).estimator);
-  }
+/// The estimator that such a model is usually for: whom it was fitted for, or else the first that
+/// is fitted with one.
+const EstimatorEntry& usual_estimator(ModelKind kind, const FittedModel& model) {
+  if (model.passport) return estimator_entry(model.passport->estimator);
+  if (model.parameters) return estimator_entry(model.parameters->estimator);
   const std::span<const EstimatorEntry> all = estimator_entries();
   return *std::find_if(all.begin(), all.end(),
                        [&](const EstimatorEntry& entry) { return entry.fits() == kind; });
 }
 
-std::string described(ModelKind kind, const EstimatorEntry& usual, const EstimatorEntry& entry) {
+std::string described(ModelKind kind, const FittedModel& model, const EstimatorEntry& usual,
+                      const EstimatorEntry& entry) {
   if (kind == ModelKind::parameters) return fmt::format("a model of '{}'", usual.name);
+  if (kind == entry.fits() && model.passport) return fmt::format("a model of '{}'", usual.name);
   if (kind == ModelKind::phase) return "a phase model";
   return entry.fits() == ModelKind::phase ? "no phase model" : "a model of torques' densities";
 }
@@ -39,55 +40,96 @@ void check_parameters(const EstimatorEntry& entry, const FittedModel& model,
   }
 }
 
-FittedModel read_model(const EstimatorEntry& entry, const std::filesystem::path& path) {
-  if (!entry.fits()) {
-    if (path.empty()) return {};
+/// Errors: `InputError` for a model that this estimator cannot use.
+void check_fit(const EstimatorEntry& entry, ModelKind kind, const FittedModel& model,
+               const std::filesystem::path& path) {
+  const EstimatorEntry& usual = usual_estimator(kind, model);
+  const bool is_told = kind == ModelKind::parameters || model.passport;
+  if (is_told ? share_model(entry, usual) : kind == entry.fits()) return;
+  throw InputError(fmt::format("{}: is {}, which '{}' cannot use (did you mean --estimator {}?)",
+                               path.string(), described(kind, model, usual, entry), entry.name,
+                               usual.name));
+}
+
+void check_needs(const EstimatorEntry& entry, const std::filesystem::path& model) {
+  if (entry.needs_truth) {
+    throw InputError(fmt::format(
+        "--estimator: the {} repeats the ground truth, it does not listen to logs", entry.name));
+  }
+  if (!entry.fits() && !model.empty()) {
     throw InputError(fmt::format("--model: '{}' is not fitted and takes none", entry.name));
   }
-  if (path.empty()) {
+  if (entry.fits() && model.empty()) {
     throw InputError(fmt::format(
         "--model is missing: '{0}' has to be fitted: touchdown fit LOG --estimator {0} -o "
         "model.npz",
         entry.name));
   }
-  const ModelKind kind = kind_of_model_file(path);
-  const EstimatorEntry& usual = usual_estimator(kind, path);
-  const bool fits =
-      kind == ModelKind::parameters ? share_model(entry, usual) : kind == entry.fits();
-  if (!fits) {
-    throw InputError(fmt::format("{}: is {}, which '{}' cannot use (did you mean --estimator {}?)",
-                                 path.string(), described(kind, usual, entry), entry.name,
-                                 usual.name));
+}
+
+/// The entry as its own model's passport says it is run.
+EstimatorEntry configured(EstimatorEntry entry, const FittedModel& model,
+                          const std::filesystem::path& path) {
+  if (!model.passport || model.passport->estimator != entry.name) return entry;
+  try {
+    if (entry.config) {
+      entry.config->sample_rate = model.passport->sample_rate;
+      configure(*entry.config, model.passport->configuration);
+    }
+    if (entry.phase) configure(*entry.phase, model.passport->configuration);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }
-  FittedModel model = read_fitted_model(kind, path);
-  if (kind == ModelKind::parameters) check_parameters(entry, model, path);
-  return model;
+  return entry;
 }
 
 }  // namespace
 
-std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate) const {
-  EstimatorEntry at_rate = entry;
-  if (at_rate.config) {
-    const BayesFilterConfig& usual = *entry.config;
-    at_rate.config->transition.window = std::max(
-        2,
-        static_cast<int>(std::lround(usual.transition.window * sample_rate / usual.sample_rate)));
+std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
+                                                     const recordings::RecordingInfo& log) const {
+  if (model.passport && !request.transfer) {
+    try {
+      check_use(*model.passport, {.sample_rate = sample_rate,
+                                  .robot = request.robot.empty() ? robot_of(log) : request.robot});
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {} (--transfer uses it all the same)",
+                                   request.model.string(), error.what()));
+    }
   }
-  return at_rate.make(at_rate, {sample_rate, &model});
+  EstimatorEntry heard = entry;
+  if (heard.config) heard.config = at_rate(*entry.config, sample_rate);
+  return heard.make(heard, {sample_rate, &model});
 }
 
-LogEstimator log_estimator(const std::string& name, const std::filesystem::path& model) {
-  const EstimatorEntry& entry =
-      !name.empty()
-          ? estimator_entry(name)
-          : usual_estimator(model.empty() ? ModelKind::measurement : kind_of_model_file(model),
-                            model);
-  if (entry.needs_truth) {
-    throw InputError(fmt::format(
-        "--estimator: the {} repeats the ground truth, it does not listen to logs", entry.name));
+std::string LogEstimator::model_text() const {
+  if (request.model.empty()) return {};
+  if (!model.passport) {
+    return fmt::format("{}: has no passport, being older or from elsewhere: taken for '{}'",
+                       request.model.string(), entry.name);
   }
-  return {entry, read_model(entry, model)};
+  const ModelPassport& passport = *model.passport;
+  return fmt::format(
+      "{}: fitted for '{}' at {:.6g} Hz to {}, fingerprint {}", request.model.string(),
+      passport.estimator, passport.sample_rate,
+      passport.robot.empty() ? "a robot that nobody named" : fmt::format("'{}'", passport.robot),
+      passport.fingerprint);
+}
+
+LogEstimator log_estimator(const LogEstimatorRequest& request) {
+  if (!request.name.empty()) check_needs(estimator_entry(request.name), request.model);
+  if (request.model.empty()) {
+    const EstimatorEntry& entry = request.name.empty() ? usual_estimator(ModelKind::measurement, {})
+                                                       : estimator_entry(request.name);
+    check_needs(entry, request.model);
+    return {entry, {}, request};
+  }
+  const ModelKind kind = kind_of_model_file(request.model);
+  FittedModel model = read_fitted_model(kind, request.model);
+  const EstimatorEntry& entry =
+      request.name.empty() ? usual_estimator(kind, model) : estimator_entry(request.name);
+  check_fit(entry, kind, model, request.model);
+  if (kind == ModelKind::parameters) check_parameters(entry, model, request.model);
+  return {configured(entry, model, request.model), std::move(model), request};
 }
 
 }  // namespace touchdown::experiments

@@ -20,11 +20,23 @@ namespace touchdown::experiments {
 
 namespace {
 
+recordings::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
+  if (!log.records) return recordings::LogReader(log.path, config.stop);
+  return recordings::LogReader(recordings::memory_source(log.records, config.stop),
+                               log.path.string());
+}
+
 /// What a log had to say besides its steps.
 void note_end(const recordings::LogReader& reader, const LogFitConfig& config,
               LogFitReport& report) {
   if (config.stop != nullptr && *config.stop) throw Stopped("stopped; no model was written");
   report.warnings.insert(report.warnings.end(), reader.warnings().begin(), reader.warnings().end());
+}
+
+/// At which rate the log is heard, and whose it is.
+void note_rate(const LogListener& listener, recordings::RecordingInfo info, LogFitReport& report) {
+  info.control_period_us = listener.period_us();
+  report.fitted_to.add(info);
 }
 
 using Sink = std::function<void(bool contact, const TorqueSample& sample)>;
@@ -75,6 +87,37 @@ bool is_gap(double elapsed, const SignalGuardConfig& guard) {
   return !(elapsed >= 0.0 && elapsed <= guard.maximum_gap);
 }
 
+/// Whether what a log is declared to be agrees with what it says itself, if it does.
+class Declared {
+ public:
+  Declared(const FitLog& log, const LogFitConfig& config)
+      : log_(log), threshold_(config.labels.force_threshold) {}
+
+  void add(const LogStep& step) {
+    if (!log_.contact || !step.normal_force) return;
+    for (const double force : *step.normal_force) {
+      ++told_;
+      against_ += (force > threshold_) != *log_.contact ? 1 : 0;
+    }
+  }
+
+  /// Errors: `InputError` for a log that is the other class most of the time.
+  void check() const {
+    if (2 * against_ <= told_) return;
+    throw InputError(fmt::format(
+        "{}: is declared {}, and by its own ground truth {:.1f} % of it are the other: are "
+        "--contact and --no-contact swapped?",
+        log_.path.string(), *log_.contact ? "--contact" : "--no-contact",
+        100.0 * static_cast<double>(against_) / static_cast<double>(told_)));
+  }
+
+ private:
+  const FitLog& log_;
+  double threshold_;
+  std::int64_t told_ = 0;  ///< steps of wheels
+  std::int64_t against_ = 0;
+};
+
 /// Errors: `InputError` for a step of which nobody says whether the wheels touch.
 void check_truth(const FitLog& log, const LogStep& step) {
   if (log.contact || step.normal_force) return;
@@ -86,9 +129,10 @@ void check_truth(const FitLog& log, const LogStep& step) {
 
 void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitConfig& config,
               const Sink& sink, LogFitReport& report) {
-  recordings::LogReader reader(log.path, config.stop);
+  recordings::LogReader reader = reader_of(log, config);
   LogListener listener(reader);
   check_may_be_fitted(reader.info());
+  note_rate(listener, reader.info(), report);
   const TorqueConfig& torque = filter.measurement.torque;
   std::array<Leg, models::wheel_count> legs = {
       Leg(torque, Side::left, listener, config.labels, sink),
@@ -96,8 +140,10 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
   const auto skipped = std::llround(config.skip / listener.period());
   double before = NAN;
   std::int64_t k = 0;
+  Declared declared(log, config);
   for (; const LogStep* step = listener.next(); ++k) {
     check_truth(log, *step);
+    declared.add(*step);
     for (std::size_t side = 0; side < legs.size(); ++side) {
       if (k > 0 && is_gap(step->signals.time - before, filter.guard)) legs[side].restart();
       const double force = log.contact ? 0.0 : (*step->normal_force)[side];
@@ -108,6 +154,7 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
     before = step->signals.time;
   }
   note_end(reader, config, report);
+  declared.check();
   for (Leg& leg : legs) leg.finish();
   report.seconds += static_cast<double>(std::max<std::int64_t>(k - skipped, 0)) * listener.period();
 }
@@ -176,18 +223,21 @@ using CheckStep = void (*)(const FitLog& log, const LogStep& step, double before
 
 RunSignals signals_of_log(const FitLog& log, const LogFitConfig& config, CheckStep check,
                           LogFitReport& report) {
-  recordings::LogReader reader(log.path, config.stop);
+  recordings::LogReader reader = reader_of(log, config);
   LogListener listener(reader);
   RunSignals run;
   run.info = reader.info();
   run.info.control_period_us = listener.period_us();
+  note_rate(listener, run.info, report);
   const auto labels_of = [&](std::size_t wheel) {
     return scoring::LabelStream(
         listener.period(), config.labels,
         [&run, wheel](std::uint8_t contact) { run.contact[wheel].push_back(contact); });
   };
   std::array<scoring::LabelStream, models::wheel_count> labels = {labels_of(0), labels_of(1)};
+  Declared declared(log, config);
   while (const LogStep* step = listener.next()) {
+    declared.add(*step);
     check(log, *step, run.signals.empty() ? NAN : run.signals.back().time);
     for (std::size_t wheel = 0; wheel < labels.size(); ++wheel) {
       if (log.contact) {
@@ -200,6 +250,7 @@ RunSignals signals_of_log(const FitLog& log, const LogFitConfig& config, CheckSt
     run.signals.push_back(step->signals);
   }
   note_end(reader, config, report);
+  declared.check();
   for (scoring::LabelStream& of_wheel : labels) of_wheel.finish();
   return run;
 }
@@ -258,10 +309,8 @@ std::vector<RunSignals> logs_of_both_classes(std::span<const FitLog> logs,
   return runs;
 }
 
-}  // namespace
-
-FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
-                        const LogFitConfig& config, LogFitReport& report) {
+FittedModel fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
+                      const LogFitConfig& config, LogFitReport& report) {
   if (entry.config) {
     return {.measurement = fit_measurement_to_logs(logs, *entry.config, config, report)};
   }
@@ -271,6 +320,16 @@ FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> log
   for (const RunSignals& run : runs) fitted.whole.push_back(&run);
   fitted.scoring.skip = config.skip;
   return entry.fit(entry, fitted);
+}
+
+}  // namespace
+
+FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
+                        const LogFitConfig& config, LogFitReport& report) {
+  FittedModel model = fit_model(entry, logs, config, report);
+  if (!config.robot.empty()) report.fitted_to.robots = {config.robot};
+  model.passport = new_passport(entry.name, report.fitted_to);
+  return model;
 }
 
 }  // namespace touchdown::experiments

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,12 +19,15 @@ struct FitLog {
   std::filesystem::path path;
   /// The one class that all of its steps have, as in the paper; without it the log's own ground
   /// truth tells.
-  std::optional<bool> contact;
+  std::optional<bool> contact = {};
+  /// Its records, if they are at hand; then the path is but their name.
+  std::shared_ptr<const std::string> records = {};
 };
 
 struct LogFitConfig {
   scoring::LabelConfig labels;  ///< of logs with ground truth
   double skip = 0.3;            ///< not used at the beginning of each log (s)
+  std::string robot = {};       ///< whose logs they are; empty: as they say, if they do
   /// Stops with `Stopped` once true; may be null.
   const std::atomic<bool>* stop = nullptr;
 };
@@ -31,6 +35,7 @@ struct LogFitConfig {
 /// What a fit was made of; index 0 is no contact, 1 is contact.
 struct LogFitReport {
   double seconds = 0.0;                ///< of all logs, without what was skipped
+  FittedTo fitted_to;                  ///< for the model's passport
   std::array<std::size_t, 2> samples;  ///< of both legs
   std::array<TorqueBandwidth, 2> bandwidth;
   std::size_t unusable = 0;  ///< samples left out because no sensor measures them

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "recordings/signals_from.hpp"
 
 namespace touchdown::experiments {
 
@@ -31,15 +30,20 @@ std::int64_t usable_period_us(recordings::LogReader& reader) {
   return period;
 }
 
+/// A log may be a simulated robot's at rest, whose servos repeat themselves.
+AssemblyConfig assembly_of(std::int64_t period_us) {
+  return {.sample_rate = 1e6 / static_cast<double>(period_us), .stale_after = 0.0};
+}
+
 }  // namespace
 
 LogListener::LogListener(recordings::LogReader& reader)
-    : reader_(reader), period_us_(usable_period_us(reader)) {}
+    : reader_(reader), period_us_(usable_period_us(reader)), assembler_(assembly_of(period_us_)) {}
 
 const LogStep* LogListener::next() {
   const std::optional<recordings::LogRow> row = reader_.next();
   if (!row) return nullptr;
-  step_.signals = recordings::signals_from(row->observation, command_);
+  step_.signals = assembler_.assemble(recordings::record_of(row->observation, command_, joints_));
   command_ = recordings::ground_velocity_command(row->action);
   step_.normal_force.reset();
   if (row->truth) {

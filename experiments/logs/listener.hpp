@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "estimator/signals.hpp"
+#include "estimator/assembly/signal_assembler.hpp"
 #include "recordings/log/reader.hpp"
+#include "recordings/signals_from.hpp"
 
 namespace touchdown::experiments {
 
@@ -35,9 +36,15 @@ class LogListener {
   double period() const { return 1e-6 * static_cast<double>(period_us_); }
   double sample_rate() const { return 1e6 / static_cast<double>(period_us_); }
 
+  /// At how many steps so far the IMU's orientation contradicted gravity: their vertical
+  /// acceleration is NaN.
+  std::uint64_t upside_down() const { return assembler_.count(RecordFault::upside_down); }
+
  private:
   recordings::LogReader& reader_;
   std::int64_t period_us_;
+  SignalAssembler assembler_;
+  recordings::RecordedJoints joints_;
   double command_ = 0.0;
   LogStep step_;
 };

@@ -23,8 +23,8 @@ scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
   return scene;
 }
 
-bool is_fitted_to_phases(const std::string& estimator) {
-  return estimator_entry(estimator).fits() == ModelKind::phase;
+bool learns_from_pieces(const std::string& estimator) {
+  return estimator_entry(estimator).learns_from_pieces;
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ void plan_piece_runs(const RunRequest& request, const Setting& setting, std::siz
 void plan_pieces(const RunRequest& request, const Setting& setting, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const auto& names = experiment.estimators;
-  if (std::none_of(names.begin(), names.end(), is_fitted_to_phases)) return;
+  if (std::none_of(names.begin(), names.end(), learns_from_pieces)) return;
   for (std::size_t entry = 0; entry < experiment.fit_pieces.size(); ++entry) {
     plan_piece_runs(request, setting, entry, 0, experiment.fit_pieces[entry].runs, plan);
   }

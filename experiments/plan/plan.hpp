@@ -60,9 +60,14 @@ struct RunGroup {
   bool is_looked_at_closely = false;          ///< whether scored settings get a `CloseScore` too
   std::string fit = {};  ///< the name of the fit that is at home here; empty: the experiment's own
   bool scores_guests = false;  ///< whether conditions that were fitted elsewhere are scored as well
+  /// Whether those at home tell odometry about contact, in the first scored setting.
+  std::optional<OdometryStudyConfig> odometry = {};
 
   bool scores(const Condition& condition) const {
     return scores_guests || condition.is_fit_of_home(fit);
+  }
+  bool tells_odometry(const Condition& condition) const {
+    return odometry && condition.is_fitted_here(fit);
   }
   /// A refit is scored alone.
   bool counts(const Condition& condition) const { return !counted.empty() && condition.refit == 0; }

@@ -10,6 +10,7 @@
 #include "core/fingerprint.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/occupant.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "scenarios/scenario_file.hpp"
@@ -26,6 +27,10 @@ class Digest {
   Digest(const Experiment& experiment, const std::vector<NamedSensors>& sensors) {
     fingerprint_.add(to_yaml(experiment));
     for (const NamedSensors& named : sensors) fingerprint_.add(noise::to_yaml(named.profile));
+    for (const std::string& name : experiment.estimators) {
+      const std::string& revision = estimator_entry(name).revision;
+      if (!revision.empty()) fingerprint_.add(revision);
+    }
   }
   /// The robot's file counts under the path that the scenario has for it.
   void add(const scenarios::Scenario& scenario) {

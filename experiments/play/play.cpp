@@ -59,11 +59,24 @@ PlayedRun failed(const PlannedRun& plan, const std::string& why) {
   return run;
 }
 
+/// The robot as its own description has it: odometry does not know how this very one differs.
+std::shared_ptr<const models::RobotModel> described_robot(const PlannedRun& run,
+                                                          scenarios::CompiledScenes& scenes) {
+  scenarios::Scenario scenario = run.scenario;
+  scenario.deviations = {};
+  return scenes.of(scenario);
+}
+
 PlayedRun played(const PlannedRun& run, recordings::Recording recording,
-                 const noise::SensorProfile& sensors, const Experiment& experiment) {
+                 const noise::SensorProfile& sensors, const Experiment& experiment,
+                 scenarios::CompiledScenes& scenes) {
   report_through_sensors(sensors, experiment, run.run, recording.period(), recording.observation);
   RunSignals signals =
       signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
+  if (experiment.odometry && run.role == RunRole::test) {
+    signals.motion =
+        std::make_shared<RunMotion>(motion_of(recording, *described_robot(run, scenes)));
+  }
   const auto shortest = static_cast<std::size_t>(
       std::llround(experiment.scoring.minimum_flight / recording.period()));
   std::vector<scoring::Flight> flights = scoring::flights(scoring::any_wheel(signals.contact));
@@ -168,7 +181,7 @@ void for_each_played(const Experiment& experiment, const Plan& plan,
       }
       const bool is_last = index == simulation.hearers.back();
       use(index, played(run, is_last ? std::move(*recorded.recording) : *recorded.recording,
-                        plan.sensors[run.sensors].profile, experiment));
+                        plan.sensors[run.sensors].profile, experiment, scenes));
     }
     progress.advance();
     if (!going_on()) throw Stopped();

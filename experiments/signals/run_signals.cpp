@@ -114,38 +114,4 @@ Signals disturbed(const RunSignals& run, const NoiseRun& noise, const noise::Sen
   return signals;
 }
 
-std::array<scoring::ContactSequence, models::wheel_count> decide(ContactEstimator& estimator,
-                                                                 const RunSignals& run,
-                                                                 const NoiseRun& noise,
-                                                                 const noise::SensorNoise& levels) {
-  std::array<scoring::ContactSequence, models::wheel_count> contact;
-  contact.fill(scoring::ContactSequence(run.steps()));
-  estimator.reset();
-  Belief belief;
-  for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (is_heard(run.signals[k])) belief = estimator.update(noisy(run, noise, levels, k));
-    contact[0][k] = std::uint8_t{belief.wheel[0].contact};
-    contact[1][k] = std::uint8_t{belief.wheel[1].contact};
-  }
-  return contact;
-}
-
-scoring::Prediction predict(ContactEstimator& estimator, const RunSignals& run,
-                            const NoiseRun& noise, const noise::SensorNoise& levels) {
-  scoring::Prediction prediction;
-  prediction.fill({.contact = scoring::ContactSequence(run.steps()),
-                   .p_contact = std::vector<double>(run.steps())});
-  estimator.reset();
-  Belief belief;
-  for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (is_heard(run.signals[k])) belief = estimator.update(noisy(run, noise, levels, k));
-    const auto views = scoring::views_of(belief);
-    for (std::size_t v = 0; v < scoring::view_count; ++v) {
-      prediction[v].contact[k] = std::uint8_t{views[v].contact};
-      prediction[v].p_contact[k] = views[v].p_contact;
-    }
-  }
-  return prediction;
-}
-
 }  // namespace touchdown::experiments

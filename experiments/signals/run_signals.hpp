@@ -3,12 +3,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "estimator/contact_estimator.hpp"
 #include "estimator/signals.hpp"
+#include "experiments/signals/motion.hpp"
 #include "noise/sensor_noise.hpp"
 #include "recordings/recording.hpp"
 #include "scoring/bootstrap.hpp"
@@ -27,7 +29,8 @@ struct RunSignals {
   std::vector<Eigen::Vector3d> up_in_imu;  ///< the world's vertical in the IMU frame
   std::array<scoring::ContactSequence, models::wheel_count> contact;  ///< labels
   std::array<std::vector<double>, models::wheel_count> normal_force;  ///< truth, per wheel (N)
-  std::vector<std::size_t> pieces;  ///< first steps of the statistical samples
+  std::vector<std::size_t> pieces;               ///< first steps of the statistical samples
+  std::shared_ptr<const RunMotion> motion = {};  ///< of tested runs, where odometry is studied
 
   std::size_t steps() const { return signals.size(); }
 };
@@ -85,16 +88,5 @@ NoiseRun with_heavy_tails(NoiseRun noise, const noise::NoiseKey& key);
 /// `noisy` with everything of the disturbance but its heavy tails, which are the noise's own.
 Signals disturbed(const RunSignals& run, const NoiseRun& noise, const noise::SensorNoise& levels,
                   std::size_t step, const noise::Disturbance& disturbance);
-
-/// The wheels' decisions of an estimator that, reset, listens to a whole run through noise. At a
-/// step of which it does not hear, its last belief stands.
-std::array<scoring::ContactSequence, models::wheel_count> decide(ContactEstimator& estimator,
-                                                                 const RunSignals& run,
-                                                                 const NoiseRun& noise,
-                                                                 const noise::SensorNoise& levels);
-
-/// As above, with probabilities and the robot's views.
-scoring::Prediction predict(ContactEstimator& estimator, const RunSignals& run,
-                            const NoiseRun& noise, const noise::SensorNoise& levels);
 
 }  // namespace touchdown::experiments

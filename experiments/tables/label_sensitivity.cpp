@@ -42,9 +42,8 @@ RunCounts counts_of(const PlayedRun& run, const std::vector<Condition>& conditio
   const std::int64_t period = run.signals.info.control_period_us;
   RunCounts counts;
   for (const Condition& condition : conditions) {
-    const auto estimator = make_estimator(condition, result.models, run.signals);
-    const auto said =
-        decide(*estimator, run.signals, noise, experiment.highlights.front().levels());
+    Listener listener = listener_of(condition, result.models, run.signals);
+    const auto said = decide(listener, run.signals, noise, experiment.highlights.front().levels());
     counts.emplace_back();
     for (const auto& truth : truths) {
       scoring::Classification sum;

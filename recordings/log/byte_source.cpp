@@ -6,6 +6,7 @@
 #include <memory>
 #include <poll.h>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -53,6 +54,15 @@ ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool
       if (errno == EINTR) continue;
       throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
     }
+  };
+}
+
+ByteSource memory_source(std::shared_ptr<const std::string> bytes, const std::atomic<bool>* stop) {
+  return [bytes = std::move(bytes), stop, given = std::size_t{0}](std::span<char> buffer) mutable {
+    if (stop != nullptr && *stop) return std::size_t{0};
+    const std::size_t count = bytes->copy(buffer.data(), buffer.size(), given);
+    given += count;
+    return count;
   };
 }
 

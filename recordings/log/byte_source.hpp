@@ -3,7 +3,9 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
+#include <string>
 
 namespace touchdown::recordings {
 
@@ -15,5 +17,9 @@ using ByteSource = std::function<std::size_t(std::span<char>)>;
 /// once `stop` (which may be null, and must outlive the source) is true. Errors: `InputError` when
 /// it cannot be opened or read.
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop = nullptr);
+
+/// Bytes that are at hand. The stream ends once `stop`, as above, is true.
+ByteSource memory_source(std::shared_ptr<const std::string> bytes,
+                         const std::atomic<bool>* stop = nullptr);
 
 }  // namespace touchdown::recordings

@@ -1,51 +1,20 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include <fmt/format.h>
-
-#include "core/error.hpp"
+#include "onboard/npz.hpp"
 #include "recordings/models/npy.hpp"
 
 namespace touchdown::recordings {
 
 /// Named arrays, as NumPy's `np.savez` keeps them in one file.
-using NpzArrays = std::map<std::string, NpyArray>;
-
-/// What somebody needs of a file: how many numbers the array of this name may hold; 0 if it is not
-/// needed.
-using NpzNeeds = std::function<std::size_t(std::string_view name)>;
-
-/// Whatever is there, as far as it is sensible.
-std::size_t any_array(std::string_view name);
-
-/// Reads a `.npz`, deflated or not; of an array that is not needed nothing is read. Errors:
-/// `InputError`, one line that names the file and, where it matters, the array.
-NpzArrays read_npz(const std::filesystem::path& path, const NpzNeeds& needs = any_array);
-
-/// Names of the arrays in a file. Errors: as above.
-std::vector<std::string> npz_names(const std::filesystem::path& path);
-
-/// What `make` makes of the arrays that it needs of a file. Errors: those of `read_npz` and the
-/// `InputError`s of `make`, which then name the file.
-template <typename Make>
-auto made_of_npz(const std::filesystem::path& path, const NpzNeeds& needs, const Make& make) {
-  const NpzArrays arrays = read_npz(path, needs);
-  try {
-    return make(arrays);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
-  }
-}
-
-/// Errors: `InputError` that `what` lacks arrays of these names, if it does.
-void require_arrays(const NpzArrays& arrays, std::string_view what, std::vector<std::string> names);
+using NpzArrays = ModelArrays;
+using touchdown::any_array;
+using touchdown::made_of_npz;
+using touchdown::npz_names;
+using touchdown::NpzNeeds;
+using touchdown::read_npz;
 
 /// Which arrays are deflated, as NumPy's `savez_compressed` does it.
 enum class Deflated { large, all };

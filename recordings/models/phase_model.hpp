@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "estimator/models/passport.hpp"
 #include "estimator/phase/model.hpp"
 #include "recordings/models/provenance.hpp"
 
@@ -12,16 +14,16 @@ struct PhaseModelFile {
   ModelProvenance provenance;
 };
 
-/// Writes the model as one `.npz`: `sample_rate`, `transition` (11 × 11), `seconds`, and for each
-/// noise level i `torque_i_knee` and `torque_i_wheel` (lower and upper end, number of points),
-/// `torque_i_log_density` (one row per cell, wheel by wheel, one column per phase),
-/// `acceleration_i_axis`, `acceleration_i_log_density`, and `…_noise` = (σ, bandwidth). The
-/// provenance is the array `provenance` of the bytes of "key: value" lines:
-/// `bytes(npz["provenance"].astype("u1")).decode()`. Errors: `Error`.
-void write_phase_model(const PhaseModelFile& file, const std::filesystem::path& path);
+/// Writes the model as one `.npz`: the arrays that estimator/models/phase.hpp names, and the array
+/// `provenance` of the bytes of "key: value" lines:
+/// `bytes(npz["provenance"].astype("u1")).decode()`; the passport likewise, if there is one.
+/// Errors: `Error`.
+void write_phase_model(const PhaseModelFile& file, const std::filesystem::path& path,
+                       const std::optional<ModelPassport>& passport = {});
 
 /// The inverse: densities to single precision, all else to the bit. Errors: `InputError` that names
-/// the file and what is wrong with it.
-PhaseModelFile read_phase_model(const std::filesystem::path& path);
+/// the file and what is wrong with it. What it says about itself goes to `passport` if given.
+PhaseModelFile read_phase_model(const std::filesystem::path& path,
+                                std::optional<ModelPassport>* passport = nullptr);
 
 }  // namespace touchdown::recordings

@@ -4,26 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-
 namespace touchdown::recordings {
-
-NpyArray array_of_text(const std::string& text) {
-  NpyArray array{{text.size()}, {}};
-  for (const char c : text) array.data.push_back(static_cast<unsigned char>(c));
-  return array;
-}
-
-std::string text_of_array(const NpyArray& array, const std::string& name) {
-  std::string text;
-  for (const double byte : array.data) {
-    if (!(byte >= 0.0 && byte <= 255.0)) {
-      throw InputError(fmt::format("{}: expected bytes of a text", name));
-    }
-    text += static_cast<char>(static_cast<int>(byte));
-  }
-  return text;
-}
 
 NpyArray array_of(const ModelProvenance& provenance) {
   std::string lines;
@@ -33,7 +14,7 @@ NpyArray array_of(const ModelProvenance& provenance) {
 
 ModelProvenance provenance_from(const NpyArray& array) {
   ModelProvenance provenance;
-  std::istringstream lines(text_of_array(array, "provenance"));
+  std::istringstream lines(text_of_array(array, std::string(provenance_array)));
   for (std::string line; std::getline(lines, line);) {
     const std::size_t colon = line.find(": ");
     if (colon != std::string::npos) provenance[line.substr(0, colon)] = line.substr(colon + 2);

@@ -46,9 +46,14 @@ std::string card(const BenchmarkScores& scores, const std::string& estimator,
   const Standing* worst = nullptr;
   std::size_t level = 0;
   std::size_t settings = 0;
+  std::string left;
   for (const Standing& place : scores.standings) {
     if (place.estimator != estimator) continue;
     ++settings;
+    if (left.empty() && !std::isnan(place.bits_left) && !experiments::is_ceiling(estimator)) {
+      left = fmt::format(" It leaves {:.3f} bits a step to the learned ceiling ({}, {}).",
+                         place.bits_left, place.setting, place.noise);
+    }
     level += place.is_level_with_first ? 1U : 0U;
     if (best == nullptr || place.mean.estimate > best->mean.estimate) best = &place;
     if (worst == nullptr || place.mean.estimate < worst->mean.estimate) worst = &place;
@@ -86,9 +91,9 @@ std::string card(const BenchmarkScores& scores, const std::string& estimator,
           : "";
   return fmt::format(
       "<article class=\"card\">\n<h3>{}</h3>\n<p>{}. Level with the first in {} of {} settings; "
-      "from {} to {}.</p>\n{}{}</article>\n",
+      "from {} to {}.{}</p>\n{}{}</article>\n",
       escaped(experiments::estimator_title(estimator)), escaped(summary_of(estimator)), level,
-      settings, escaped(place_text(*worst)), escaped(place_text(*best)),
+      settings, escaped(place_text(*worst)), escaped(place_text(*best)), escaped(left),
       items.empty() ? fmt::format("<p>Never under {:.2f}.</p>\n", failure)
                     : "<ul>\n" + items + "</ul>\n",
       film_html);

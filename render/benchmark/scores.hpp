@@ -38,6 +38,7 @@ struct Standing {
   std::string worst_scene;
   std::string worst_simulator;
   bool is_level_with_first = false;
+  double bits_left = 0.0;  ///< above the learned ceiling's log loss, per wheel and step
 };
 
 /// One row of `benchmark_differences.csv`; without a scene: of the means over all.

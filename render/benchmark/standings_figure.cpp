@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "experiments/estimators/registry.hpp"
 #include "experiments/tables/captions.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
@@ -17,7 +19,12 @@ namespace {
 constexpr double row_height = 26.0, names_width = 190.0, mean_width = 380.0, bars_width = 96.0;
 constexpr double worst_width = 230.0, words_width = 170.0, gap_y = 84.0;
 
-using StandingRows = std::vector<Standing>;
+/// One noise setting.
+struct Panel {
+  std::vector<Standing> places;
+  /// The learned ceiling's mean, where there is one; it has no place of its own.
+  std::optional<double> ceiling = {};
+};
 
 /// Ranks from the first to the last of those who cannot be told apart.
 struct Level {
@@ -35,7 +42,7 @@ bool are_told_apart(const BenchmarkScores& scores, const Standing& one, const St
 }
 
 /// The longest rows of neighbours of whom no two are told apart; not of one alone.
-std::vector<Level> levels(const BenchmarkScores& scores, const StandingRows& places) {
+std::vector<Level> levels(const BenchmarkScores& scores, const std::vector<Standing>& places) {
   std::vector<Level> all;
   for (std::size_t first = 0; first < places.size(); ++first) {
     std::size_t last = first;
@@ -54,10 +61,11 @@ std::vector<Level> levels(const BenchmarkScores& scores, const StandingRows& pla
 
 /// Blocks (gnuplot's `index`): for every noise setting the places (mean, low, high, height, worst,
 /// its words) and the bars (place of the bar, lower end, upper end).
-std::string data_of(const std::vector<StandingRows>& panels, const BenchmarkScores& scores) {
+std::string data_of(const std::vector<Panel>& panels, const BenchmarkScores& scores) {
   std::string text = "#mean\tlow\thigh\theight\tworst\twhere\n";
   const auto out = std::back_inserter(text);
-  for (const StandingRows& places : panels) {
+  for (const Panel& panel : panels) {
+    const std::vector<Standing>& places = panel.places;
     const std::size_t count = places.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Standing& place = places[i];
@@ -78,11 +86,14 @@ std::string data_of(const std::vector<StandingRows>& panels, const BenchmarkScor
   return text;
 }
 
-std::string described(const std::vector<StandingRows>& panels) {
+std::string described(const std::vector<Panel>& panels) {
   std::string text = "Mean balanced accuracy, the best first.";
-  for (const StandingRows& places : panels) {
-    fmt::format_to(std::back_inserter(text), " {}:", places.front().noise);
-    for (const Standing& place : places) {
+  for (const Panel& panel : panels) {
+    fmt::format_to(std::back_inserter(text), " {}:", panel.places.front().noise);
+    if (panel.ceiling) {
+      fmt::format_to(std::back_inserter(text), " learned ceiling {:.3f};", *panel.ceiling);
+    }
+    for (const Standing& place : panel.places) {
       fmt::format_to(std::back_inserter(text), " {} {:.3f} (worst {:.3f}, {});",
                      experiments::estimator_title(place.estimator), place.mean.estimate,
                      place.worst, place.worst_scene);
@@ -100,28 +111,35 @@ std::filesystem::path standings_stem(const std::filesystem::path& run_directory,
 
 Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& setting,
                              double level, const std::filesystem::path& stem) {
-  std::vector<StandingRows> panels;
+  std::vector<Panel> panels;
+  std::string noise;
   double lowest = 1.0;
   for (const Standing& place : scores.standings) {
     if (place.setting != setting) continue;
-    if (panels.empty() || panels.back().front().noise != place.noise) panels.emplace_back();
-    panels.back().push_back(place);
+    if (panels.empty() || noise != place.noise) panels.emplace_back();
+    noise = place.noise;
+    if (experiments::is_ceiling(place.estimator)) {
+      panels.back().ceiling = place.mean.estimate;
+      continue;
+    }
+    panels.back().places.push_back(place);
     lowest = std::fmin(lowest, std::isnan(place.mean.low) ? place.mean.estimate : place.mean.low);
   }
-  const double height = row_height * static_cast<double>(panels.front().size());
+  const double height = row_height * static_cast<double>(panels.front().places.size());
   const FigureFrame frame(
       fmt::format("Who stands where: {}", setting),
       fmt::format("Balanced accuracy, the mean over all scenes and engines, with {:.0f} % "
                   "intervals over runs, and over fits where they were repeated. A bar joins "
                   "estimators of whom no two can be told apart: the simultaneous bands of their "
-                  "paired differences include zero. On the right, each one's worst scene.",
-                  100.0 * level),
+                  "paired differences include zero. On the right, each one's worst scene.{}",
+                  100.0 * level,
+                  panels.front().ceiling ? " The dashed line is the learned ceiling." : ""),
       names_width + mean_width + bars_width + worst_width + words_width,
       static_cast<double>(panels.size()) * (height + gap_y));
   const std::string file = gnuplot_text(stem.filename().string() + ".dat");
   std::string commands = "unset key\nset grid noytics\n";
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    const StandingRows& places = panels[p];
+    const std::vector<Standing>& places = panels[p].places;
     std::string estimators;
     for (std::size_t i = 0; i < places.size(); ++i) {
       estimators += fmt::format("{}{} {}", i > 0 ? ", " : "",
@@ -130,12 +148,18 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
     }
     const double top = 24.0 + static_cast<double>(p) * (height + gap_y);
     commands += frame.panel(names_width, top, mean_width, height);
+    if (panels[p].ceiling) {
+      commands += fmt::format(
+          "set arrow 1 from {0},graph 0 to {0},graph 1 nohead dt 2 lw 1.4 lc rgb '#22262b'\n",
+          number(*panels[p].ceiling));
+    }
     commands += fmt::format(
         "set border 1\nset title {} offset 0,-0.6\nset yrange [-0.6:{}]\nset xrange [{:.2f}:1]\n"
         "set xtics nomirror autofreq\nset ytics scale 0 ({})\nset xlabel 'mean balanced accuracy'\n"
         "plot {} index {} using 1:4:2:3 with xerrorbars lt 1 lw 1.6 dt 1 pt 7 ps 0.9\n",
         gnuplot_text("noise: " + places.front().noise), static_cast<double>(places.size()) - 0.4,
         std::floor(20.0 * lowest) / 20.0, estimators, file, 2 * p);
+    commands += "unset arrow\n";
     commands += FigureFrame::end_panel();
     commands += frame.panel(names_width + mean_width + 14.0, top, bars_width - 28.0, height);
     commands += fmt::format(

@@ -7,6 +7,7 @@
 #include "core/progress.hpp"
 #include "render/benchmark/standings_figure.hpp"
 #include "render/film/video.hpp"
+#include "render/odometry/errors_figure.hpp"
 #include "render/pictures/drop_figures.hpp"
 #include "render/pictures/heatmaps.hpp"
 #include "render/pictures/score_figures.hpp"
@@ -42,6 +43,9 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     draw_drop_figures(result);
     if (result.experiment.benchmark) {
       draw_standings_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
+    }
+    if (result.experiment.odometry) {
+      draw_odometry_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
     }
     progress.advance();
   }

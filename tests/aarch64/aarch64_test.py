@@ -1,9 +1,10 @@
 """Compiles the estimator and its tests for aarch64, runs the tests in qemu, and holds what every kind
 of estimator believes of a made-up run against what it believes on this processor.
 
-    aarch64_test.py SOURCE BUILD BELIEFS
+    aarch64_test.py SOURCE BUILD BELIEFS [TOUCHDOWN]
 
-BUILD is kept from one time to the next; BELIEFS is this processor's program. Exit code 77: there is no
+BUILD is kept from one time to the next; BELIEFS is this processor's program. With TOUCHDOWN, the program,
+also builds examples/robot against what is installed, a fitted model compiled in, and runs it. Exit code 77: there is no
 compiler for aarch64 here, no qemu, or no source of GoogleTest.
 """
 
@@ -43,8 +44,26 @@ def beliefs(text):
     return steps
 
 
+def robots_program(source, build, touchdown, qemu):
+    """A robot's program, outside of the tree: ten lines, and a model that was fitted here."""
+    work = build / 'robot'
+    shutil.rmtree(work, ignore_errors=True)
+    shutil.copytree(source / 'examples/robot', work / 'source')
+    run(touchdown, 'simulate', source / 'scenarios/stairs.yaml', '--run', '1', '-o', work / 'stairs.mpack')
+    run(touchdown, 'fit', work / 'stairs.mpack', '-o', work / 'model.npz')
+    run(touchdown, 'export', work / 'model.npz', '-o', work / 'model.hpp')
+    run('cmake', '--install', build, '--prefix', work / 'prefix')
+    run('cmake', '-S', work / 'source', '-B', work / 'build', '-G', 'Ninja', '--toolchain',
+        source / 'cmake/aarch64-linux-gnu.cmake', f'-DCMAKE_PREFIX_PATH={work / "prefix"}',
+        f'-Dtouchdown_DIR={work / "prefix/lib/cmake/touchdown"}', f'-DMODEL_HEADER={work / "model.hpp"}')
+    run('cmake', '--build', work / 'build')
+    output = run(*qemu, work / 'build/robot_without_files')
+    assert output.count('takes off') == 10 and output.count('touches down') == 9, output
+    print('robot_without_files on aarch64:', *output.splitlines()[-2:], sep='\n  ')
+
+
 def main():
-    source, build, program = map(pathlib.Path, sys.argv[1:])
+    source, build, program, *touchdown = map(pathlib.Path, sys.argv[1:])
     missing = [package for package, there in NEEDED.items() if not there]
     if missing:
         print(f'skipped: packages are missing: {", ".join(missing)}')
@@ -78,6 +97,8 @@ def main():
         if not difference <= TOLERANCE.get(name, DOUBLE) or decisions:
             apart.append(name)
     assert not apart, apart
+    if touchdown:
+        robots_program(source, build, touchdown[0], qemu)
     return 0
 
 

@@ -12,7 +12,7 @@
 
 #include "estimator/bayes/filter.hpp"
 #include "experiments/estimators/measurement_fitting.hpp"
-#include "experiments/signals/run_signals.hpp"
+#include "experiments/signals/listener.hpp"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "recordings/models/measurement_model.hpp"

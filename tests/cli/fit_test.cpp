@@ -152,6 +152,27 @@ TEST_F(Fit, OfParametersTakesLogsOfOneClassAtTheirWord) {
               HasSubstr("not for 'load_logistic'"));
 }
 
+TEST_F(Fit, RefusesLabelsThatTheLogsOwnTruthContradicts) {
+  const auto with_truth = [](recordings::Recording recording, double force) {
+    recordings::Recording told = test::synthetic_log(2.0);
+    for (models::GroundTruth& truth : told.truth) truth.wheel_normal_force = {force, force};
+    recording.truth = told.truth;
+    recording.info = told.info;
+    return recording;
+  };
+  log("rolling.mpack", with_truth(test::one_class_log(2.0, true), 26.0));
+  log("hanging.mpack", with_truth(test::one_class_log(2.0, false), 0.0));
+  for (const std::string estimator : {"robust", "load_logistic"}) {
+    EXPECT_THAT(complaint_about("--contact hanging.mpack --no-contact rolling.mpack -o m.npz "
+                                "--estimator " +
+                                estimator),
+                AllOf(HasSubstr("hanging.mpack: is declared --contact, and by its own ground truth "
+                                "100.0 % of it are the other"),
+                      HasSubstr("swapped?")));
+  }
+  fit("--contact rolling.mpack --no-contact hanging.mpack -o m.npz");
+}
+
 TEST_F(Fit, LeavesOutTorquesThatAreNotFinite) {
   recordings::Recording broken = test::synthetic_log(3.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();

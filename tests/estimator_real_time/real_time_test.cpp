@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "estimator/assembly/signal_assembler.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
@@ -19,6 +20,7 @@
 #include "estimator/phase/filter.hpp"
 #include "estimator/upkie_observer.hpp"
 #include "experiments/lanes/bayes.hpp"
+#include "odometry/filter.hpp"
 #include "tests/estimator/decision/random_model.hpp"
 #include "tests/estimator/named_config.hpp"
 #include "tests/estimator/phase/synthetic.hpp"
@@ -194,6 +196,45 @@ TEST_F(RealTime, ThePhaseFilterAllocatesNothing) {
             0);
 }
 
+TEST_F(RealTime, TheAssemblerAllocatesNothing) {
+  SignalAssembler assembler;
+  std::array<JointSignals, 6> joints{};
+  RobotRecord record;
+  record.joints = joints;
+  EXPECT_EQ(allocations_of([&] {
+              for (int k = 0; k < 2000; ++k) {
+                record.time = k == 700 ? 0.0 : 1e-3 * k;
+                record.orientation = {0.0, 0.0, k > 1000 ? 1.0 : 0.0, k > 1000 ? 0.0 : 1.0};
+                record.proper_acceleration = {0.0, 0.0, -9.81};
+                record.linear_acceleration.setZero();
+                assembler.assemble(record);
+              }
+              assembler.reset();
+            }),
+            0);
+}
+
+static_assert(noexcept(std::declval<SignalAssembler&>().assemble(std::declval<RobotRecord>())));
+
+TEST_F(RealTime, OdometryAllocatesNothing) {
+  odometry::ContactOdometry filter;
+  odometry::OdometrySample sample;
+  sample.specific_force.z() = -9.81;
+  EXPECT_EQ(allocations_of([&] {
+              for (int k = 0; k < 2000; ++k) {
+                sample.time = 1e-3 * k;
+                sample.leg[0].velocity[2] = k % 100 == 7 ? std::nan("") : 3.0;
+                sample.p_contact = {0.9, 0.001 * (k % 1000)};
+                filter.update(sample);
+              }
+              filter.reset();
+            }),
+            0);
+  EXPECT_NE(filter.state().covariance(0, 0), 0.0);
+}
+
+static_assert(noexcept(std::declval<odometry::ContactOdometry&>().update(
+    std::declval<const odometry::OdometrySample&>())));
 static_assert(noexcept(std::declval<ContactEstimator&>().update(std::declval<Signals>())));
 static_assert(noexcept(std::declval<ContactEstimator&>().reset()));
 

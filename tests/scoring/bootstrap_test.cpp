@@ -99,6 +99,35 @@ TEST(Bootstrap, OfOneOrEqualSamplesHasNoWidth) {
   EXPECT_EQ(interval.high, 0.5);
 }
 
+/// P(at most or at least so many of n), summed term by term.
+double binomial_tail(int n, double p, int from, int to) {
+  double sum = 0.0;
+  for (int k = from; k <= to; ++k) {
+    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) +
+                    k * std::log(p) + (n - k) * std::log1p(-p));
+  }
+  return sum;
+}
+
+TEST(ExactEnd, IsWhereAllOrNoneWouldBeSeenAsRarelyAsTheLevelSays) {
+  for (const int n : {1, 3, 70, 400}) {
+    const Interval all = with_exact_end({1.0, 1.0, 1.0}, n, 0.95);
+    EXPECT_NEAR(binomial_tail(n, all.low, n, n), 0.025, 1e-9) << n;
+    EXPECT_EQ(all.high, 1.0);
+    const Interval none = with_exact_end({0.0, 0.0, 0.0}, n, 0.9);
+    EXPECT_NEAR(binomial_tail(n, none.high, 0, 0), 0.05, 1e-9) << n;
+    EXPECT_EQ(none.low, 0.0);
+  }
+  EXPECT_NEAR(with_exact_end({1.0, 1.0, 1.0}, 70, 0.95).low, 0.949, 5e-4);
+}
+
+TEST(ExactEnd, LeavesIntervalsThatTheBootstrapKnows) {
+  const Interval some = with_exact_end({0.9, 0.8, 1.0}, 10, 0.95);
+  EXPECT_EQ(some.low, 0.8);
+  EXPECT_EQ(some.high, 1.0);
+  EXPECT_EQ(with_exact_end({1.0, 1.0, 1.0}, 0, 0.95).low, 1.0);
+}
+
 TEST(Bootstrap, LeavesOutResamplesWithNothingToDivideBy) {
   std::vector<Mean> samples(4);
   samples[0] = {0.5, 1.0};

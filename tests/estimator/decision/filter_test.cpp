@@ -122,8 +122,8 @@ TEST(DecisionNetwork, MeansItsProbabilityWhateverItsClassesWeigh) {
   for (const double exponent : {0.0, -1.0}) {
     DecisionFitConfig config{.passes = 1, .rows = 40'000, .batch = 256, .epochs = 8};
     config.class_exponent = exponent;
-    config.largest_torque_noise = config.largest_acceleration_noise = 0.0;
-    config.torque_bias = config.gain_error = 0.0;
+    config.disturbance.largest_torque_noise = config.disturbance.largest_acceleration_noise = 0.0;
+    config.disturbance.torque_bias = config.disturbance.gain_error = 0.0;
     DecisionNetwork estimator(fit_decision_model(std::vector<LabelledRun>{seen.view()}, {}, config),
                               {.smoothing = 0.0});
     double believed = 0.0;
@@ -269,7 +269,7 @@ TEST(DecisionNetwork, RefusesWhatMakesNoSense) {
   };
   refused_fit({.passes = 0});
   refused_fit({.learning_rate = -1.0});
-  refused_fit({.share_with_bias = 2.0});
+  refused_fit({.disturbance = {.share_with_bias = 2.0}});
   EXPECT_THROW(static_cast<void>(fit_decision_model({}, {}, quick)), InputError);
   test::CarriedRun standing = run;
   for (auto& wheel : standing.contact) wheel.assign(wheel.size(), 1);

@@ -1,9 +1,11 @@
 #include "estimator/numerics/kernel_density.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +45,24 @@ TEST(KernelDensity, EqualsADirectDoubleSum) {
       if (expected > 1e-280) {
         EXPECT_NEAR(value / expected, 1.0, 1e-10) << x_axis[i] << " " << y_axis[j];
       }
+    }
+  }
+}
+
+TEST(KernelDensity, OfSeveralWidthsIsThatOfEachAlone) {
+  // More than one block of samples, the last one not full.
+  const std::vector<double> x = normals(700, 0.2, 1.0, 3);
+  const std::vector<double> y = normals(700, -0.4, 0.3, 4);
+  const std::array<KernelAxis, 2> x_axes = {{{0.3, {-3.0, 3.0, 7}}, {0.9, {-4.0, 5.0, 4}}}};
+  const std::array<KernelAxis, 3> y_axes = {
+      {{0.1, {-2.0, 1.0, 5}}, {0.2, {-2.0, 1.0, 11}}, {1.5, {-6.0, 6.0, 3}}}};
+  const auto densities = kernel_densities(x, y, x_axes, y_axes);
+  ASSERT_EQ(densities.size(), 6U);
+  for (std::size_t i = 0; i < x_axes.size(); ++i) {
+    for (std::size_t j = 0; j < y_axes.size(); ++j) {
+      EXPECT_EQ(densities[i * y_axes.size() + j],
+                kernel_density(x, y, x_axes[i].bandwidth, y_axes[j].bandwidth, x_axes[i].axis,
+                               y_axes[j].axis));
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "estimator/phase/model.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -68,7 +69,13 @@ TEST(PhaseDensities, AreTheDirectSumWithNoiseInTheBandwidth) {
       samples.torque[phase].push_back({knee[i], wheel[i]});
     }
   }
-  const PhaseTorqueDensity density = fit_torque_density(samples, {0.4, 0.2}, config);
+  const std::array<double, 2> knee_noise = {0.0, 0.4};
+  const std::array<double, 3> wheel_noise = {0.0, 0.1, 0.2};
+  const std::vector<PhaseTorqueDensity> densities =
+      fit_torque_densities(samples, knee_noise, wheel_noise, config);
+  ASSERT_EQ(densities.size(), 6U);
+  EXPECT_EQ(densities[2].noise, (TorqueSample{0.0, 0.2}));
+  const PhaseTorqueDensity& density = densities.back();
   const double own = config.torque_bandwidth;
   const TorqueSample h = {std::sqrt(own * own + 0.4 * 0.4), std::sqrt(own * own + 0.2 * 0.2)};
   EXPECT_NEAR(density.bandwidth.knee, h.knee, 1e-15);
@@ -90,9 +97,12 @@ TEST(PhaseDensities, OfASingleWheelAreBorrowedWhereThereAreNone) {
   PhaseSamples samples;
   samples.torque[index(Phase::rolling)] = {{1.0, 0.1}, {1.2, 0.2}};
   samples.torque[index(Phase::flight)] = {{-0.1, 0.0}};
+  const std::array<double, 1> silence = {0.0};
   const auto at = [&](std::size_t density) {
     std::vector<float> values;
-    const auto all = fit_torque_density(samples, {0.0, 0.0}, test::small_phase_fit()).log_density;
+    const auto all = fit_torque_densities(samples, silence, silence, test::small_phase_fit())
+                         .front()
+                         .log_density;
     for (std::size_t i = density; i < all.size(); i += torque_density_count) {
       values.push_back(all[i]);
     }

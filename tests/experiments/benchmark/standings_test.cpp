@@ -53,6 +53,33 @@ TEST(Standings, PutTheBestMeanFirstAndNameTheWorstScene) {
   EXPECT_EQ(all[0].places[1].worst_simulator, "bullet");
 }
 
+TEST(Standings, MeasureLogLossFromTheLearnedCeiling) {
+  const auto told = [](const std::string& scene, const std::string& estimator, double accuracy,
+                       double bits) {
+    BenchmarkRow one = row(scene, estimator, {accuracy});
+    one.close.steps = 1000;
+    one.close.log_loss = 1000.0 * bits * std::numbers::ln2;
+    return one;
+  };
+  std::vector<BenchmarkRow> rows = {
+      told("stairs", "phase", 0.9, 0.25), told("kerb", "phase", 0.9, 0.75),
+      told("stairs", "free_fall", 0.8, 2.0), told("kerb", "free_fall", 0.8, 4.0)};
+  const std::vector<Standings> without = standings(rows, level);
+  for (const Standings::Place& place : without[0].places) {
+    EXPECT_TRUE(std::isnan(place.bits_left));
+  }
+  rows.push_back(told("stairs", "gradient_boosting", 0.99, 0.125));
+  rows.push_back(told("kerb", "gradient_boosting", 0.99, 0.375));
+  const auto places = standings(rows, level)[0].places;
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_EQ(places[0].estimator, "gradient_boosting");
+  EXPECT_EQ(places[0].bits_left, 0.0);
+  EXPECT_NEAR(places[1].log_loss, 0.5, 1e-12);
+  EXPECT_NEAR(places[1].bits_left, 0.25, 1e-12);
+  EXPECT_TRUE(places[1].is_level_with_first);  // of those that one would take
+  EXPECT_NEAR(places[2].bits_left, 2.75, 1e-12);
+}
+
 TEST(Standings, AreApartForEverySettingAndOfThoseAtHomeAlone) {
   std::vector<BenchmarkRow> rows = {row("stairs", "a", {0.9}), row("stairs", "b", {0.8})};
   BenchmarkRow harsh = row("stairs", "a", {0.6});

@@ -39,6 +39,9 @@ TEST(Summary, SummariseEveryViewWithEveryMetric) {
   EXPECT_EQ(summaries[0].view, "wheels");
   EXPECT_EQ(summaries[0].total.takeoff.events, 20);
   EXPECT_EQ(summaries[1].total.takeoff.events, 10);
+  // All of them were found, in every resample.
+  EXPECT_NEAR(summaries[0]["takeoff_recall"].low, std::pow(0.025, 1.0 / 20.0), 1e-12);
+  EXPECT_NEAR(summaries[1]["takeoff_recall"].low, std::pow(0.025, 1.0 / 10.0), 1e-12);
 }
 
 TEST(Summary, DifferencesArePairedByRun) {

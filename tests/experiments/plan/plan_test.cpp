@@ -88,5 +88,13 @@ TEST(FitPieces, AreNotPlayedForEstimatorsThatTakeNone) {
   EXPECT_EQ(plan_of(request_of(experiment)).runs.size(), 2U * (2U + 1U));
 }
 
+TEST(FitPieces, ArePlayedWhoeverElseListens) {
+  Experiment experiment = experiment_with_pieces();
+  for (const char* name : {"hmm", "decision_network", "gradient_boosting"}) {
+    experiment.estimators = {name};
+    EXPECT_EQ(plan_of(request_of(experiment)).runs.size(), 2U * (2U + 3U + 1U + 1U)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace touchdown::experiments

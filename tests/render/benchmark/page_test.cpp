@@ -45,8 +45,10 @@ class BenchmarkPage : public ::testing::Test {
     folder_.write("tables/benchmark_standings.csv",
                   "robot,sensors,torque_noise_nm,accelerometer_noise_mps2,estimator,"
                   "mean_balanced_accuracy,mean_balanced_accuracy_low,mean_balanced_accuracy_high,"
-                  "worst_balanced_accuracy,worst_scene,worst_simulator,is_level_with_first\n"
-                  "upkie,harsh,0,0,robust,0.845,0.83,0.85,0.7,<i>hop,mujoco,1\n"
+                  "worst_balanced_accuracy,worst_scene,worst_simulator,is_level_with_first,"
+                  "log_loss_bits,bits_left\n"
+                  "upkie,harsh,0,0,gradient_boosting,0.91,0.9,0.92,0.8,<i>hop,mujoco,0,0.1,0\n"
+                  "upkie,harsh,0,0,robust,0.845,0.83,0.85,0.7,<i>hop,mujoco,1,0.125,0.025\n"
                   "upkie,harsh,0,0,phase,0.84,0.83,0.85,0.7,<i>hop,mujoco,1\n"
                   "upkie,harsh,0,0,paper,0.83,0.82,0.84,0.7,<i>hop,mujoco,0\n"
                   "upkie,harsh,0,0,free_fall,0.5,0.4,0.6,0.5,stairs,mujoco,0\n");
@@ -83,6 +85,16 @@ TEST_F(BenchmarkPage, SaysWhereEachFailsAndHow) {
                             HasSubstr("<b>stairs</b> 0.500: misses 100 % of the time in the air "
                                       "and says nothing else"),
                             HasSubstr("Level with the first in 1 of 1 settings")));
+}
+
+TEST_F(BenchmarkPage, DrawsTheLearnedCeilingAsALine) {
+  draw_standings_figures(folder_.path(), 0.95);
+  EXPECT_THAT(read_file(folder_ / "figures/benchmark_upkie_harsh.gp"),
+              AllOf(HasSubstr("set arrow 1 from 0.91,graph 0 to 0.91,graph 1"),
+                    HasSubstr("The dashed line is the learned ceiling"),
+                    Not(HasSubstr("'Gradient boosting'"))));
+  EXPECT_THAT(page(), AllOf(HasSubstr("It leaves 0.025 bits a step to the learned ceiling"),
+                            HasSubstr("learned ceiling 0.910; Bayes filter (robust) 0.845")));
 }
 
 TEST_F(BenchmarkPage, ShowsTheFilmOfTheWorstMomentWhereThereIsOne) {

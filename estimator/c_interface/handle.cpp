@@ -1,0 +1,98 @@
+#include "estimator/c_interface/handle.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace touchdown {
+
+namespace {
+
+static_assert(static_cast<unsigned>(RecordFault::clock_rate) == TOUCHDOWN_CLOCK_RATE &&
+              static_cast<unsigned>(RecordFault::upside_down) == TOUCHDOWN_UPSIDE_DOWN &&
+              static_cast<int>(SignalStatus::frozen) == TOUCHDOWN_FROZEN);
+
+Eigen::Vector3d vector(const double (&values)[3]) noexcept {  // NOLINT: C's arrays
+  return {values[0], values[1], values[2]};
+}
+
+std::string described(const ModelPassport& passport) {
+  return passport.estimator + ", " + text_of(passport.sample_rate) + " Hz, robot " +
+         (passport.robot.empty() ? "unknown" : passport.robot) + ", fingerprint " +
+         (passport.fingerprint.empty() ? "unknown" : passport.fingerprint);
+}
+
+}  // namespace
+
+touchdown_estimator* new_handle(const ModelArrays& arrays, const ModelUse& use) {
+  const ModelPassport passport = passport_for(arrays, use);
+  const double rate = use.sample_rate > 0.0 ? use.sample_rate : passport.sample_rate;
+  auto handle = std::make_unique<touchdown_estimator>(touchdown_estimator{
+      described(passport), make_estimator(arrays, use), SignalAssembler({.sample_rate = rate})});
+  return handle.release();
+}
+
+ModelUse use_of(const touchdown_use* use) {
+  if (use == nullptr) return {};
+  return {.estimator = use->estimator == nullptr ? "" : use->estimator,
+          .sample_rate = use->sample_rate,
+          .robot = use->robot == nullptr ? "" : use->robot};
+}
+
+void tell(const char* what, char* error, std::size_t error_size) noexcept {
+  if (error == nullptr || error_size == 0) return;
+  const std::size_t size = std::min(std::strlen(what), error_size - 1);
+  std::memcpy(error, what, size);
+  error[size] = '\0';
+}
+
+}  // namespace touchdown
+
+using namespace touchdown;  // NOLINT: what follows cannot be in it
+
+touchdown_record touchdown_empty_record(void) {
+  constexpr double n = not_reported;
+  constexpr touchdown_joint joint = {n, n, n};
+  return {
+      n,  {joint, joint, joint, joint, joint, joint}, {n, n, n, n}, {n, n, n}, {n, n, n}, {n, n, n},
+      0.0};
+}
+
+touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdown_record* record) {
+  std::array<JointSignals, 6> joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const touchdown_joint& joint = record->joint[i];
+    joints[i] = {joint.position, joint.velocity, joint.torque};
+  }
+  const double(&q)[4] = record->orientation;  // NOLINT: C's arrays
+  const Signals& signals =
+      estimator->assembler.assemble({.time = record->time,
+                                     .joints = joints,
+                                     .orientation = {q[0], q[1], q[2], q[3]},
+                                     .angular_velocity = vector(record->angular_velocity),
+                                     .linear_acceleration = vector(record->linear_acceleration),
+                                     .proper_acceleration = vector(record->proper_acceleration),
+                                     .ground_velocity_command = record->ground_velocity_command});
+  const Belief& belief = estimator->estimator->update(signals);
+  return {{belief.wheel[0].p_contact, belief.wheel[1].p_contact},
+          {belief.wheel[0].contact ? 1 : 0, belief.wheel[1].contact ? 1 : 0},
+          belief.p_any_wheel,
+          belief.p_both_wheels,
+          static_cast<int>(belief.status),
+          estimator->assembler.faults().bits};
+}
+
+void touchdown_reset(touchdown_estimator* estimator) {
+  estimator->estimator->reset();
+  estimator->assembler.reset();
+}
+
+void touchdown_destroy(touchdown_estimator* estimator) { delete estimator; }
+
+const char* touchdown_model_text(const touchdown_estimator* estimator) {
+  return estimator->text.c_str();
+}
+
+const char* touchdown_status_text(int status) {
+  return to_text(static_cast<SignalStatus>(status)).data();  // of a literal, so it ends with zero
+}

@@ -1,0 +1,237 @@
+#include "estimator/models/configuration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <span>
+#include <type_traits>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+
+namespace {
+
+using Names = std::span<const char* const>;
+
+/// Puts every member that it is shown under its key.
+class MemberWriter {
+ public:
+  void operator()(const std::string& key, const double& value) { text[key] = text_of(value); }
+  void operator()(const std::string& key, const int& value) { text[key] = std::to_string(value); }
+  void operator()(const std::string& key, const bool& value) {
+    text[key] = value ? "true" : "false";
+  }
+  template <typename Enum>
+  void choose(const std::string& key, Names names, const Enum& value) {
+    text[key] = names[static_cast<std::size_t>(value)];
+  }
+
+  ConfigurationText text;
+};
+
+/// Takes every member that it is shown from its key, if it is there.
+class MemberReader {
+ public:
+  explicit MemberReader(const ConfigurationText& text) : left_(text) {}
+
+  void operator()(const std::string& key, double& value) {
+    take(key, [&](const std::string& text) {
+      const std::optional<double> number = number_of(text);
+      if (number) value = *number;
+      return number.has_value();
+    });
+  }
+  void operator()(const std::string& key, int& value) {
+    take(key, [&](const std::string& text) {
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      return error == std::errc{} && end == text.data() + text.size();
+    });
+  }
+  void operator()(const std::string& key, bool& value) {
+    take(key, [&](const std::string& text) {
+      value = text == "true";
+      return value || text == "false";
+    });
+  }
+  template <typename Enum>
+  void choose(const std::string& key, Names names, Enum& value) {
+    take(key, [&](const std::string& text) {
+      const auto found = std::find(names.begin(), names.end(), text);
+      if (found == names.end()) return false;
+      value = static_cast<Enum>(found - names.begin());
+      return true;
+    });
+  }
+
+  /// Errors: `InputError` for a key that nobody took.
+  void finish() const {
+    if (left_.empty()) return;
+    throw InputError("passport: configuration." + left_.begin()->first +
+                     ": is not known: was it written by a newer version?");
+  }
+
+ private:
+  template <typename Read>
+  void take(const std::string& key, const Read& read) {
+    const auto found = left_.find(key);
+    if (found == left_.end()) return;
+    if (!read(found->second)) {
+      throw InputError("passport: configuration." + key + ": '" + found->second +
+                       "' is no value for it");
+    }
+    left_.erase(found);
+  }
+
+  ConfigurationText left_;
+};
+
+// Every member once: `visit` writes or reads it.
+
+template <typename Visit, typename Guard>
+void visit_guard(Visit& visit, Guard& guard) {
+  visit("guard.maximum_gap", guard.maximum_gap);
+  visit("guard.frozen_after", guard.frozen_after);
+  visit("guard.largest_acceleration", guard.largest_acceleration);
+  visit("guard.largest_torque", guard.largest_torque);
+  visit("guard.relaxation", guard.relaxation);
+}
+
+template <typename Visit, typename Geometry>
+void visit_geometry(Visit& visit, Geometry& geometry) {
+  visit("geometry.upper_length", geometry.upper_length);
+  visit("geometry.lower_length", geometry.lower_length);
+  visit("geometry.upper_mass", geometry.upper_mass);
+  visit("geometry.lower_mass", geometry.lower_mass);
+  visit("geometry.wheel_mass", geometry.wheel_mass);
+  visit("geometry.upper_centre", geometry.upper_centre);
+  visit("geometry.lower_centre", geometry.lower_centre);
+}
+
+constexpr std::array<const char*, 2> signs = {"absolute", "mirrored"};
+constexpr std::array<const char*, 3> powers = {"mean_square", "energy", "root_mean_square"};
+constexpr std::array<const char*, 2> spectra = {"power", "magnitude"};
+static_assert(static_cast<int>(TorqueSign::mirrored) == 1 &&
+              static_cast<int>(PowerMeasure::root_mean_square) == 2 &&
+              static_cast<int>(SpectrumKind::magnitude) == 1);
+
+template <typename Visit, typename Config>
+requires std::same_as<std::remove_const_t<Config>, BayesFilterConfig>
+void visit_members(Visit& visit, Config& config) {
+  visit.choose("torque.sign", signs, config.measurement.torque.sign);
+  visit("torque.low_pass", config.measurement.torque.low_pass);
+  visit("contact_floor", config.measurement.contact_floor);
+  visit("no_contact_floor", config.measurement.no_contact_floor);
+  auto& transition = config.transition;
+  visit("transition.window", transition.window);
+  visit.choose("transition.power", powers, transition.power);
+  visit.choose("transition.median_of", spectra, transition.median_of);
+  visit("transition.nyquist", transition.nyquist);
+  visit("transition.switch.offset", transition.switch_sigmoid.offset);
+  visit("transition.switch.slope", transition.switch_sigmoid.slope);
+  visit("transition.landing.offset", transition.landing_sigmoid.offset);
+  visit("transition.landing.slope", transition.landing_sigmoid.slope);
+  visit("transition.margin", transition.margin);
+  visit("transition.median_memory", transition.median_memory);
+  visit("transition.row_stochastic", transition.row_stochastic);
+  visit("threshold", config.threshold);
+  visit_guard(visit, config.guard);
+}
+
+/// But for a noise that somebody knows, which is no fit's to say.
+template <typename Visit, typename Config>
+requires std::same_as<std::remove_const_t<Config>, PhaseFilterConfig>
+void visit_members(Visit& visit, Config& config) {
+  visit("torque_exponent", config.torque_exponent);
+  visit("acceleration_exponent", config.acceleration_exponent);
+  visit("leave_below", config.leave_below);
+  visit("return_above", config.return_above);
+  visit("noise_floor.knee_torque", config.noise_floor.knee_torque);
+  visit("noise_floor.wheel_torque", config.noise_floor.wheel_torque);
+  visit("noise_floor.acceleration", config.noise_floor.acceleration);
+  visit("noise_gain", config.noise_gain);
+  visit("noise_warm_up", config.noise_warm_up);
+  visit_guard(visit, config.guard);
+}
+
+template <typename Visit, typename Config>
+requires std::same_as<std::remove_const_t<Config>, NeuralEstimatorConfig>
+void visit_members(Visit& visit, Config& config) {
+  visit("threshold", config.threshold);
+  visit_guard(visit, config.guard);
+}
+
+template <typename Visit, typename Config>
+requires std::same_as<std::remove_const_t<Config>, LoadLogisticConfig>
+void visit_members(Visit& visit, Config& config) {
+  visit_geometry(visit, config.geometry);
+  visit("low_pass", config.low_pass);
+  visit("largest_force", config.largest_force);
+  visit("threshold", config.threshold);
+  visit_guard(visit, config.guard);
+}
+
+template <typename Visit, typename Config>
+requires std::same_as<std::remove_const_t<Config>, ForceKinematicsConfig>
+void visit_members(Visit& visit, Config& config) {
+  visit_geometry(visit, config.geometry);
+  visit("low_pass", config.low_pass);
+  visit("largest_force", config.largest_force);
+  visit("leak", config.leak);
+  visit("threshold", config.threshold);
+  visit_guard(visit, config.guard);
+}
+
+template <typename Visit, typename Config>
+requires std::same_as<std::remove_const_t<Config>, DecisionConfig>
+void visit_members(Visit& visit, Config& config) {
+  visit_geometry(visit, config.geometry);
+  visit("wheel_inertia", config.wheel_inertia);
+  visit("difference", config.difference);
+  visit("smoothing", config.smoothing);
+  visit("leave_below", config.leave_below);
+  visit("return_above", config.return_above);
+  visit_guard(visit, config.guard);
+}
+
+template <typename Config>
+ConfigurationText written(const Config& config) {
+  MemberWriter writer;
+  visit_members(writer, config);
+  return writer.text;
+}
+
+template <typename Config>
+void read(Config& config, const ConfigurationText& text) {
+  MemberReader reader(text);
+  visit_members(reader, config);
+  reader.finish();
+}
+
+}  // namespace
+
+ConfigurationText text_of(const BayesFilterConfig& config) { return written(config); }
+ConfigurationText text_of(const PhaseFilterConfig& config) { return written(config); }
+ConfigurationText text_of(const NeuralEstimatorConfig& config) { return written(config); }
+ConfigurationText text_of(const LoadLogisticConfig& config) { return written(config); }
+ConfigurationText text_of(const ForceKinematicsConfig& config) { return written(config); }
+ConfigurationText text_of(const DecisionConfig& config) { return written(config); }
+
+void configure(BayesFilterConfig& config, const ConfigurationText& text) { read(config, text); }
+void configure(PhaseFilterConfig& config, const ConfigurationText& text) { read(config, text); }
+void configure(NeuralEstimatorConfig& config, const ConfigurationText& text) { read(config, text); }
+void configure(LoadLogisticConfig& config, const ConfigurationText& text) { read(config, text); }
+void configure(ForceKinematicsConfig& config, const ConfigurationText& text) { read(config, text); }
+void configure(DecisionConfig& config, const ConfigurationText& text) { read(config, text); }
+
+BayesFilterConfig at_rate(BayesFilterConfig config, double sample_rate) {
+  config.transition.window = std::max(
+      2,
+      static_cast<int>(std::lround(config.transition.window * sample_rate / config.sample_rate)));
+  config.sample_rate = sample_rate;
+  return config;
+}
+
+}  // namespace touchdown

@@ -1,0 +1,183 @@
+#include "estimator/models/make_estimator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+
+#include "core/error.hpp"
+#include "estimator/bayes/filter.hpp"
+#include "estimator/bayes/measurement_only.hpp"
+#include "estimator/decision/filter.hpp"
+#include "estimator/models/configuration.hpp"
+#include "estimator/models/measurement.hpp"
+#include "estimator/models/neural.hpp"
+#include "estimator/models/parameters.hpp"
+#include "estimator/models/phase.hpp"
+#include "estimator/phase/filter.hpp"
+
+namespace touchdown {
+
+namespace {
+
+using Made = std::unique_ptr<ContactEstimator>;
+
+/// What an estimator is made for.
+struct Request {
+  ConfigurationText configuration;  ///< of the model's own estimator, at the model's rate
+  double fitted_rate = 0.0;         ///< Hz
+  double sample_rate = 0.0;         ///< Hz
+  std::optional<LegGeometry> geometry;
+};
+
+/// How the estimator of this name is made of a model.
+struct Recipe {
+  std::string_view name;
+  std::string_view fit;  ///< the name of whoever is fitted in the same way
+  ConfigurationText (*configuration)(double sample_rate);
+  Made (*make)(const ModelArrays& arrays, const Request& request);
+};
+
+template <typename Config>
+Config configured(Config config, const Request& request) {
+  config.sample_rate = request.sample_rate;
+  configure(config, request.configuration);
+  if constexpr (requires { config.geometry; }) {
+    if (request.geometry) config.geometry = *request.geometry;
+  }
+  return config;
+}
+
+/// The text's window is one at the model's rate.
+BayesFilterConfig configured(BayesFilterConfig config, const Request& request) {
+  if (!request.configuration.empty()) {
+    config.sample_rate = request.fitted_rate;
+    configure(config, request.configuration);
+  }
+  return at_rate(config, request.sample_rate);
+}
+
+template <BayesFilterConfig (*named)(), typename Estimator>
+Recipe of_torques(std::string_view name, std::string_view fit) {
+  return {name, fit, [](double rate) { return text_of(at_rate(named(), rate)); },
+          [](const ModelArrays& arrays, const Request& request) -> Made {
+            return std::make_unique<Estimator>(measurement_model_of(arrays),
+                                               configured(named(), request));
+          }};
+}
+
+Recipe of_phases(std::string_view name) {
+  return {name, name, [](double /*rate*/) { return text_of(PhaseFilterConfig{}); },
+          [](const ModelArrays& arrays, const Request& request) -> Made {
+            return std::make_unique<PhaseFilter>(phase_model_of(arrays),
+                                                 configured(PhaseFilterConfig{}, request));
+          }};
+}
+
+template <typename Estimator, typename Config, auto model_of>
+Recipe of_parameters(std::string_view name) {
+  return {name, name, [](double /*rate*/) { return text_of(Config{}); },
+          [](const ModelArrays& arrays, const Request& request) -> Made {
+            return std::make_unique<Estimator>(model_of(parameters_of(arrays)),
+                                               configured(Config{}, request));
+          }};
+}
+
+Recipe of_neural_network() {
+  return {"nmn", "nmn", [](double /*rate*/) { return text_of(NeuralEstimatorConfig{}); },
+          [](const ModelArrays& arrays, const Request& request) -> Made {
+            return std::make_unique<NeuralEstimator>(
+                std::make_shared<const NeuralNetwork>(neural_network_of(arrays)),
+                configured(NeuralEstimatorConfig{}, request));
+          }};
+}
+
+const auto& recipes() {
+  static const std::array<Recipe, 12> all = {
+      of_torques<BayesFilterConfig::robust, BayesFilter>("robust", "robust"),
+      of_torques<BayesFilterConfig::reference, BayesFilter>("reference", "reference"),
+      of_torques<BayesFilterConfig::paper, BayesFilter>("paper", "paper"),
+      of_torques<BayesFilterConfig::paper_rms, BayesFilter>("paper_rms", "paper"),
+      of_torques<BayesFilterConfig::robust, MeasurementOnly>("measurement_only", "robust"),
+      of_phases("phase"),
+      of_phases("hmm"),
+      of_phases("hmm_without_memory"),
+      of_neural_network(),
+      of_parameters<LoadLogistic, LoadLogisticConfig, logistic_curve_of>("load_logistic"),
+      of_parameters<ForceKinematics, ForceKinematicsConfig, force_kinematics_model_of>(
+          "force_kinematics"),
+      of_parameters<DecisionNetwork, DecisionConfig, decision_model_of>("decision_network")};
+  return all;
+}
+
+const Recipe* find_recipe(std::string_view name) {
+  const auto found = std::find_if(recipes().begin(), recipes().end(),
+                                  [&](const Recipe& each) { return each.name == name; });
+  return found == recipes().end() ? nullptr : &*found;
+}
+
+const Recipe& recipe(std::string_view name) {
+  if (const Recipe* found = find_recipe(name)) return *found;
+  std::string known;
+  for (const Recipe& each : recipes()) known.append(known.empty() ? "" : ", ").append(each.name);
+  throw InputError("no model is fitted for '" + std::string(name) + "': expected one of " + known);
+}
+
+/// What a model without a passport tells by its arrays.
+ModelPassport passport_by_arrays(const ModelArrays& arrays) {
+  ModelPassport passport;
+  const auto has = [&](std::string_view name) { return arrays.contains(std::string(name)); };
+  if (has(estimator_array)) {
+    const std::string name(estimator_array);
+    passport.estimator = text_of_array(arrays.at(name), name);
+  } else if (has("transition")) {
+    passport.estimator = "phase";
+    passport.sample_rate = phase_model_of(arrays).sample_rate;
+  } else if (has("gru_input_weight")) {
+    passport.estimator = "nmn";
+  }
+  return passport;
+}
+
+}  // namespace
+
+ConfigurationText default_configuration(std::string_view estimator, double sample_rate) {
+  return recipe(estimator).configuration(sample_rate);
+}
+
+bool makes_estimator(std::string_view name) { return find_recipe(name) != nullptr; }
+
+bool share_fit(std::string_view estimator, std::string_view other) {
+  return estimator == other || recipe(estimator).fit == recipe(other).fit;
+}
+
+ModelPassport passport_for(const ModelArrays& arrays, const ModelUse& use) {
+  const std::optional<ModelPassport> written = passport_of(arrays);
+  ModelPassport passport = written ? *written : passport_by_arrays(arrays);
+  if (passport.estimator.empty()) passport.estimator = use.estimator;
+  if (passport.sample_rate == 0.0) passport.sample_rate = use.sample_rate;
+  if (passport.estimator.empty() || !(passport.sample_rate > 0.0)) {
+    const char* const what = !passport.estimator.empty() ? "its sample_rate (Hz)"
+                             : passport.sample_rate > 0.0
+                                 ? "the estimator that it was fitted for"
+                                 : "the estimator that it was fitted for, and its sample_rate (Hz)";
+    throw InputError(std::string("has no passport, being older or from elsewhere: name ") + what);
+  }
+  if (!use.estimator.empty() && !share_fit(passport.estimator, use.estimator)) {
+    throw InputError("was fitted for '" + passport.estimator + "', which '" + use.estimator +
+                     "' cannot use");
+  }
+  check_use(passport, use);
+  return passport;
+}
+
+std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays, const ModelUse& use) {
+  const ModelPassport passport = passport_for(arrays, use);
+  const std::string& name = use.estimator.empty() ? passport.estimator : use.estimator;
+  return recipe(name).make(
+      arrays, {name == passport.estimator ? passport.configuration : ConfigurationText{},
+               passport.sample_rate, use.sample_rate > 0.0 ? use.sample_rate : passport.sample_rate,
+               use.geometry});
+}
+
+}  // namespace touchdown

@@ -1,0 +1,163 @@
+#include "estimator/models/passport.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <locale>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/fingerprint.hpp"
+
+namespace touchdown {
+
+namespace {
+
+constexpr std::string_view format = "1";
+constexpr std::string_view units = "SI";
+constexpr std::string_view configuration_prefix = "configuration.";
+constexpr std::string_view fingerprint_key = "fingerprint";
+
+std::string hexadecimal(std::uint64_t number) {
+  std::string digits(16, '0');
+  for (std::size_t i = digits.size(); i-- > 0; number >>= 4U) {
+    digits[i] = "0123456789abcdef"[number & 0xfU];
+  }
+  return digits;
+}
+
+/// As lines, without the fingerprint.
+std::string lines_of(const ModelPassport& passport) {
+  std::string lines;
+  const auto line = [&](std::string_view key, std::string_view value) {
+    lines.append(key).append(": ").append(value).append("\n");
+  };
+  line("format", format);
+  line("estimator", passport.estimator);
+  line("sample_rate", text_of(passport.sample_rate));
+  line("robot", passport.robot);
+  line("units", units);
+  for (const auto& [key, value] : passport.configuration) {
+    line(std::string(configuration_prefix) + key, value);
+  }
+  return lines;
+}
+
+std::string fingerprint_of(const ModelArrays& arrays, const std::string& lines) {
+  Fingerprint fingerprint;
+  fingerprint.add(lines);
+  for (const auto& [name, array] : arrays) {
+    if (name == passport_array || name == derived_array) continue;
+    fingerprint.add(name);
+    for (const std::size_t axis : array.shape) fingerprint.add(std::to_string(axis));
+    fingerprint.add({reinterpret_cast<const char*>(array.data.data()),  // NOLINT
+                     array.data.size() * sizeof(double)});
+  }
+  return hexadecimal(fingerprint.value());
+}
+
+static_assert(std::endian::native == std::endian::little, "numbers are hashed as they are");
+
+[[noreturn]] void refuse(const std::string& line) {
+  throw InputError("passport: '" + line +
+                   "' is not understood: was it written by a newer version?");
+}
+
+/// Errors: `InputError` if the line says something else than this version's files.
+void expect(std::string_view key, std::string_view found, std::string_view expected) {
+  if (found == expected) return;
+  throw InputError("passport: " + std::string(key) + " " + std::string(found) + ": expected " +
+                   std::string(expected));
+}
+
+void take_line(const std::string& line, ModelPassport& passport) {
+  const std::size_t colon = line.find(": ");
+  if (colon == std::string::npos) refuse(line);
+  const std::string key = line.substr(0, colon);
+  const std::string value = line.substr(colon + 2);
+  if (key == "format") {
+    expect(key, value, format);
+  } else if (key == "units") {
+    expect(key, value, units);
+  } else if (key == "estimator") {
+    passport.estimator = value;
+  } else if (key == "sample_rate") {
+    const std::optional<double> number = number_of(value);
+    if (!number) refuse(line);
+    passport.sample_rate = *number;
+  } else if (key == "robot") {
+    passport.robot = value;
+  } else if (key == fingerprint_key) {
+    passport.fingerprint = value;
+  } else if (key.starts_with(configuration_prefix)) {
+    passport.configuration[key.substr(configuration_prefix.size())] = value;
+  } else {
+    refuse(line);
+  }
+}
+
+}  // namespace
+
+std::string text_of(double number) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+  return {text.data(), end};
+}
+
+std::optional<double> number_of(const std::string& text) {
+  std::istringstream stream(text);  // std::from_chars is not in every library
+  stream.imbue(std::locale::classic());
+  double number = 0.0;
+  if (!(stream >> number) || stream.peek() != std::istringstream::traits_type::eof()) return {};
+  return number;
+}
+
+std::string add_passport(ModelArrays& arrays, const ModelPassport& passport) {
+  for (const std::string& text : {passport.estimator, passport.robot}) {
+    if (text.find('\n') == std::string::npos) continue;
+    throw InputError("passport: expected a name of one line, found '" + text + "'");
+  }
+  const std::string lines = lines_of(passport);
+  std::string fingerprint = fingerprint_of(arrays, lines);
+  arrays[std::string(passport_array)] =
+      array_of_text(lines + std::string(fingerprint_key) + ": " + fingerprint + "\n");
+  return fingerprint;
+}
+
+std::optional<ModelPassport> passport_of(const ModelArrays& arrays) {
+  const auto found = arrays.find(std::string(passport_array));
+  if (found == arrays.end()) return {};
+  const std::string text = text_of_array(found->second, found->first);
+  ModelPassport passport;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    take_line(text.substr(begin, end - begin), passport);
+    begin = end + 1;
+  }
+  if (!(std::isfinite(passport.sample_rate) && passport.sample_rate > 0.0)) {
+    throw InputError("passport: expected a positive sample_rate (Hz)");
+  }
+  if (passport.fingerprint != fingerprint_of(arrays, lines_of(passport))) {
+    throw InputError("its numbers are not those that were fitted (fingerprint " +
+                     passport.fingerprint + "): was the file changed?");
+  }
+  return passport;
+}
+
+void check_use(const ModelPassport& passport, const ModelUse& use) {
+  constexpr double tolerance = 1e-6;
+  if (use.sample_rate > 0.0 &&
+      !(std::abs(use.sample_rate - passport.sample_rate) <= tolerance * passport.sample_rate)) {
+    throw InputError("was fitted at " + text_of(passport.sample_rate) + " Hz, not at " +
+                     text_of(use.sample_rate) + " Hz");
+  }
+  if (!use.robot.empty() && !passport.robot.empty() && use.robot != passport.robot) {
+    throw InputError("was fitted to the robot '" + passport.robot + "', not to '" + use.robot +
+                     "'");
+  }
+}
+
+}  // namespace touchdown

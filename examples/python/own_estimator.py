@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+# An estimator of one's own beside `robust`: on one run, then in an experiment (docs/python.md).
+# %%
+import numpy as np
+
+import touchdown
+
+
+# %% Ten lines: who falls has no contact, and whose knees push has.
+class FallsOrPushes:
+    """Contact where the knee bears load, or the robot does not fall."""
+    title = "Falls or pushes"
+    sensors = ("knee_torque", "acceleration")  # whose noise can change what it says
+
+    def run(self, signals):
+        rate = 0.02 * signals["sample_rate"]  # of a mean over 20 ms
+        mean = np.ones(int(rate)) / int(rate)
+        upwards = np.convolve(signals["vertical_acceleration"], mean)[: len(signals["time"])]
+        knees = np.stack([np.convolve(signals["torque"][:, i], mean)[: len(upwards)] for i in (1, 4)], axis=1)
+        return 1.0 / (1.0 + np.exp(-(upwards[:, None] + 4.9) - 4.0 * (np.abs(knees) - 0.5)))
+
+
+# %% On one run.
+fitted = touchdown.simulate("scenarios/stairs.yaml", run=0)
+heard = touchdown.simulate("scenarios/stairs.yaml", run=1)
+robust = touchdown.Estimator(model=touchdown.fit(fitted))
+for name, beliefs in (("robust", robust.run(heard)),
+                      ("mine", FallsOrPushes().run({**heard, "sample_rate": heard.sample_rate}))):
+    print(f"{name:<8} success {touchdown.score(beliefs, heard)['wheels']['success']:.4f}")
+
+# %% In an experiment: more runs, both engines if you like, through noise, with intervals.
+result = touchdown.run({
+    "name": "own_estimator", "simulators": ["mujoco"], "estimators": ["robust", FallsOrPushes],
+    "fit": {"scenarios": ["scenarios/stairs.yaml"]}, "test": {"scenarios": ["scenarios/stairs.yaml"], "runs": 4},
+    "noise": {"torque": [0, 1], "accelerometer": [0, 5], "seeds": 2}, "recordings": "none", "video": {"enabled": False}})
+table = result.tables["success"]
+for row in range(len(table["estimator"])):
+    print(f"{table['estimator'][row]:<34} {table['torque_noise_nm'][row]:g} N·m, "
+          f"{table['accelerometer_noise_mps2'][row]:g} m/s²: {table['success'][row]:.4f} "
+          f"[{table['success_low'][row]:.4f}, {table['success_high'][row]:.4f}]")

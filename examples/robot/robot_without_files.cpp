@@ -1,0 +1,19 @@
+// The same for a robot without a file system: the model is compiled in.
+
+#include <touchdown/estimator.hpp>
+
+#include "made_up_robot.hpp"
+#include MODEL_HEADER  // what `touchdown export model.npz -o model.hpp` wrote
+
+int main() {
+  const auto estimator = touchdown::make_estimator(touchdown::compiled::model,
+                                                   {.sample_rate = rate, .robot = "upkie"});
+  touchdown::SignalAssembler assembler({.sample_rate = rate});
+  MadeUpRobot robot;
+  while (robot.is_on()) {
+    const touchdown::RobotRecord& record = robot.read();
+    const touchdown::Belief& belief = estimator->update(assembler.assemble(record));
+    robot.hear(belief, assembler.faults());
+  }
+  return robot.report();
+}

@@ -1,0 +1,19 @@
+// A model that is compiled in, for a spine that is cross-compiled: no libzip, no file to copy.
+// C++20, as the library; the observer and the spine see C only. `touchdown export model.npz -o
+// model.hpp` writes the header.
+
+#include "compiled_model.h"
+
+#include <touchdown/estimator.hpp>
+#include <touchdown/estimator/c_interface/handle.hpp>
+
+#include "model.hpp"
+
+touchdown_estimator* compiled_model(const touchdown_use* use, char* error, size_t error_size) {
+  return touchdown::handle_or_error(
+      [&] {
+        return touchdown::new_handle(touchdown::arrays_of(touchdown::compiled::model),
+                                     touchdown::use_of(use));
+      },
+      error, error_size);
+}

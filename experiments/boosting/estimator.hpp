@@ -1,0 +1,33 @@
+#pragma once
+
+#include "estimator/contact_estimator.hpp"
+#include "experiments/boosting/trees.hpp"
+#include "experiments/boosting/window.hpp"
+
+namespace touchdown::experiments {
+
+/// The learned ceiling of a benchmark: boosted trees on 100 ms of what the phase filter hears. For
+/// studies: what there is to be had from these signals, not what one would put on a robot.
+class BoostedTreesEstimator : public ContactEstimator {
+ public:
+  struct Config {
+    double sample_rate = 1000.0;  ///< Hz
+    /// A wheel leaves contact when P(contact) falls below this, and returns above that.
+    double leave_below = 0.75;
+    double return_above = 0.9;
+  };
+
+  /// Errors: those of `check_trees`.
+  BoostedTreesEstimator(BoostedTrees trees, const Config& config);
+
+  void reset() noexcept override;
+  const Belief& update(const Signals& signals) noexcept override;
+
+ private:
+  Config config_;
+  BoostedTrees trees_;
+  SignalWindow window_;
+  Belief belief_;
+};
+
+}  // namespace touchdown::experiments

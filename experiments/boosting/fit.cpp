@@ -1,0 +1,160 @@
+#include "experiments/boosting/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <xgboost/c_api.h>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/boosting/window.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+void check(int failed) {
+  if (failed != 0) throw Error(fmt::format("gradient boosting: {}", XGBGetLastError()));
+}
+
+struct Freed {
+  void operator()(void* handle) const { XGDMatrixFree(handle); }
+};
+struct Ended {
+  void operator()(void* handle) const { XGBoosterFree(handle); }
+};
+using Matrix = std::unique_ptr<void, Freed>;
+using Booster = std::unique_ptr<void, Ended>;
+
+/// Rows in contact weigh 1, the others this much.
+Matrix matrix_of(const BoostingRows& rows, float air_weight) {
+  DMatrixHandle handle = nullptr;
+  check(XGDMatrixCreateFromMat(rows.features.data(), rows.count(), window_features,
+                               std::numeric_limits<float>::quiet_NaN(), &handle));
+  Matrix matrix(handle);
+  check(XGDMatrixSetFloatInfo(handle, "label", rows.is_contact.data(), rows.count()));
+  std::vector<float> weights(rows.count());
+  std::transform(rows.is_contact.begin(), rows.is_contact.end(), weights.begin(),
+                 [&](float is_contact) { return is_contact > 0.0F ? 1.0F : air_weight; });
+  check(XGDMatrixSetFloatInfo(handle, "weight", weights.data(), weights.size()));
+  return matrix;
+}
+
+Booster booster_of(const Matrix& rows, const BoostingConfig& config) {
+  DMatrixHandle matrix = rows.get();
+  BoosterHandle handle = nullptr;
+  check(XGBoosterCreate(&matrix, 1, &handle));
+  Booster booster(handle);
+  const auto set = [&](const char* name, const std::string& value) {
+    check(XGBoosterSetParam(handle, name, value.c_str()));
+  };
+  set("objective", "binary:logistic");
+  set("base_score", "0.5");  // the sum of leaves begins at zero
+  set("tree_method", "hist");
+  set("nthread", "1");
+  set("verbosity", "0");
+  set("seed", fmt::format("{}", config.seed));
+  set("max_depth", fmt::format("{}", config.depth));
+  set("eta", fmt::format("{}", config.learning_rate));
+  set("min_child_weight", fmt::format("{}", config.least_weight));
+  return booster;
+}
+
+/// Puts a node of a tree that may end early, and all below it, into a complete one.
+void put(const nlohmann::json& tree, std::size_t from, std::size_t to, std::size_t number,
+         BoostedTrees& trees) {
+  const auto& left = tree.at("left_children");
+  const auto& condition = tree.at("split_conditions");
+  const std::size_t inner = trees.nodes();
+  if (to >= inner) {
+    trees.leaf[number * trees.leaves() + to - inner] = condition.at(from).get<float>();
+    return;
+  }
+  const std::size_t node = number * inner + to;
+  if (const int child = left.at(from).get<int>(); child >= 0) {
+    trees.feature[node] = tree.at("split_indices").at(from).get<std::uint8_t>();
+    trees.threshold[node] = condition.at(from).get<float>();
+    put(tree, static_cast<std::size_t>(child), 2 * to + 1, number, trees);
+    put(tree, tree.at("right_children").at(from).get<std::size_t>(), 2 * to + 2, number, trees);
+  } else {  // whatever is decided from here on, the leaf is the same
+    put(tree, from, 2 * to + 1, number, trees);
+    put(tree, from, 2 * to + 2, number, trees);
+  }
+}
+
+BoostedTrees trees_of(const Booster& booster, std::size_t depth) {
+  bst_ulong length = 0;
+  const char* text = nullptr;
+  check(XGBoosterSaveModelToBuffer(booster.get(), R"({"format": "json"})", &length, &text));
+  const nlohmann::json model = nlohmann::json::parse(std::string_view(text, length));
+  const auto& all = model.at("learner").at("gradient_booster").at("model").at("trees");
+  BoostedTrees trees{.depth = depth};
+  trees.feature.resize(all.size() * trees.nodes());
+  trees.threshold.resize(trees.feature.size());
+  trees.leaf.resize(all.size() * trees.leaves());
+  for (std::size_t number = 0; number < all.size(); ++number) {
+    put(all[number], 0, 0, number, trees);
+  }
+  return trees;
+}
+
+}  // namespace
+
+BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConfig& config) {
+  std::size_t steps = 0;
+  for (const LabelledRun& run : runs) {
+    check_labels(run);
+    steps += run.signals.size() - std::min(run.signals.size(), run.skip);
+  }
+  // So many steps apart a pass takes both wheels.
+  const std::size_t stride =
+      std::max<std::size_t>(1, 2 * steps * config.passes / std::max<std::size_t>(1, config.rows));
+  BoostingRows rows;
+  Draws draws(config.seed);
+  for (std::size_t pass = 0; pass < config.passes; ++pass) {
+    for (const LabelledRun& run : runs) {
+      SignalWindow window(run.sample_rate);
+      Disturbance disturbed(config.disturbance, draws);
+      std::size_t next = run.skip + draws.below(stride);
+      for (std::size_t k = 0; k < run.signals.size(); ++k) {
+        const SignalWindow::Step step = window.update(disturbed(run.signals[k]));
+        if (k < next) continue;
+        next += stride;
+        if (!step.is_heard) continue;
+        for (std::size_t side = 0; side < 2; ++side) {
+          const WindowFeatures features = window.features(side);
+          rows.features.insert(rows.features.end(), features.begin(), features.end());
+          rows.is_contact.push_back(run.contact[side][k] != 0 ? 1.0F : 0.0F);
+        }
+      }
+    }
+  }
+  return rows;
+}
+
+BoostedTrees fit_trees(const BoostingRows& rows, const BoostingConfig& config,
+                       const std::function<void()>& before_tree) {
+  const auto contact =
+      static_cast<double>(std::count(rows.is_contact.begin(), rows.is_contact.end(), 1.0F));
+  const double air = static_cast<double>(rows.count()) - contact;
+  if (!(contact > 0.0 && air > 0.0)) {
+    throw InputError("gradient boosting: runs with contact and without are needed");
+  }
+  const auto air_weight = static_cast<float>(std::pow(air / contact, config.class_exponent));
+  const Matrix matrix = matrix_of(rows, air_weight);
+  const Booster booster = booster_of(matrix, config);
+  for (std::size_t tree = 0; tree < config.trees; ++tree) {
+    if (before_tree) before_tree();
+    check(XGBoosterUpdateOneIter(booster.get(), static_cast<int>(tree), matrix.get()));
+  }
+  BoostedTrees trees = trees_of(booster, config.depth);
+  trees.bias = std::log(air_weight);
+  return trees;
+}
+
+}  // namespace touchdown::experiments

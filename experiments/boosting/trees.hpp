@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "experiments/boosting/window.hpp"
+
+namespace touchdown::experiments {
+
+/// Boosted decision trees: the logit of contact is a bias and the sum of one leaf of
+/// each tree. All trees are
+/// complete binary trees of the same depth D, node after node from the root: the children of node i
+/// are 2i + 1, where its feature is below its threshold, and 2i + 2.
+struct BoostedTrees {
+  std::size_t depth = 0;
+  float bias = 0.0F;                       ///< added to the sum
+  std::vector<std::uint8_t> feature = {};  ///< 2^D − 1 for each tree
+  std::vector<float> threshold = {};       ///< likewise
+  std::vector<float> leaf = {};            ///< 2^D for each tree
+
+  [[nodiscard]] std::size_t nodes() const noexcept { return (std::size_t{1} << depth) - 1; }
+  [[nodiscard]] std::size_t leaves() const noexcept { return std::size_t{1} << depth; }
+  [[nodiscard]] std::size_t trees() const noexcept { return leaf.size() / leaves(); }
+  [[nodiscard]] float logit(const WindowFeatures& features) const noexcept;
+};
+
+/// Throws InputError for trees that are not complete, features that there are not, and numbers that
+/// are not finite.
+void check_trees(const BoostedTrees& trees);
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,74 @@
+#include "experiments/estimators/boosting.hpp"
+
+#include "experiments/boosting/estimator.hpp"
+#include "experiments/boosting/fit.hpp"
+#include "experiments/estimators/parameter_fitting.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+using Made = std::unique_ptr<ContactEstimator>;
+using recordings::parameter;
+using recordings::Parameters;
+
+Parameters parameters_of(const BoostedTrees& trees) {
+  const auto numbers = [](const auto& values) {
+    return std::vector<double>(values.begin(), values.end());
+  };
+  return {
+      {"depth", {static_cast<double>(trees.depth)}},   {"bias", {static_cast<double>(trees.bias)}},
+      {"trees", {static_cast<double>(trees.trees())}}, {"feature", numbers(trees.feature)},
+      {"threshold", numbers(trees.threshold)},         {"leaf", numbers(trees.leaf)}};
+}
+
+/// The inverse: doubles that came from floats are floats again.
+BoostedTrees trees_of(const Parameters& parameters) {
+  const auto whole = [&](const char* name, double largest) {
+    const double value = parameter(parameters, name);
+    return static_cast<std::size_t>(value >= 0.0 && value <= largest ? value : 0.0);
+  };
+  constexpr double most_trees = 1e6;
+  constexpr double deepest = 16.0;
+  BoostedTrees trees{.depth = whole("depth", deepest),
+                     .bias = static_cast<float>(parameter(parameters, "bias"))};
+  const std::size_t count = whole("trees", most_trees);
+  for (const double value : parameter(parameters, "feature", count * trees.nodes())) {
+    trees.feature.push_back(value >= 0.0 && value < static_cast<double>(window_features)
+                                ? static_cast<std::uint8_t>(value)
+                                : std::uint8_t{window_features});
+  }
+  for (const double value : parameter(parameters, "threshold", count * trees.nodes())) {
+    trees.threshold.push_back(static_cast<float>(value));
+  }
+  for (const double value : parameter(parameters, "leaf", count * trees.leaves())) {
+    trees.leaf.push_back(static_cast<float>(value));
+  }
+  return trees;
+}
+
+FittedModel fit_boosted_trees(const EstimatorEntry& entry, const FitRuns& runs) {
+  return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
+    const BoostingConfig config;
+    return parameters_of(fit_trees(boosting_rows(labelled, config), config, runs.before_density));
+  });
+}
+
+}  // namespace
+
+EstimatorEntry gradient_boosting_entry() {
+  return {.name = "gradient_boosting",
+          .title = "Gradient boosting",
+          .summary = "the learned ceiling: boosted trees on 100 ms of what the phase filter hears",
+          .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
+          .is_ceiling = true,
+          .fit = fit_boosted_trees,
+          .learns_from_pieces = true,
+          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
+            return std::make_unique<BoostedTreesEstimator>(
+                trees_of(setup.model->parameters->parameters),
+                BoostedTreesEstimator::Config{.sample_rate = setup.sample_rate});
+          }};
+}
+
+}  // namespace touchdown::experiments

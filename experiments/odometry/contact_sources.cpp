@@ -1,0 +1,59 @@
+#include "experiments/odometry/contact_sources.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "experiments/estimators/registry.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+ContactTrack labels_late(const RunSignals& run, std::size_t steps) {
+  ContactTrack track;
+  for (std::size_t wheel = 0; wheel < track.size(); ++wheel) {
+    track[wheel].assign(run.steps(), 1.0);
+    for (std::size_t k = steps; k < run.steps(); ++k) {
+      track[wheel][k] = run.contact[wheel][k - steps] != 0 ? 1.0 : 0.0;
+    }
+  }
+  return track;
+}
+
+}  // namespace
+
+std::vector<std::string> oracle_names(const OdometryStudyConfig& config) {
+  std::vector<std::string> names = {"truth"};
+  for (const double late : config.late) names.push_back(fmt::format("truth_{}ms_late", 1e3 * late));
+  return names;
+}
+
+std::vector<ContactTrack> oracle_tracks(const OdometryStudyConfig& config, const RunSignals& run) {
+  const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+  std::vector<ContactTrack> tracks = {labels_late(run, 0)};
+  for (const double late : config.late) {
+    tracks.push_back(labels_late(run, static_cast<std::size_t>(std::llround(late / period))));
+  }
+  return tracks;
+}
+
+std::string contact_name(std::string_view estimator) {
+  return estimator == always_contact_name ? "always" : std::string(estimator);
+}
+
+std::string contact_title(const std::string& contact) {
+  if (contact == "truth") return "Truth (oracle)";
+  double milliseconds = 0.0;
+  if (std::sscanf(contact.c_str(), "truth_%lfms_late", &milliseconds) == 1) {
+    return fmt::format("Truth, {} ms late (oracle)", milliseconds);
+  }
+  const std::string name = contact == "always" ? std::string(always_contact_name) : contact;
+  for (const EstimatorEntry& entry : estimator_entries()) {
+    if (entry.name == name) return entry.title;
+  }
+  return contact;
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,114 @@
+#include "onboard/npz.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <new>
+#include <span>
+#include <zip.h>
+
+#include "core/error.hpp"
+#include "onboard/npy.hpp"
+
+namespace touchdown {
+
+namespace {
+
+/// One GB of them: far more than any model has.
+constexpr std::size_t most_numbers = std::size_t{1} << 27U;
+constexpr std::string_view extension = ".npy";
+
+struct DiscardZip {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+using Zip = std::unique_ptr<zip_t, DiscardZip>;
+
+struct CloseMember {
+  void operator()(zip_file_t* member) const { zip_fclose(member); }
+};
+using Member = std::unique_ptr<zip_file_t, CloseMember>;
+
+Zip open_zip(const std::filesystem::path& path, int flags) {
+  int code = 0;
+  Zip archive(zip_open(path.c_str(), flags, &code));
+  if (archive) return archive;
+  if (code == ZIP_ER_MEMORY) throw std::bad_alloc();
+  zip_error_t error;
+  zip_error_init_with_code(&error, code);
+  const std::string reason = zip_error_strerror(&error);
+  zip_error_fini(&error);
+  throw InputError(path.string() + ": is not a readable .npz file: " + reason);
+}
+
+ModelArray read_member(zip_t& archive, zip_uint64_t index, const std::string& where,
+                       std::size_t most) {
+  zip_stat_t status;
+  if (zip_stat_index(&archive, index, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0) {
+    throw InputError(where + ": has no sensible size");
+  }
+  const Member member(zip_fopen_index(&archive, index, 0));
+  if (!member) throw InputError(where + ": " + zip_strerror(&archive));
+  const NpyBytes bytes = [&](std::span<char> buffer) {
+    const zip_int64_t size = zip_fread(member.get(), buffer.data(), buffer.size());
+    if (size < 0) throw InputError(where + ": " + zip_file_strerror(member.get()));
+    return static_cast<std::size_t>(size);
+  };
+  ModelArray array = read_npy(bytes, status.size, where, most);
+  // At the end of a member libzip compares the checksum.
+  std::array<char, 1> rest{};
+  if (bytes(rest) != 0) throw InputError(where + ": is longer than it says");
+  return array;
+}
+
+/// Calls `visit(index, name)` for every array of the file.
+template <typename Visit>
+void for_each_array(zip_t& archive, const std::filesystem::path& path, const Visit& visit) {
+  bool has_arrays = false;
+  const zip_int64_t count = zip_get_num_entries(&archive, 0);
+  for (zip_int64_t i = 0; i < count; ++i) {
+    const auto index = static_cast<zip_uint64_t>(i);
+    const char* raw_name = zip_get_name(&archive, index, 0);
+    std::string name = raw_name == nullptr ? "" : raw_name;
+    if (!name.ends_with(extension)) continue;
+    name.resize(name.size() - extension.size());
+    has_arrays = true;
+    visit(index, name);
+  }
+  if (!has_arrays) throw InputError(path.string() + ": holds no arrays");
+}
+
+Zip open_npz(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) throw InputError(path.string() + ": is a folder");
+  if (!std::filesystem::is_regular_file(path)) {
+    throw InputError(path.string() + ": no such file");
+  }
+  return open_zip(path, ZIP_RDONLY | ZIP_CHECKCONS);
+}
+
+}  // namespace
+
+std::size_t any_array(std::string_view /*name*/) { return most_numbers; }
+
+ModelArrays read_npz(const std::filesystem::path& path, const NpzNeeds& needs) {
+  const Zip archive = open_npz(path);
+  ModelArrays arrays;
+  std::size_t left = most_numbers;
+  for_each_array(*archive, path, [&](zip_uint64_t index, const std::string& name) {
+    const std::size_t needed = needs(name);
+    if (needed == 0) return;
+    const std::string where = path.string() + ": " + name;
+    ModelArray array = read_member(*archive, index, where, std::min(needed, left));
+    left -= array.data.size();
+    arrays[name] = std::move(array);
+  });
+  return arrays;
+}
+
+std::vector<std::string> npz_names(const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  for_each_array(*open_npz(path), path,
+                 [&](zip_uint64_t /*index*/, const std::string& name) { names.push_back(name); });
+  return names;
+}
+
+}  // namespace touchdown

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "policies/course.hpp"
+#include "policies/policy.hpp"
+#include "policies/side_view.hpp"
+#include "policies/wheel_contact.hpp"
+
+namespace touchdown::policies {
+
+/// A balancer that uses contact: it balances its centre of mass instead of its torso, keeps the
+/// ground's speed on its wheels while they are in the air, and yields with its knees when it lands,
+/// each leg along its own line. docs/policy.md has its equations and what each part brings. What
+/// both wheels do is the balancer's (policies/wheel_balancer.hpp), and so are its gains.
+class SoftLander : public Policy {
+ public:
+  SoftLander(const WheelBalancerConfig& config, Course course, const SideView& robot,
+             WheelContact contact);
+
+  void reset(const models::Observation& observation) override;
+  models::Action act(const models::Observation& observation) override;
+
+  /// How much the legs yield: 0, as stiff as on the ground, to 1.
+  double softness() const { return softness_; }
+
+ private:
+  void update_ground_velocity(const models::Observation& observation);
+  void update_softness();
+  void command_leg(std::size_t side, const models::Observation& observation,
+                   models::Action& action) const;
+
+  WheelBalancerConfig config_;
+  Course course_;
+  SideView robot_;
+  WheelContact told_;
+
+  std::array<bool, models::wheel_count> touches_ = {true, true};
+  double held_velocity_ = 0.0;    ///< of the ground, as last felt (m/s)
+  double integral_ = 0.0;         ///< m/s
+  double ground_velocity_ = 0.0;  ///< what is asked of the wheels (m/s)
+  double in_air_ = 0.0;           ///< since the last wheel left the ground (s)
+  double on_ground_ = 0.0;        ///< since the first touched it again (s)
+  double softness_ = 0.0;
+};
+
+}  // namespace touchdown::policies

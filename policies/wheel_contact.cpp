@@ -1,0 +1,28 @@
+#include "policies/wheel_contact.hpp"
+
+#include "core/fields.hpp"
+#include "estimator/upkie_observer.hpp"
+
+namespace touchdown::policies {
+
+WheelContact upkie_contact(double period) {
+  return [period, observers = std::array<WheelContactObserver, models::wheel_count>()](
+             const models::Observation& observation, double /*command*/) mutable {
+    std::array<bool, models::wheel_count> touches = {};
+    for (std::size_t wheel = 0; wheel < touches.size(); ++wheel) {
+      const models::ServoReading& servo =
+          observation.servo[models::index(models::wheel_servos[wheel])];
+      touches[wheel] = observers[wheel].update(servo.torque, servo.velocity, period);
+    }
+    return touches;
+  };
+}
+
+void describe(Fields& fields, PolicyConfig& policy) {
+  fields.choose("law", {"balancer", "soft_landing"}, policy.law);
+  fields.choose("contact", {"upkie_observer", "always", "free_fall", "support_force", "truth"},
+                policy.contact);
+  fields("late", policy.late, 0.0, 1.0);
+}
+
+}  // namespace touchdown::policies

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace touchdown::python {
+
+namespace py = pybind11;
+
+/// Rows that NumPy's arrays look at, without a copy: they live as long as the last of these.
+template <typename Row>
+class SharedRows {
+ public:
+  explicit SharedRows(std::vector<Row> rows)
+      : rows_(std::make_unique<std::vector<Row>>(std::move(rows)).release()),
+        owner_(rows_, [](void* all) { delete static_cast<std::vector<Row>*>(all); }) {}
+
+  /// The first row, for who wants to point at something in it; a spare one if there is none.
+  Row& front() { return rows_->empty() ? spare_ : rows_->front(); }
+
+  /// One value per row: that at which `first` points in the first row.
+  template <typename T>
+  py::array_t<T> view(const T* first) const {
+    const std::vector<py::ssize_t> shape = {size()};
+    if (rows_->empty()) return py::array_t<T>(shape);
+    return py::array_t<T>(shape, {bytes}, first, owner_);
+  }
+
+  /// Several values per row, so many bytes from each other.
+  template <typename T>
+  py::array_t<T> view(const T* first, std::size_t columns, std::size_t apart = sizeof(T)) const {
+    const std::vector<py::ssize_t> shape = {size(), static_cast<py::ssize_t>(columns)};
+    if (rows_->empty()) return py::array_t<T>(shape);
+    return py::array_t<T>(shape, {bytes, static_cast<py::ssize_t>(apart)}, first, owner_);
+  }
+
+ private:
+  static constexpr auto bytes = static_cast<py::ssize_t>(sizeof(Row));
+  py::ssize_t size() const { return static_cast<py::ssize_t>(rows_->size()); }
+
+  std::vector<Row>* rows_;
+  py::capsule owner_;
+  Row spare_ = {};
+};
+
+/// An array of its own for values that stand in no rows.
+template <typename T>
+py::array_t<T> array_of(std::vector<T> values) {
+  SharedRows<T> rows(std::move(values));
+  return rows.view(&rows.front());
+}
+
+/// Numbers by step as somebody's array has them, whatever its strides. Reading needs no lock, the
+/// rest does.
+class Column {
+ public:
+  /// Of what can be turned into numbers, where a processor can read them.
+  static constexpr int flags = static_cast<int>(py::array::forcecast) |
+                               static_cast<int>(py::detail::npy_api::NPY_ARRAY_ALIGNED_);
+  using Array = py::array_t<double, flags>;
+
+  explicit Column(Array array);
+
+  std::size_t steps() const { return steps_; }
+  double operator()(std::size_t step, std::size_t item = 0) const {
+    return *reinterpret_cast<const double*>(row(step) + item * item_bytes_);
+  }
+  /// Where a step's numbers begin, and the bytes from one to the next.
+  const char* row(std::size_t step) const { return data_ + step * step_bytes_; }
+  std::size_t item_bytes() const { return item_bytes_; }
+  std::size_t step_bytes() const { return step_bytes_; }
+
+ private:
+  Array array_;  ///< keeps the numbers alive
+  const char* data_;
+  std::size_t steps_;
+  std::size_t step_bytes_;
+  std::size_t item_bytes_;
+};
+
+/// A mapping of names to arrays: a dict, or what `numpy.load` gives.
+class ArrayMap {
+ public:
+  /// `what` it is, for complaints.
+  ArrayMap(py::object arrays, std::string what)
+      : arrays_(std::move(arrays)), what_(std::move(what)) {}
+
+  bool has(const char* name) const { return arrays_.contains(name); }
+
+  /// One number per step, or `columns` of them. The first array says how many steps there are.
+  /// Errors: `InputError` for one that is missing or of another shape.
+  Column column(const char* name, std::size_t columns = 0);
+
+  std::size_t steps() const { return steps_.value_or(0); }
+
+ private:
+  py::object arrays_;
+  std::string what_;
+  std::optional<std::size_t> steps_;
+};
+
+}  // namespace touchdown::python

@@ -1,0 +1,300 @@
+#include "python/estimators.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/logs/estimator.hpp"
+#include "experiments/logs/fit.hpp"
+#include "python/belief_arrays.hpp"
+#include "python/long_call.hpp"
+#include "python/recording_arrays.hpp"
+#include "python/signal_arrays.hpp"
+#include "python/spine.hpp"
+#include "recordings/log/writer.hpp"
+#include "recordings/signals_from.hpp"
+
+namespace touchdown::python {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What an estimator was fitted with, and to what.
+struct Model {
+  experiments::LogEstimator estimator;
+  experiments::LogFitReport report = {};
+
+  static Model load(const fs::path& path, const std::string& estimator) {
+    return {experiments::log_estimator({.name = estimator, .model = path})};
+  }
+  void save(const fs::path& path) const {
+    const py::gil_scoped_release unlocked;
+    experiments::write_fitted_model(estimator.model, path);
+  }
+};
+
+std::shared_ptr<const std::string> records_of(const py::object& recording) {
+  const recordings::Recording whole =
+      recording_of(recording, recording.attr("info").cast<py::dict>());
+  std::ostringstream stream;
+  recordings::LogWriter writer(stream, whole.info, recordings::truth_of(whole));
+  for (std::size_t k = 0; k < whole.steps(); ++k) {
+    writer.write(whole.observation[k], whole.action[k],
+                 whole.truth.empty() ? nullptr : &whole.truth[k]);
+  }
+  writer.finish();
+  return std::make_shared<const std::string>(stream.str());
+}
+
+using DeclaredRun = std::pair<py::object, std::optional<bool>>;
+
+/// Recordings at hand, or paths to logs.
+Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double skip,
+          const scoring::LabelConfig& labels) {
+  std::vector<experiments::FitLog> logs;
+  for (const auto& [run, contact] : runs) {
+    if (py::hasattr(run, "info")) {
+      logs.push_back({fmt::format("recording {}", logs.size()), contact, records_of(run)});
+    } else {
+      logs.push_back({run.cast<fs::path>(), contact});
+    }
+  }
+  const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
+  if (!entry.fits()) throw InputError(fmt::format("estimator: '{}' is not fitted", name));
+  if (logs.empty()) throw InputError("fit: a recording is missing");
+  return long_call([&](const std::atomic<bool>& stop) {
+    Model model;
+    model.estimator.entry = entry;
+    model.estimator.model = experiments::fit_to_logs(
+        entry, logs, {.labels = labels, .skip = skip, .stop = &stop}, model.report);
+    return model;
+  });
+}
+
+experiments::LogEstimator with_model(const std::string& name, const Model& model) {
+  const experiments::EstimatorEntry& fitted = model.estimator.entry;
+  if (name.empty() || name == fitted.name) return model.estimator;
+  const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
+  if (!share_model(entry, fitted)) {
+    throw InputError(
+        fmt::format("the model is one of '{}', which '{}' cannot use", fitted.name, name));
+  }
+  return {entry, model.estimator.model, {.name = name}};
+}
+
+/// An estimator that listens: to one thread at a time, since a whole run is heard without Python's
+/// lock. Errors: `InputError` when another one asks meanwhile.
+class Estimator {
+ public:
+  Estimator(experiments::LogEstimator which, double sample_rate)
+      : which_(std::move(which)), rate_(sample_rate), made_(which_.make(sample_rate)) {}
+
+  const std::string& name() const { return which_.entry.name; }
+  double sample_rate() const { return rate_; }
+
+  void reset() {
+    const Turn turn(busy_);
+    forget();
+  }
+
+  Belief update(const Signals& signals) {
+    const Turn turn(busy_);
+    ++steps_;
+    return made_->update(signals);
+  }
+
+  Belief update_from_spine(const py::dict& spine, double ground_velocity_command) {
+    const double time = static_cast<double>(steps_) / rate_;
+    return update(recordings::signals_from(observation_of(spine, time), ground_velocity_command));
+  }
+
+  py::dict run(const py::object& arrays) {
+    const SignalArrays signals(arrays);
+    require_rate(signals);
+    const Turn turn(busy_);
+    std::vector<Belief> beliefs(signals.steps());
+    forget();
+    {
+      const py::gil_scoped_release unlocked;
+      for (std::size_t k = 0; k < beliefs.size(); ++k) {
+        if (signals.is_heard(k)) {
+          beliefs[k] = made_->update(signals.at(k));
+        } else if (k > 0) {
+          beliefs[k] = beliefs[k - 1];
+        }
+      }
+    }
+    steps_ = beliefs.size();
+    return arrays_of(std::move(beliefs));
+  }
+
+ private:
+  class Turn {
+   public:
+    explicit Turn(std::atomic<bool>& busy) : busy_(busy) {
+      if (busy_.exchange(true)) throw InputError("this estimator listens in another thread");
+    }
+    ~Turn() { busy_ = false; }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    std::atomic<bool>& busy_;
+  };
+
+  void forget() {
+    made_->reset();
+    steps_ = 0;
+  }
+
+  /// Nobody means to hear a run at another rate; a clock may jitter.
+  void require_rate(const SignalArrays& signals) const {
+    const std::optional<double> period = signals.period();
+    if (!period || (*period * rate_ > 0.8 && *period * rate_ < 1.25)) return;
+    throw InputError(fmt::format(
+        "signals: {:.6g} steps per second, and the estimator was made for {:.6g}: make it with "
+        "sample_rate={:.6g}",
+        1.0 / *period, rate_, 1.0 / *period));
+  }
+
+  experiments::LogEstimator which_;
+  double rate_;
+  std::unique_ptr<ContactEstimator> made_;
+  std::size_t steps_ = 0;
+  std::atomic<bool> busy_ = false;
+};
+
+py::tuple both(const Belief& belief, const auto& of) {
+  return py::make_tuple(of(belief.wheel[0]), of(belief.wheel[1]));
+}
+
+void add_belief(py::module_& module) {
+  py::class_<Belief>(
+      module, "Belief",
+      "What an estimator believes after one step: `p_contact` and `contact` of the left "
+      "and the right wheel, `p_any_wheel`, `p_both_wheels`, and whether the signals "
+      "could be used, `status`: \"good\", \"invalid\", \"gap\" or \"frozen\".")
+      .def_property_readonly("p_contact",
+                             [](const Belief& belief) {
+                               return both(belief, [](auto& wheel) { return wheel.p_contact; });
+                             })
+      .def_property_readonly("contact",
+                             [](const Belief& belief) {
+                               return both(belief, [](auto& wheel) { return wheel.contact; });
+                             })
+      .def_readonly("p_any_wheel", &Belief::p_any_wheel)
+      .def_readonly("p_both_wheels", &Belief::p_both_wheels)
+      .def_property_readonly("status", [](const Belief& belief) { return to_text(belief.status); })
+      .def("__repr__", [](const Belief& belief) {
+        return fmt::format("<Belief: p_contact ({:.6g}, {:.6g}), contact ({}, {}), {}>",
+                           belief.wheel[0].p_contact, belief.wheel[1].p_contact,
+                           belief.wheel[0].contact ? "True" : "False",
+                           belief.wheel[1].contact ? "True" : "False", to_text(belief.status));
+      });
+}
+
+void add_model(py::module_& module) {
+  using namespace py::literals;  // NOLINT(google-build-using-namespace)
+  py::class_<Model>(module, "Model",
+                    "What an estimator was fitted with; `fit` makes one. `estimator`: whose it is; "
+                    "`seconds`: of all runs that it was fitted to; `warnings`: about these.")
+      .def_static(
+          "load", &Model::load, "path"_a, "estimator"_a = "",
+          "Read what `save` or `touchdown fit` wrote. Some models serve several estimators: name "
+          "one, or get the usual one.")
+      .def("save", &Model::save, "path"_a, "Write it as `touchdown fit` does (.npz).")
+      .def_property_readonly("estimator",
+                             [](const Model& model) { return model.estimator.entry.name; })
+      .def_property_readonly("seconds", [](const Model& model) { return model.report.seconds; })
+      .def_property_readonly("warnings", [](const Model& model) { return model.report.warnings; })
+      .def("__repr__", [](const Model& model) {
+        return fmt::format("<Model of '{}'>", model.estimator.entry.name);
+      });
+  module.def(
+      "fit",
+      [](const std::vector<DeclaredRun>& runs, const std::string& estimator, double skip,
+         double force_threshold, double debounce) {
+        return fit(runs, estimator, skip, {force_threshold, debounce});
+      },
+      "runs"_a, "estimator"_a, "skip"_a, "force_threshold"_a, "debounce"_a);
+}
+
+void add_estimator(py::module_& module) {
+  using namespace py::literals;  // NOLINT(google-build-using-namespace)
+  py::class_<Estimator>(
+      module, "Estimator",
+      "An estimator by name (`estimators()` lists them), with its model if it is fitted.\n\n"
+      "name: without it, the one that the model is for\n"
+      "model: what `fit` gave, or a path to what `touchdown fit` wrote\n"
+      "sample_rate: steps per second that it will hear (Hz)")
+      .def(py::init([](const std::string& name, const py::object& model, double sample_rate) {
+             if (py::isinstance<Model>(model)) {
+               return std::make_unique<Estimator>(with_model(name, model.cast<const Model&>()),
+                                                  sample_rate);
+             }
+             const fs::path path = model.is_none() ? fs::path() : model.cast<fs::path>();
+             return std::make_unique<Estimator>(
+                 experiments::log_estimator({.name = name, .model = path}), sample_rate);
+           }),
+           "name"_a = "", "model"_a = py::none(), "sample_rate"_a = 1000.0)
+      .def_property_readonly("name", &Estimator::name)
+      .def_property_readonly("sample_rate", &Estimator::sample_rate)
+      .def("reset", &Estimator::reset, "Forget everything: P(contact) is 0.5.")
+      .def(
+          "update",
+          [](Estimator& estimator, const py::object& signals) {
+            return estimator.update(signals_of_step(signals));
+          },
+          "signals"_a,
+          "One step. signals: `time` (s), `position` (6, rad), `velocity` (6, rad/s), `torque` (6, "
+          "N·m) of the joints, left hip, knee, wheel, then right; `linear_acceleration` (3, m/s², "
+          "without gravity) and `angular_velocity` (3, rad/s) in the IMU's frame; "
+          "`vertical_acceleration` (m/s², upwards), `ground_velocity_command` (m/s, of the step "
+          "before). NaN where a sensor failed.")
+      .def(
+          "update_from_spine", &Estimator::update_from_spine, "observation"_a,
+          "ground_velocity_command"_a = 0.0,
+          "One step, as Upkie's spine describes it: `info[\"spine_observation\"]` of a gym "
+          "environment, or `observation` of a log's record. A torque or another number that is not "
+          "there, or None, is a sensor that failed; without `time`, steps are counted at the "
+          "sample rate. ground_velocity_command: of the step before (m/s).")
+      .def("run", &Estimator::run, "signals"_a,
+           "Reset, then hear a whole run: the arrays of a `Recording`, or any others of the names "
+           "and "
+           "units of `update` with one row per step, and `heard` where some steps have no record. "
+           "Returns `p_contact` (steps, 2) and `contact` (steps, 2, bool) of the wheels, "
+           "`p_any_wheel` and `p_both_wheels` (steps,), `status` (steps,): numbers of `STATUS`.")
+      .def("__repr__", [](const Estimator& estimator) {
+        return fmt::format("<Estimator '{}' at {:.6g} Hz>", estimator.name(),
+                           estimator.sample_rate());
+      });
+}
+
+py::list estimators() {
+  py::list all;
+  for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
+    py::dict about;
+    about["name"] = entry.name;
+    about["title"] = entry.title;
+    about["summary"] = entry.summary;
+    about["fitted"] = entry.fits().has_value();
+    all.append(about);
+  }
+  return all;
+}
+
+}  // namespace
+
+void add_estimators(py::module_& module) {
+  add_belief(module);
+  add_model(module);
+  add_estimator(module);
+  module.def("estimators", &estimators);
+}
+
+}  // namespace touchdown::python

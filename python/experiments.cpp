@@ -1,0 +1,96 @@
+#include "python/experiments.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "core/resources.hpp"
+#include "experiments/config/yaml_kind.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/run_experiment.hpp"
+#include "python/guests.hpp"
+#include "python/long_call.hpp"
+
+namespace touchdown::python {
+
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+/// An experiment as a caller has it: a file, or what would stand in one.
+struct Asked {
+  fs::path file;
+  std::optional<std::string> text;
+  std::vector<std::string> assignments;
+};
+
+YamlDocument document_of(const Asked& asked) {
+  YamlDocument document = asked.text ? YamlDocument::parse(*asked.text, asked.file)
+                                     : YamlDocument::load(find_resource(asked.file));
+  for (const std::string& assignment : asked.assignments) document.override_value(assignment);
+  experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
+  return document;
+}
+
+/// The estimators that an experiment asks for and that are written in Python, by name.
+std::vector<std::string> python_estimators(const Asked& asked) {
+  std::vector<std::string> names;
+  const YamlDocument document = document_of(asked);
+  const YAML::Node given = document.root()["estimators"];
+  if (!given || !given.IsSequence()) return names;
+  for (const auto& item : given) {
+    if (item.IsScalar() && item.Scalar().starts_with(experiments::python_prefix)) {
+      names.push_back(item.Scalar());
+    }
+  }
+  return names;
+}
+
+struct Finished {
+  fs::path directory;
+  std::string id;
+  std::vector<std::string> studies;
+  std::vector<std::string> failed_demands;
+};
+
+py::dict run(const Asked& asked, const fs::path& out, bool overwrite, const std::string& command,
+             const py::list& guests) {
+  const experiments::GuestEstimators present(guests_of(guests));
+  const Finished finished = long_call([&](const std::atomic<bool>& stop) {
+    const experiments::ExperimentResult result = experiments::run_experiment(
+        experiments::experiment_from_yaml(document_of(asked)),
+        {.out = out, .command = command, .stop = &stop, .overwrite = overwrite});
+    return Finished{result.directory.path(), result.id, result.studies, result.failed_demands};
+  });
+  py::dict about;
+  about["path"] = finished.directory;
+  about["id"] = finished.id;
+  about["studies"] = finished.studies;
+  about["failed_demands"] = finished.failed_demands;
+  return about;
+}
+
+}  // namespace
+
+void add_experiments(py::module_& module) {
+  using namespace py::literals;  // NOLINT(google-build-using-namespace)
+  module.def(
+      "python_estimators",
+      [](const fs::path& experiment, const std::optional<std::string>& text,
+         const std::vector<std::string>& assignments) {
+        return python_estimators({experiment, text, assignments});
+      },
+      "experiment"_a, "text"_a, "assignments"_a);
+  module.def(
+      "run",
+      [](const fs::path& experiment, const std::optional<std::string>& text,
+         const std::vector<std::string>& assignments, const fs::path& out, bool overwrite,
+         const std::string& command, const py::list& guests) {
+        return run({experiment, text, assignments}, out, overwrite, command, guests);
+      },
+      "experiment"_a, "text"_a, "assignments"_a, "out"_a, "overwrite"_a, "command"_a, "guests"_a);
+}
+
+}  // namespace touchdown::python

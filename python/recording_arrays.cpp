@@ -1,0 +1,210 @@
+#include "python/recording_arrays.hpp"
+
+#include <algorithm>
+#include <array>
+#include <pybind11/stl.h>
+
+#include "recordings/signals_from.hpp"
+#include "scoring/labels.hpp"
+
+namespace touchdown::python {
+
+namespace {
+
+using Quaternion = std::array<double, 4>;  ///< w x y z
+using PerServo = std::array<double, models::servo_count>;
+
+/// What stands in a row, by name: `visit` is called with the first number, how many there are and
+/// how many bytes they are from each other.
+template <typename Visit>
+void for_each_member(models::Observation& row, const Visit& visit) {
+  models::ServoReading& servo = row.servo[0];
+  visit("time", row.time, 0, 0);
+  visit("position", servo.position, models::servo_count, sizeof servo);
+  visit("velocity", servo.velocity, models::servo_count, sizeof servo);
+  visit("torque", servo.torque, models::servo_count, sizeof servo);
+  visit("angular_velocity", row.imu.angular_velocity.x(), 3, sizeof(double));
+  visit("linear_acceleration", row.imu.linear_acceleration.x(), 3, sizeof(double));
+  visit("raw_linear_acceleration", row.imu.raw_linear_acceleration.x(), 3, sizeof(double));
+  visit("pitch", row.pitch, 0, 0);
+  visit("pitch_rate", row.pitch_rate, 0, 0);
+  visit("yaw", row.yaw, 0, 0);
+  visit("yaw_rate", row.yaw_rate, 0, 0);
+}
+
+template <typename Visit>
+void for_each_member(models::Action& row, const Visit& visit) {
+  models::ServoCommand& servo = row.servo[0];
+  const auto per_servo = [&](const char* name, double& first) {
+    visit(name, first, models::servo_count, sizeof servo);
+  };
+  per_servo("command_position", servo.position);
+  per_servo("command_velocity", servo.velocity);
+  per_servo("command_feedforward_torque", servo.feedforward_torque);
+  per_servo("command_kp_scale", servo.kp_scale);
+  per_servo("command_kd_scale", servo.kd_scale);
+  per_servo("command_maximum_torque", servo.maximum_torque);
+}
+
+template <typename Visit>
+void for_each_member(models::GroundTruth& row, const Visit& visit) {
+  visit("normal_force", row.wheel_normal_force[0], models::wheel_count, sizeof(double));
+  visit("base_position", row.base_position.x(), 3, sizeof(double));
+  visit("base_linear_velocity", row.base_linear_velocity.x(), 3, sizeof(double));
+  visit("base_angular_velocity", row.base_angular_velocity.x(), 3, sizeof(double));
+  visit("imu_linear_velocity", row.imu_linear_velocity.x(), 3, sizeof(double));
+}
+
+/// One row of numbers per step, which do not stand like that in memory.
+template <std::size_t columns, typename Row, typename Of>
+py::array_t<double> copied(const std::vector<Row>& rows, const Of& of) {
+  std::vector<std::array<double, columns>> values;
+  values.reserve(rows.size());
+  for (const Row& row : rows) values.push_back(of(row));
+  SharedRows<std::array<double, columns>> shared(std::move(values));
+  return shared.view(shared.front().data(), columns);
+}
+
+Quaternion in_order(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+template <typename Row>
+void add_views(py::dict& arrays, SharedRows<Row>& rows) {
+  for_each_member(
+      rows.front(), [&](const char* name, double& first, std::size_t columns, std::size_t apart) {
+        arrays[name] = columns > 0 ? rows.view(&first, columns, apart) : rows.view(&first);
+      });
+}
+
+/// What the truth has besides its numbers, and the labels by their usual definition.
+void add_truth(py::dict& arrays, recordings::Recording& recording) {
+  arrays["base_orientation"] =
+      copied<4>(recording.truth, [](const auto& row) { return in_order(row.base_orientation); });
+  if (recording.truth.front().joint_torque) {
+    arrays["joint_torque"] = copied<models::servo_count>(
+        recording.truth, [](const auto& row) { return row.joint_torque.value_or(PerServo{}); });
+  }
+  const auto labels = scoring::contact_labels(recording, {});
+  std::vector<std::array<bool, models::wheel_count>> contact;
+  contact.reserve(recording.steps());
+  for (std::size_t k = 0; k < recording.steps(); ++k) {
+    contact.push_back({labels[0][k] != 0, labels[1][k] != 0});
+  }
+  SharedRows<std::array<bool, models::wheel_count>> shared(std::move(contact));
+  arrays["contact"] = shared.view(shared.front().data(), models::wheel_count);
+  SharedRows<models::GroundTruth> rows(std::move(recording.truth));
+  add_views(arrays, rows);
+  arrays["body_touches_terrain"] = rows.view(&rows.front().body_touches_terrain);
+}
+
+/// What estimators hear and no row holds as such.
+void add_heard(py::dict& arrays, const recordings::Recording& recording) {
+  std::vector<double> vertical_acceleration;
+  std::vector<double> command = {0.0};
+  for (std::size_t k = 0; k < recording.steps(); ++k) {
+    vertical_acceleration.push_back(
+        recordings::signals_from(recording.observation[k], 0.0).vertical_acceleration);
+    command.push_back(recordings::ground_velocity_command(recording.action[k]));
+  }
+  command.pop_back();  // answers the last step
+  arrays["vertical_acceleration"] = array_of(std::move(vertical_acceleration));
+  arrays["ground_velocity_command"] = array_of(std::move(command));
+}
+
+template <typename Row>
+std::vector<Row> rows_from(ArrayMap& map) {
+  std::vector<Column> columns;
+  Row example;
+  for_each_member(
+      example, [&](const char* name, double& /*first*/, std::size_t count, std::size_t /*apart*/) {
+        columns.push_back(map.column(name, count));
+      });
+  std::vector<Row> rows(map.steps());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    auto column = columns.begin();
+    for_each_member(rows[k],
+                    [&](const char* /*name*/, double& first, std::size_t count, std::size_t apart) {
+                      auto* const bytes = reinterpret_cast<char*>(&first);
+                      for (std::size_t i = 0; i < std::max<std::size_t>(count, 1); ++i) {
+                        *reinterpret_cast<double*>(bytes + i * apart) = (*column)(k, i);
+                      }
+                      ++column;
+                    });
+  }
+  return rows;
+}
+
+template <typename Row, typename Member>
+void read_quaternions(ArrayMap& map, const char* name, std::vector<Row>& rows,
+                      const Member& member) {
+  const Column q = map.column(name, 4);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    member(rows[k]) = Eigen::Quaterniond(q(k, 0), q(k, 1), q(k, 2), q(k, 3));
+  }
+}
+
+std::vector<models::GroundTruth> truth_from(ArrayMap& map) {
+  std::vector<models::GroundTruth> rows = rows_from<models::GroundTruth>(map);
+  read_quaternions(
+      map, "base_orientation", rows, [](auto& row) -> auto& { return row.base_orientation; });
+  const Column touches = map.column("body_touches_terrain");
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].body_touches_terrain = touches(k) != 0.0;
+  if (!map.has("joint_torque")) return rows;
+  const Column torque = map.column("joint_torque", models::servo_count);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    PerServo& joints = rows[k].joint_torque.emplace();
+    for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = torque(k, i);
+  }
+  return rows;
+}
+
+}  // namespace
+
+py::dict arrays_of(recordings::Recording recording) {
+  py::dict derived;
+  derived["orientation"] = copied<4>(recording.observation,
+                                     [](const auto& row) { return in_order(row.imu.orientation); });
+  add_heard(derived, recording);
+  if (!recording.truth.empty()) add_truth(derived, recording);
+  py::dict arrays;
+  SharedRows<models::Observation> observation(std::move(recording.observation));
+  add_views(arrays, observation);
+  arrays.attr("update")(derived);
+  SharedRows<models::Action> action(std::move(recording.action));
+  add_views(arrays, action);
+  return arrays;
+}
+
+py::dict dict_of(const recordings::RecordingInfo& info) {
+  py::dict dict;
+  dict["scenario"] = info.scenario;
+  dict["simulator"] = info.simulator;
+  dict["seed"] = info.seed;
+  dict["run"] = info.run;
+  dict["control_period_us"] = info.control_period_us;
+  dict["outcome"] = info.outcome ? py::cast(recordings::to_text(*info.outcome)) : py::none();
+  dict["scenario_yaml"] = info.scenario_yaml;
+  return dict;
+}
+
+recordings::Recording recording_of(const py::object& arrays, const py::dict& info) {
+  recordings::Recording recording;
+  recording.info.scenario = info["scenario"].cast<std::string>();
+  recording.info.simulator = info["simulator"].cast<std::string>();
+  recording.info.seed = info["seed"].cast<std::uint64_t>();
+  recording.info.run = info["run"].cast<std::int64_t>();
+  recording.info.control_period_us = info["control_period_us"].cast<std::int64_t>();
+  if (!info["outcome"].is_none()) {
+    recording.info.outcome = recordings::outcome_from_text(info["outcome"].cast<std::string>());
+  }
+  recording.info.scenario_yaml = info["scenario_yaml"].cast<std::string>();
+  ArrayMap map(arrays, "recording");
+  recording.observation = rows_from<models::Observation>(map);
+  read_quaternions(
+      map, "orientation", recording.observation,
+      [](auto& row) -> auto& { return row.imu.orientation; });
+  recording.action = rows_from<models::Action>(map);
+  if (map.has("base_position")) recording.truth = truth_from(map);
+  return recording;
+}
+
+}  // namespace touchdown::python

@@ -1,0 +1,5 @@
+import sys
+
+from touchdown.experiment import main
+
+sys.exit(main())

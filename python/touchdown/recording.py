@@ -1,0 +1,152 @@
+"""Runs as dicts of NumPy arrays: simulated, read, written, fitted to, scored."""
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable, Mapping
+
+import numpy as np
+
+from touchdown import _touchdown
+from touchdown._touchdown import InputError, Model
+from touchdown.overrides import assignments
+
+Path = str | os.PathLike
+
+
+class Recording(dict):
+    """One run: a dict of NumPy arrays with one row per control step, and `info`, where it comes from.
+
+    What the robot measures and commands, all float64:
+
+    ========================== ========== ========= ============================================================
+    `time`                     (steps,)   s         since the run began
+    `position`                 (steps, 6) rad       of the joints
+    `velocity`                 (steps, 6) rad/s
+    `torque`                   (steps, 6) N·m       as the servos report them
+    `orientation`              (steps, 4)           of the IMU, w x y z, to x forward, y right, z down
+    `angular_velocity`         (steps, 3) rad/s     of the IMU, in its own frame (x back, y left, z down)
+    `linear_acceleration`      (steps, 3) m/s²      likewise, without gravity
+    `raw_linear_acceleration`  (steps, 3) m/s²      likewise, with it
+    `vertical_acceleration`    (steps,)   m/s²      `linear_acceleration` along the world's upward vertical
+    `ground_velocity_command`  (steps,)   m/s       of the step before
+    `pitch`, `yaw`             (steps,)   rad       of the base; rates: `pitch_rate`, `yaw_rate` (rad/s)
+    `command_position`, …      (steps, 6)           what the servos are told: also `_velocity`,
+                                                    `_feedforward_torque`, `_kp_scale`, `_kd_scale`,
+                                                    `_maximum_torque`
+    ========================== ========== ========= ============================================================
+
+    And the truth, of simulated runs:
+
+    ========================== ========== ========= ============================================================
+    `contact`                  (steps, 2) bool      more than 1 N, debounced by 5 ms (`contact_labels`)
+    `normal_force`             (steps, 2) N         between tyre and terrain
+    `base_position`            (steps, 3) m         world: x forward, y left, z up
+    `base_orientation`         (steps, 4)           w x y z, from base to world
+    `base_linear_velocity`     (steps, 3) m/s       in the world
+    `base_angular_velocity`    (steps, 3) rad/s     likewise
+    `imu_linear_velocity`      (steps, 3) m/s       likewise
+    `body_touches_terrain`     (steps,)   bool      the robot has fallen
+    `joint_torque`             (steps, 6) N·m       what joints feel, of robots whose actuators are not ideal
+    ========================== ========== ========= ============================================================
+
+    Most arrays look into the memory of the run, which lives as long as any of them. They are yours:
+    what you write into them is heard by `Estimator.run`, fitted to, and saved.
+    """
+
+    def __init__(self, arrays: Mapping[str, np.ndarray], info: Mapping[str, Any]):
+        super().__init__(arrays)
+        #: `scenario`, `simulator`, `seed`, `run`, `control_period_us`, `outcome` ("finished",
+        #: "timed_out", "fell", "diverged", or None), `scenario_yaml`.
+        self.info: dict[str, Any] = dict(info)
+
+    @classmethod
+    def load(cls, path: Path) -> Recording:
+        """Read a log in Upkie's layout (`.mpack`): a robot's, or one that touchdown wrote."""
+        return cls(*_touchdown.load(path))
+
+    def save(self, path: Path) -> None:
+        """Write it as such a log, whole or not at all, to the byte as `touchdown simulate` does."""
+        _touchdown.save(self, self.info, path)
+
+    @property
+    def period(self) -> float:
+        """Between two steps (s)."""
+        return 1e-6 * self.info["control_period_us"]
+
+    @property
+    def sample_rate(self) -> float:
+        """Steps per second (Hz)."""
+        return 1e6 / self.info["control_period_us"]
+
+    @property
+    def steps(self) -> int:
+        """How many there are."""
+        return len(self["time"])
+
+    def __repr__(self) -> str:
+        of = " of ".join(filter(None, (self.info["scenario"], self.info["simulator"]))) or "a robot's log"
+        return f"<Recording: {of}, {self.steps} steps of {1e3 * self.period:g} ms>"
+
+
+def simulate(scenario: Path, simulator: str = "mujoco", *, seed: int = 1, run: int | None = None,
+             overrides: Mapping[str, Any] | Iterable[str] | None = None) -> Recording:
+    """Play one run of a scenario file, as `touchdown simulate` does.
+
+    scenario: a path, or one of the shipped ones ("scenarios/stairs.yaml")
+    simulator: one of `simulators()`
+    run: draws the perturbations of this run from `seed`; without it, the scenario as it stands
+    overrides: values of the scenario to change, by dotted key: {"end.duration": 5}
+    """
+    return Recording(*_touchdown.simulate(scenario, simulator, seed, run, assignments(overrides)))
+
+
+def contact_labels(normal_force: Any, period: float, *, force_threshold: float = 1.0,
+                   debounce: float = 0.005) -> np.ndarray:
+    """When wheels touch, from their normal forces: (steps, 2) in N → (steps, 2) of bool.
+
+    period: between two steps (s)
+    force_threshold: in contact above it (N)
+    debounce: shorter states are merged into their neighbours (s)
+    """
+    return _touchdown.contact_labels(normal_force, period, force_threshold, debounce)
+
+
+def _several(runs: Any) -> list:
+    return [runs] if isinstance(runs, (dict, str, os.PathLike)) else list(runs)
+
+
+def fit(runs: Any = (), estimator: str = "robust", *, contact: Any = (), no_contact: Any = (), skip: float = 0.3,
+        force_threshold: float = 1.0, debounce: float = 0.005) -> Model:
+    """Fit an estimator's model, as `touchdown fit` does.
+
+    runs: a `Recording` with ground truth, or a path to one, or several
+    contact, no_contact: likewise, runs in which both wheels touch, or neither does, all the time
+    skip: not used at the beginning of each (s)
+    force_threshold, debounce: what contact is (`contact_labels`)
+    """
+    declared = [(one, None) for one in _several(runs)]
+    declared += [(one, True) for one in _several(contact)]
+    declared += [(one, False) for one in _several(no_contact)]
+    for one, _ in declared:
+        if isinstance(one, dict) and not isinstance(one, Recording):
+            raise InputError("fit: expected a Recording, which knows its scenario and seed, or a path; found a dict")
+    return _touchdown.fit(declared, estimator, skip, force_threshold, debounce)
+
+
+def score(beliefs: Any, recording: Mapping[str, np.ndarray], *, skip: float = 0.3, hold_off: float = 0.25,
+          takeoff_opens: float = 0.06, landing_opens: float = 0.02,
+          minimum_flight: float = 0.05) -> dict[str, dict[str, float]]:
+    """Score beliefs about a run by the definitions of docs/metrics.md.
+
+    beliefs: what `Estimator.run` gives, or an array of probabilities or decisions, (steps, 2) for the
+        wheels or (steps,) for both
+    recording: has `contact`, (steps, 2), and its period, or `time`
+
+    Returns by view ("wheels": both pooled, "left_wheel", "right_wheel", "any_wheel", "both_wheels")
+    and metric ("success", "takeoff_latency_ms", …) a number; NaN where it is not defined.
+    """
+    if "contact" not in recording:
+        raise InputError("score: the recording has no ground truth: 'contact' is missing")
+    period = recording.period if isinstance(recording, Recording) else float(np.median(np.diff(recording["time"])))
+    return _touchdown.score(beliefs, recording["contact"], period, skip, hold_off, takeoff_opens, landing_opens,
+                            minimum_flight)

@@ -1,0 +1,41 @@
+"""Beliefs in Upkie's gym environments."""
+from __future__ import annotations
+
+from typing import Any, Callable
+
+from touchdown._touchdown import Estimator
+
+
+class ContactWrapper:
+    """An environment whose `info["contact"]` is what an estimator believes of `info["spine_observation"]`.
+
+    env: any of Upkie's; everything else of it is as it was
+    estimator: made for the environment's frequency (`sample_rate`, Hz)
+    ground_velocity: of an action (m/s), for estimators that hear commands: the neural network is one
+    """
+
+    def __init__(self, env: Any, estimator: Estimator, ground_velocity: Callable[[Any], float] | None = None):
+        self.env = env
+        self.estimator = estimator
+        self.ground_velocity = ground_velocity
+        self._command = 0.0
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.env, name)
+
+    def _with_belief(self, info: dict[str, Any]) -> dict[str, Any]:
+        return {**info, "contact": self.estimator.update_from_spine(info["spine_observation"], self._command)}
+
+    def reset(self, **options: Any) -> tuple[Any, dict[str, Any]]:
+        """Resets both."""
+        observation, info = self.env.reset(**options)
+        self.estimator.reset()
+        self._command = 0.0
+        return observation, self._with_belief(info)
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """One step of both. The command that an estimator hears is the one before."""
+        observation, reward, terminated, truncated, info = self.env.step(action)
+        if self.ground_velocity is not None:
+            self._command = float(self.ground_velocity(action))
+        return observation, reward, terminated, truncated, self._with_belief(info)

@@ -1,0 +1,113 @@
+#include "recordings/models/header.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "estimator/models/make_estimator.hpp"
+#include "estimator/models/parameters.hpp"
+#include "onboard/model_needs.hpp"
+#include "recordings/models/model_file.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+using Text = std::back_insert_iterator<std::string>;
+
+bool are_floats(const NpyArray& array) {
+  return std::all_of(array.data.begin(), array.data.end(), [](double value) {
+    return static_cast<double>(static_cast<float>(value)) == value;
+  });
+}
+
+template <typename Number>
+void put_numbers(std::string& text, const std::vector<double>& data, const char* suffix) {
+  std::size_t line = text.size();
+  for (const double value : data) {
+    if (text.size() > line + 90) {
+      text += '\n';
+      line = text.size();
+    }
+    // "#" leaves no number without a point.
+    fmt::format_to(Text(text), "{:#}{},", static_cast<Number>(value), suffix);
+  }
+}
+
+/// Any byte in a literal of C++.
+void put_text(std::string& text, const std::string& value) {
+  text += '"';
+  for (const char c : value) {
+    if (c == '\n') {
+      text += "\\n\"\n\"";
+    } else if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20) {
+      fmt::format_to(Text(text), "\\{:03o}", static_cast<unsigned char>(c));
+    } else {
+      text += c;
+    }
+  }
+  text += '"';
+}
+
+/// The arrays with a passport, whether they had one or not.
+NpzArrays with_passport(NpzArrays arrays, const ModelUse& use) {
+  ModelPassport passport = passport_for(arrays, use);
+  if (!passport_of(arrays)) {
+    passport.robot = use.robot;
+    passport.configuration = default_configuration(passport.estimator, passport.sample_rate);
+    add_passport(arrays, passport);
+  }
+  make_estimator(arrays);  // says what is wrong with it now rather than on the robot
+  return arrays;
+}
+
+std::string header_of(const NpzArrays& arrays, const std::string& source, const std::string& name) {
+  const ModelPassport passport = *passport_of(arrays);
+  std::string text = fmt::format(
+      "#pragma once\n\n"
+      "// {}, written by `touchdown export`: fitted for '{}' at {:.6g} Hz to the robot '{}',\n"
+      "// fingerprint {}. touchdown::make_estimator(touchdown::compiled::{}) makes the "
+      "estimator.\n\n"
+      "// clang-format off\n"
+      "#include <touchdown/estimator.hpp>\n\nnamespace touchdown::compiled {{\n\n",
+      source, passport.estimator, passport.sample_rate,
+      passport.robot.empty() ? "unknown" : passport.robot, passport.fingerprint, name);
+  std::string table = fmt::format("inline constexpr CompiledArray {}[] = {{\n", name);
+  for (const auto& [key, array] : arrays) {
+    const std::string own = fmt::format("{}_{}", name, key);
+    const char* pointers = nullptr;
+    if (is_text_array(key)) {
+      text += fmt::format("inline constexpr char {}[] =\n", own);
+      put_text(text, text_of_array(array, key));
+      text += ";\n";
+      pointers = "nullptr, nullptr, {}";
+    } else if (are_floats(array)) {
+      text += fmt::format("inline constexpr float {}[] = {{\n", own);
+      put_numbers<float>(text, array.data, "F");
+      text += "};\n";
+      pointers = "nullptr, {}, nullptr";
+    } else {
+      text += fmt::format("inline constexpr double {}[] = {{\n", own);
+      put_numbers<double>(text, array.data, "");
+      text += "};\n";
+      pointers = "{}, nullptr, nullptr";
+    }
+    fmt::format_to(Text(table), "    {{\"{}\", {}, {}, {}}},\n", key, array.rows(),
+                   array.shape.size() < 2 ? 0 : array.columns(),
+                   fmt::format(fmt::runtime(pointers), own));
+  }
+  return text + "\n" + table + "};\n\n}  // namespace touchdown::compiled\n";
+}
+
+}  // namespace
+
+std::string header_of_model(const std::filesystem::path& path, const std::string& name,
+                            const ModelUse& use) {
+  return made_of_npz(path, model_needs(path), [&](const NpzArrays& arrays) {
+    return header_of(with_passport(arrays, use), path.filename().string(), name);
+  });
+}
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "estimator/models/passport.hpp"
+#include "recordings/models/npz.hpp"
+
+namespace touchdown::recordings {
+
+/// Longer than any text in a model.
+inline constexpr std::size_t most_text = std::size_t{1} << 20U;
+
+/// What `make` makes of a model's file; the file's passport, or that it has none, goes to
+/// `passport` if given. Errors: `InputError` that names the file.
+template <typename Make>
+auto read_model(const std::filesystem::path& path, const NpzNeeds& needs,
+                std::optional<ModelPassport>* passport, const Make& make) {
+  return made_of_npz(path, needs, [&](const NpzArrays& arrays) {
+    // Read in any case: numbers that were changed are no model.
+    std::optional<ModelPassport> written = passport_of(arrays);
+    if (passport != nullptr) *passport = std::move(written);
+    return make(arrays);
+  });
+}
+
+/// Writes a model's arrays, with its passport if it has one. Errors: `Error`.
+void write_model(NpzArrays arrays, const std::filesystem::path& path,
+                 const std::optional<ModelPassport>& passport);
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,153 @@
+#include "render/odometry/errors_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "experiments/odometry/contact_sources.hpp"
+#include "render/gnuplot/frame.hpp"
+#include "render/gnuplot/text.hpp"
+#include "render/report/tables.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+constexpr double row_height = 27.0, names_width = 200.0, panel_width = 330.0, gap_x = 26.0;
+
+/// The values of one member, each once, in the order of the rows.
+std::vector<std::string> each(const std::vector<OdometryError>& errors,
+                              std::string OdometryError::*member) {
+  std::vector<std::string> values;
+  for (const OdometryError& error : errors) {
+    const std::string& value = error.*member;
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  }
+  return values;
+}
+
+/// Who tells, by the mean over scenes and engines, the best first.
+std::vector<std::string> ranked(const std::vector<OdometryError>& errors) {
+  std::vector<std::string> contacts = each(errors, &OdometryError::contact);
+  const auto sum = [&](const std::string& contact) {
+    double all = 0.0;
+    for (const OdometryError& error : errors) {
+      if (error.contact == contact && !std::isnan(error.rms.estimate)) all += error.rms.estimate;
+    }
+    return all;
+  };
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [&](const auto& a, const auto& b) { return sum(a) < sum(b); });
+  return contacts;
+}
+
+std::string described(const std::vector<OdometryError>& errors) {
+  std::string text = "Root mean square error of odometry.";
+  for (const OdometryError& error : errors) {
+    fmt::format_to(std::back_inserter(text), " {}, {}, {}: {:.3f} m;", error.scene,
+                   simulators::simulator_title(error.simulator),
+                   experiments::contact_title(error.contact), error.rms.estimate);
+  }
+  text.back() = '.';
+  return text;
+}
+
+}  // namespace
+
+std::vector<OdometryError> odometry_errors(const std::filesystem::path& run_directory) {
+  const std::filesystem::path file = run_directory / "tables" / "odometry.csv";
+  if (!std::filesystem::exists(file)) return {};
+  const Table table = from_csv(read_file(file));
+  std::vector<OdometryError> errors;
+  for (const std::vector<std::string>& row : table.rows) {
+    const auto cell = [&](const char* name) {
+      const auto found = std::find(table.header.begin(), table.header.end(), name);
+      const auto index = static_cast<std::size_t>(found - table.header.begin());
+      return index < row.size() ? row[index] : std::string("nan");
+    };
+    errors.push_back(
+        {cell("simulator"),
+         cell("scenario"),
+         cell("contact"),
+         cell("robot"),
+         cell("sensors"),
+         {number(cell("rms_m")), number(cell("rms_m_low")), number(cell("rms_m_high"))}});
+  }
+  return errors;
+}
+
+Figure draw_odometry_figure(const std::vector<OdometryError>& errors, double level,
+                            const std::filesystem::path& stem) {
+  const std::vector<std::string> contacts = ranked(errors);
+  const std::vector<std::string> scenes = each(errors, &OdometryError::scene);
+  const std::vector<std::string> engines = each(errors, &OdometryError::simulator);
+  const double height = row_height * static_cast<double>(contacts.size());
+  const FigureFrame frame(
+      fmt::format("How wrong odometry is, by who tells it about contact: {}, {} sensors",
+                  errors.front().robot, errors.front().sensors),
+      fmt::format(
+          "Root mean square error of the horizontal place along the way, the first pose "
+          "being right, with {:.0f} % bootstrap intervals over runs. The same filter and the "
+          "same sensors everywhere; oracles repeat the truth, at once or late.",
+          100.0 * level),
+      names_width + static_cast<double>(scenes.size()) * (panel_width + gap_x), height + 96.0);
+  std::string names;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    names +=
+        fmt::format("{}{} {}", i > 0 ? ", " : "",
+                    gnuplot_text(experiments::contact_title(contacts[i])), contacts.size() - 1 - i);
+  }
+  const std::string file = gnuplot_text(stem.filename().string() + ".dat");
+  std::string data = "#rms\tlow\thigh\theight\n";
+  std::string commands = "set grid noytics\nset border 1\nset xtics nomirror\n";
+  std::size_t block = 0;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    commands += frame.panel(names_width + static_cast<double>(s) * (panel_width + gap_x), 24.0,
+                            panel_width, height);
+    commands += fmt::format(
+        "set title {} offset 0,-0.6\nset yrange [-0.6:{}]\nset xrange [0:*]\nset xlabel 'RMS error "
+        "(m)'\n{}\n{}\nplot ",
+        gnuplot_text(scenes[s]), static_cast<double>(contacts.size()) - 0.4,
+        s == 0 ? fmt::format("set ytics scale 0 ({})", names) : std::string("unset ytics"),
+        s == 0 ? fmt::format("set key at graph -0.08, graph {:.3f} right bottom", -62.0 / height)
+               : std::string("unset key"));
+    for (std::size_t e = 0; e < engines.size(); ++e, ++block) {
+      const double offset = 0.16 * (1.0 - 2.0 * static_cast<double>(e));
+      for (const OdometryError& error : errors) {
+        if (error.scene != scenes[s] || error.simulator != engines[e]) continue;
+        const auto place = std::find(contacts.begin(), contacts.end(), error.contact);
+        fmt::format_to(std::back_inserter(data), "{}\t{}\t{}\t{}\n", number(error.rms.estimate),
+                       number(error.rms.low), number(error.rms.high),
+                       static_cast<double>(contacts.end() - place - 1) + offset);
+      }
+      data += "\n\n";
+      commands += fmt::format(
+          "{}{} index {} using 1:4:2:3 with xerrorbars lt {} lw 1.6 dt 1 pt 7 ps 0.8 title {}",
+          e > 0 ? ", " : "", file, block, e + 1,
+          gnuplot_text(std::string(simulators::simulator_title(engines[e]))));
+    }
+    commands += '\n';
+    commands += FigureFrame::end_panel();
+  }
+  return frame.draw(stem, commands, data, described(errors));
+}
+
+void draw_odometry_figures(const std::filesystem::path& run_directory, double level) {
+  const std::vector<OdometryError> all = odometry_errors(run_directory);
+  for (auto first = all.begin(); first != all.end();) {
+    const auto last = std::find_if(first, all.end(), [&](const OdometryError& error) {
+      return error.robot != first->robot || error.sensors != first->sensors;
+    });
+    draw_odometry_figure(
+        {first, last}, level,
+        run_directory / "figures" / fmt::format("odometry_{}_{}", first->robot, first->sensors));
+    first = last;
+  }
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "policies/wheel_contact.hpp"
+#include "scenarios/scenario.hpp"
+#include "simulators/simulator.hpp"
+
+namespace touchdown::scenarios {
+
+/// Who tells the scenario's policy about contact, `policy.late` seconds late. `truth` is an oracle:
+/// it looks at `simulator`, which must outlive what is returned.
+policies::WheelContact policy_contact(const Scenario& scenario,
+                                      const simulators::Simulator& simulator);
+
+}  // namespace touchdown::scenarios

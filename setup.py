@@ -1,0 +1,39 @@
+"""The part of `pip install .` that compiles: CMake builds the module and says what belongs to the package."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+SOURCE = pathlib.Path(__file__).resolve().parent
+
+
+class BuildByCMake(build_ext):
+    """In a build folder of its own, or in the one that TOUCHDOWN_BUILD names, which is configured already."""
+
+    def build_extension(self, ext):
+        given = os.environ.get("TOUCHDOWN_BUILD")
+        build = pathlib.Path(given or self.build_temp).resolve()
+        if not given:
+            subprocess.run(["cmake", "--preset", "program", "-S", SOURCE, "-B", build, "-DTOUCHDOWN_PYTHON=ON",
+                            f"-DPython_EXECUTABLE={sys.executable}"], cwd=SOURCE, check=True)
+        subprocess.run(["cmake", "--build", build, "--target", "touchdown_python"], check=True)
+        # Where a package's files belong, and from where one that is installed in place is imported.
+        package = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parent
+        with tempfile.TemporaryDirectory() as stage:
+            subprocess.run(["cmake", "--install", build, "--component", "python", "--prefix", stage, "--strip"],
+                           check=True)
+            installed, = pathlib.Path(stage).rglob("touchdown/__init__.py")
+            shutil.copytree(installed.parent, package, dirs_exist_ok=True)
+
+
+setup(
+    version=re.search(r"VERSION ([\d.]+) LANGUAGES", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"))[1],
+    ext_modules=[Extension("touchdown._touchdown", sources=[])],
+    cmdclass={"build_ext": BuildByCMake},
+)

@@ -1,0 +1,144 @@
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "onboard/load_estimator.hpp"
+#include "program.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "recordings/models/npz.hpp"
+#include "synthetic_log.hpp"
+
+namespace touchdown::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A model that `fit` made of a log, and what becomes of it.
+class Passport : public ::testing::Test {
+ protected:
+  Passport() {
+    log("a.mpack", test::synthetic_log(3.0));
+    run("fit a.mpack -o m.npz --robot tall --grid 60 60");
+  }
+
+  void log(const std::string& name, const recordings::Recording& recording) const {
+    recordings::write_recording(recording, folder_ / name);
+  }
+
+  std::string run(const std::string& arguments) const {
+    const Ended ended = touchdown_program(arguments, folder_.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    return ended.output;
+  }
+
+  std::string complaint_about(const std::string& arguments) const {
+    const Ended ended = touchdown_program(arguments, folder_.path());
+    EXPECT_EQ(ended.exit_code, 2) << ended.errors;
+    EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
+    return ended.errors;
+  }
+
+  const ScratchFolder folder_;
+};
+
+TEST_F(Passport, SaysForWhomAtWhichRateAndToWhatAModelWasFitted) {
+  const ModelPassport passport = load_passport(folder_ / "m.npz");
+  EXPECT_EQ(passport.estimator, "robust");
+  EXPECT_EQ(passport.sample_rate, 1000.0);
+  EXPECT_EQ(passport.robot, "tall");
+  EXPECT_EQ(passport.configuration.at("transition.switch.offset"), "50");
+  EXPECT_THAT(run("estimate a.mpack --model m.npz"),
+              HasSubstr("model        m.npz: fitted for 'robust' at 1000 Hz to 'tall', "
+                        "fingerprint " +
+                        passport.fingerprint + "\n"));
+}
+
+TEST_F(Passport, OfASimulatedLogNamesItsRobot) {
+  recordings::Recording simulated = test::synthetic_log(3.0);
+  simulated.info.scenario_yaml = "name: x\nrobot: models/upkie_heavy.yaml\n";
+  log("heavy.mpack", simulated);
+  run("fit heavy.mpack -o heavy.npz");
+  EXPECT_EQ(load_passport(folder_ / "heavy.npz").robot, "upkie_heavy");
+  run("estimate heavy.mpack --model heavy.npz");
+  EXPECT_THAT(complaint_about("estimate heavy.mpack --model m.npz"),
+              HasSubstr("m.npz: was fitted to the robot 'tall', not to 'upkie_heavy' (--transfer "
+                        "uses it all the same)"));
+}
+
+TEST_F(Passport, OfAnotherEstimatorRateOrRobotIsAnError) {
+  EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --estimator reference"),
+              HasSubstr("m.npz: is a model of 'robust', which 'reference' cannot use (did you mean "
+                        "--estimator robust?)"));
+  EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --robot upkie"),
+              HasSubstr("m.npz: was fitted to the robot 'tall', not to 'upkie'"));
+  log("slow.mpack", test::synthetic_log(2.0, 5000));
+  EXPECT_THAT(complaint_about("estimate slow.mpack --model m.npz"),
+              HasSubstr("m.npz: was fitted at 1000 Hz, not at 200 Hz (--transfer"));
+  EXPECT_THAT(run("estimate slow.mpack --model m.npz --robot upkie --transfer"),
+              HasSubstr("at 200 Hz, Bayes filter (robust)"));
+  EXPECT_THAT(run("estimate a.mpack --model m.npz --estimator measurement_only --robot tall"),
+              HasSubstr("Measurement only"));
+}
+
+TEST_F(Passport, ChoosesTheEstimatorThatAGridWasFittedFor) {
+  run("fit a.mpack -o paper.npz --estimator paper --grid 60 60");
+  EXPECT_THAT(run("estimate a.mpack --model paper.npz"), HasSubstr("Bayes filter (paper)"));
+}
+
+TEST_F(Passport, IsNotNeededByFilesThatAreOlder) {
+  recordings::NpzArrays arrays = read_npz(folder_ / "m.npz");
+  arrays.erase("passport");
+  recordings::write_npz(arrays, folder_ / "old.npz");
+  EXPECT_THAT(run("estimate a.mpack --model old.npz --estimator reference"),
+              HasSubstr("model        old.npz: has no passport, being older or from elsewhere: "
+                        "taken for 'reference'\n"));
+}
+
+TEST_F(Passport, TellsThatAModelWasChangedAfterItWasFitted) {
+  recordings::NpzArrays arrays = read_npz(folder_ / "m.npz");
+  arrays["contact_likelihood"].data[100] += 1.0;
+  recordings::write_npz(arrays, folder_ / "m.npz");
+  EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz"),
+              HasSubstr("m.npz: its numbers are not those that were fitted"));
+}
+
+TEST_F(Passport, GoesWithAModelThatIsExportedAsAHeader) {
+  EXPECT_THAT(run("export m.npz -o out/my-model.hpp"),
+              HasSubstr("touchdown::make_estimator(touchdown::compiled::my_model)"));
+  EXPECT_THAT(
+      read_file(folder_ / "out/my-model.hpp"),
+      AllOf(HasSubstr("inline constexpr CompiledArray my_model[] = {"),
+            HasSubstr(load_passport(folder_ / "m.npz").fingerprint), Not(HasSubstr("P_contact"))));
+  EXPECT_THAT(complaint_about("export m.npz -o m.npz"), HasSubstr("expected a header, FILE.hpp"));
+  EXPECT_THAT(complaint_about("export m.npz"), HasSubstr("either --benchmark DIR"));
+  EXPECT_THAT(complaint_about("export a.mpack -o m.hpp"), HasSubstr("a.mpack: is not a readable"));
+}
+
+TEST_F(Passport, IsNotAskedOfAFolder) {
+  std::filesystem::create_directory(folder_ / "folder");
+  EXPECT_THAT(complaint_about("estimate a.mpack --model folder"), HasSubstr("folder: is a folder"));
+}
+
+/// Today's answer to it was "all good".
+TEST_F(Passport, OfNoModelSavesAnImuThatIsUpsideDown) {
+  recordings::Recording robot = test::robot_log(2.0);
+  for (models::Observation& o : robot.observation) {
+    o.imu.raw_linear_acceleration = o.imu.linear_acceleration + Eigen::Vector3d(0.0, 0.0, 9.81);
+  }
+  log("good.mpack", robot);
+  EXPECT_THAT(run("estimate good.mpack --estimator free_fall"),
+              AllOf(HasSubstr("signals      all good"), Not(HasSubstr("contradicts gravity"))));
+  for (models::Observation& o : robot.observation) {
+    o.imu.orientation = Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0);
+  }
+  log("turned.mpack", robot);
+  EXPECT_THAT(run("estimate turned.mpack --estimator free_fall"),
+              AllOf(HasSubstr(" invalid of 2000 steps"),
+                    HasSubstr("steps the IMU's orientation contradicts gravity")));
+}
+
+}  // namespace
+}  // namespace touchdown::cli

@@ -1,0 +1,229 @@
+#include "estimator/models/make_estimator.hpp"
+
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/bayes/filter.hpp"
+#include "estimator/models/compiled.hpp"
+#include "estimator/models/configuration.hpp"
+#include "tests/estimator/models/models.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string complaint(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+std::string complaint_about(const ModelArrays& arrays, const ModelUse& use = {}) {
+  return complaint([&] { make_estimator(arrays, use); });
+}
+
+/// All that an estimator says about a run with flights.
+std::vector<double> told(ContactEstimator& estimator, std::size_t steps = 1500) {
+  std::vector<double> all;
+  for (const Signals& s : test::drops(steps)) {
+    const Belief& b = estimator.update(s);
+    for (const WheelBelief& wheel : b.wheel) {
+      all.push_back(wheel.p_contact);
+      all.push_back(wheel.contact ? 1.0 : 0.0);
+    }
+  }
+  return all;
+}
+
+TEST(MakeEstimator, MakesTheOneThatTheModelWasFittedFor) {
+  const ModelArrays arrays = test::fitted_model("robust");
+  BayesFilter expected(measurement_model_of(arrays), BayesFilterConfig::robust());
+  EXPECT_EQ(told(*make_estimator(arrays)), told(expected));
+  EXPECT_EQ(told(*make_estimator(arrays, {"robust", 1000.0, "upkie"})), told(expected));
+}
+
+TEST(MakeEstimator, RunsItAsThePassportSays) {
+  ModelArrays arrays = test::fitted_arrays("robust");
+  BayesFilterConfig config = BayesFilterConfig::robust();
+  config.threshold = 0.6;
+  config.transition.switch_sigmoid = {20.0, 3.0};
+  config.transition.power = PowerMeasure::energy;
+  add_passport(arrays, {"robust", 1000.0, "", text_of(config), ""});
+  BayesFilter expected(measurement_model_of(arrays), config);
+  EXPECT_EQ(told(*make_estimator(arrays)), told(expected));
+}
+
+TEST(MakeEstimator, SaysWhatAModelWasNotFittedFor) {
+  const ModelArrays robust = test::fitted_model("robust");
+  EXPECT_EQ(complaint_about(robust, {.estimator = "reference"}),
+            "was fitted for 'robust', which 'reference' cannot use");
+  EXPECT_EQ(complaint_about(robust, {.sample_rate = 500.0}),
+            "was fitted at 1000 Hz, not at 500 Hz");
+  EXPECT_EQ(complaint_about(robust, {.robot = "tall"}),
+            "was fitted to the robot 'upkie', not to 'tall'");
+  EXPECT_THAT(complaint_about(robust, {.estimator = "robst"}),
+              HasSubstr("no model is fitted for 'robst': expected one of robust, reference"));
+  // One fit serves both of these, and nobody knows the robot of that one.
+  make_estimator(robust, {.estimator = "measurement_only"});
+  make_estimator(test::fitted_model("paper", ""), {.estimator = "paper_rms", .robot = "tall"});
+}
+
+TEST(MakeEstimator, TakesAModelWithoutPassportIfItIsToldTheRest) {
+  const ModelArrays grid = test::fitted_arrays("reference");
+  EXPECT_EQ(complaint_about(grid),
+            "has no passport, being older or from elsewhere: name the estimator that it was fitted "
+            "for, and its sample_rate (Hz)");
+  EXPECT_THAT(complaint_about(grid, {.sample_rate = 1000.0}), HasSubstr("name the estimator"));
+  EXPECT_THAT(complaint_about(test::fitted_arrays("load_logistic")),
+              HasSubstr("name its sample_rate (Hz)"));
+  EXPECT_THAT(complaint_about(test::fitted_arrays("phase"), {.estimator = "robust"}),
+              HasSubstr("was fitted for 'phase'"));
+  BayesFilter expected(measurement_model_of(grid), BayesFilterConfig::reference());
+  EXPECT_EQ(told(*make_estimator(grid, {.estimator = "reference", .sample_rate = 1000.0})),
+            told(expected));
+  make_estimator(test::fitted_arrays("phase"));  // says its name and rate by its layout
+  make_estimator(test::fitted_arrays("nmn"), {.sample_rate = 1000.0});
+}
+
+TEST(MakeEstimator, RefusesNumbersThatAreNotTheFitted) {
+  ModelArrays arrays = test::fitted_model("load_logistic");
+  arrays["slope"].data[0] += 1e-9;
+  EXPECT_THAT(complaint_about(arrays), HasSubstr("its numbers are not those that were fitted"));
+  arrays = test::fitted_model("load_logistic");
+  arrays["new"] = {{1}, {0.0}};
+  EXPECT_THAT(complaint_about(arrays), HasSubstr("not those that were fitted"));
+}
+
+TEST(MakeEstimator, RefusesPassportsThatItDoesNotUnderstand) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    ModelArrays arrays = test::fitted_model("load_logistic");
+    const std::string name(passport_array);
+    std::string text = text_of_array(arrays.at(name), name);
+    text.replace(text.find(from), from.size(), to);
+    arrays[name] = array_of_text(text);
+    return complaint_about(arrays);
+  };
+  EXPECT_EQ(with("format: 1", "format: 2"), "passport: format 2: expected 1");
+  EXPECT_EQ(with("units: SI", "units: kgf"), "passport: units kgf: expected SI");
+  EXPECT_THAT(with("robot: upkie", "rabbit: upkie"),
+              HasSubstr("'rabbit: upkie' is not understood"));
+  EXPECT_THAT(with("sample_rate: 1000", "sample_rate: fast"), HasSubstr("is not understood"));
+  EXPECT_THAT(with("sample_rate: 1000", "sample_rate: -1"), HasSubstr("positive sample_rate"));
+  EXPECT_THAT(with("robot: upkie", "robot: other"), HasSubstr("fingerprint"));
+  ModelArrays arrays = test::fitted_arrays("load_logistic");
+  add_passport(arrays, {"load_logistic", 1000.0, "", {{"speed", "1"}}, ""});
+  EXPECT_THAT(complaint_about(arrays), HasSubstr("configuration.speed: is not known"));
+  add_passport(arrays, {"load_logistic", 1000.0, "", {{"threshold", "high"}}, ""});
+  EXPECT_THAT(complaint_about(arrays),
+              HasSubstr("configuration.threshold: 'high' is no value for it"));
+}
+
+TEST(MakeEstimator, TakesNoRobotWhoseNameIsSeveralLines) {
+  EXPECT_THAT(complaint([] { test::fitted_model("load_logistic", "a\nunits: kgf"); }),
+              HasSubstr("expected a name of one line"));
+}
+
+TEST(MakeEstimator, GivesTheSameFitTheSameFingerprint) {
+  const auto fingerprint = [](const ModelArrays& arrays) {
+    return passport_of(arrays)->fingerprint;
+  };
+  const std::string robust = fingerprint(test::fitted_model("robust"));
+  EXPECT_EQ(robust.size(), 16U);
+  EXPECT_EQ(fingerprint(test::fitted_model("robust")), robust);
+  EXPECT_NE(fingerprint(test::fitted_model("robust", "tall")), robust);
+  EXPECT_NE(fingerprint(test::fitted_model("paper")), robust);
+  ModelArrays without_derived = test::fitted_model("robust");
+  without_derived.erase(std::string(derived_array));
+  EXPECT_EQ(fingerprint(without_derived), robust);
+}
+
+TEST(MakeEstimator, TakesTheLegsOfAnotherRobot) {
+  const ModelArrays arrays = test::fitted_model("load_logistic");
+  LegGeometry longer;
+  longer.upper_length = 0.3;
+  std::vector<Signals> stream = test::drops(200);
+  const auto left = [&](const ModelUse& use) {
+    const auto estimator = make_estimator(arrays, use);
+    for (Signals& s : stream) {
+      s.leg[0].hip = {0.4, 0.0, 0.5};
+      s.leg[0].knee.position = -0.8;
+      estimator->update(s);
+    }
+    return estimator->update(stream.back()).wheel[0].p_contact;
+  };
+  EXPECT_NE(left({.geometry = longer}), left({}));
+  EXPECT_EQ(left({.geometry = LegGeometry{}}), left({}));
+}
+
+TEST(Configuration, ComesBackFromItsText) {
+  for (const char* name : {"robust", "reference", "paper", "paper_rms"}) {
+    BayesFilterConfig expected =
+        name == std::string("paper_rms") ? BayesFilterConfig::paper_rms() : test::named(name);
+    BayesFilterConfig read;
+    read.measurement.fit = expected.measurement.fit;  // no part of it
+    configure(read, text_of(expected));
+    EXPECT_EQ(read, expected) << name;
+  }
+  PhaseFilterConfig phase;
+  phase.torque_exponent = 0.1 + 0.2;
+  phase.noise_floor = {1.0 / 3.0, 0.5, 0.7};
+  PhaseFilterConfig phase_read;
+  configure(phase_read, text_of(phase));
+  EXPECT_EQ(phase_read, phase);
+  DecisionConfig decision;
+  decision.wheel_inertia = 1.0 / 3e4;
+  decision.leave_below = 0.6;
+  decision.geometry.upper_mass = 0.7;
+  decision.guard.frozen_after = 0.0;
+  DecisionConfig decision_read;
+  configure(decision_read, text_of(decision));
+  EXPECT_EQ(decision_read, decision);
+}
+
+TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
+  EXPECT_EQ(at_rate(BayesFilterConfig::robust(), 200.0).transition.window, 26);
+  EXPECT_EQ(default_configuration("robust", 500.0).at("transition.window"), "64");
+  ModelArrays arrays = test::fitted_arrays("robust");
+  add_passport(arrays, {"robust", 500.0, "", default_configuration("robust", 500.0), ""});
+  BayesFilter expected(measurement_model_of(arrays), at_rate(BayesFilterConfig::robust(), 500.0));
+  EXPECT_EQ(told(*make_estimator(arrays)), told(expected));
+}
+
+TEST(CompiledModel, BelievesTheSameToTheBit) {
+  for (const std::string name :
+       {"robust", "phase", "nmn", "load_logistic", "force_kinematics", "decision_network"}) {
+    const ModelArrays arrays = test::fitted_model(name);
+    std::vector<std::vector<float>> floats;
+    std::vector<std::string> texts;
+    floats.reserve(arrays.size());
+    texts.reserve(arrays.size());
+    std::vector<CompiledArray> compiled;
+    for (const auto& [key, array] : arrays) {
+      CompiledArray entry{
+          key.c_str(),       array.rows(), array.shape.size() < 2 ? 0 : array.columns(),
+          array.data.data(), nullptr,      nullptr};
+      if (key == passport_array || key == estimator_array) {
+        texts.push_back(text_of_array(array, key));
+        entry.doubles = nullptr;
+        entry.text = texts.back().c_str();
+      } else if (key.ends_with("log_density")) {
+        floats.emplace_back(array.data.begin(), array.data.end());
+        entry.doubles = nullptr;
+        entry.floats = floats.back().data();
+      }
+      compiled.push_back(entry);
+    }
+    EXPECT_EQ(told(*make_estimator(compiled), 400), told(*make_estimator(arrays), 400)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace touchdown

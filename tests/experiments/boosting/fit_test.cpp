@@ -1,0 +1,168 @@
+#include "experiments/boosting/fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <thread>
+#include <vector>
+#include <xgboost/c_api.h>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "experiments/boosting/estimator.hpp"
+#include "tests/estimator/random.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+/// Normal features; in contact with a probability that rises with one of them.
+BoostingRows drawn_rows(std::size_t count) {
+  BoostingRows rows;
+  const std::vector<double> values = test::normals(count * window_features, 0.0, 1.0, 1);
+  const std::vector<double> doubt = test::normals(count, 0.0, 0.5, 2);
+  rows.features.assign(values.begin(), values.end());
+  for (std::size_t i = 0; i < count; ++i) {
+    rows.is_contact.push_back(values[i * window_features + 7] + doubt[i] > -0.8 ? 1.0F : 0.0F);
+  }
+  return rows;
+}
+
+WindowFeatures row(const BoostingRows& rows, std::size_t i) {
+  WindowFeatures features{};
+  std::copy_n(rows.features.begin() + static_cast<std::ptrdiff_t>(i * window_features),
+              window_features, features.begin());
+  return features;
+}
+
+const BoostingConfig quick = {.trees = 12, .depth = 3};
+
+/// What the library itself makes of the same rows.
+std::vector<float> margins_by_the_library(const BoostingRows& rows, float air_weight) {
+  DMatrixHandle matrix = nullptr;
+  XGDMatrixCreateFromMat(rows.features.data(), rows.count(), window_features,
+                         std::numeric_limits<float>::quiet_NaN(), &matrix);
+  XGDMatrixSetFloatInfo(matrix, "label", rows.is_contact.data(), rows.count());
+  std::vector<float> weights(rows.count(), 1.0F);
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    if (rows.is_contact[i] == 0.0F) weights[i] = air_weight;
+  }
+  XGDMatrixSetFloatInfo(matrix, "weight", weights.data(), weights.size());
+  BoosterHandle booster = nullptr;
+  XGBoosterCreate(&matrix, 1, &booster);
+  for (const auto& [name, value] : {std::pair{"objective", "binary:logistic"},
+                                    {"base_score", "0.5"},
+                                    {"tree_method", "hist"},
+                                    {"nthread", "1"},
+                                    {"max_depth", "3"},
+                                    {"eta", "0.15"},
+                                    {"min_child_weight", "20"}}) {
+    XGBoosterSetParam(booster, name, value);
+  }
+  for (int i = 0; i < 12; ++i) XGBoosterUpdateOneIter(booster, i, matrix);
+  constexpr int margin = 1;
+  bst_ulong count = 0;
+  const float* values = nullptr;
+  XGBoosterPredict(booster, matrix, margin, 0, 0, &count, &values);
+  std::vector<float> margins(values, values + count);
+  XGBoosterFree(booster);
+  XGDMatrixFree(matrix);
+  return margins;
+}
+
+TEST(BoostingFit, SaysWhatTheLibrarysOwnPredictionSays) {
+  const BoostingRows rows = drawn_rows(3000);
+  const BoostedTrees trees = fit_trees(rows, quick);
+  EXPECT_EQ(trees.trees(), 12U);
+  const auto contact =
+      static_cast<double>(std::count(rows.is_contact.begin(), rows.is_contact.end(), 1.0F));
+  const auto air_weight =
+      static_cast<float>(std::sqrt(contact / (static_cast<double>(rows.count()) - contact)));
+  const std::vector<float> margins = margins_by_the_library(rows, air_weight);
+  ASSERT_EQ(margins.size(), rows.count());
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    EXPECT_NEAR(trees.logit(row(rows, i)), margins[i] + std::log(air_weight), 1e-5);
+  }
+}
+
+TEST(BoostingFit, LearnsWhichFeatureTells) {
+  const BoostingRows rows = drawn_rows(6000);
+  const BoostedTrees trees = fit_trees(rows, quick);
+  WindowFeatures features{};
+  features[7] = 1.5F;
+  EXPECT_GT(trees.logit(features), 1.0F);
+  features[7] = -2.5F;
+  EXPECT_LT(trees.logit(features), -0.5F);
+}
+
+TEST(BoostingFit, GivesTheSameTreesOnWhateverThread) {
+  const BoostingRows rows = drawn_rows(2000);
+  const BoostedTrees alone = fit_trees(rows, quick);
+  std::array<BoostedTrees, 3> beside;
+  std::vector<std::thread> threads;
+  for (BoostedTrees& trees : beside) {
+    threads.emplace_back([&] { trees = fit_trees(rows, quick); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const BoostedTrees& trees : beside) {
+    EXPECT_EQ(trees.feature, alone.feature);
+    EXPECT_EQ(trees.threshold, alone.threshold);
+    EXPECT_EQ(trees.leaf, alone.leaf);
+  }
+}
+
+TEST(BoostingFit, RefusesOneClassAlone) {
+  BoostingRows rows = drawn_rows(100);
+  std::fill(rows.is_contact.begin(), rows.is_contact.end(), 1.0F);
+  EXPECT_THROW(fit_trees(rows, quick), InputError);
+  EXPECT_THROW(fit_trees({}, quick), InputError);
+}
+
+TEST(BoostingFit, EndsWhenItIsAskedTo) {
+  struct Asked {};
+  EXPECT_THROW(fit_trees(drawn_rows(500), quick, [] { throw Asked(); }), Asked);
+}
+
+/// A robot whose knees carry it for one second in two.
+struct DrawnRun {
+  std::vector<Signals> signals;
+  std::vector<std::uint8_t> contact;
+
+  explicit DrawnRun(std::uint32_t seed) {
+    const std::vector<double> noise = test::normals(8000, 0.0, 0.05, seed);
+    for (std::size_t k = 0; k < 4000; ++k) {
+      const bool touches = k / 1000 % 2 == 0;
+      Signals signals_now;
+      signals_now.time = 1e-3 * static_cast<double>(k);
+      for (std::size_t side = 0; side < 2; ++side) {
+        signals_now.leg[side].knee.torque =
+            (side == 0 ? 1.0 : -1.0) * (touches ? 1.3 : 0.0) + noise[2 * k + side];
+      }
+      signals_now.vertical_acceleration = touches ? 0.0 : -9.8;
+      signals.push_back(signals_now);
+      contact.push_back(touches ? 1 : 0);
+    }
+  }
+  [[nodiscard]] LabelledRun view() const { return {signals, {contact, contact}, 1000.0, 0}; }
+};
+
+TEST(BoostedTreesEstimator, TellsContactInRunsThatItHasNotSeen) {
+  const DrawnRun seen(1);
+  const std::vector<LabelledRun> runs = {seen.view()};
+  BoostingConfig config = quick;
+  config.rows = 20'000;
+  BoostedTreesEstimator estimator(fit_trees(boosting_rows(runs, config), config), {});
+  const DrawnRun other(2);
+  std::size_t right = 0;
+  for (std::size_t k = 0; k < other.signals.size(); ++k) {
+    const Belief& belief = estimator.update(other.signals[k]);
+    EXPECT_TRUE(belief.wheel[0].p_contact > 0.0 && belief.wheel[0].p_contact < 1.0);
+    for (const WheelBelief& wheel : belief.wheel) right += wheel.contact == (other.contact[k] != 0);
+  }
+  EXPECT_GT(right, other.signals.size() * 2 * 99 / 100);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

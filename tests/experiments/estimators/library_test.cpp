@@ -1,0 +1,68 @@
+// What a robot loads has to be what experiments and `touchdown estimate` run.
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/models/make_estimator.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/fitting.hpp"
+#include "onboard/load_estimator.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+/// Those that are made for robots.
+std::vector<std::string> fitted_estimators() {
+  std::vector<std::string> names;
+  for (const EstimatorEntry& entry : estimator_entries()) {
+    if (entry.fits() && !entry.is_ceiling) names.push_back(entry.name);
+  }
+  return names;
+}
+
+std::array<std::vector<double>, 2> told(ContactEstimator& estimator, const RunSignals& run) {
+  const scoring::Prediction prediction = predict(estimator, run, noise_run(run, {}), {});
+  return {prediction[0].p_contact, prediction[1].p_contact};
+}
+
+TEST(LoadedEstimator, BelievesToTheBitWhatItsEntryDoes) {
+  const ScratchFolder folder;
+  const RunSignals run = synthetic_run(3, 2000);
+  const FittedModels models =
+      fit_models(synthetic_experiment(fitted_estimators()), {synthetic_run(first_fit_run)});
+  for (const std::string& name : fitted_estimators()) {
+    const EstimatorEntry& entry = estimator_entry(name);
+    const std::filesystem::path file = folder / (name + ".npz");
+    write_fitted_model(models.at("mujoco").at(name), file);
+    const FittedModel read = read_fitted_model(*entry.fits(), file);
+    EXPECT_EQ(told(*load_estimator(file), run), told(*entry.make(entry, {.model = &read}), run))
+        << name;
+    EXPECT_EQ(load_passport(file).estimator, name);
+    EXPECT_EQ(load_passport(file).sample_rate, 1000.0);
+    EXPECT_EQ(read.passport->fingerprint.size(), 16U);
+  }
+}
+
+TEST(LoadedEstimator, OfTheShippedNetworkIsNmn) {
+  const std::filesystem::path file = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/nmn.npz";
+  const RunSignals run = synthetic_run(3, 1000);
+  const EstimatorEntry& entry = estimator_entry("nmn");
+  EXPECT_EQ(told(*load_estimator(file, {.sample_rate = 1000.0}), run),
+            told(*entry.make(entry, {}), run));
+}
+
+TEST(LoadedEstimator, SharesFitsAsEntriesDo) {
+  for (const std::string& one : fitted_estimators()) {
+    for (const std::string& other : fitted_estimators()) {
+      EXPECT_EQ(share_fit(one, other), share_model(estimator_entry(one), estimator_entry(other)))
+          << one << " " << other;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,37 @@
+#include "experiments/odometry/contact_sources.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST(ContactSources, RepeatTheLabelsAtOnceAndLate) {
+  RunSignals run;
+  run.info.control_period_us = 10'000;
+  run.signals.resize(6);
+  run.contact = {scoring::ContactSequence{0, 1, 1, 0, 0, 1},
+                 scoring::ContactSequence{1, 1, 0, 0, 1, 1}};
+  const OdometryStudyConfig config{{0.02}};
+  EXPECT_THAT(oracle_names(config), ElementsAre("truth", "truth_20ms_late"));
+  const std::vector<ContactTrack> tracks = oracle_tracks(config, run);
+  ASSERT_EQ(tracks.size(), 2U);
+  EXPECT_THAT(tracks[0][0], ElementsAre(0, 1, 1, 0, 0, 1));
+  EXPECT_THAT(tracks[0][1], ElementsAre(1, 1, 0, 0, 1, 1));
+  EXPECT_THAT(tracks[1][0], ElementsAre(1, 1, 0, 1, 1, 0));
+  EXPECT_THAT(tracks[1][1], ElementsAre(1, 1, 1, 1, 0, 0));
+}
+
+TEST(ContactSources, SayThatTheyAreOracles) {
+  EXPECT_EQ(contact_title("truth"), "Truth (oracle)");
+  EXPECT_EQ(contact_title("truth_2.5ms_late"), "Truth, 2.5 ms late (oracle)");
+  EXPECT_EQ(contact_title("always"), "Always contact");
+  EXPECT_EQ(contact_title("phase"), "Phase filter");
+  EXPECT_EQ(contact_name("always_contact"), "always");
+  EXPECT_EQ(contact_name("phase"), "phase");
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

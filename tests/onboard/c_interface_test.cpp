@@ -1,0 +1,101 @@
+#include <array>
+#include <cstring>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "estimator/assembly/signal_assembler.hpp"
+#include "estimator/c_interface/touchdown.h"
+#include "recordings/models/npz.hpp"
+#include "tests/estimator/models/models.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CInterface : public ::testing::Test {
+ protected:
+  CInterface() { recordings::write_npz(test::fitted_model("robust"), folder_ / "m.npz"); }
+
+  std::string model() const { return (folder_ / "m.npz").string(); }
+
+  const ScratchFolder folder_;
+};
+
+touchdown_record record_of(const Signals& s) {
+  touchdown_record record = touchdown_empty_record();
+  record.time = s.time;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const LegSignals& leg = s.leg[side];
+    record.joint[3 * side] = {leg.hip.position, leg.hip.velocity, leg.hip.torque};
+    record.joint[3 * side + 1] = {leg.knee.position, leg.knee.velocity, leg.knee.torque};
+    record.joint[3 * side + 2] = {leg.wheel.position, leg.wheel.velocity, leg.wheel.torque};
+  }
+  record.orientation[0] = record.orientation[1] = record.orientation[2] = 0.0;
+  record.orientation[3] = 1.0;
+  record.linear_acceleration[0] = record.linear_acceleration[1] = 0.0;
+  record.linear_acceleration[2] = -s.vertical_acceleration;
+  return record;
+}
+
+TEST_F(CInterface, BelievesWhatTheLibraryBelieves) {
+  std::array<char, 200> error{};
+  const touchdown_use use = {"robust", 1000.0, "upkie"};
+  touchdown_estimator* const estimator =
+      touchdown_create(model().c_str(), &use, error.data(), error.size());
+  ASSERT_NE(estimator, nullptr) << error.data();
+  EXPECT_THAT(touchdown_model_text(estimator),
+              HasSubstr("robust, 1000 Hz, robot upkie, fingerprint "));
+  const auto expected = make_estimator(test::fitted_model("robust"));
+  for (int again = 0; again < 2; ++again) {
+    for (const Signals& s : test::drops(1500)) {
+      const touchdown_record record = record_of(s);
+      const touchdown_belief found = touchdown_update(estimator, &record);
+      const Belief& belief = expected->update(s);
+      ASSERT_EQ(found.p_contact[0], belief.wheel[0].p_contact);
+      ASSERT_EQ(found.p_contact[1], belief.wheel[1].p_contact);
+      ASSERT_EQ(found.contact[0], belief.wheel[0].contact ? 1 : 0);
+      ASSERT_EQ(found.p_any_wheel, belief.p_any_wheel);
+      ASSERT_EQ(found.status, static_cast<int>(belief.status));
+    }
+    touchdown_reset(estimator);
+    expected->reset();
+  }
+  touchdown_destroy(estimator);
+}
+
+TEST_F(CInterface, SaysWhatIsWrongInsteadOfThrowing) {
+  std::array<char, 200> error{};
+  touchdown_use use = {nullptr, 200.0, nullptr};
+  EXPECT_EQ(touchdown_create(model().c_str(), &use, error.data(), error.size()), nullptr);
+  EXPECT_THAT(error.data(), HasSubstr("m.npz: was fitted at 1000 Hz, not at 200 Hz"));
+  EXPECT_EQ(touchdown_create("none.npz", nullptr, error.data(), error.size()), nullptr);
+  EXPECT_STREQ(error.data(), "none.npz: no such file");
+  std::array<char, 6> shorter{};
+  EXPECT_EQ(touchdown_create("none.npz", nullptr, shorter.data(), shorter.size()), nullptr);
+  EXPECT_STREQ(shorter.data(), "none.");
+  EXPECT_EQ(touchdown_create("none.npz", nullptr, nullptr, 0), nullptr);
+  EXPECT_EQ(touchdown_create(nullptr, nullptr, error.data(), error.size()), nullptr);
+  touchdown_destroy(nullptr);
+}
+
+TEST_F(CInterface, TellsWhatIsWrongWithARecord) {
+  touchdown_estimator* const estimator = touchdown_create(model().c_str(), nullptr, nullptr, 0);
+  ASSERT_NE(estimator, nullptr);
+  const touchdown_record nothing = touchdown_empty_record();
+  const touchdown_belief belief = touchdown_update(estimator, &nothing);
+  EXPECT_EQ(belief.status, TOUCHDOWN_INVALID);
+  EXPECT_STREQ(touchdown_status_text(belief.status), "invalid");
+  for (const unsigned fault : {TOUCHDOWN_JOINT_MISSING, TOUCHDOWN_ORIENTATION_MISSING,
+                               TOUCHDOWN_ACCELERATION_MISSING, TOUCHDOWN_CLOCK_MISSING}) {
+    EXPECT_NE(belief.faults & fault, 0U) << fault;
+  }
+  EXPECT_EQ(belief.faults & TOUCHDOWN_UPSIDE_DOWN, 0U);
+  touchdown_destroy(estimator);
+}
+
+}  // namespace
+}  // namespace touchdown

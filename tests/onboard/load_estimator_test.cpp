@@ -1,0 +1,100 @@
+#include "onboard/load_estimator.hpp"
+
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "recordings/models/header.hpp"
+#include "recordings/models/npz.hpp"
+#include "tests/estimator/models/models.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class LoadEstimator : public ::testing::Test {
+ protected:
+  std::filesystem::path file(const std::string& name, const ModelArrays& arrays) const {
+    recordings::write_npz(arrays, folder_ / name);
+    return folder_ / name;
+  }
+
+  static std::string complaint(const std::function<void()>& action) {
+    try {
+      action();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  }
+
+  const ScratchFolder folder_;
+};
+
+std::vector<double> told(ContactEstimator& estimator) {
+  std::vector<double> all;
+  for (const Signals& s : test::drops(1200)) {
+    const Belief& b = estimator.update(s);
+    all.insert(all.end(), {b.wheel[0].p_contact, b.wheel[1].p_contact});
+  }
+  return all;
+}
+
+TEST_F(LoadEstimator, BelievesWhatWasFitted) {
+  for (const std::string name : {"robust", "phase", "decision_network"}) {
+    const ModelArrays arrays = test::fitted_model(name);
+    EXPECT_EQ(told(*load_estimator(file("m.npz", arrays), {.robot = "upkie"})),
+              told(*make_estimator(arrays)))
+        << name;
+  }
+}
+
+TEST_F(LoadEstimator, NamesTheFileInEveryComplaint) {
+  const auto m = file("m.npz", test::fitted_model("robust"));
+  EXPECT_THAT(complaint([&] { load_estimator(m, {.sample_rate = 200.0}); }),
+              AllOf(StartsWith(m.string()), EndsWith(": was fitted at 1000 Hz, not at 200 Hz")));
+  EXPECT_THAT(complaint([&] { load_estimator(folder_ / "none.npz"); }),
+              EndsWith("none.npz: no such file"));
+  EXPECT_THAT(complaint([&] { load_estimator(folder_.path()); }),
+              AllOf(StartsWith(folder_.path().string()), EndsWith(": is a folder")));
+  EXPECT_THAT(complaint([&] { load_estimator(folder_.write("text.npz", "name: robust\n")); }),
+              HasSubstr("text.npz: is not a readable .npz file"));
+  ModelArrays changed = test::fitted_model("robust");
+  changed["contact_likelihood"].data[7] *= 2.0;
+  EXPECT_THAT(complaint([&] { load_estimator(file("changed.npz", changed)); }),
+              HasSubstr("changed.npz: its numbers are not those that were fitted"));
+}
+
+TEST_F(LoadEstimator, LeavesAloneWhatSomebodyKeepsBesideAGrid) {
+  ModelArrays arrays = test::fitted_model("robust");
+  arrays["my_notes"] = {{2}, {1.0, 2.0}};
+  EXPECT_EQ(told(*load_estimator(file("m.npz", arrays))),
+            told(*make_estimator(test::fitted_model("robust"))));
+}
+
+TEST_F(LoadEstimator, KnowsWhoseAModelIs) {
+  const ModelPassport passport = load_passport(file("m.npz", test::fitted_model("phase", "tall")));
+  EXPECT_EQ(passport.estimator, "phase");
+  EXPECT_EQ(passport.robot, "tall");
+  EXPECT_EQ(passport.configuration, default_configuration("phase", 1000.0));
+}
+
+TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveAPassport) {
+  const auto grid = file("grid.npz", test::fitted_arrays("robust"));
+  EXPECT_THAT(complaint([&] { recordings::header_of_model(grid, "grid"); }),
+              HasSubstr("grid.npz: has no passport"));
+  EXPECT_THAT(recordings::header_of_model(grid, "grid", {"reference", 1000.0, "upkie"}),
+              AllOf(HasSubstr("inline constexpr CompiledArray grid[] = {"),
+                    HasSubstr("fitted for 'reference' at 1000 Hz to the robot 'upkie'"),
+                    HasSubstr("sample_rate: 1000\\n\"")));
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,224 @@
+import copy
+import csv
+import unittest
+
+import numpy as np
+
+import touchdown
+from scene import InFolder, hop, program
+
+NAMES = ("time", "position", "velocity", "torque", "linear_acceleration", "angular_velocity", "vertical_acceleration",
+         "ground_velocity_command")
+
+
+def steps_of(run):
+    """The run as `Estimator.update` takes it."""
+    return ({name: run[name][k] for name in NAMES} for k in range(len(run["time"])))
+
+
+def spine_observation(run, k):
+    """One step as Upkie's PyBullet backend has it in info["spine_observation"]: without a time."""
+    servos = ("left_hip", "left_knee", "left_wheel", "right_hip", "right_knee", "right_wheel")
+    return {
+        "base_orientation": {"pitch": run["pitch"][k], "angular_velocity": np.zeros(3)},
+        "floor_contact": {"contact": True},
+        "imu": {"orientation": run["orientation"][k], "angular_velocity": run["angular_velocity"][k].tolist(),
+                "linear_acceleration": run["linear_acceleration"][k]},
+        "number": k,
+        "servo": {name: {"position": run["position"][k, i], "velocity": run["velocity"][k, i],
+                         "torque": run["torque"][k, i], "temperature": 42.0, "voltage": 18.0}
+                  for i, name in enumerate(servos)},
+        "wheel_odometry": {"position": 0.0, "velocity": 0.0},
+    }
+
+
+class Fit(InFolder):
+    def test_writes_the_program_s_bytes(self):
+        run = hop()
+        run.save("hop.mpack")
+        for estimator in ("robust", "load_logistic"):
+            program("fit", "hop.mpack", "--estimator", estimator, "-o", "program.npz")
+            for source in (run, "hop.mpack"):
+                model = touchdown.fit(source, estimator)
+                model.save("python.npz")
+                self.assertEqual((self.folder / "python.npz").read_bytes(), (self.folder / "program.npz").read_bytes())
+                self.assertEqual(model.estimator, estimator)
+            self.assertAlmostEqual(model.seconds, run.steps * 0.001 - 0.3)
+
+    def test_takes_runs_of_one_class(self):
+        run = hop()
+        rolls = touchdown.Recording({name: values[:1000] for name, values in run.items()}, run.info)
+        hangs = touchdown.simulate("scenarios/hang.yaml", overrides={"end.duration": 1.5})
+        touchdown.Estimator(model=touchdown.fit(contact=rolls, no_contact=[hangs]))
+        with self.assertRaisesRegex(touchdown.InputError, "no step of the logs is without contact"):
+            touchdown.fit(contact=rolls)
+
+    def test_refuses_reserved_seeds_estimators_that_need_no_fit_and_plain_dicts(self):
+        run = copy.copy(hop())
+        run.info = {**run.info, "seed": 900_000_001}
+        with self.assertRaisesRegex(touchdown.InputError, "reserved for reporting and must not be fitted to"):
+            touchdown.fit(run)
+        with self.assertRaisesRegex(touchdown.InputError, "'free_fall' is not fitted"):
+            touchdown.fit(hop(), "free_fall")
+        with self.assertRaisesRegex(touchdown.InputError, "expected a Recording"):
+            touchdown.fit(dict(hop()))
+
+
+class Run(InFolder):
+    def test_believes_what_the_program_does(self):
+        run = hop()
+        run.save("hop.mpack")
+        model = touchdown.fit(run)
+        model.save("model.npz")
+        for name, options, loaded in (("robust", ["--model", "model.npz"], "model.npz"), ("free_fall", [], None)):
+            program("estimate", "hop.mpack", "--estimator", name, *options, "-o", "beliefs.csv")
+            with open("beliefs.csv", newline="", encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+            beliefs = touchdown.Estimator(name, loaded).run(run)
+            for wheel, side in enumerate(("left", "right")):
+                np.testing.assert_array_equal(beliefs["p_contact"][:, wheel],
+                                              [float(row[f"p_contact_{side}"]) for row in rows])
+                np.testing.assert_array_equal(beliefs["contact"][:, wheel],
+                                              [row[f"contact_{side}"] == "1" for row in rows])
+            np.testing.assert_array_equal(beliefs["p_any_wheel"], [float(row["p_any_wheel"]) for row in rows])
+            self.assertEqual([touchdown.STATUS[status] for status in beliefs["status"]],
+                             [row["status"] for row in rows])
+
+    def test_is_the_updates_one_after_the_other(self):
+        run = hop()
+        estimator = touchdown.Estimator(model=touchdown.fit(run))
+        at_once = estimator.run(run)
+        estimator.reset()
+        for k, step in enumerate(steps_of(run)):
+            belief = estimator.update(step)
+            self.assertEqual(belief.p_contact, tuple(at_once["p_contact"][k]))
+            self.assertEqual(belief.contact, tuple(at_once["contact"][k]))
+        self.assertEqual(belief.status, "good")
+        # From the beginning each time.
+        np.testing.assert_array_equal(estimator.run(run)["p_contact"], at_once["p_contact"])
+
+    def test_hears_what_was_written_into_arrays_of_any_layout(self):
+        run = hop()
+        falling = {name: np.asfortranarray(run[name]) for name in NAMES}
+        # These hear every joint: torques, and a leg's geometry.
+        for model in (touchdown.fit(run), touchdown.fit(run, "load_logistic"), touchdown.fit(run, "decision_network")):
+            estimator = touchdown.Estimator(model=model)
+            expected = estimator.run(run)["p_contact"]
+            np.testing.assert_array_equal(estimator.run(falling)["p_contact"], expected, err_msg=model.estimator)
+            shifted = {**run, "torque": np.ascontiguousarray(run["torque"]) + 0.5}
+            self.assertFalse(np.array_equal(estimator.run(shifted)["p_contact"], expected), model.estimator)
+        falling["vertical_acceleration"] = np.full(run.steps, -9, dtype=np.int16)
+        self.assertFalse(touchdown.Estimator("free_fall").run(falling)["contact"][100:].any())
+
+    def test_keeps_its_belief_where_nothing_is_heard(self):
+        run = {name: hop()[name].copy() for name in NAMES}
+        run["heard"] = np.ones(len(run["time"]))
+        run["heard"][500:1500] = 0
+        run["vertical_acceleration"][500:1500] = -9.81
+        beliefs = touchdown.Estimator("free_fall").run(run)
+        self.assertEqual(set(beliefs["p_contact"][500:1500, 0]), {beliefs["p_contact"][499, 0]})
+        # A file of a benchmark has these names.
+        np.savez("handed_out.npz", contact=hop()["contact"], **run)
+        with np.load("handed_out.npz") as arrays:
+            np.testing.assert_array_equal(touchdown.Estimator("free_fall").run(arrays)["p_contact"],
+                                          beliefs["p_contact"])
+
+    def test_refuses_another_rate_and_arrays_that_do_not_fit(self):
+        run = dict(hop())
+        slow = {name: run[name][::5] for name in NAMES}
+        with self.assertRaisesRegex(touchdown.InputError, "200 steps per second, .* make it with sample_rate=200"):
+            touchdown.Estimator("free_fall").run(slow)
+        touchdown.Estimator("free_fall", sample_rate=200.0).run(slow)
+        with self.assertRaisesRegex(touchdown.InputError, "signals: 'time' is missing"):
+            touchdown.Estimator("free_fall").run({})
+        run["velocity"] = run["velocity"][1:]
+        with self.assertRaisesRegex(touchdown.InputError, r"'velocity' has the shape \(3200, 6\), expected \(3201, 6\)"):
+            touchdown.Estimator("free_fall").run(run)
+        run["velocity"] = "fast"
+        with self.assertRaisesRegex(touchdown.InputError, "'velocity': expected an array of numbers"):
+            touchdown.Estimator("free_fall").run(run)
+
+    def test_needs_the_model_that_the_estimator_is_fitted_with(self):
+        for name, model, words in (("robust", None, "'robust' has to be fitted"),
+                                   ("free_fall", touchdown.fit(hop()), "one of 'robust', which 'free_fall' cannot use"),
+                                   ("oracle", None, "does not listen to logs"),
+                                   ("robusd", None, "did you mean 'robust'")):
+            with self.assertRaisesRegex(touchdown.InputError, words):
+                touchdown.Estimator(name, model)
+        # The paper's filter and its robust form do not share densities; its ablation does.
+        self.assertEqual(touchdown.Estimator("measurement_only", touchdown.fit(hop())).name, "measurement_only")
+
+
+class Spine(unittest.TestCase):
+    def test_is_heard_as_the_recording_is(self):
+        run = hop()
+        estimator = touchdown.Estimator(model=touchdown.fit(run))
+        at_once = estimator.run(run)["p_contact"]
+        estimator.reset()
+        beliefs = [estimator.update_from_spine(spine_observation(run, k), run["ground_velocity_command"][k])
+                   for k in range(run.steps)]
+        # Times differ in the last digits: here they are counted.
+        np.testing.assert_allclose([belief.p_contact for belief in beliefs], at_once, atol=1e-12)
+
+    def test_without_torques_is_a_leg_that_failed(self):
+        run = hop()
+        estimator = touchdown.Estimator(model=touchdown.fit(run))
+        whole = spine_observation(run, 0)
+        self.assertEqual(estimator.update_from_spine(whole).status, "good")
+        for broken in ({"torque": None}, {"torque": float("nan")}, {}):
+            observation = spine_observation(run, 1)
+            knee = observation["servo"]["left_knee"]
+            del knee["torque"]
+            knee.update(broken)
+            self.assertEqual(estimator.update_from_spine(observation).status, "invalid")
+        observation = spine_observation(run, 1)
+        del observation["servo"]["left_wheel"]
+        self.assertEqual(estimator.update_from_spine(observation).status, "invalid")
+
+    def test_keeps_to_the_time_that_it_says(self):
+        estimator = touchdown.Estimator("free_fall")
+        for time, status in ((0.0, "good"), (0.001, "good"), (0.9, "gap")):
+            belief = estimator.update_from_spine({**spine_observation(hop(), 0), "time": time})
+            self.assertEqual(belief.status, status)
+
+    def test_refuses_what_is_no_observation(self):
+        estimator = touchdown.Estimator("free_fall")
+        whole = spine_observation(hop(), 0)
+        for broken, words in (
+                ({}, "'servo' is missing: expected info"),
+                ({**whole, "servo": 3}, "observation.servo: expected a dictionary"),
+                ({**whole, "imu": {**whole["imu"], "orientation": [1.0, 0.0, 0.0]}},
+                 "observation.imu.orientation: expected four numbers: w, x, y, z"),
+                ({**whole, "servo": {**whole["servo"], "left_knee": {"torque": True}}},
+                 "observation.servo.left_knee.torque: expected a number"),
+        ):
+            with self.assertRaisesRegex(touchdown.InputError, words):
+                estimator.update_from_spine(broken)
+
+    def test_of_a_gym_environment_gets_beliefs(self):
+        class Environment:  # as Upkie's are, seen from outside
+            spec = "Upkie"
+            step_count = 0
+
+            def reset(self, **options):
+                self.step_count = 0
+                return None, {"spine_observation": spine_observation(hop(), 0)}
+
+            def step(self, action):
+                self.step_count += 1
+                return None, 0.0, False, False, {"spine_observation": spine_observation(hop(), self.step_count)}
+
+        estimator = touchdown.Estimator("free_fall")
+        environment = touchdown.ContactWrapper(Environment(), estimator)
+        expected = estimator.run(hop())["p_contact"]
+        for _ in range(2):
+            _, info = environment.reset(seed=1)
+            self.assertEqual(info["contact"].p_contact, tuple(expected[0]))
+            for k in range(1, 10):
+                *_, info = environment.step(np.zeros(1))
+                self.assertAlmostEqual(info["contact"].p_contact[0], expected[k, 0], delta=1e-12)
+        self.assertEqual(environment.spec, "Upkie")
+
+
+if __name__ == "__main__":
+    unittest.main()

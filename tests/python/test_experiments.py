@@ -1,0 +1,208 @@
+import importlib
+import json
+import pathlib
+import sys
+import textwrap
+import traceback
+import unittest
+
+import numpy as np
+
+import touchdown
+from scene import InFolder, program
+
+EXPERIMENT = textwrap.dedent("""\
+    name: hops
+    simulators: [mujoco]
+    estimators: [free_fall, robust]
+    fit: {scenarios: [hop.yaml], runs: 1}
+    test: {scenarios: [hop.yaml], runs: 2}
+    noise: {torque: [0, 1], accelerometer: [0, 5], seeds: 2}
+    highlights: [{torque: 0, accelerometer: 0}, {torque: 1, accelerometer: 5}]
+    intervals: {resamples: 50}
+    video: {enabled: false}
+    recordings: none
+    workers: 2
+    """)
+
+ESTIMATORS = textwrap.dedent('''\
+    import threading
+    import numpy as np
+    import touchdown
+
+    class Same:
+        """Says what free_fall says."""
+        title = "The same"
+        sensors = ["acceleration"]
+        threads, calls = set(), []
+
+        def run(self, signals):
+            self.threads.add(threading.get_ident())
+            self.calls.append(signals["torque"].shape)
+            return touchdown.Estimator("free_fall", sample_rate=signals["sample_rate"]).run(signals)
+
+    class HearsEverything(Same):
+        sensors = touchdown.experiment.SENSORS
+        calls = []
+
+    class Never:
+        def run(self, signals):
+            return np.zeros(len(signals["time"]), dtype=bool)
+
+    class Breaks:
+        def run(self, signals):
+            raise ZeroDivisionError("of the user's own")
+
+    class Short:
+        def run(self, signals):
+            return np.zeros((3, 2))
+
+    class WithoutRun:
+        pass
+
+    class Deaf(Never):
+        sensors = ["acceleratoin"]
+    ''')
+
+
+class InExperimentFolder(InFolder):
+    def setUp(self):
+        super().setUp()
+        hop = (pathlib.Path(touchdown.experiment._touchdown.find_resource("scenarios/hop.yaml"))).read_text()
+        (self.folder / "hop.yaml").write_text(hop.replace("duration: 7.0", "duration: 3.2"))
+        (self.folder / "hops.yaml").write_text(EXPERIMENT)
+        (self.folder / "mine.py").write_text(ESTIMATORS)
+        sys.path.insert(0, str(self.folder))
+        self.addCleanup(sys.path.remove, str(self.folder))
+        self.addCleanup(sys.modules.pop, "mine", None)
+
+
+class Experiment(InExperimentFolder):
+    def test_gives_the_program_s_tables(self):
+        result = touchdown.run("hops.yaml", out="python")
+        program("run", "hops.yaml", "--out", "program", "--no-pictures")
+        written = sorted(path.name for path in (self.folder / "program/tables").iterdir())
+        self.assertEqual(sorted(path.name for path in (result.path / "tables").iterdir()), written)
+        for name in written:
+            self.assertEqual((result.path / "tables" / name).read_bytes(),
+                             (self.folder / "program/tables" / name).read_bytes(), name)
+        self.assertIn("latency", result.tables)
+        scores = result.tables["success"]
+        self.assertEqual(set(scores["estimator"]), {"free_fall", "robust", "always_contact"})
+        self.assertEqual(scores["success"].dtype, np.float64)
+        self.assertEqual(len(result.summary["runs"]), 3)  # one is fitted to
+
+    def test_takes_overrides_as_python_has_them(self):
+        result = touchdown.run("hops.yaml", overrides={"test.runs": 1, "noise.torque": np.array([0.0, 1.0]),
+                                                       "estimators": ["free_fall"], "noise.seeds": 1})
+        self.assertEqual(result.path.parent, pathlib.Path("runs/hops"))
+        self.assertEqual(set(result.tables["success"]["estimator"]), {"free_fall", "always_contact"})
+        self.assertEqual(json.loads((result.path / "manifest.json").read_text())["command"],
+                         "python3 -m touchdown run hops.yaml --set test.runs=1 --set 'noise.torque=[0.0, 1.0]' "
+                         "--set 'estimators=[\"free_fall\"]' --set noise.seeds=1")
+        again = touchdown.run({"name": "hops", "simulators": ["mujoco"], "estimators": ["free_fall"],
+                               "fit": {"scenarios": ["hop.yaml"], "runs": 1},
+                               "test": {"scenarios": ["hop.yaml"], "runs": 1},
+                               "noise": {"torque": [0, 1], "accelerometer": [0, 5], "seeds": 1},
+                               "highlights": [{"torque": 0, "accelerometer": 0}, {"torque": 1, "accelerometer": 5}],
+                               "intervals": {"resamples": 50}, "video": {"enabled": False}, "recordings": "none"})
+        self.assertEqual(again.id, result.id)
+        with self.assertRaisesRegex(touchdown.InputError, "experiment:1:1: name: is missing"):
+            touchdown.run({"fit": {}, "test": {}})
+        with self.assertRaisesRegex(touchdown.InputError, "noise.seed.*did you mean"):
+            touchdown.run("hops.yaml", overrides={"noise.seed": 1})
+
+
+class WrittenInPython(InExperimentFolder):
+    def rows(self, result, name):
+        """Every number about one estimator."""
+        numbers = {}
+        for table in ("success", "classification", "transitions", "latency", "views", "calibration"):
+            columns = result.tables[table]
+            its = columns["estimator"] == name
+            numbers[table] = {key: values[its] for key, values in columns.items() if key != "estimator"}
+        return numbers
+
+    def test_takes_part_and_scores_what_it_says(self):
+        import mine
+
+        result = touchdown.run("hops.yaml", overrides={"estimators": ["free_fall", "python:mine.Same", mine.Never]})
+        self.assertEqual(list(dict.fromkeys(result.tables["success"]["estimator"])),
+                         ["free_fall", "python:mine.Same", "python:mine.Never", "always_contact"])
+        ours, theirs = self.rows(result, "free_fall"), self.rows(result, "python:mine.Same")
+        for table in ours:
+            for key, values in ours[table].items():
+                np.testing.assert_array_equal(theirs[table][key], values, err_msg=f"{table} {key}")
+        never = self.rows(result, "python:mine.Never")["classification"]
+        self.assertTrue((never["contact_recall"] == 0.0).all())
+
+    def test_hears_whole_runs_and_noise_that_matters_to_it_alone(self):
+        import mine
+
+        touchdown.run("hops.yaml", overrides={"estimators": [mine.Same, mine.HearsEverything]})
+        # 2 runs × 2 seeds, counted at different levels of 4 cells, then scored at 2 highlights.
+        per_task = {"Same": 2 + 2, "HearsEverything": 4 + 2}
+        for name, calls in per_task.items():
+            self.assertEqual(len(getattr(mine, name).calls), 4 * calls, name)
+            self.assertEqual(set(getattr(mine, name).calls), {(3201, 6)})
+
+    def test_whose_source_has_changed_is_heard_again(self):
+        import mine
+
+        first = touchdown.run("hops.yaml", overrides={"estimators": [mine.Never]})
+        again = touchdown.run("hops.yaml", overrides={"estimators": [mine.Never]})
+        self.assertEqual(again.path, first.path)
+        (self.folder / "mine.py").write_text(ESTIMATORS.replace("np.zeros(len", "np.ones(len"))
+        with self.assertRaisesRegex(touchdown.InputError, "mine.py was changed since it was imported"):
+            touchdown.run("hops.yaml", overrides={"estimators": ["python:mine.Never"]})
+        importlib.reload(mine)
+        changed = touchdown.run("hops.yaml", overrides={"estimators": ["python:mine.Never"]})
+        self.assertNotEqual(changed.id, first.id)
+        self.assertTrue((changed.tables["classification"]["contact_recall"] == 1.0).all())
+
+    def test_of_the_program_is_one_clear_error(self):
+        said = program("run", "hops.yaml", "--set", "estimators=[robust,python:mine.Never]", check=False)
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("'python:mine.Never' is written in Python: run the experiment from there, by "
+                      "'python3 -m touchdown run' or touchdown.run", said.stderr)
+        self.assertEqual(said.stderr.count("\n"), 1)
+
+    def test_that_fails_raises_what_it_raised(self):
+        try:
+            touchdown.run("hops.yaml", overrides={"estimators": ["python:mine.Breaks"]})
+        except ZeroDivisionError as error:
+            self.assertEqual(str(error), "of the user's own")
+            self.assertEqual(traceback.extract_tb(error.__traceback__)[-1].filename, str(self.folder / "mine.py"))
+        else:
+            self.fail("nothing was raised")
+
+    def test_that_is_wrong_is_said_in_one_line(self):
+        for name, words in (
+                ("python:mine.Short", "python:mine.Short: beliefs about 3 steps, expected 3201"),
+                ("python:mine.Nobody", "module 'mine' has no 'Nobody'"),
+                ("python:nowhere.Nobody", "there is no module 'nowhere' in .* or where Python looks"),
+                ("python:mine", "expected python:module.Class"),
+                ("python:mine.WithoutRun", r"expected a class with a method run\(self, signals\)"),
+                ("python:mine.Deaf", "sensors: 'acceleratoin' is not one of .*did you mean 'acceleration'"),
+                ("robusd", "did you mean 'robust'"),
+        ):
+            with self.assertRaisesRegex(touchdown.InputError, words):
+                touchdown.run("hops.yaml", overrides={"estimators": [name]})
+
+    def test_from_the_command_line(self):
+        import contextlib
+        import io
+
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            code = touchdown.experiment.main(["run", "hops.yaml", "--set", "estimators=[python:mine.Never]", "--set",
+                                              "test.runs=1", "--out", "out"])
+        self.assertEqual(code, 0)
+        self.assertIn("results   out", said.getvalue())
+        with contextlib.redirect_stderr(said):
+            self.assertEqual(touchdown.experiment.main(["run", "hop.yaml"]), 2)
+        self.assertIn("touchdown simulate", said.getvalue())
+
+
+if __name__ == "__main__":
+    unittest.main()

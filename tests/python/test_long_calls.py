@@ -1,0 +1,93 @@
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import touchdown
+from scene import HOP, InFolder
+
+INTERRUPTED = textwrap.dedent("""\
+    import os, signal, sys, threading, time
+    import touchdown
+
+    threading.Timer(float(sys.argv[1]), os.kill, (os.getpid(), signal.SIGINT)).start()
+    began = time.monotonic()
+    try:
+        {call}
+    except KeyboardInterrupt as interrupt:
+        print(time.monotonic() - began)
+        print(*getattr(interrupt, "__notes__", []))
+    """)
+
+
+class LongCalls(InFolder):
+    def interrupted(self, call, after):
+        """Seconds from the call to its end, and its note, when Ctrl-C comes after so many."""
+        done = subprocess.run([sys.executable, "-c", INTERRUPTED.format(call=call), str(after)], check=True,
+                              capture_output=True, text=True)
+        seconds, note = done.stdout.splitlines()
+        return float(seconds), note
+
+    def test_of_the_simulator_end_by_ctrl_c(self):
+        call = 'touchdown.simulate("scenarios/roam.yaml", overrides={"end.duration": 3600})'
+        seconds, _ = self.interrupted(call, 1.0)
+        self.assertLess(seconds, 3.0)
+
+    def test_of_an_experiment_end_by_ctrl_c_and_say_what_is_saved(self):
+        call = ('touchdown.run("experiments/stairs.yaml", out="out", '
+                'overrides={"estimators": ["robust"], "recordings": "none", "video.enabled": False, '
+                '"posterior.enabled": False, "detail.enabled": False, "video.estimators": ["robust"], '
+                '"detail.estimators": ["robust"]})')
+        seconds, note = self.interrupted(call, 1.5)
+        self.assertLess(seconds, 6.0)
+        self.assertRegex(note, "stopped; .* parts of the listening are saved in out; the same command goes on")
+
+    def test_leave_handlers_and_other_threads_alone(self):
+        # Another thread works on while this one simulates; a signal's own handler is called, and nothing stops.
+        ticks, done, handled = [], threading.Event(), []
+
+        def tick():
+            while not done.is_set():
+                ticks.append(time.monotonic())
+                time.sleep(0.001)
+
+        before = signal.signal(signal.SIGUSR1, lambda *_: handled.append(len(ticks)))
+        self.addCleanup(signal.signal, signal.SIGUSR1, before)
+        thread = threading.Thread(target=tick)
+        thread.start()
+        threading.Timer(0.1, signal.raise_signal, (signal.SIGUSR1,)).start()
+        began = time.monotonic()
+        run = touchdown.simulate(HOP)
+        seconds = time.monotonic() - began
+        done.set()
+        thread.join()
+        self.assertEqual(run.info["outcome"], "finished")
+        self.assertEqual(len(handled), 1)
+        between = [tick for tick in ticks if tick > began]
+        self.assertGreater(len(between), 20.0 * seconds)  # of a thousand per second, on a busy machine
+
+    def test_of_one_estimator_come_one_after_the_other(self):
+        run = touchdown.simulate(HOP, overrides={"end.duration": 0.5})
+        long = {name: np.concatenate([values] * 200) for name, values in run.items()}
+        estimator = touchdown.Estimator("free_fall")
+        thread = threading.Thread(target=estimator.run, args=[long])
+        thread.start()
+        refused = 0
+        while thread.is_alive():
+            try:
+                estimator.reset()
+            except touchdown.InputError as error:
+                self.assertEqual(str(error), "this estimator listens in another thread")
+                refused += 1
+        thread.join()
+        self.assertGreater(refused, 0)
+        estimator.reset()
+
+
+if __name__ == "__main__":
+    unittest.main()

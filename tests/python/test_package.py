@@ -1,0 +1,99 @@
+import ast
+import importlib.util
+import inspect
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+import touchdown
+from scene import SOURCE, InFolder
+
+PIP = all(importlib.util.find_spec(module) for module in ("pip", "venv", "setuptools", "wheel"))
+WORKS = "import touchdown; print(touchdown.simulate('scenarios/hop.yaml', overrides={'end.duration': 0.1}).steps)"
+
+
+def said(*command, **options):
+    """What it prints; without our own package on Python's path."""
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False,
+                          env={**environment, **options.pop("env", {})}, **options)
+    if done.returncode:
+        raise AssertionError(f"{command}: {done.stdout}{done.stderr}")
+    return done.stdout.strip()
+
+
+class Installed(InFolder):
+    def check(self, python, package, env):
+        """It works from anywhere, with what it brought along."""
+        self.assertEqual(said(python, "-c", WORKS, cwd="/", env=env), "101")
+        own = package / "share/touchdown/scenarios/found_beside_the_module.yaml"
+        own.write_text("name: here\n")
+        find = "import touchdown; print(touchdown._touchdown.find_resource('scenarios/found_beside_the_module.yaml'))"
+        self.assertEqual(said(python, "-c", find, cwd="/", env=env), str(own))
+        for brought in ("models/upkie.xml", "models/nmn.npz", "scenarios/stairs.yaml", "experiments/stairs.yaml",
+                        "sensors/upkie.yaml", "commit"):
+            self.assertTrue((package / "share/touchdown" / brought).is_file(), brought)
+        self.assertTrue((package / "py.typed").is_file())
+
+    @unittest.skipUnless(PIP, "needs Debian's python3-pip, python3-venv, python3-setuptools, python3-wheel")
+    def test_by_pip_without_a_network(self):
+        said(sys.executable, "-m", "venv", "--system-site-packages", "venv")
+        python = self.folder / "venv/bin/python"
+        # What pip compiles is compiled already.
+        said(python, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-cache-dir", SOURCE,
+             env={"TOUCHDOWN_BUILD": os.environ["TOUCHDOWN_BUILD"]})
+        package = pathlib.Path(said(python, "-c", "import touchdown; print(touchdown.__path__[0])", cwd="/"))
+        self.assertEqual(package.parents[3], self.folder / "venv")
+        self.check(python, package, {})
+        self.assertLess(sum(path.stat().st_size for path in package.rglob("*")), 10e6)
+        self.assertIn(f"Version: {touchdown.__version__}", said(python, "-m", "pip", "show", "touchdown"))
+        self.assertIn("--set KEY=VALUE", said(python, "-m", "touchdown", "run", "--help"))
+
+    def test_by_cmake(self):
+        said("cmake", "--install", os.environ["TOUCHDOWN_BUILD"], "--component", "python", "--prefix", self.folder)
+        package, = self.folder.glob("lib/python*/dist-packages/touchdown")
+        self.check(sys.executable, package, {"PYTHONPATH": str(package.parent)})
+
+
+class Stubs(unittest.TestCase):
+    def test_name_what_the_module_has(self):
+        tree = ast.parse((SOURCE / "python/touchdown/_touchdown.pyi").read_text(encoding="utf-8"))
+        module = touchdown._touchdown
+        written = {node.name: node for node in tree.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
+        self.assertEqual(set(written), {name for name in vars(module) if not name.startswith("_")})
+        for name, node in written.items():
+            if isinstance(node, ast.FunctionDef):
+                self.assertEqual([argument.arg for argument in node.args.args], self.arguments(getattr(module, name)),
+                                 name)
+                continue
+            methods = {inner.name: inner for inner in node.body if isinstance(inner, ast.FunctionDef)}
+            public = {key for key in vars(getattr(module, name)) if not key.startswith("_")}
+            self.assertEqual({key for key in methods if not key.startswith("_")}, public, name)
+            for key in public:
+                member = inspect.getattr_static(getattr(module, name), key)
+                if not isinstance(member, property):
+                    self.assertEqual([argument.arg for argument in methods[key].args.args],
+                                     self.arguments(getattr(getattr(module, name), key)), f"{name}.{key}")
+
+    @staticmethod
+    def arguments(function):
+        """By name, of a function of the module: they stand in its documentation's first line."""
+        names = re.findall(r"(?:\(|, )(\w+): ", function.__doc__.splitlines()[0])
+        return names
+
+    def test_of_what_users_call_say_types_and_what_it_does(self):
+        for name in touchdown.__all__:
+            thing = getattr(touchdown, name)
+            if not callable(thing) or inspect.isclass(thing) and issubclass(thing, Exception):
+                continue
+            self.assertTrue(inspect.getdoc(thing), name)
+            if inspect.isfunction(thing):
+                annotations = inspect.get_annotations(thing)
+                self.assertEqual(set(annotations), {*inspect.signature(thing).parameters, "return"}, name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,104 @@
+#include "scenarios/policy_contact.hpp"
+#include "scenarios/start_pose.hpp"
+#include "tests/scenarios/runs.hpp"
+
+namespace touchdown::scenarios {
+namespace {
+
+using policies::PolicyConfig;
+using recordings::Outcome;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+PolicyConfig soft(const std::string& contact, double late = 0.0) {
+  return {PolicyConfig::Law::soft_landing, contact, late};
+}
+
+Scenario high_steps(double rise) {
+  Scenario scenario = scenario_called("stairs");
+  auto& stairs = std::get<models::StairFlight>(scenario.terrain.pieces.back());
+  stairs.rise = rise;
+  stairs.count = 2;
+  scenario.end.x = 2.6;
+  return scenario;
+}
+
+class Policies : public InEveryEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, Policies, ::testing::ValuesIn(simulators::simulator_names()),
+                         engine_name);
+
+TEST_P(Policies, ASoftLanderComesDownStepsFromWhichTheBalancerFalls) {
+  Scenario steps = high_steps(0.7);
+  EXPECT_EQ(play(steps, GetParam()).info.outcome, Outcome::fell);
+  for (const PolicyConfig& policy : {soft("truth"), soft("truth", 0.08), soft("support_force")}) {
+    steps.policy = policy;
+    EXPECT_EQ(play(steps, GetParam()).info.outcome, Outcome::finished) << policy.contact;
+  }
+}
+
+TEST_P(Policies, ASoftLanderLosesNothingOnTheGround) {
+  for (const char* name : {"flat", "roam", "stairs", "push_off"}) {
+    Scenario scenario = scenario_called(name);
+    for (const char* contact : {"truth", "upkie_observer"}) {
+      scenario.policy = soft(contact);
+      EXPECT_EQ(play(scenario, GetParam()).info.outcome, Outcome::finished) << name << contact;
+    }
+  }
+}
+
+TEST_P(Policies, RepeatThemselvesToTheBit) {
+  Scenario scenario = high_steps(0.5);
+  scenario.policy = soft("support_force", 0.005);
+  const recordings::Recording once = play(scenario, GetParam());
+  const recordings::Recording again = play(scenario, GetParam());
+  ASSERT_EQ(once.steps(), again.steps());
+  EXPECT_EQ(once.truth.back().base_position, again.truth.back().base_position);
+}
+
+TEST(PolicyContact, OfTheTruthComesLateByWhatTheFileSays) {
+  Scenario scenario = standing(1.0);
+  scenario.start.clearance = 0.5;  // falls first
+  const auto simulator = make_simulator(scenario, "mujoco");
+  simulator->reset(start_pose(simulator->model(), scenario.terrain, scenario.start));
+  scenario.policy = soft("truth");
+  const policies::WheelContact at_once = policy_contact(scenario, *simulator);
+  scenario.policy.late = 0.01;
+  const policies::WheelContact late = policy_contact(scenario, *simulator);
+  std::vector<bool> told, told_late;
+  for (int k = 0; k < 450; ++k) {
+    told.push_back(at_once(simulator->observation(), 0.0)[0]);
+    told_late.push_back(late(simulator->observation(), 0.0)[0]);
+    EXPECT_EQ(told[static_cast<std::size_t>(k)],
+              k == 0 || in_contact(simulator->ground_truth(), 0));
+    simulator->step(models::Action{});
+  }
+  EXPECT_FALSE(told[100]);
+  for (std::size_t k = 10; k < told.size(); ++k) EXPECT_EQ(told_late[k], told[k - 10]);
+}
+
+TEST(PolicyFile, IsReadBackAndNotWrittenWhereItIsTheBalancer) {
+  Scenario scenario = standing(1.0);
+  EXPECT_THAT(to_yaml(scenario), Not(HasSubstr("policy")));
+  scenario.policy = soft("truth", 0.25);
+  const std::string text = to_yaml(scenario);
+  EXPECT_THAT(text, HasSubstr("law: soft_landing"));
+  EXPECT_EQ(scenario_from_yaml(YamlDocument::parse(text, "again.yaml")).policy, scenario.policy);
+}
+
+TEST(PolicyFile, ComplainsOnTheLine) {
+  const auto said_of = [](const std::string& text) -> std::string {
+    try {
+      (void)scenario_from_yaml(YamlDocument::parse("name: x\n" + text, "s.yaml"));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  };
+  EXPECT_THAT(said_of("policy: {contact: trut}\n"),
+              AllOf(HasSubstr("s.yaml:2:"), HasSubstr("did you mean 'truth'?")));
+  EXPECT_THAT(said_of("policy: {law: soft}\n"), HasSubstr("soft_landing"));
+  EXPECT_THAT(said_of("policy: {late: -1}\n"), HasSubstr("policy.late"));
+}
+
+}  // namespace
+}  // namespace touchdown::scenarios

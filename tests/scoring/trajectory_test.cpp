@@ -1,0 +1,159 @@
+#include "scoring/trajectory.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace touchdown::scoring {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+Quaterniond turned(double yaw) { return Quaterniond(AngleAxisd(yaw, Vector3d::UnitZ())); }
+
+/// At rest.
+TimedPose at(double time, const Vector3d& position,
+             const Quaterniond& orientation = Quaterniond::Identity()) {
+  return {time, position, orientation, Vector3d::Zero()};
+}
+
+/// Along x in steps of `stride`, `scale` times as far as it is told.
+Trajectory straight(int count, double stride, double scale = 1.0) {
+  Trajectory way;
+  for (int k = 0; k < count; ++k) {
+    way.push_back({0.1 * k,
+                   {scale * stride * k, 0, 0},
+                   Quaterniond::Identity(),
+                   {10.0 * scale * stride, 0, 0}});
+  }
+  return way;
+}
+
+TEST(TrajectoryScore, OfATooShortWayIsTheOneByHand) {
+  // Truth at 0, 1, 2, 3 m; told at 0, .9, 1.8, 2.7 m: errors 0, .1, .2, .3 m.
+  const TrajectoryScore score = score_trajectory(straight(4, 1.0, 0.9), straight(4, 1.0));
+  EXPECT_EQ(score.steps, 4);
+  EXPECT_EQ(score.runs, 1);
+  EXPECT_NEAR(score.rms(), std::sqrt(0.14 / 4), 1e-12);
+  EXPECT_NEAR(score.velocity_rms(), 1.0, 1e-12);  // 9 for 10 m/s
+  EXPECT_NEAR(score.height_rms(), 0.0, 1e-12);
+  EXPECT_NEAR(score.distance, 3.0, 1e-12);
+  EXPECT_NEAR(score.end_per_metre(), 0.1, 1e-12);
+  // Marks at 1, 2, 3 m: two segments, each .1 m short.
+  EXPECT_EQ(score.segments, 2);
+  EXPECT_NEAR(score.error_per_metre(), 0.1, 1e-12);
+  EXPECT_NEAR(score.rpe(), 0.1, 1e-12);
+  // Laid on each other at their middles the errors are ±.15 and ±.05 m.
+  EXPECT_NEAR(score.ate(), std::sqrt((2 * 0.0225 + 2 * 0.0025) / 4), 1e-12);
+}
+
+TEST(TrajectoryScore, DoesNotAskForTheOriginAndTheHeading) {
+  const Trajectory truth = straight(50, 0.1);
+  Trajectory told = truth;
+  for (TimedPose& pose : told) {
+    pose.position = turned(1.0) * pose.position + Vector3d(5, 6, 7);
+    pose.orientation = turned(1.0) * pose.orientation;
+    pose.velocity = turned(1.0) * pose.velocity;
+  }
+  const TrajectoryScore score = score_trajectory(told, truth);
+  EXPECT_LT(score.rms() + score.velocity_rms() + score.ate() + score.rpe() + score.height_rms(),
+            1e-9);
+}
+
+TEST(TrajectoryScore, OfAWrongHeadingGrowsWithTheWay) {
+  // Begins right, believes to head .1 rad to the left from then on: chords of 2 sin(.05).
+  const Trajectory truth = straight(41, 0.1);
+  Trajectory told = truth;
+  for (std::size_t k = 1; k < told.size(); ++k) {
+    told[k].position = turned(0.1) * told[k].position;
+    told[k].orientation = turned(0.1);
+  }
+  const TrajectoryScore score = score_trajectory(told, truth);
+  EXPECT_NEAR(score.end, 4.0 * 2.0 * std::sin(0.05), 1e-12);
+  EXPECT_NEAR(score.ate(), 0.0, 1e-9);  // the whole way can be laid on the truth
+  EXPECT_NEAR(score.rpe(), 0.0, 1e-9);  // and so can each metre, as its first pose is turned
+}
+
+TEST(TrajectoryScore, TellsHeightFromPlace) {
+  Trajectory told = straight(21, 0.1);
+  for (TimedPose& pose : told) pose.position.z() = 0.2 * pose.position.x();
+  const TrajectoryScore score = score_trajectory(told, straight(21, 0.1));
+  EXPECT_NEAR(score.rms(), 0.0, 1e-12);
+  EXPECT_NEAR(score.error_per_metre(), 0.0, 1e-12);
+  EXPECT_NEAR(score.rpe(), 0.2, 1e-12);
+  double squares = 0.0;
+  for (int k = 0; k <= 20; ++k) squares += std::pow(0.02 * k, 2);
+  EXPECT_NEAR(score.height_rms(), std::sqrt(squares / 21), 1e-12);
+}
+
+TEST(TrajectoryScore, LeavesOutTheBeginning) {
+  Trajectory told = straight(31, 0.1);
+  for (std::size_t k = 0; k < 10; ++k) told[k].position.y() = 3.0;
+  EXPECT_GT(score_trajectory(told, straight(31, 0.1)).rms(), 1.0);
+  const TrajectoryScore score = score_trajectory(told, straight(31, 0.1), 10);
+  EXPECT_EQ(score.steps, 21);
+  EXPECT_NEAR(score.rms(), 0.0, 1e-12);
+  EXPECT_NEAR(score.distance, 2.0, 1e-12);
+  EXPECT_TRUE(std::isnan(score_trajectory(told, straight(31, 0.1), 31).rms()));
+}
+
+TEST(TrajectoryScore, OfSeveralRunsIsThatOfTheirSums) {
+  const TrajectoryScore one = score_trajectory(straight(4, 1.0, 0.9), straight(4, 1.0));
+  TrajectoryScore both = one;
+  both += score_trajectory(straight(4, 1.0), straight(4, 1.0));
+  EXPECT_EQ(both.runs, 2);
+  EXPECT_NEAR(both.rms(), std::sqrt(0.14 / 8), 1e-12);
+  EXPECT_NEAR(both.error_per_metre(), 0.1 / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(both.end_per_metre(), 0.05, 1e-12);
+}
+
+TEST(TrajectoryScore, RefusesWaysOfDifferentLength) {
+  EXPECT_THROW(score_trajectory(straight(4, 1.0), straight(5, 1.0)), Error);
+}
+
+TEST(Alignment, FindsTheMotionBetweenTwoWays) {
+  Trajectory from;
+  for (int k = 0; k < 20; ++k) {
+    from.push_back(at(0.0, {std::cos(0.5 * k), 0.1 * k, std::sin(0.3 * k)}));
+  }
+  const Eigen::Isometry3d motion =
+      Eigen::Translation3d(1, -2, 3) * AngleAxisd(2.5, Vector3d(1, 2, -1).normalized());
+  Trajectory to = from;
+  for (TimedPose& pose : to) pose.position = motion * pose.position;
+  EXPECT_LT((aligned(from, to).matrix() - motion.matrix()).norm(), 1e-12);
+}
+
+TEST(Alignment, IsNeverAMirrorImage) {
+  // A plane letter F and its mirror image: half a turn about its stem is the best rotation.
+  Trajectory from, to;
+  for (const Vector3d& p : {Vector3d(0, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 2, 0),
+                            Vector3d(1, 2, 0), Vector3d(0.5, 1, 0)}) {
+    from.push_back(at(0.0, p));
+    to.push_back(at(0.0, {-p.x(), p.y(), 0}));
+  }
+  const Eigen::Isometry3d found = aligned(from, to);
+  EXPECT_NEAR(found.linear().determinant(), 1.0, 1e-12);
+  EXPECT_LT((found * Vector3d(1, 2, 0) - Vector3d(-1, 2, 0)).norm(), 1e-12);
+}
+
+TEST(Marks, StandWhereTheWaySinceTheLastHasCome) {
+  EXPECT_THAT(marks(straight(12, 0.25), 1.0), ::testing::ElementsAre(4, 8));
+  EXPECT_THAT(marks(straight(3, 0.25), 1.0), ::testing::IsEmpty());
+}
+
+TEST(Tum, IsALinePerPoseWithTheScalarLast) {
+  const Trajectory way = {at(0.0, {1, 2, 3}), at(0.5, {0.1, 0, -4}, Quaterniond(0, 0, 0, 1)),
+                          at(1.0, {7, 8, 9}, Quaterniond(0, 1, 0, 0))};
+  EXPECT_EQ(to_tum(way),
+            "# t x y z qx qy qz qw\n0 1 2 3 0 0 0 1\n0.5 0.1 0 -4 0 0 1 0\n1 7 8 9 1 0 0 0\n");
+  EXPECT_EQ(to_tum(way, 2), "# t x y z qx qy qz qw\n0 1 2 3 0 0 0 1\n1 7 8 9 1 0 0 0\n");
+}
+
+}  // namespace
+}  // namespace touchdown::scoring
