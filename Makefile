@@ -4,7 +4,7 @@ BUILD := build/release
 
 .DEFAULT_GOAL := help
 .PHONY: help setup program-packages trainer-packages python-packages test-packages fuzz-packages \
-	build run trainer python everything test faults lint format bench asan fuzz clean
+	build run trainer python everything test faults lint format bench asan tsan fuzz clean
 
 help: ## Show this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -39,16 +39,20 @@ build/asan/build.ninja: CMakePresets.json | test-packages
 	cmake --preset asan
 	@touch $@
 
+build/tsan/build.ninja: CMakePresets.json | test-packages
+	cmake --preset tsan
+	@touch $@
+
 build/fuzz/build.ninja: CMakePresets.json | test-packages fuzz-packages
 	cmake --preset fuzz
 	@touch $@
 
 build: $(BUILD)/build.ninja ## Build the program alone: build/release/touchdown
-	@echo "== compiling what is new of the program: about five minutes on two cores the first time"
+	@echo "== compiling what is new of the program: three to four minutes on two cores the first time"
 	@NINJA_STATUS="compiling %f of %t, %e s: " cmake --build --preset program --parallel $(JOBS) --target touchdown
 
 run: build ## Build the program, then run the first experiment
-	@echo "== the first experiment: simulate, fit, listen, score, draw, film: about two minutes on two cores"
+	@echo "== the first experiment: simulate, fit, listen, score, draw, film: a minute or two on two cores"
 	$(BUILD)/touchdown run experiments/stairs.yaml
 
 trainer: $(BUILD)/training/cmake_install.cmake ## Build the program and the trainer of the neural network
@@ -81,6 +85,10 @@ bench: everything ## Run every benchmark
 asan: build/asan/build.ninja ## Build and test with AddressSanitizer and UBSan
 	cmake --build --preset asan --parallel $(JOBS)
 	ctest --preset asan --parallel $(JOBS)
+
+tsan: build/tsan/build.ninja ## Build and test what runs in threads with ThreadSanitizer
+	cmake --build --preset tsan --parallel $(JOBS)
+	ctest --preset tsan --parallel $(JOBS)
 
 fuzz: build/fuzz/build.ninja ## Fuzz whatever reads a file, MINUTES (1) each
 	cmake --build --preset fuzz --parallel $(JOBS)

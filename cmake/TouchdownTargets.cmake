@@ -77,18 +77,30 @@ function(touchdown_precompile target)
       $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
   endif()
 endfunction()
+
+# A third of a source's compile time goes into making it fast, which pays in the rooms whose numbers
+# are computed for every step. The others spend their time there and in libraries: -O1, with the
+# rounding of -O3.
+# touchdown_arranges(<target>)
+function(touchdown_arranges target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1;-fexpensive-optimizations>)
+endfunction()
+
 if(NOT TOUCHDOWN_ESTIMATOR_ONLY)
   find_package(Eigen3 3.4 REQUIRED NO_MODULE)
   find_package(fmt REQUIRED)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "")
-  add_library(touchdown_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
-  target_link_libraries(touchdown_precompiled PRIVATE touchdown_flags Eigen3::Eigen fmt::fmt)
-  touchdown_precompile(touchdown_precompiled touchdown_precompiled <fmt/format.h> <yaml-cpp/yaml.h>)
+  foreach(owner touchdown_precompiled touchdown_computing_precompiled)
+    add_library(${owner} OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+    target_link_libraries(${owner} PRIVATE touchdown_flags Eigen3::Eigen fmt::fmt)
+    touchdown_precompile(${owner} ${owner} <fmt/format.h> <yaml-cpp/yaml.h>)
+  endforeach()
+  touchdown_arranges(touchdown_precompiled)
 endif()
 
 # Most of what is left of a source's compile time is spent on the same headers and templates as its
-# neighbour's; so the sources of a room are compiled four at a time, as one that includes them. Who
-# works in one of them compiles its three neighbours too: -DTOUCHDOWN_UNITY=OFF is for that.
+# neighbour's; so the sources of a room are compiled up to nine at a time, as one that includes them. Who
+# works in one of them compiles its neighbours too: -DTOUCHDOWN_UNITY=OFF is for that.
 # touchdown_unity(<target> <source>...)
 option(TOUCHDOWN_UNITY "Compile the sources of a room a few at a time" ON)
 function(touchdown_unity target)
@@ -106,7 +118,7 @@ function(touchdown_unity target)
   foreach(room ${rooms})
     string(MAKE_C_IDENTIFIER ${room} id)
     list(LENGTH in_${id} count)
-    math(EXPR parts "(${count} + 3) / 4")
+    math(EXPR parts "(${count} + 8) / 9")
     cmake_path(RELATIVE_PATH room BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE name)
     string(MAKE_C_IDENTIFIER ${name} name)
     set(i 0)
@@ -123,15 +135,22 @@ endfunction()
 # touchdown_library(<name> ROOMS <folder>... DEPENDS <target>...)
 # makes the static library touchdown_<name>, known as touchdown::<name>, of every .cpp that stands in
 # the rooms, folders below this one; without ROOMS, of those that stand here. PRECOMPILED: the owner
-# of its precompiled headers. ONE_BY_ONE: its sources are not compiled together.
+# of its precompiled headers. ONE_BY_ONE: its sources are not compiled together. COMPUTES: it is
+# compiled to be fast.
 function(touchdown_library name)
-  cmake_parse_arguments(ARG "ONE_BY_ONE" "PRECOMPILED" "ROOMS;SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "ONE_BY_ONE;COMPUTES" "PRECOMPILED" "ROOMS;SOURCES;DEPENDS" ${ARGN})
+  if(ARG_COMPUTES AND NOT ARG_PRECOMPILED)
+    set(ARG_PRECOMPILED touchdown_computing_precompiled)
+  endif()
   touchdown_sources(sources "${ARG_ROOMS}")
   add_library(touchdown_${name} STATIC ${sources} ${ARG_SOURCES})
   add_library(touchdown::${name} ALIAS touchdown_${name})
   target_link_libraries(touchdown_${name} PUBLIC ${ARG_DEPENDS} PRIVATE $<BUILD_INTERFACE:touchdown_flags>)
   target_include_directories(touchdown_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   touchdown_precompile(touchdown_${name} ${ARG_PRECOMPILED})
+  if(NOT ARG_COMPUTES)
+    touchdown_arranges(touchdown_${name})
+  endif()
   if(NOT ARG_ONE_BY_ONE)
     touchdown_unity(touchdown_${name} ${sources})
   endif()
@@ -159,6 +178,7 @@ function(touchdown_test folder)
   add_executable(test_${folder} ${sources})
   target_link_libraries(test_${folder} PRIVATE touchdown_flags ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   touchdown_precompile(test_${folder} touchdown_tests_precompiled)
+  touchdown_arranges(test_${folder})
   if(NOT ARG_ONE_BY_ONE)
     touchdown_unity(test_${folder} ${sources})
   endif()

@@ -34,6 +34,14 @@ bool is_heard(const LegJoints& joints) noexcept {
          std::all_of(joints.velocity.begin(), joints.velocity.end(), is_sane);
 }
 
+/// M·P·Mᵀ, symmetric to the last bit.
+template <typename Map, typename Middle>
+Covariance between(const Map& map, const Middle& middle) noexcept {
+  const Map half_way = map.lazyProduct(middle);
+  const Covariance whole = half_way.lazyProduct(map.transpose());
+  return 0.5 * (whole + whole.transpose());
+}
+
 auto diagonal(const Vector3d& variances) noexcept { return Matrix3d(variances.asDiagonal()); }
 
 }  // namespace
@@ -97,9 +105,11 @@ void ContactOdometry::hear_imu(const OdometrySample& sample) noexcept {
 void ContactOdometry::level() noexcept {
   is_placed_ = true;
   if (!(force_.norm() > 0.0)) return;
-  state_.pose.rotation = Eigen::Quaterniond::FromTwoVectors(force_, up).toRotationMatrix();
-  const double heading = state_.planar().heading;
-  state_.pose.rotation = exp_so3(-heading * up) * state_.pose.rotation;
+  // The world's axes as the base sees them, with a heading of zero; any, if it stands on its nose.
+  const Vector3d z = force_.normalized();
+  const Vector3d sideways = z.cross(Vector3d::UnitX());
+  const Vector3d y = sideways.norm() > 1e-6 ? Vector3d(sideways.normalized()) : Vector3d::UnitY();
+  state_.pose.rotation << y.cross(z).transpose(), y.transpose(), z.transpose();
 }
 
 /// Of its white noise over a second, along its own axes: one in its stop, or one that was not heard
@@ -147,8 +157,7 @@ void ContactOdometry::propagate(double step) noexcept {
   set(position, velocity, step * Matrix3d::Identity());
   set(position, gyroscope, -step * of_position - half * of_velocity);
   set(position, accelerometer, -half * middle);
-  const Covariance moved = phi * state_.covariance * phi.transpose();
-  state_.covariance = 0.5 * (moved + moved.transpose());
+  state_.covariance = between(phi, state_.covariance);
 
   add_noise(step, middle, before);
 }
@@ -157,22 +166,17 @@ void ContactOdometry::propagate(double step) noexcept {
 void ContactOdometry::add_noise(double step, const Matrix3d& to_world,
                                 const Vector3d& before) noexcept {
   const Matrix3d imu_to_world = to_world * config_.robot.imu_in_base;
-  const Matrix3d of_force =
+  Eigen::Matrix<double, 15, 6> of_noise = Eigen::Matrix<double, 15, 6>::Zero();
+  of_noise.block<3, 3>(rotation, 0).setIdentity();
+  of_noise.block<3, 3>(velocity, 0) = hat(before);
+  of_noise.block<3, 3>(position, 0) = hat(state_.pose.position);
+  of_noise.block<3, 3>(velocity, 3).setIdentity();
+  of_noise.block<3, 3>(position, 3).diagonal().setConstant(0.5 * step);
+  Eigen::Matrix<double, 6, 6> noise = Eigen::Matrix<double, 6, 6>::Zero();
+  noise.diagonal().head<3>().setConstant(step * config_.gyroscope_noise * config_.gyroscope_noise);
+  noise.bottomRightCorner<3, 3>() =
       step * imu_to_world * diagonal(accelerometer_variance(step)) * imu_to_world.transpose();
-  const Matrix3d of_rate =
-      step * config_.gyroscope_noise * config_.gyroscope_noise * Matrix3d::Identity();
-  const Matrix3d v = hat(before);
-  const Matrix3d p = hat(state_.pose.position);
-  const auto add = [&](int row, int column, const Matrix3d& block) {
-    state_.covariance.block<3, 3>(row, column) += block;
-    if (row != column) state_.covariance.block<3, 3>(column, row) += block.transpose();
-  };
-  add(rotation, rotation, of_rate);
-  add(velocity, rotation, v * of_rate);
-  add(position, rotation, p * of_rate);
-  add(velocity, velocity, v * of_rate * v.transpose() + of_force);
-  add(position, velocity, p * of_rate * v.transpose() + 0.5 * step * of_force);
-  add(position, position, p * of_rate * p.transpose() + 0.25 * step * step * of_force);
+  state_.covariance += between(of_noise, noise);
   const auto walk = [&](int at, double deviation) {
     state_.covariance.diagonal().segment<3>(at).array() += step * deviation * deviation;
   };
@@ -205,21 +209,19 @@ void ContactOdometry::correct(const WheeledLeg& leg, const LegJoints& joints, do
   const double steep = config_.slope * config_.slope * rolling.squaredNorm() / step;
   const Matrix3d noise = diagonal({level, level, level + steep});
 
-  using Columns = Eigen::Matrix<double, 15, 3>;
-  const Covariance& covariance = state_.covariance;
-  const Columns shared = covariance.middleCols<3>(rotation) * of_rotation.transpose() -
-                         covariance.middleCols<3>(velocity) +
-                         covariance.middleCols<3>(gyroscope) * of_bias.transpose();
-  const Matrix3d expected = of_rotation * shared.middleRows<3>(rotation) -
-                            shared.middleRows<3>(velocity) +
-                            of_bias * shared.middleRows<3>(gyroscope) + noise;
-  const Columns gain = shared * expected.inverse();
+  Eigen::Matrix<double, 3, 15> h = Eigen::Matrix<double, 3, 15>::Zero();
+  h.middleCols<3>(rotation) = of_rotation;
+  h.middleCols<3>(velocity) = -Matrix3d::Identity();
+  h.middleCols<3>(gyroscope) = of_bias;
+  const Eigen::Matrix<double, 15, 3> shared = state_.covariance.lazyProduct(h.transpose());
+  const Matrix3d expected = h.lazyProduct(shared) + noise;
+  const Eigen::Matrix<double, 15, 3> gain = shared * expected.inverse();
   const Eigen::Matrix<double, 15, 1> error = gain * innovation;
   if (!error.allFinite()) return;
   state_.pose = exp_se23(-error.head<9>()) * state_.pose;
   state_.gyroscope_bias -= error.segment<3>(gyroscope);
   state_.accelerometer_bias -= error.segment<3>(accelerometer);
-  const Covariance less = gain * shared.transpose();
+  const Covariance less = gain.lazyProduct(shared.transpose());
   state_.covariance -= 0.5 * (less + less.transpose());
 }
 
