@@ -42,9 +42,15 @@ ContactSequence combined(const std::array<ContactSequence, models::wheel_count>&
 
 }  // namespace
 
+void describe(Fields& fields, Annotator& annotator) {
+  fields("frame", annotator.frame, 0.0, 1.0);
+  fields("late", annotator.late, -1.0, 1.0);
+}
+
 void describe(Fields& fields, LabelConfig& labels) {
   fields("force_threshold", labels.force_threshold, 0.0, 1e4);
   fields("debounce", labels.debounce, 0.0, 10.0);
+  fields.section("annotator", labels.annotator);
 }
 
 ContactSequence debounced(ContactSequence contact, std::size_t steps) {
@@ -71,13 +77,29 @@ ContactSequence debounced(ContactSequence contact, std::size_t steps) {
   return contact;
 }
 
+ContactSequence annotated(const ContactSequence& contact, double period,
+                          const Annotator& annotator) {
+  ContactSequence result(contact.size());
+  for (std::size_t k = 0; k < contact.size(); ++k) {
+    const double time = static_cast<double>(k) * period;
+    // A picture that is taken at this very step is seen, however time was rounded.
+    const double picture =
+        annotator.frame > 0.0 ? std::floor(time / annotator.frame + 1e-9) * annotator.frame : time;
+    const long long seen = std::llround((picture - annotator.late) / period);
+    const auto last = static_cast<long long>(contact.size()) - 1;
+    result[k] = contact[static_cast<std::size_t>(std::clamp(seen, 0LL, last))];
+  }
+  return result;
+}
+
 ContactSequence contact_labels(std::span<const double> normal_force, double period,
                                const LabelConfig& config) {
   ContactSequence contact(normal_force.size());
   std::transform(normal_force.begin(), normal_force.end(), contact.begin(),
                  [&](double force) { return std::uint8_t{force > config.force_threshold}; });
-  return debounced(std::move(contact),
-                   static_cast<std::size_t>(std::llround(config.debounce / period)));
+  contact = debounced(std::move(contact),
+                      static_cast<std::size_t>(std::llround(config.debounce / period)));
+  return config.annotator ? annotated(contact, period, *config.annotator) : contact;
 }
 
 std::array<ContactSequence, models::wheel_count> contact_labels(
@@ -134,7 +156,9 @@ LabelStream::LabelStream(double period, const LabelConfig& config, Sink sink)
     : steps_(static_cast<std::size_t>(std::max(std::llround(config.debounce / period), 1LL))),
       longest_chatter_(steps_ + static_cast<std::size_t>(std::llround(60.0 / period))),
       threshold_(config.force_threshold),
-      sink_(std::move(sink)) {}
+      sink_(std::move(sink)) {
+  if (config.annotator) throw InputError("labels: expected no annotator for a stream of forces");
+}
 
 void LabelStream::add(double normal_force) {
   const std::uint8_t contact{normal_force > threshold_};

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,12 +20,20 @@ namespace touchdown::scoring {
 /// One contact state per time step: 1 in contact, 0 not.
 using ContactSequence = std::vector<std::uint8_t>;
 
+/// A person who labels a film by hand.
+struct Annotator {
+  double frame = 1.0 / 30.0;  ///< time from one picture to the next; 0: a film without pictures (s)
+  double late = 0.0;          ///< a state is marked this much after it began, or before (s)
+};
+
 /// When a wheel counts as being in contact.
 struct LabelConfig {
   double force_threshold = 1.0;  ///< in contact above this normal force (N)
   double debounce = 0.005;       ///< shorter states are merged into their neighbours (s)
+  std::optional<Annotator> annotator = {};
 };
 
+void describe(Fields& fields, Annotator& annotator);
 void describe(Fields& fields, LabelConfig& labels);
 
 /// A maximal stretch without contact: steps [takeoff, landing). A flight that the sequence begins
@@ -39,6 +48,11 @@ struct Flight {
 /// Merge every state that lasts fewer than `steps` steps into its neighbours, the shortest first
 /// (the earlier of two equals), until none is left or only one state remains.
 ContactSequence debounced(ContactSequence contact, std::size_t steps);
+
+/// What the annotator makes of contact that was so, one state per step of `period` seconds: that of
+/// the last picture, `late` before. What lies beyond an end is as the end.
+ContactSequence annotated(const ContactSequence& contact, double period,
+                          const Annotator& annotator);
 
 /// Contact of one wheel from its normal force (N, one per step of `period` seconds).
 ContactSequence contact_labels(std::span<const double> normal_force, double period,
@@ -71,6 +85,7 @@ class LabelStream {
   using Sink = std::function<void(std::uint8_t contact)>;
 
   /// `period` in seconds; `sink` gets one label per force, in their order.
+  /// Errors: `InputError` for an annotator, who sees whole films.
   LabelStream(double period, const LabelConfig& config, Sink sink);
 
   /// Normal force of the next step (N).

@@ -15,8 +15,14 @@ std::string plural(std::size_t count, const std::string& thing) {
 }
 
 std::string labels_text(const Experiment& experiment) {
-  return fmt::format("contact: normal force > {} N, states under {} ms merged",
-                     experiment.labels.force_threshold, 1e3 * experiment.labels.debounce);
+  const scoring::LabelConfig& labels = experiment.labels;
+  std::string text = fmt::format("contact: normal force > {} N, states under {} ms merged",
+                                 labels.force_threshold, 1e3 * labels.debounce);
+  if (labels.annotator) {
+    text += fmt::format(", as annotated from pictures {:.3g} ms apart, {:.3g} ms late",
+                        1e3 * labels.annotator->frame, 1e3 * labels.annotator->late);
+  }
+  return text;
 }
 
 std::string sample_text(const Experiment& experiment) {

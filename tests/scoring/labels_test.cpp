@@ -1,5 +1,8 @@
 #include "scoring/labels.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -38,6 +41,41 @@ TEST(Debounce, LeavesEmptyAndSingleStatesAlone) {
   EXPECT_EQ(debounced({}, 5), ContactSequence{});
   EXPECT_EQ(debounced({0}, 5), ContactSequence{0});
   EXPECT_EQ(debounced(sequence({{1, 3}}), 5), sequence({{1, 3}}));
+}
+
+TEST(Annotator, MarksWhatTheLastPictureShows) {
+  // Pictures at steps 0, 10, 20, ...; the wheel is in the air from 14 to 27.
+  const ContactSequence contact = sequence({{1, 14}, {0, 13}, {1, 23}});
+  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.01, .late = 0.0}),
+            sequence({{1, 20}, {0, 10}, {1, 20}}));
+}
+
+TEST(Annotator, MissesAFlightBetweenTwoPictures) {
+  const ContactSequence contact = sequence({{1, 11}, {0, 8}, {1, 31}});
+  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.01, .late = 0.0}), sequence({{1, 50}}));
+}
+
+TEST(Annotator, IsLateOrEarlyByAsMuchAsItSays) {
+  const ContactSequence contact = sequence({{0, 5}, {1, 20}, {0, 10}, {1, 15}});
+  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.0, .late = 0.007}),
+            sequence({{0, 12}, {1, 20}, {0, 10}, {1, 8}}));
+  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.0, .late = -0.007}),
+            sequence({{1, 18}, {0, 10}, {1, 22}}));
+}
+
+TEST(Annotator, SeesEveryStepOfAFilmAsFastAsTheRobot) {
+  ContactSequence contact;
+  for (int k = 0; k < 1000; ++k) contact.push_back(static_cast<std::uint8_t>(k * k % 7 < 3));
+  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 1e-3, .late = 0.0}), contact);
+  EXPECT_EQ(annotated({}, 1e-3, {}), ContactSequence{});
+}
+
+TEST(ContactLabels, AreAnnotatedAfterTheyAreDebounced) {
+  std::vector<double> force(40, 50.0);
+  std::fill(force.begin() + 8, force.begin() + 11, 0.0);   // shorter than the debounce
+  std::fill(force.begin() + 18, force.begin() + 32, 0.0);  // of pictures 20 and 30
+  EXPECT_EQ(contact_labels(force, 1e-3, {.annotator = Annotator{.frame = 0.01, .late = 0.0}}),
+            sequence({{1, 20}, {0, 20}}));
 }
 
 TEST(ContactLabels, NeedForceAboveTheThreshold) {
