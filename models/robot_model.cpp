@@ -319,4 +319,12 @@ void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
   for (std::size_t i = 0; i < servo_count; ++i) qpos[robot.qpos_address[i]] = joint_position[i];
 }
 
+MjDataPtr at_zero(const RobotModel& robot) {
+  MjDataPtr data(mj_makeData(robot.mj.get()));
+  if (!data) throw Error("MuJoCo could not make its data: out of memory");
+  write_pose(robot, Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity(), {}, data->qpos);
+  mj_kinematics(robot.mj.get(), data.get());
+  return data;
+}
+
 }  // namespace touchdown::models

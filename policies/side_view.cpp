@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "core/error.hpp"
-
 namespace touchdown::policies {
 
 namespace {
@@ -29,11 +27,7 @@ Eigen::Vector2d SideView::centre(double hip, double knee, double pitch) const {
 
 SideView side_view(const models::RobotModel& robot) {
   const mjModel& mj = *robot.mj;
-  const models::MjDataPtr data(mj_makeData(&mj));
-  if (!data) throw Error("MuJoCo could not make its data: out of memory");
-  models::write_pose(robot, Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity(), {},
-                     data->qpos);
-  mj_kinematics(&mj, data.get());
+  const models::MjDataPtr data = models::at_zero(robot);
   const auto joint = [&](models::Servo servo) {
     return mj.dof_jntid[robot.dof_address[models::index(servo)]];
   };

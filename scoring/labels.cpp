@@ -44,7 +44,8 @@ ContactSequence combined(const std::array<ContactSequence, models::wheel_count>&
 
 void describe(Fields& fields, Annotator& annotator) {
   fields("frame", annotator.frame, 0.0, 1.0);
-  fields("late", annotator.late, -1.0, 1.0);
+  fields("takeoffs_late", annotator.takeoffs_late, -1.0, 1.0);
+  fields("landings_late", annotator.landings_late, -1.0, 1.0);
 }
 
 void describe(Fields& fields, LabelConfig& labels) {
@@ -79,15 +80,25 @@ ContactSequence debounced(ContactSequence contact, std::size_t steps) {
 
 ContactSequence annotated(const ContactSequence& contact, double period,
                           const Annotator& annotator) {
-  ContactSequence result(contact.size());
-  for (std::size_t k = 0; k < contact.size(); ++k) {
-    const double time = static_cast<double>(k) * period;
+  const auto end = static_cast<std::ptrdiff_t>(contact.size());
+  const auto marked = [&](std::size_t event, double late) {
+    const auto step = static_cast<std::ptrdiff_t>(event);
+    if (step == 0 || step == end) return step;
+    return std::clamp(step + std::ptrdiff_t{std::llround(late / period)}, std::ptrdiff_t{0}, end);
+  };
+  ContactSequence seen(contact.size(), 1);
+  for (const Flight& flight : flights(contact)) {
+    const std::ptrdiff_t takeoff = marked(flight.takeoff, annotator.takeoffs_late);
+    const std::ptrdiff_t landing = marked(flight.landing, annotator.landings_late);
+    if (takeoff < landing) std::fill(seen.begin() + takeoff, seen.begin() + landing, 0);
+  }
+  if (!(annotator.frame > 0.0)) return seen;
+  ContactSequence result(seen.size());
+  for (std::size_t k = 0; k < seen.size(); ++k) {
     // A picture that is taken at this very step is seen, however time was rounded.
     const double picture =
-        annotator.frame > 0.0 ? std::floor(time / annotator.frame + 1e-9) * annotator.frame : time;
-    const long long seen = std::llround((picture - annotator.late) / period);
-    const auto last = static_cast<long long>(contact.size()) - 1;
-    result[k] = contact[static_cast<std::size_t>(std::clamp(seen, 0LL, last))];
+        std::floor(static_cast<double>(k) * period / annotator.frame + 1e-9) * annotator.frame;
+    result[k] = seen[static_cast<std::size_t>(std::llround(picture / period))];
   }
   return result;
 }

@@ -23,7 +23,8 @@ using ContactSequence = std::vector<std::uint8_t>;
 /// A person who labels a film by hand.
 struct Annotator {
   double frame = 1.0 / 30.0;  ///< time from one picture to the next; 0: a film without pictures (s)
-  double late = 0.0;          ///< a state is marked this much after it began, or before (s)
+  double takeoffs_late = 0.0;  ///< takeoffs are marked this much after they were, or before (s)
+  double landings_late = 0.0;  ///< landings, likewise (s)
 };
 
 /// When a wheel counts as being in contact.
@@ -50,7 +51,8 @@ struct Flight {
 ContactSequence debounced(ContactSequence contact, std::size_t steps);
 
 /// What the annotator makes of contact that was so, one state per step of `period` seconds: that of
-/// the last picture, `late` before. What lies beyond an end is as the end.
+/// the last picture, with flights from their late takeoffs to their late landings. One that would
+/// land before it takes off is not seen; the run's ends are no events.
 ContactSequence annotated(const ContactSequence& contact, double period,
                           const Annotator& annotator);
 

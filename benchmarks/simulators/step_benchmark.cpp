@@ -140,6 +140,37 @@ BENCHMARK_CAPTURE(step, bullet, "bullet")
     ->Unit(benchmark::kMillisecond)
     ->MinTime(4.0);
 
+/// What Upkie's actuators cost over ideal ones: both robots come down the same stairs in turn; the
+/// fastest of each counts.
+void actuators(benchmark::State& state, const char* engine) {
+  struct Played {
+    scenarios::Scenario scenario;
+    std::unique_ptr<Simulator> simulator;
+    double step = 1e9;  // s
+
+    explicit Played(const char* robot) : scenario(stairs()) { scenario.robot = robot; }
+    void again() {
+      const auto start = std::chrono::steady_clock::now();
+      const recordings::Recording recording = scenarios::play(scenario, *simulator);
+      step = std::min(step, seconds_since(start) / static_cast<double>(recording.steps()));
+    }
+  };
+  Played ideal(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml");
+  Played actuated(TOUCHDOWN_SOURCE_DIR "/models/upkie_actuated.yaml");
+  for (Played* played : {&ideal, &actuated}) {
+    played->simulator = scenarios::make_simulator(played->scenario, engine);
+  }
+  for (auto _ : state) {
+    ideal.again();
+    actuated.again();
+  }
+  state.counters["ideal_us"] = 1e6 * ideal.step;
+  state.counters["actuated_us"] = 1e6 * actuated.step;
+  state.counters["percent"] = 100.0 * (actuated.step / ideal.step - 1.0);
+}
+BENCHMARK_CAPTURE(actuators, mujoco, "mujoco")->Unit(benchmark::kMillisecond)->Iterations(15);
+BENCHMARK_CAPTURE(actuators, bullet, "bullet")->Unit(benchmark::kMillisecond)->Iterations(15);
+
 /// Robot and terrain compiled and put into an engine: once per run, or once per many.
 void compile_scene(benchmark::State& state, const char* engine) {
   const scenarios::Scenario scenario = stairs();

@@ -222,11 +222,14 @@ static void describe(Fields& fields, Experiment& experiment) {
     fit("seed", *experiment.fit_seed);
   });
   fields.section("test", experiment.test);
-  fields.know("sensors");
-  if (fields.present("sensors", !experiment.sensors.empty())) {
-    fields("sensors", experiment.sensors);
-    fields.check(!experiment.sensors.empty(), "sensors", "expected a file");
-  }
+  const auto file_if_any = [&](const char* key, std::string& file) {
+    fields.know(key);
+    if (!fields.present(key, !file.empty())) return;
+    fields(key, file);
+    fields.check(!file.empty(), key, "expected a file");
+  };
+  file_if_any("robot", experiment.robot);
+  file_if_any("sensors", experiment.sensors);
   fields.know("sweep");
   if (fields.present("sweep", !experiment.sweep.empty())) fields.section("sweep", experiment.sweep);
   const noise::NoiseGridConfig& noise = experiment.noise;

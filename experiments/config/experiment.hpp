@@ -148,6 +148,7 @@ struct Experiment {
   std::vector<FitPieces> fit_pieces;
   std::optional<std::uint64_t> fit_seed;  ///< that these are drawn with, if not `seed`
   RunsConfig test;      ///< runs that estimators are scored on; none of them is ever fitted to
+  std::string robot;    ///< file of the robot in all of them; empty: each scenario's own
   std::string sensors;  ///< file of the sensors' profile; empty: ideal ones
   std::vector<SensorFactor> sweep;  ///< of these, one at a time
   noise::NoiseGridConfig noise;

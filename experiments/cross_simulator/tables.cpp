@@ -74,7 +74,7 @@ CaptionedTable agreement_table(const CrossSimulatorResult& result) {
   const std::vector<std::string>& engine = result.experiment.simulators;
   CaptionedTable table{
       fmt::format("Agreement before any estimator: the same {} runs in both engines{}.",
-                  result.agreement.runs, sensors_text(result.experiment)),
+                  result.agreement.runs, equipment_text(result.experiment)),
       "agreement",
       {{"quantity", "unit", engine[0], engine[1], engine[1] + " − " + engine[0]}, {}}};
   for (const QuantityAgreement& q : result.agreement.quantities) {
@@ -91,7 +91,7 @@ CaptionedTable torque_table(const CrossSimulatorResult& result) {
   CaptionedTable table{
       fmt::format("Torque distributions, engine against engine; \"within\" is the distance between "
                   "one engine's even and odd runs{}.",
-                  sensors_text(result.experiment)),
+                  equipment_text(result.experiment)),
       "torques",
       {{"torque", "unit", "Wasserstein distance", "within", "overlap"}, {}}};
   for (const TorqueAgreement& t : agreement.torques) {
@@ -106,7 +106,7 @@ CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::N
   CaptionedTable table{
       fmt::format("Transfer: success rate by engine of the fit and of the test; loss is that of "
                   "fitting in the other engine ({}{}).",
-                  noise_text(cell), sensors_text(result.experiment)),
+                  noise_text(cell), equipment_text(result.experiment)),
       "transfer",
       {{"estimator", "fit → test", "success", "no contact recall", "loss", "gain over always"},
        {}}};
@@ -132,7 +132,7 @@ CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
                   "factor at a time, {} runs each ({}{}).",
                   result.experiment.cross_simulator->sensitivity_runs,
                   noise_text(result.experiment.highlights.front()),
-                  sensors_text(result.experiment)),
+                  equipment_text(result.experiment)),
       "sensitivity",
       {{"factor", "simulator", "value", "fell"}, {}}};
   std::string last;

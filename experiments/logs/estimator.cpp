@@ -118,10 +118,12 @@ std::string LogEstimator::model_text() const {
 LogEstimator log_estimator(const LogEstimatorRequest& request) {
   if (!request.name.empty()) check_needs(estimator_entry(request.name), request.model);
   if (request.model.empty()) {
-    const EstimatorEntry& entry = request.name.empty() ? usual_estimator(ModelKind::measurement, {})
-                                                       : estimator_entry(request.name);
+    const FittedModel none;
+    const EstimatorEntry& entry = request.name.empty()
+                                      ? usual_estimator(ModelKind::measurement, none)
+                                      : estimator_entry(request.name);
     check_needs(entry, request.model);
-    return {entry, {}, request};
+    return {entry, none, request};
   }
   const ModelKind kind = kind_of_model_file(request.model);
   FittedModel model = read_fitted_model(kind, request.model);

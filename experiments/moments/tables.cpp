@@ -119,7 +119,7 @@ std::string moments_text(const std::vector<EngineTorques>& engines, const Experi
     row->push_back(fmt::format("{}/{}", engine.failed, engine.runs));
   }
   return fmt::format("Torques beside the real robot's: mean ± standard deviation in N·m{}\n\n{}",
-                     sensors_text(experiment), to_text(table));
+                     equipment_text(experiment), to_text(table));
 }
 
 }  // namespace touchdown::experiments

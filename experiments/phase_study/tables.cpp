@@ -227,7 +227,7 @@ std::string phase_study_text(const Listened& listened) {
     scenes.push_back(collect(plan, plan.runs_in(g), listened.saved));
   }
   std::string text = fmt::format("# Phase filter, test runs of seed {}{}\n", experiment.seed,
-                                 sensors_text(experiment));
+                                 equipment_text(experiment));
   for (const std::string& simulator : experiment.simulators) {
     const Engine engine{experiment, plan.groups.front(), listened.own, simulator};
     const double fitted =

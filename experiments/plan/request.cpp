@@ -81,8 +81,8 @@ std::string scenario_file(std::size_t number) { return fmt::format("scenario_{:0
 RunRequest request_of(const Experiment& experiment) {
   RunRequest request{experiment, {}, {}, {}};
   request.scenarios = scenarios_of(
-      experiment, [](const std::string& file, const std::string& robot, std::size_t /*n*/) {
-        return scenarios::find_scenario(file, robot);
+      experiment, [&](const std::string& file, const std::string& robot, std::size_t /*n*/) {
+        return scenarios::find_scenario(file, robot.empty() ? experiment.robot : robot);
       });
   request.sensors = read_sensors(request.experiment);
   Digest digest(request.experiment, request.sensors);

@@ -76,8 +76,11 @@ void report_through_sensors(const noise::SensorProfile& profile, const Experimen
   noise::report_through(profile, draws_of(experiment, sensor_stream, 0, run), period, observations);
 }
 
-std::string sensors_text(const Experiment& experiment) {
-  return experiment.sensors.empty() ? "" : "; sensors as in " + experiment.sensors;
+std::string equipment_text(const Experiment& experiment) {
+  std::string text;
+  if (!experiment.robot.empty()) text += "; robot as in " + experiment.robot;
+  if (!experiment.sensors.empty()) text += "; sensors as in " + experiment.sensors;
+  return text;
 }
 
 }  // namespace touchdown::experiments

@@ -39,7 +39,8 @@ void report_through_sensors(const noise::SensorProfile& profile, const Experimen
                             std::int64_t run, double period,
                             std::vector<models::Observation>& observations);
 
-/// What captions say of them: "; sensors as in sensors/upkie.yaml", nothing where they are ideal.
-std::string sensors_text(const Experiment& experiment);
+/// What captions say of robot and sensors: "; sensors as in sensors/upkie.yaml"; nothing of ideal
+/// sensors, nor where each scenario has its own robot.
+std::string equipment_text(const Experiment& experiment);
 
 }  // namespace touchdown::experiments

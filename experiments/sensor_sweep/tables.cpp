@@ -55,7 +55,7 @@ std::string sensor_sweep_text(const std::vector<SensorSweepPoint>& points,
   std::string text = fmt::format(
       "Success rate by what is wrong with the sensors ({}{}; {}): estimators fitted "
       "without it\n",
-      noise_text(experiment.highlights.front()), sensors_text(experiment),
+      noise_text(experiment.highlights.front()), equipment_text(experiment),
       intervals_text(experiment));
   for (const SensorFactor& factor : experiment.sweep) {
     for (const std::string& simulator : experiment.simulators) {

@@ -16,11 +16,7 @@ Eigen::Vector3d in_its_plane(const Eigen::Vector3d& link) { return {link.x(), 0.
 
 odometry::WheeledBiped wheeled_biped(const models::RobotModel& robot) {
   const mjModel& mj = *robot.mj;
-  const models::MjDataPtr data(mj_makeData(&mj));
-  if (!data) throw Error("MuJoCo could not make its data: out of memory");
-  models::write_pose(robot, Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity(), {},
-                     data->qpos);
-  mj_kinematics(&mj, data.get());
+  const models::MjDataPtr data = models::at_zero(robot);
   const Eigen::Vector3d imu = models::vector_at(data->site_xpos, robot.imu_site);
   odometry::WheeledBiped biped;
   biped.imu_in_base =

@@ -19,8 +19,10 @@ std::string labels_text(const Experiment& experiment) {
   std::string text = fmt::format("contact: normal force > {} N, states under {} ms merged",
                                  labels.force_threshold, 1e3 * labels.debounce);
   if (labels.annotator) {
-    text += fmt::format(", as annotated from pictures {:.3g} ms apart, {:.3g} ms late",
-                        1e3 * labels.annotator->frame, 1e3 * labels.annotator->late);
+    text += fmt::format(
+        ", as annotated from pictures {:.3g} ms apart, takeoffs {:.3g} and landings {:.3g} ms late",
+        1e3 * labels.annotator->frame, 1e3 * labels.annotator->takeoffs_late,
+        1e3 * labels.annotator->landings_late);
   }
   return text;
 }
@@ -36,7 +38,7 @@ std::string intervals_text(const Experiment& experiment) {
 
 std::string conditions_text(const Experiment& experiment) {
   return fmt::format("Both wheels; {}{}; first {} ms not scored; {}.", labels_text(experiment),
-                     sensors_text(experiment), 1e3 * experiment.scoring.skip,
+                     equipment_text(experiment), 1e3 * experiment.scoring.skip,
                      intervals_text(experiment));
 }
 
@@ -69,7 +71,7 @@ std::string scored_text(const ExperimentResult& result, const std::string& simul
   });
   return fmt::format("{} × {}; {}{}", plural(static_cast<std::size_t>(scored), "test run"),
                      plural(static_cast<std::size_t>(result.experiment.noise.seeds), "noise seed"),
-                     labels_text(result.experiment), sensors_text(result.experiment));
+                     labels_text(result.experiment), equipment_text(result.experiment));
 }
 
 }  // namespace touchdown::experiments

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
-#include "experiments/plan/sensors.hpp"  // `sensors_text`, for captions too
+#include "experiments/plan/sensors.hpp"  // `equipment_text`, for captions too
 #include "experiments/tables/scores.hpp"
 
 namespace touchdown::experiments {

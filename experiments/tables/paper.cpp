@@ -98,7 +98,7 @@ std::vector<std::string> latex_cells(const std::vector<std::string>& cells) {
 /// What the numbers of one cell are, in words.
 std::string how_scored(const Experiment& experiment, const noise::NoiseCell& cell) {
   return fmt::format("Both wheels; {}, {} noise seeds{}; {}; {}.", noise_text(cell),
-                     experiment.noise.seeds, sensors_text(experiment), labels_text(experiment),
+                     experiment.noise.seeds, equipment_text(experiment), labels_text(experiment),
                      intervals_text(experiment));
 }
 
@@ -155,7 +155,7 @@ std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
       tables.push_back(std::move(table));
     }
     tables.push_back(difference_text_table(in_cell(result.differences, cell)));
-    tables.back().caption += sensors_text(result.experiment);
+    tables.back().caption += equipment_text(result.experiment);
   }
   return tables;
 }

@@ -50,7 +50,7 @@ void write_score_tables(const ExperimentResult& result) {
   directory.write_table("labels.csv", labels);
   write_atomically(directory.file("tables", "labels.md"),
                    to_markdown({"Point-wise scores by the definition of contact" +
-                                    sensors_text(result.experiment) + ".",
+                                    equipment_text(result.experiment) + ".",
                                 "labels", labels}));
   std::string markdown;
   std::string latex;

@@ -66,7 +66,7 @@ std::string summary_text(const ExperimentResult& result) {
     });
     for (const noise::NoiseCell& cell : experiment.highlights) {
       text += fmt::format("\n{}: {} test runs × {} noise seeds, {}{}\n\n", simulator, scored,
-                          experiment.noise.seeds, noise_text(cell), sensors_text(experiment));
+                          experiment.noise.seeds, noise_text(cell), equipment_text(experiment));
       text += to_text(cell_table(result, simulator, cell));
     }
     if (result.cells.size() > 1) {
@@ -74,7 +74,7 @@ std::string summary_text(const ExperimentResult& result) {
       text += fmt::format(
           "\n{}: success rate of {} by torque and accelerometer noise "
           "(* no better than always contact){}\n\n",
-          simulator, estimator_entry(first).title, sensors_text(experiment));
+          simulator, estimator_entry(first).title, equipment_text(experiment));
       text += to_text(grid_table(result.summaries, simulator, first, experiment.noise));
     }
   }
@@ -110,7 +110,7 @@ std::string closing_text(const ExperimentResult& result) {
     row->push_back(false_takeoffs_text(result.scores, summary));
   }
   return fmt::format("\nShare of time in which contact was told right, {}{}\n\n{}",
-                     noise_text(cell), sensors_text(result.experiment), to_text(table));
+                     noise_text(cell), equipment_text(result.experiment), to_text(table));
 }
 
 }  // namespace touchdown::experiments

@@ -35,7 +35,7 @@ std::string which_drop(const experiments::Experiment& experiment,
   return fmt::format(
       "Test run {}, drop {} of both wheels (from 0), experiment seed {}, noise seed {}; {}{}.",
       choice.run, choice.drop, experiment.seed, choice.seed, experiments::labels_text(experiment),
-      experiments::sensors_text(experiment));
+      experiments::equipment_text(experiment));
 }
 
 /// "Not shown: NMN, Free fall."; nothing where all of the experiment's estimators are.

@@ -73,7 +73,7 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
       "and 99 % of a density; on the right they are P = 0.5 and the decision, 0.8. Axes end where "
       "97 % of both densities lie.",
       experiments::plural(runs, "run"), experiment.seed, experiments::labels_text(experiment),
-      experiments::sensors_text(experiment));
+      experiments::equipment_text(experiment));
   return figure;
 }
 

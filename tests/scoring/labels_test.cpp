@@ -46,27 +46,41 @@ TEST(Debounce, LeavesEmptyAndSingleStatesAlone) {
 TEST(Annotator, MarksWhatTheLastPictureShows) {
   // Pictures at steps 0, 10, 20, ...; the wheel is in the air from 14 to 27.
   const ContactSequence contact = sequence({{1, 14}, {0, 13}, {1, 23}});
-  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.01, .late = 0.0}),
-            sequence({{1, 20}, {0, 10}, {1, 20}}));
+  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.01}), sequence({{1, 20}, {0, 10}, {1, 20}}));
 }
 
 TEST(Annotator, MissesAFlightBetweenTwoPictures) {
   const ContactSequence contact = sequence({{1, 11}, {0, 8}, {1, 31}});
-  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.01, .late = 0.0}), sequence({{1, 50}}));
+  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.01}), sequence({{1, 50}}));
 }
 
 TEST(Annotator, IsLateOrEarlyByAsMuchAsItSays) {
-  const ContactSequence contact = sequence({{0, 5}, {1, 20}, {0, 10}, {1, 15}});
-  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.0, .late = 0.007}),
-            sequence({{0, 12}, {1, 20}, {0, 10}, {1, 8}}));
-  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.0, .late = -0.007}),
-            sequence({{1, 18}, {0, 10}, {1, 22}}));
+  const ContactSequence contact = sequence({{1, 15}, {0, 20}, {1, 15}});
+  EXPECT_EQ(
+      annotated(contact, 1e-3, {.frame = 0.0, .takeoffs_late = -0.007, .landings_late = 0.003}),
+      sequence({{1, 8}, {0, 30}, {1, 12}}));
+  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.0, .takeoffs_late = 0.02, .landings_late = 0.0}),
+            sequence({{1, 50}}));
+}
+
+TEST(Annotator, KnowsThatEndsOfARunAreNoEvents) {
+  const ContactSequence contact = sequence({{0, 10}, {1, 30}, {0, 10}});
+  EXPECT_EQ(
+      annotated(contact, 1e-3, {.frame = 0.0, .takeoffs_late = 0.004, .landings_late = 0.004}),
+      sequence({{0, 14}, {1, 30}, {0, 6}}));
+}
+
+TEST(Annotator, SeesFlightsThatRunIntoEachOtherAsOne) {
+  const ContactSequence contact = sequence({{1, 10}, {0, 10}, {1, 5}, {0, 10}, {1, 15}});
+  EXPECT_EQ(
+      annotated(contact, 1e-3, {.frame = 0.0, .takeoffs_late = -0.003, .landings_late = 0.003}),
+      sequence({{1, 7}, {0, 31}, {1, 12}}));
 }
 
 TEST(Annotator, SeesEveryStepOfAFilmAsFastAsTheRobot) {
   ContactSequence contact;
   for (int k = 0; k < 1000; ++k) contact.push_back(static_cast<std::uint8_t>(k * k % 7 < 3));
-  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 1e-3, .late = 0.0}), contact);
+  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 1e-3}), contact);
   EXPECT_EQ(annotated({}, 1e-3, {}), ContactSequence{});
 }
 
@@ -74,7 +88,7 @@ TEST(ContactLabels, AreAnnotatedAfterTheyAreDebounced) {
   std::vector<double> force(40, 50.0);
   std::fill(force.begin() + 8, force.begin() + 11, 0.0);   // shorter than the debounce
   std::fill(force.begin() + 18, force.begin() + 32, 0.0);  // of pictures 20 and 30
-  EXPECT_EQ(contact_labels(force, 1e-3, {.annotator = Annotator{.frame = 0.01, .late = 0.0}}),
+  EXPECT_EQ(contact_labels(force, 1e-3, {.annotator = Annotator{.frame = 0.01}}),
             sequence({{1, 20}, {0, 20}}));
 }
 

@@ -19,8 +19,8 @@ RunRequest shipped(const std::string& name) {
 }
 
 TEST(Request, ThatIsWrittenIsReadBackAsTheSame) {
-  for (const char* name :
-       {"stairs", "noise_study", "tables", "cross_simulator", "phase_study", "real_robot"}) {
+  for (const char* name : {"stairs", "noise_study", "tables", "cross_simulator", "phase_study",
+                           "real_robot", "paper_course"}) {
     const ScratchFolder folder;
     const RunRequest request = shipped(name);
     const RunDirectory directory(name, request.id, folder.path());
@@ -44,6 +44,23 @@ TEST(Request, IsNotWrittenOverAnotherUnasked) {
   EXPECT_TRUE(is_written(stairs, folder.path()));
   write_request(tables, directory, true);
   EXPECT_EQ(read_request(folder.path()).id, tables.id);
+}
+
+TEST(Request, PutsItsRobotIntoEveryScenario) {
+  RunRequest request = shipped("tables");
+  const std::string own = request.id;
+  Experiment experiment = request.experiment;
+  experiment.robot = "models/upkie_heavy.yaml";
+  request =
+      request_of(experiment_from_yaml(YamlDocument::parse(to_yaml(experiment), "again.yaml")));
+  EXPECT_NE(request.id, own);
+  EXPECT_EQ(request.scenarios.size(), 3U);  // roam, hang, course
+  for (const NamedScenario& named : request.scenarios) {
+    EXPECT_THAT(named.scenario.robot, HasSubstr("upkie_heavy.yaml")) << named.file;
+  }
+  const ScratchFolder folder;
+  write_request(request, RunDirectory("tables", request.id, folder.path()), false);
+  EXPECT_EQ(read_request(folder.path()).id, request.id);
 }
 
 TEST(Request, ThatWasChangedSinceIsNotRead) {

@@ -23,7 +23,7 @@ TEST(RequestedSensors, ThatAreIdealAreTheRequestOfNone) {
   const RunRequest ideal = request_with("sensors/ideal.yaml");
   EXPECT_EQ(none.id, ideal.id);
   EXPECT_EQ(to_yaml(none.experiment), to_yaml(ideal.experiment));
-  EXPECT_EQ(sensors_text(ideal.experiment), "");
+  EXPECT_EQ(equipment_text(ideal.experiment), "");
 }
 
 TEST(RequestedSensors, CountByTheirNameAndByWhatTheirFileSays) {
@@ -51,7 +51,7 @@ TEST(RequestedSensors, AreReadBackAsTheyWereWhenTheyWereWritten) {
 }
 
 TEST(RequestedSensors, ReportARunInBothEnginesAlike) {
-  const RunRequest request = request_with("sensors/harsh.yaml");
+  RunRequest request = request_with("sensors/harsh.yaml");
   std::vector<models::Observation> first(20), again(20), other(20);
   const noise::SensorProfile profile = request.sensors.front().profile;
   report_through_sensors(profile, request.experiment, 3, 0.001, first);
@@ -60,7 +60,10 @@ TEST(RequestedSensors, ReportARunInBothEnginesAlike) {
   EXPECT_EQ(first[7].servo[1].torque, again[7].servo[1].torque);
   EXPECT_NE(first[7].servo[1].torque, other[7].servo[1].torque);
   EXPECT_NE(first[7].servo[1].torque, 0.0);
-  EXPECT_EQ(sensors_text(request.experiment), "; sensors as in sensors/harsh.yaml");
+  EXPECT_EQ(equipment_text(request.experiment), "; sensors as in sensors/harsh.yaml");
+  request.experiment.robot = "models/upkie_heavy.yaml";
+  EXPECT_EQ(equipment_text(request.experiment),
+            "; robot as in models/upkie_heavy.yaml; sensors as in sensors/harsh.yaml");
 }
 
 }  // namespace
