@@ -51,15 +51,9 @@ Eigen::Matrix3d inertia(const RobotModel& robot, const char* name) {
   return axes * vector_at(robot.mj->body_inertia, id).asDiagonal() * axes.transpose();
 }
 
-/// Where joints and tyres are with the base at the origin and all angles zero.
+/// Where a joint is.
 Eigen::Vector3d anchor(const RobotModel& robot, const char* joint, const mjData& data) {
   return vector_at(data.xanchor, mj_name2id(robot.mj.get(), mjOBJ_JOINT, joint));
-}
-MjDataPtr at_zero(const RobotModel& robot) {
-  MjDataPtr data(mj_makeData(robot.mj.get()));
-  write_pose(robot, {0.0, 0.0, 0.0}, Eigen::Quaterniond::Identity(), {}, data->qpos);
-  mj_forward(robot.mj.get(), data.get());
-  return data;
 }
 
 TEST_F(RobotOfAnotherSize, IsHeavierInEveryBodyAlike) {

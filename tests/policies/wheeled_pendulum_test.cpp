@@ -11,22 +11,22 @@ namespace {
 using models::vector_at;
 
 // Upkie's default stance, in which it balances with the torso upright to a thousandth.
-constexpr std::array<double, models::servo_count> crouched = {0.455,  -0.791, 0.0,
-                                                              -0.455, 0.791,  0.0};
+constexpr std::array<double, models::servo_count> default_stance = {0.455,  -0.791, 0.0,
+                                                                    -0.455, 0.791,  0.0};
 
 models::RobotModel upkie() {
   return models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml", {});
 }
 
 WheeledPendulum pendulum_of(const models::RobotModel& robot) {
-  return wheeled_pendulum(robot, Eigen::Quaterniond::Identity(), crouched);
+  return wheeled_pendulum(robot, Eigen::Quaterniond::Identity(), default_stance);
 }
 
 TEST(WheeledPendulum, OfUpkieIsTheSumOverItsBodies) {
   const models::RobotModel robot = upkie();
   const mjModel& mj = *robot.mj;
   const models::MjDataPtr data(mj_makeData(&mj));
-  models::write_pose(robot, {0, 0, 0}, Eigen::Quaterniond::Identity(), crouched, data->qpos);
+  models::write_pose(robot, {0, 0, 0}, Eigen::Quaterniond::Identity(), default_stance, data->qpos);
   mj_forward(&mj, data.get());
   const Eigen::Vector3d axle = vector_at(data->geom_xpos, robot.tyre_geom[0]);
   // D is the inertia about the line on the ground below the axle. In C the wheels move the same way
@@ -108,7 +108,7 @@ TEST(LqrGains, LeaveWhatIsNotTheRobots) {
 
 TEST(LqrGains, OfARobotThatHangsBelowItsAxleAreRefused) {
   const Eigen::Quaterniond upside_down(0.0, 0.0, 1.0, 0.0);
-  const WheeledPendulum hangs = wheeled_pendulum(upkie(), upside_down, crouched);
+  const WheeledPendulum hangs = wheeled_pendulum(upkie(), upside_down, default_stance);
   EXPECT_THROW((void)with_lqr_gains({}, hangs), InputError);
 }
 

@@ -16,7 +16,7 @@ namespace touchdown::experiments {
 namespace {
 
 /// Those that are made for robots.
-std::vector<std::string> fitted_estimators() {
+std::vector<std::string> installed_estimators() {
   std::vector<std::string> names;
   for (const EstimatorEntry& entry : estimator_entries()) {
     if (entry.fits() && !entry.is_ceiling) names.push_back(entry.name);
@@ -33,8 +33,8 @@ TEST(LoadedEstimator, BelievesToTheBitWhatItsEntryDoes) {
   const ScratchFolder folder;
   const RunSignals run = synthetic_run(3, 2000);
   const FittedModels models =
-      fit_models(synthetic_experiment(fitted_estimators()), {synthetic_run(first_fit_run)});
-  for (const std::string& name : fitted_estimators()) {
+      fit_models(synthetic_experiment(installed_estimators()), {synthetic_run(first_fit_run)});
+  for (const std::string& name : installed_estimators()) {
     const EstimatorEntry& entry = estimator_entry(name);
     const std::filesystem::path file = folder / (name + ".npz");
     write_fitted_model(models.at("mujoco").at(name), file);
@@ -56,8 +56,8 @@ TEST(LoadedEstimator, OfTheShippedNetworkIsNmn) {
 }
 
 TEST(LoadedEstimator, SharesFitsAsEntriesDo) {
-  for (const std::string& one : fitted_estimators()) {
-    for (const std::string& other : fitted_estimators()) {
+  for (const std::string& one : installed_estimators()) {
+    for (const std::string& other : installed_estimators()) {
       EXPECT_EQ(share_fit(one, other), share_model(estimator_entry(one), estimator_entry(other)))
           << one << " " << other;
     }

@@ -10,9 +10,9 @@
 namespace touchdown::experiments {
 namespace {
 
-scenarios::Scenario with_robot(const char* file) {
+scenarios::Scenario with_robot(const char* robot) {
   scenarios::Scenario scenario;
-  scenario.robot = find_resource(file);
+  scenario.robot = find_resource(robot);
   return scenario;
 }
 
