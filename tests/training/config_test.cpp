@@ -15,8 +15,8 @@ TrainingConfig parsed(const std::string& text) {
 }
 
 TEST(TrainingConfig, TheShippedFileIsThePapers) {
-  const TrainingConfig c = training_from_yaml(
-      YamlDocument::load(std::string(TOUCHDOWN_SOURCE_DIR) + "/experiments/nmn.yaml"));
+  const TrainingConfig c =
+      training_from_yaml(YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/nmn.yaml"));
   EXPECT_EQ(c.rollout.simulator, "bullet");
   EXPECT_EQ(c.rollout.period(), 0.005);
   EXPECT_EQ(c.rollout.environments * c.rollout.steps * c.optimiser.iterations, 4'000'000);

@@ -16,7 +16,7 @@ bool go_on() { return true; }
 
 RolloutConfig config() {
   RolloutConfig c;
-  c.scenario = std::string(TOUCHDOWN_SOURCE_DIR) + "/scenarios/lift_drive.yaml";
+  c.scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/lift_drive.yaml";
   c.steps = 100;
   return c;
 }

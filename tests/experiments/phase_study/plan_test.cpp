@@ -12,7 +12,7 @@ namespace {
 
 Plan shipped_plan() {
   const YamlDocument file =
-      YamlDocument::load(std::string(TOUCHDOWN_SOURCE_DIR) + "/experiments/phase_study.yaml");
+      YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/phase_study.yaml");
   return whole_plan(request_of(experiment_from_yaml(file)));
 }
 

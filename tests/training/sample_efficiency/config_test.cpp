@@ -13,7 +13,7 @@ using testing::ThrowsMessage;
 YamlDocument document(const std::string& text) { return YamlDocument::parse(text, "s.yaml"); }
 
 TEST(SampleEfficiency, ItsFileIsToldFromATraining) {
-  const std::string folder = std::string(TOUCHDOWN_SOURCE_DIR) + "/experiments/";
+  const std::string folder = TOUCHDOWN_SOURCE_DIR "/experiments/";
   const YamlDocument study = YamlDocument::load(folder + "sample_efficiency.yaml");
   EXPECT_TRUE(is_sample_efficiency(study));
   EXPECT_FALSE(is_sample_efficiency(YamlDocument::load(folder + "nmn.yaml")));
