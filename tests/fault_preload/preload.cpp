@@ -229,8 +229,20 @@ void install_filter() {
   }
 }
 
-__attribute__((constructor)) void begin() {
-  const char* const file = std::getenv(plan_variable);
+/// The variable of the environment, or null. The C library may not be set up yet.
+const char* value_of(const char* variable, char** environment) {
+  const std::size_t length = std::strlen(variable);
+  for (char** entry = environment; *entry != nullptr; ++entry) {
+    if (std::strncmp(*entry, variable, length) == 0 && (*entry)[length] == '=') {
+      return *entry + length + 1;
+    }
+  }
+  return nullptr;
+}
+
+/// Before all other libraries (-z initfirst): theirs may begin with a call that comes back.
+__attribute__((constructor)) void begin(int /*count*/, char** /*arguments*/, char** environment) {
+  const char* const file = value_of(plan_variable, environment);
   if (file == nullptr) return;
   void* const code =
       ::mmap(reinterpret_cast<void*>(call_address), call_code.size(),  // NOLINT
