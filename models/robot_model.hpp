@@ -76,8 +76,8 @@ void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
                 const Eigen::Quaterniond& orientation,
                 const std::array<double, servo_count>& joint_position, mjtNum* qpos);
 
-/// Where everything is of the robot whose joints are at zero and whose base is at the origin, upright.
-/// Errors: `Error` when memory is out.
+/// Where everything is of the robot whose joints are at zero and whose base is at the origin,
+/// upright. Errors: `Error` when memory is out.
 MjDataPtr at_zero(const RobotModel& robot);
 
 }  // namespace touchdown::models
