@@ -84,7 +84,7 @@ endfunction()
 # put together.)
 # touchdown_arranges(<target>)
 function(touchdown_arranges target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1;-fexpensive-optimizations>)
+  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1;-fexpensive-optimizations>)
 endfunction()
 
 if(NOT TOUCHDOWN_ESTIMATOR_ONLY)

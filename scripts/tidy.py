@@ -18,15 +18,15 @@ import sys
 import tempfile
 
 FILES_AT_ONCE = 16
-# What g++ reads its precompiled headers with; clang cannot read them.
-PRECOMPILED = re.compile(r" -(Winvalid-pch|fpch-preprocess|include \S*cmake_pch\.hxx)")
+# What g++ alone knows: how it reads its precompiled headers, which clang cannot, and an optimisation.
+OF_GCC = re.compile(r" -(Winvalid-pch|fpch-preprocess|include \S*cmake_pch\.hxx|fexpensive-optimizations)")
 # "12 warnings generated." counts what was hidden in other people's headers.
 NOISE = re.compile(r"^\d+ (warnings?|errors?)( and \d+ errors?)? (generated|treated as errors?)\.?$")
 
 
 def flags_of(entry):
     """The compiler's options, without the file and where its object goes."""
-    words = shlex.split(PRECOMPILED.sub("", entry["command"]))
+    words = shlex.split(OF_GCC.sub("", entry["command"]))
     compiler = next(i for i, word in enumerate(words) if word.endswith("c++"))
     words = words[compiler + 1:]
     output = words.index("-o")
