@@ -6,13 +6,15 @@
 // signal's handler makes the call, or says that it failed. It makes calls from one instruction at
 // an address that is the same in every process: the only one that the kernel lets through. Programs
 // that the program starts inherit the filter, and load this again. Memory is refused where it is
-// asked for, in malloc and its kin.
+// asked for, in malloc and its kin, and from main() on: what libraries ask for before it, no
+// program can complain of.
 
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
@@ -31,6 +33,8 @@ namespace {
 
 // A signal's handler and malloc can reach nothing but globals.
 Plan* plan = nullptr;
+int (*program)(int count, char** arguments, char** environment) = nullptr;
+std::atomic<bool> has_begun{false};
 
 using Call = long (*)(long number, long a, long b, long c, long d, long e, long f);
 constexpr std::uintptr_t call_address = 0x6f0000000000;
@@ -268,12 +272,29 @@ __attribute__((constructor)) void begin(int /*count*/, char** /*arguments*/, cha
   install_filter();
 }
 
+/// The program's main().
+int begun(int count, char** arguments, char** environment) {
+  has_begun = true;
+  return program(count, arguments, environment);
+}
+
 [[maybe_unused]] bool is_refused(std::size_t size) {
-  return plan != nullptr && size >= plan->smallest_piece && falls(Kind::allocation, "memory");
+  return has_begun && plan != nullptr && size >= plan->smallest_piece &&
+         falls(Kind::allocation, "memory");
 }
 
 }  // namespace
 }  // namespace touchdown::faults
+
+/// The C library's own, by which every program calls its main().
+extern "C" int __libc_start_main(decltype(touchdown::faults::program) main,  // NOLINT: its name
+                                 int count, char** arguments, void (*begin)(), void (*end)(),
+                                 void (*unload)(), void* stack) {
+  touchdown::faults::program = main;
+  const auto start = reinterpret_cast<decltype(&__libc_start_main)>(
+      ::dlsym(RTLD_NEXT, "__libc_start_main"));  // NOLINT
+  return start(touchdown::faults::begun, count, arguments, begin, end, unload, stack);
+}
 
 #ifndef TOUCHDOWN_LEAVES_MEMORY
 
