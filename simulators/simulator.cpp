@@ -35,12 +35,12 @@ void Simulator::reset(const RobotState& start) {
   actuators_.reset();
   place(start);
   read(state_);
-  observe(Eigen::Vector3d::Zero(), {});
+  observe(imu_velocity(), {});
   if (!actuators_.are_ideal()) truth_.joint_torque.emplace();
 }
 
 void Simulator::step(const models::Action& action, std::span<const ExternalWrench> wrenches) {
-  const Eigen::Vector3d velocity_before = imu_velocity();
+  const Eigen::Vector3d velocity_before = truth_.imu_linear_velocity;
   const std::int64_t substeps = options_.steps.control_us / options_.steps.physics_us;
   std::array<double, models::wheel_count> force_sum = {0.0, 0.0};
   bool body_touched = false;
@@ -64,7 +64,7 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
     body_touched = body_touched || forces_.body_touches_terrain;
   }
   ++step_count_;
-  observe((imu_velocity() - velocity_before) / control_period(), torques.reported);
+  observe(velocity_before, torques.reported);
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     truth_.wheel_normal_force[wheel] = force_sum[wheel] / static_cast<double>(substeps);
   }
@@ -77,8 +77,10 @@ Eigen::Vector3d Simulator::imu_velocity() const {
          state_.angular_velocity.cross(state_.orientation * imu_position_in_base_);
 }
 
-void Simulator::observe(const Eigen::Vector3d& imu_acceleration,
+void Simulator::observe(const Eigen::Vector3d& velocity_before,
                         const JointTorques& reported_torques) {
+  const Eigen::Vector3d velocity = imu_velocity();
+  const Eigen::Vector3d imu_acceleration = (velocity - velocity_before) / control_period();
   const Eigen::Matrix3d base_to_world = state_.orientation.toRotationMatrix();
   const Eigen::Matrix3d imu_to_world = base_to_world * imu_rotation_in_base_;
   const Eigen::Vector3d gravity = models::vector_at(model_->mj->opt.gravity, 0);
@@ -103,7 +105,7 @@ void Simulator::observe(const Eigen::Vector3d& imu_acceleration,
             .base_orientation = state_.orientation,
             .base_linear_velocity = state_.linear_velocity,
             .base_angular_velocity = state_.angular_velocity,
-            .imu_linear_velocity = imu_velocity()};
+            .imu_linear_velocity = velocity};
 }
 
 bool Simulator::healthy() const {

@@ -104,7 +104,8 @@ class Simulator {
 
  private:
   Eigen::Vector3d imu_velocity() const;
-  void observe(const Eigen::Vector3d& imu_acceleration, const JointTorques& reported_torques);
+  /// What sensors and truth say now, with the IMU's velocity a control step ago (m/s, world).
+  void observe(const Eigen::Vector3d& velocity_before, const JointTorques& reported_torques);
 
   std::shared_ptr<const models::RobotModel> model_;
   SimulatorOptions options_;
