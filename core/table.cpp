@@ -43,6 +43,12 @@ std::string to_csv(const Table& table) {
   return text;
 }
 
+std::string cell(const Table& table, const std::vector<std::string>& row, std::string_view column) {
+  const auto found = std::find(table.header.begin(), table.header.end(), column);
+  const auto index = static_cast<std::size_t>(found - table.header.begin());
+  return index < row.size() ? row[index] : "nan";
+}
+
 Table from_csv(std::string_view text) {
   std::vector<std::vector<std::string>> rows(1, std::vector<std::string>(1));
   bool quoted = false;

@@ -22,6 +22,9 @@ std::string to_csv(const Table& table);
 /// empty cells.
 Table from_csv(std::string_view text);
 
+/// A row's cell under the column of that name; "nan" where the table has none.
+std::string cell(const Table& table, const std::vector<std::string>& row, std::string_view column);
+
 /// Aligned for a terminal, without a header if it is empty: the first `text_columns` columns to the
 /// left, the others to the right.
 std::string to_text(const Table& table, std::size_t text_columns = 1);

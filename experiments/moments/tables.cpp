@@ -53,6 +53,7 @@ std::vector<EngineTorques> torques_by_engine(const Listened& listened) {
     }
     for (std::size_t i = 0; i < robot.size(); ++i) {
       engine.distribution[i] = distribution_of(heard[robot[i].contact], robot[i].joint);
+      engine.density[i] = density_of(heard[robot[i].contact], robot[i].joint);
     }
     engine.overlap = overlap(heard[0], heard[1]);
   }
@@ -65,6 +66,7 @@ void write_tables(const std::vector<EngineTorques>& engines, const RunDirectory&
   Table distributions{{"simulator", "joint", "contact", "samples", "q50_nm", "q90_nm", "q99_nm",
                        "max_nm", "autocorrelation_ms"},
                       {}};
+  Table densities{{"simulator", "joint", "contact", "torque_nm", "density_per_nm"}, {}};
   Table overlaps{{"simulator", "overlap", "robot_overlap", "runs", "failed"}, {}};
   for (const EngineTorques& engine : engines) {
     for (std::size_t i = 0; i < robot.size(); ++i) {
@@ -82,12 +84,18 @@ void write_tables(const std::vector<EngineTorques>& engines, const RunDirectory&
       for (const double value : heard.quantile) distributions.rows.back().push_back(metric(value));
       distributions.rows.back().push_back(metric(heard.largest));
       distributions.rows.back().push_back(metric(1e3 * heard.autocorrelation_time));
+      for (std::size_t c = 0; c < engine.density[i].size(); ++c) {
+        densities.rows.push_back(what);
+        densities.rows.back().push_back(metric(static_cast<double>(c) * torque_cell));
+        densities.rows.back().push_back(metric(engine.density[i][c]));
+      }
     }
     overlaps.rows.push_back({engine.simulator, metric(engine.overlap), metric(robot_overlap),
                              std::to_string(engine.runs), std::to_string(engine.failed)});
   }
   directory.write_table("moments.csv", moments);
   directory.write_table("torque_distributions.csv", distributions);
+  directory.write_table("torque_densities.csv", densities);
   directory.write_table("overlap.csv", overlaps);
 }
 

@@ -12,20 +12,21 @@ namespace {
 
 constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
 
-/// How often each cell of the (knee, wheel) plane was visited, as a share of all steps.
-using Density = std::map<std::array<long, 2>, double>;
+long cell_of(double torque) { return std::lround(torque / torque_cell); }
 
-Density density_of(const std::vector<Stretch>& stretches) {
-  const auto cell = [](double torque) { return std::lround(torque / overlap_cell); };
-  Density density;
+/// How often each cell of the (knee, wheel) plane was visited, as a share of all steps.
+using SharesByCell = std::map<std::array<long, 2>, double>;
+
+SharesByCell shares_by_cell(const std::vector<Stretch>& stretches) {
+  SharesByCell shares;
   double steps = 0.0;
   for (const Stretch& stretch : stretches) {
     for (std::size_t k = 0; k < stretch.knee.size(); ++k, ++steps) {
-      ++density[{cell(stretch.knee[k]), cell(stretch.wheel[k])}];
+      ++shares[{cell_of(stretch.knee[k]), cell_of(stretch.wheel[k])}];
     }
   }
-  for (auto& [where, share] : density) share /= steps;
-  return density;
+  for (auto& [where, share] : shares) share /= steps;
+  return shares;
 }
 
 /// Covariance of steps that are `lag` (s) apart, within one stretch; NaN where there are none.
@@ -98,9 +99,25 @@ TorqueDistribution distribution_of(const std::vector<Stretch>& stretches, Joint 
   return distribution;
 }
 
+std::vector<double> density_of(const std::vector<Stretch>& stretches, Joint joint) {
+  std::vector<double> density;
+  double steps = 0.0;
+  for (const Stretch& stretch : stretches) {
+    for (const double torque : stretch.*joint) {
+      const auto cell = static_cast<std::size_t>(cell_of(torque));
+      if (cell >= density.size()) density.resize(cell + 1, 0.0);
+      ++density[cell];
+      ++steps;
+    }
+  }
+  for (double& value : density) value /= steps * torque_cell;
+  if (!density.empty()) density.front() *= 2.0;
+  return density;
+}
+
 double overlap(const std::vector<Stretch>& a, const std::vector<Stretch>& b) {
-  const Density in_a = density_of(a);
-  const Density in_b = density_of(b);
+  const SharesByCell in_a = shares_by_cell(a);
+  const SharesByCell in_b = shares_by_cell(b);
   if (in_a.empty() || in_b.empty()) return not_defined;
   double common = 0.0;
   for (const auto& [cell, share] : in_a) {

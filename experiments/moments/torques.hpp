@@ -39,9 +39,15 @@ struct TorqueDistribution {
 };
 TorqueDistribution distribution_of(const std::vector<Stretch>& stretches, Joint joint);
 
-/// ∫ min(p, q) of the densities of (knee, wheel), counted in cells of `overlap_cell` around its
-/// multiples: servos that report in steps of .01 N·m fill every cell alike. NaN without samples.
+/// Densities are counted in cells around the multiples of this (N·m): servos that report in steps
+/// of .01 N·m fill every cell alike.
+inline constexpr double torque_cell = 0.01;
+
+/// The density of one joint's |torque| in its cells (1/(N·m)), from the one around 0, of which
+/// there is but one half, to the largest torque's; empty without samples.
+std::vector<double> density_of(const std::vector<Stretch>& stretches, Joint joint);
+
+/// ∫ min(p, q) of the densities of (knee, wheel). NaN without samples.
 double overlap(const std::vector<Stretch>& a, const std::vector<Stretch>& b);
-inline constexpr double overlap_cell = 0.01;  ///< N·m
 
 }  // namespace touchdown::experiments

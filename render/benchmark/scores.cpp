@@ -24,9 +24,7 @@ class Rows {
 
   /// Of the row that it is at.
   std::string text(const std::string& column) const {
-    const auto found = std::find(table_.header.begin(), table_.header.end(), column);
-    const auto index = static_cast<std::size_t>(found - table_.header.begin());
-    return index < table_.rows[row_].size() ? table_.rows[row_][index] : "nan";
+    return cell(table_, table_.rows[row_], column);
   }
   double value(const std::string& column) const { return number(text(column)); }
   Interval interval(const std::string& column) const {

@@ -65,18 +65,14 @@ std::vector<OdometryError> odometry_errors(const std::filesystem::path& run_dire
   const Table table = from_csv(read_file(file));
   std::vector<OdometryError> errors;
   for (const std::vector<std::string>& row : table.rows) {
-    const auto cell = [&](const char* name) {
-      const auto found = std::find(table.header.begin(), table.header.end(), name);
-      const auto index = static_cast<std::size_t>(found - table.header.begin());
-      return index < row.size() ? row[index] : std::string("nan");
-    };
+    const auto text = [&](const char* column) { return cell(table, row, column); };
     errors.push_back(
-        {cell("simulator"),
-         cell("scenario"),
-         cell("contact"),
-         cell("robot"),
-         cell("sensors"),
-         {number(cell("rms_m")), number(cell("rms_m_low")), number(cell("rms_m_high"))}});
+        {text("simulator"),
+         text("scenario"),
+         text("contact"),
+         text("robot"),
+         text("sensors"),
+         {number(text("rms_m")), number(text("rms_m_low")), number(text("rms_m_high"))}});
   }
   return errors;
 }

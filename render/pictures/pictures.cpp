@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "core/files.hpp"
 #include "core/progress.hpp"
 #include "render/benchmark/standings_figure.hpp"
+#include "render/curves/moments_figure.hpp"
 #include "render/film/video.hpp"
 #include "render/odometry/errors_figure.hpp"
 #include "render/pictures/drop_figures.hpp"
@@ -43,6 +45,13 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     draw_drop_figures(result);
     if (result.experiment.benchmark) {
       draw_standings_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
+    }
+    if (result.experiment.moments) {
+      const auto table = [&](const char* name) {
+        return from_csv(read_file(result.directory.file("tables", name)));
+      };
+      draw_moments_figure(table("moments.csv"), table("torque_densities.csv"),
+                          result.directory.file("figures", "moments"));
     }
     if (result.experiment.odometry) {
       draw_odometry_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);

@@ -47,11 +47,6 @@ struct Planned {
   Plan plan;
 };
 
-std::string cell(const Table& table, std::size_t row, const std::string& column) {
-  const auto found = std::find(table.header.begin(), table.header.end(), column);
-  return table.rows.at(row).at(static_cast<std::size_t>(found - table.header.begin()));
-}
-
 class Benchmark : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -89,7 +84,7 @@ TEST_F(Benchmark, HasARowForEverySceneRobotSensorsNoiseAndEstimator) {
   // says contact.
   ASSERT_EQ(table.rows.size(), 2U * 2 * 2 * 2 * 2);
   std::set<std::string> settings;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+  for (const std::vector<std::string>& row : table.rows) {
     settings.insert(cell(table, row, "robot") + " " + cell(table, row, "sensors"));
     const bool is_fitted = cell(table, row, "scene") == "small_step";
     EXPECT_EQ(cell(table, row, "split"), is_fitted ? "test" : "unseen");
@@ -103,7 +98,7 @@ TEST_F(Benchmark, HasARowForEverySceneRobotSensorsNoiseAndEstimator) {
 TEST_F(Benchmark, TellsScenesApart) {
   // Nothing takes off from level ground: what is told of it is false, and its accuracy is that of
   // contact alone.
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+  for (const std::vector<std::string>& row : table.rows) {
     const bool stands = cell(table, row, "scene") == "stand";
     EXPECT_EQ(cell(table, row, "takeoffs") == "0", stands);
     if (stands) {
@@ -142,7 +137,7 @@ TEST(ABenchmark, ScoresGuestsBesideThoseAtHome) {
   const ExperimentResult result = run_experiment(experiment, options);
   const Table all = from_csv(read_file(folder / "run/tables/benchmark.csv"));
   std::map<std::string, int> fits;
-  for (std::size_t row = 0; row < all.rows.size(); ++row) {
+  for (const std::vector<std::string>& row : all.rows) {
     if (cell(all, row, "estimator") == "measurement_only") ++fits[cell(all, row, "fitted_on")];
   }
   // Two engines, two robots and two scenes; each from its own, from the other robot and engine.
@@ -156,7 +151,7 @@ TEST(ABenchmark, ScoresGuestsBesideThoseAtHome) {
   // A density has all of itself in common with itself, and less with another robot's.
   const Table overlap = from_csv(read_file(folder / "run/tables/density_overlap.csv"));
   ASSERT_EQ(overlap.rows.size(), 2U * 2 * 2);
-  for (std::size_t row = 0; row < overlap.rows.size(); ++row) {
+  for (const std::vector<std::string>& row : overlap.rows) {
     const double contact = std::stod(cell(overlap, row, "contact_overlap"));
     if (cell(overlap, row, "robot") == cell(overlap, row, "other_robot")) {
       EXPECT_NEAR(contact, 1.0, 1e-6);
@@ -181,7 +176,7 @@ TEST(ABenchmark, ResamplesFitsAndRunsTogether) {
   const Table all = table_of(robots + ", refits: 2, refits_everywhere: true}", "all");
   ASSERT_EQ(own.rows.size(), once.rows.size());
   int wider = 0;
-  for (std::size_t row = 0; row < own.rows.size(); ++row) {
+  for (const std::vector<std::string>& row : own.rows) {
     const bool is_fitted = cell(own, row, "estimator") == "measurement_only";
     const bool is_own = cell(own, row, "robot") == "upkie";
     EXPECT_EQ(cell(once, row, "refits"), "0");

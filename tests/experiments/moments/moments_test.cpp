@@ -1,4 +1,5 @@
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -84,6 +85,15 @@ TEST(TorqueQuantiles, OfAUniformSampleLieWhereTheyShould) {
   EXPECT_NEAR(uniform.quantile[1], 0.9, 1e-9);
   EXPECT_NEAR(uniform.quantile[2], 0.99, 1e-9);
   EXPECT_NEAR(uniform.deviation, 1.0 / std::sqrt(12.0), 1e-4);
+}
+
+TEST(TorqueDensity, IsCountedInCellsAroundTheServosSteps) {
+  // Of five steps two lie in the half cell around 0, and 0.07 is in its cell whatever its last bit.
+  const Stretch stretch{0.001, {0.0, 0.004, 0.07, 0.0699, 0.03}, {}};
+  const std::vector<double> density = density_of({stretch}, &Stretch::knee);
+  EXPECT_THAT(density, ::testing::Pointwise(::testing::DoubleNear(1e-9),
+                                            {80.0, 0.0, 0.0, 20.0, 0.0, 0.0, 0.0, 40.0}));
+  EXPECT_TRUE(density_of({}, &Stretch::knee).empty());
 }
 
 TEST(AutocorrelationTime, IsThatOfTheProcess) {
@@ -176,13 +186,23 @@ TEST(Moments, AreTablesOfAnExperimentThatAsksForThem) {
   const Table distributions = table("torque_distributions.csv");
   ASSERT_EQ(distributions.rows.size(), 8U);
   EXPECT_GE(std::stod(distributions.rows[0][7]), contact);
+  // Each density is a density: it sums to 1 over its cells, the first of which is half as wide.
+  const Table densities = table("torque_densities.csv");
+  std::map<std::string, double> sums;
+  for (const std::vector<std::string>& row : densities.rows) {
+    const double width = cell(densities, row, "torque_nm") == "0.000000" ? 0.005 : 0.01;
+    sums[row[0] + row[1] + row[2]] += width * std::stod(cell(densities, row, "density_per_nm"));
+  }
+  EXPECT_EQ(sums.size(), 8U);
+  for (const auto& [which, sum] : sums) EXPECT_NEAR(sum, 1.0, 1e-4) << which;
   EXPECT_THAT(table("overlap.csv").rows[1],
               ::testing::ElementsAre("bullet", ::testing::_, "0.055000", "2", "0"));
   ASSERT_EQ(result.studies.size(), 1U);
   EXPECT_THAT(result.studies.front(), HasSubstr("knee, contact"));
   // They are the run's own files, and without the key there are none.
   const auto files = own_files(folder / "run");
-  for (const char* name : {"moments.csv", "torque_distributions.csv", "overlap.csv"}) {
+  for (const char* name :
+       {"moments.csv", "torque_distributions.csv", "torque_densities.csv", "overlap.csv"}) {
     EXPECT_THAT(files, ::testing::Contains(std::filesystem::path("tables") / name));
   }
   EXPECT_THAT(to_yaml(read("")), ::testing::Not(HasSubstr("moments")));

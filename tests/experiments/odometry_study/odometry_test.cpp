@@ -32,16 +32,11 @@ Experiment with(const ScratchFolder& folder, const std::string& more) {
       "small.yaml"));
 }
 
-std::string cell(const Table& table, std::size_t row, const std::string& column) {
-  const auto found = std::find(table.header.begin(), table.header.end(), column);
-  return table.rows.at(row).at(static_cast<std::size_t>(found - table.header.begin()));
-}
-
 /// The rows of one engine, by who tells, of one column.
 std::map<std::string, double> column(const Table& table, const std::string& simulator,
                                      const std::string& name) {
   std::map<std::string, double> values;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+  for (const std::vector<std::string>& row : table.rows) {
     if (cell(table, row, "simulator") != simulator || cell(table, row, "sensors") != "upkie")
       continue;
     values[cell(table, row, "contact")] = std::stod(cell(table, row, name));
@@ -91,7 +86,7 @@ TEST(OdometryStudy, TellsOdometryByEveryEstimatorAndTheTruth) {
     EXPECT_GT(column(table, simulator, "height_rms_m").at("always"), 0.05);
     EXPECT_NEAR(column(table, simulator, "distance_m").at("truth"), 2 * 1.7, 1.0);
   }
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+  for (const std::vector<std::string>& row : table.rows) {
     const bool is_truth = cell(table, row, "contact").starts_with("truth");
     EXPECT_EQ(cell(table, row, "is_oracle"), is_truth ? "1" : "0");
     EXPECT_LE(std::stod(cell(table, row, "rms_m_low")), std::stod(cell(table, row, "rms_m")));
