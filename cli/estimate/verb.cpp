@@ -84,7 +84,8 @@ class Listeners {
     flush();
     if (annotator_) annotator_->copy(reader.skipped());
     const bool has_truth = score_ && steps() > 0;
-    return summary_->text(has_truth ? std::optional(score_->finish()) : std::nullopt);
+    return summary_->text(has_truth ? std::optional(score_->finish()) : std::nullopt,
+                          reader.start_time());
   }
 
   std::int64_t steps() const { return summary_->steps(); }

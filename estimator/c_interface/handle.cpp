@@ -4,6 +4,8 @@
 #include <array>
 #include <cstring>
 
+#include "estimator/numerics/number_text.hpp"
+
 namespace touchdown {
 
 namespace {

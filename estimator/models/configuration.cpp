@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "core/error.hpp"
+#include "estimator/numerics/number_text.hpp"
 
 namespace touchdown {
 

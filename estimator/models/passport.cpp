@@ -1,16 +1,13 @@
 #include "estimator/models/passport.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <locale>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "core/fingerprint.hpp"
+#include "estimator/numerics/number_text.hpp"
 
 namespace touchdown {
 
@@ -100,20 +97,6 @@ void take_line(const std::string& line, ModelPassport& passport) {
 }
 
 }  // namespace
-
-std::string text_of(double number) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
-  return {text.data(), end};
-}
-
-std::optional<double> number_of(const std::string& text) {
-  std::istringstream stream(text);  // std::from_chars is not in every library
-  stream.imbue(std::locale::classic());
-  double number = 0.0;
-  if (!(stream >> number) || stream.peek() != std::istringstream::traits_type::eof()) return {};
-  return number;
-}
 
 std::string add_passport(ModelArrays& arrays, const ModelPassport& passport) {
   for (const std::string& text : {passport.estimator, passport.robot}) {

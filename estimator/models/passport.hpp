@@ -55,8 +55,4 @@ struct ModelUse {
 /// or robot is another one. A model that does not know its robot is any robot's.
 void check_use(const ModelPassport& passport, const ModelUse& use);
 
-/// "1000", "0.1": the shortest text that reads back to the same bits, and back.
-std::string text_of(double number);
-std::optional<double> number_of(const std::string& text);
-
 }  // namespace touchdown

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "estimator/numerics/number_text.hpp"
 
 namespace touchdown {
 
@@ -11,11 +12,12 @@ Axis axis_from_points(std::span<const double> points) {
   if (points.size() < 2) throw InputError("a grid axis needs at least two points");
   const Axis axis{points.front(), points.back(), static_cast<int>(points.size())};
   check_axis(axis, "points");
+  constexpr double most_apart = 1e-3;  // steps: what rounding to float32 or six decimals moves
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!(std::abs(points[i] - axis[static_cast<int>(i)]) <= 1e-6 * axis.step())) {
+    const double expected = axis[static_cast<int>(i)];
+    if (!(std::abs(points[i] - expected) <= most_apart * axis.step())) {
       throw InputError("a grid axis must be equally spaced; point " + std::to_string(i) + " is " +
-                       std::to_string(points[i]) + ", expected " +
-                       std::to_string(axis[static_cast<int>(i)]));
+                       text_of(points[i]) + ", expected " + text_of(expected));
     }
   }
   return axis;
@@ -26,7 +28,7 @@ void check_axis(const Axis& axis, const char* name) {
       !(axis.lower < axis.upper)) {
     throw InputError(std::string(name) + " axis: expected two or more points from a finite lower " +
                      "end to a greater finite upper end, got " + std::to_string(axis.count) +
-                     " from " + std::to_string(axis.lower) + " to " + std::to_string(axis.upper));
+                     " from " + text_of(axis.lower) + " to " + text_of(axis.upper));
   }
 }
 

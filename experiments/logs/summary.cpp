@@ -52,10 +52,36 @@ std::string LogSummary::Events::text() const {
   return text;
 }
 
+void LogSummary::Clock::add(double time) {
+  if (!std::isfinite(time)) return;
+  if (std::isnan(previous)) {
+    first = last = time;
+  } else {
+    // A record that is late by less than half a step is no lost one.
+    if (time - previous > 1.5 * period) lost += time - previous - period;
+    if (time < previous) ++steps_back;
+  }
+  first = std::fmin(first, time);
+  last = std::fmax(last, time);
+  previous = time;
+}
+
+std::string LogSummary::Clock::text(double start) const {
+  if (std::isnan(previous)) return "never a finite number";
+  std::string text = fmt::format("from {:.3f} to {:.3f} s", first, last);
+  if (start != 0.0) text += fmt::format(", 0 being {:.3f} s of the log's clock", start);
+  if (lost > 0.0) text += fmt::format("; {:.3f} s without records", lost);
+  if (steps_back > 0) {
+    text += fmt::format("; it goes back {} time{}", steps_back, steps_back == 1 ? "" : "s");
+  }
+  return text;
+}
+
 LogSummary::LogSummary(double period, const scoring::ScoringConfig& scoring)
-    : skipped_(std::llround(scoring.skip / period)) {}
+    : clock_{period, NAN, NAN, NAN}, skipped_(std::llround(scoring.skip / period)) {}
 
 void LogSummary::add(double time, const Belief& belief) {
+  clock_.add(time);
   ++status_[static_cast<std::size_t>(belief.status)];
   const std::array<bool, 2> now = {belief.wheel[0].contact, belief.wheel[1].contact};
   if (steps_ >= skipped_) {
@@ -95,10 +121,11 @@ std::string LogSummary::signals_text() const {
   return fmt::format("{} of {} steps", fmt::join(parts, ", "), steps_);
 }
 
-std::string LogSummary::text(const std::optional<scoring::RobotScore>& score) const {
-  std::string text = fmt::format("{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n", "contact",
-                                 contact_text(), "left wheel", events_text(0), "right wheel",
-                                 events_text(1), "signals", signals_text());
+std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, double start) const {
+  std::string text =
+      fmt::format("{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n", "time",
+                  clock_.text(start), "contact", contact_text(), "left wheel", events_text(0),
+                  "right wheel", events_text(1), "signals", signals_text());
   if (score) text += score_text(score->wheels());
   return text;
 }

@@ -23,9 +23,9 @@ class LogSummary {
 
   std::int64_t steps() const { return steps_; }
 
-  /// A few lines, each with a line end: contact, takeoffs and landings, signals, and the score if
-  /// the log has ground truth.
-  std::string text(const std::optional<scoring::RobotScore>& score) const;
+  /// A few lines, each with a line end: time, contact, takeoffs and landings, signals, and the
+  /// score if the log has ground truth. `start` is what the log's clock said at time 0 (s).
+  std::string text(const std::optional<scoring::RobotScore>& score, double start = 0.0) const;
 
  private:
   /// One kind of transition of one wheel.
@@ -36,10 +36,21 @@ class LogSummary {
     std::string text() const;
   };
 
+  /// What a log's times say about themselves.
+  struct Clock {
+    double period = 0.0;
+    double first = 0.0, last = 0.0, previous = 0.0;  ///< NaN before the first step
+    double lost = 0.0;                               ///< time without records
+    std::int64_t steps_back = 0;
+    void add(double time);
+    std::string text(double start) const;
+  };
+
   std::string contact_text() const;
   std::string events_text(std::size_t wheel) const;
   std::string signals_text() const;
 
+  Clock clock_;
   std::int64_t skipped_;
   std::int64_t steps_ = 0;
   std::array<std::int64_t, scoring::view_count> contact_{};

@@ -2,9 +2,17 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "recordings/log/packing.hpp"
 
 namespace touchdown::recordings {
+
+namespace {
+
+constexpr std::uint16_t most_counted = 9999;
+
+}  // namespace
 
 LogParser::LogParser()
     : tree_([](const LogKey& /*key*/) { return true; }), sequences_(tree_.size()) {
@@ -21,6 +29,9 @@ LogParser::Result LogParser::parse(std::string_view bytes, std::size_t& length) 
   if (map_header_size(bytes.front()) == 0) return Result::garbage;
   present_.reset();
   malformed_.reset();
+  flags_.reset();
+  texts_.reset();
+  given_.fill(0);
   values_.fill(0.0);
   open_.clear();
   current_ = 0;
@@ -53,15 +64,46 @@ std::vector<std::string> LogParser::missing() const {
   std::vector<std::string> paths;
   if (!has_time()) paths.emplace_back("observation.time");
   for (const LogKey& key : log_keys()) {
-    if (key.role == LogKey::Role::needed && !present_[key.slot]) paths.push_back(key.path);
+    if (key.role != LogKey::Role::needed || present_[key.slot]) continue;
+    const std::string what = instead(key);
+    paths.push_back(what.empty() ? key.path : fmt::format("{} ({})", key.path, what));
   }
   return paths;
 }
 
+std::vector<std::string> LogParser::malformed() const {
+  std::vector<std::string> paths = missing();
+  std::erase_if(paths, [](const std::string& path) { return !path.ends_with(')'); });
+  return paths;
+}
+
+/// What stands at a key whose numbers are not what they should be; empty for nothing.
+std::string LogParser::instead(const LogKey& key) const {
+  const char* numbers = key.size == 1 ? "a number" : "numbers";
+  if (flags_[key.slot]) return fmt::format("true or false instead of {}", numbers);
+  if (texts_[key.slot]) return fmt::format("a text instead of {}", numbers);
+  const int given = given_[key.slot];
+  if (given == 0) return {};
+  return fmt::format("{} number{} instead of {}", given, given == 1 ? "" : "s", key.size);
+}
+
+/// Of the value that is being visited; null for one that we do not know.
+const LogKey* LogParser::key_here() const {
+  return current_ == LogKeyTree::none || in_key_ ? nullptr : tree_.node(current_).key;
+}
+
+bool LogParser::visit_boolean(bool value) {
+  const LogKey* key = key_here();
+  if (key == nullptr || key->role != LogKey::Role::needed) return number(value ? 1.0 : 0.0);
+  flags_.set(key->slot);
+  malformed_.set(key->slot);
+  return true;
+}
+
 bool LogParser::number(double value) {
-  if (current_ == LogKeyTree::none) return true;
-  const LogKey* key = tree_.node(current_).key;
-  if (key == nullptr || in_key_) return true;
+  const LogKey* key = key_here();
+  if (key == nullptr) return true;
+  if (std::uint16_t& given = given_[key->slot]; given < most_counted) ++given;
   if (element_ < key->size) {
     values_[key->slot + element_] = value;
     present_.set(key->slot + element_);
@@ -94,7 +136,10 @@ int LogParser::child(int parent, std::string_view name) {
 }
 
 bool LogParser::visit_str(const char* text, std::uint32_t size) {
-  if (!in_key_) return true;
+  if (!in_key_) {
+    if (const LogKey* key = key_here(); key != nullptr) texts_.set(key->slot);
+    return true;
+  }
   const std::string_view name(text, size);
   current_ = child(open_.back(), name);
   element_ = 0;

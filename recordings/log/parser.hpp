@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,13 +35,16 @@ class LogParser : public msgpack::null_visitor {
   const LogPresence& present() const { return present_; }
   bool has_config() const { return has_config_; }
 
-  /// Dotted paths of the needed keys that the last record lacks.
+  /// Dotted paths of the needed keys that the last record lacks, with what stands there instead:
+  /// "observation.imu.orientation (3 numbers instead of 4)".
   std::vector<std::string> missing() const;
   bool is_missing_any() const { return (present_ & needed_) != needed_ || !has_time(); }
+  /// Those of them where something else stands.
+  std::vector<std::string> malformed() const;
 
   /// \name Called by MessagePack's parser.
   /// @{
-  bool visit_boolean(bool value) { return number(value ? 1.0 : 0.0); }
+  bool visit_boolean(bool value);
   bool visit_positive_integer(std::uint64_t value) { return number(static_cast<double>(value)); }
   bool visit_negative_integer(std::int64_t value) { return number(static_cast<double>(value)); }
   bool visit_float32(float value) { return number(static_cast<double>(value)); }
@@ -66,6 +71,8 @@ class LogParser : public msgpack::null_visitor {
   };
 
   bool number(double value);
+  const LogKey* key_here() const;
+  std::string instead(const LogKey& key) const;
   int child(int parent, std::string_view name);
   void drop_malformed();
   bool has_time() const;
@@ -76,6 +83,9 @@ class LogParser : public msgpack::null_visitor {
   LogPresence needed_;
   LogPresence present_;
   LogPresence malformed_;
+  LogPresence flags_;                                   ///< true or false where numbers belong
+  LogPresence texts_;                                   ///< likewise
+  std::array<std::uint16_t, log_slot::count> given_{};  ///< numbers at a key, by its first slot
   LogValues values_{};
   std::vector<int> open_;  ///< the maps around the current value
   int current_ = 0;

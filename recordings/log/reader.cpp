@@ -84,6 +84,7 @@ void LogReader::read_entry(Entry& entry) {
     const bool lacks_keys = parser_.is_missing_any();
     if (lacks_keys) {
       ++skipped_count_;
+      note_malformed();
     } else {
       entry.row = to_row(parser_.values(), parser_.present());
     }
@@ -113,6 +114,13 @@ bool LogReader::is_without_time(const LogRow& row) {
         fmt::format("byte {}: the time of record {}", offset_ - record_size_, record_count_);
   }
   return true;
+}
+
+void LogReader::note_malformed() {
+  const std::vector<std::string> malformed = parser_.malformed();
+  if (malformed.empty() || ++malformed_count_ > 1) return;
+  first_malformed_ = fmt::format("byte {}: record {} has {}", offset_ - record_size_, record_count_,
+                                 fmt::join(malformed, ", "));
 }
 
 bool LogReader::parse_record() {
@@ -158,6 +166,11 @@ void LogReader::finish() {
   if (skipped_count_ > 0 && has_rows_ && !has_finished_) {
     warnings_.push_back(fmt::format("{}: {} of {} records lack needed keys and were left out",
                                     name_, skipped_count_, record_count_));
+  }
+  if (malformed_count_ > 0 && has_rows_ && !has_finished_) {
+    warnings_.push_back(fmt::format(
+        "{}: {}{}", name_, first_malformed_,
+        malformed_count_ == 1 ? "" : fmt::format("; {} more like it", malformed_count_ - 1)));
   }
   if (timeless_count_ > 0 && has_rows_ && !has_finished_) {
     warnings_.push_back(fmt::format(

@@ -17,8 +17,9 @@ namespace touchdown::recordings {
 
 /// Reads Upkie's logs (`.mpack`, any version so far) row by row, live or from a file, at a constant
 /// memory. Records that lack needed keys, as a spine writes while it starts, are skipped, and so
-/// are records before the first row whose time is not finite; a last record that is cut off is
-/// reported by `warnings()`. In a log that we did not write, time counts from the first row. Errors
+/// are those with something else than its numbers at one (reported by `warnings()`), and records
+/// before the first row whose time is not finite; a last record that is cut off is reported by
+/// `warnings()`. In a log that we did not write, time counts from the first row. Errors
 /// (`InputError`): a file that cannot be read; bytes that are no MessagePack maps (named by their
 /// offset); a log whose records all lack a needed key (all of them named in one message).
 class LogReader {
@@ -37,6 +38,9 @@ class LogReader {
   /// What `config.touchdown` says, or for a robot's log nothing but the control period, the median
   /// difference of time in the first rows.
   const RecordingInfo& info();
+
+  /// What the log's clock said at its time 0 (s): 0 for a log of ours, and before the first row.
+  double start_time() const { return start_time_.value_or(0.0); }
 
   /// Bytes of the record behind the row that `next()` gave last, and of the records that were
   /// skipped right before it (or before the end); valid until `next()` is called again.
@@ -58,6 +62,7 @@ class LogReader {
   bool refill();
   void look_ahead(std::size_t rows);
   bool is_without_time(const LogRow& row);
+  void note_malformed();
   [[noreturn]] void complain_about_garbage(std::size_t offset) const;
   [[noreturn]] void complain_about_missing_keys() const;
   void finish();
@@ -75,6 +80,8 @@ class LogReader {
   std::uint64_t skipped_in_a_row_ = 0;
   std::uint64_t timeless_count_ = 0;
   std::string first_timeless_;  ///< where that record is
+  std::uint64_t malformed_count_ = 0;
+  std::string first_malformed_;  ///< where that record is, and what is wrong with it
   bool has_rows_ = false;
   bool at_end_ = false;
   bool has_finished_ = false;

@@ -211,11 +211,12 @@ Figure draw_log(const LogTrace& trace, const std::string& title,
   if (trace.bins().empty()) throw InputError("there is no step to draw");
   const std::string file = stem.filename().string() + ".dat";
   const std::vector<Panel> panels = panels_of(trace);
-  const double begin = trace.bins().front().begin;
+  double begin = trace.bins().front().begin;  // of all: time may go back
   double end = begin;
   bool with_truth = false;
   for (const LogTrace::Bin& bin : trace.bins()) {
-    end = std::max(end, bin.end);
+    begin = std::min({begin, bin.begin, bin.end});
+    end = std::max({end, bin.begin, bin.end});
     with_truth = with_truth || bin.with_truth > 0;
   }
   std::string commands = fmt::format(

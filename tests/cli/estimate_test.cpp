@@ -12,6 +12,7 @@
 
 #include "estimator/bayes/filter.hpp"
 #include "experiments/estimators/measurement_fitting.hpp"
+#include "experiments/logs/summary.hpp"
 #include "experiments/signals/listener.hpp"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
@@ -205,6 +206,28 @@ TEST_F(Estimate, SaysWhichSignalsCouldNotBeUsed) {
     EXPECT_EQ(lines[k][9], invalid ? "invalid" : k == 700 ? "gap" : "good") << k;
     for (std::size_t i = 0; i < 9; ++i) EXPECT_TRUE(std::isfinite(std::stod(lines[k][i])));
   }
+}
+
+TEST_F(Estimate, SaysWhatTheLogsClockSays) {
+  recordings::Recording robot = test::robot_log(1.0);
+  for (std::size_t k = 0; k < robot.steps(); ++k) {
+    robot.observation[k].time += 10.0 + (k >= 700 ? 0.5 : 0.0);
+  }
+  log("lost.mpack", robot);
+  EXPECT_THAT(estimate("lost.mpack --model m.npz"),
+              HasSubstr("time         from 10.000 to 11.499 s; 0.500 s without records\n"));
+  // A clock that is set back draws over what it drew before, from the earliest time on.
+  for (std::size_t k = 700; k < robot.steps(); ++k) robot.observation[k].time -= 2.5;
+  log("back.mpack", robot);
+  EXPECT_THAT(estimate("back.mpack --model m.npz --figure fig.png"),
+              HasSubstr("time         from 8.700 to 10.699 s; it goes back 1 time\n"));
+  EXPECT_THAT(read_file(folder_ / "fig.gp"), HasSubstr("set xrange [8.7:10.69"));
+  experiments::LogSummary summary(0.001, {});
+  EXPECT_THAT(summary.text({}), StartsWith("time         never a finite number\n"));
+  summary.add(0.0, {});
+  EXPECT_THAT(
+      summary.text({}, 1234.5),
+      StartsWith("time         from 0.000 to 0.000 s, 0 being 1234.500 s of the log's clock\n"));
 }
 
 TEST_F(Estimate, OfATruncatedLogKeepsWhatWasReadAndSaysWhereItEnds) {

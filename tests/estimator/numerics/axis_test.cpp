@@ -39,5 +39,29 @@ TEST(Axis, IsReadFromRegularPointsOnly) {
   EXPECT_THROW(axis_from_points(std::vector<double>{0.0, std::nan(""), 1.0}), InputError);
 }
 
+TEST(Axis, OfRoundedPointsIsTaken) {
+  std::vector<double> single, six_decimals;
+  for (int i = 0; i <= 700; ++i) {
+    const double point = 0.1 + 1.4 * i / 700.0;
+    single.push_back(static_cast<float>(point));
+    six_decimals.push_back(std::round(1e6 * point) / 1e6);
+  }
+  for (const auto& points : {single, six_decimals}) {
+    const Axis axis = axis_from_points(points);
+    EXPECT_EQ(axis.count, 701);
+    EXPECT_NEAR(axis.step(), 0.002, 1e-8);
+  }
+}
+
+TEST(Axis, WithAPointAsideIsRefusedWithAllDigits) {
+  try {
+    axis_from_points(std::vector<double>{0.0, 1e-7, 2.5e-7});
+    FAIL() << "was taken";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "a grid axis must be equally spaced; point 1 is 1e-07, expected 1.25e-07");
+  }
+}
+
 }  // namespace
 }  // namespace touchdown

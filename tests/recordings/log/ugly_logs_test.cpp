@@ -100,9 +100,9 @@ TEST(UglyLogs, AllMissingKeysAreNamedTogether) {
     record["observation"]["imu"]["linear_acceleration"] = {1.0, 2.0};
   }
   const std::string error = read(pack(records)).error;
-  EXPECT_THAT(error,
-              AllOf(HasSubstr("observation.time"), HasSubstr("observation.servo.left_knee.torque"),
-                    HasSubstr("observation.imu.linear_acceleration")));
+  EXPECT_THAT(
+      error, AllOf(HasSubstr("observation.time"), HasSubstr("observation.servo.left_knee.torque, "),
+                   HasSubstr("observation.imu.linear_acceleration (2 numbers instead of 3)")));
   EXPECT_THAT(error, ::testing::Not(HasSubstr("right_knee")));
   EXPECT_THAT(error, ::testing::Not(HasSubstr("\n")));
 }
@@ -124,7 +124,7 @@ TEST(UglyLogs, RecordsOfAStartingSpineAreSkippedAndCounted) {
 }
 
 TEST(UglyLogs, NumbersOfAnotherKindAndUnknownKeysAreTaken) {
-  json record = upkie_record(0.0);
+  json record = upkie_record(7.25);
   record["observation"]["servo"]["left_hip"]["torque"] = -3;
   record["observation"]["servo"]["left_knee"]["torque"] = 70000;
   record["observation"]["imu"]["angular_velocity"] = {1, -2, 0};
@@ -132,7 +132,10 @@ TEST(UglyLogs, NumbersOfAnotherKindAndUnknownKeysAreTaken) {
   record["observation"]["servo"]["tail"] = {{"position", 9.0}};
   std::istringstream stream(pack({record}));
   LogReader reader(test::stream_source(stream), "log");
+  EXPECT_EQ(reader.start_time(), 0.0);
   const models::Observation o = reader.next()->observation;
+  EXPECT_EQ(reader.start_time(), 107.25);
+  EXPECT_EQ(o.time, 0.0);
   EXPECT_EQ(o.servo[0].torque, -3.0);
   EXPECT_EQ(o.servo[1].torque, 70000.0);
   EXPECT_EQ(o.imu.angular_velocity, Eigen::Vector3d(1.0, -2.0, 0.0));
@@ -222,10 +225,36 @@ TEST(UglyLogs, TextsOfOursThatAreNotUtf8AreRefused) {
   EXPECT_THAT(read(pack({record})).error, HasSubstr("scenario_yaml: not UTF-8 from byte 6 on"));
 }
 
-TEST(UglyLogs, TooManyElementsCountAsMissing) {
-  json record = upkie_record(0.0);
-  record["observation"]["imu"]["orientation"] = {1, 0, 0, 0, 0};
-  EXPECT_THAT(read(pack({record})).error, HasSubstr("observation.imu.orientation"));
+TEST(UglyLogs, WhatStandsInsteadOfNeededNumbersIsSaid) {
+  const auto error = [](const char* part, const char* key, const json& value) {
+    json record = upkie_record(0.0);
+    json& parent = record["observation"][part];
+    (parent.contains("left_knee") ? parent["left_knee"] : parent)[key] = value;
+    return read(pack({record})).error;
+  };
+  EXPECT_THAT(error("imu", "orientation", {1, 0, 0, 0, 0}),
+              HasSubstr("missing: observation.imu.orientation (5 numbers instead of 4)"));
+  EXPECT_THAT(error("imu", "orientation", {1, 0, 0}),
+              HasSubstr("observation.imu.orientation (3 numbers instead of 4)"));
+  EXPECT_THAT(error("imu", "orientation", 1.0), HasSubstr("(1 number instead of 4)"));
+  EXPECT_THAT(error("servo", "torque", true),
+              HasSubstr("observation.servo.left_knee.torque (true or false instead of a number)"));
+  EXPECT_THAT(error("servo", "torque", "1.5"), HasSubstr("torque (a text instead of a number)"));
+  EXPECT_THAT(error("imu", "linear_acceleration", {1.0, false, 2.0}),
+              HasSubstr("(true or false instead of numbers)"));
+}
+
+TEST(UglyLogs, RecordsWithSomethingElseThanNumbersAreLeftOutAndNamed) {
+  std::vector<json> records = upkie_records(9);
+  for (const std::size_t k : {3U, 6U}) {
+    records[k]["observation"]["servo"]["left_knee"]["torque"] = true;
+  }
+  const Read result = read(pack(records));
+  EXPECT_EQ(result.rows, 7U);
+  ASSERT_EQ(result.warnings.size(), 2U);
+  EXPECT_THAT(result.warnings[1],
+              AllOf(HasSubstr("record 4 has observation.servo.left_knee.torque (true or false"),
+                    HasSubstr("; 1 more like it")));
 }
 
 TEST(UglyLogs, ABrokenConfigOfOursIsAnError) {
