@@ -97,6 +97,7 @@ void write_file(const fs::path& path, const std::function<void(std::ostream*)>& 
 
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
                                               const std::string& model,
+                                              const std::vector<std::string>& labels,
                                               const std::vector<std::string>& outputs,
                                               const std::string& figure) {
   EstimateOutputs given = sorted_by_kind(outputs, figure);
@@ -106,6 +107,7 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
   std::vector<EstimateOutputs> all;
   std::set<fs::path> seen;
   std::vector<InputFile> inputs = {{model, "model"}};
+  for (const std::string& file : labels) inputs.push_back({file, "file of labels"});
   for (const std::string& log : logs) inputs.push_back({log, "log"});
   std::vector<fs::path> files;
   std::set<fs::path> styles;  // one for all figures of a folder

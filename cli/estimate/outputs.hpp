@@ -22,6 +22,7 @@ struct EstimateOutputs {
 /// that two logs share, and those of `check_outputs`; `Error` for one that cannot be written.
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
                                               const std::string& model,
+                                              const std::vector<std::string>& labels,
                                               const std::vector<std::string>& outputs,
                                               const std::string& figure);
 

@@ -11,11 +11,11 @@
 #include "experiments/logs/belief_csv.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/listener.hpp"
+#include "experiments/logs/log_score.hpp"
 #include "experiments/logs/summary.hpp"
 #include "recordings/log/annotator.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "render/curves/log_figure.hpp"
-#include "scoring/score_stream.hpp"
 
 namespace touchdown::cli {
 
@@ -29,6 +29,7 @@ struct DrawnPart {
 
 struct EstimateFlags {
   std::vector<std::string> logs;
+  std::vector<std::string> labels;
   std::string model;
   std::string estimator;
   std::string robot;
@@ -49,9 +50,9 @@ class Listeners {
   }
 
   /// Before the first step, once the log's rate is known.
-  void begin(const experiments::LogListener& log) {
+  void begin(const experiments::LogListener& log, bool labelled) {
     summary_.emplace(log.period(), scoring::ScoringConfig{});
-    score_.emplace(log.period_us(), labels_, scoring::ScoringConfig{});
+    score_.emplace(log.period_us(), labels_, scoring::ScoringConfig{}, labelled);
   }
 
   /// One step, and what was made of it. `reader` is where it comes from.
@@ -59,9 +60,7 @@ class Listeners {
               const ContactEstimator& estimator, const Belief& belief) {
     const double time = step.signals.time;
     summary_->add(time, belief);
-    // A score needs the truth about every step.
-    if (!step.normal_force) score_.reset();
-    if (score_) score_->add(*step.normal_force, belief);
+    score_->add(step, belief);
     if (!csv_ && !annotator_ && !drawn_) return;
     const Evidence evidence = estimator.evidence();
     if (csv_) csv_->write(time, belief, evidence);
@@ -83,9 +82,7 @@ class Listeners {
   std::string finish(const recordings::LogReader& reader) {
     flush();
     if (annotator_) annotator_->copy(reader.skipped());
-    const bool has_truth = score_ && steps() > 0;
-    return summary_->text(has_truth ? std::optional(score_->finish()) : std::nullopt,
-                          reader.start_time());
+    return summary_->text(score_->finish(), reader.start_time());
   }
 
   std::int64_t steps() const { return summary_->steps(); }
@@ -108,7 +105,7 @@ class Listeners {
   std::optional<recordings::LogAnnotator> annotator_;
   std::optional<DrawnPart> drawn_;
   std::optional<experiments::LogSummary> summary_;
-  std::optional<scoring::ScoreStream> score_;
+  std::optional<experiments::LogScore> score_;
   render::LogTrace trace_;
 };
 
@@ -127,10 +124,10 @@ std::string gravity_line(const experiments::LogListener& log) {
 
 /// Runs over the log and returns the summary.
 std::string listen(recordings::LogReader& reader, const experiments::LogEstimator& chosen,
-                   Listeners& listeners) {
-  experiments::LogListener log(reader);
+                   const recordings::ContactIntervals* labels, Listeners& listeners) {
+  experiments::LogListener log(reader, labels);
   const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), reader.info());
-  listeners.begin(log);
+  listeners.begin(log, labels != nullptr);
   try {
     while (const experiments::LogStep* step = log.next()) {
       listeners.listen(reader, *step, *estimator, estimator->update(step->signals));
@@ -155,9 +152,9 @@ void say(const EstimateOutputs& outputs, const std::string& text) {
   }
 }
 
-void estimate_log(const std::string& path, const experiments::LogEstimator& estimator,
-                  const EstimateFlags& flags, const EstimateOutputs& outputs,
-                  const CliSession& session) {
+void estimate_log(const std::string& path, const recordings::ContactIntervals* labels,
+                  const experiments::LogEstimator& estimator, const EstimateFlags& flags,
+                  const EstimateOutputs& outputs, const CliSession& session) {
   std::string summary;
   write_outputs(outputs, [&](std::ostream* csv, std::ostream* mpack) {
     Listeners listeners(csv, mpack,
@@ -170,7 +167,7 @@ void estimate_log(const std::string& path, const experiments::LogEstimator& esti
           return bytes(buffer);
         };
     recordings::LogReader reader(source, live ? "standard input" : path);
-    summary = listen(reader, estimator, listeners);
+    summary = listen(reader, estimator, labels, listeners);
     if (*session.stop && !live) throw Stopped("stopped; nothing was written");
     for (const std::string& warning : reader.warnings()) {
       tell(fmt::format("touchdown: {}\n", warning));
@@ -196,10 +193,13 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
   const experiments::LogEstimator estimator =
       experiments::log_estimator({flags.estimator, flags.model, flags.robot, flags.transfer});
   const std::vector<EstimateOutputs> outputs =
-      estimate_outputs(flags.logs, flags.model, flags.outputs, flags.figure);
+      estimate_outputs(flags.logs, flags.model, flags.labels, flags.outputs, flags.figure);
+  const std::vector<recordings::ContactIntervals> labels =
+      recordings::read_contact_intervals(flags.labels, flags.logs.size());
   for (std::size_t i = 0; i < flags.logs.size(); ++i) {
     if (i > 0) say(outputs[i], "\n");
-    estimate_log(flags.logs[i], estimator, flags, outputs[i], session);
+    estimate_log(flags.logs[i], labels.empty() ? nullptr : &labels[i], estimator, flags, outputs[i],
+                 session);
   }
 }
 
@@ -214,6 +214,10 @@ void add_estimate(CLI::App& program, const CliSession& session) {
       "live stream and prints as it goes.");
   const auto flags = std::make_shared<EstimateFlags>();
   verb.option("log", &flags->logs, "Logs; - is standard input").value_name("LOG").required();
+  verb.option("--labels", &flags->labels,
+              "The truth about stretches of each LOG, in the logs' order: start,end,contact or "
+              "start,end,left,right. The score is of these stretches")
+      .value_name("FILE.csv");
   verb.option("--model", &flags->model, "What `touchdown fit` wrote").value_name("FILE.npz");
   verb.option("--estimator", &flags->estimator,
               "Any that `touchdown list` shows (default: whom the model was fitted for)");

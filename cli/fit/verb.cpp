@@ -19,6 +19,7 @@ struct FitFlags {
   std::vector<std::string> logs;
   std::vector<std::string> contact;
   std::vector<std::string> no_contact;
+  std::vector<std::string> labels;
   std::string output;
   std::string estimator = "robust";
   experiments::LogFitConfig config;
@@ -46,6 +47,10 @@ std::pair<double, double> range_from(const std::vector<double>& values, const ch
 std::vector<experiments::FitLog> logs_of(const FitFlags& flags) {
   std::vector<experiments::FitLog> logs;
   for (const std::string& path : flags.logs) logs.push_back({path, {}});
+  auto labels = recordings::read_contact_intervals(flags.labels, logs.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    logs[i].labels = std::make_shared<const recordings::ContactIntervals>(std::move(labels[i]));
+  }
   for (const std::string& path : flags.contact) logs.push_back({path, true});
   for (const std::string& path : flags.no_contact) logs.push_back({path, false});
   if (logs.empty()) throw InputError("fit: a log is missing: touchdown fit LOG -o model.npz");
@@ -96,6 +101,10 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
       .value_name("LOG");
   verb.option("--no-contact", &flags.no_contact, "Logs in which neither wheel ever touches")
       .value_name("LOG");
+  verb.option("--labels", &flags.labels,
+              "Which stretches of each LOG are contact, in the logs' order: start,end,contact or "
+              "start,end,left,right")
+      .value_name("FILE.csv");
   verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
   verb.option("--estimator", &flags.estimator, fitted_estimators()).shows_default();
   verb.option("--robot", &flags.config.robot,
@@ -149,6 +158,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   shape_densities(entry, flags);
   std::vector<InputFile> inputs;
   for (const experiments::FitLog& log : logs) inputs.push_back({log.path, "log"});
+  for (const std::string& labels : flags.labels) inputs.push_back({labels, "file of labels"});
   check_outputs(inputs, {flags.output});
   experiments::LogFitConfig config = flags.config;
   config.stop = session.stop;
@@ -175,9 +185,10 @@ void add_fit(CLI::App& program, const CliSession& session) {
   Verb verb(
       program, "fit",
       "touchdown fit stairs.mpack -o model.npz\n"
-      "touchdown fit --contact rolling.mpack --no-contact hanging.mpack -o model.npz\n\n"
+      "touchdown fit --contact rolling.mpack --no-contact hanging.mpack -o model.npz\n"
+      "touchdown fit robot.mpack --labels robot.csv -o model.npz\n\n"
       "Fits an estimator's model to logs: to simulated ones with their ground truth, or to a\n"
-      "robot's, each of which is contact or no contact all along.");
+      "robot's, each of which is contact or no contact all along, or labelled by hand.");
   const auto flags = std::make_shared<FitFlags>();
   add_fit_flags(verb, *flags);
   verb.action([flags, &session] { fit(*flags, session); });

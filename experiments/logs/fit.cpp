@@ -87,6 +87,16 @@ bool is_gap(double elapsed, const SignalGuardConfig& guard) {
   return !(elapsed >= 0.0 && elapsed <= guard.maximum_gap);
 }
 
+/// Errors: `InputError` for labels that are about none of a log's times.
+void check_labelled(const FitLog& log, std::int64_t used, double last_time) {
+  if (!log.labels || used > 0) return;
+  throw InputError(fmt::format(
+      "{}: none of its stretches, from {:.3f} to {:.3f} s, is about a step of {}, which ends at "
+      "{:.3f} s: times are those that `touchdown estimate` prints",
+      log.labels->file, log.labels->intervals.front().start, log.labels->intervals.back().end,
+      log.path.string(), last_time));
+}
+
 /// Whether what a log is declared to be agrees with what it says itself, if it does.
 class Declared {
  public:
@@ -120,17 +130,17 @@ class Declared {
 
 /// Errors: `InputError` for a step of which nobody says whether the wheels touch.
 void check_truth(const FitLog& log, const LogStep& step) {
-  if (log.contact || step.normal_force) return;
+  if (log.contact || log.labels || step.normal_force) return;
   throw InputError(
       fmt::format("{}: at {:.3f} s: no ground truth of contact: name the log after --contact or "
-                  "--no-contact if all of it is one of them",
+                  "--no-contact if all of it is one of them, or say with --labels when they do",
                   log.path.string(), step.signals.time));
 }
 
 void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitConfig& config,
               const Sink& sink, LogFitReport& report) {
   recordings::LogReader reader = reader_of(log, config);
-  LogListener listener(reader);
+  LogListener listener(reader, log.labels.get());
   check_may_be_fitted(reader.info());
   note_rate(listener, reader.info(), report);
   const TorqueConfig& torque = filter.measurement.torque;
@@ -140,14 +150,18 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
   const auto skipped = std::llround(config.skip / listener.period());
   double before = NAN;
   std::int64_t k = 0;
+  std::int64_t used = 0;
   Declared declared(log, config);
   for (; const LogStep* step = listener.next(); ++k) {
     check_truth(log, *step);
     declared.add(*step);
+    const bool is_used = k >= skipped && (!log.labels || step->normal_force);
+    if (is_used) ++used;
     for (std::size_t side = 0; side < legs.size(); ++side) {
       if (k > 0 && is_gap(step->signals.time - before, filter.guard)) legs[side].restart();
-      const double force = log.contact ? 0.0 : (*step->normal_force)[side];
-      if (!legs[side].add(step->signals.leg[side], k < skipped, log.contact, force)) {
+      const double force = step->normal_force ? (*step->normal_force)[side] : 0.0;
+      const std::optional<bool> contact = log.labels ? std::optional(force > 0.0) : log.contact;
+      if (!legs[side].add(step->signals.leg[side], !is_used, contact, force)) {
         ++report.unusable;
       }
     }
@@ -155,8 +169,9 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
   }
   note_end(reader, config, report);
   declared.check();
+  check_labelled(log, used, before);
   for (Leg& leg : legs) leg.finish();
-  report.seconds += static_cast<double>(std::max<std::int64_t>(k - skipped, 0)) * listener.period();
+  report.seconds += static_cast<double>(used) * listener.period();
 }
 
 /// How many samples there are without contact, and in contact.
@@ -221,38 +236,78 @@ void check_step(const FitLog& log, const LogStep& step, double before) {
 /// What a step of the log can be used for, or an error.
 using CheckStep = void (*)(const FitLog& log, const LogStep& step, double before);
 
-RunSignals signals_of_log(const FitLog& log, const LogFitConfig& config, CheckStep check,
-                          LogFitReport& report) {
-  recordings::LogReader reader = reader_of(log, config);
-  LogListener listener(reader);
-  RunSignals run;
-  run.info = reader.info();
-  run.info.control_period_us = listener.period_us();
-  note_rate(listener, run.info, report);
-  const auto labels_of = [&](std::size_t wheel) {
-    return scoring::LabelStream(
-        listener.period(), config.labels,
-        [&run, wheel](std::uint8_t contact) { run.contact[wheel].push_back(contact); });
-  };
-  std::array<scoring::LabelStream, models::wheel_count> labels = {labels_of(0), labels_of(1)};
-  Declared declared(log, config);
-  while (const LogStep* step = listener.next()) {
-    declared.add(*step);
-    check(log, *step, run.signals.empty() ? NAN : run.signals.back().time);
-    for (std::size_t wheel = 0; wheel < labels.size(); ++wheel) {
-      if (log.contact) {
-        run.contact[wheel].push_back(*log.contact ? 1 : 0);
+/// A run that is being heard: its labels come when no later step can change them.
+class HeardRun {
+ public:
+  HeardRun(const recordings::RecordingInfo& info, const scoring::LabelConfig& labels)
+      : labels_{labels_of(0, info, labels), labels_of(1, info, labels)} {
+    run_.info = info;
+  }
+  HeardRun(const HeardRun&) = delete;
+  HeardRun& operator=(const HeardRun&) = delete;
+
+  void add(const LogStep& step, std::optional<bool> declared) {
+    for (std::size_t wheel = 0; wheel < labels_.size(); ++wheel) {
+      if (declared) {
+        run_.contact[wheel].push_back(*declared ? 1 : 0);
         continue;
       }
-      labels[wheel].add((*step->normal_force)[wheel]);
-      run.normal_force[wheel].push_back((*step->normal_force)[wheel]);
+      labels_[wheel].add((*step.normal_force)[wheel]);
+      run_.normal_force[wheel].push_back((*step.normal_force)[wheel]);
     }
-    run.signals.push_back(step->signals);
+    run_.signals.push_back(step.signals);
   }
+
+  double last_time() const { return run_.signals.back().time; }
+
+  RunSignals finish() {
+    for (scoring::LabelStream& of_wheel : labels_) of_wheel.finish();
+    return std::move(run_);
+  }
+
+ private:
+  scoring::LabelStream labels_of(std::size_t wheel, const recordings::RecordingInfo& info,
+                                 const scoring::LabelConfig& labels) {
+    return {1e-6 * static_cast<double>(info.control_period_us), labels,
+            [this, wheel](std::uint8_t contact) { run_.contact[wheel].push_back(contact); }};
+  }
+
+  RunSignals run_;
+  std::array<scoring::LabelStream, models::wheel_count> labels_;
+};
+
+/// The log as one run; where only stretches of it are labelled, one for each.
+void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep check,
+                     LogFitReport& report, std::vector<RunSignals>& runs) {
+  recordings::LogReader reader = reader_of(log, config);
+  LogListener listener(reader, log.labels.get());
+  recordings::RecordingInfo info = reader.info();
+  info.control_period_us = listener.period_us();
+  note_rate(listener, info, report);
+  Declared declared(log, config);
+  std::optional<HeardRun> run;
+  const auto finish = [&] {
+    if (run) runs.push_back(run->finish());
+    run.reset();
+  };
+  std::int64_t used = 0;
+  double last_time = 0.0;
+  while (const LogStep* step = listener.next()) {
+    last_time = step->signals.time;
+    if (log.labels && !step->normal_force) {
+      finish();
+      continue;
+    }
+    declared.add(*step);
+    check(log, *step, run ? run->last_time() : NAN);
+    if (!run) run.emplace(info, config.labels);
+    run->add(*step, log.contact);
+    ++used;
+  }
+  finish();
   note_end(reader, config, report);
   declared.check();
-  for (scoring::LabelStream& of_wheel : labels) of_wheel.finish();
-  return run;
+  check_labelled(log, used, last_time);
 }
 
 /// All logs in memory, and what is used of them in the report.
@@ -260,9 +315,8 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
                                         CheckStep check, LogFitReport& report) {
   report = {};
   std::vector<RunSignals> runs;
-  for (const FitLog& log : logs) {
-    runs.push_back(signals_of_log(log, config, check, report));
-    const RunSignals& run = runs.back();
+  for (const FitLog& log : logs) add_runs_of_log(log, config, check, report, runs);
+  for (const RunSignals& run : runs) {
     const std::size_t skipped = skipped_steps(run, config.skip);
     report.seconds += static_cast<double>(run.steps() - skipped) * period_of(run);
     for (const scoring::ContactSequence& contact : run.contact) {
@@ -286,7 +340,7 @@ std::vector<RunSignals> logs_with_takeoffs(std::span<const FitLog> logs, const L
     if (!log.contact) continue;
     throw InputError(fmt::format(
         "{}: the phase filter learns how wheels leave the ground and land: it has to be fitted "
-        "to logs with ground truth, not to --contact and --no-contact",
+        "to logs with ground truth or --labels, not to --contact and --no-contact",
         log.path.string()));
   }
   std::vector<RunSignals> runs = signals_of_logs(logs, config, check_step, report);

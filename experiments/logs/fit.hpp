@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/estimators/entry.hpp"
+#include "recordings/beliefs/contact_intervals.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
@@ -22,6 +23,8 @@ struct FitLog {
   std::optional<bool> contact = {};
   /// Its records, if they are at hand; then the path is but their name.
   std::shared_ptr<const std::string> records = {};
+  /// Somebody says it, for stretches of the log; what lies between them is left out.
+  std::shared_ptr<const recordings::ContactIntervals> labels = {};
 };
 
 struct LogFitConfig {
@@ -43,7 +46,8 @@ struct LogFitReport {
 };
 
 /// The model that an estimator needs, fitted to logs. Errors: `InputError` for logs of reserved
-/// seeds, without ground truth where none is declared, or unreadable.
+/// seeds, without ground truth where none is declared, with labels about other times, or
+/// unreadable.
 ///
 /// A measurement model is fitted as in experiments/fitting, at a memory that does not grow with the
 /// logs: each is read twice, which standard input cannot be. A torque that is not finite, or

@@ -1,6 +1,7 @@
 #include "experiments/logs/listener.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -35,10 +36,21 @@ AssemblyConfig assembly_of(std::int64_t period_us) {
   return {.sample_rate = 1e6 / static_cast<double>(period_us), .stale_after = 0.0};
 }
 
+/// As a log says it that knows contact but no forces.
+std::optional<std::array<double, models::wheel_count>> forces(
+    const recordings::ContactInterval* said) {
+  if (said == nullptr) return std::nullopt;
+  constexpr double some_force = std::numeric_limits<double>::infinity();
+  return {{said->contact[0] ? some_force : 0.0, said->contact[1] ? some_force : 0.0}};
+}
+
 }  // namespace
 
-LogListener::LogListener(recordings::LogReader& reader)
-    : reader_(reader), period_us_(usable_period_us(reader)), assembler_(assembly_of(period_us_)) {}
+LogListener::LogListener(recordings::LogReader& reader, const recordings::ContactIntervals* labels)
+    : reader_(reader),
+      labels_(labels),
+      period_us_(usable_period_us(reader)),
+      assembler_(assembly_of(period_us_)) {}
 
 const LogStep* LogListener::next() {
   const std::optional<recordings::LogRow> row = reader_.next();
@@ -46,7 +58,9 @@ const LogStep* LogListener::next() {
   step_.signals = assembler_.assemble(recordings::record_of(row->observation, command_, joints_));
   command_ = recordings::ground_velocity_command(row->action);
   step_.normal_force.reset();
-  if (row->truth) {
+  if (labels_ != nullptr) {
+    step_.normal_force = forces(labels_->at(row->observation.time));
+  } else if (row->truth) {
     const auto& force = row->truth->wheel_normal_force;
     if (!std::isnan(force[0]) && !std::isnan(force[1])) step_.normal_force = force;
   }

@@ -5,13 +5,14 @@
 #include <optional>
 
 #include "estimator/assembly/signal_assembler.hpp"
+#include "recordings/beliefs/contact_intervals.hpp"
 #include "recordings/log/reader.hpp"
 #include "recordings/signals_from.hpp"
 
 namespace touchdown::experiments {
 
 /// What one step of a log says to an estimator, and the truth about its wheels where the log has
-/// it.
+/// it, or somebody says it.
 struct LogStep {
   Signals signals;
   /// Normal force on the left and the right wheel (N); infinite for a wheel that touches with an
@@ -22,10 +23,12 @@ struct LogStep {
 /// Listens to a log as an estimator does, step by step.
 class LogListener {
  public:
-  /// `reader` must outlive the listener. Errors: those of the reader; `InputError` for a log with
+  /// `reader` must outlive the listener. With `labels`, which must too, the truth is what they say,
+  /// whatever the log says itself. Errors: those of the reader; `InputError` for a log with
   /// less than 100 steps per second, in which every step would be a gap (`SignalGuardConfig`), or
   /// with more than 20,000.
-  explicit LogListener(recordings::LogReader& reader);
+  explicit LogListener(recordings::LogReader& reader,
+                       const recordings::ContactIntervals* labels = nullptr);
 
   /// The next step, valid until the next call; null at the end of the log.
   const LogStep* next();
@@ -42,6 +45,7 @@ class LogListener {
 
  private:
   recordings::LogReader& reader_;
+  const recordings::ContactIntervals* labels_;
   std::int64_t period_us_;
   SignalAssembler assembler_;
   recordings::RecordedJoints joints_;

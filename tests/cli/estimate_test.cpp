@@ -167,6 +167,28 @@ TEST_F(Estimate, CountsAgainstTheTruthAsExperimentsDo) {
   EXPECT_THAT(estimate("robot.mpack --model m.npz"), ::testing::Not(HasSubstr("truth")));
 }
 
+TEST_F(Estimate, CountsAgainstLabelsWhereThereAreSome) {
+  const auto truth = [&](const std::string& arguments) {
+    const std::string summary = estimate(arguments + " --model m.npz");
+    const std::size_t begin = summary.find("truth");
+    return begin == std::string::npos ? "none"
+                                      : summary.substr(begin, summary.find("model") - begin);
+  };
+  log("told.mpack", test::synthetic_log(4.0));
+  log("robot.mpack", test::robot_log(4.0));
+  EXPECT_EQ(truth("robot.mpack"), "none");
+  folder_.write("all.csv", test::synthetic_labels(0, 4));
+  EXPECT_EQ(truth("robot.mpack --labels all.csv"), truth("told.mpack"));
+  // A stretch is scored as a run: four takeoffs of wheels in two seconds.
+  folder_.write("middle.csv", test::synthetic_labels(1, 3));
+  EXPECT_THAT(truth("robot.mpack --labels middle.csv"), HasSubstr("takeoffs 4 of 4 found"));
+  // What is said goes before what the log says itself.
+  folder_.write("hangs.csv", "start,end,contact\n0,4,0\n");
+  EXPECT_THAT(truth("told.mpack --labels hangs.csv"), HasSubstr("takeoffs 0 of 0 found"));
+  EXPECT_THAT(complaint_about("told.mpack --labels hangs.csv --model m.npz -o hangs.csv"),
+              HasSubstr("hangs.csv"));
+}
+
 TEST_F(Estimate, WritesBeliefsIntoTheLogAndKeepsTheRest) {
   log("a.mpack", test::synthetic_log(0.5));
   estimate("a.mpack --model m.npz -o b.mpack -o b.csv");

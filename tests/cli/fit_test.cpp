@@ -80,6 +80,40 @@ TEST_F(Fit, OfLabelledLogsIsTheFitThatExperimentsMake) {
   }
 }
 
+TEST_F(Fit, ByLabelsThatSayTheTruthIsTheFitToTheTruth) {
+  log("told.mpack", test::synthetic_log(3.0));
+  log("robot.mpack", test::synthetic_log(3.0, 1000, false));
+  folder_.write("robot.csv", test::synthetic_labels(0, 3));
+  for (const std::string name : {"robust", "phase", "load_logistic"}) {
+    EXPECT_EQ(fit("robot.mpack --labels robot.csv -o m.npz --estimator " + name),
+              fit("told.mpack -o m.npz --estimator " + name))
+        << "as many samples, the same bandwidths";
+  }
+  fit("told.mpack -o told.npz");
+  fit("robot.mpack --labels robot.csv -o labelled.npz");
+  expect_same(recordings::read_measurement_model(folder_ / "labelled.npz"),
+              recordings::read_measurement_model(folder_ / "told.npz"));
+}
+
+TEST_F(Fit, LeavesOutWhatNoLabelSaysAnythingAbout) {
+  log("robot.mpack", test::robot_log(4.0));
+  folder_.write("robot.csv", test::synthetic_labels(1, 3));
+  EXPECT_THAT(fit("robot.mpack --labels robot.csv -o f.npz"), HasSubstr("2.000 s of 1 log"));
+  EXPECT_THAT(fit("robot.mpack --labels robot.csv -o f.npz --estimator phase"),
+              HasSubstr("1.700 s of 1 log"));
+  folder_.write("gap.csv",
+                "start,end,contact\n0.0,0.5995,1\n0.61,0.79,0\n0.8,1.0,1\n1.0,1.5995,1\n");
+  EXPECT_THAT(complaint_about("robot.mpack --labels gap.csv -o m.npz --estimator phase"),
+              HasSubstr("learns from takeoffs, and the logs hold none"));
+  folder_.write("late.csv", test::synthetic_labels(7, 8));
+  EXPECT_THAT(complaint_about("robot.mpack --labels late.csv -o m.npz"),
+              HasSubstr("s, is about a step of robot.mpack, which ends at 3.999 s"));
+  EXPECT_THAT(complaint_about("robot.mpack robot.mpack --labels robot.csv -o m.npz"),
+              HasSubstr("a file for each log, in their order: 1 for 2"));
+  EXPECT_THAT(complaint_about("robot.mpack --labels robot.csv -o robot.csv"),
+              HasSubstr("robot.csv"));
+}
+
 TEST_F(Fit, OfLogsThatAreOneClassTakesTheirWordForIt) {
   const recordings::Recording rolling = test::one_class_log(2.0, true);
   const recordings::Recording hanging = test::one_class_log(1.0, false);

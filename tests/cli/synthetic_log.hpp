@@ -1,8 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "recordings/recording.hpp"
 
@@ -43,6 +47,27 @@ inline recordings::Recording synthetic_log(double seconds, std::int64_t period_u
     if (with_truth) log.truth.push_back(truth);
   }
   return log;
+}
+
+/// What a person who sees everything says about `synthetic_log`, from one time to another (s): a
+/// stretch for each state of both wheels, its ends between two steps.
+inline std::string synthetic_labels(double from, double to) {
+  const recordings::Recording log = synthetic_log(to);
+  std::string csv = "start,end,left,right\n";
+  const auto touches = [&](std::size_t k) {
+    const auto& force = log.truth[k].wheel_normal_force;
+    return std::array<int, 2>{force[0] > 0.0 ? 1 : 0, force[1] > 0.0 ? 1 : 0};
+  };
+  auto begin = static_cast<std::size_t>(std::llround(from / log.period()));
+  for (std::size_t k = begin + 1; k <= log.steps(); ++k) {
+    if (k < log.steps() && touches(k) == touches(begin)) continue;
+    const auto time = [&](std::size_t step) {
+      return (static_cast<double>(step) - 0.5) * log.period();
+    };
+    csv += fmt::format("{},{},{},{}\n", time(begin), time(k), touches(begin)[0], touches(begin)[1]);
+    begin = k;
+  }
+  return csv;
 }
 
 /// The same as a robot logs it: nobody says where it comes from, and nobody knows the truth.
