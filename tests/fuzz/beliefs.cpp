@@ -1,4 +1,7 @@
+#include <functional>
+
 #include "core/error.hpp"
+#include "recordings/beliefs/contact_intervals.hpp"
 #include "recordings/beliefs/csv.hpp"
 #include "recordings/beliefs/mpack.hpp"
 #include "recordings/beliefs/npz.hpp"
@@ -7,13 +10,17 @@
 
 namespace touchdown::fuzz {
 
-/// Beliefs in a format that the bytes need not be of.
+/// Beliefs in a format that the bytes need not be of, or a person's labels.
 TOUCHDOWN_FUZZ(beliefs) {
   const fuzz::MemoryFile file(input);
-  for (const auto read :
-       {recordings::read_belief_csv, recordings::read_belief_mpack, recordings::read_belief_npz}) {
+  const std::filesystem::path path = file.path();
+  for (const std::function<void()>& read : std::initializer_list<std::function<void()>>{
+           [&] { (void)recordings::read_belief_csv(path); },
+           [&] { (void)recordings::read_belief_mpack(path); },
+           [&] { (void)recordings::read_belief_npz(path); },
+           [&] { (void)recordings::read_contact_intervals(path); }}) {
     try {
-      (void)read(file.path());
+      read();
     } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
     }
   }
