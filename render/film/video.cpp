@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
@@ -83,7 +84,7 @@ VideoStatistics render_video(const std::vector<VideoSource>& sources, const Vide
   }
   const double step = options.speed / options.fps;
   const int frames = 1 + static_cast<int>(std::floor((end - options.from) / step + 1e-9));
-  VideoWriter writer(path, options);
+  std::optional<VideoWriter> writer;
   VideoStatistics statistics{.frames = frames};
   const auto bytes = static_cast<std::size_t>(options.width * options.height * 3 / 2);
   const auto prepare = [&]() -> PaintFrame {
@@ -96,13 +97,14 @@ VideoStatistics render_video(const std::vector<VideoSource>& sources, const Vide
   const auto consume = [&](int frame, const std::uint8_t* pixels) {
     if (frame == 0) statistics.first_frame_seconds = seconds_since(start);
     const Clock::time_point before = Clock::now();
-    writer.write(pixels);
+    writer->write(pixels);
     statistics.encoding_seconds += seconds_since(before);
     if (options.progress) options.progress(frame + 1, frames);
   };
-  paint_in_order(frames, bytes, options.workers, prepare, consume);
+  paint_in_order(frames, bytes, options.workers, prepare, consume,
+                 [&] { writer.emplace(path, options); });
   const Clock::time_point before = Clock::now();
-  writer.finish();
+  writer->finish();
   statistics.encoding_seconds += seconds_since(before);
   statistics.seconds = seconds_since(start);
   return statistics;

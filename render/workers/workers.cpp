@@ -166,7 +166,8 @@ void wait_for_frame(Lane& lane, Workers& workers, std::size_t worker) {
 
 void paint_in_order(int frames, std::size_t frame_bytes, int workers,
                     const std::function<PaintFrame()>& prepare,
-                    const std::function<void(int, const std::uint8_t*)>& consume) {
+                    const std::function<void(int, const std::uint8_t*)>& consume,
+                    const std::function<void()>& begin) {
   if (frames <= 0) return;
   if (workers <= 0) workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const auto wanted = static_cast<std::size_t>(std::min(workers, frames));
@@ -177,6 +178,7 @@ void paint_in_order(int frames, std::size_t frame_bytes, int workers,
     if (!processes.start([&, i] { work(i, frames, lanes, prepare); })) break;
   }
   const std::size_t count = processes.count();
+  if (begin) begin();
   if (count == 0) {
     const PaintFrame paint = prepare();
     for (int frame = 0; frame < frames; ++frame) {

@@ -18,10 +18,15 @@ using PaintFrame = std::function<void(int frame, std::uint8_t* pixels)>;
 /// paints. Workers die with this process or when this function returns or throws; nothing with a
 /// name is created.
 ///
+/// `begin`, if there is one, is called in this process before anything is painted and after the
+/// workers are forked: what `consume` needs threads for starts them there, for a fork among threads
+/// inherits the locks that they hold just then, and nobody to release them.
+///
 /// This process must not have an OpenGL context. Errors: `Error` with the worker's own message when
-/// painting throws, or when a worker dies; whatever `consume` throws.
+/// painting throws, or when a worker dies; whatever `begin` and `consume` throw.
 void paint_in_order(int frames, std::size_t frame_bytes, int workers,
                     const std::function<PaintFrame()>& prepare,
-                    const std::function<void(int frame, const std::uint8_t* pixels)>& consume);
+                    const std::function<void(int frame, const std::uint8_t* pixels)>& consume,
+                    const std::function<void()>& begin = {});
 
 }  // namespace touchdown::render

@@ -65,6 +65,26 @@ TEST(FrameWorkers, NoticeAKilledWorker) {
   EXPECT_FALSE(has_children());
 }
 
+TEST(FrameWorkers, BeginsAfterItForkedAndBeforeAnythingIsPainted) {
+  bool has_begun = false;
+  const auto prepare = [&]() -> PaintFrame {
+    return [&](int, std::uint8_t* pixels) { pixels[0] = has_begun ? 1 : 0; };
+  };
+  int seen_by_workers = 0;
+  paint_in_order(
+      6, 10, 2, prepare,
+      [&](int, const std::uint8_t* pixels) {
+        EXPECT_TRUE(has_begun);
+        seen_by_workers += pixels[0];
+      },
+      [&] { has_begun = true; });
+  EXPECT_EQ(seen_by_workers, 0) << "the workers know of nothing that came after the fork";
+  EXPECT_THROW(paint_in_order(
+                   6, 10, 2, prepare, [](int, const std::uint8_t*) { FAIL(); },
+                   [] { throw std::runtime_error("no room"); }),
+               std::runtime_error);
+}
+
 TEST(FrameWorkers, AreGoneWhenTheConsumerGivesUp) {
   EXPECT_THROW(paint_in_order(1000, 10, 3, number_painter,
                               [](int frame, const std::uint8_t*) {
