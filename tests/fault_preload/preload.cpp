@@ -28,6 +28,10 @@
 
 #include "tests/fault_preload/plan.hpp"
 
+/// The C library's sigaction(), which no sanitizer has put something in front of.
+extern "C" int __sigaction(int signal, const struct sigaction* action,  // NOLINT: its name
+                           struct sigaction* before);
+
 namespace touchdown::faults {
 namespace {
 
@@ -257,7 +261,7 @@ __attribute__((constructor)) void begin(int /*count*/, char** /*arguments*/, cha
   struct sigaction action = {};
   action.sa_sigaction = answer;
   action.sa_flags = static_cast<int>(SA_SIGINFO | SA_NODEFER);
-  ::sigaction(SIGSYS, &action, nullptr);
+  ::__sigaction(SIGSYS, &action, nullptr);
   // From here on calls may come back: a program that inherits the filter opens with this very call.
   const long descriptor =
       call(SYS_openat, AT_FDCWD, reinterpret_cast<long>(file), O_RDWR | O_CLOEXEC);
