@@ -150,17 +150,18 @@ Figure draw_moments_figure(const Table& moments, const Table& densities,
   std::size_t block = 0;
   for (std::size_t p = 0; p < torque_panels.size(); ++p) {
     const std::vector<Moments> all = moments_of(moments, torque_panels[p]);
-    const bool is_first_column = p % 2 == 0;
-    const double left = torque_left + static_cast<double>(p % 2) * (torque_width + torque_gap_x);
+    const std::size_t row = p / 2;
+    const std::size_t column = p % 2;
+    const double left = torque_left + static_cast<double>(column) * (torque_width + torque_gap_x);
     const double top =
-        torque_top + static_cast<double>(p / 2) * (moments_height + density_height + torque_gap_y);
+        torque_top + static_cast<double>(row) * (moments_height + density_height + torque_gap_y);
     commands += frame.panel(left, top, torque_width, moments_height) +
                 fmt::format("set title {} offset 0,-0.6\nset xrange [0:{}]\n",
                             gnuplot_text(torque_panels[p].title), number(torque_axis_end(all))) +
-                moment_bars(all, file, block + all.size() - 1, is_first_column) +
+                moment_bars(all, file, block + all.size() - 1, column == 0) +
                 FigureFrame::end_panel();
     commands += frame.panel(left, top + moments_height, torque_width, density_height) +
-                "unset title\n" + density_curves(all, file, block, is_first_column) +
+                "unset title\n" + density_curves(all, file, block, column == 0) +
                 FigureFrame::end_panel();
     data += torque_data(moments, densities, torque_panels[p]);
     block += all.size();
