@@ -176,19 +176,22 @@ TEST(ABenchmark, ResamplesFitsAndRunsTogether) {
   const Table all = table_of(robots + ", refits: 2, refits_everywhere: true}", "all");
   ASSERT_EQ(own.rows.size(), once.rows.size());
   int wider = 0;
-  for (const std::vector<std::string>& row : own.rows) {
-    const bool is_fitted = cell(own, row, "estimator") == "measurement_only";
-    const bool is_own = cell(own, row, "robot") == "upkie";
-    EXPECT_EQ(cell(once, row, "refits"), "0");
-    EXPECT_EQ(cell(own, row, "refits"), is_fitted && is_own ? "3" : "0");
-    EXPECT_EQ(cell(all, row, "refits"), is_fitted ? "2" : "0");
+  for (std::size_t row = 0; row < own.rows.size(); ++row) {
+    const auto of = [&](const Table& table, const char* column) {
+      return cell(table, table.rows.at(row), column);
+    };
+    const bool is_fitted = of(own, "estimator") == "measurement_only";
+    const bool is_own = of(own, "robot") == "upkie";
+    EXPECT_EQ(of(once, "refits"), "0");
+    EXPECT_EQ(of(own, "refits"), is_fitted && is_own ? "3" : "0");
+    EXPECT_EQ(of(all, "refits"), is_fitted ? "2" : "0");
     // What is scored is the fit to all runs.
     for (const char* column : {"balanced_accuracy", "flight_f1", "log_loss"}) {
-      EXPECT_EQ(cell(own, row, column), cell(once, row, column)) << column;
+      EXPECT_EQ(of(own, column), of(once, column)) << column;
     }
     const auto width = [&](const Table& table) {
-      return std::stod(cell(table, row, "balanced_accuracy_high")) -
-             std::stod(cell(table, row, "balanced_accuracy_low"));
+      return std::stod(of(table, "balanced_accuracy_high")) -
+             std::stod(of(table, "balanced_accuracy_low"));
     };
     if (!(is_fitted && is_own)) {
       EXPECT_EQ(width(own), width(once));
