@@ -38,7 +38,8 @@ constexpr std::array fixed_names = {
         "density_overlap|differences|labels|"
         "latency|moments|odometry|overlap|reliability|runs|sample_efficiency|sensitivity|sensor_"
         "sweep|"
-        "success|torque_densities|torque_distributions|torques|training|transfer|transitions|verdicts|views)\\.csv|"
+        "success|torque_densities|torque_distributions|torques|training|transfer|transitions|"
+        "verdicts|views)\\.csv|"
         "(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
     FixedNames{"videos", R"(report\.(mp4|jpg)|worst_.+\.mp4)"},
     FixedNames{"trajectories", R"([^.].*\.tum)"},
