@@ -13,19 +13,18 @@ std::size_t failures_before(double probability, double uniform) {
 
 }  // namespace
 
-std::vector<Drop> drops_of(const Dropout& dropout, double period, std::size_t steps,
-                           const ChannelDraws& draws) {
-  std::vector<Drop> drops;
-  std::size_t k = 1;
-  for (std::uint64_t n = 0;; n += 2) {
-    const std::size_t begin =
-        k + failures_before(dropout.rate, draws.uniform(DrawnFor::dropout, n));
-    if (begin >= steps) return drops;
-    const std::size_t length =
-        1 + failures_before(period / dropout.length, draws.uniform(DrawnFor::dropout, n + 1));
-    k = std::min(steps, begin + length);
-    drops.push_back({begin, k});
-  }
+Drops::Drops(const Dropout& dropout, double period, const ChannelDraws& draws)
+    : begins_(dropout.rate), ends_(period / dropout.length), draws_(draws) {
+  advance();
+}
+
+void Drops::advance() {
+  const std::size_t begin =
+      current_.end + failures_before(begins_, draws_.uniform(DrawnFor::dropout, drawn_));
+  const std::size_t length =
+      1 + failures_before(ends_, draws_.uniform(DrawnFor::dropout, drawn_ + 1));
+  current_ = {begin, begin + length};
+  drawn_ += 2;
 }
 
 }  // namespace touchdown::noise

@@ -13,9 +13,9 @@ double ChannelDraws::constant(DrawnFor what) const {
   return standard_normal(key_, stream(what), 0);
 }
 
-std::span<const double> ChannelDraws::series(DrawnFor what, std::size_t steps) {
+std::span<const double> ChannelDraws::series(DrawnFor what, std::size_t first, std::size_t steps) {
   series_.resize(steps);
-  fill_standard_normal(key_, stream(what), 0, series_);
+  fill_standard_normal(key_, stream(what), first, series_);
   return series_;
 }
 

@@ -29,8 +29,8 @@ class ChannelDraws {
 
   /// Of N(0, 1), one for the run.
   double constant(DrawnFor what) const;
-  /// Of N(0, 1), one for every step; valid until the next call.
-  std::span<const double> series(DrawnFor what, std::size_t steps);
+  /// Of N(0, 1), one for every step from `first` on; valid until the next call.
+  std::span<const double> series(DrawnFor what, std::size_t first, std::size_t steps);
   /// Uniform in (0, 1), the n-th of the run.
   double uniform(DrawnFor what, std::uint64_t n) const;
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 
 #include "noise/sensors/clock.hpp"
@@ -40,16 +41,26 @@ constexpr AxisNumbers orientation_channels = {
 /// One number of every observation on its way through its sensor.
 struct Column {
   SensorChannel channel;
-  NoiseChannel number;
-  NoiseChannel clock;  ///< whose drops it shares
+  ChannelDraws draws;
+  Clock<double> clock;
   std::function<void(std::span<const models::Observation>, double*)> take;
   std::function<void(const double*, std::span<models::Observation>)> put;
+  ChannelState state = {};
   std::vector<double> values = {};
 };
 
+/// What every channel's randomness is drawn by.
+struct RunOfDraws {
+  NoiseKey key;
+  double period;
+};
+
 template <typename At>
-Column column_of(const SensorChannel& channel, NoiseChannel number, NoiseChannel clock, At at) {
-  return {channel, number, clock,
+Column column_of(const SensorChannel& channel, const RunOfDraws& run, NoiseChannel number,
+                 NoiseChannel dropped_like, At at) {
+  return {channel,
+          {run.key, number},
+          {channel, run.period, {run.key, dropped_like}, nan},
           [at](std::span<const models::Observation> from, double* to) {
             for (const models::Observation& observation : from) *to++ = at(observation);
           },
@@ -58,193 +69,230 @@ Column column_of(const SensorChannel& channel, NoiseChannel number, NoiseChannel
           }};
 }
 
-/// One run on its way through the sensors.
-class Reporter {
- public:
-  Reporter(const NoiseKey& key, double period, std::vector<models::Observation>& observations)
-      : key_(key), period_(period), observations_(observations) {}
+}  // namespace
 
-  /// Turns what all of the IMU measures.
-  void misalign(const Misalignment& misalignment);
+/// What sensors that are not ideal remember of the run so far.
+class ReportingSensors::Reporter {
+ public:
+  Reporter(const SensorProfile& profile, const NoiseKey& key, double period);
+
+  void report(std::span<models::Observation> next);
+
+ private:
   /// Each of these takes its values before any is put back: wheels shake by how they turn, not by
   /// what their encoders report.
   void add_joints(const JointChannels& channels, double models::ServoReading::*member,
                   const std::array<NoiseChannel, models::servo_count>& numbers);
   void add_vector(const AxisChannels& channels, Eigen::Vector3d models::ImuReading::*member,
                   const AxisNumbers& numbers);
-  void report_orientation(const AxisChannels& channels);
-  void report_columns();
+
+  /// Turns what all of the IMU measures.
+  void misalign(std::span<models::Observation> next) const;
+  void report_columns(std::span<models::Observation> next);
+  void report_orientation(std::span<models::Observation> next);
   /// Leaves of the reported proper acceleration what is not gravity along the reported vertical.
-  void remove_gravity(const Eigen::Vector3d& gravity);
-  void strike_out_missing();
+  void remove_gravity(std::span<models::Observation> next) const;
+  void strike_out_missing(std::span<models::Observation> next) const;
 
- private:
-  /// Calls `part(block, first step)` for block after block: so few observations that all of their
-  /// numbers stay at hand while column after column is copied.
-  template <typename Part>
-  void for_each_block(const Part& part) {
-    constexpr std::size_t steps = 64;
-    for (std::size_t k = 0; k < observations_.size(); k += steps) {
-      part(std::span(observations_).subspan(k, std::min(steps, observations_.size() - k)), k);
-    }
-  }
+  void turn_wheels(std::span<const models::Observation> next);
 
-  const TurnsOfBoth* turns_of(const Vibration& vibration);
-
-  NoiseKey key_;
-  double period_;
-  std::vector<models::Observation>& observations_;
+  RunOfDraws run_;
+  bool is_aligned_;
+  bool is_attitude_ideal_;
+  bool changes_acceleration_;
+  Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();  ///< of the IMU in its place
   std::vector<Column> columns_;
-  std::vector<std::uint8_t> missing_;    ///< by step; empty while no record is
-  std::map<double, TurnsOfBoth> turns_;  ///< by order
+  AxisChannels orientation_;
+  std::array<ChannelState, 3> orientation_state_;
+  Clock<Eigen::Quaterniond> orientation_clock_;
+  std::map<double, TurnsOfBoth> turns_;     ///< of the steps that are reported, by order
+  std::optional<Eigen::Vector3d> gravity_;  ///< as the first step knows it, where attitude is of
+  std::vector<std::uint8_t> missing_;  ///< of the steps that are reported; empty if no record is
 };
 
-void Reporter::misalign(const Misalignment& misalignment) {
+namespace {
+
+Eigen::Quaterniond turn_of(const Misalignment& misalignment, const NoiseKey& key) {
   const auto angle = [&](double given, NoiseChannel axis) {
     if (misalignment.sd == 0.0) return given;
-    return given + misalignment.sd * ChannelDraws(key_, axis).constant(DrawnFor::misalignment);
+    return given + misalignment.sd * ChannelDraws(key, axis).constant(DrawnFor::misalignment);
   };
-  const Eigen::Quaterniond turn =
-      Eigen::AngleAxisd(angle(misalignment.yaw, NoiseChannel::orientation_z),
-                        Eigen::Vector3d::UnitZ()) *
-      Eigen::AngleAxisd(angle(misalignment.pitch, NoiseChannel::orientation_y),
-                        Eigen::Vector3d::UnitY()) *
-      Eigen::AngleAxisd(angle(misalignment.roll, NoiseChannel::orientation_x),
-                        Eigen::Vector3d::UnitX());
-  const Eigen::Matrix3d nominal_to_chip = turn.toRotationMatrix().transpose();
-  for (models::Observation& observation : observations_) {
-    models::ImuReading& imu = observation.imu;
-    imu.raw_linear_acceleration = nominal_to_chip * imu.raw_linear_acceleration;
-    imu.angular_velocity = nominal_to_chip * imu.angular_velocity;
-    imu.orientation = imu.orientation * turn;
+  return Eigen::AngleAxisd(angle(misalignment.yaw, NoiseChannel::orientation_z),
+                           Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(angle(misalignment.pitch, NoiseChannel::orientation_y),
+                           Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(angle(misalignment.roll, NoiseChannel::orientation_x),
+                           Eigen::Vector3d::UnitX());
+}
+
+/// Calls `part(block, first step)` for block after block: so few observations that all of their
+/// numbers stay at hand while column after column is copied.
+template <typename Part>
+void for_each_block(std::span<models::Observation> steps, const Part& part) {
+  constexpr std::size_t most = 64;
+  for (std::size_t k = 0; k < steps.size(); k += most) {
+    part(steps.subspan(k, std::min(most, steps.size() - k)), k);
   }
 }
 
-void Reporter::add_joints(const JointChannels& channels, double models::ServoReading::*member,
-                          const std::array<NoiseChannel, models::servo_count>& numbers) {
+}  // namespace
+
+ReportingSensors::Reporter::Reporter(const SensorProfile& profile, const NoiseKey& key,
+                                     double period)
+    : run_{key, period},
+      is_aligned_(profile.misalignment == Misalignment()),
+      is_attitude_ideal_(is_ideal(profile.orientation)),
+      changes_acceleration_(!is_aligned_ || !is_attitude_ideal_ ||
+                            !is_ideal(profile.accelerometer)),
+      orientation_(profile.orientation),
+      orientation_clock_(profile.orientation.front(), period, {key, orientation_channels.front()},
+                         {nan, nan, nan, nan}) {
+  if (!is_aligned_) turn_ = turn_of(profile.misalignment, key);
+  add_vector(profile.accelerometer, &models::ImuReading::raw_linear_acceleration,
+             accelerometer_channels);
+  add_vector(profile.gyroscope, &models::ImuReading::angular_velocity, gyroscope_channels);
+  add_joints(profile.torque, &models::ServoReading::torque, torque_channels);
+  add_joints(profile.position, &models::ServoReading::position, position_channels);
+  add_joints(profile.velocity, &models::ServoReading::velocity, velocity_channels);
+}
+
+void ReportingSensors::Reporter::add_joints(
+    const JointChannels& channels, double models::ServoReading::*member,
+    const std::array<NoiseChannel, models::servo_count>& numbers) {
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
     const SensorChannel& channel = channels[servo % channels.size()];
     if (is_ideal(channel)) continue;
     columns_.push_back(column_of(
-        channel, numbers[servo], numbers[servo], [ servo, member ](auto& observation) -> auto& {
-          return observation.servo[servo].*member;
-        }));
+        channel, run_, numbers[servo], numbers[servo],
+        [ servo,
+          member ](auto& observation) -> auto& { return observation.servo[servo].*member; }));
   }
 }
 
-void Reporter::add_vector(const AxisChannels& channels, Eigen::Vector3d models::ImuReading::*member,
-                          const AxisNumbers& numbers) {
+void ReportingSensors::Reporter::add_vector(const AxisChannels& channels,
+                                            Eigen::Vector3d models::ImuReading::*member,
+                                            const AxisNumbers& numbers) {
   for (std::size_t axis = 0; axis < channels.size(); ++axis) {
     if (is_ideal(channels[axis])) continue;
     columns_.push_back(column_of(
-        channels[axis], numbers[axis], numbers.front(),
+        channels[axis], run_, numbers[axis], numbers.front(),
         [ axis, member ](auto& observation) -> auto& {
           return (observation.imu.*member)[static_cast<Eigen::Index>(axis)];
         }));
   }
 }
 
-const TurnsOfBoth* Reporter::turns_of(const Vibration& vibration) {
-  if (vibration.amplitude == 0.0) return nullptr;
-  const auto [found, is_new] = turns_.try_emplace(vibration.order);
-  if (is_new) {
-    std::array<std::vector<double>, models::wheel_count> position, velocity;
-    for (const models::Observation& observation : observations_) {
-      for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+void ReportingSensors::Reporter::report(std::span<models::Observation> next) {
+  if (next.empty()) return;
+  if (!gravity_) {
+    // In the frame of the attitude reference system, the same throughout the run.
+    const models::ImuReading& first = next.front().imu;
+    gravity_ = first.orientation * (first.linear_acceleration - first.raw_linear_acceleration);
+  }
+  missing_.clear();
+  if (!is_aligned_) misalign(next);
+  report_columns(next);
+  if (!is_attitude_ideal_) report_orientation(next);
+  if (changes_acceleration_) remove_gravity(next);
+  strike_out_missing(next);
+}
+
+void ReportingSensors::Reporter::misalign(std::span<models::Observation> next) const {
+  const Eigen::Matrix3d nominal_to_chip = turn_.toRotationMatrix().transpose();
+  for (models::Observation& observation : next) {
+    models::ImuReading& imu = observation.imu;
+    imu.raw_linear_acceleration = nominal_to_chip * imu.raw_linear_acceleration;
+    imu.angular_velocity = nominal_to_chip * imu.angular_velocity;
+    imu.orientation = imu.orientation * turn_;
+  }
+}
+
+void ReportingSensors::Reporter::turn_wheels(std::span<const models::Observation> next) {
+  turns_.clear();
+  for (const Column& column : columns_) {
+    const Vibration& vibration = column.channel.vibration;
+    if (vibration.amplitude == 0.0) continue;
+    const auto [found, is_new] = turns_.try_emplace(vibration.order);
+    if (!is_new) continue;
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      std::vector<double> position, velocity;
+      for (const models::Observation& observation : next) {
         const models::ServoReading& reading =
             observation.servo[models::index(models::wheel_servos[wheel])];
-        position[wheel].push_back(reading.position);
-        velocity[wheel].push_back(reading.velocity);
+        position.push_back(reading.position);
+        velocity.push_back(reading.velocity);
       }
+      found->second[wheel] = wheel_turns(position, velocity, vibration.order);
     }
-    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      found->second[wheel] = wheel_turns(position[wheel], velocity[wheel], vibration.order);
-    }
-  }
-  return &found->second;
-}
-
-void Reporter::report_orientation(const AxisChannels& channels) {
-  std::array<std::vector<double>, 3> error;
-  for (std::size_t axis = 0; axis < channels.size(); ++axis) {
-    ChannelDraws draws(key_, orientation_channels[axis]);
-    error[axis].resize(observations_.size());
-    disturb_values(error[axis], channels[axis], period_, draws);
-  }
-  std::vector<Eigen::Quaterniond> reported;
-  reported.reserve(observations_.size());
-  for (std::size_t k = 0; k < observations_.size(); ++k) {
-    const Eigen::Quaterniond turn(1.0, 0.5 * error[0][k], 0.5 * error[1][k], 0.5 * error[2][k]);
-    reported.push_back(observations_[k].imu.orientation * turn.normalized());
-  }
-  disturb_clock<Eigen::Quaterniond>(reported, channels.front(), period_,
-                                    {key_, orientation_channels.front()}, {nan, nan, nan, nan},
-                                    missing_);
-  for (std::size_t k = 0; k < observations_.size(); ++k) {
-    observations_[k].imu.orientation = reported[k];
   }
 }
 
-void Reporter::report_columns() {
-  for (Column& column : columns_) column.values.resize(observations_.size());
-  for_each_block([&](std::span<const models::Observation> block, std::size_t first) {
+void ReportingSensors::Reporter::report_columns(std::span<models::Observation> next) {
+  turn_wheels(next);
+  for (Column& column : columns_) column.values.resize(next.size());
+  for_each_block(next, [&](std::span<const models::Observation> block, std::size_t first) {
     for (Column& column : columns_) column.take(block, column.values.data() + first);
   });
   for (Column& column : columns_) {
-    ChannelDraws draws(key_, column.number);
-    disturb_values(column.values, column.channel, period_, draws,
-                   turns_of(column.channel.vibration));
-    disturb_clock<double>(column.values, column.channel, period_, {key_, column.clock}, nan,
-                          missing_);
+    const auto turns = turns_.find(column.channel.vibration.order);
+    const bool vibrates = column.channel.vibration.amplitude != 0.0;
+    disturb_values(column.values, column.channel, run_.period, column.draws, column.state,
+                   vibrates ? &turns->second : nullptr);
+    column.clock.report(column.values, missing_);
   }
-  for_each_block([&](std::span<models::Observation> block, std::size_t first) {
+  for_each_block(next, [&](std::span<models::Observation> block, std::size_t first) {
     for (const Column& column : columns_) column.put(column.values.data() + first, block);
   });
 }
 
-void Reporter::remove_gravity(const Eigen::Vector3d& gravity) {
-  for (models::Observation& observation : observations_) {
+void ReportingSensors::Reporter::report_orientation(std::span<models::Observation> next) {
+  std::array<std::vector<double>, 3> error;
+  for (std::size_t axis = 0; axis < orientation_.size(); ++axis) {
+    ChannelDraws draws(run_.key, orientation_channels[axis]);
+    error[axis].resize(next.size());
+    disturb_values(error[axis], orientation_[axis], run_.period, draws, orientation_state_[axis]);
+  }
+  std::vector<Eigen::Quaterniond> reported;
+  reported.reserve(next.size());
+  for (std::size_t k = 0; k < next.size(); ++k) {
+    const Eigen::Quaterniond turn(1.0, 0.5 * error[0][k], 0.5 * error[1][k], 0.5 * error[2][k]);
+    reported.push_back(next[k].imu.orientation * turn.normalized());
+  }
+  orientation_clock_.report(reported, missing_);
+  for (std::size_t k = 0; k < next.size(); ++k) next[k].imu.orientation = reported[k];
+}
+
+void ReportingSensors::Reporter::remove_gravity(std::span<models::Observation> next) const {
+  for (models::Observation& observation : next) {
     models::ImuReading& imu = observation.imu;
-    imu.linear_acceleration = imu.raw_linear_acceleration + imu.orientation.conjugate() * gravity;
+    imu.linear_acceleration = imu.raw_linear_acceleration + imu.orientation.conjugate() * *gravity_;
   }
 }
 
-void Reporter::strike_out_missing() {
+void ReportingSensors::Reporter::strike_out_missing(std::span<models::Observation> next) const {
   models::Observation nothing;
   nothing.time = nothing.pitch = nothing.pitch_rate = nothing.yaw = nothing.yaw_rate = nan;
   nothing.servo.fill({nan, nan, nan});
   const Eigen::Vector3d none = Eigen::Vector3d::Constant(nan);
   nothing.imu = {Eigen::Quaterniond(nan, nan, nan, nan), none, none, none};
   for (std::size_t k = 0; k < missing_.size(); ++k) {
-    if (missing_[k] != 0) observations_[k] = nothing;
+    if (missing_[k] != 0) next[k] = nothing;
   }
 }
 
-}  // namespace
+ReportingSensors::ReportingSensors(const SensorProfile& profile, const NoiseKey& key, double period)
+    : reporter_(is_ideal(profile) ? nullptr : std::make_unique<Reporter>(profile, key, period)) {}
+ReportingSensors::~ReportingSensors() = default;
+ReportingSensors::ReportingSensors(ReportingSensors&&) noexcept = default;
+ReportingSensors& ReportingSensors::operator=(ReportingSensors&&) noexcept = default;
+
+void ReportingSensors::report(std::span<models::Observation> next) {
+  if (reporter_) reporter_->report(next);
+}
 
 void report_through(const SensorProfile& profile, const NoiseKey& key, double period,
                     std::vector<models::Observation>& observations) {
-  if (observations.empty() || is_ideal(profile)) return;
-  Reporter reporter(key, period, observations);
-  // In the frame of the attitude reference system, the same throughout the run.
-  const models::ImuReading& first = observations.front().imu;
-  const Eigen::Vector3d gravity =
-      first.orientation * (first.linear_acceleration - first.raw_linear_acceleration);
-  const bool is_aligned = profile.misalignment == Misalignment();
-  const bool is_attitude_ideal = is_ideal(profile.orientation);
-  if (!is_aligned) reporter.misalign(profile.misalignment);
-  reporter.add_vector(profile.accelerometer, &models::ImuReading::raw_linear_acceleration,
-                      accelerometer_channels);
-  reporter.add_vector(profile.gyroscope, &models::ImuReading::angular_velocity, gyroscope_channels);
-  reporter.add_joints(profile.torque, &models::ServoReading::torque, torque_channels);
-  reporter.add_joints(profile.position, &models::ServoReading::position, position_channels);
-  reporter.add_joints(profile.velocity, &models::ServoReading::velocity, velocity_channels);
-  reporter.report_columns();
-  if (!is_attitude_ideal) reporter.report_orientation(profile.orientation);
-  if (!is_aligned || !is_attitude_ideal || !is_ideal(profile.accelerometer)) {
-    reporter.remove_gravity(gravity);
-  }
-  reporter.strike_out_missing();
+  ReportingSensors(profile, key, period).report(observations);
 }
 
 }  // namespace touchdown::noise

@@ -12,11 +12,12 @@ double constant_of(const Constant& constant, DrawnFor what, const ChannelDraws& 
   return constant.value + (constant.sd > 0.0 ? constant.sd * draws.constant(what) : 0.0);
 }
 
-void add_walk(std::span<double> values, double step_sd, std::span<const double> normal) {
-  double walked = 0.0;
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    walked += step_sd * normal[k];
-    values[k] += walked;
+/// The first step of a run is where the walk begins.
+void add_walk(std::span<double> values, double step_sd, std::span<const double> normal,
+              ChannelState& state) {
+  for (std::size_t k = state.step == 0 ? 1 : 0; k < values.size(); ++k) {
+    state.walked += step_sd * normal[k];
+    values[k] += state.walked;
   }
 }
 
@@ -33,22 +34,25 @@ void add_vibration(std::span<double> values, double amplitude, const TurnsOfBoth
 }
 
 void add_coloured(std::span<double> values, const ColouredNoise& noise, double period,
-                  std::span<const double> normal) {
+                  std::span<const double> normal, ChannelState& state) {
   const double kept = std::exp(-period / noise.time_constant);
   const double fresh = noise.sd * std::sqrt(1.0 - kept * kept);
-  double process = noise.sd * normal.front();
-  values.front() += process;
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    process = kept * process + fresh * normal[k];
-    values[k] += process;
+  std::size_t k = 0;
+  if (state.step == 0) {
+    state.process = noise.sd * normal.front();
+    values[k++] += state.process;
+  }
+  for (; k < values.size(); ++k) {
+    state.process = kept * state.process + fresh * normal[k];
+    values[k] += state.process;
   }
 }
 
-void low_pass(std::span<double> values, double gain) {
-  double filtered = values.front();
+void low_pass(std::span<double> values, double gain, ChannelState& state) {
+  if (state.step == 0) state.filtered = values.front();
   for (double& value : values) {
-    filtered += gain * (value - filtered);
-    value = filtered;
+    state.filtered += gain * (value - state.filtered);
+    value = state.filtered;
   }
 }
 
@@ -66,8 +70,9 @@ WheelTurns wheel_turns(std::span<const double> position, std::span<const double>
 }
 
 void disturb_values(std::span<double> values, const SensorChannel& channel, double period,
-                    ChannelDraws& draws, const TurnsOfBoth* turns) {
+                    ChannelDraws& draws, ChannelState& state, const TurnsOfBoth* turns) {
   if (values.empty()) return;
+  const auto series = [&](DrawnFor what) { return draws.series(what, state.step, values.size()); };
   if (!(channel.scale == Constant())) {
     const double gain = 1.0 + constant_of(channel.scale, DrawnFor::scale, draws);
     for (double& value : values) value *= gain;
@@ -77,15 +82,15 @@ void disturb_values(std::span<double> values, const SensorChannel& channel, doub
     for (double& value : values) value += bias;
   }
   if (channel.walk > 0.0) {
-    add_walk(values, channel.walk * std::sqrt(period), draws.series(DrawnFor::walk, values.size()));
+    add_walk(values, channel.walk * std::sqrt(period), series(DrawnFor::walk), state);
   }
   if (turns != nullptr) add_vibration(values, channel.vibration.amplitude, *turns, draws);
   if (channel.coloured.sd > 0.0) {
-    add_coloured(values, channel.coloured, period, draws.series(DrawnFor::coloured, values.size()));
+    add_coloured(values, channel.coloured, period, series(DrawnFor::coloured), state);
   }
-  if (channel.low_pass > 0.0) low_pass(values, -std::expm1(-period / channel.low_pass));
+  if (channel.low_pass > 0.0) low_pass(values, -std::expm1(-period / channel.low_pass), state);
   if (channel.white > 0.0) {
-    const std::span<const double> normal = draws.series(DrawnFor::white, values.size());
+    const std::span<const double> normal = series(DrawnFor::white);
     for (std::size_t k = 0; k < values.size(); ++k) values[k] += channel.white * normal[k];
   }
   if (std::isfinite(channel.range)) {
@@ -95,6 +100,7 @@ void disturb_values(std::span<double> values, const SensorChannel& channel, doub
     const double step = channel.resolution;
     for (double& value : values) value = step * std::nearbyint(value / step);
   }
+  state.step += values.size();
 }
 
 }  // namespace touchdown::noise

@@ -22,10 +22,18 @@ std::vector<double> counting(std::size_t steps) {
   return values;
 }
 
-std::vector<double> held(double samples_per_step, std::size_t steps = 11) {
+/// Counting values as a channel's clock reports them; which records are missing, if asked.
+std::vector<double> reported(const SensorChannel& channel, std::size_t steps,
+                             std::vector<std::uint8_t>* missing = nullptr) {
   std::vector<double> values = counting(steps);
-  hold<double>(values, samples_per_step);
+  std::vector<std::uint8_t> marked;
+  Clock<double>(channel, period, draws, nan).report(values, marked);
+  if (missing != nullptr) *missing = marked;
   return values;
+}
+
+std::vector<double> held(double samples_per_step, std::size_t steps = 11) {
+  return reported({.rate = samples_per_step / period}, steps);
 }
 
 TEST(HeldSamples, OfFourHundredHertzAreHeardInTurnsOfThreeAndTwoMilliseconds) {
@@ -45,18 +53,14 @@ TEST(HeldSamples, OfAnInstrumentThatIsAsFastAsTheReaderAreAllNew) {
 }
 
 TEST(Delay, RepeatsTheFirstValueAndThenTheOneOfSoManyStepsBefore) {
-  std::vector<double> values = counting(6);
-  delay<double>(values, 2);
-  EXPECT_EQ(values, (std::vector<double>{0, 0, 0, 1, 2, 3}));
-  delay<double>(values, 100);
-  EXPECT_EQ(values, std::vector<double>(6, 0.0));
+  EXPECT_EQ(reported({.delay = 0.002}, 6), (std::vector<double>{0, 0, 0, 1, 2, 3}));
+  EXPECT_EQ(reported({.delay = 0.1}, 6), std::vector<double>(6, 0.0));
 }
 
 TEST(Delay, IsRoundedToWholeStepsAndComesAfterTheHeldSamples) {
   const auto late_by = [](double seconds) {
-    std::vector<double> values = counting(9);
     std::vector<std::uint8_t> missing;
-    disturb_clock<double>(values, {.rate = 500.0, .delay = seconds}, period, draws, nan, missing);
+    const auto values = reported({.rate = 500.0, .delay = seconds}, 9, &missing);
     EXPECT_TRUE(missing.empty());
     return values;
   };
@@ -64,8 +68,13 @@ TEST(Delay, IsRoundedToWholeStepsAndComesAfterTheHeldSamples) {
   EXPECT_EQ(late_by(0.0016), (std::vector<double>{0, 0, 0, 0, 2, 2, 4, 4, 6}));
 }
 
+/// Those of a run of so many steps.
 std::vector<Drop> many_drops(const Dropout& dropout, std::size_t steps = 4'000'000) {
-  return drops_of(dropout, period, steps, draws);
+  std::vector<Drop> drops;
+  for (Drops all(dropout, period, draws); all.current().begin < steps; all.advance()) {
+    drops.push_back({all.current().begin, std::min(steps, all.current().end)});
+  }
+  return drops;
 }
 
 TEST(Drops, HaveTheirRateTheirMeanLengthAndTheirShare) {
@@ -121,14 +130,11 @@ TEST(Drops, OfALongerRunBeginAsThoseOfAShorterOne) {
 
 /// Counting values with drops of a kind, and which records are missing.
 std::vector<double> dropped(DropKind kind, std::vector<std::uint8_t>& missing) {
-  std::vector<double> values = counting(1'000);
-  disturb_clock<double>(values, {.dropout = {.kind = kind, .rate = 0.05, .length = 0.004}}, period,
-                        draws, nan, missing);
-  return values;
+  return reported({.dropout = {.kind = kind, .rate = 0.05, .length = 0.004}}, 1'000, &missing);
 }
 
 TEST(Drops, FreezeBlankOrMarkWhatTheyCoverByKind) {
-  const auto drops = drops_of({.rate = 0.05, .length = 0.004}, period, 1'000, draws);
+  const auto drops = many_drops({.rate = 0.05, .length = 0.004}, 1'000);
   ASSERT_GT(drops.size(), 20U);
   std::vector<std::uint8_t> none, missing;
   const auto frozen = dropped(DropKind::frozen, none);

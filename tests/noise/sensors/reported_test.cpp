@@ -144,6 +144,28 @@ TEST(Reported, AChannelMoreChangesNoOtherChannelsDraws) {
   }
 }
 
+TEST(Reported, ARunInPartsIsReportedAsTheWholeRunToTheBit) {
+  const Steps run = tumbling(700);
+  const std::string vibrating =
+      "torque: {wheel: {rate: 300, delay: 0.005,"
+      " dropout: {kind: frozen, rate: 0.02, length: 0.01}}}\n"
+      "accelerometer: {white: 1, vibration: {amplitude: 0.2, order: 3}, dropout: {kind: nan, rate: "
+      "0.02}}\n"
+      "orientation: {delay: 0.002, white: 0.01}\n";
+  for (const SensorProfile& profile : {profile_of(all_sensors), profile_of(vibrating),
+                                       profile_of("misalignment: {sd: 0.1}\n"), SensorProfile()}) {
+    const Steps whole = reported(profile, run);
+    for (const std::size_t length : {1U, 7U, 64U, 699U}) {
+      Steps parts = run;
+      ReportingSensors sensors(profile, key, period);
+      for (std::size_t k = 0; k < parts.size(); k += length) {
+        sensors.report(std::span(parts).subspan(k, std::min(length, parts.size() - k)));
+      }
+      EXPECT_THAT(different(parts, whole), IsEmpty()) << length;
+    }
+  }
+}
+
 /// A knee's torque of nothing through a channel.
 std::vector<double> knee_torque(const std::string& channel, std::size_t steps) {
   std::vector<double> values;

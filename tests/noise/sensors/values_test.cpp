@@ -19,7 +19,8 @@ constexpr std::size_t many = 400'000;
 std::vector<double> through(const SensorChannel& channel, std::vector<double> values,
                             std::uint64_t run = 0) {
   ChannelDraws draws({7, run}, NoiseChannel::accelerometer_x);
-  disturb_values(values, channel, period, draws);
+  ChannelState state;
+  disturb_values(values, channel, period, draws, state);
   return values;
 }
 
@@ -148,7 +149,8 @@ WheelTurns turning(double speed, double from, double order, std::size_t steps) {
 std::vector<double> shaken(const TurnsOfBoth& turns, double amplitude, std::uint64_t run) {
   ChannelDraws draws({7, run}, NoiseChannel::gyroscope_x);
   std::vector<double> values(turns[0].sine.size());
-  disturb_values(values, {.vibration = {.amplitude = amplitude}}, period, draws, &turns);
+  ChannelState state;
+  disturb_values(values, {.vibration = {.amplitude = amplitude}}, period, draws, state, &turns);
   return values;
 }
 
@@ -204,7 +206,7 @@ TEST(ChannelDraws, OfEveryDisturbanceAreIndependentOfEachOtherAndOfTheWhiteNoise
   std::vector<std::vector<double>> all(1, std::vector<double>(100'000));
   fill_standard_normal(key, NoiseChannel::left_knee_torque, 0, all.front());
   for (const DrawnFor what : {DrawnFor::walk, DrawnFor::coloured, DrawnFor::white}) {
-    const auto series = draws.series(what, 100'000);
+    const auto series = draws.series(what, 0, 100'000);
     all.emplace_back(series.begin(), series.end());
   }
   for (std::size_t a = 0; a < all.size(); ++a) {
@@ -221,7 +223,7 @@ TEST(ChannelDraws, AreTheNumbersThatTheyHaveAlwaysBeen) {
   ChannelDraws draws({1, 2}, NoiseChannel::accelerometer_z);
   EXPECT_EQ(draws.constant(DrawnFor::bias),
             standard_normal({1, 2}, static_cast<NoiseChannel>(6 + 3 * 256), 0));
-  EXPECT_EQ(draws.series(DrawnFor::white, 9)[8],
+  EXPECT_EQ(draws.series(DrawnFor::white, 5, 4)[3],
             standard_normal({1, 2}, static_cast<NoiseChannel>(6 + 7 * 256), 8));
 }
 
