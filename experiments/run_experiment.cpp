@@ -14,6 +14,7 @@
 #include "experiments/benchmark/plan.hpp"
 #include "experiments/benchmark/refits.hpp"
 #include "experiments/benchmark/tables.hpp"
+#include "experiments/closed_loop/tables.hpp"
 #include "experiments/cross_simulator/tables.hpp"
 #include "experiments/foreign/rows.hpp"
 #include "experiments/moments/tables.hpp"
@@ -99,13 +100,25 @@ struct Computed {
   std::size_t tasks = 0;  ///< that were not saved already
 };
 
-/// The first half of the way: play → fit → listen. What is saved is read.
+/// The runs that these tasks need, and those that the estimators are fitted to that steer.
+std::set<std::size_t> runs_for(const RunningExperiment& running, const TaskRange& tasks,
+                               const TaskRange& loops) {
+  const Plan& plan = running.plan;
+  std::set<std::size_t> runs = runs_for(plan, tasks);
+  for (std::size_t i = 0; i < plan.runs.size() && loops.size() > 0; ++i) {
+    if (plan.runs[i].role == RunRole::fit && plan.runs[i].fit.empty()) runs.insert(i);
+  }
+  return runs;
+}
+
+/// The first half of the way: play → fit → listen, and steer. What is saved is read.
 Computed compute(RunningExperiment& running, const TaskRange& tasks, MissingRun missing) {
   const Experiment& experiment = running.request.experiment;
+  const TaskRange loops = loop_runs_of(experiment, tasks, running.plan.tasks.size());
   try {
     Computed done;
     done.runs = timed(running, "simulate", [&] {
-      return play_runs(experiment, running.plan, runs_for(running.plan, tasks), running.directory,
+      return play_runs(experiment, running.plan, runs_for(running, tasks, loops), running.directory,
                        missing, running.going_on);
     });
     done.models = timed(running, "fit", [&] { return fit(running, done.runs); });
@@ -113,6 +126,13 @@ Computed compute(RunningExperiment& running, const TaskRange& tasks, MissingRun 
       return listen(running.plan, tasks, done.runs, experiment.scoring, done.models, running.saved,
                     running.going_on);
     });
+    if (loops.size() > 0) {
+      timed(running, "steer", [&] {
+        close_loops(running.request, loops, done.models, running.saved_loops, missing,
+                    running.going_on);
+        return 0;
+      });
+    }
     return done;
   } catch (const Stopped&) {
     throw Stopped(what_is_saved(running));
@@ -163,6 +183,11 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
       write_tables(rows, running.directory);
       write_trajectories(listened, result.models, running.directory);
       result.studies.push_back(odometry_text(rows, experiment));
+    }
+    if (experiment.closed_loop) {
+      const std::vector<SurvivalRow> rows = survival_rows(running.request, running.saved_loops);
+      write_tables(rows, running.directory);
+      result.studies.push_back(survival_text(rows, experiment));
     }
     if (!experiment.sweep.empty()) {
       const std::vector<SensorSweepPoint> sweep = sensor_sweep(listened);

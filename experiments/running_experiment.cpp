@@ -46,6 +46,17 @@ std::vector<std::size_t> missing_tasks(const RunningExperiment& running) {
   return missing;
 }
 
+/// Whether runs in which beliefs steer are missing that belong to one of the parts from `first` to
+/// `end`.
+bool lacks_loops(const RunningExperiment& running, std::size_t first, std::size_t end) {
+  const TaskRange loops =
+      loop_runs_of(running.request.experiment, {first, end}, running.plan.tasks.size());
+  for (std::size_t run = loops.begin; run < loops.end; ++run) {
+    if (!running.saved_loops.read(run)) return true;
+  }
+  return false;
+}
+
 /// How many parts are saved, whoever computed them.
 std::size_t saved_parts(const RunDirectory& directory) {
   std::error_code ignored;
@@ -88,6 +99,7 @@ Plan whole_plan(const RunRequest& request) {
   add_sensor_sweep(request, plan);
   if (request.experiment.benchmark) add_benchmark(request, plan);
   if (request.experiment.odometry) add_odometry_study(request, plan);
+  require_closed_loop(request);
   keep_recordings(request.experiment, plan);
   return plan;
 }
@@ -103,10 +115,12 @@ RunningExperiment start(RunRequest request, RunDirectory directory, const RunOpt
                   1e-9 * needs.recordings, 1e-9 * needs.parts, plan.tasks.size(),
                   request.experiment.test.runs, request.experiment.noise.seeds));
   SavedCounts saved(directory.path() / "state" / "listening", state_key(request));
+  SavedLoops saved_loops(directory.path() / "state" / "closed_loop", state_key(request));
   return {std::move(request),
           std::move(directory),
           std::move(plan),
           std::move(saved),
+          std::move(saved_loops),
           [stop = options.stop] { return stop == nullptr || !*stop; },
           {options.command, threads, {}},
           tbb::global_control(tbb::global_control::max_allowed_parallelism,
@@ -131,16 +145,17 @@ std::string what_is_saved(const RunningExperiment& running) {
 
 void require_all_shards(const RunningExperiment& running) {
   const std::vector<std::size_t> missing = missing_tasks(running);
-  if (missing.empty()) return;
+  const std::size_t tasks = running.plan.tasks.size();
+  if (missing.empty() && !lacks_loops(running, 0, tasks)) return;
   for (const std::size_t task : missing) require_own(running, running.plan.tasks[task]);
   const std::filesystem::path& directory = running.directory.path();
-  const std::size_t tasks = running.plan.tasks.size();
   const int count = noted_shards(directory);
   std::vector<std::string> shards;
   for (int index = 1; index <= count; ++index) {
     const Shard shard{index, count};
     const auto first = std::lower_bound(missing.begin(), missing.end(), shard.begin(tasks));
-    if (first == missing.end() || *first >= shard.end(tasks)) continue;
+    const bool is_listened = first == missing.end() || *first >= shard.end(tasks);
+    if (is_listened && !lacks_loops(running, shard.begin(tasks), shard.end(tasks))) continue;
     shards.push_back(to_text(shard));
   }
   throw InputError(fmt::format(

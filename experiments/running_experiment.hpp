@@ -7,6 +7,7 @@
 
 #include <tbb/global_control.h>
 
+#include "experiments/closed_loop/play.hpp"
 #include "experiments/listening/tasks.hpp"
 #include "experiments/tables/result.hpp"
 
@@ -27,6 +28,7 @@ struct RunningExperiment {
   RunDirectory directory;
   Plan plan;
   SavedCounts saved;
+  SavedLoops saved_loops;
   GoingOn going_on;
   Provenance provenance;
   tbb::global_control limit;

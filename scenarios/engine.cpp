@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "policies/soft_lander.hpp"
 #include "policies/wheel_balancer.hpp"
@@ -47,10 +48,11 @@ class Referee {
 };
 
 std::unique_ptr<policies::Policy> make_policy(const Scenario& scenario,
-                                              const simulators::Simulator& simulator) {
+                                              const simulators::Simulator& simulator,
+                                              policies::WheelContact told) {
   const double radius = simulator.model().wheel_radius;
   const double period = simulator.control_period();
-  policies::WheelContact contact = policy_contact(scenario, simulator);
+  policies::WheelContact contact = policy_contact(scenario, simulator, std::move(told));
   if (scenario.policy.law == policies::PolicyConfig::Law::soft_landing) {
     return std::make_unique<policies::SoftLander>(
         scenario.balancer, policies::Course{scenario.velocity, scenario.crouch, radius, period},
@@ -94,7 +96,8 @@ std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenar
 }
 
 recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
-                           std::uint64_t seed, std::int64_t run, const PlayProgress& progress) {
+                           std::uint64_t seed, std::int64_t run, const PlayProgress& progress,
+                           policies::WheelContact told) {
   recordings::Recording recording;
   recording.info = {.scenario = scenario.name,
                     .simulator = std::string(simulator.name()),
@@ -110,7 +113,8 @@ recordings::Recording play(const Scenario& scenario, simulators::Simulator& simu
   recording.truth.reserve(most_steps);
 
   simulator.reset(start_pose(simulator.model(), scenario.terrain, scenario.start));
-  const std::unique_ptr<policies::Policy> policy = make_policy(scenario, simulator);
+  const std::unique_ptr<policies::Policy> policy =
+      make_policy(scenario, simulator, std::move(told));
   policy->reset(simulator.observation());
   Referee referee(scenario.end);
   for (std::size_t step = 0;; ++step) {

@@ -33,10 +33,11 @@ std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenar
 /// Play `scenario` exactly as it stands (no draws) and record every control step. Falling, running
 /// out of time and diverging are outcomes, not errors. The recording's info carries `seed` and
 /// `run` for the record. `simulator` is one that `make_simulator` made for a scenario with the same
-/// robot, terrain, mass and simulation; it is reset first, so that it can be played again.
+/// robot, terrain, mass and simulation; it is reset first, so that it can be played again. `told`,
+/// if it is given, tells the policy about contact instead of whom the scenario names, as late.
 recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
                            std::uint64_t seed = 0, std::int64_t run = 0,
-                           const PlayProgress& progress = {});
+                           const PlayProgress& progress = {}, policies::WheelContact told = {});
 
 /// As above, in a simulator of its own.
 recordings::Recording play(const Scenario& scenario, std::string_view simulator,

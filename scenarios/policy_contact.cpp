@@ -3,6 +3,7 @@
 #include <cmath>
 #include <deque>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -66,9 +67,11 @@ policies::WheelContact source(const std::string& name, const simulators::Simulat
 }  // namespace
 
 policies::WheelContact policy_contact(const Scenario& scenario,
-                                      const simulators::Simulator& simulator) {
+                                      const simulators::Simulator& simulator,
+                                      policies::WheelContact told) {
+  if (!told) told = source(scenario.policy.contact, simulator);
   const auto late = std::llround(scenario.policy.late / simulator.control_period());
-  return told_late(source(scenario.policy.contact, simulator), static_cast<std::size_t>(late));
+  return told_late(std::move(told), static_cast<std::size_t>(late));
 }
 
 }  // namespace touchdown::scenarios

@@ -1,6 +1,7 @@
 #include "experiments/config/experiment.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -28,6 +29,7 @@ void describe_subset(Fields& fields, std::string_view key, const std::vector<std
 /// More would not be readable beside, or above, each other.
 constexpr std::size_t most_settings = 3;
 constexpr std::size_t most_estimators = 6;
+constexpr std::size_t most_panels = 4;
 
 void describe_choice(Fields& fields, DropChoice& choice, const Experiment& experiment) {
   fields("run", choice.run, 0, experiment.test.runs - 1);
@@ -179,6 +181,62 @@ static void describe(Fields& fields, OdometryStudyConfig& odometry) {
   }
 }
 
+static void describe(Fields& fields, LoopScene& scene, const Experiment& experiment) {
+  fields.require("scenario", scene.scenario);
+  fields.know("key");
+  fields.know("values");
+  if (fields.present("key", !scene.key.empty()) || fields.present("values", false)) {
+    fields.require("key", scene.key);
+    fields.require("values", scene.values);
+    fields.check(!scene.values.empty(), "values", "expected at least one number");
+    fields.check(std::is_sorted(scene.values.begin(), scene.values.end(), std::less_equal<>()),
+                 "values", "expected numbers that grow");
+  }
+  if (fields.present("noise", true)) fields.list("noise", scene.noise);
+  fields.check(!scene.noise.empty(), "noise", "expected at least one noise setting");
+  for (noise::NoiseCell& cell : scene.noise) cell = noise::as_on_grid(cell, experiment.noise);
+  fields.in_line("late", scene.late);
+  fields.check(!scene.late.empty() && scene.late.front() >= 0.0 && scene.late.back() <= 1.0 &&
+                   std::is_sorted(scene.late.begin(), scene.late.end(), std::less_equal<>()),
+               "late", "expected times from 0 to 1 s that grow");
+  const int varied = (scene.values.size() > 1 ? 1 : 0) + (scene.noise.size() > 1 ? 1 : 0) +
+                     (scene.late.size() > 1 ? 1 : 0);
+  fields.check(varied <= 1, "scenario",
+               "expected one thing that is varied: values of a key, noise, or late");
+}
+
+static void describe(Fields& fields, LoopFilm& film, const ClosedLoopConfig& config) {
+  fields("scene", film.scene, 0, static_cast<int>(config.scenes.size()) - 1);
+  const std::size_t points = points_of(config.scenes[static_cast<std::size_t>(film.scene)]);
+  fields("point", film.point, 0, static_cast<int>(points) - 1);
+  fields("run", film.run, 0, config.runs - 1);
+  if (fields.reading()) film.law = config.laws.front();
+  fields.choose("law", config.laws, film.law);
+  if (fields.reading()) {
+    film.contact = config.contact;
+    film.contact.resize(std::min(most_panels, film.contact.size()));
+  }
+  fields.names("contact", config.contact, film.contact);
+  fields.check(film.contact.size() <= most_panels, "contact",
+               fmt::format("expected at most {} names", most_panels));
+}
+
+static void describe(Fields& fields, ClosedLoopConfig& config, const Experiment& experiment) {
+  fields.names("laws", {"balancer", "soft_landing"}, config.laws);
+  std::vector<std::string> tellers = {"truth", "always"};
+  tellers.insert(tellers.end(), experiment.estimators.begin(), experiment.estimators.end());
+  if (fields.reading()) config.contact = tellers;
+  fields.names("contact", tellers, config.contact);
+  fields.require("scenes");
+  fields.list("scenes", config.scenes, experiment);
+  fields.check(!config.scenes.empty(), "scenes", "expected at least one scene");
+  fields("runs", config.runs, 1, 100'000);
+  fields.know("film");
+  if (!fields.present("film", config.film.has_value())) return;
+  if (fields.reading()) config.film.emplace();
+  fields.within("film", [&](Fields& film) { describe(film, *config.film, config); });
+}
+
 static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
   constexpr const char* key = "cross_simulator";
   std::optional<CrossSimulatorConfig>& config = experiment.cross_simulator;
@@ -263,6 +321,11 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.section("benchmark", experiment.benchmark);
   fields.know("odometry");
   fields.section("odometry", experiment.odometry);
+  fields.know("closed_loop");
+  if (fields.present("closed_loop", experiment.closed_loop.has_value())) {
+    if (fields.reading()) experiment.closed_loop.emplace();
+    fields.section("closed_loop", *experiment.closed_loop, experiment);
+  }
   fields.know("moments");
   if (fields.present("moments", experiment.moments)) fields("moments", experiment.moments);
   if (fields.present("phase_study", experiment.phase_study)) {
@@ -270,6 +333,10 @@ static void describe(Fields& fields, Experiment& experiment) {
     fields.check(!experiment.phase_study || !experiment.fit_pieces.empty(), "phase_study",
                  "expected fit.pieces, which the learning curve varies");
   }
+}
+
+std::size_t points_of(const LoopScene& scene) {
+  return std::max<std::size_t>(1, scene.values.size()) * scene.noise.size() * scene.late.size();
 }
 
 Experiment experiment_from_yaml(const YamlDocument& document) {

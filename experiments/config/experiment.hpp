@@ -137,6 +137,38 @@ struct OdometryStudyConfig {
   std::vector<double> late;  ///< s
 };
 
+/// A scene in which beliefs steer, with at most one thing that is varied: a number of the scenario,
+/// the noise of the sensors, or how late the law is told.
+struct LoopScene {
+  std::string scenario;  ///< scenario file
+  std::string key = {};  ///< of the scenario, dotted: `terrain.pieces.1.stairs.rise`; empty: none
+  std::vector<double> values;                  ///< in the key's own unit
+  std::vector<noise::NoiseCell> noise = {{}};  ///< on top of what the sensors do
+  std::vector<double> late = {0.0};            ///< s
+};
+
+/// The run that is filmed with all who tell it beside each other.
+struct LoopFilm {
+  int scene = 0;                     ///< which of the scenes, from 0
+  int point = 0;                     ///< which of what is varied there, from 0
+  int run = 0;                       ///< index of the run
+  std::string law;                   ///< one of the section's
+  std::vector<std::string> contact;  ///< one to four of those who tell
+};
+
+/// The section `closed_loop`: what becomes of the robot when its policy is told about contact by an
+/// estimator, by the truth or by nobody (docs/closed_loop.md).
+struct ClosedLoopConfig {
+  std::vector<std::string> laws = {"soft_landing"};  ///< of policies
+  std::vector<std::string> contact;  ///< `truth`, `always`, estimators of the experiment
+  std::vector<LoopScene> scenes;
+  int runs = 8;  ///< of every scene and value, started alike whoever tells
+  std::optional<LoopFilm> film = {};
+};
+
+/// How many points a scene's survival curve has.
+std::size_t points_of(const LoopScene& scene);
+
 /// An experiment file, seen whole: what is simulated, who listens through which noise, what counts.
 struct Experiment {
   std::string name;
@@ -164,6 +196,7 @@ struct Experiment {
   std::optional<CrossSimulatorConfig> cross_simulator;
   std::optional<BenchmarkConfig> benchmark;
   std::optional<OdometryStudyConfig> odometry;
+  std::optional<ClosedLoopConfig> closed_loop;
   bool moments = false;       ///< adds tables of torques beside the real robot's (docs/realism.md)
   bool phase_study = false;   ///< adds what the phase filter's study measures (docs/protocol.md)
   bool paper_tables = false;  ///< print the paper's Tables I to III for every highlighted cell

@@ -1,58 +1,29 @@
 #include "experiments/cross_simulator/variations.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "scenarios/perturbation.hpp"
+#include "scenarios/varied.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
-
-/// The number under a dotted key, list items by number; NaN if there is none.
-double value_at(YAML::Node node, const std::string& key) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  std::istringstream parts(key);
-  for (std::string part; std::getline(parts, part, '.');) {
-    std::size_t index = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-    if (node.IsSequence() && error == std::errc{} && index < node.size()) {
-      node.reset(node[index]);
-    } else if (node.IsMap() && node[part].IsDefined()) {
-      node.reset(node[part]);
-    } else {
-      return none;
-    }
-  }
-  return node.IsScalar() ? node.as<double>(none) : none;
-}
-
-scenarios::Scenario varied(const NamedScenario& named, const Factor& factor, double value) {
-  YamlDocument document = YamlDocument::parse(scenarios::to_yaml(named.scenario), named.file);
-  document.override_value(fmt::format("{}={}", factor.key, exact(value)));
-  return scenarios::scenario_from_yaml(document);
-}
-
-double nominal_of(const NamedScenario& named, const Factor& factor) {
-  return value_at(YAML::Load(scenarios::to_yaml(named.scenario)), factor.key);
-}
 
 /// The runs of one value draw the same perturbations as the experiment's test runs.
 void plan_runs(const RunRequest& request, const Variation& variation, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const CrossSimulatorConfig& config = *experiment.cross_simulator;
   const Factor& factor = config.factors[variation.factor_index];
+  const NamedScenario& named = scenario_of(request, experiment.test.scenarios.front());
   try {
     const scenarios::Scenario scenario =
-        varied(scenario_of(request, experiment.test.scenarios.front()), factor, variation.value);
+        scenarios::varied(named.scenario, factor.key, variation.value, named.file);
     for (int i = 0; i < config.sensitivity_runs; ++i) {
       plan.runs.push_back(
           {.role = RunRole::test,
@@ -86,7 +57,7 @@ std::vector<Variation> variations(const RunRequest& request) {
   std::vector<Variation> all;
   const std::vector<Factor>& factors = experiment.cross_simulator->factors;
   for (std::size_t f = 0; f < factors.size(); ++f) {
-    const double nominal = nominal_of(named, factors[f]);
+    const double nominal = scenarios::number_at(named.scenario, factors[f].key);
     if (std::isnan(nominal)) {
       throw InputError(fmt::format("cross_simulator.sensitivity.factors.{}: {} has no number at {}",
                                    f, named.file, factors[f].key));

@@ -58,6 +58,9 @@ std::vector<NamedScenario> scenarios_of(const Experiment& experiment, const Read
   std::vector<std::string> files = experiment.fit.scenarios;
   files.insert(files.end(), experiment.test.scenarios.begin(), experiment.test.scenarios.end());
   for (const FitPieces& pieces : experiment.fit_pieces) files.push_back(pieces.scenario);
+  if (experiment.closed_loop) {
+    for (const LoopScene& scene : experiment.closed_loop->scenes) files.push_back(scene.scenario);
+  }
   std::vector<std::string> robots = {""};
   if (experiment.benchmark) {
     const std::vector<std::string>& others = experiment.benchmark->robots;

@@ -69,11 +69,15 @@ noise::SensorProfile profile_of(const std::vector<NamedSensors>& sensors, const 
   return named == sensors.end() ? noise::SensorProfile{} : named->profile;
 }
 
+noise::NoiseKey sensor_key(const Experiment& experiment, std::int64_t run) {
+  constexpr std::uint64_t sensor_stream = 0x73656e736f7273;  // "sensors"
+  return draws_of(experiment, sensor_stream, 0, run);
+}
+
 void report_through_sensors(const noise::SensorProfile& profile, const Experiment& experiment,
                             std::int64_t run, double period,
                             std::vector<models::Observation>& observations) {
-  constexpr std::uint64_t sensor_stream = 0x73656e736f7273;  // "sensors"
-  noise::report_through(profile, draws_of(experiment, sensor_stream, 0, run), period, observations);
+  noise::report_through(profile, sensor_key(experiment, run), period, observations);
 }
 
 std::string equipment_text(const Experiment& experiment) {

@@ -7,6 +7,7 @@
 
 #include "experiments/config/experiment.hpp"
 #include "models/robot.hpp"
+#include "noise/gaussian.hpp"
 #include "noise/sensors/profile.hpp"
 
 namespace touchdown::experiments {
@@ -32,6 +33,9 @@ void write_sensors(const std::vector<NamedSensors>& sensors,
 
 /// The profile of this file; ideal sensors for no file.
 noise::SensorProfile profile_of(const std::vector<NamedSensors>& sensors, const std::string& file);
+
+/// By which draws the sensors of a run of the experiment err: whichever engine it is played in.
+noise::NoiseKey sensor_key(const Experiment& experiment, std::int64_t run);
 
 /// Turns what a run of the experiment recorded into what such sensors report. The same run of
 /// another engine gets the same draws.

@@ -32,16 +32,18 @@ constexpr std::array fixed_names = {
     FixedNames{"state/listening", R"(.+_seed_\d{4,})"},
     FixedNames{"state/shards", R"(\d+_of_\d+)"},
     FixedNames{"state/foreign", R"([^.].*)"},
+    FixedNames{"state/closed_loop", R"(run_\d{6,})"},
     FixedNames{
         "tables",
         "(agreement|benchmark|benchmark_differences|benchmark_standings|calibration|classification|"
         "density_overlap|differences|labels|"
         "latency|moments|odometry|overlap|reliability|runs|sample_efficiency|sensitivity|sensor_"
         "sweep|"
-        "success|torque_densities|torque_distributions|torques|training|transfer|transitions|"
+        "success|survival|torque_densities|torque_distributions|torques|training|transfer|"
+        "transitions|"
         "verdicts|views)\\.csv|"
         "(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
-    FixedNames{"videos", R"(report\.(mp4|jpg)|worst_.+\.mp4)"},
+    FixedNames{"videos", R"(report\.(mp4|jpg)|worst_.+\.mp4|closed_loop_.+\.mp4)"},
     FixedNames{"trajectories", R"([^.].*\.tum)"},
     FixedNames{"figures", R"((training|sample_efficiency)\.(gp|png))"},
     FixedNames{"models", R"(nmn\.(npz|json))"},
@@ -49,9 +51,9 @@ constexpr std::array fixed_names = {
 
 /// Every folder that a run makes, the inner ones first.
 constexpr std::array all_folders = {
-    "state/listening", "state/recordings", "state/shards", "state/foreign", "state",
-    "recordings",      "models",           "tables",       "figures",       "videos",
-    "trajectories",    "checkpoints",      "logs"};
+    "state/listening", "state/recordings", "state/shards", "state/foreign", "state/closed_loop",
+    "state",           "recordings",       "models",       "tables",        "figures",
+    "videos",          "trajectories",     "checkpoints",  "logs"};
 
 /// The files in a folder itself; none where the folder is a link or is not there.
 Names files_in(const fs::path& folder) {

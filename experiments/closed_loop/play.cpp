@@ -1,0 +1,126 @@
+#include "experiments/closed_loop/play.hpp"
+
+#include <cstring>
+#include <new>
+#include <type_traits>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/error.hpp"
+#include "core/progress.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/plan/condition.hpp"
+#include "experiments/plan/sensors.hpp"
+#include "experiments/run_directory/saved_state.hpp"
+#include "experiments/signals/motion.hpp"
+#include "scenarios/engine.hpp"
+#include "scenarios/policy_contact.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// The estimator that was fitted in the engine in which it steers.
+std::unique_ptr<ContactEstimator> estimator_of(const LoopCell& cell, const FittedModels& models,
+                                               double period) {
+  const EstimatorEntry& entry = estimator_entry(cell.contact);
+  const FittedModel* model =
+      entry.fits() ? &models.at(model_key(cell.simulator, {})).at(entry.name) : nullptr;
+  return entry.make(entry, {.sample_rate = 1.0 / period, .model = model});
+}
+
+LoopOutcome played(const RunRequest& request, const LoopCell& cell, std::int64_t run,
+                   const FittedModels& models, scenarios::CompiledScenes& scenes,
+                   const GoingOn& going_on) {
+  const Experiment& experiment = request.experiment;
+  try {
+    const LoopRun loop = play_loop(request, cell, run, models, scenes, going_on);
+    scenarios::Scenario described = scenario_of(request, cell);
+    described.deviations = {};
+    return outcome_of(loop.recording, loop.told.contact, wheeled_biped(*scenes.of(described)),
+                      experiment.labels, experiment.scoring);
+  } catch (const InputError&) {
+    throw;
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // says nothing about the run
+  } catch (const std::exception&) {
+    return {.runs = 1, .fell = 1};
+  }
+}
+
+std::string name_of(std::size_t run) { return fmt::format("run_{:06}", run); }
+
+}  // namespace
+
+LoopRun play_loop(const RunRequest& request, const LoopCell& cell, std::int64_t run,
+                  const FittedModels& models, scenarios::CompiledScenes& scenes,
+                  const GoingOn& going_on) {
+  const Experiment& experiment = request.experiment;
+  scenarios::Scenario scenario = scenario_of(request, cell);
+  if (experiment.test.perturbed) scenario = scenarios::perturbed(scenario, experiment.seed, run);
+  const auto simulator = scenarios::make_simulator(scenario, cell.simulator, scenes.of(scenario));
+  const double period = simulator->control_period();
+  LoopRun loop;
+  policies::WheelContact told;
+  if (cell.is_oracle() || cell.contact == "always") {
+    scenarios::Scenario at_once = scenario;
+    at_once.policy.late = 0.0;
+    told = noted(scenarios::policy_contact(at_once, *simulator), loop.told);
+  } else {
+    told = teller(estimator_of(cell, models, period),
+                  {profile_of(request.sensors, experiment.sensors), sensor_key(experiment, run),
+                   cell.noise.levels(), noise_key(experiment, 0, run)},
+                  period, loop.told);
+  }
+  loop.recording = scenarios::play(
+      scenario, *simulator, experiment.seed, run, [&](double /*time*/) { return going_on(); },
+      std::move(told));
+  if (!going_on()) throw Stopped();
+  return loop;
+}
+
+SavedLoops::SavedLoops(std::filesystem::path folder, std::string key)
+    : folder_(std::move(folder)), key_(std::move(key)) {}
+
+std::optional<LoopOutcome> SavedLoops::read(std::size_t run) const {
+  const std::string name = name_of(run);
+  const std::optional<std::string> bytes =
+      read_state(folder_ / name, fmt::format("{} loop {}", key_, name));
+  LoopOutcome outcome;
+  if (!bytes || bytes->size() != sizeof outcome) return std::nullopt;
+  std::memcpy(&outcome, bytes->data(), sizeof outcome);
+  return outcome;
+}
+
+void SavedLoops::write(std::size_t run, const LoopOutcome& outcome) const {
+  // The build is part of the key, so that the numbers may be kept as they lie in memory.
+  static_assert(std::is_trivially_copyable_v<LoopOutcome>);
+  const std::string name = name_of(run);
+  write_state(folder_ / name, fmt::format("{} loop {}", key_, name),
+              {reinterpret_cast<const char*>(&outcome), sizeof outcome});
+}
+
+void close_loops(const RunRequest& request, const TaskRange& runs, const FittedModels& models,
+                 const SavedLoops& saved, MissingRun missing, const GoingOn& going_on) {
+  const std::vector<LoopCell> cells = loop_cells(request.experiment);
+  const auto of_cell = static_cast<std::size_t>(request.experiment.closed_loop->runs);
+  scenarios::CompiledScenes scenes;
+  Progress progress("steering", "runs", static_cast<std::int64_t>(runs.size()));
+  tbb::parallel_for(runs.begin, runs.end, [&](std::size_t run) {
+    if (!going_on()) throw Stopped();
+    if (!saved.read(run)) {
+      if (missing == MissingRun::refuse) {
+        throw Error(fmt::format("state/closed_loop/{} is missing", name_of(run)));
+      }
+      const LoopCell& cell = cells[run / of_cell];
+      saved.write(run, played(request, cell, static_cast<std::int64_t>(run % of_cell), models,
+                              scenes, going_on));
+    }
+    progress.advance();
+  });
+}
+
+}  // namespace touchdown::experiments
