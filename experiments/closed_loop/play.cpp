@@ -36,7 +36,7 @@ LoopOutcome played(const RunRequest& request, const LoopCell& cell, std::int64_t
   const Experiment& experiment = request.experiment;
   try {
     const LoopRun loop = play_loop(request, cell, run, models, scenes, going_on);
-    scenarios::Scenario described = scenario_of(request, cell);
+    scenarios::Scenario described = loop.scenario;
     described.deviations = {};
     return outcome_of(loop.recording, loop.told.contact, wheeled_biped(*scenes.of(described)),
                       experiment.labels, experiment.scoring);
@@ -79,6 +79,7 @@ LoopRun play_loop(const RunRequest& request, const LoopCell& cell, std::int64_t 
       scenario, *simulator, experiment.seed, run, [&](double /*time*/) { return going_on(); },
       std::move(told));
   if (!going_on()) throw Stopped();
+  loop.scenario = std::move(scenario);
   return loop;
 }
 

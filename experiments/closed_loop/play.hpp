@@ -16,6 +16,7 @@ namespace touchdown::experiments {
 
 /// A run whose policy was told about contact.
 struct LoopRun {
+  scenarios::Scenario scenario;  ///< as it was played
   recordings::Recording recording;
   Told told;
 };

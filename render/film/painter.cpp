@@ -36,6 +36,12 @@ Label state_label(const recordings::Recording& recording, std::size_t row,
   return contact_labels[contact[row]];
 }
 
+/// Where the runs stand: up to two beside each other, more in rows of two.
+struct Places {
+  int columns, rows;
+};
+Places places_of(int runs) { return {std::min(runs, 2), (runs + 1) / 2}; }
+
 /// How much larger the view is drawn than it is shown.
 int supersampling(const VideoOptions& options) {
   return options.quality == VideoQuality::page ? 2 : 1;
@@ -91,12 +97,15 @@ FramePainter::~FramePainter() = default;
 
 const cv::Mat& FramePainter::paint(double time) {
   const int count = static_cast<int>(shows_.size());
-  const int share = gl_.width() / count;
+  const Places places = places_of(count);
+  const int wide = gl_.width() / places.columns;
+  const int high = gl_.height() / places.rows;
   for (int i = 0; i < count; ++i) {
     Show& show = *shows_[static_cast<std::size_t>(i)];
     const std::size_t row = show.row(time);
     show.poses.apply(row, show.view.data());
-    show.view.draw({i * share, 0, share, gl_.height()}, show.camera[row]);
+    const int from_below = places.rows - 1 - i / places.columns;  // as OpenGL counts
+    show.view.draw({i % places.columns * wide, from_below * high, wide, high}, show.camera[row]);
   }
   gl_.finish();
   const cv::Mat drawn(gl_.height(), gl_.width(), CV_8UC4, gl_.pixels());
@@ -110,24 +119,28 @@ const cv::Mat& FramePainter::paint(double time) {
   if (strip_) {
     for (int i = 0; i < count; ++i) {
       const Show& show = *shows_[static_cast<std::size_t>(i)];
-      paint_labels(show, show.row(time), time, i * options_.width / count);
+      paint_labels(show, show.row(time), time, i % places.columns * view.cols / places.columns,
+                   i / places.columns * view.rows / places.rows);
     }
-    if (count > 1) {
-      cv::line(picture_, {options_.width / 2, 0},
-               {options_.width / 2, options_.height - strip_height_ - 1}, rgb(0xf7f8fa), 2);
+    const Colour paper = rgb(0xf7f8fa);
+    if (places.columns > 1) {
+      cv::line(view, {view.cols / 2, 0}, {view.cols / 2, view.rows - 1}, paper, 2);
+    }
+    if (places.rows > 1) {
+      cv::line(view, {0, view.rows / 2}, {view.cols - 1, view.rows / 2}, paper, 2);
     }
     strip_->draw(picture_.rowRange(options_.height - strip_height_, options_.height), time);
   }
   return picture_;
 }
 
-void FramePainter::paint_labels(const Show& show, std::size_t row, double time, int left) {
-  const int height = std::max(16, options_.height * 30 / 720);
+void FramePainter::paint_labels(const Show& show, std::size_t row, double time, int left,
+                                int view_top) {
+  const int height = std::max(16, options_.height * (shows_.size() > 2 ? 22 : 30) / 720);
   const int gap = height / 3;
-  const int top = height / 2;
-  int x = left + top;
-  x +=
-      gap + pen_.chip(picture_, engine_label(show.source.recording), x, top, height, rgb(0x2b2f36));
+  const int top = view_top + height / 2;
+  int x = left + height / 2;
+  x += gap + pen_.chip(picture_, label_of(show.source), x, top, height, rgb(0x2b2f36));
   x += gap + pen_.chip(picture_, fmt::format("t = {:.2f} s", time), x, top, height, rgb(0x5c636e));
   const Label state = state_label(show.source.recording, row, show.contact);
   x += gap + pen_.chip(picture_, state.text, x, top, height, rgb(state.colour));

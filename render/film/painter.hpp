@@ -12,9 +12,9 @@
 
 namespace touchdown::render {
 
-/// Paints one or two runs at a point in time: views beside each other and, if `annotated`, labels
-/// on them and the strip below. What it paints depends on the time alone, not on what it painted
-/// before.
+/// Paints up to `most_sources` runs at a point in time: views beside each other and, if
+/// `annotated`, labels on them and the strip below. What it paints depends on the time alone, not
+/// on what it painted before.
 class FramePainter {
  public:
   /// Makes the process's OpenGL context. Keeps references to what the sources refer to.
@@ -27,7 +27,7 @@ class FramePainter {
 
  private:
   struct Show;
-  void paint_labels(const Show& show, std::size_t row, double time, int left);
+  void paint_labels(const Show& show, std::size_t row, double time, int left, int view_top);
 
   VideoOptions options_;
   int strip_height_;  ///< 0 without one

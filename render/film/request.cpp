@@ -20,8 +20,9 @@ std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recordi
   return count;
 }
 
-std::string engine_label(const recordings::Recording& recording) {
-  const std::string& name = recording.info.simulator;
+std::string label_of(const VideoSource& source) {
+  if (!source.label.empty()) return source.label;
+  const std::string& name = source.recording.info.simulator;
   return name.empty() ? "robot log" : simulators::simulator_title(name);
 }
 
@@ -36,6 +37,10 @@ void require_drawable(const std::vector<VideoSource>& sources, const VideoOption
   }
   if (!(options.speed > 0.0) || !std::isfinite(options.speed)) {
     throw InputError(fmt::format("speed {}: expected a number above 0", options.speed));
+  }
+  if (sources.size() > most_sources) {
+    throw InputError(
+        fmt::format("a film of {} runs: at most {} have room", sources.size(), most_sources));
   }
   for (const VideoSource& source : sources) {
     if (source.recording.steps() == 0) {

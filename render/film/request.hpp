@@ -28,14 +28,15 @@ struct VideoSource {
   const models::RobotModel& robot;
   const recordings::Recording& recording;
   const std::vector<BeliefTrack>& beliefs;
+  std::string label = {};  ///< what it is called; empty: by its engine
 };
 
 /// How many wheels truly touched the ground, row by row; empty for a robot's log.
 std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recording,
                                             const scoring::LabelConfig& labels);
 
-/// "MuJoCo", "Bullet", or what a recording calls itself.
-std::string engine_label(const recordings::Recording& recording);
+/// What a run is called: by its label, or "MuJoCo", "Bullet", "robot log".
+std::string label_of(const VideoSource& source);
 
 enum class VideoQuality : int {
   draft,  ///< no anti-aliasing in the view
@@ -52,6 +53,9 @@ struct VideoOptions : VideoFormat {
   /// Called after every frame; may be empty.
   std::function<void(int done, int of)> progress = {};
 };
+
+/// As many runs have room beside each other.
+inline constexpr std::size_t most_sources = 4;
 
 /// Throws `InputError`, saying what is wrong, if these runs cannot be drawn so.
 void require_drawable(const std::vector<VideoSource>& sources, const VideoOptions& options);

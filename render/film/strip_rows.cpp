@@ -93,8 +93,10 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
   }
   for (const VideoSource& source : sources) {
     rows.push_back(contact_row(source, wheels_in_contact(source.recording, labels),
-                               "P(contact), " + engine_label(source.recording)));
+                               sources.size() > 2 ? "P(contact)"  // its curve has the name
+                                                  : "P(contact), " + label_of(source)));
   }
+  if (sources.size() > 2) return rows;
   StripRow knees = empty_row("knee torque (N·m)", sources.front());
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const recordings::Recording& recording = sources[i].recording;
@@ -109,7 +111,7 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
       }
       values = std::move(resampled);
     }
-    knees.curves.push_back({engine_label(recording), curve_colour(i), std::move(values)});
+    knees.curves.push_back({label_of(sources[i]), curve_colour(i), std::move(values)});
   }
   fit_range(knees);
   rows.push_back(std::move(knees));

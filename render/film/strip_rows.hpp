@@ -7,7 +7,8 @@
 
 namespace touchdown::render {
 
-/// The plots of the strip for one or two runs.
+/// The plots of the strip: of one run, of two beside each other, or what is believed in each of
+/// more.
 std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
                                  const scoring::LabelConfig& labels);
 

@@ -19,8 +19,8 @@ struct VideoStatistics {
 /// Film a run: the robot on its terrain, and below it the estimators' probabilities over the true
 /// contact (a band: dark where both wheels touch, light where one does), the probabilities of
 /// takeoff and landing of the first estimator that has them, and the left leg's torques. Thick
-/// lines are the left wheel, thin ones the right. Two runs stand beside each other, aligned in
-/// time; the shorter one waits at its end.
+/// lines are the left wheel, thin ones the right. Several runs stand beside each other, aligned in
+/// time; the shorter ones wait at their ends.
 ///
 /// The file is H.264 in mp4. The frames do not depend on the number of workers.
 /// Errors: `InputError` for options or a recording that make no video; `Error` when it cannot be

@@ -7,9 +7,11 @@
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "render/benchmark/standings_figure.hpp"
+#include "render/closed_loop/survival_figure.hpp"
 #include "render/curves/moments_figure.hpp"
 #include "render/film/video.hpp"
 #include "render/odometry/errors_figure.hpp"
+#include "render/pictures/closed_loop_film.hpp"
 #include "render/pictures/drop_figures.hpp"
 #include "render/pictures/heatmaps.hpp"
 #include "render/pictures/score_figures.hpp"
@@ -56,7 +58,13 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     if (result.experiment.odometry) {
       draw_odometry_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
     }
+    if (result.experiment.closed_loop) {
+      draw_survival_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
+    }
     progress.advance();
+  }
+  if (result.experiment.closed_loop && result.experiment.closed_loop->film) {
+    film_closed_loop(result, stop);
   }
   if (result.experiment.benchmark && result.experiment.benchmark->clips) {
     film_worst_moments(result, stop);

@@ -1,0 +1,69 @@
+#include "render/pictures/closed_loop_film.hpp"
+
+#include <algorithm>
+#include <list>
+
+#include <fmt/format.h>
+
+#include "experiments/closed_loop/play.hpp"
+#include "experiments/odometry/contact_sources.hpp"
+#include "render/film/video.hpp"
+#include "render/pictures/filmed_run.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+/// The cell of the film's point that is told by `contact`.
+experiments::LoopCell filmed_cell(const experiments::Experiment& experiment,
+                                  const std::string& simulator, const std::string& contact) {
+  const experiments::LoopFilm& film = *experiment.closed_loop->film;
+  const std::vector<experiments::LoopCell> cells = experiments::loop_cells(experiment);
+  return *std::find_if(cells.begin(), cells.end(), [&](const experiments::LoopCell& cell) {
+    return cell.simulator == simulator && cell.law == film.law && cell.contact == contact &&
+           cell.scene == static_cast<std::size_t>(film.scene) &&
+           cell.point == static_cast<std::size_t>(film.point);
+  });
+}
+
+FilmedRun played(const experiments::RunRequest& request, const experiments::LoopCell& cell,
+                 const experiments::FittedModels& models, scenarios::CompiledScenes& scenes,
+                 const std::atomic<bool>* stop) {
+  experiments::LoopRun run =
+      experiments::play_loop(request, cell, request.experiment.closed_loop->film->run, models,
+                             scenes, [stop] { return stop == nullptr || !*stop; });
+  BeliefTrack told;
+  told.name = experiments::contact_title(cell.contact);
+  told.p_contact = std::move(run.told.p_contact);
+  return {scenarios::compile_robot(run.scenario),
+          std::move(run.recording),
+          {std::move(told)},
+          request.experiment.labels};
+}
+
+}  // namespace
+
+void film_closed_loop(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
+  const experiments::RunRequest request = experiments::read_request(result.directory.path());
+  const experiments::Experiment& experiment = request.experiment;
+  scenarios::CompiledScenes scenes;
+  for (const std::string& simulator : experiment.simulators) {
+    std::list<FilmedRun> runs;
+    std::vector<VideoSource> sources;
+    for (const std::string& contact : experiment.closed_loop->film->contact) {
+      runs.push_back(played(request, filmed_cell(experiment, simulator, contact), result.models,
+                            scenes, stop));
+      sources.push_back(runs.back().source());
+      sources.back().label = experiments::contact_title(contact);
+    }
+    VideoOptions options;
+    options.height = options.width * 3 / 4;
+    options.labels = experiment.labels;
+    options.workers = experiment.workers;
+    options.progress = film_progress(fmt::format("filming who steers in {}", simulator), stop);
+    render_video(sources, options,
+                 result.directory.file("videos", fmt::format("closed_loop_{}.mp4", simulator)));
+  }
+}
+
+}  // namespace touchdown::render
