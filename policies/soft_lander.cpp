@@ -65,6 +65,8 @@ void SoftLander::update_ground_velocity(const models::Observation& observation) 
   if (touches_[0] || touches_[1]) {
     const double gain = -std::expm1(-course_.period / speed_low_pass);
     held_velocity_ += gain * (course_.rolling_speed(observation) - held_velocity_);
+  }
+  if (!flies()) {
     const double position_error = course_.target_position - course_.position;
     integral_ =
         std::clamp(integral_ + course_.period * (config_.position_stiffness * position_error -
@@ -81,16 +83,16 @@ void SoftLander::update_ground_velocity(const models::Observation& observation) 
   ground_velocity_ = std::clamp(ground_velocity_, -config_.max_velocity, config_.max_velocity);
 }
 
+bool SoftLander::flies() const { return in_air_ > dead_time; }
+
 void SoftLander::update_softness() {
-  if (touches_[0] || touches_[1]) {
-    in_air_ = 0.0;
+  if (!flies()) {
     on_ground_ += course_.period;
     if (on_ground_ > soft_time) {
       softness_ = std::max(0.0, softness_ - course_.period / stiffening_time);
     }
   } else {
     on_ground_ = 0.0;
-    in_air_ += course_.period;
     softness_ = std::max(softness_, std::clamp((in_air_ - dead_time) / softening_time, 0.0, 1.0));
   }
 }
@@ -105,10 +107,9 @@ void SoftLander::command_leg(std::size_t side, const models::Observation& observ
   const double bend = forward * observation.servo[knee].position;
   const LegLine line = line_of(robot_, bend);
   const double square = line.lever * line.lever;
-  const bool is_landed = touches_[0] || touches_[1];
-  const double load = is_landed ? softness_ * 0.5 * robot_.mass * gravity * line.lever *
-                                      std::min(1.0, on_ground_ / load_ramp)
-                                : 0.0;
+  const double load = !flies() ? softness_ * 0.5 * robot_.mass * gravity * line.lever *
+                                     std::min(1.0, on_ground_ / load_ramp)
+                               : 0.0;
   action.servo[knee] = {
       .feedforward_torque = -forward * load,
       .position = course_.posture[knee],
@@ -126,6 +127,7 @@ void SoftLander::command_leg(std::size_t side, const models::Observation& observ
 models::Action SoftLander::act(const models::Observation& observation) {
   course_.follow(observation, config_);
   touches_ = told_(observation, ground_velocity_);
+  in_air_ = touches_[0] || touches_[1] ? 0.0 : in_air_ + course_.period;
   update_ground_velocity(observation);
   update_softness();
   models::Action action;
@@ -133,8 +135,7 @@ models::Action SoftLander::act(const models::Observation& observation) {
     command_leg(side, observation, action);
   }
   // Wheels that are both free say nothing about where the robot heads, and turn nothing.
-  const bool is_landed = touches_[0] || touches_[1];
-  const double turn = is_landed ? course_.yaw_torque(observation, config_) : 0.0;
+  const double turn = !flies() ? course_.yaw_torque(observation, config_) : 0.0;
   command_wheels(ground_velocity_, {turn, turn}, course_.wheel_radius, config_, action);
   return action;
 }

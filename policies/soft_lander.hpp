@@ -23,6 +23,8 @@ class SoftLander : public Policy {
   double softness() const { return softness_; }
 
  private:
+  /// Whether both wheels have been told off the ground for longer than false alarms last.
+  bool flies() const;
   void update_ground_velocity(const models::Observation& observation);
   void update_softness();
   void command_leg(std::size_t side, const models::Observation& observation,
