@@ -103,7 +103,32 @@ TEST_F(SoftLanding, TurnsNothingInTheAir) {
     return action.servo[models::index(Servo::left_wheel)].feedforward_torque;
   };
   EXPECT_GT(torque(step(true)), 0.1);
-  EXPECT_EQ(torque(step(false)), 0.0);
+  EXPECT_EQ(torque(steps(70, false)), 0.0);
+}
+
+TEST_F(SoftLanding, BalancesOnThroughAFalseAlarmAsIfThereWereNone) {
+  roll_at(0.6);
+  seen_.yaw = 0.3;
+  seen_.pitch = 0.05;
+  SoftLander calm(WheelBalancerConfig{}, Course{{}, {}, 0.05, 1e-3}, side_view(upkie_model()),
+                  [](const models::Observation&, double) {
+                    return std::array{true, true};
+                  });
+  models::Observation still = seen_;
+  still.pitch = still.yaw = 0.0;
+  for (std::size_t wheel : {models::index(Servo::left_wheel), models::index(Servo::right_wheel)}) {
+    still.servo[wheel].velocity = 0.0;
+  }
+  calm.reset(still);
+  for (int k = 0; k < 200; ++k) {
+    const models::Action told = step(k < 100 || k >= 155);
+    const models::Action expected = calm.act(seen_);
+    for (std::size_t i = 0; i < models::servo_count; ++i) {
+      EXPECT_EQ(told.servo[i].velocity, expected.servo[i].velocity) << k;
+      EXPECT_EQ(told.servo[i].feedforward_torque, expected.servo[i].feedforward_torque) << k;
+      EXPECT_EQ(told.servo[i].kp_scale, expected.servo[i].kp_scale) << k;
+    }
+  }
 }
 
 TEST_F(SoftLanding, SoftensInFlightAndStiffensAfterLanding) {

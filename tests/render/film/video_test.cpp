@@ -102,6 +102,29 @@ TEST_F(Video, SideBySideLastsAsLongAsTheLongerRun) {
             26);
 }
 
+TEST_F(Video, FourRunsStandInRowsOfTwo) {
+  const VideoSource source{robot_, run_, beliefs_};
+  const recordings::Recording later = staged_run(2.0);  // waits at its end
+  const std::vector<BeliefTrack> nobody;
+  const VideoSource waiting{robot_, later, nobody};
+  FramePainter painter({source, waiting, source, source}, {{.width = 320, .height = 180}}, false);
+  const cv::Mat picture = painter.paint(2.6).clone();
+  const auto quarter = [&](int column, int row) {
+    return picture(cv::Rect(4 + 160 * column, 4 + 90 * row, 150, 80)).clone();  // not the lines
+  };
+  EXPECT_LE(cv::norm(quarter(0, 0), quarter(0, 1), cv::NORM_INF), 2.0);
+  EXPECT_LE(cv::norm(quarter(0, 0), quarter(1, 1), cv::NORM_INF), 2.0);
+  EXPECT_GT(cv::norm(quarter(0, 0), quarter(1, 0), cv::NORM_INF), 50.0);
+}
+
+TEST_F(Video, MoreRunsThanHaveRoomAreRefused) {
+  const VideoSource source{robot_, run_, beliefs_};
+  EXPECT_THAT(([&] {
+                render_video({source, source, source, source, source}, small_, folder_ / "x.mp4");
+              }),
+              ThrowsMessage<InputError>(HasSubstr("at most 4")));
+}
+
 TEST_F(Video, ARobotsLogWithoutGroundTruthCanBeFilmed) {
   recordings::Recording log = run_;
   log.truth.clear();
