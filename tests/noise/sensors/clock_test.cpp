@@ -60,7 +60,7 @@ TEST(Delay, RepeatsTheFirstValueAndThenTheOneOfSoManyStepsBefore) {
 TEST(Delay, IsRoundedToWholeStepsAndComesAfterTheHeldSamples) {
   const auto late_by = [](double seconds) {
     std::vector<std::uint8_t> missing;
-    const auto values = reported({.rate = 500.0, .delay = seconds}, 9, &missing);
+    std::vector<double> values = reported({.rate = 500.0, .delay = seconds}, 9, &missing);
     EXPECT_TRUE(missing.empty());
     return values;
   };
