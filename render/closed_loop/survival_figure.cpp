@@ -191,11 +191,9 @@ Figure draw_rows(const Points& points, double level, const std::filesystem::path
                   points.front().runs, 100.0 * level),
       tellers_width + static_cast<double>(shown.size()) * (measure_width + panel_gap),
       height + 96.0);
-  std::string names;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    names +=
-        fmt::format("{}{} {}", i > 0 ? ", " : "",
-                    gnuplot_text(experiments::contact_title(contacts[i])), contacts.size() - 1 - i);
+  std::vector<std::string> titles;
+  for (const std::string& contact : contacts) {
+    titles.push_back(experiments::contact_title(contact));
   }
   const std::string file = gnuplot_text(stem.filename().string() + ".dat");
   std::string data = "#finished\tlow\thigh\tlanding_speed_mps\theight\tfalse_takeoffs_per_minute\n";
@@ -218,7 +216,8 @@ Figure draw_rows(const Points& points, double level, const std::filesystem::path
     commands += fmt::format(
         "set yrange [-0.6:{}]\nset xrange {}\nset xlabel {}\n{}\n{}\nplot ",
         static_cast<double>(contacts.size()) - 0.4, shown[m].range, gnuplot_text(shown[m].title),
-        m == 0 ? fmt::format("set ytics scale 0 ({})", names) : std::string("unset ytics"),
+        m == 0 ? fmt::format("set ytics scale 0 ({})", row_tics(titles))
+               : std::string("unset ytics"),
         m == 0 ? fmt::format("set key at graph -0.08, graph {:.3f} right bottom", -62.0 / height)
                : std::string("unset key"));
     for (std::size_t e = 0; e < engines.size(); ++e) {

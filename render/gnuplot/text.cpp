@@ -27,6 +27,14 @@ std::string gnuplot_text(std::string_view text) {
   return result + "'";
 }
 
+std::string row_tics(const std::vector<std::string>& names) {
+  std::string tics;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    tics += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_text(names[i]), names.size() - 1 - i);
+  }
+  return tics;
+}
+
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "NaN"; }
 
 std::string wrapped(std::string_view text, std::size_t columns) {

@@ -10,6 +10,10 @@ namespace touchdown::render {
 /// `text` as a gnuplot string constant: nothing in it is markup, substitution or the string's end.
 std::string gnuplot_text(std::string_view text);
 
+/// The names of rows, the first one on top, as the tics of an axis on which the last one stands at
+/// 0.
+std::string row_tics(const std::vector<std::string>& names);
+
 /// A number for a data file: all digits, NaN as gnuplot reads it.
 std::string number(double value);
 

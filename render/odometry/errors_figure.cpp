@@ -92,11 +92,9 @@ Figure draw_odometry_figure(const std::vector<OdometryError>& errors, double lev
           "same sensors everywhere; oracles repeat the truth, at once or late.",
           100.0 * level),
       names_width + static_cast<double>(scenes.size()) * (panel_width + gap_x), height + 96.0);
-  std::string names;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    names +=
-        fmt::format("{}{} {}", i > 0 ? ", " : "",
-                    gnuplot_text(experiments::contact_title(contacts[i])), contacts.size() - 1 - i);
+  std::vector<std::string> titles;
+  for (const std::string& contact : contacts) {
+    titles.push_back(experiments::contact_title(contact));
   }
   const std::string file = gnuplot_text(stem.filename().string() + ".dat");
   std::string data = "#rms\tlow\thigh\theight\n";
@@ -109,7 +107,8 @@ Figure draw_odometry_figure(const std::vector<OdometryError>& errors, double lev
         "set title {} offset 0,-0.6\nset yrange [-0.6:{}]\nset xrange [0:*]\nset xlabel 'RMS error "
         "(m)'\n{}\n{}\nplot ",
         gnuplot_text(scenes[s]), static_cast<double>(contacts.size()) - 0.4,
-        s == 0 ? fmt::format("set ytics scale 0 ({})", names) : std::string("unset ytics"),
+        s == 0 ? fmt::format("set ytics scale 0 ({})", row_tics(titles))
+               : std::string("unset ytics"),
         s == 0 ? fmt::format("set key at graph -0.08, graph {:.3f} right bottom", -62.0 / height)
                : std::string("unset key"));
     for (std::size_t e = 0; e < engines.size(); ++e, ++block) {
