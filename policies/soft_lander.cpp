@@ -16,6 +16,7 @@ constexpr double servo_kd = 1.0;
 
 constexpr double speed_low_pass = 0.02;   // s: of the ground's speed
 constexpr double dead_time = 0.06;        // s: a shorter flight is taken for a false alarm …
+constexpr double one_dead_time = 0.1;     // s: … and of one wheel alone for a bump …
 constexpr double softening_time = 0.1;    // s: … from there on the legs soften …
 constexpr double soft_time = 0.25;        // s: … stay soft after a landing …
 constexpr double stiffening_time = 0.4;   // s: … and stiffen again
@@ -48,6 +49,7 @@ SoftLander::SoftLander(const WheelBalancerConfig& config, Course course, const S
       course_(std::move(course)),
       robot_(robot),
       told_(std::move(contact)),
+      standing_(long_ago),
       on_ground_(long_ago) {}
 
 void SoftLander::reset(const models::Observation& observation) {
@@ -86,14 +88,16 @@ void SoftLander::update_ground_velocity(const models::Observation& observation) 
 bool SoftLander::flies() const { return in_air_ > dead_time; }
 
 void SoftLander::update_softness() {
-  if (!flies()) {
+  standing_ = flies() ? 0.0 : standing_ + course_.period;
+  const double sinking = std::max(in_air_ - dead_time, one_in_air_ - one_dead_time);
+  if (sinking > 0.0) {
+    on_ground_ = 0.0;
+    softness_ = std::max(softness_, std::min(sinking / softening_time, 1.0));
+  } else {
     on_ground_ += course_.period;
     if (on_ground_ > soft_time) {
       softness_ = std::max(0.0, softness_ - course_.period / stiffening_time);
     }
-  } else {
-    on_ground_ = 0.0;
-    softness_ = std::max(softness_, std::clamp((in_air_ - dead_time) / softening_time, 0.0, 1.0));
   }
 }
 
@@ -108,7 +112,7 @@ void SoftLander::command_leg(std::size_t side, const models::Observation& observ
   const LegLine line = line_of(robot_, bend);
   const double square = line.lever * line.lever;
   const double load = !flies() ? softness_ * 0.5 * robot_.mass * gravity * line.lever *
-                                     std::min(1.0, on_ground_ / load_ramp)
+                                     std::min(1.0, standing_ / load_ramp)
                                : 0.0;
   action.servo[knee] = {
       .feedforward_torque = -forward * load,
@@ -128,6 +132,7 @@ models::Action SoftLander::act(const models::Observation& observation) {
   course_.follow(observation, config_);
   touches_ = told_(observation, ground_velocity_);
   in_air_ = touches_[0] || touches_[1] ? 0.0 : in_air_ + course_.period;
+  one_in_air_ = touches_[0] && touches_[1] ? 0.0 : one_in_air_ + course_.period;
   update_ground_velocity(observation);
   update_softness();
   models::Action action;

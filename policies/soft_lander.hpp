@@ -9,8 +9,10 @@ namespace touchdown::policies {
 
 /// A balancer that uses contact: it balances its centre of mass instead of its torso, keeps the
 /// ground's speed on its wheels while they are in the air, and yields with its knees when it lands,
-/// each leg along its own line. docs/policy.md has its equations and what each part brings. What
-/// both wheels do is the balancer's (policies/wheel_balancer.hpp), and so are its gains.
+/// each leg along its own line, or when one wheel hangs over an edge: it sinks between its wheels
+/// instead of rolling over the one that stands. docs/policy.md has its equations and what each part
+/// brings. What both wheels do is the balancer's (policies/wheel_balancer.hpp), and so are its
+/// gains.
 class SoftLander : public Policy {
  public:
   SoftLander(const WheelBalancerConfig& config, Course course, const SideView& robot,
@@ -40,7 +42,9 @@ class SoftLander : public Policy {
   double integral_ = 0.0;         ///< m/s
   double ground_velocity_ = 0.0;  ///< what is asked of the wheels (m/s)
   double in_air_ = 0.0;           ///< since the last wheel left the ground (s)
-  double on_ground_ = 0.0;        ///< since the first touched it again (s)
+  double one_in_air_ = 0.0;       ///< since the first did (s)
+  double standing_ = 0.0;         ///< since one touched it again after a flight (s)
+  double on_ground_ = 0.0;        ///< since both did, but for bumps (s)
   double softness_ = 0.0;
 };
 

@@ -159,6 +159,10 @@ TEST(Kills, WhileItFilms) {
   expect_going_on({"filming a run", small_run_with_film, "/figures/", 2.0, From::last_call}, 0, 10);
 }
 
+TEST(Kills, WhileBeliefsSteer) {
+  expect_going_on({"closed loop", small_closed_loop, "/closed_loop/", 0.02}, 1, 15);
+}
+
 TEST(Kills, WhileItMerges) { expect_going_on({"merging", merge, "", 0.02}, 1, 15); }
 
 #ifdef TOUCHDOWN_HAS_TRAINER

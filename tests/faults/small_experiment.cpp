@@ -1,6 +1,7 @@
 #include "tests/faults/small_experiment.hpp"
 
 #include <cstdlib>
+#include <fstream>
 
 #include "tests/cli/program.hpp"
 
@@ -31,6 +32,16 @@ workers: 1
 
 std::string small_run_without_pictures(const ScratchFolder& folder) {
   return small_run(folder) + " --no-pictures";
+}
+
+std::string small_closed_loop(const ScratchFolder& folder) {
+  const std::string run = small_run_without_pictures(folder);
+  std::ofstream(folder / "small.yaml", std::ios::app) << R"(closed_loop:
+  contact: [truth, measurement_only, always]
+  runs: 3
+  scenes: [{scenario: fall.yaml}, {scenario: fall.yaml, late: [0.0, 0.1]}]
+)";
+  return run;
 }
 
 std::string small_run_with_film(const ScratchFolder& folder) {

@@ -12,6 +12,8 @@ namespace touchdown::faults {
 std::string small_run(const ScratchFolder& folder);
 /// The same without pictures.
 std::string small_run_without_pictures(const ScratchFolder& folder);
+/// With runs whose policy an estimator steers, and nobody.
+std::string small_closed_loop(const ScratchFolder& folder);
 /// With a film.
 std::string small_run_with_film(const ScratchFolder& folder);
 

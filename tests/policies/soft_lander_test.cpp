@@ -75,9 +75,10 @@ class SoftLanding : public ::testing::Test {
 
   models::Observation seen_;
   bool touches_ = true;
+  bool right_touches_too_ = true;
   SoftLander policy_{WheelBalancerConfig{}, Course{{}, {}, 0.05, 1e-3}, side_view(upkie_model()),
                      [this](const models::Observation&, double) {
-                       return std::array<bool, 2>{touches_, touches_};
+                       return std::array<bool, 2>{touches_, touches_ && right_touches_too_};
                      }};
 };
 
@@ -146,6 +147,30 @@ TEST_F(SoftLanding, SoftensInFlightAndStiffensAfterLanding) {
   EXPECT_NEAR(policy_.softness(), 0.5, 0.01);
   steps(300, true);
   EXPECT_EQ(policy_.softness(), 0.0);
+}
+
+TEST_F(SoftLanding, SinksOverOneWheelThatHangsButNotOverABump) {
+  steps(50, true);
+  right_touches_too_ = false;
+  steps(95, true);
+  EXPECT_EQ(policy_.softness(), 0.0);
+  right_touches_too_ = true;
+  steps(5, true);
+  right_touches_too_ = false;
+  steps(150, true);
+  EXPECT_NEAR(policy_.softness(), 0.5, 1e-9);
+  const models::Action sinking = steps(100, true);
+  EXPECT_NEAR(policy_.softness(), 1.0, 1e-9);
+  // Half of the weight on each knee, without a ramp: the left one stood all along.
+  const double left = sinking.servo[models::index(Servo::left_knee)].feedforward_torque;
+  const double right = sinking.servo[models::index(Servo::right_knee)].feedforward_torque;
+  EXPECT_GT(std::abs(left), 0.5);
+  EXPECT_EQ(left, -right);
+  // And it balances on.
+  seen_.pitch = 0.1;
+  const double leaning = asked_speed(steps(1, true));
+  seen_.pitch = 0.0;
+  EXPECT_GT(leaning, asked_speed(steps(1, true)));
 }
 
 TEST_F(SoftLanding, IsTheStiffBalancerBeforeAnyFlight) {
