@@ -31,7 +31,7 @@ std::string last_screen(const experiments::ExperimentResult& result, const CliSe
   std::string text =
       fmt::format("{}\nreport    {}\nfigures   {}\n", experiments::closing_text(result),
                   (directory / "report.html").string(), (directory / "figures").string());
-  if (result.experiment.video.enabled) {
+  if (std::filesystem::exists(directory / "videos")) {
     text += fmt::format("videos    {}\n", (directory / "videos").string());
   }
   const char* next = result.experiment.name == "noise_study" ? "cross_simulator" : "noise_study";

@@ -1,6 +1,7 @@
 #include "render/pictures/closed_loop_film.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <list>
 
 #include <fmt/format.h>
@@ -9,10 +10,16 @@
 #include "experiments/odometry/contact_sources.hpp"
 #include "render/film/video.hpp"
 #include "render/pictures/filmed_run.hpp"
+#include "render/report/html.hpp"
+#include "simulators/registry.hpp"
 
 namespace touchdown::render {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+std::string loop_film_stem(const std::string& simulator) { return "closed_loop_" + simulator; }
 
 /// The cell of the film's point that is told by `contact`.
 experiments::LoopCell filmed_cell(const experiments::Experiment& experiment,
@@ -61,9 +68,32 @@ void film_closed_loop(const experiments::ExperimentResult& result, const std::at
     options.labels = experiment.labels;
     options.workers = experiment.workers;
     options.progress = film_progress(fmt::format("filming who steers in {}", simulator), stop);
-    render_video(sources, options,
-                 result.directory.file("videos", fmt::format("closed_loop_{}.mp4", simulator)));
+    const std::string stem = loop_film_stem(simulator);
+    render_video(sources, options, result.directory.file("videos", stem + ".mp4"));
+    render_poster(sources, options, NAN, result.directory.file("videos", stem + ".jpg"));
   }
+}
+
+std::string closed_loop_films_html(const ReportSubject& subject) {
+  if (!subject.experiment.closed_loop || !subject.experiment.closed_loop->film) return {};
+  const fs::path folder = subject.directory / "videos";
+  std::string html;
+  for (const std::string& simulator : subject.experiment.simulators) {
+    const std::string name = loop_film_stem(simulator) + ".mp4";
+    const fs::path picture = folder / (loop_film_stem(simulator) + ".jpg");
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(folder / name, error);
+    if (error || !fs::exists(picture)) continue;
+    html += fmt::format(
+        "<figure class=\"still\"><a href=\"videos/{0}\"><img alt=\"{1}, the same run by who tells "
+        "the policy about "
+        "contact\" src=\"{2}\"></a>\n<figcaption>{1}, the same run by who tells the policy about "
+        "contact; below, what each was told. The film, beside this file: <a href=\"videos/{0}\">{0}"
+        "</a> ({3}).</figcaption></figure>\n",
+        escaped(name), escaped(simulators::simulator_title(simulator)),
+        data_uri("image/jpeg", picture), size_text(bytes));
+  }
+  return html;
 }
 
 }  // namespace touchdown::render

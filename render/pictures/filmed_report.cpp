@@ -7,6 +7,7 @@
 
 #include "render/benchmark/page.hpp"
 #include "render/film/video.hpp"
+#include "render/pictures/closed_loop_film.hpp"
 #include "render/report/html.hpp"
 #include "render/report/report.hpp"
 #include "simulators/registry.hpp"
@@ -108,7 +109,8 @@ std::string film_html(const std::vector<FilmedRun>& runs, const fs::path& direct
 fs::path make_report(const ReportSubject& subject, const std::vector<FilmedRun>& filmed,
                      const std::atomic<bool>* stop) {
   if (subject.experiment.benchmark) write_benchmark_page(subject);
-  return write_report(subject, filmed.empty() ? "" : film_html(filmed, subject.directory, stop));
+  const std::string film = filmed.empty() ? "" : film_html(filmed, subject.directory, stop);
+  return write_report(subject, film + closed_loop_films_html(subject));
 }
 
 }  // namespace touchdown::render
