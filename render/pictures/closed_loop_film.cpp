@@ -48,6 +48,15 @@ FilmedRun played(const experiments::RunRequest& request, const experiments::Loop
           request.experiment.labels};
 }
 
+/// When the first of them fell, or else ended (s): the runs are told apart by then.
+double first_end(const std::list<FilmedRun>& runs) {
+  double end = HUGE_VAL;
+  for (const FilmedRun& run : runs) {
+    end = std::min(end, static_cast<double>(run.recording.steps() - 1) * run.recording.period());
+  }
+  return end;
+}
+
 }  // namespace
 
 void film_closed_loop(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
@@ -70,7 +79,8 @@ void film_closed_loop(const experiments::ExperimentResult& result, const std::at
     options.progress = film_progress(fmt::format("filming who steers in {}", simulator), stop);
     const std::string stem = loop_film_stem(simulator);
     render_video(sources, options, result.directory.file("videos", stem + ".mp4"));
-    render_poster(sources, options, NAN, result.directory.file("videos", stem + ".jpg"));
+    render_poster(sources, options, first_end(runs),
+                  result.directory.file("videos", stem + ".jpg"));
   }
 }
 
