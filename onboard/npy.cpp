@@ -128,6 +128,27 @@ std::vector<double> numbers(Bytes& bytes, std::size_t count) {
   return values;
 }
 
+/// What an array may be of, as its header calls it.
+struct NumberType {
+  std::string_view name;
+  std::size_t size;
+  std::vector<double> (*read)(Bytes& bytes, std::size_t count);
+};
+
+template <typename T>
+constexpr NumberType number_type(std::string_view name) {
+  return {name, sizeof(T), numbers<T>};
+}
+
+constexpr std::array<NumberType, 11> number_types = {
+    number_type<double>("<f8"),        number_type<float>("<f4"),
+    number_type<std::int64_t>("<i8"),  number_type<std::int32_t>("<i4"),
+    number_type<std::int16_t>("<i2"),  number_type<std::int8_t>("|i1"),
+    number_type<std::uint64_t>("<u8"), number_type<std::uint32_t>("<u4"),
+    number_type<std::uint16_t>("<u2"), number_type<std::uint8_t>("|u1"),
+    number_type<std::uint8_t>("|b1"),
+};
+
 std::vector<double> transposed(const std::vector<double>& columns, std::size_t rows,
                                std::size_t row_length) {
   std::vector<double> values(columns.size());
@@ -155,12 +176,13 @@ ModelArray read_npy(const NpyBytes& source, std::size_t size, const std::string&
   const Header header = read_header(bytes, name);
   const std::size_t count = std::accumulate(header.shape.begin(), header.shape.end(),
                                             std::size_t{1}, std::multiplies<>());
-  const bool is_single = header.type == "<f4";
-  if (!is_single && header.type != "<f8") {
-    throw InputError(name + ": expected numbers of type float64 or float32, found '" + header.type +
-                     "'");
+  const auto* const type = std::find_if(number_types.begin(), number_types.end(),
+                                        [&](const NumberType& t) { return t.name == header.type; });
+  if (type == number_types.end()) {
+    throw InputError(name + ": expected float64, float32, whole numbers or bool, found '" +
+                     header.type + "'");
   }
-  const std::size_t expected = count * (is_single ? sizeof(float) : sizeof(double));
+  const std::size_t expected = count * type->size;
   if (bytes.left() != expected) {
     throw InputError(name + ": expected " + std::to_string(expected) + " bytes of numbers, found " +
                      std::to_string(bytes.left()));
@@ -169,8 +191,7 @@ ModelArray read_npy(const NpyBytes& source, std::size_t size, const std::string&
     throw InputError(name + ": expected " + std::to_string(most) + " numbers at most, found " +
                      std::to_string(count));
   }
-  ModelArray array{header.shape,
-                   is_single ? numbers<float>(bytes, count) : numbers<double>(bytes, count)};
+  ModelArray array{header.shape, type->read(bytes, count)};
   if (header.is_fortran_order && array.shape.size() == 2) {
     array.data = transposed(array.data, array.shape[0], array.shape[1]);
   }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/export/log.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -21,7 +22,9 @@ struct ExportFlags {
   std::string folder;
   experiments::BenchmarkPart part;
   bool dry_run = false;
-  std::string header;
+  std::string output;
+  std::string mapping;
+  std::string labels;
   ModelUse use;
 };
 
@@ -38,15 +41,15 @@ std::string name_of(const std::filesystem::path& header) {
 }
 
 void export_model(const ExportFlags& flags) {
-  const std::string name = name_of(flags.header);
-  check_outputs({{flags.source, "model"}}, {flags.header});
+  const std::string name = name_of(flags.output);
+  check_outputs({{flags.source, "model"}}, {flags.output});
   ModelUse use = flags.use;
   if (!flags.part.robots.empty()) use.robot = flags.part.robots.front();
   const std::string text = recordings::header_of_model(flags.source, name, use);
-  write_atomically(flags.header, text);
-  fmt::print("header    {}, {:.2f} MB\n", flags.header, 1e-6 * static_cast<double>(text.size()));
+  write_atomically(flags.output, text);
+  fmt::print("header    {}, {:.2f} MB\n", flags.output, 1e-6 * static_cast<double>(text.size()));
   fmt::print("next      #include \"{}\"; touchdown::make_estimator(touchdown::compiled::{})\n",
-             std::filesystem::path(flags.header).filename().string(), name);
+             std::filesystem::path(flags.output).filename().string(), name);
 }
 
 void export_benchmark(const ExportFlags& flags, const CliSession& session) {
@@ -67,13 +70,21 @@ void export_benchmark(const ExportFlags& flags, const CliSession& session) {
   fmt::print("next      touchdown score RUN --beliefs FOLDER --name NAME\n");
 }
 
-void export_either(const ExportFlags& flags, const CliSession& session) {
-  if (flags.header.empty() == flags.folder.empty()) {
+void export_source(const ExportFlags& flags, const CliSession& session) {
+  if (flags.output.empty() == flags.folder.empty()) {
     throw InputError(
         "export: expected either --benchmark DIR, for what estimators hear, or -o FILE.hpp, for a "
-        "model");
+        "model, or --mapping FILE.yaml -o FILE.mpack, for somebody else's log");
   }
-  if (!flags.header.empty()) {
+  if (flags.mapping.empty() && !flags.labels.empty()) {
+    throw InputError("--labels: expected --mapping FILE.yaml, which says where they are");
+  }
+  if (!flags.mapping.empty() && !flags.folder.empty()) {
+    throw InputError("--mapping: expected -o FILE.mpack, for somebody else's log");
+  }
+  if (!flags.mapping.empty()) {
+    export_log({flags.source, flags.mapping, flags.output, flags.labels}, session);
+  } else if (!flags.output.empty()) {
     export_model(flags);
   } else {
     export_benchmark(flags, session);
@@ -86,18 +97,28 @@ void add_export(CLI::App& program, const CliSession& session) {
   Verb verb(program, "export",
             "touchdown export --benchmark signals experiments/benchmark.yaml\n"
             "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
-            "touchdown export model.npz -o model.hpp\n\n"
+            "touchdown export model.npz -o model.hpp\n"
+            "touchdown export robot.csv --mapping robot.yaml -o robot.mpack\n\n"
             "Writes what estimators of a benchmark hear, for an estimator in any language. What\n"
             "it believes is then scored by `touchdown score`. Or writes a fitted model as a C++\n"
-            "header, for a robot without files.");
+            "header, for a robot without files. Or writes a log of another robot, CSV or NumPy's\n"
+            "arrays, in Upkie's layout, which `fit`, `estimate` and all others read.");
   const auto flags = std::make_shared<ExportFlags>();
   verb.option("source", &flags->source,
               "Experiment file with a section `benchmark`, or the run "
-              "directory of one; or what `touchdown fit` wrote")
-      .value_name("RUN_OR_EXPERIMENT_OR_MODEL")
+              "directory of one; or what `touchdown fit` wrote; or a log as .csv or .npz")
+      .value_name("RUN_OR_EXPERIMENT_OR_MODEL_OR_LOG")
       .required();
   verb.option("--benchmark", &flags->folder, "New or empty folder for the files").value_name("DIR");
-  verb.option("-o,--output", &flags->header, "Header for the model").value_name("FILE.hpp");
+  verb.option("-o,--output", &flags->output, "Header for the model, or the log as FILE.mpack")
+      .value_name("FILE");
+  verb.option("--mapping", &flags->mapping,
+              "Which columns of the log are which signals, in which units, signs and order")
+      .value_name("FILE.yaml");
+  verb.option("--labels", &flags->labels,
+              "With --mapping: what the log says about contact, start,end,left,right, for `fit` "
+              "and `estimate`")
+      .value_name("FILE.csv");
   verb.option("--estimator", &flags->use.estimator,
               "Of a model that does not say: whom it was fitted for");
   verb.option("--rate", &flags->use.sample_rate, "Likewise: at which rate (Hz)").not_negative();
@@ -112,7 +133,7 @@ void add_export(CLI::App& program, const CliSession& session) {
       .value_name("NAME")
       .one_at_a_time();
   verb.flag("--dry-run", &flags->dry_run, "Only show how many files it would be, and how large");
-  verb.action([flags, &session] { export_either(*flags, session); });
+  verb.action([flags, &session] { export_source(*flags, session); });
 }
 
 }  // namespace touchdown::cli

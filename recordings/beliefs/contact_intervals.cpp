@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/table.hpp"
 #include "core/yaml.hpp"
 #include "recordings/beliefs/numbers_csv.hpp"
 
@@ -115,6 +116,15 @@ ContactIntervals read_contact_intervals(const std::filesystem::path& path) {
     throw InputError(fmt::format("{}:1:1: holds no stretch of contact", path.string()));
   }
   return read;
+}
+
+std::string to_csv(const ContactIntervals& intervals) {
+  Table table{{"start", "end", "left", "right"}, {}};
+  for (const ContactInterval& one : intervals.intervals) {
+    table.rows.push_back(
+        {exact(one.start), exact(one.end), one.contact[0] ? "1" : "0", one.contact[1] ? "1" : "0"});
+  }
+  return touchdown::to_csv(table);
 }
 
 std::vector<ContactIntervals> read_contact_intervals(const std::vector<std::string>& files,

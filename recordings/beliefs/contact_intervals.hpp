@@ -31,6 +31,9 @@ struct ContactIntervals {
 /// file:line:column for what is none, ends before it starts, or overlaps with another.
 ContactIntervals read_contact_intervals(const std::filesystem::path& path);
 
+/// As such a file, `start,end,left,right`, which reads back to the same numbers.
+std::string to_csv(const ContactIntervals& intervals);
+
 /// Those of several logs, a file for each in their order, or none at all. Errors: `InputError` for
 /// another number of files, and as above.
 std::vector<ContactIntervals> read_contact_intervals(const std::vector<std::string>& files,

@@ -15,24 +15,51 @@ namespace touchdown::recordings {
 namespace {
 
 struct Field {
-  std::string_view text;   ///< without blanks around it
+  std::string_view text;   ///< without blanks and quotes around it
   std::size_t column = 1;  ///< of the line, from 1
+  bool is_open = false;    ///< it begins with a quote that nothing ends
 };
 
+constexpr std::string_view blanks = " \t\r";
+
+std::string_view without_blanks(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+/// Where the quote at the beginning of a text ends; two in a row stand for one inside of it.
+std::size_t quote_end(std::string_view text) {
+  std::size_t end = text.find('"', 1);
+  while (end != std::string_view::npos && text.substr(end + 1, 1) == "\"") {
+    end = text.find('"', end + 2);
+  }
+  return end;
+}
+
 std::vector<Field> fields_of(std::string_view line) {
-  constexpr std::string_view blanks = " \t\r";
   std::vector<Field> fields;
   std::size_t begin = 0;
   while (true) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    std::string_view text = line.substr(begin, end - begin);
-    const std::size_t lead = std::min(text.find_first_not_of(blanks), text.size());
-    text.remove_prefix(lead);
-    text = text.substr(0, text.find_last_not_of(blanks) + 1);
-    fields.push_back({text, begin + lead + 1});
+    begin = std::min(line.find_first_not_of(blanks, begin), line.size());
+    const bool is_quoted = line.substr(begin, 1) == "\"";
+    const std::size_t quoted = is_quoted ? quote_end(line.substr(begin)) : 0;
+    const bool is_open = quoted == std::string_view::npos;
+    const std::size_t end = std::min(line.find(',', is_open ? begin : begin + quoted), line.size());
+    std::string_view text = without_blanks(line.substr(begin, end - begin));
+    if (is_quoted && !is_open && text.size() == quoted + 1) text = text.substr(1, quoted - 1);
+    fields.push_back({text, begin + 1, is_open});
     if (end == line.size()) return fields;
     begin = end + 1;
   }
+}
+
+std::string name_of(const Field& field) {
+  std::string name(field.text);
+  for (std::size_t at = name.find("\"\""); at != std::string::npos;
+       at = name.find("\"\"", at + 1)) {
+    name.erase(at, 1);
+  }
+  return name;
 }
 
 std::optional<double> number_of(std::string_view text) {
@@ -53,6 +80,9 @@ class LineReader {
   void take(std::string_view line) {
     ++line_;
     const std::vector<Field> fields = fields_of(line);
+    for (const Field& field : fields) {
+      if (field.is_open) complain(field.column, "expected the end of a quote on the same line");
+    }
     const bool is_blank = fields.size() == 1 && fields.front().text.empty();
     if (line_ == 1) {
       take_names(fields);
@@ -74,9 +104,12 @@ class LineReader {
 
   void take_names(const std::vector<Field>& fields) {
     std::vector<std::string> names;
-    for (const Field& field : fields) names.emplace_back(field.text);
+    for (const Field& field : fields) names.push_back(name_of(field));
     check(taker_.names(names), fields);
     values_.resize(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      needed_.push_back(!taker_.needs || taker_.needs(i));
+    }
   }
 
   void take_values(const std::vector<Field>& fields) {
@@ -85,17 +118,22 @@ class LineReader {
                fmt::format("expected {} values, found {}", values_.size(), fields.size()));
     }
     for (std::size_t i = 0; i < fields.size(); ++i) {
-      const std::optional<double> value = number_of(fields[i].text);
-      if (!value)
-        complain(fields[i].column, fmt::format("expected a number, found '{}'", fields[i].text));
-      values_[i] = *value;
+      if (needed_[i]) values_[i] = value_of(fields[i]);
     }
     check(taker_.row(values_, line_), fields);
+  }
+
+  double value_of(const Field& field) const {
+    const std::optional<double> value =
+        field.text.empty() ? taker_.empty_cell : number_of(field.text);
+    if (!value) complain(field.column, fmt::format("expected a number, found '{}'", field.text));
+    return *value;
   }
 
   std::string file_;
   const NumbersCsv& taker_;
   std::vector<double> values_;
+  std::vector<bool> needed_;
   std::size_t line_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,11 +16,16 @@ namespace touchdown::recordings {
 struct NumbersCsv {
   std::function<std::optional<WrongBelief>(std::span<const std::string> names)> names;
   std::function<std::optional<WrongBelief>(std::span<const double> values, std::size_t line)> row;
+  /// Asked once the names are known. What stands in a column that is not needed is not looked at.
+  std::function<bool(std::size_t column)> needs = {};
+  /// What a cell is that nothing stands in; without it that is an error.
+  std::optional<double> empty_cell = {};
 };
 
 /// Reads a line of names, then a line of numbers after the other; true and false are 1 and 0, lines
-/// without anything are passed over. Errors: `InputError` with file:line:column for a file without
-/// names, a row of another length, what is no number, and what the taker complains of.
+/// without anything are passed over. What stands between quotes ends on the same line, and may hold
+/// commas. Errors: `InputError` with file:line:column for a file without names, a row of another
+/// length, what is no number, a quote without its end, and what the taker complains of.
 void read_numbers_csv(const std::filesystem::path& path, const NumbersCsv& taker);
 
 }  // namespace touchdown::recordings

@@ -29,10 +29,20 @@ LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, WrittenTruth trut
       }),
       packer_(buffer_) {}
 
+LogWriter::LogWriter(std::ostream& stream, const LogPresence& present)
+    : stream_(stream),
+      is_first_(false),
+      tree_(
+          [&](const LogKey& key) { return key.role != LogKey::Role::alias && present[key.slot]; }),
+      packer_(buffer_) {}
+
 void LogWriter::write(const models::Observation& observation, const models::Action& action,
                       const models::GroundTruth* truth) {
   if (with_truth_ && truth == nullptr) throw Error("a row of a simulated run has no ground truth");
-  const LogValues values = to_values(observation, action, truth);
+  write(to_values(observation, action, truth));
+}
+
+void LogWriter::write(const LogValues& values) {
   const LogKeyTree::Node& record = tree_.node(0);
   packer_.pack_map(static_cast<std::uint32_t>(record.children.size()) + (is_first_ ? 1U : 0U));
   if (is_first_) pack_info(packer_, info_);

@@ -23,10 +23,15 @@ class LogWriter {
  public:
   /// Every row must have the ground truth that is to be written. `stream` must outlive the writer.
   LogWriter(std::ostream& stream, RecordingInfo info, WrittenTruth truth);
+  /// A robot's log: nobody says where it comes from, and its records have the values that are
+  /// `present`, a vector's by its first number.
+  LogWriter(std::ostream& stream, const LogPresence& present);
 
   /// Errors: `Error` when the stream fails or the ground truth is missing.
   void write(const models::Observation& observation, const models::Action& action,
              const models::GroundTruth* truth);
+  /// As above, a row as flat numbers.
+  void write(const LogValues& values);
 
   /// Writes the info of a run that had no steps; does nothing after a `write`.
   void finish();
@@ -38,7 +43,7 @@ class LogWriter {
 
   std::ostream& stream_;
   RecordingInfo info_;
-  bool with_truth_;
+  bool with_truth_ = false;
   bool is_first_ = true;
   LogKeyTree tree_;
   msgpack::sbuffer buffer_;

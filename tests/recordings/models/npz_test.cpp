@@ -133,6 +133,27 @@ np.savez_compressed('a.npz', fortran=np.asfortranarray(two), single=two.astype('
   EXPECT_EQ(arrays.at("zeros").data, std::vector<double>(200000, 0.0));
 }
 
+TEST(Npz, ReadsNumPysWholeNumbersAndBools) {
+  if (python_with_numpy().empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
+  const ScratchFolder folder;
+  ASSERT_TRUE(runs(R"(
+types = 'i1 i2 i4 i8 u1 u2 u4 u8'.split()
+np.savez('a.npz', flags=np.array([True, False]),
+         **{t: np.array([np.iinfo(t).min, 3, np.iinfo(t).max // 1000], t) for t in types})
+)",
+                   folder));
+  const NpzArrays arrays = read_npz(folder / "a.npz");
+  EXPECT_THAT(arrays.at("flags").data, ElementsAre(1, 0));
+  EXPECT_THAT(arrays.at("i1").data, ElementsAre(-128, 3, 0));
+  EXPECT_THAT(arrays.at("i2").data, ElementsAre(-32768, 3, 32));
+  EXPECT_THAT(arrays.at("i4").data, ElementsAre(-2147483648.0, 3, 2147483));
+  EXPECT_THAT(arrays.at("i8").data, ElementsAre(-0x1p63, 3, 9223372036854775.0));
+  EXPECT_THAT(arrays.at("u1").data, ElementsAre(0, 3, 0));
+  EXPECT_THAT(arrays.at("u2").data, ElementsAre(0, 3, 65));
+  EXPECT_THAT(arrays.at("u4").data, ElementsAre(0, 3, 4294967));
+  EXPECT_THAT(arrays.at("u8").data, ElementsAre(0, 3, 18446744073709551.0));
+}
+
 TEST(Npy, ReadsFortranOrderAndSinglePrecision) {
   const NpyArray array = from_npy(npy("{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3), }",
                                       raw<float>({1, 2, 3, 4, 5, 6})),
@@ -154,9 +175,12 @@ TEST(Npy, WhatItIsNotSaysSo) {
   EXPECT_THAT(message(npy(good, raw<double>({1}))), HasSubstr("expected 16 bytes"));
   EXPECT_THAT(message(npy(good, raw<double>({1, 2, 3}))), HasSubstr("expected 16 bytes"));
   EXPECT_THAT(message(npy(good, "").substr(0, 40)), HasSubstr("cut off"));
-  EXPECT_THAT(message(npy("{'descr': '<i8', 'fortran_order': False, 'shape': (2,), }",
+  EXPECT_THAT(message(npy("{'descr': '<c8', 'fortran_order': False, 'shape': (2,), }",
                           raw<double>({1, 2}))),
-              HasSubstr("'<i8'"));
+              HasSubstr("'<c8'"));
+  EXPECT_THAT(message(npy("{'descr': '<i4', 'fortran_order': False, 'shape': (2,), }",
+                          raw<double>({1, 2}))),
+              HasSubstr("expected 8 bytes"));
   EXPECT_THAT(message(npy("{'descr': '>f8', 'fortran_order': False, 'shape': (2,), }",
                           raw<double>({1, 2}))),
               HasSubstr("'>f8'"));

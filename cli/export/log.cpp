@@ -1,0 +1,71 @@
+#include "cli/export/log.hpp"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/program/outputs.hpp"
+#include "core/progress.hpp"
+#include "recordings/mapping/conversion.hpp"
+
+namespace touchdown::cli {
+
+namespace {
+
+void check_files(const ExportedLog& files) {
+  if (std::filesystem::path(files.output).extension() != ".mpack") {
+    throw InputError(fmt::format("-o: {}: expected a log, FILE.mpack", files.output));
+  }
+  std::vector<std::filesystem::path> outputs = {files.output};
+  if (!files.labels.empty()) outputs.emplace_back(files.labels);
+  check_outputs({{files.log, "log"}, {files.mapping, "mapping"}}, outputs);
+}
+
+/// One line each about what estimators will not like.
+void tell_faults(const ExportedLog& files, const recordings::ConvertedLog& log) {
+  if (log.lacking > 0) {
+    tell(fmt::format("touchdown: {}: {} of {} rows lack a number, which is NaN in the log\n",
+                     files.log, log.lacking, log.rows));
+  }
+  if (log.back > 0) {
+    tell(fmt::format("touchdown: {}: time goes back at {} rows\n", files.log, log.back));
+  }
+}
+
+/// Errors: `InputError` for labels that are wanted of a log that has none.
+std::string labels_text(const ExportedLog& files, const recordings::ConvertedLog& log) {
+  if (log.contact.intervals.empty()) {
+    throw InputError(fmt::format(
+        "--labels: {} says nothing about contact: expected a section 'contact' in {}, and numbers",
+        files.log, files.mapping));
+  }
+  return recordings::to_csv(log.contact);
+}
+
+}  // namespace
+
+void export_log(const ExportedLog& files, const CliSession& session) {
+  check_files(files);
+  recordings::ConvertedLog log;
+  write_atomically(files.output, [&](const std::filesystem::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    log = recordings::convert_log(files.log, files.mapping, stream, [&] {
+      if (*session.stop) throw Stopped("stopped; nothing was written");
+    });
+    stream.close();
+    if (!stream) throw Error(fmt::format("{}: cannot be written: is the disk full?", files.output));
+    if (!files.labels.empty()) write_atomically(files.labels, labels_text(files, log));
+  });
+  tell_faults(files, log);
+  fmt::print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", files.output, log.rows,
+             log.start, log.end, files.log);
+  if (!files.labels.empty()) {
+    fmt::print("labels    {}, {} stretches\n", files.labels, log.contact.intervals.size());
+  }
+  fmt::print("next      touchdown estimate {} --model MODEL.npz{}\n", files.output,
+             files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
+}
+
+}  // namespace touchdown::cli

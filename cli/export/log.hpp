@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "cli/verbs.hpp"
+
+namespace touchdown::cli {
+
+/// Somebody else's log, and what becomes of it.
+struct ExportedLog {
+  std::string log;      ///< .csv or .npz
+  std::string mapping;  ///< .yaml
+  std::string output;   ///< .mpack
+  std::string labels;   ///< .csv, or empty
+};
+
+/// Writes it as a log in Upkie's layout, and what it says about contact as labels, and says so.
+/// Errors: `InputError`, and nothing is written.
+void export_log(const ExportedLog& files, const CliSession& session);
+
+}  // namespace touchdown::cli

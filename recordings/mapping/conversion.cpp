@@ -1,0 +1,219 @@
+#include "recordings/mapping/conversion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "estimator/assembly/record.hpp"
+#include "recordings/log/writer.hpp"
+#include "recordings/mapping/foreign_log.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+Eigen::Vector3d vector_of(const MappedSignal& signal, std::span<const double> row) {
+  return {signal.value(row, 0), signal.value(row, 1), signal.value(row, 2)};
+}
+
+/// From Upkie's IMU frame to the reference whose z points down.
+Eigen::Quaterniond orientation_of(const LogMapping& mapping, std::span<const double> row) {
+  std::array<double, 4> q{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    q[mapping.is_w_last ? (i + 1) % 4 : i] = mapping.orientation.value(row, i);
+  }
+  Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
+  if (!mapping.axes.isIdentity(0.0)) {
+    orientation = orientation * Eigen::Quaterniond(Eigen::Matrix3d(mapping.axes.transpose()));
+  }
+  // Half a turn about x.
+  const Eigen::Quaterniond o = orientation;
+  return mapping.reference_is_z_up ? Eigen::Quaterniond(-o.x(), o.w(), -o.z(), o.y()) : o;
+}
+
+/// Without gravity.
+Eigen::Vector3d linear_acceleration(const LogMapping& mapping, const Eigen::Quaterniond& q,
+                                    const Eigen::Vector3d& proper, std::span<const double> row) {
+  if (mapping.linear_acceleration) {
+    return mapping.axes * vector_of(*mapping.linear_acceleration, row);
+  }
+  const RobotRecord record{.orientation = {q.w(), q.x(), q.y(), q.z()},
+                           .proper_acceleration = proper};
+  return signals_of(record, {.acceleration = AccelerationSource::proper}).linear_acceleration;
+}
+
+void put(LogValues& values, std::size_t slot, const Eigen::Vector3d& vector) {
+  std::copy(vector.begin(), vector.end(), values.begin() + static_cast<std::ptrdiff_t>(slot));
+}
+
+constexpr std::size_t velocity_target(models::Servo wheel) {
+  return log_slot::command + 6 * models::index(wheel) + 2;
+}
+
+/// The numbers of one row as those of a record.
+LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const double> row) {
+  LogValues values{};
+  values[log_slot::time] =
+      mapping.time ? mapping.time->value(row, 0) : static_cast<double>(k) * mapping.period;
+  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    const std::size_t slot = log_slot::servo + 3 * servo;
+    values[slot] = mapping.position.value(row, servo);
+    values[slot + 1] = mapping.velocity.value(row, servo);
+    values[slot + 2] = mapping.torque.value(row, servo);
+  }
+  const Eigen::Quaterniond q = orientation_of(mapping, row);
+  values[log_slot::imu_orientation] = q.w();
+  put(values, log_slot::imu_orientation + 1, q.vec());
+  put(values, log_slot::angular_velocity, mapping.axes * vector_of(mapping.angular_velocity, row));
+  Eigen::Vector3d proper = Eigen::Vector3d::Zero();
+  if (mapping.proper_acceleration) {
+    proper = mapping.axes * vector_of(*mapping.proper_acceleration, row);
+    put(values, log_slot::raw_acceleration, proper);
+  }
+  put(values, log_slot::linear_acceleration, linear_acceleration(mapping, q, proper, row));
+  if (mapping.wheel_velocity_target) {
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      values[velocity_target(models::wheel_servos[wheel])] =
+          mapping.wheel_velocity_target->value(row, wheel);
+    }
+  }
+  return values;
+}
+
+/// Which of them a record has.
+LogPresence log_presence(const LogMapping& mapping) {
+  LogPresence present;
+  present.set(log_slot::time);
+  for (std::size_t slot = log_slot::servo; slot < log_slot::raw_angular_velocity; ++slot) {
+    present.set(slot);
+  }
+  if (mapping.proper_acceleration) present.set(log_slot::raw_acceleration);
+  if (mapping.wheel_velocity_target) {
+    for (const models::Servo wheel : models::wheel_servos) present.set(velocity_target(wheel));
+  }
+  return present;
+}
+
+/// Makes stretches of what every row says about contact.
+class Stretches {
+ public:
+  Stretches(const LogMapping& mapping, ContactIntervals& said) : mapping_(mapping), said_(said) {}
+
+  /// `time` counts from the log's first.
+  void add(double time, std::span<const double> row, const ForeignPlace& place) {
+    if (!mapping_.contact || !std::isfinite(time)) return;
+    if (time < last_) {
+      throw InputError(
+          fmt::format("{}: labels of contact need times that increase: {} s comes after {} s",
+                      place(), time, last_));
+    }
+    const std::optional<std::array<bool, models::wheel_count>> contact = contact_in(row);
+    const bool goes_on = open_ && contact == said_.intervals.back().contact;
+    if (open_ && !goes_on) end(time);
+    if (contact && !goes_on) said_.intervals.push_back({time, time, *contact});
+    open_ = contact.has_value();
+    last_ = time;
+    ++rows_;
+  }
+
+  /// The last row lasts as long as the others.
+  void finish() {
+    if (open_) end(last_ + last_ / std::max<double>(1.0, static_cast<double>(rows_) - 1.0));
+  }
+
+ private:
+  /// A stretch without a duration, between two rows of the same time, says nothing.
+  void end(double time) {
+    said_.intervals.back().end = time;
+    if (said_.intervals.back().start >= time) said_.intervals.pop_back();
+  }
+
+  /// Nothing where a number is missing.
+  std::optional<std::array<bool, models::wheel_count>> contact_in(
+      std::span<const double> row) const {
+    std::array<bool, models::wheel_count> contact{};
+    for (std::size_t wheel = 0; wheel < contact.size(); ++wheel) {
+      const std::size_t i = std::min(wheel, mapping_.contact->numbers.size() - 1);
+      const double number = mapping_.contact->value(row, i);
+      if (std::isnan(number)) return std::nullopt;
+      contact.at(wheel) = number > mapping_.contact_above;
+    }
+    return contact;
+  }
+
+  const LogMapping& mapping_;
+  ContactIntervals& said_;
+  bool open_ = false;
+  double last_ = 0.0;
+  std::uint64_t rows_ = 0;
+};
+
+/// Takes row after row of a foreign log, whose mapping is known once its names are.
+class Converter {
+ public:
+  Converter(const std::filesystem::path& mapping, std::ostream& stream)
+      : path_(mapping), stream_(stream) {}
+
+  std::vector<ForeignColumn> begin(const ForeignNames& names) {
+    mapping_ = read_log_mapping(path_, names);
+    writer_.emplace(stream_, log_presence(mapping_));
+    stretches_.emplace(mapping_, converted_.contact);
+    return mapping_.columns;
+  }
+
+  void add(std::span<const double> row, const ForeignPlace& place) {
+    const LogValues values = log_values(mapping_, converted_.rows++, row);
+    writer_->write(values);
+    const bool is_whole =
+        std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+    if (!is_whole) ++converted_.lacking;
+    const double time = values[log_slot::time];
+    if (std::isfinite(time)) {
+      if (!has_time_) converted_.start = time;
+      if (has_time_ && time < converted_.end) ++converted_.back;
+      converted_.end = time;
+      has_time_ = true;
+    }
+    stretches_->add(time - converted_.start, row, place);
+  }
+
+  ConvertedLog finish(const std::filesystem::path& log) {
+    if (converted_.rows == 0) throw InputError(fmt::format("{}: holds no rows", log.string()));
+    if (!has_time_) {
+      throw InputError(fmt::format("{}: no row has a time that is a finite number", log.string()));
+    }
+    stretches_->finish();
+    return std::move(converted_);
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  std::ostream& stream_;
+  LogMapping mapping_;
+  std::optional<LogWriter> writer_;
+  std::optional<Stretches> stretches_;
+  ConvertedLog converted_;
+  bool has_time_ = false;
+};
+
+}  // namespace
+
+ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
+                         std::ostream& stream, const std::function<void()>& check_stop) {
+  Converter converter(mapping, stream);
+  read_foreign_log(log,
+                   {.wanted = [&](const ForeignNames& names) { return converter.begin(names); },
+                    .row =
+                        [&](std::span<const double> row, const ForeignPlace& place) {
+                          if (check_stop) check_stop();
+                          converter.add(row, place);
+                        }});
+  return converter.finish(log);
+}
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,288 @@
+#include "recordings/mapping/mapping.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <numeric>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/fields.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+struct Unit {
+  std::string name;
+  double size;
+};
+
+/// A signal as a mapping file may describe it.
+struct SignalKind {
+  std::string what;  ///< its numbers in their order, for complaints
+  std::size_t count = 1;
+  std::vector<Unit> units = {};  ///< the first is ours
+  bool has_zero = false;
+};
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+constexpr double turn = 360.0 * degree;
+constexpr double standard_gravity = 9.80665;
+constexpr const char* six_joints = "left hip, knee, wheel, right hip, knee, wheel";
+
+std::vector<Unit> speeds() {
+  return {{"rad/s", 1.0}, {"deg/s", degree}, {"rev/s", turn}, {"rpm", turn / 60.0}};
+}
+
+std::vector<Unit> accelerations() { return {{"m/s^2", 1.0}, {"g", standard_gravity}}; }
+
+/// One value for all, or a list.
+template <typename T>
+std::vector<T> one_or_more(Fields& fields, const std::string& key) {
+  if (fields.node()[key].IsSequence()) {
+    std::vector<T> values;
+    fields(key, values);
+    return values;
+  }
+  T value{};
+  fields(key, value);
+  return {value};
+}
+
+/// All keys that may be there. A misspelt one is complained of as such, not as another one that is
+/// missing.
+void expect_keys(Fields& fields, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) fields.know(key);
+  fields.finish();
+}
+
+/// For each of a signal's numbers one; nothing if the key is absent.
+std::vector<double> number_for_each(Fields& fields, const std::string& key, std::size_t count) {
+  if (!fields.present(key, false)) return {};
+  std::vector<double> values = one_or_more<double>(fields, key);
+  if (values.size() == 1) values.resize(count, values.front());
+  fields.check(values.size() == count, key, fmt::format("expected a number, or {}", count));
+  return values;
+}
+
+double unit_of(Fields& fields, const std::vector<Unit>& units) {
+  if (units.empty()) return 1.0;
+  std::vector<std::string> names;
+  for (const Unit& unit : units) names.push_back(unit.name);
+  std::size_t index = 0;
+  fields.choose("unit", names, index);
+  return units[index].size;
+}
+
+/// Some of a log's names: nobody wants to read hundreds.
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 8;
+  const auto shown = std::span(names).first(std::min(names.size(), most));
+  return fmt::format(" (it has {}{})", fmt::join(shown, ", "), names.size() > most ? ", …" : "");
+}
+
+/// Reads signals and notes which columns they need.
+class MappingReader {
+ public:
+  MappingReader(const ForeignNames& names, LogMapping& mapping)
+      : names_(names), mapping_(mapping) {}
+
+  void require(Fields& fields, std::string_view key, const SignalKind& kind, MappedSignal& signal) {
+    fields.require(key);
+    fields.within(key, [&](Fields& inner) { describe_signal(inner, kind, signal); });
+  }
+
+  void optional(Fields& fields, std::string_view key, const SignalKind& kind,
+                std::optional<MappedSignal>& signal) {
+    if (fields.present(key, false)) require(fields, key, kind, signal.emplace());
+  }
+
+  /// Orientations know no units, but orders and references.
+  void describe_orientation(Fields& fields) {
+    fields.require("orientation");
+    fields.within("orientation", [&](Fields& inner) {
+      std::size_t order = 0;
+      std::size_t reference = 0;
+      inner.choose("order", {"wxyz", "xyzw"}, order);
+      inner.choose("reference", {"z_down", "z_up"}, reference);
+      mapping_.is_w_last = order == 1;
+      mapping_.reference_is_z_up = reference == 1;
+      describe_signal(inner, {"the quaternion's parts in the order that 'order' says", 4},
+                      mapping_.orientation);
+    });
+  }
+
+  void describe_contact(Fields& fields) {
+    if (!fields.present("contact", false)) return;
+    fields.within("contact", [&](Fields& inner) {
+      inner("above", mapping_.contact_above);
+      const bool is_pair = inner.present("from", false) && inner.node()["from"].size() == 2;
+      describe_signal(inner, {"both wheels, or left and right", is_pair ? 2U : 1U},
+                      mapping_.contact.emplace());
+    });
+  }
+
+ private:
+  void describe_signal(Fields& fields, const SignalKind& kind, MappedSignal& signal) {
+    if (names_.are_arrays) fields.know("index");
+    if (kind.has_zero) fields.know("zero");
+    if (!kind.units.empty()) fields.know("unit");
+    expect_keys(fields, {"from", "sign"});
+    fields.require("from");
+    const std::vector<ForeignColumn> columns = columns_of(fields, kind);
+    const std::vector<double> sign = number_for_each(fields, "sign", kind.count);
+    for (const double one : sign) fields.check(std::abs(one) == 1.0, "sign", "expected 1 or -1");
+    std::vector<double> zero;
+    if (kind.has_zero) zero = number_for_each(fields, "zero", kind.count);
+    for (const double one : zero) fields.check(std::isfinite(one), "zero", "expected a number");
+    signal.unit = unit_of(fields, kind.units);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      signal.numbers.push_back(
+          {take(fields, columns[i]), sign.empty() ? 1.0 : sign[i], zero.empty() ? 0.0 : zero[i]});
+    }
+  }
+
+  std::vector<ForeignColumn> columns_of(Fields& fields, const SignalKind& kind) const {
+    const std::vector<std::string> from = one_or_more<std::string>(fields, "from");
+    for (const std::string& name : from) check_is_there(fields, name);
+    if (names_.are_arrays) return columns_of_arrays(fields, kind, from);
+    fields.check(from.size() == kind.count, "from",
+                 fmt::format("expected {} of the names of columns: {}", kind.count, kind.what));
+    std::vector<ForeignColumn> columns;
+    for (const std::string& name : from) columns.push_back({name});
+    return columns;
+  }
+
+  /// Several numbers are columns of one array, the first ones unless `index` says which, or come
+  /// from an array each.
+  static std::vector<ForeignColumn> columns_of_arrays(Fields& fields, const SignalKind& kind,
+                                                      const std::vector<std::string>& from) {
+    const bool is_of_one = from.size() == 1;
+    fields.check(
+        is_of_one || from.size() == kind.count, "from",
+        fmt::format("expected an array with two axes, or {} with one: {}", kind.count, kind.what));
+    std::vector<int> index;
+    const bool is_given = fields.present("index", false);
+    if (is_given) {
+      index = one_or_more<int>(fields, "index");
+      fields.check(index.size() == kind.count, "index",
+                   fmt::format("expected {} of the array's columns: {}", kind.count, kind.what));
+      fields.check(std::all_of(index.begin(), index.end(), [](int i) { return i >= 0; }), "index",
+                   "columns count from 0");
+    } else if (is_of_one && kind.count > 1) {
+      index.resize(kind.count);
+      std::iota(index.begin(), index.end(), 0);
+    }
+    std::vector<ForeignColumn> columns;
+    for (std::size_t i = 0; i < kind.count; ++i) {
+      ForeignColumn& column = columns.emplace_back(ForeignColumn{from[is_of_one ? 0 : i]});
+      if (!index.empty()) column.index = static_cast<std::size_t>(index[i]);
+    }
+    return columns;
+  }
+
+  void check_is_there(const Fields& fields, const std::string& name) const {
+    const auto count = std::count(names_.names.begin(), names_.names.end(), name);
+    const char* what = names_.are_arrays ? "array" : "column";
+    fields.check(count < 2, "from",
+                 fmt::format("{} has {} columns '{}'", names_.file, count, name));
+    std::string hint = did_you_mean(name, names_.names);
+    if (hint.empty()) hint = some_of(names_.names);
+    fields.check(count == 1, "from",
+                 fmt::format("{} has no {} '{}'{}", names_.file, what, name, hint));
+  }
+
+  /// The column's place among those that are needed.
+  std::size_t take(const Fields& fields, const ForeignColumn& column) {
+    std::vector<ForeignColumn>& columns = mapping_.columns;
+    const bool is_new = std::find(columns.begin(), columns.end(), column) == columns.end();
+    fields.check(is_new, "from",
+                 fmt::format("'{}'{} is mapped already", column.name,
+                             column.index ? fmt::format(" index {}", *column.index) : ""));
+    columns.push_back(column);
+    return columns.size() - 1;
+  }
+
+  const ForeignNames& names_;
+  LogMapping& mapping_;
+};
+
+/// Each of ours is one of theirs, x, y or z, or its reverse.
+void describe_axes(Fields& fields, Eigen::Matrix3d& axes) {
+  std::vector<std::string> theirs = {"x", "y", "z"};
+  fields("axes", theirs);
+  constexpr const char* expected =
+      "expected what of theirs points back, left and down, such as [-x, y, -z]: a right-handed "
+      "order of x, y and z, each with or without a minus";
+  fields.check(theirs.size() == 3, "axes", expected);
+  axes.setZero();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    std::string_view axis = theirs[static_cast<std::size_t>(i)];
+    const double sign = axis.starts_with('-') ? -1.0 : 1.0;
+    if (sign < 0.0) axis.remove_prefix(1);
+    const std::size_t j = axis.size() == 1 ? std::string_view("xyz").find(axis) : 3;
+    fields.check(j < 3, "axes", expected);
+    axes(i, static_cast<Eigen::Index>(j)) = sign;
+  }
+  fields.check(axes.determinant() == 1.0, "axes", expected);
+}
+
+void describe_time(Fields& fields, MappingReader& reader, LogMapping& mapping) {
+  fields("period", mapping.period);
+  const bool has_period = fields.present("period", false);
+  fields.check(!has_period || (mapping.period > 0.0 && std::isfinite(mapping.period)), "period",
+               "expected the time between two rows (s)");
+  reader.optional(fields, "time",
+                  {"time", 1, {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}},
+                  mapping.time);
+  fields.check(!has_period || !mapping.time, "period", "'time' says when rows were logged");
+  fields.check(has_period || mapping.time, "time", "is missing: expected 'time' or 'period'");
+}
+
+void describe_joints(Fields& fields, MappingReader& reader, LogMapping& mapping) {
+  expect_keys(fields, {"position", "velocity", "torque", "wheel_velocity_target"});
+  const SignalKind angle{six_joints, 6, {{"rad", 1.0}, {"deg", degree}, {"rev", turn}}, true};
+  reader.require(fields, "position", angle, mapping.position);
+  reader.require(fields, "velocity", {six_joints, 6, speeds()}, mapping.velocity);
+  reader.require(fields, "torque", {six_joints, 6, {{"Nm", 1.0}, {"mNm", 1e-3}}}, mapping.torque);
+  reader.optional(fields, "wheel_velocity_target", {"left wheel, right wheel", 2, speeds()},
+                  mapping.wheel_velocity_target);
+}
+
+void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
+  expect_keys(fields, {"orientation", "angular_velocity", "linear_acceleration",
+                       "proper_acceleration", "axes"});
+  reader.describe_orientation(fields);
+  reader.require(fields, "angular_velocity", {"x, y, z", 3, {{"rad/s", 1.0}, {"deg/s", degree}}},
+                 mapping.angular_velocity);
+  const SignalKind acceleration{"x, y, z", 3, accelerations()};
+  reader.optional(fields, "linear_acceleration", acceleration, mapping.linear_acceleration);
+  reader.optional(fields, "proper_acceleration", acceleration, mapping.proper_acceleration);
+  describe_axes(fields, mapping.axes);
+  fields.check(mapping.linear_acceleration || mapping.proper_acceleration, "",
+               "expected 'linear_acceleration', without gravity, or 'proper_acceleration', as the "
+               "chip measures it");
+}
+
+}  // namespace
+
+LogMapping read_log_mapping(const std::filesystem::path& path, const ForeignNames& names) {
+  const YamlDocument document = YamlDocument::load(path);
+  LogMapping mapping;
+  MappingReader reader(names, mapping);
+  Fields fields(document);
+  expect_keys(fields, {"period", "time", "joints", "imu", "contact"});
+  describe_time(fields, reader, mapping);
+  fields.require("joints");
+  fields.within("joints", [&](Fields& inner) { describe_joints(inner, reader, mapping); });
+  fields.require("imu");
+  fields.within("imu", [&](Fields& inner) { describe_imu(inner, reader, mapping); });
+  reader.describe_contact(fields);
+  return mapping;
+}
+
+}  // namespace touchdown::recordings

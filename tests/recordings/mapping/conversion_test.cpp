@@ -1,0 +1,348 @@
+#include "recordings/mapping/conversion.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "recordings/log/reader.hpp"
+#include "recordings/models/npz.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::recordings {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// What has to be mapped, and then, behind `imu`, what may be.
+const std::string mapping_head = R"(time: {from: t}
+joints:
+  position: {from: [q0, q1, q2, q3, q4, q5]}
+  velocity: {from: [v0, v1, v2, v3, v4, v5]}
+  torque: {from: [m0, m1, m2, m3, m4, m5]}
+imu:
+  orientation: {from: [qw, qx, qy, qz]}
+  angular_velocity: {from: [gx, gy, gz]}
+  linear_acceleration: {from: [ax, ay, az]}
+)";
+const std::string names =
+    "t,q0,q1,q2,q3,q4,q5,v0,v1,v2,v3,v4,v5,m0,m1,m2,m3,m4,m5,qw,qx,qy,qz,gx,gy,gz,ax,ay,az";
+
+std::string row(const std::string& time) {
+  std::string text = time;
+  for (int i = 1; i <= 18; ++i) text += fmt::format(",{}.5", i);
+  return text + ",0,0,1,0,.1,.2,.3,1,2,3";
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return at == std::string::npos ? text : text.replace(at, what.size(), by);
+}
+
+class Conversion : public ::testing::Test {
+ protected:
+  std::vector<LogRow> convert(const std::string& csv, const std::string& mapping = mapping_head) {
+    return convert_file(folder_.write("log.csv", csv), mapping);
+  }
+  std::vector<LogRow> convert_file(const std::filesystem::path& log, const std::string& mapping) {
+    std::ostringstream stream;
+    converted_ = convert_log(log, folder_.write("map.yaml", mapping), stream);
+    LogReader reader(memory_source(std::make_shared<const std::string>(stream.str())), "log");
+    std::vector<LogRow> rows;
+    while (const std::optional<LogRow> next = reader.next()) rows.push_back(*next);
+    return rows;
+  }
+  std::string complaint(const std::string& csv, const std::string& mapping = mapping_head) {
+    return complaint_about(folder_.write("log.csv", csv), mapping);
+  }
+  std::string complaint_about(const std::filesystem::path& log, const std::string& mapping) {
+    try {
+      (void)convert_file(log, mapping);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+  std::string mapping_complaint(const std::string& what, const std::string& by) {
+    return complaint(names + "\n" + row("0"), replaced(mapping_head, what, by));
+  }
+
+  const ScratchFolder folder_;
+  ConvertedLog converted_;
+};
+
+TEST_F(Conversion, NumbersOfARowAreThoseOfTheRecord) {
+  const auto rows = convert(names + "\n" + row("7.25") + "\n" + row("7.5") + "\n");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].observation.time, 0.25);  // a robot's log counts from its first record
+  const models::Observation& o = rows[0].observation;
+  EXPECT_EQ(o.servo[4].position, 5.5);
+  EXPECT_EQ(o.servo[4].velocity, 11.5);
+  EXPECT_EQ(o.servo[4].torque, 17.5);
+  EXPECT_EQ(o.imu.orientation.coeffs(), Eigen::Vector4d(0.0, 1.0, 0.0, 0.0));  // x y z w
+  EXPECT_EQ(o.imu.angular_velocity, Eigen::Vector3d(.1, .2, .3));
+  EXPECT_EQ(o.imu.linear_acceleration, Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_FALSE(rows[0].truth);
+  EXPECT_EQ(rows[0].action.servo[2].velocity, 0.0);
+  EXPECT_EQ(converted_.rows, 2U);
+  EXPECT_EQ(converted_.start, 7.25);
+  EXPECT_EQ(converted_.end, 7.5);
+  EXPECT_EQ(converted_.lacking + converted_.back, 0U);
+}
+
+TEST_F(Conversion, LogIsARobotsAndNobodyElses) {
+  std::ostringstream stream;
+  const auto log = folder_.write("log.csv", names + "\n" + row("0") + "\n" + row("0.002") + "\n");
+  (void)convert_log(log, folder_.write("map.yaml", mapping_head), stream);
+  LogReader reader(memory_source(std::make_shared<const std::string>(stream.str())), "log");
+  EXPECT_EQ(reader.info().simulator, "");
+  EXPECT_EQ(reader.info().control_period_us, 2000);
+  EXPECT_EQ(stream.str().find("config"), std::string::npos);
+  EXPECT_EQ(stream.str().find("sim"), std::string::npos);
+}
+
+TEST_F(Conversion, WindowsLineEndsQuotesByteOrderMarkAndOtherColumnsAreNoMatter) {
+  std::string quoted = "\xef\xbb\xbf \"t\" ,\"a, \"\"b\"\"\",";
+  quoted += replaced(names.substr(2), "q3", "\"q3\"") + ",note\r\n";
+  const std::string text = quoted + "\"1.5\",\"x, y\"," + row("").substr(1) +
+                           ",\"see, there\"\r\n\r\n" + "2,," + row("").substr(1) + ",no number\r\n";
+  const auto rows = convert(text);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(converted_.start, 1.5);
+  EXPECT_EQ(rows[1].observation.time, 0.5);
+  EXPECT_EQ(rows[1].observation.servo[3].position, 4.5);
+  EXPECT_EQ(converted_.lacking, 0U);
+  EXPECT_THAT(complaint(quoted, replaced(mapping_head, "from: t", "from: 'a, \"b\"'")),
+              HasSubstr("holds no rows"));  // there is such a column
+}
+
+TEST_F(Conversion, WhatIsMissingIsNaNAndCounted) {
+  std::string text = names + "\n";
+  for (const char* time : {"", "1", "2", "3", "nan", "2.5"}) text += row(time) + "\n";
+  text = replaced(text, "\n1,1.5,", "\n1,,");
+  text = replaced(text, "\n2,1.5,", "\n2,NaN,");
+  text = replaced(text, "\n3,1.5,", "\n3,inf,");
+  const auto rows = convert(text);
+  ASSERT_EQ(rows.size(), 5U);  // what comes before the first time is left out, as in any log
+  EXPECT_TRUE(std::isnan(rows[0].observation.servo[0].position));
+  EXPECT_TRUE(std::isnan(rows[1].observation.servo[0].position));
+  EXPECT_TRUE(std::isinf(rows[2].observation.servo[0].position));
+  EXPECT_EQ(rows[2].observation.servo[1].position, 2.5);
+  EXPECT_TRUE(std::isnan(rows[3].observation.time));
+  EXPECT_EQ(rows[4].observation.time, 1.5);
+  EXPECT_EQ(converted_.rows, 6U);
+  EXPECT_EQ(converted_.lacking, 5U);
+  EXPECT_EQ(converted_.back, 1U);
+  EXPECT_EQ(converted_.start, 1.0);
+}
+
+TEST_F(Conversion, PeriodStandsForTimes) {
+  const auto rows = convert(names + "\n" + row("a") + "\n" + row("b") + "\n" + row("c") + "\n",
+                            replaced(mapping_head, "time: {from: t}", "period: 0.005"));
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[2].observation.time, 0.01);
+}
+
+TEST_F(Conversion, UnitsSignsAndZerosAreThoseOfTheMapping) {
+  std::string mapping = replaced(mapping_head, "from: t", "from: t, unit: us");
+  mapping = replaced(mapping, "q5]", "q5], unit: deg, sign: -1, zero: [0, 0, 0.5, 0, 0, 0]");
+  mapping = replaced(mapping, "v5]", "v5], unit: rev/s, sign: [1, 1, 1, -1, -1, -1]");
+  mapping = replaced(mapping, "m5]", "m5], unit: mNm");
+  mapping = replaced(mapping, "az]", "az], unit: g");
+  const auto rows = convert(names + "\n" + row("0") + "\n" + row("1e6") + "\n", mapping);
+  const models::Observation& o = rows.at(1).observation;
+  EXPECT_DOUBLE_EQ(o.time, 1.0);
+  EXPECT_DOUBLE_EQ(o.servo[1].position, -2.5 * M_PI / 180.0);
+  EXPECT_DOUBLE_EQ(o.servo[2].position, 0.5 - 3.5 * M_PI / 180.0);
+  EXPECT_DOUBLE_EQ(o.servo[2].velocity, 9.5 * 2.0 * M_PI);
+  EXPECT_DOUBLE_EQ(o.servo[3].velocity, -10.5 * 2.0 * M_PI);
+  EXPECT_DOUBLE_EQ(o.servo[0].torque, 0.0135);
+  EXPECT_DOUBLE_EQ(o.imu.linear_acceleration.y(), 2.0 * 9.80665);
+}
+
+TEST_F(Conversion, ChipAtRestAccelerates) {
+  // z up, level, at rest: it measures 1 g upwards, and nothing is left of that without gravity.
+  std::string mapping = replaced(mapping_head, "linear_", "proper_");
+  mapping = replaced(mapping, "qw, qx, qy, qz]", "qx, qy, qz, qw], order: xyzw, reference: z_up");
+  mapping += "  axes: [-x, y, -z]\n";
+  const std::string at_rest =
+      replaced(row("0"), ",0,0,1,0,.1,.2,.3,1,2,3", ",1,0,0,0,.1,.2,.3,0,0,9.81");
+  const auto rows = convert(names + "\n" + at_rest + "\n", mapping);
+  const models::Observation& o = rows.at(0).observation;
+  EXPECT_NEAR(o.imu.linear_acceleration.norm(), 0.0, 1e-12);
+  EXPECT_EQ(o.imu.raw_linear_acceleration, Eigen::Vector3d(0.0, 0.0, -9.81));
+  EXPECT_EQ(o.imu.angular_velocity, Eigen::Vector3d(-.1, .2, -.3));
+  EXPECT_NEAR(o.pitch, 0.0, 1e-12);
+  EXPECT_NEAR(o.yaw, 0.0, 1e-12);
+  // The same, turned to the left by a quarter and leaning forward by .1 rad.
+  const Eigen::Quaterniond q = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()) *
+                               Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
+  const std::string leaning =
+      replaced(at_rest, ",1,0,0,0,", fmt::format(",{},{},{},{},", q.w(), q.x(), q.y(), q.z()));
+  const auto turned = convert(names + "\n" + leaning + "\n", mapping);
+  EXPECT_NEAR(turned.at(0).observation.pitch, 0.1, 1e-12);
+  EXPECT_NEAR(turned.at(0).observation.yaw, M_PI / 2, 1e-12);
+}
+
+TEST_F(Conversion, CommandOfTheWheelsIsHeardAtTheNextStep) {
+  const std::string mapping =
+      replaced(mapping_head, "imu:", "  wheel_velocity_target: {from: [cl, cr]}\nimu:");
+  const auto rows = convert(names + ",cl,cr\n" + row("0") + ",4,-6\n", mapping);
+  EXPECT_EQ(rows.at(0).action.servo[2].velocity, 4.0);
+  EXPECT_EQ(rows.at(0).action.servo[5].velocity, -6.0);
+}
+
+TEST_F(Conversion, LabelsAreStretchesOfEqualRows) {
+  std::string text = names + ",left,right\n";
+  const char* labels[] = {"1,1", "1,1", "0,1", "0,1", ",1", "1,0.2"};
+  for (int k = 0; k < 6; ++k)
+    text += row(fmt::format("{}", 3.0 + 0.5 * k)) + "," + labels[k] + "\n";
+  const std::string mapping = mapping_head + "contact: {from: [left, right]}\n";
+  (void)convert(text, mapping);
+  EXPECT_EQ(to_csv(converted_.contact), "start,end,left,right\n0,1,1,1\n1,2,0,1\n2.5,3,1,0\n");
+  EXPECT_EQ(converted_.lacking, 0U);
+  (void)convert(text, mapping_head + "contact: {from: right, above: 0.1}\n");
+  EXPECT_EQ(to_csv(converted_.contact), "start,end,left,right\n0,3,1,1\n");
+  EXPECT_THAT(
+      complaint(replaced(text, "\n5,", "\n4,"), mapping),
+      HasSubstr("log.csv:6: labels of contact need times that increase: 1 s comes after 1.5"));
+}
+
+TEST_F(Conversion, LogThatIsWrongIsNamedByItsPlace) {
+  const std::string good = names + "\n" + row("0") + "\n" + row("1") + "\n";
+  EXPECT_EQ(complaint(good), "none");
+  EXPECT_THAT(complaint(""), HasSubstr("log.csv:1:1: expected a line of names"));
+  EXPECT_THAT(complaint(names + "\n"), HasSubstr("log.csv: holds no rows"));
+  EXPECT_THAT(complaint(replaced(good, "\n1,1.5,", "\n1,1.5 V,")),
+              HasSubstr("log.csv:3:3: expected a number, found '1.5 V'"));
+  EXPECT_THAT(complaint(replaced(good, "\n1,1.5,", "\n1,")),
+              AllOf(HasSubstr("log.csv:3:"), HasSubstr("expected 29 values, found 28")));
+  EXPECT_THAT(complaint(replaced(good, "\n1,1.5,", "\n1,\"1.5,")),
+              HasSubstr("log.csv:3:3: expected the end of a quote on the same line"));
+  EXPECT_THAT(complaint(replaced(good, "t,q0", "t,t")), HasSubstr("log.csv has 2 columns 't'"));
+  EXPECT_THAT(complaint(names + "\n" + row("nan") + "\n"), HasSubstr("no row has a time"));
+  EXPECT_THAT(complaint_about(folder_ / "none.csv", mapping_head), HasSubstr("none.csv"));
+  EXPECT_THAT(complaint_about(folder_.write("log.txt", good), mapping_head),
+              HasSubstr("log.txt: expected a log as FILE.csv or FILE.npz"));
+}
+
+TEST_F(Conversion, MappingThatIsWrongIsNamedByItsPlaceWithTheNearestName) {
+  const auto expect = [&](const std::string& what, const std::string& by, const char* said) {
+    EXPECT_THAT(mapping_complaint(what, by), HasSubstr(said)) << what << " -> " << by;
+  };
+  expect("m3", "mm3", "log.csv has no column 'mm3' (did you mean 'm3'?)");
+  expect("from: t", "from: seconds", "log.csv has no column 'seconds' (it has t, q0,");
+  expect("m3", "mm3", "map.yaml:5:18: joints.torque.from: ");
+  expect("q1", "q0", "map.yaml:3:20: joints.position.from: 'q0' is mapped already");
+  expect("m0", "q0", "map.yaml:5:18: joints.torque.from: 'q0' is mapped already");
+  expect("velocity", "velocty", "joints.velocty: unknown key (did you mean 'velocity'?)");
+  expect("imu:", "imi:", "map.yaml:6:1: imi: unknown key (did you mean 'imu'?)");
+  expect("  torque", "  #torque", "joints.torque: is missing");
+  expect("  linear_acc", "  #", "imu: expected 'linear_acceleration', without gravity, or");
+  expect("q5]", "q5], unit: dge",
+         "joints.position.unit: expected one of rad, deg, rev (did you mean 'deg'?)");
+  expect("q5]", "q5], sign: 2", "joints.position.sign: expected 1 or -1");
+  expect("q5]", "q5], sign: [1, -1]", "joints.position.sign: expected a number, or 6");
+  expect("q5]", "q5], zero: .inf", "joints.position.zero: expected a number");
+  expect("v5]", "v5], zero: 1", "joints.velocity.zero: unknown key");
+  expect("q5]", "q5], index: 1", "joints.position.index: unknown key");
+  expect(", q5]", "]", "expected 6 of the names of columns: left hip, knee, wheel, right hip");
+  expect("{from: t}", "t", "map.yaml:1:7: time: expected a mapping of keys to values");
+  expect("{from: t}", "{form: t}", "time.form: unknown key (did you mean 'from'?)");
+  expect("{from: t}", "{}", "time.from: is missing");
+  expect("time: {from: t}", "", "time: is missing: expected 'time' or 'period'");
+  expect(
+      "time:", "period: 0.001\ntime:", "map.yaml:1:9: period: 'time' says when rows were logged");
+  expect("time: {from: t}", "period: 0", "period: expected the time between two rows (s)");
+  expect("qz]", "qz], order: zyxw", "imu.orientation.order: expected one of wxyz, xyzw");
+  expect("qz]", "qz], reference: up", "imu.orientation.reference: expected one of z_down, z_up");
+  for (const char* axes : {"[x, y]", "[x, y, y]", "[x, y, -z]", "[x, y, w]", "[x, '', z]"}) {
+    expect("imu:", fmt::format("imu:\n  axes: {}", axes),
+           "map.yaml:7:9: imu.axes: expected what of theirs");
+  }
+  expect("imu:", "contact: {from: [m0, m1, m2]}\nimu:", "contact.from: expected 1 of the names");
+  expect("imu:", "contact: {above: 1}\nimu:", "contact.from: is missing");
+  expect("imu:", "contact: {from: q9}\nimu:", "log.csv has no column 'q9'");
+}
+
+/// A log of four rows as arrays.
+NpzArrays sample_arrays() {
+  const auto array = [](std::size_t columns) {
+    NpyArray made{{4, columns}, {}};
+    for (std::size_t i = 0; i < 4 * columns; ++i) made.data.push_back(static_cast<double>(i));
+    return made;
+  };
+  NpzArrays arrays = {{"q", array(7)}, {"v", array(6)}, {"m", array(6)}, {"o", array(4)}};
+  arrays["g"] = arrays["a"] = array(3);
+  arrays["t"] = {{4}, {0.0, 0.1, 0.2, 0.3}};
+  arrays["left"] = arrays["right"] = array(1);
+  return arrays;
+}
+
+const std::string array_mapping = R"(time: {from: t}
+joints:
+  position: {from: q, index: [6, 5, 4, 3, 2, 1]}
+  velocity: {from: v}
+  torque: {from: m}
+imu:
+  orientation: {from: o}
+  angular_velocity: {from: g}
+  linear_acceleration: {from: a}
+contact: {from: [left, right], above: 1.5}
+)";
+
+TEST_F(Conversion, ArraysAreReadByTheirColumns) {
+  write_npz(sample_arrays(), folder_ / "log.npz");
+  const auto rows = convert_file(folder_ / "log.npz", array_mapping);
+  ASSERT_EQ(rows.size(), 4U);
+  const models::Observation& o = rows[2].observation;
+  EXPECT_EQ(o.time, 0.2);
+  EXPECT_EQ(o.servo[0].position, 2 * 7 + 6);
+  EXPECT_EQ(o.servo[5].position, 2 * 7 + 1);
+  EXPECT_EQ(o.servo[5].torque, 2 * 6 + 5);
+  EXPECT_EQ(o.imu.linear_acceleration, Eigen::Vector3d(6.0, 7.0, 8.0));
+  EXPECT_EQ(converted_.contact.intervals.size(), 2U);
+}
+
+TEST_F(Conversion, ArraysThatDoNotFitAreNamed) {
+  const auto expect = [&](const NpzArrays& arrays, const std::string& mapping, const char* said) {
+    write_npz(arrays, folder_ / "log.npz");
+    EXPECT_THAT(complaint_about(folder_ / "log.npz", mapping), HasSubstr(said)) << mapping;
+  };
+  NpzArrays arrays = sample_arrays();
+  arrays["v"].shape = {3, 6};
+  arrays["v"].data.resize(18);
+  expect(arrays, array_mapping, "log.npz: v has 3 rows, and t has 4");
+  arrays = sample_arrays();
+  arrays["m"].shape = {4, 5};
+  arrays["m"].data.resize(20);
+  expect(arrays, array_mapping,
+         "log.npz: m: expected an array with two axes that has a column 5, found one of 4 × 5");
+  const auto with = [](const char* what, const char* by) {
+    return replaced(array_mapping, what, by);
+  };
+  arrays = sample_arrays();
+  expect(arrays, with("from: t", "from: q"), "log.npz: q: has two axes (4 × 7): expected 'index'");
+  expect(arrays, with("from: v", "from: vv"), "has no array 'vv' (did you mean 'v'?)");
+  expect(arrays, with("2, 1]", "2]"), "joints.position.index: expected 6 of the array's columns");
+  expect(arrays, with("6, 5", "5, 5"), "joints.position.from: 'q' index 5 is mapped already");
+  expect(arrays, with("6, 5", "-6, 5"), "joints.position.index: columns count from 0");
+  expect(arrays, with("from: v", "from: [v, m]"),
+         "joints.velocity.from: expected an array with two axes, or 6 with one");
+  arrays["t"] = {{0}, {}};
+  for (auto& [name, array] : arrays) array.shape[0] = 0, array.data.clear();
+  expect(arrays, array_mapping, "log.npz: holds no rows");
+  folder_.write("log.npz", "no zip");
+  EXPECT_THAT(complaint_about(folder_ / "log.npz", array_mapping),
+              HasSubstr("log.npz: is not a readable .npz"));
+}
+
+}  // namespace
+}  // namespace touchdown::recordings
