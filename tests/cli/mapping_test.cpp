@@ -67,7 +67,7 @@ imu:
 /// an IMU with x forward, y left and z up that knows east, north and up, and measures g.
 std::string odd_csv(const recordings::Recording& run) {
   constexpr double degree = std::numbers::pi / 180.0;
-  constexpr std::array<int, 6> order = {5, 4, 3, 2, 1, 0};
+  constexpr std::array<std::size_t, 6> order = {5, 4, 3, 2, 1, 0};
   const Eigen::Matrix3d upkie_from_flu = Eigen::Vector3d(-1.0, 1.0, -1.0).asDiagonal();
   const Eigen::Matrix3d up_from_down = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
   std::string csv = "\xef\xbb\xbfstate,\"stamp, ms\"";
@@ -78,16 +78,16 @@ std::string odd_csv(const recordings::Recording& run) {
   for (std::size_t k = 0; k < run.steps(); ++k) {
     const models::Observation& o = run.observation[k];
     csv += fmt::format("walk,{:.17g}", 1e3 * o.time + 5e6);
-    const auto sign = [](int i) { return i >= 3 ? -1.0 : 1.0; };
-    for (const int i : order) {
+    const auto sign = [](std::size_t i) { return i >= 3 ? -1.0 : 1.0; };
+    for (const std::size_t i : order) {
       const double zero = i % 3 == 1 ? 0.25 : 0.0;
-      csv += fmt::format(",{:.17g}", (sign(i) * o.servo.at(i).position + zero) / degree);
+      csv += fmt::format(",{:.17g}", (sign(i) * o.servo[i].position + zero) / degree);
     }
-    for (const int i : order) {
+    for (const std::size_t i : order) {
       csv += fmt::format(",{:.17g}",
-                         sign(i) * o.servo.at(i).velocity / (2.0 * std::numbers::pi) * 60.0);
+                         sign(i) * o.servo[i].velocity / (2.0 * std::numbers::pi) * 60.0);
     }
-    for (const int i : order) csv += fmt::format(",{:.17g}", -1e3 * sign(i) * o.servo.at(i).torque);
+    for (const std::size_t i : order) csv += fmt::format(",{:.17g}", -1e3 * sign(i) * o.servo[i].torque);
     const Eigen::Quaterniond q(
         Eigen::Matrix3d(up_from_down * o.imu.orientation.toRotationMatrix() * upkie_from_flu));
     csv += fmt::format(",{:.17g},{:.17g},{:.17g},{:.17g}", q.x(), q.y(), q.z(), q.w());

@@ -16,9 +16,7 @@ namespace touchdown::recordings {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// What has to be mapped, and then, behind `imu`, what may be.
 const std::string mapping_head = R"(time: {from: t}

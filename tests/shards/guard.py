@@ -22,12 +22,22 @@ PR_SET_CHILD_SUBREAPER = 36
 libc = ctypes.CDLL(None, use_errno=True)
 
 
+HURRY = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def prepare():
+    """In a child: it does not outlive the guard, and what the guard ignores may end it."""
+    libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    for hurry in HURRY:
+        signal.signal(hurry, signal.SIG_DFL)
+
+
 def start(arguments, folder):
-    """A child that does not outlive the guard, with a log of its own."""
+    """A child with a log of its own."""
     log = folder / (pathlib.Path(arguments[0]).name + '.out')
     with open(log, 'ab') as output:
         return subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=output, stderr=output,
-                                preexec_fn=lambda: libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL))
+                                preexec_fn=prepare)
 
 
 def descendants():
@@ -72,7 +82,7 @@ def kill_all():
 def main():
     folder = pathlib.Path(sys.argv[1])
     libc.prctl(PR_SET_CHILD_SUBREAPER, 1)
-    for hurry in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for hurry in HURRY:
         signal.signal(hurry, signal.SIG_IGN)  # standard input ends then too
     signal.signal(signal.SIGCHLD, lambda *_: reap())
     try:

@@ -1,16 +1,15 @@
 """A Slurm cluster of one node on loopback: munged, slurmctld and slurmd, in a scratch folder, on
 free ports, without systemd and without touching the machine's own Slurm. Needs to be root."""
 
-import json
 import os
 import pathlib
 import secrets
 import shutil
 import socket
 import subprocess
-import sys
-import tempfile
 import time
+
+import guarded
 
 DAEMONS = ('munged', 'slurmctld', 'slurmd')
 COMMANDS = ('sbatch', 'scontrol', 'squeue', 'sinfo')
@@ -76,33 +75,15 @@ class DoesNotStart(Exception):
     """Slurm's daemons are installed, but do not run in this environment."""
 
 
-class Cluster:
+class Cluster(guarded.Guarded):
     """To be used with `with`: it runs inside, and nothing of it is left outside."""
 
     def __init__(self, cpus, scheduling='sched_interval=1,bf_interval=1,batch_sched_delay=0'):
         self.cpus = cpus
         self.scheduling = scheduling
 
-    def __enter__(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix='touchdown_slurm_'))
-        self.environment = {name: value for name, value in os.environ.items()
-                            if not name.startswith(('SLURM', 'SBATCH', 'SQUEUE', 'SINFO'))}
+    def prepare(self):
         self.environment['SLURM_CONF'] = str(self.folder / 'slurm.conf')
-        self.guard = subprocess.Popen(
-            [sys.executable, str(pathlib.Path(__file__).with_name('guard.py')), str(self.folder)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, start_new_session=True,
-            env=self.environment)
-        try:
-            self.folder.chmod(0o755)
-            self.start()
-        except BaseException:
-            self.__exit__()
-            raise
-        return self
-
-    def __exit__(self, *_):
-        self.guard.stdin.close()
-        self.guard.wait()
 
     def start(self):
         munge = self.folder / 'munge'
@@ -126,16 +107,7 @@ class Cluster:
         raise DoesNotStart('Slurm does not start here\n' + self.logs())
 
     def daemon(self, name, *arguments):
-        self.guard.stdin.write(json.dumps([shutil.which(name), *arguments]) + '\n')
-        self.guard.stdin.flush()
-        return int(self.guard.stdout.readline())
-
-    def wait_for(self, what, condition, seconds=60.0):
-        end = time.monotonic() + seconds
-        while not condition():
-            if time.monotonic() > end:
-                raise RuntimeError(f'waited in vain for {what}\n' + self.logs())
-            time.sleep(0.02)
+        return self.process(shutil.which(name), *arguments)
 
     def wait_until_idle(self, pids, seconds=60.0):
         end = time.monotonic() + seconds
@@ -158,9 +130,3 @@ class Cluster:
         """What `scontrol show job` says, by name: of one array task as '12_3'."""
         shown = self.run('scontrol', '-o', 'show', 'job', job, check=False).stdout
         return dict(word.split('=', 1) for word in shown.split() if '=' in word)
-
-    def logs(self):
-        parts = []
-        for log in sorted(self.folder.glob('*.log')) + sorted(self.folder.glob('*.out')):
-            parts.append(f'--- {log.name}\n' + log.read_text(errors='replace')[-3000:])
-        return '\n'.join(parts)

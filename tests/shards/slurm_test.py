@@ -7,7 +7,6 @@ has to be that of an undisturbed run without Slurm.
 Exit code 77: there is no Slurm here, it does not start, or this is not root.
 """
 
-import hashlib
 import os
 import pathlib
 import re
@@ -18,31 +17,12 @@ import sys
 import time
 
 import cluster
+import work
+from work import check
 
 SUBMIT = pathlib.Path(__file__).resolve().parents[2] / 'scripts' / 'slurm' / 'submit.sh'
 SHARDS = 3
 PARTS = 80  # of each shard
-SCENARIO = """name: step
-terrain:
-  pieces:
-    - flat: {length: 3.0}
-    - stairs: {count: 1, run: 3.0, rise: 0.25, nosing_radius: 0.025}
-start: {x: 0.7}
-velocity: [{time: 0.3, velocity: 0.5}]
-end: {duration: 2.5}
-perturbation: {velocity: 0.1, yaw: 0.05}
-"""
-EXPERIMENT = """name: tiny
-seed: 3
-simulators: [mujoco, bullet]
-estimators: [robust, measurement_only, upkie_observer]
-fit: {scenarios: [step.yaml]}
-test: {scenarios: [step.yaml], runs: 3}
-noise: {torque: [0.0, 0.5, 1.0, 1.5, 2.0, 4.0], accelerometer: [0.0, 2.0, 4.0, 6.0, 8.0], seeds: 40}
-highlights: [{torque: 1.0, accelerometer: 4.0}]
-intervals: {resamples: 100}
-video: {enabled: false}
-"""
 # The program, but a shard's first attempt waits for the test before it begins.
 PROGRAM = """#!/bin/sh
 case "${{SLURM_RESTART_COUNT:-first}} $*" in
@@ -50,25 +30,6 @@ case "${{SLURM_RESTART_COUNT:-first}} $*" in
 esac
 exec '{program}' "$@"
 """
-
-
-def check(good, what):
-    if not good:
-        raise AssertionError(what)
-
-
-def results_in(path):
-    """All of a file but how it was computed, which the report tells at its end."""
-    content = path.read_bytes()
-    return content.partition(b'id="reproduce"')[0] if path.name == 'report.html' else content
-
-
-def checksums(directory):
-    """Of all results, by name. The manifest tells times and host, state/ and logs/ of the way."""
-    return {str(path.relative_to(directory)): hashlib.sha256(results_in(path)).hexdigest()
-            for path in directory.rglob('*')
-            if path.is_file() and path.name != 'manifest.json'
-            and path.relative_to(directory).parts[0] not in ('state', 'logs')}
 
 
 def stopped_process_of(shard, folder):
@@ -153,8 +114,7 @@ def check_errors(slurm, folder):
 def test(slurm, touchdown):
     folder = slurm.folder / 'work'
     folder.mkdir()
-    (folder / 'step.yaml').write_text(SCENARIO)
-    (folder / 'tiny.yaml').write_text(EXPERIMENT)
+    work.write_experiment(folder, runs=3, seeds=40)
     program = slurm.folder / 'touchdown'
     program.write_text(PROGRAM.format(program=touchdown))
     program.chmod(0o755)
@@ -186,14 +146,7 @@ def test(slurm, touchdown):
     check('out of time; back to the queue' in logs[3], 'the task out of time does not say so')
     check(array.state(array.merge) == 'COMPLETED', array.log(f'merge_{array.merge}.txt'))
 
-    local = slurm.folder / 'local'
-    subprocess.run([touchdown, 'run', 'tiny.yaml', '--out', local], cwd=folder, check=True,
-                   stdout=subprocess.DEVNULL)
-    ours, theirs = checksums(array.results), checksums(local)
-    check(len(theirs) > 20 and 'tables/success.csv' in theirs, theirs)
-    different = {name for name in ours.keys() | theirs.keys() if ours.get(name) != theirs.get(name)}
-    check(not different, f'not the files of a local run: {sorted(different)}')
-    print(f'{len(ours)} files are those of a local run')
+    work.compare_with_local_run(array.results, touchdown, folder)
 
 
 def main():
