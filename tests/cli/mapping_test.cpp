@@ -84,10 +84,11 @@ std::string odd_csv(const recordings::Recording& run) {
       csv += fmt::format(",{:.17g}", (sign(i) * o.servo[i].position + zero) / degree);
     }
     for (const std::size_t i : order) {
-      csv += fmt::format(",{:.17g}",
-                         sign(i) * o.servo[i].velocity / (2.0 * std::numbers::pi) * 60.0);
+      csv +=
+          fmt::format(",{:.17g}", sign(i) * o.servo[i].velocity / (2.0 * std::numbers::pi) * 60.0);
     }
-    for (const std::size_t i : order) csv += fmt::format(",{:.17g}", -1e3 * sign(i) * o.servo[i].torque);
+    for (const std::size_t i : order)
+      csv += fmt::format(",{:.17g}", -1e3 * sign(i) * o.servo[i].torque);
     const Eigen::Quaterniond q(
         Eigen::Matrix3d(up_from_down * o.imu.orientation.toRotationMatrix() * upkie_from_flu));
     csv += fmt::format(",{:.17g},{:.17g},{:.17g},{:.17g}", q.x(), q.y(), q.z(), q.w());

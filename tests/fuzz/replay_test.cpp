@@ -12,6 +12,7 @@ namespace touchdown::fuzz {
 
 void fuzz_beliefs(std::string_view input);
 void fuzz_log(std::string_view input);
+void fuzz_mapping(std::string_view input);
 void fuzz_measurement_model(std::string_view input);
 void fuzz_neural_network(std::string_view input);
 void fuzz_npy(std::string_view input);
@@ -52,6 +53,7 @@ TEST_P(Corpus, IsReplayed) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Corpus,
                          ::testing::Values(Target{"beliefs", fuzz_beliefs}, Target{"log", fuzz_log},
+                                           Target{"mapping", fuzz_mapping},
                                            Target{"measurement_model", fuzz_measurement_model},
                                            Target{"neural_network", fuzz_neural_network},
                                            Target{"npy", fuzz_npy}, Target{"npz", fuzz_npz},
