@@ -9,6 +9,7 @@
 #include "core/program/outputs.hpp"
 #include "core/progress.hpp"
 #include "recordings/mapping/conversion.hpp"
+#include "recordings/mcap/log.hpp"
 
 namespace touchdown::cli {
 
@@ -21,6 +22,10 @@ void check_files(const ExportedLog& files) {
   std::vector<std::filesystem::path> outputs = {files.output};
   if (!files.labels.empty()) outputs.emplace_back(files.labels);
   check_outputs({{files.log, "log"}, {files.mapping, "mapping"}}, outputs);
+}
+
+void check_stop(const CliSession& session) {
+  if (*session.stop) throw Stopped("stopped; nothing was written");
 }
 
 /// One line each about what estimators will not like.
@@ -51,9 +56,7 @@ void export_log(const ExportedLog& files, const CliSession& session) {
   recordings::ConvertedLog log;
   write_atomically(files.output, [&](const std::filesystem::path& temporary) {
     std::ofstream stream(temporary, std::ios::binary);
-    log = recordings::convert_log(files.log, files.mapping, stream, [&] {
-      if (*session.stop) throw Stopped("stopped; nothing was written");
-    });
+    log = recordings::convert_log(files.log, files.mapping, stream, [&] { check_stop(session); });
     stream.close();
     if (!stream) throw Error(fmt::format("{}: cannot be written: is the disk full?", files.output));
     if (!files.labels.empty()) write_atomically(files.labels, labels_text(files, log));
@@ -66,6 +69,23 @@ void export_log(const ExportedLog& files, const CliSession& session) {
   }
   fmt::print("next      touchdown estimate {} --model MODEL.npz{}\n", files.output,
              files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
+}
+
+void export_mcap(const std::string& log, const std::string& output, const CliSession& session) {
+  check_outputs({{log, "log"}}, {output});
+  recordings::LogReader reader(log, session.stop);
+  std::uint64_t rows = 0;
+  write_atomically(output, [&](const std::filesystem::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    rows = recordings::write_mcap(reader, stream);
+    stream.close();
+    if (!stream) throw Error(fmt::format("{}: cannot be written: is the disk full?", output));
+    check_stop(session);
+  });
+  for (const std::string& warning : reader.warnings())
+    tell(fmt::format("touchdown: {}\n", warning));
+  fmt::print("log       {}, {} records, {:.1f} MB\n", output, rows,
+             1e-6 * static_cast<double>(std::filesystem::file_size(output)));
 }
 
 }  // namespace touchdown::cli

@@ -18,4 +18,7 @@ struct ExportedLog {
 /// Errors: `InputError`, and nothing is written.
 void export_log(const ExportedLog& files, const CliSession& session);
 
+/// Writes a log, with the beliefs that are in it, as an MCAP file, and says so. Errors: as above.
+void export_mcap(const std::string& log, const std::string& output, const CliSession& session);
+
 }  // namespace touchdown::cli

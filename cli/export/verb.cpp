@@ -74,7 +74,9 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
   if (flags.output.empty() == flags.folder.empty()) {
     throw InputError(
         "export: expected either --benchmark DIR, for what estimators hear, or -o FILE.hpp, for a "
-        "model, or --mapping FILE.yaml -o FILE.mpack, for somebody else's log");
+        "model, or --mapping FILE.yaml -o FILE.mpack, for somebody else's log, or -o FILE.mcap, "
+        "for "
+        "a log of ours");
   }
   if (flags.mapping.empty() && !flags.labels.empty()) {
     throw InputError("--labels: expected --mapping FILE.yaml, which says where they are");
@@ -84,6 +86,8 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
   }
   if (!flags.mapping.empty()) {
     export_log({flags.source, flags.mapping, flags.output, flags.labels}, session);
+  } else if (std::filesystem::path(flags.output).extension() == ".mcap") {
+    export_mcap(flags.source, flags.output, session);
   } else if (!flags.output.empty()) {
     export_model(flags);
   } else {
@@ -94,23 +98,27 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
 }  // namespace
 
 void add_export(CLI::App& program, const CliSession& session) {
-  Verb verb(program, "export",
-            "touchdown export --benchmark signals experiments/benchmark.yaml\n"
-            "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
-            "touchdown export model.npz -o model.hpp\n"
-            "touchdown export robot.csv --mapping robot.yaml -o robot.mpack\n\n"
-            "Writes what estimators of a benchmark hear, for an estimator in any language. What\n"
-            "it believes is then scored by `touchdown score`. Or writes a fitted model as a C++\n"
-            "header, for a robot without files. Or writes a log of another robot, CSV or NumPy's\n"
-            "arrays, in Upkie's layout, which `fit`, `estimate` and all others read.");
+  Verb verb(
+      program, "export",
+      "touchdown export --benchmark signals experiments/benchmark.yaml\n"
+      "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
+      "touchdown export model.npz -o model.hpp\n"
+      "touchdown export robot.csv --mapping robot.yaml -o robot.mpack\n"
+      "touchdown export robot.mpack -o robot.mcap\n\n"
+      "Writes what estimators of a benchmark hear, for an estimator in any language. What\n"
+      "it believes is then scored by `touchdown score`. Or writes a fitted model as a C++\n"
+      "header, for a robot without files. Or writes a log of another robot, CSV or NumPy's\n"
+      "arrays, in Upkie's layout, which `fit`, `estimate` and all others read. Or writes a log\n"
+      "of that layout, with the beliefs that `estimate` wrote into it, for Foxglove.");
   const auto flags = std::make_shared<ExportFlags>();
   verb.option("source", &flags->source,
               "Experiment file with a section `benchmark`, or the run "
-              "directory of one; or what `touchdown fit` wrote; or a log as .csv or .npz")
+              "directory of one; or what `touchdown fit` wrote; or a log as .csv, .npz or .mpack")
       .value_name("RUN_OR_EXPERIMENT_OR_MODEL_OR_LOG")
       .required();
   verb.option("--benchmark", &flags->folder, "New or empty folder for the files").value_name("DIR");
-  verb.option("-o,--output", &flags->output, "Header for the model, or the log as FILE.mpack")
+  verb.option("-o,--output", &flags->output,
+              "Header for the model, or the log as FILE.mpack or FILE.mcap")
       .value_name("FILE");
   verb.option("--mapping", &flags->mapping,
               "Which columns of the log are which signals, in which units, signs and order")

@@ -1,0 +1,176 @@
+#include "recordings/mcap/writer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <concepts>
+
+#include "core/error.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
+
+constexpr std::string_view mcap_magic("\x89MCAP0\r\n", 8);
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20U;
+
+enum class Op : std::uint8_t {
+  header = 0x01,
+  footer = 0x02,
+  schema = 0x03,
+  channel = 0x04,
+  message = 0x05,
+  chunk = 0x06,
+  message_index = 0x07,
+  chunk_index = 0x08,
+  statistics = 0x0b,
+  summary_offset = 0x0e,
+  data_end = 0x0f,
+};
+
+template <std::unsigned_integral T>
+void put(std::string& bytes, T number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));  // NOLINT
+}
+
+/// A text, an array or a map: as many bytes, and these.
+void put(std::string& bytes, std::string_view text) {
+  put(bytes, static_cast<std::uint32_t>(text.size()));
+  bytes.append(text);
+}
+
+template <typename... Parts>
+std::string content(const Parts&... parts) {
+  std::string bytes;
+  (put(bytes, parts), ...);
+  return bytes;
+}
+
+std::string record_head(Op op, std::uint64_t size) {
+  return content(static_cast<std::uint8_t>(op), size);
+}
+
+std::string record(Op op, std::string_view content) {
+  return record_head(op, content.size()).append(content);
+}
+
+std::uint32_t crc_of(std::string_view bytes) {
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
+}
+
+}  // namespace
+
+void McapWriter::Span::add(std::uint64_t time) {
+  start = is_empty ? time : std::min(start, time);
+  end = std::max(end, time);
+  is_empty = false;
+}
+
+McapWriter::McapWriter(std::ostream& stream) : stream_(stream) {
+  emit(mcap_magic);
+  emit(record(Op::header, content(std::string_view(), std::string_view("touchdown"))));
+}
+
+void McapWriter::emit(std::string_view bytes) {
+  stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream_) throw Error("the log cannot be written: is the disk full?");
+  crc_.process_bytes(bytes.data(), bytes.size());
+  position_ += bytes.size();
+}
+
+std::uint16_t McapWriter::add_topic(std::string_view topic, std::string_view schema) {
+  const auto id = static_cast<std::uint16_t>(counts_.size() + 1);
+  counts_[id] = 0;
+  const std::string of_schema =
+      record(Op::schema, content(id, topic.substr(1), std::string_view("jsonschema"), schema));
+  const std::string of_channel =
+      record(Op::channel, content(id, id, topic, std::string_view("json"), std::string_view()));
+  schemas_ += of_schema;
+  channels_ += of_channel;
+  emit(of_schema);
+  emit(of_channel);
+  return id;
+}
+
+void McapWriter::write(std::uint16_t topic, std::uint64_t time, std::string_view json) {
+  const auto sequence = static_cast<std::uint32_t>(counts_[topic]++);
+  index_[topic].emplace_back(time, chunk_.size());
+  const std::string head = content(topic, sequence, time, time);
+  chunk_.append(record_head(Op::message, head.size() + json.size())).append(head).append(json);
+  chunk_span_.add(time);
+  if (chunk_.size() >= chunk_bytes) finish_chunk();
+}
+
+void McapWriter::finish_chunk() {
+  if (chunk_.empty()) return;
+  const std::uint64_t start = position_;
+  const std::string head =
+      content(chunk_span_.start, chunk_span_.end, std::uint64_t{chunk_.size()}, crc_of(chunk_),
+              std::string_view(), std::uint64_t{chunk_.size()});
+  emit(record_head(Op::chunk, head.size() + chunk_.size()) + head);
+  emit(chunk_);
+  const std::uint64_t end = position_;
+  std::string offsets;
+  for (auto& [topic, messages] : index_) {
+    std::stable_sort(messages.begin(), messages.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::string entries;
+    for (const auto& [time, offset] : messages) entries += content(time, offset);
+    offsets += content(topic, position_);
+    emit(record(Op::message_index, content(topic, std::string_view(entries))));
+  }
+  chunk_indexes_ += record(Op::chunk_index,
+                           content(chunk_span_.start, chunk_span_.end, start, end - start,
+                                   std::string_view(offsets), position_ - end, std::string_view(),
+                                   std::uint64_t{chunk_.size()}, std::uint64_t{chunk_.size()}));
+  span_.add(chunk_span_.start);
+  span_.add(chunk_span_.end);
+  ++chunks_;
+  chunk_.clear();
+  chunk_span_ = {};
+  index_.clear();
+}
+
+std::string McapWriter::statistics() const {
+  std::uint64_t messages = 0;
+  std::string by_topic;
+  for (const auto& [topic, count] : counts_) {
+    messages += count;
+    by_topic += content(topic, count);
+  }
+  const auto topics = static_cast<std::uint32_t>(counts_.size());
+  constexpr std::uint32_t none = 0;  // attachments, metadata
+  return record(Op::statistics,
+                content(messages, static_cast<std::uint16_t>(topics), topics, none, none, chunks_,
+                        span_.start, span_.end, std::string_view(by_topic)));
+}
+
+void McapWriter::finish() {
+  finish_chunk();
+  emit(record(Op::data_end, content(std::uint32_t{crc_.checksum()})));
+  crc_.reset();
+  const std::uint64_t summary = position_;
+  std::string offsets;
+  const auto group = [&](Op op, const std::string& records) {
+    if (records.empty()) return;
+    offsets += record(Op::summary_offset, content(static_cast<std::uint8_t>(op), position_,
+                                                  std::uint64_t{records.size()}));
+    emit(records);
+  };
+  group(Op::schema, schemas_);
+  group(Op::channel, channels_);
+  group(Op::statistics, statistics());
+  group(Op::chunk_index, chunk_indexes_);
+  const std::uint64_t summary_offset = position_;
+  emit(offsets);
+  // The checksum is of the footer, too, up to itself.
+  const std::string footer = content(summary, summary_offset);
+  emit(record_head(Op::footer, footer.size() + sizeof(std::uint32_t)) + footer);
+  emit(content(std::uint32_t{crc_.checksum()}));
+  emit(mcap_magic);
+}
+
+}  // namespace touchdown::recordings

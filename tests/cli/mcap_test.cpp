@@ -1,0 +1,121 @@
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "program.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "result_files.hpp"
+#include "synthetic_log.hpp"
+
+namespace touchdown::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Message {
+  std::string topic;
+  std::uint64_t time = 0;  ///< ns
+  nlohmann::json json;
+};
+
+class Mcap : public ::testing::Test {
+ protected:
+  std::string ran(const std::string& arguments) {
+    const Ended ended = touchdown_program(arguments, folder_.path());
+    EXPECT_EQ(ended.exit_code, 0) << arguments << "\n" << ended.errors;
+    return ended.output;
+  }
+  /// What another program, which knows nothing but the format's specification, finds in a file.
+  std::vector<Message> read(const std::string& file) {
+    const std::string command = fmt::format("cd '{}' && python3 " TOUCHDOWN_SOURCE_DIR
+                                            "/tests/cli/read_mcap.py {} > said 2>&1",
+                                            folder_.path().string(), file);
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(status, 0) << read_file(folder_ / "said").substr(0, 2000);
+    std::vector<Message> messages;
+    std::ifstream said(folder_ / "said");
+    while (status == 0 && said.peek() != std::ifstream::traits_type::eof()) {
+      Message& message = messages.emplace_back();
+      std::string json;
+      said >> message.topic >> message.time;
+      std::getline(said, json);
+      message.json = nlohmann::json::parse(json);
+    }
+    return messages;
+  }
+  const ScratchFolder folder_;
+};
+
+TEST_F(Mcap, HoldsWhatWasMeasuredAndBelievedAtEveryStep) {
+  // More than one chunk, and a clock that does not begin at 0.
+  recordings::Recording log = test::synthetic_log(1.5);
+  for (models::Observation& o : log.observation) o.time += 0.25;
+  recordings::write_recording(log, folder_ / "log.mpack");
+  ran("estimate log.mpack --estimator support_force -o with.mpack -o beliefs.csv");
+  EXPECT_THAT(ran("export with.mpack -o with.mcap"), HasSubstr("with.mcap, 1500 records"));
+  ran("export with.mpack -o again.mcap");
+  EXPECT_EQ(read_file(folder_ / "with.mcap"), read_file(folder_ / "again.mcap"));
+
+  const std::vector<Message> messages = read("with.mcap");
+  const Table beliefs = from_csv(read_file(folder_ / "beliefs.csv"));
+  ASSERT_EQ(messages.size(), 3000U);
+  ASSERT_EQ(beliefs.rows.size(), 1500U);
+  EXPECT_GT(std::filesystem::file_size(folder_ / "with.mcap"), 2U << 20U);
+  for (std::size_t k = 0; k < 1500; ++k) {
+    const Message& heard = messages[2 * k];
+    const Message& believed = messages[2 * k + 1];
+    ASSERT_EQ(heard.topic, "/upkie/observation");
+    ASSERT_EQ(believed.topic, "/touchdown/beliefs");
+    ASSERT_EQ(heard.time, 250'000'000U + 1'000'000U * k);
+    ASSERT_EQ(believed.time, heard.time);
+    const models::Observation& o = log.observation[k];
+    ASSERT_EQ(heard.json["servo"]["right_knee"]["torque"], o.servo[4].torque);
+    ASSERT_EQ(heard.json["imu"]["linear_acceleration"][2], o.imu.linear_acceleration.z());
+    ASSERT_FALSE(heard.json.contains("contact_filter"));
+    const auto& filter = believed.json["contact_filter"];
+    ASSERT_EQ(filter["left_wheel"]["p_contact"], std::stod(beliefs.rows[k][1]));
+    ASSERT_EQ(filter["right_wheel"]["contact"], beliefs.rows[k][4] == "1");
+    ASSERT_TRUE(filter["p_contact_smooth"].is_null());  // NaN is no number in JSON
+  }
+}
+
+TEST_F(Mcap, OfARobotWithoutBeliefsKeepsTheRobotsClock) {
+  const std::string example = TOUCHDOWN_SOURCE_DIR "/examples/mapping/robot";
+  ran(fmt::format("export {0}.csv --mapping {0}.yaml -o robot.mpack", example));
+  ran("export robot.mpack -o robot.mcap");
+  const std::vector<Message> messages = read("robot.mcap");
+  ASSERT_EQ(messages.size(), 10U);
+  EXPECT_EQ(messages[0].time, 81'000'000'000U);
+  EXPECT_EQ(messages[9].time, 81'009'000'000U);
+  EXPECT_EQ(messages[9].topic, "/upkie/observation");
+}
+
+TEST_F(Mcap, OfNoLogIsRefusedAndNothingIsWritten) {
+  const auto refused = [&](const std::string& arguments) {
+    const Ended ended = touchdown_program(arguments, folder_.path());
+    EXPECT_EQ(ended.exit_code, 2) << arguments;
+    return ended.errors;
+  };
+  folder_.write("text.mpack", "no log");
+  EXPECT_THAT(refused("export text.mpack -o a.mcap"), HasSubstr("text.mpack: byte 0: expected"));
+  EXPECT_THAT(refused("export none.mpack -o a.mcap"), HasSubstr("none.mpack: cannot be opened"));
+  // A map's key that is a number, beside a whole record: no JSON has it.
+  recordings::write_recording(test::robot_log(0.002), folder_ / "keys.mpack");
+  std::string bytes = read_file(folder_ / "keys.mpack");
+  const auto entries = static_cast<unsigned char>(bytes[0]);
+  ASSERT_EQ(entries & 0xf0U, 0x80U);  // a map of a few entries, which gets one more
+  bytes =
+      std::string(1, static_cast<char>(entries + 1)) + std::string("\x05\x05") + bytes.substr(1);
+  folder_.write("keys.mpack", bytes);
+  EXPECT_THAT(refused("export keys.mpack -o a.mcap"), HasSubstr("keys.mpack: a record cannot be"));
+  EXPECT_EQ(names_in(folder_.path()),
+            (std::set<std::string>{".stderr", ".stdout", "text.mpack", "keys.mpack"}));
+}
+
+}  // namespace
+}  // namespace touchdown::cli
