@@ -81,6 +81,11 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
   if (flags.mapping.empty() && !flags.labels.empty()) {
     throw InputError("--labels: expected --mapping FILE.yaml, which says where they are");
   }
+  if (flags.mapping.empty() && std::filesystem::path(flags.output).extension() == ".mpack") {
+    throw InputError(
+        fmt::format("-o: {}: expected --mapping FILE.yaml, which says what the columns of {} are",
+                    flags.output, flags.source));
+  }
   if (!flags.mapping.empty() && !flags.folder.empty()) {
     throw InputError("--mapping: expected -o FILE.mpack, for somebody else's log");
   }

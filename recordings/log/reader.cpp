@@ -183,8 +183,10 @@ void LogReader::finish() {
 }
 
 void LogReader::complain_about_garbage(std::size_t offset) const {
-  throw InputError(fmt::format("{}: byte {}: expected a MessagePack map, one per control step",
-                               name_, offset_ + offset));
+  const bool is_foreign = name_.ends_with(".csv") || name_.ends_with(".npz");
+  throw InputError(fmt::format(
+      "{}: byte {}: expected a MessagePack map, one per control step{}", name_, offset_ + offset,
+      is_foreign ? ": `touchdown export --mapping` makes such a log" : ""));
 }
 
 void LogReader::complain_about_missing_keys() const {

@@ -279,6 +279,10 @@ TEST_F(Mapping, WhatDoesNotGoTogetherIsRefusedAndNothingIsWritten) {
               HasSubstr("--mapping: expected -o"));
   EXPECT_THAT(refused("export bad.csv --labels l.csv -o bad.mpack"),
               HasSubstr("--labels: expected --mapping"));
+  EXPECT_THAT(refused("export bad.csv -o bad.mpack"), HasSubstr("bad.mpack: expected --mapping"));
+  EXPECT_THAT(refused("estimate bad.csv --model model.npz"),
+              HasSubstr("bad.csv: byte 0: expected a MessagePack map, one per control step: "
+                        "`touchdown export --mapping`"));
   EXPECT_THAT(refused("export bad.csv --mapping none.yaml -o bad.mpack"), HasSubstr("none.yaml"));
   folder->write("good.csv", si_csv(*run));
   EXPECT_THAT(refused("export good.csv --mapping si.yaml -o bad.mpack --labels bad_labels.csv"),
