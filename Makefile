@@ -21,7 +21,7 @@ python-packages:
 fuzz-packages:
 	@scripts/install_packages.sh lint
 test-packages:
-	@scripts/install_packages.sh program trainer python tests
+	@scripts/install_packages.sh program trainer python tests $(if $(wildcard /run/systemd/system),,servers)
 
 # Configured once; from then on ninja itself notices when a CMakeLists.txt changes. Each target is a
 # file that only a configuration which succeeded writes: of the program, with the trainer, with Python,
