@@ -1,12 +1,13 @@
 #include "estimator/models/make_estimator.hpp"
 
 #include <algorithm>
-#include <array>
-#include <span>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "estimator/bayes/filter.hpp"
+#include "estimator/bayes/ladder.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
 #include "estimator/models/configuration.hpp"
@@ -34,8 +35,8 @@ struct Request {
 struct Recipe {
   std::string_view name;
   std::string_view fit;  ///< the name of whoever is fitted in the same way
-  ConfigurationText (*configuration)(double sample_rate);
-  Made (*make)(const ModelArrays& arrays, const Request& request);
+  std::function<ConfigurationText(double sample_rate)> configuration;
+  std::function<Made(const ModelArrays& arrays, const Request& request)> make;
 };
 
 template <typename Config>
@@ -57,12 +58,12 @@ BayesFilterConfig configured(BayesFilterConfig config, const Request& request) {
   return at_rate(config, request.sample_rate);
 }
 
-template <BayesFilterConfig (*named)(), typename Estimator>
-Recipe of_torques(std::string_view name, std::string_view fit) {
-  return {name, fit, [](double rate) { return text_of(at_rate(named(), rate)); },
-          [](const ModelArrays& arrays, const Request& request) -> Made {
+template <typename Estimator>
+Recipe of_torques(std::string_view name, std::string_view fit, const BayesFilterConfig& config) {
+  return {name, fit, [config](double rate) { return text_of(at_rate(config, rate)); },
+          [config](const ModelArrays& arrays, const Request& request) -> Made {
             return std::make_unique<Estimator>(measurement_model_of(arrays),
-                                               configured(named(), request));
+                                               configured(config, request));
           }};
 }
 
@@ -92,21 +93,30 @@ Recipe of_neural_network() {
           }};
 }
 
-const auto& recipes() {
-  static const std::array<Recipe, 12> all = {
-      of_torques<BayesFilterConfig::robust, BayesFilter>("robust", "robust"),
-      of_torques<BayesFilterConfig::reference, BayesFilter>("reference", "reference"),
-      of_torques<BayesFilterConfig::paper, BayesFilter>("paper", "paper"),
-      of_torques<BayesFilterConfig::paper_rms, BayesFilter>("paper_rms", "paper"),
-      of_torques<BayesFilterConfig::robust, MeasurementOnly>("measurement_only", "robust"),
-      of_phases("phase"),
-      of_phases("hmm"),
-      of_phases("hmm_without_memory"),
-      of_neural_network(),
-      of_parameters<LoadLogistic, LoadLogisticConfig, logistic_curve_of>("load_logistic"),
-      of_parameters<ForceKinematics, ForceKinematicsConfig, force_kinematics_model_of>(
-          "force_kinematics"),
-      of_parameters<DecisionNetwork, DecisionConfig, decision_model_of>("decision_network")};
+const std::vector<Recipe>& recipes() {
+  static const std::vector<Recipe> all = [] {
+    const BayesFilterConfig robust = BayesFilterConfig::robust();
+    std::vector<Recipe> recipes = {
+        of_torques<BayesFilter>("robust", "robust", robust),
+        of_torques<BayesFilter>("reference", "reference", BayesFilterConfig::reference()),
+        of_torques<BayesFilter>("paper", "paper", BayesFilterConfig::paper()),
+        of_torques<BayesFilter>("paper_rms", "paper", BayesFilterConfig::paper_rms()),
+        of_torques<MeasurementOnly>("measurement_only", "robust", robust),
+        of_phases("phase"),
+        of_phases("hmm"),
+        of_phases("hmm_without_memory"),
+        of_neural_network(),
+        of_parameters<LoadLogistic, LoadLogisticConfig, logistic_curve_of>("load_logistic"),
+        of_parameters<ForceKinematics, ForceKinematicsConfig, force_kinematics_model_of>(
+            "force_kinematics"),
+        of_parameters<DecisionNetwork, DecisionConfig, decision_model_of>("decision_network")};
+    for (const BayesRung& rung : rungs_from_paper_to_robust()) {
+      const bool hears_as_robust = rung.config.measurement == robust.measurement;
+      recipes.push_back(
+          of_torques<BayesFilter>(rung.name, hears_as_robust ? "robust" : rung.name, rung.config));
+    }
+    return recipes;
+  }();
   return all;
 }
 

@@ -2,6 +2,9 @@
 
 #include <limits>
 
+#include <fmt/format.h>
+
+#include "estimator/bayes/ladder.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "experiments/estimators/measurement_fitting.hpp"
 #include "experiments/estimators/phase_fitting.hpp"
@@ -115,6 +118,18 @@ EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
                                                  at_rate(*entry.config, setup.sample_rate));
           },
           .lanes = bayes_lanes};
+}
+
+std::vector<EstimatorEntry> entries_from_paper_to_robust() {
+  std::vector<EstimatorEntry> entries;
+  std::string before = "paper";
+  for (const BayesRung& rung : rungs_from_paper_to_robust()) {
+    entries.push_back(
+        bayes_entry(rung.name, fmt::format("from paper to robust: {}, and {}", before, rung.change),
+                    rung.config));
+    before = rung.name;
+  }
+  return entries;
 }
 
 EstimatorEntry measurement_only_entry() {

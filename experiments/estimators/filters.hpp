@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "estimator/phase/filter.hpp"
 #include "experiments/estimators/entry.hpp"
@@ -10,6 +11,10 @@ namespace touchdown::experiments {
 /// The paper's Bayes filter in one of its configurations.
 EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
                            const BayesFilterConfig& config);
+
+/// The rungs between the configurations `paper` and `robust`, in their order
+/// (estimator/bayes/ladder.hpp).
+std::vector<EstimatorEntry> entries_from_paper_to_robust();
 
 /// The paper's ablation: the robust measurement model without transitions.
 EstimatorEntry measurement_only_entry();

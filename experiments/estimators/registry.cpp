@@ -38,29 +38,33 @@ const EstimatorEntry* find(std::span<const EstimatorEntry> entries, std::string_
 }  // namespace
 
 std::span<const EstimatorEntry> estimator_entries() {
-  static const std::vector<EstimatorEntry> entries = {
-      bayes_entry("robust", "the paper's filter, made to stand sensor noise",
-                  BayesFilterConfig::robust()),
-      bayes_entry("reference", "the paper's filter as its authors' robot code has it",
-                  BayesFilterConfig::reference()),
-      bayes_entry("paper", "the paper's filter to the letter", BayesFilterConfig::paper()),
-      bayes_entry("paper_rms", "the paper's filter, its power read as a root mean square",
-                  BayesFilterConfig::paper_rms()),
-      measurement_only_entry(),
-      phase_entry(),
-      hmm_entry(),
-      hmm_without_memory_entry(),
-      neural_entry(),
-      upkie_observer_entry(),
-      free_fall_entry(),
-      support_force_entry(),
-      load_logistic_entry(),
-      force_kinematics_entry(),
-      decision_network_entry(),
-      gradient_boosting_entry(),
-      oracle_entry(),
-      always_contact_entry(),
-  };
+  static const std::vector<EstimatorEntry> entries = [] {
+    std::vector<EstimatorEntry> all = {
+        bayes_entry("robust", "the paper's filter, made to stand sensor noise",
+                    BayesFilterConfig::robust()),
+        bayes_entry("reference", "the paper's filter as its authors' robot code has it",
+                    BayesFilterConfig::reference()),
+        bayes_entry("paper", "the paper's filter to the letter", BayesFilterConfig::paper()),
+        bayes_entry("paper_rms", "the paper's filter, its power read as a root mean square",
+                    BayesFilterConfig::paper_rms()),
+        measurement_only_entry(),
+        phase_entry(),
+        hmm_entry(),
+        hmm_without_memory_entry(),
+        neural_entry(),
+        upkie_observer_entry(),
+        free_fall_entry(),
+        support_force_entry(),
+        load_logistic_entry(),
+        force_kinematics_entry(),
+        decision_network_entry(),
+        gradient_boosting_entry(),
+        oracle_entry(),
+        always_contact_entry(),
+    };
+    for (EstimatorEntry& rung : entries_from_paper_to_robust()) all.push_back(std::move(rung));
+    return all;
+  }();
   return entries;
 }
 
