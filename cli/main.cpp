@@ -8,6 +8,7 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/program/interrupt.hpp"
+#include "core/program/memory.hpp"
 #include "core/program/streams.hpp"
 #include "core/yaml.hpp"
 #include "core/yaml_text.hpp"
@@ -115,6 +116,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace touchdown::cli
 
 int main(int argc, char** argv) {
+  touchdown::keep_freed_memory();
   touchdown::open_standard_streams();
   return touchdown::finished([&] { return touchdown::cli::run_command_line(argc, argv); });
 }
