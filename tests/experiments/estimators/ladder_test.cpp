@@ -48,7 +48,9 @@ TEST(BayesLadder, EndsInRobustToTheBitOnARunThatWasPlayed) {
   experiment.test = {.scenarios = {scene}, .runs = 1};
   experiment.highlights = {{}};
   experiment.video.enabled = false;
-  const ExperimentResult result = run_experiment(experiment, {.out = folder / "run"});
+  RunOptions options;
+  options.out = folder / "run";
+  const ExperimentResult result = run_experiment(experiment, options);
   const std::vector<const RunSignals*> runs = scored_runs(result.runs);
   ASSERT_EQ(runs.size(), 1U);
   const auto& models = result.models.at("mujoco");
