@@ -1,5 +1,7 @@
 #include "training/config.hpp"
 
+#include <vector>
+
 #include "core/fields.hpp"
 #include "core/file_names.hpp"
 #include "simulators/registry.hpp"
@@ -7,9 +9,14 @@
 namespace touchdown::training {
 
 static void describe(Fields& fields, RolloutConfig& rollout) {
-  fields("scenario", rollout.scenario);
-  fields.choose("simulator", simulators::simulator_names(), rollout.simulator);
+  fields("scenarios", rollout.scenarios);
+  fields.check(!rollout.scenarios.empty(), "scenarios", "expected at least one scenario file");
+  fields.names("simulators", simulators::simulator_names(), rollout.simulators);
+  fields("validation_scenarios", rollout.validation_scenarios);
   fields("control_step_us", rollout.control_step_us, 1000, 1'000'000);
+  fields("network_step_us", rollout.network_step_us, 1000, 1'000'000);
+  fields.check(rollout.network_step_us % rollout.control_step_us == 0, "network_step_us",
+               "expected a multiple of `control_step_us`");
   fields("environments", rollout.environments, 1, 1'000'000);
   fields("steps", rollout.steps, 1, 1'000'000);
   fields("sequence", rollout.sequence, 1, 1'000'000);
@@ -17,11 +24,16 @@ static void describe(Fields& fields, RolloutConfig& rollout) {
   fields("skip", rollout.skip, 0.0, 1e3);
   fields.choose("contact", {"any_wheel", "both_wheels"}, rollout.contact);
   fields.section("labels", rollout.labels);
+  fields("sensors", rollout.sensors);
   fields.within("noise", [&](Fields& noise) {
     noise("acceleration", rollout.noise.acceleration, 0.0, 1e3);
     noise("joint_position", rollout.noise.joint_position, 0.0, 1e3);
     noise("joint_velocity", rollout.noise.joint_velocity, 0.0, 1e3);
   });
+  std::vector<double>& share = rollout.noise_share;
+  fields.in_line("noise_share", share);
+  fields.check(share.size() == 2 && 0.0 <= share[0] && share[0] <= share[1], "noise_share",
+               "expected [least, most], both at least 0");
 }
 
 static void describe(Fields& fields, NetworkSize& size) {

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "core/error.hpp"
-#include "core/resources.hpp"
+#include "core/random.hpp"
 #include "estimator/neural/input.hpp"
 #include "noise/sensor_noise.hpp"
+#include "noise/sensors/reported.hpp"
 #include "recordings/signals_from.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/scenario_file.hpp"
@@ -56,47 +58,115 @@ scoring::ContactSequence robot_contact(const recordings::Recording& recording,
                                                    : scoring::both_wheels(wheels);
 }
 
-/// Writes a recording's rows from `first` on into the stretch from `step` on, whole sequences only.
-/// Returns the step behind the last one.
-int write_rows(const recordings::Recording& recording, int first, const RolloutConfig& config,
-               int step, Stretch& stretch) {
-  const int rows = std::min(static_cast<int>(recording.steps()) - first, stretch.steps() - step);
-  const int whole = rows / config.sequence * config.sequence;
-  if (whole <= 0) return step;
-  const scoring::ContactSequence contact = robot_contact(recording, config);
+/// The noise that this run is heard with.
+noise::SensorNoise levels_of(const RolloutConfig& config, const noise::NoiseKey& key) {
+  constexpr std::uint64_t share_stream = 0x7368617265;  // "share"
+  const double share = std::lerp(config.noise_share[0], config.noise_share[1],
+                                 uniform01(key.seed, share_stream, key.run));
+  noise::SensorNoise levels = config.noise;
+  for (double* level : {&levels.acceleration, &levels.joint_position, &levels.joint_velocity}) {
+    *level *= share;
+  }
+  return levels;
+}
+
+/// What the network hears of a run, and at which rows of the recording.
+struct Heard {
+  std::vector<NeuralInput> input;
+  std::vector<std::size_t> row;
+};
+
+Heard heard(const recordings::Recording& recording, const RolloutConfig& config,
+            const noise::SensorProfile& sensors) {
   const noise::NoiseKey key{.seed = recording.info.seed,
                             .run = static_cast<std::uint64_t>(recording.info.run)};
-  stretch.begin_run(step);
-  for (int i = 0; i < whole; ++i) {
-    const std::size_t k = size(first + i);
+  const noise::SensorNoise levels = levels_of(config, key);
+  std::vector<models::Observation> observations = recording.observation;
+  noise::report_through(sensors, key, 1e-6 * static_cast<double>(config.control_step_us),
+                        observations);
+  Heard heard;
+  NeuralInputSampler sampler(config.stride());
+  for (std::size_t k = 0; k < observations.size(); ++k) {
     const double command =
         k > 0 ? recordings::ground_velocity_command(recording.action[k - 1]) : 0.0;
-    const models::Observation heard =
-        noise::with_noise(recording.observation[k], key, k, config.noise);
+    const Signals signals =
+        recordings::signals_from(noise::with_noise(observations[k], key, k, levels), command);
+    if (!neural_input(signals).allFinite()) {
+      sampler.skip();
+    } else if (sampler.add(signals)) {
+      heard.input.push_back(sampler.input());
+      heard.row.push_back(k);
+    }
+  }
+  return heard;
+}
+
+/// Writes what is heard of a recording from the network's step `first` on into the stretch from
+/// `step` on, whole sequences only. Returns the step behind the last one.
+int write_rows(const recordings::Recording& recording, const Heard& heard, int first,
+               const RolloutConfig& config, int step, Stretch& stretch) {
+  const int steps = std::min(static_cast<int>(heard.row.size()) - first, stretch.steps() - step);
+  const int whole = steps / config.sequence * config.sequence;
+  if (whole <= 0) return step;
+  const scoring::ContactSequence contact = robot_contact(recording, config);
+  stretch.begin_run(step);
+  for (int i = 0; i < whole; ++i) {
+    const std::size_t k = heard.row[size(first + i)];
     const models::GroundTruth& truth = recording.truth[k];
-    stretch.write(step + i, neural_input(recordings::signals_from(heard, command)), contact[k] != 0,
+    stretch.write(step + i, heard.input[size(first + i)], contact[k] != 0,
                   truth.base_orientation.conjugate() * truth.imu_linear_velocity);
   }
   return step + whole;
 }
 
-void roll_out_run(const RolloutConfig& config, const scenarios::Scenario& scenario,
-                  std::uint64_t seed, std::int64_t number, Stretch stretch) {
+void roll_out_run(const RolloutConfig& config, const RolloutScenes::Scene& scene,
+                  const noise::SensorProfile& sensors, std::uint64_t seed, std::int64_t number,
+                  Stretch stretch) {
   const double period = config.period();
   const int skip = static_cast<int>(std::lround(config.skip / period));
   int step = 0;
   for (std::int64_t attempt = 0; step < stretch.steps(); ++attempt) {
     if (attempt == most_tries) {
-      throw InputError(fmt::format("{}: the robot fell {} times within {:.0f} s", config.scenario,
-                                   most_tries, period * stretch.steps()));
+      throw InputError(fmt::format("{}: the robot fell {} times within {:.0f} s",
+                                   scene.scenario.name, most_tries, period * stretch.steps()));
     }
     const std::int64_t run = number * draws_per_run + attempt;
-    scenarios::Scenario drawn = scenarios::perturbed(scenario, seed, run);
+    scenarios::Scenario drawn = scenarios::perturbed(scene.scenario, seed, run);
     drawn.end.duration = (skip + stretch.steps() - step) * period;
-    const recordings::Recording recording = scenarios::play(drawn, config.simulator, seed, run);
+    const recordings::Recording recording = scenarios::play(drawn, scene.simulator, seed, run);
     if (recording.info.outcome == recordings::Outcome::diverged) continue;
-    step = write_rows(recording, skip, config, step, stretch);
+    step = write_rows(recording, heard(recording, config, sensors), skip, config, step, stretch);
   }
+}
+
+/// The first environment of every run that `environments` episodes come from.
+std::vector<int> first_environments(const RolloutConfig& config, const RolloutScenes& scenes,
+                                    int environments) {
+  std::vector<int> first;
+  for (int next = 0; next < environments;) {
+    first.push_back(next);
+    next +=
+        episodes_per_run(config, scenes.scenes[(first.size() - 1) % scenes.scenes.size()].scenario);
+  }
+  return first;
+}
+
+RolloutScenes scenes_of(const RolloutConfig& config, const std::vector<std::string>& files) {
+  RolloutScenes found;
+  for (const std::string& simulator : config.simulators) {
+    for (const std::string& file : files) {
+      scenarios::Scenario scenario = scenarios::find_scenario(file);
+      scenario.simulation.steps.control_us = config.control_step_us;
+      if (config.control_step_us % scenario.simulation.steps.physics_us != 0) {
+        throw InputError(
+            fmt::format("{}: control_step_us: expected a multiple of physics_step_us, {}", file,
+                        scenario.simulation.steps.physics_us));
+      }
+      found.scenes.push_back({std::move(scenario), simulator});
+    }
+  }
+  if (!config.sensors.empty()) found.sensors = noise::find_sensor_profile(config.sensors);
+  return found;
 }
 
 }  // namespace
@@ -106,14 +176,12 @@ int episodes_per_run(const RolloutConfig& config, const scenarios::Scenario& sce
   return std::max(1, static_cast<int>((scenario.end.duration - config.skip) / episode + 1e-6));
 }
 
-int runs_for(const RolloutConfig& config, const scenarios::Scenario& scenario, int environments) {
-  const int each = episodes_per_run(config, scenario);
-  return (environments + each - 1) / each;
+int runs_for(const RolloutConfig& config, const RolloutScenes& scenes, int environments) {
+  return static_cast<int>(first_environments(config, scenes, environments).size());
 }
 
-EpisodeBatch roll_out(const RolloutConfig& config, const scenarios::Scenario& scenario,
-                      std::uint64_t seed, std::int64_t first_run, int environments,
-                      const RolloutProgress& progress) {
+EpisodeBatch roll_out(const RolloutConfig& config, const RolloutScenes& scenes, std::uint64_t seed,
+                      std::int64_t first_run, int environments, const RolloutProgress& progress) {
   EpisodeBatch batch;
   batch.steps = config.steps;
   batch.environments = environments;
@@ -123,23 +191,24 @@ EpisodeBatch roll_out(const RolloutConfig& config, const scenarios::Scenario& sc
   batch.contact.resize(rows);
   batch.velocity.resize(rows * 3);
   batch.keep.assign(rows / size(config.sequence), 1.0F);
-  const int each = episodes_per_run(config, scenario);
-  tbb::parallel_for(0, runs_for(config, scenario, environments), [&](int run) {
-    roll_out_run(config, scenario, seed, first_run + run,
-                 {batch, run * each, std::min(each, environments - run * each)});
+  const std::vector<int> first = first_environments(config, scenes, environments);
+  tbb::parallel_for(std::size_t{0}, first.size(), [&](std::size_t run) {
+    const int next = run + 1 < first.size() ? first[run + 1] : environments;
+    roll_out_run(config, scenes.scenes[run % scenes.scenes.size()], scenes.sensors, seed,
+                 first_run + static_cast<std::int64_t>(run),
+                 {batch, first[run], next - first[run]});
     if (!progress()) throw Stopped();
   });
   return batch;
 }
 
-scenarios::Scenario rollout_scenario(const RolloutConfig& config) {
-  scenarios::Scenario scenario = scenarios::find_scenario(config.scenario);
-  scenario.simulation.steps.control_us = config.control_step_us;
-  if (config.control_step_us % scenario.simulation.steps.physics_us != 0) {
-    throw InputError(fmt::format("{}: control_step_us: expected a multiple of physics_step_us, {}",
-                                 config.scenario, scenario.simulation.steps.physics_us));
-  }
-  return scenario;
+RolloutScenes training_scenes(const RolloutConfig& config) {
+  return scenes_of(config, config.scenarios);
+}
+
+RolloutScenes validation_scenes(const RolloutConfig& config) {
+  const bool own = !config.validation_scenarios.empty();
+  return scenes_of(config, own ? config.validation_scenarios : config.scenarios);
 }
 
 }  // namespace touchdown::training

@@ -60,10 +60,9 @@ class TrainingSession {
   TrainingSession(const TrainingConfig& config, const TrainingRequest& request)
       : config_(config),
         request_(request),
-        scenario_(rollout_scenario(config.rollout)),
-        directory_(config.name,
-                   Fingerprint().add(to_yaml(config)).add(scenarios::to_yaml(scenario_)).text(),
-                   request.out),
+        scenes_(training_scenes(config.rollout)),
+        validation_scenes_(validation_scenes(config.rollout)),
+        directory_(config.name, digest(), request.out),
         history_file_(directory_.file("tables", "training.csv")) {
     experiments::require_place_beside(directory_.path(), to_yaml(config), "tables/training.csv");
     directory_.keep({directory_.path(), experiments::Access::alone, request.command});
@@ -74,8 +73,8 @@ class TrainingSession {
 
   TrainingResult run() {
     if (!done()) {
-      validation_ =
-          episodes("validation", first_validation_run, config_.optimiser.validation_episodes);
+      validation_ = episodes("validation", validation_scenes_, first_validation_run,
+                             config_.optimiser.validation_episodes);
       resume();
       while (!done()) iterate();
     }
@@ -88,10 +87,21 @@ class TrainingSession {
            stopped_improving(history_, config_.optimiser.patience);
   }
 
-  EpisodeBatch episodes(const std::string& what, std::int64_t first, int count) {
+  /// Of all that the weights follow from.
+  std::string digest() const {
+    Fingerprint print;
+    print.add(to_yaml(config_)).add(noise::to_yaml(scenes_.sensors));
+    for (const RolloutScenes* played : {&scenes_, &validation_scenes_}) {
+      for (const auto& scene : played->scenes) print.add(scenarios::to_yaml(scene.scenario));
+    }
+    return print.text();
+  }
+
+  EpisodeBatch episodes(const std::string& what, const RolloutScenes& scenes, std::int64_t first,
+                        int count) {
     const auto start = Clock::now();
-    Progress progress(what, "runs", runs_for(config_.rollout, scenario_, count));
-    EpisodeBatch batch = roll_out(config_.rollout, scenario_, config_.seed, first, count, [&] {
+    Progress progress(what, "runs", runs_for(config_.rollout, scenes, count));
+    EpisodeBatch batch = roll_out(config_.rollout, scenes, config_.seed, first, count, [&] {
       progress.advance();
       return !request_.wants_stop();
     });
@@ -102,8 +112,8 @@ class TrainingSession {
 
   EpisodeBatch training_episodes(int iteration) {
     const int count = config_.rollout.environments;
-    const std::int64_t runs = runs_for(config_.rollout, scenario_, count);
-    return episodes("rolling out", (iteration - 1) * runs, count);
+    const std::int64_t runs = runs_for(config_.rollout, scenes_, count);
+    return episodes("rolling out", scenes_, (iteration - 1) * runs, count);
   }
 
   fs::path checkpoint(std::size_t iteration) const {
@@ -215,7 +225,8 @@ class TrainingSession {
 
   const TrainingConfig& config_;
   const TrainingRequest& request_;
-  scenarios::Scenario scenario_;
+  RolloutScenes scenes_;
+  RolloutScenes validation_scenes_;
   experiments::RunDirectory directory_;
   fs::path history_file_;
   TrainingHistory history_;

@@ -83,7 +83,7 @@ FittedModel fit_phase(const EstimatorEntry& entry, const FitRuns& runs) {
 }
 
 std::shared_ptr<const NeuralNetwork> network() {
-  return std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network());
+  return std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network("nmn"));
 }
 
 /// Lanes share what the encoders say, so they know no noise on them.

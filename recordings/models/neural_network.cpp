@@ -25,16 +25,16 @@ NeuralNetwork read_neural_network(const std::filesystem::path& path) {
   return made_of_npz(path, needed, neural_network_of);
 }
 
-NeuralNetwork shipped_neural_network() {
-  constexpr const char* file = "models/nmn.npz";
+NeuralNetwork shipped_neural_network(const std::string& name) {
+  const std::string file = fmt::format("models/{}.npz", name);
   std::filesystem::path path;
   try {
     path = find_resource(file);
   } catch (const InputError&) {
     throw InputError(fmt::format(
-        "nmn: {} is missing; 'touchdown train experiments/nmn.yaml -o {}' makes it in less than "
+        "{0}: {1} is missing; 'touchdown train experiments/{0}.yaml -o {1}' makes it in less than "
         "20 minutes (training needs the packages libtorch-dev and libopenblas0-openmp)",
-        file, file));
+        name, file));
   }
   return read_neural_network(path);
 }

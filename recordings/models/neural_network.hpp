@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "estimator/neural/network.hpp"
 
@@ -15,8 +16,8 @@ void write_neural_network(const NeuralNetwork& network, const std::filesystem::p
 /// arrays missing (all of them), shapes that do not fit, numbers that are not finite.
 NeuralNetwork read_neural_network(const std::filesystem::path& path);
 
-/// The one that comes with the project, `models/nmn.npz`. Errors: as above; a missing file is told
+/// One that comes with the project, `models/<name>.npz`. Errors: as above; a missing file is told
 /// together with the command that makes it.
-NeuralNetwork shipped_neural_network();
+NeuralNetwork shipped_neural_network(const std::string& name);
 
 }  // namespace touchdown::recordings

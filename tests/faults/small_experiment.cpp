@@ -59,7 +59,7 @@ std::string small_film(const ScratchFolder& folder) {
 std::string small_training(const ScratchFolder& folder) {
   folder.write("train.yaml", R"(name: small
 rollout:
-  scenario: )" TOUCHDOWN_SOURCE_DIR R"(/scenarios/lift_drive.yaml
+  scenarios: [)" TOUCHDOWN_SOURCE_DIR R"(/scenarios/lift_drive.yaml]
   environments: 4
   steps: 20
 network: {hidden: 8, first: 8, second: 4}

@@ -17,7 +17,7 @@ TrainingConfig parsed(const std::string& text) {
 TEST(TrainingConfig, TheShippedFileIsThePapers) {
   const TrainingConfig c =
       training_from_yaml(YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/nmn.yaml"));
-  EXPECT_EQ(c.rollout.simulator, "bullet");
+  EXPECT_EQ(c.rollout.simulators, std::vector<std::string>{"bullet"});
   EXPECT_EQ(c.rollout.period(), 0.005);
   EXPECT_EQ(c.rollout.environments * c.rollout.steps * c.optimiser.iterations, 4'000'000);
   EXPECT_EQ(c.optimiser.validation_episodes * c.rollout.steps, 400'000);
@@ -44,8 +44,12 @@ TEST(TrainingConfig, PointsAtWhatIsWrong) {
   };
   complaint("{seed: 1}", "name");
   complaint("{name: x, rolout: {}}", "did you mean 'rollout'");
-  complaint("{name: x, rollout: {simulator: bulet}}", "bullet");
+  complaint("{name: x, rollout: {simulators: [bulet]}}", "bullet");
   complaint("{name: x, rollout: {steps: 25}}", "multiple of `sequence`");
+  complaint("{name: x, rollout: {control_step_us: 2000}}", "multiple of `control_step_us`");
+  complaint("{name: x, rollout: {noise_share: [1, 0]}}", "[least, most]");
+  complaint("{name: x, rollout: {noise_share: [0.5]}}", "[least, most]");
+  complaint("{name: x, rollout: {scenarios: []}}", "at least one scenario");
   complaint("{name: x, optimiser: {epochs: 0}}", "epochs");
   complaint("{name: x, network: {hidden: many}}", "whole number");
 }

@@ -19,7 +19,7 @@ namespace {
 class Train : public testing::Test {
  protected:
   Train() {
-    config_.rollout.scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/lift_drive.yaml";
+    config_.rollout.scenarios = {TOUCHDOWN_SOURCE_DIR "/scenarios/lift_drive.yaml"};
     config_.rollout.environments = 8;
     config_.rollout.steps = 50;
     config_.network = {8, 8, 4};

@@ -148,7 +148,7 @@ class SampleEfficiencyStudy {
     const double episode = training.rollout.period() * training.rollout.steps;
     const int episodes = std::max(1, static_cast<int>(std::lround(seconds / episode)));
     const EpisodeBatch data =
-        roll_out(training.rollout, rollout_scenario(training.rollout), training.seed, 0, episodes,
+        roll_out(training.rollout, training_scenes(training.rollout), training.seed, 0, episodes,
                  [this] { return !request_.wants_stop(); });
     Trainer trainer(
         initial_network(training.network, training.seed, data, training.rollout.period()),
@@ -168,7 +168,7 @@ class SampleEfficiencyStudy {
   /// The last point: all the data that the shipped network has seen.
   void try_shipped_network() {
     const auto network =
-        std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network());
+        std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network("nmn"));
     const auto manifest = nlohmann::json::parse(read_file(find_resource("models/nmn.json")));
     add_network(manifest.at("labelled_data_s").get<double>(), network);
   }
