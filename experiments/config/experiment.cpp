@@ -70,6 +70,17 @@ static void describe(Fields& fields, FitPieces& pieces) {
   fields("places", pieces.places, 1, 1000);
 }
 
+/// A run that is not drawn is the same run however often it is played.
+static void describe(Fields& fields, TuningConfig& tuning, const RunsConfig& fit) {
+  fields.require("trials", tuning.trials, 1, 10'000);
+  fields("folds", tuning.folds, 2, 1000);
+  const std::size_t runs =
+      fit.scenarios.size() * (fit.perturbed ? static_cast<std::size_t>(fit.runs) : 1);
+  fields.finish();
+  fields.check(static_cast<std::size_t>(tuning.folds) <= runs, "folds",
+               fmt::format("expected at most as many as different runs are fitted, {}", runs));
+}
+
 static void describe(Fields& fields, VideoConfig& video, const Experiment& experiment) {
   fields("enabled", video.enabled);
   fields("run", video.run, 0, experiment.test.runs - 1);
@@ -275,6 +286,11 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.within("fit", [&](Fields& fit) {
     describe(fit, experiment.fit);
     fit.list_if_any("pieces", experiment.fit_pieces);
+    fit.know("tuning");
+    if (fit.present("tuning", experiment.tuning.has_value())) {
+      if (fit.reading()) experiment.tuning.emplace();
+      fit.section("tuning", *experiment.tuning, experiment.fit);
+    }
     if (!fit.present("seed", experiment.fit_seed.has_value())) return;
     if (fit.reading()) experiment.fit_seed.emplace();
     fit("seed", *experiment.fit_seed);

@@ -33,6 +33,13 @@ struct FitPieces {
   int places = 1;
 };
 
+/// The section `fit.tuning`: every estimator that has something to choose gets as many trials,
+/// which runs to fit to alone decide (docs/benchmark.md).
+struct TuningConfig {
+  int trials = 8;  ///< the first one an estimator's defaults
+  int folds = 2;   ///< that the fitted runs are cut into: each is judged by fits to the others
+};
+
 /// Which recordings stay in the run directory. What has none is simulated again, to the bit, where
 /// it is needed.
 enum class KeptRecordings : int {
@@ -179,6 +186,7 @@ struct Experiment {
   /// What filters with a phase model are fitted to instead, if anything is named.
   std::vector<FitPieces> fit_pieces;
   std::optional<std::uint64_t> fit_seed;  ///< that these are drawn with, if not `seed`
+  std::optional<TuningConfig> tuning;     ///< of estimators' constants on these runs
   RunsConfig test;      ///< runs that estimators are scored on; none of them is ever fitted to
   std::string robot;    ///< file of the robot in all of them; empty: each scenario's own
   std::string sensors;  ///< file of the sensors' profile; empty: ideal ones
