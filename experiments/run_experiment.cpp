@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -31,6 +32,7 @@
 #include "experiments/signals/reserved_seeds.hpp"
 #include "experiments/tables/manifest.hpp"
 #include "experiments/tables/result_files.hpp"
+#include "experiments/tuning/table.hpp"
 
 namespace touchdown::experiments {
 
@@ -42,9 +44,15 @@ bool is_any_scored(const PlayedRuns& runs) {
   });
 }
 
+/// What was fitted, and the trials before it.
+struct Fitted {
+  FittedModels models;
+  std::vector<Trial> trials;
+};
+
 /// One of the experiment's fits, of every engine, with its refits.
-FittedModels fit(const Experiment& experiment, const PlayedRuns& runs, const std::string& name,
-                 const GoingOn& going_on) {
+Fitted fit(const Experiment& experiment, const PlayedRuns& runs, const std::string& name,
+           const GoingOn& going_on) {
   std::vector<RunSignals> fitted;
   for (const auto& [index, run] : runs) {
     const PlannedRun& plan = run.plan;
@@ -57,23 +65,25 @@ FittedModels fit(const Experiment& experiment, const PlayedRuns& runs, const std
       pieces.push_back(std::move(piece));
     }
   }
-  FittedModels models;
+  Fitted all;
+  if (experiment.tuning) all.trials = tune(experiment, name, fitted, pieces, going_on);
+  const ChosenConstants chosen = chosen_in(all.trials);
   const auto add = [&](int refit, FittedModels&& of_refit) {
     for (auto& [simulator, by_estimator] : of_refit) {
-      models[model_key(simulator, name, refit)] = std::move(by_estimator);
+      all.models[model_key(simulator, name, refit)] = std::move(by_estimator);
     }
   };
-  add(0, fit_models(experiment, fitted, pieces, going_on));
+  add(0, fit_models(experiment, fitted, pieces, going_on, chosen));
   const int refits = experiment.benchmark ? refits_of(*experiment.benchmark, name) : 0;
   for (int refit = 1; refit <= refits; ++refit) {
     add(refit, fit_models(experiment, drawn_anew(fitted, experiment.seed, refit),
-                          drawn_anew(pieces, experiment.seed, refit), going_on));
+                          drawn_anew(pieces, experiment.seed, refit), going_on, chosen));
   }
-  return models;
+  return all;
 }
 
 /// What the estimators need that listen to these runs; nothing when none can be scored.
-FittedModels fit(const RunningExperiment& running, const PlayedRuns& runs) {
+Fitted fit(const RunningExperiment& running, const PlayedRuns& runs) {
   if (!is_any_scored(runs)) return {};
   Experiment experiment = running.request.experiment;
   std::set<std::string> played;
@@ -85,18 +95,20 @@ FittedModels fit(const RunningExperiment& running, const PlayedRuns& runs) {
   // A shard may have runs of one engine only.
   std::erase_if(experiment.simulators,
                 [&](const std::string& simulator) { return !played.contains(simulator); });
-  FittedModels models;
+  Fitted all;
   for (const std::string& name : fits) {
-    models.merge(fit(experiment, runs, name, running.going_on));
+    Fitted one = fit(experiment, runs, name, running.going_on);
+    all.models.merge(one.models);
+    std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
   }
-  if (experiment.phase_study) fit_learning_curve(experiment, runs, running.going_on, models);
+  if (experiment.phase_study) fit_learning_curve(experiment, runs, running.going_on, all.models);
   if (!running.going_on()) throw Stopped();
-  return models;
+  return all;
 }
 
 struct Computed {
   PlayedRuns runs;
-  FittedModels models;
+  Fitted fitted;
   std::size_t tasks = 0;  ///< that were not saved already
 };
 
@@ -121,14 +133,14 @@ Computed compute(RunningExperiment& running, const TaskRange& tasks, MissingRun 
       return play_runs(experiment, running.plan, runs_for(running, tasks, loops), running.directory,
                        missing, running.going_on);
     });
-    done.models = timed(running, "fit", [&] { return fit(running, done.runs); });
+    done.fitted = timed(running, "fit", [&] { return fit(running, done.runs); });
     done.tasks = timed(running, "listen", [&] {
-      return listen(running.plan, tasks, done.runs, experiment.scoring, done.models, running.saved,
-                    running.going_on);
+      return listen(running.plan, tasks, done.runs, experiment.scoring, done.fitted.models,
+                    running.saved, running.going_on);
     });
     if (loops.size() > 0) {
       timed(running, "steer", [&] {
-        close_loops(running.request, loops, done.models, running.saved_loops, missing,
+        close_loops(running.request, loops, done.fitted.models, running.saved_loops, missing,
                     running.going_on);
         return 0;
       });
@@ -145,7 +157,7 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
   const Plan& plan = running.plan;
   ExperimentResult result{
       experiment, running.request.id, running.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-  result.models = std::move(done.models);
+  result.models = std::move(done.fitted.models);
   result.cells = plan.groups.front().counted;
   timed(running, "score", [&] {
     if (!is_any_scored(done.runs)) {
@@ -157,6 +169,10 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
     const std::vector<ConditionScores> scored = own(counts.scored);
     result.scores = summarise(scored, experiment.highlights, bootstrap);
     result.differences = differences(scored, experiment.highlights, bootstrap);
+    if (experiment.tuning) {
+      write_table(done.fitted.trials, running.directory);
+      result.studies.push_back(tuning_text(done.fitted.trials, experiment));
+    }
     const Listened listened{running.request, plan, done.runs, running.saved, counts};
     if (experiment.cross_simulator) {
       const CrossSimulatorResult check = check_across_simulators(listened);

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
-#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/sensors.hpp"
 #include "experiments/run_directory/saved_state.hpp"
@@ -24,7 +24,7 @@ namespace {
 /// The estimator that was fitted in the engine in which it steers.
 std::unique_ptr<ContactEstimator> estimator_of(const LoopCell& cell, const FittedModels& models,
                                                double period) {
-  const EstimatorEntry& entry = estimator_entry(cell.contact);
+  const EstimatorEntry entry = entry_of({cell.simulator, cell.simulator, cell.contact}, models);
   const FittedModel* model =
       entry.fits() ? &models.at(model_key(cell.simulator, {})).at(entry.name) : nullptr;
   return entry.make(entry, {.sample_rate = 1.0 / period, .model = model});

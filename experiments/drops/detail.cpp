@@ -76,7 +76,8 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
   const DropWindow window =
       drop_window(run, config.choice, experiment.scoring.minimum_flight, "detail");
   const double rate = 1e6 / static_cast<double>(run.info.control_period_us);
-  const EstimatorEntry& entry = spectrum_entry(config.estimators);
+  const EstimatorEntry entry = entry_of(
+      {run.info.simulator, run.info.simulator, spectrum_entry(config.estimators).name}, models);
   const TransitionConfig& transition = entry.config->transition;
 
   DropDetail detail;

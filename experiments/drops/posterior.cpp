@@ -3,7 +3,6 @@
 #include "estimator/phase/labels.hpp"
 #include "experiments/estimators/filters.hpp"
 #include "experiments/estimators/phase_fitting.hpp"
-#include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 
@@ -33,9 +32,9 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
   posterior.time =
       time_since_takeoff(window, 1e-6 * static_cast<double>(run.info.control_period_us));
 
-  const EstimatorEntry& entry = estimator_entry("phase");
-  PhaseFilter filter = phase_filter(
-      entry, setup_of({run.info.simulator, run.info.simulator, entry.name}, models, run));
+  const Condition condition{run.info.simulator, run.info.simulator, "phase"};
+  const EstimatorEntry entry = entry_of(condition, models);
+  PhaseFilter filter = phase_filter(entry, setup_of(condition, models, run));
   const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));
   const noise::SensorNoise levels = config.noise.levels();
   const std::vector<Phase> truth = true_phases(run, entry.phase->fit.labels);

@@ -77,8 +77,12 @@ EstimatorEntry free_fall_entry() {
           .title = "Free fall",
           .summary = "a threshold on the vertical acceleration: what falls is in the air",
           .sensors = {.acceleration = true},
-          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
-            return std::make_unique<FreeFall>(FreeFallConfig{.sample_rate = setup.sample_rate});
+          .choices = {between("half_way", FreeFallConfig{}.half_way, -9.0, -1.0),
+                      around("low_pass", FreeFallConfig{}.low_pass, 5.0)},
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+            return std::make_unique<FreeFall>(FreeFallConfig{.sample_rate = setup.sample_rate,
+                                                             .low_pass = entry.chosen("low_pass"),
+                                                             .half_way = entry.chosen("half_way")});
           }};
 }
 
@@ -88,9 +92,16 @@ EstimatorEntry upkie_observer_entry() {
           .title = "Upkie's observer",
           .summary = "what Upkie runs today: the apparent inertia of each wheel",
           .sensors = {.wheel_torque = true, .joint_velocity = true},
-          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
+          .choices = {around("liftoff_inertia", WheelContactConfig{}.liftoff_inertia, 3.0),
+                      around("touchdown_ratio", 4.0, 3.5),
+                      around("cutoff", WheelContactConfig{}.cutoff, 10.0)},
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+            WheelContactConfig wheel;
+            wheel.liftoff_inertia = entry.chosen("liftoff_inertia");
+            wheel.touchdown_inertia = wheel.liftoff_inertia * entry.chosen("touchdown_ratio");
+            wheel.cutoff = entry.chosen("cutoff");
             return std::make_unique<UpkieObserver>(
-                UpkieObserverConfig{.time_step = 1.0 / setup.sample_rate});
+                UpkieObserverConfig{.wheel = wheel, .time_step = 1.0 / setup.sample_rate});
           }};
 }
 

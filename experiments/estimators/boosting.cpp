@@ -9,6 +9,7 @@ namespace touchdown::experiments {
 namespace {
 
 using Made = std::unique_ptr<ContactEstimator>;
+using TreesConfig = BoostedTreesEstimator::Config;
 using recordings::parameter;
 using recordings::Parameters;
 
@@ -49,7 +50,9 @@ BoostedTrees trees_of(const Parameters& parameters) {
 
 FittedModel fit_boosted_trees(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
-    const BoostingConfig config;
+    BoostingConfig config;
+    config.trees = static_cast<std::size_t>(entry.chosen("trees"));
+    config.depth = static_cast<std::size_t>(entry.chosen("depth"));
     return parameters_of(fit_trees(boosting_rows(labelled, config), config, runs.before_density));
   });
 }
@@ -64,10 +67,16 @@ EstimatorEntry gradient_boosting_entry() {
           .is_ceiling = true,
           .fit = fit_boosted_trees,
           .learns_from_pieces = true,
-          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
+          .choices = {fitted_with(whole_between("trees", BoostingConfig{}.trees, 40, 240)),
+                      fitted_with(whole_between("depth", BoostingConfig{}.depth, 3, 8)),
+                      between("leave_below", TreesConfig{}.leave_below, 0.25, 0.8),
+                      between("return_above", TreesConfig{}.return_above, 0.8, 0.97)},
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<BoostedTreesEstimator>(
                 trees_of(setup.model->parameters->parameters),
-                BoostedTreesEstimator::Config{.sample_rate = setup.sample_rate});
+                TreesConfig{.sample_rate = setup.sample_rate,
+                            .leave_below = entry.chosen("leave_below"),
+                            .return_above = entry.chosen("return_above")});
           }};
 }
 

@@ -14,7 +14,8 @@ using Made = std::unique_ptr<ContactEstimator>;
 
 FittedModel fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
-    return parameters_of(fit_decision_model(labelled, {}, {}, runs.before_density));
+    return parameters_of(
+        fit_decision_model(labelled, {}, {.decay = entry.chosen("decay")}, runs.before_density));
   });
 }
 
@@ -34,6 +35,9 @@ EstimatorEntry decision_network_entry() {
                       .joint_velocity = true},
           .fit = fit_network,
           .learns_from_pieces = true,
+          .choices = {fitted_with(around("decay", DecisionFitConfig{}.decay, 10.0)),
+                      between("leave_below", DecisionConfig{}.leave_below, 0.25, 0.8),
+                      between("return_above", DecisionConfig{}.return_above, 0.8, 0.97)},
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<DecisionNetwork>(
                 decision_model_of(setup.model->parameters->parameters),

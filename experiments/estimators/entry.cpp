@@ -1,6 +1,47 @@
 #include "experiments/estimators/entry.hpp"
 
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
 namespace touchdown::experiments {
+
+Choice between(std::string name, double value, double lowest, double highest) {
+  return {std::move(name), value, lowest, highest, Choice::Scale::even};
+}
+
+Choice around(std::string name, double value, double factor) {
+  return {std::move(name), value, value / factor, value * factor, Choice::Scale::by_ratio};
+}
+
+Choice whole_between(std::string name, double value, double lowest, double highest) {
+  return {std::move(name), value, lowest, highest, Choice::Scale::whole};
+}
+
+Choice fitted_with(Choice choice) {
+  choice.is_fitted_with = true;
+  return choice;
+}
+
+double EstimatorEntry::chosen(std::string_view choice) const {
+  const auto found = std::find_if(choices.begin(), choices.end(),
+                                  [&](const Choice& one) { return one.name == choice; });
+  if (found == choices.end()) throw Error(fmt::format("'{}' has no choice '{}'", name, choice));
+  return found->value;
+}
+
+EstimatorEntry with_constants(EstimatorEntry entry, const Constants& constants) {
+  if (constants.empty()) return entry;
+  for (Choice& choice : entry.choices) {
+    const auto chosen = constants.find(choice.name);
+    if (chosen != constants.end()) choice.value = chosen->second;
+  }
+  if (entry.settle != nullptr) entry.settle(entry);
+  return entry;
+}
 
 noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& levels) {
   return {.knee_torque = sensors.knee_torque ? levels.knee_torque : 0.0,

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "estimator/bayes/config.hpp"
@@ -50,6 +51,26 @@ struct EstimatorLanes {
   double threshold = 0.5;
 };
 
+/// A constant of an estimator that tuning may choose.
+struct Choice {
+  enum class Scale : int { even, by_ratio, whole };
+
+  std::string name;    ///< as in the passports of its models, if it is there
+  double value = 0.0;  ///< the default, or what was chosen
+  double lowest = 0.0;
+  double highest = 0.0;
+  Scale scale = Scale::even;    ///< on which trials are drawn evenly between the two
+  bool is_fitted_with = false;  ///< whether a model is another one with another value
+};
+
+/// Choices in one line: from `lowest` to `highest`; up to so many times more or less than the
+/// default; whole numbers.
+Choice between(std::string name, double value, double lowest, double highest);
+Choice around(std::string name, double value, double factor);
+Choice whole_between(std::string name, double value, double lowest, double highest);
+/// One that decides about the model, too.
+Choice fitted_with(Choice choice);
+
 /// All that an experiment has to know about an estimator. Most have only some of it.
 struct EstimatorEntry {
   std::string name;     ///< in experiment files
@@ -71,6 +92,10 @@ struct EstimatorEntry {
   std::string trained_by = {};
   /// It is told the labels of the runs it listens to: nothing for logs without.
   bool needs_truth = false;
+  /// What tuning may choose; empty: nothing.
+  std::vector<Choice> choices = {};
+  /// Puts the choices' values into `config` and `phase`, where they have their place there.
+  void (*settle)(EstimatorEntry& entry) = nullptr;
   std::unique_ptr<ContactEstimator> (*make)(const EstimatorEntry& entry,
                                             const EstimatorSetup& setup) = nullptr;
   /// Null for an estimator without lanes; nothing where its lanes do not know noise of that kind.
@@ -88,7 +113,13 @@ struct EstimatorEntry {
     if (phase) return ModelKind::phase;
     return fit != nullptr ? std::optional(ModelKind::parameters) : std::nullopt;
   }
+  /// The value of one of the choices.
+  double chosen(std::string_view choice) const;
 };
+
+/// The same estimator with constants that were chosen. Names that are none of its choices do not
+/// count.
+EstimatorEntry with_constants(EstimatorEntry entry, const Constants& constants);
 
 /// The estimator, however it listens, made for this.
 Listener listener_of(const EstimatorEntry& entry, const EstimatorSetup& setup);

@@ -35,6 +35,37 @@ std::vector<LaneNoise> lane_noise(Levels levels) {
   return lanes;
 }
 
+/// With the bandwidths' floor, where there is one: without it the paper is to the letter.
+std::vector<Choice> bayes_choices(const BayesFilterConfig& config) {
+  const Sigmoid& switching = config.transition.switch_sigmoid;
+  std::vector<Choice> choices = {between("threshold", config.threshold, 0.2, 0.95),
+                                 around("transition.switch.offset", switching.offset, 4.0),
+                                 around("transition.switch.slope", switching.slope, 4.0)};
+  const double floor = config.measurement.fit.bandwidth_floor.knee;
+  if (floor > 0.0) choices.push_back(fitted_with(around("bandwidth_floor", floor, 4.0)));
+  return choices;
+}
+
+void settle_bayes(EstimatorEntry& entry) {
+  for (const Choice& choice : entry.choices) {
+    Sigmoid& switching = entry.config->transition.switch_sigmoid;
+    if (choice.name == "threshold") entry.config->threshold = choice.value;
+    if (choice.name == "transition.switch.offset") switching.offset = choice.value;
+    if (choice.name == "transition.switch.slope") switching.slope = choice.value;
+    if (choice.name == "bandwidth_floor") {
+      entry.config->measurement.fit.bandwidth_floor = {choice.value, choice.value};
+    }
+  }
+}
+
+void settle_phase(EstimatorEntry& entry) {
+  PhaseFilterConfig& phase = *entry.phase;
+  phase.fit.torque_bandwidth = entry.chosen("torque_bandwidth");
+  phase.fit.acceleration_bandwidth = entry.chosen("acceleration_bandwidth");
+  phase.leave_below = entry.chosen("leave_below");
+  phase.return_above = entry.chosen("return_above");
+}
+
 template <typename Lanes>
 std::shared_ptr<Lanes> measurement_lanes(const EstimatorEntry& entry, const EstimatorSetup& setup,
                                          Levels levels) {
@@ -86,15 +117,19 @@ std::shared_ptr<const NeuralNetwork> network() {
   return std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network("nmn"));
 }
 
+NeuralEstimatorConfig neural_config(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return {.sample_rate = setup.sample_rate, .threshold = entry.chosen("threshold")};
+}
+
 /// Lanes share what the encoders say, so they know no noise on them.
-std::optional<EstimatorLanes> neural_lanes(const EstimatorEntry& /*entry*/,
-                                           const EstimatorSetup& setup, Levels levels) {
+std::optional<EstimatorLanes> neural_lanes(const EstimatorEntry& entry, const EstimatorSetup& setup,
+                                           Levels levels) {
   std::vector<double> sigmas;
   for (const noise::SensorNoise& level : levels) {
     if (level.joint_position != 0.0 || level.joint_velocity != 0.0) return std::nullopt;
     sigmas.push_back(level.acceleration);
   }
-  const NeuralEstimatorConfig config{.sample_rate = setup.sample_rate};
+  const NeuralEstimatorConfig config = neural_config(entry, setup);
   const auto all = std::make_shared<NeuralLanes>(network(), config, sigmas);
   return EstimatorLanes{[all](const Signals& clean, const NoiseStep& draws) {
                           const auto& [x, y, z] = draws.linear_acceleration;
@@ -113,6 +148,8 @@ EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
           .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
           .config = config,
           .fit = fit_measurement,
+          .choices = bayes_choices(config),
+          .settle = settle_bayes,
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<BayesFilter>(*setup.model->measurement,
                                                  at_rate(*entry.config, setup.sample_rate));
@@ -139,6 +176,9 @@ EstimatorEntry measurement_only_entry() {
           .sensors = {.knee_torque = true, .wheel_torque = true},
           .config = BayesFilterConfig::robust(),
           .fit = fit_measurement,
+          .choices = {between("threshold", BayesFilterConfig::robust().threshold, 0.2, 0.95),
+                      fitted_with(around("bandwidth_floor", 0.1, 4.0))},
+          .settle = settle_bayes,
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<MeasurementOnly>(*setup.model->measurement,
                                                      at_rate(*entry.config, setup.sample_rate));
@@ -147,13 +187,20 @@ EstimatorEntry measurement_only_entry() {
 }
 
 EstimatorEntry phase_entry() {
+  const PhaseFilterConfig config;
   return {.name = "phase",
           .title = "Phase filter",
           .summary = "a hidden Markov model over the phases between rolling and falling",
           .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
-          .phase = PhaseFilterConfig{},
+          .phase = config,
           .fit = fit_phase,
           .learns_from_pieces = true,
+          .choices = {fitted_with(around("torque_bandwidth", config.fit.torque_bandwidth, 4.0)),
+                      fitted_with(
+                          around("acceleration_bandwidth", config.fit.acceleration_bandwidth, 4.0)),
+                      between("leave_below", config.leave_below, 0.05, 0.5),
+                      between("return_above", config.return_above, 0.5, 0.95)},
+          .settle = settle_phase,
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<PhaseFilter>(phase_filter(entry, setup));
           },
@@ -190,9 +237,9 @@ EstimatorEntry neural_entry() {
           .summary = "the paper's neural measurement network: IMU, joints and command, no torques",
           .sensors = {.acceleration = true, .joint_position = true, .joint_velocity = true},
           .trained_by = "touchdown train",
-          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
-            return std::make_unique<NeuralEstimator>(
-                network(), NeuralEstimatorConfig{.sample_rate = setup.sample_rate});
+          .choices = {between("threshold", NeuralEstimatorConfig{}.threshold, 0.2, 0.95)},
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+            return std::make_unique<NeuralEstimator>(network(), neural_config(entry, setup));
           },
           .lanes = neural_lanes};
 }

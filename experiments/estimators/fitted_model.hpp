@@ -14,6 +14,9 @@
 
 namespace touchdown::experiments {
 
+/// Constants of an estimator that tuning chose, by name.
+using Constants = std::map<std::string, double>;
+
 /// What an estimator was fitted with: one of the three, and what it says about itself; files that
 /// are older than passports, or come from elsewhere, say nothing.
 struct FittedModel {
@@ -21,6 +24,9 @@ struct FittedModel {
   std::shared_ptr<const recordings::PhaseModelFile> phase = {};
   std::shared_ptr<const recordings::ParameterModelFile> parameters = {};
   std::optional<ModelPassport> passport = {};
+  /// That the estimator was fitted, and is run, with; empty: its defaults. All that there is for
+  /// one that is tuned and not fitted. No part of a file.
+  Constants constants = {};
 };
 
 /// The passport of a model that is fitted now.

@@ -16,8 +16,8 @@ constexpr Sensors of_a_load = {
     .hip_torque = true, .knee_torque = true, .acceleration = true, .joint_position = true};
 
 FittedModel fit_logistic_curve(const EstimatorEntry& entry, const FitRuns& runs) {
-  return fit_parameters(entry, runs, [](std::span<const LabelledRun> labelled) {
-    return parameters_of(fit_load_logistic(labelled));
+  return fit_parameters(entry, runs, [&](std::span<const LabelledRun> labelled) {
+    return parameters_of(fit_load_logistic(labelled, {.low_pass = entry.chosen("low_pass")}));
   });
 }
 
@@ -28,8 +28,9 @@ Made make_load_logistic(const EstimatorEntry& entry, const EstimatorSetup& setup
 }
 
 FittedModel fit_wheel_states(const EstimatorEntry& entry, const FitRuns& runs) {
-  return fit_parameters(entry, runs, [](std::span<const LabelledRun> labelled) {
-    return parameters_of(fit_force_kinematics(labelled));
+  return fit_parameters(entry, runs, [&](std::span<const LabelledRun> labelled) {
+    return parameters_of(fit_force_kinematics(
+        labelled, {.low_pass = entry.chosen("low_pass"), .leak = entry.chosen("leak")}));
   });
 }
 
@@ -42,14 +43,21 @@ Made make_force_kinematics(const EstimatorEntry& entry, const EstimatorSetup& se
 }  // namespace
 
 EstimatorEntry support_force_entry() {
-  return {
-      .name = "support_force",
-      .title = "Support force",
-      .summary = "a threshold on each wheel's load, from its leg's torques and geometry",
-      .sensors = of_a_load,
-      .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
-        return std::make_unique<SupportForce>(SupportForceConfig{.sample_rate = setup.sample_rate});
-      }};
+  return {.name = "support_force",
+          .title = "Support force",
+          .summary = "a threshold on each wheel's load, from its leg's torques and geometry",
+          .sensors = of_a_load,
+          .choices = {around("contact", SupportForceConfig{}.contact, 4.0),
+                      between("release_share", 0.5, 0.2, 0.95),
+                      around("low_pass", SupportForceConfig{}.low_pass, 5.0)},
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+            const double contact = entry.chosen("contact");
+            return std::make_unique<SupportForce>(
+                SupportForceConfig{.sample_rate = setup.sample_rate,
+                                   .low_pass = entry.chosen("low_pass"),
+                                   .contact = contact,
+                                   .release = contact * entry.chosen("release_share")});
+          }};
 }
 
 EstimatorEntry load_logistic_entry() {
@@ -58,6 +66,8 @@ EstimatorEntry load_logistic_entry() {
           .summary = "each wheel's load through a logistic curve (Camurri et al. 2017, on wheels)",
           .sensors = of_a_load,
           .fit = fit_logistic_curve,
+          .choices = {between("threshold", LoadLogisticConfig{}.threshold, 0.1, 0.95),
+                      fitted_with(around("low_pass", LoadLogisticConfig{}.low_pass, 5.0))},
           .make = make_load_logistic};
 }
 
@@ -72,6 +82,9 @@ EstimatorEntry force_kinematics_entry() {
           "on wheels)",
       .sensors = sensors,
       .fit = fit_wheel_states,
+      .choices = {between("threshold", ForceKinematicsConfig{}.threshold, 0.1, 0.95),
+                  fitted_with(around("low_pass", ForceKinematicsConfig{}.low_pass, 5.0)),
+                  fitted_with(around("leak", ForceKinematicsConfig{}.leak, 4.0))},
       .make = make_force_kinematics};
 }
 

@@ -7,6 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
+#include "estimator/models/make_estimator.hpp"
+#include "estimator/numerics/number_text.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
@@ -17,29 +19,41 @@ namespace {
 /// One model to fit, and the estimators that share it.
 struct Job {
   std::string simulator;
-  const EstimatorEntry* entry;
+  EstimatorEntry entry;
   std::vector<std::string> estimators;
   FittedModel model;
 };
 
-std::vector<Job> jobs_of(const Experiment& experiment) {
+const Constants& constants_of(const ChosenConstants& chosen, const std::string& simulator,
+                              const std::string& estimator) {
+  static const Constants defaults;
+  const auto engine = chosen.find(simulator);
+  if (engine == chosen.end()) return defaults;
+  const auto found = engine->second.find(estimator);
+  return found == engine->second.end() ? defaults : found->second;
+}
+
+std::vector<Job> jobs_of(const Experiment& experiment, const ChosenConstants& chosen) {
   std::vector<Job> jobs;
   for (const std::string& simulator : experiment.simulators) {
     for (const std::string& name : experiment.estimators) {
-      const EstimatorEntry& entry = estimator_entry(name);
+      EstimatorEntry entry =
+          with_constants(estimator_entry(name), constants_of(chosen, simulator, name));
       if (!entry.fits()) continue;
       const auto same = std::find_if(jobs.begin(), jobs.end(), [&](const Job& job) {
-        return job.simulator == simulator && share_model(*job.entry, entry);
+        return job.simulator == simulator && share_model(job.entry, entry);
       });
       if (same != jobs.end()) {
         same->estimators.push_back(name);
       } else {
-        jobs.push_back({simulator, &entry, {name}, {}});
+        jobs.push_back({simulator, std::move(entry), {name}, {}});
       }
     }
   }
   return jobs;
 }
+
+}  // namespace
 
 std::vector<const RunSignals*> of_engine(const std::vector<RunSignals>& runs,
                                          const std::string& simulator) {
@@ -50,48 +64,60 @@ std::vector<const RunSignals*> of_engine(const std::vector<RunSignals>& runs,
   return own;
 }
 
-FittedModel fitted(const EstimatorEntry& entry, const FitRuns& runs) {
+FittedModel fit_model(const EstimatorEntry& entry, const FitRuns& runs) {
   for (const auto* group : {&runs.whole, &runs.pieces}) {
     for (const RunSignals* run : *group) check_may_be_fitted(run->info);
   }
   return entry.fit(entry, runs);
 }
 
-}  // namespace
+ModelPassport new_passport(const std::string& estimator, const FitRuns& runs,
+                           const Constants& constants) {
+  FittedTo fitted_to;
+  for (const auto* group : {&runs.whole, &runs.pieces}) {
+    for (const RunSignals* run : *group) fitted_to.add(run->info);
+  }
+  ModelPassport passport = new_passport(estimator, fitted_to);
+  for (const auto& [name, value] : constants) {
+    const bool is_known = passport.configuration.contains(name) || !makes_estimator(estimator);
+    if (is_known) passport.configuration[name] = text_of(value);
+  }
+  return passport;
+}
 
 FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& pieces,
-                        const std::function<bool()>& going_on) {
-  std::vector<Job> jobs = jobs_of(experiment);
+                        const std::function<bool()>& going_on, const ChosenConstants& chosen) {
+  std::vector<Job> jobs = jobs_of(experiment, chosen);
   const auto or_stop = [&] {
     if (going_on && !going_on()) throw Stopped();
+  };
+  const auto runs_of = [&](const std::string& simulator) {
+    return FitRuns{of_engine(fit_runs, simulator), of_engine(pieces, simulator), experiment.scoring,
+                   or_stop};
   };
   Progress progress("fitting", "models", static_cast<std::int64_t>(jobs.size()));
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
     or_stop();
     const std::string& simulator = jobs[i].simulator;
     try {
-      jobs[i].model =
-          fitted(*jobs[i].entry, {of_engine(fit_runs, simulator), of_engine(pieces, simulator),
-                                  experiment.scoring, or_stop});
+      jobs[i].model = fit_model(jobs[i].entry, runs_of(simulator));
     } catch (const InputError& error) {
       throw InputError(fmt::format("fit on {}: {}", simulator, error.what()));
     }
     progress.advance();
   });
-  const auto fitted_to_of = [&](const std::string& simulator) {
-    FittedTo fitted_to;
-    for (const auto* runs : {&fit_runs, &pieces}) {
-      for (const RunSignals* run : of_engine(*runs, simulator)) fitted_to.add(run->info);
-    }
-    return fitted_to;
-  };
   FittedModels models;
+  for (const auto& [simulator, by_estimator] : chosen) {
+    for (const auto& [name, constants] : by_estimator)
+      models[simulator][name].constants = constants;
+  }
   for (Job& job : jobs) {
-    const FittedTo fitted_to = fitted_to_of(job.simulator);
+    const FitRuns runs = runs_of(job.simulator);
     for (const std::string& name : job.estimators) {
-      job.model.passport = new_passport(name, fitted_to);
-      models[job.simulator].emplace(name, job.model);
+      job.model.constants = constants_of(chosen, job.simulator, name);
+      job.model.passport = new_passport(name, runs, job.model.constants);
+      models[job.simulator].insert_or_assign(name, job.model);
     }
   }
   return models;

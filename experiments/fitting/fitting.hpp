@@ -1,19 +1,39 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
-#include "experiments/estimators/fitted_model.hpp"
+#include "experiments/estimators/entry.hpp"
 #include "experiments/signals/run_signals.hpp"
 
 namespace touchdown::experiments {
 
+/// Constants that were chosen for estimators, by engine, then estimator.
+using ChosenConstants = std::map<std::string, std::map<std::string, Constants>>;
+
+/// The runs of one engine.
+std::vector<const RunSignals*> of_engine(const std::vector<RunSignals>& runs,
+                                         const std::string& simulator);
+
+/// One model, still without a passport. Errors: `InputError` for runs of reserved seeds, and what
+/// the fit throws.
+FittedModel fit_model(const EstimatorEntry& entry, const FitRuns& runs);
+
+/// The passport of an estimator's model that is fitted to these runs. Chosen constants that the
+/// library knows are part of how it runs the estimator; of one that it does not make, all are.
+ModelPassport new_passport(const std::string& estimator, const FitRuns& runs,
+                           const Constants& constants);
+
 /// Fits what the experiment's estimators need, for each engine on its own runs, in parallel: phase
-/// models to the pieces of an engine that has any. `going_on` is asked before each density; false
+/// models to the pieces of an engine that has any. Estimators that something was chosen for have it
+/// in their models, also those that are not fitted. `going_on` is asked before each density; false
 /// ends it with `Stopped`.
 FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& pieces = {},
-                        const std::function<bool()>& going_on = {});
+                        const std::function<bool()>& going_on = {},
+                        const ChosenConstants& chosen = {});
 
 }  // namespace touchdown::experiments

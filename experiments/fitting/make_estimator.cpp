@@ -7,6 +7,15 @@
 
 namespace touchdown::experiments {
 
+EstimatorEntry entry_of(const Condition& condition, const FittedModels& models) {
+  const EstimatorEntry& entry = estimator_entry(condition.estimator);
+  if (entry.choices.empty()) return entry;
+  const auto fit = models.find(model_key(condition.fit_simulator, condition.fit, condition.refit));
+  if (fit == models.end()) return entry;
+  const auto model = fit->second.find(condition.estimator);
+  return model == fit->second.end() ? entry : with_constants(entry, model->second.constants);
+}
+
 EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,
                         const RunSignals& run) {
   const FittedModel* model =
@@ -20,7 +29,7 @@ EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,
 std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
                                                  const FittedModels& models,
                                                  const RunSignals& run) {
-  const EstimatorEntry& entry = estimator_entry(condition.estimator);
+  const EstimatorEntry entry = entry_of(condition, models);
   if (entry.make == nullptr) {
     throw InputError(fmt::format("'{}' hears whole runs, and this goes step by step", entry.name));
   }
@@ -29,7 +38,7 @@ std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
 
 Listener listener_of(const Condition& condition, const FittedModels& models,
                      const RunSignals& run) {
-  return listener_of(estimator_entry(condition.estimator), setup_of(condition, models, run));
+  return listener_of(entry_of(condition, models), setup_of(condition, models, run));
 }
 
 }  // namespace touchdown::experiments

@@ -8,6 +8,9 @@
 
 namespace touchdown::experiments {
 
+/// The condition's estimator, with the constants that it was fitted with.
+EstimatorEntry entry_of(const Condition& condition, const FittedModels& models);
+
 /// What the condition's estimator is made for when it listens to this run; `models` and `run` must
 /// outlive it.
 EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "experiments/estimators/registry.hpp"
 #include "experiments/listening/sweep_lanes.hpp"
 
 namespace touchdown::experiments {
@@ -82,7 +81,7 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
   std::vector<scoring::Classification> counts;
   counts.reserve(conditions.size() * cells.size() * pieces);
   for (const Condition& condition : conditions) {
-    const EstimatorEntry& entry = estimator_entry(condition.estimator);
+    const EstimatorEntry entry = entry_of(condition, models);
     const EstimatorSetup setup = setup_of(condition, models, run);
     const DifferentLevels levels(entry.sensors, all_levels);
     std::optional<EstimatorLanes> lanes;

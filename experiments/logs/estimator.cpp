@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "estimator/models/configuration.hpp"
+#include "estimator/numerics/number_text.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -77,6 +78,11 @@ EstimatorEntry configured(EstimatorEntry entry, const FittedModel& model,
       configure(*entry.config, model.passport->configuration);
     }
     if (entry.phase) configure(*entry.phase, model.passport->configuration);
+    for (Choice& choice : entry.choices) {
+      const auto said = model.passport->configuration.find(choice.name);
+      if (said == model.passport->configuration.end()) continue;
+      choice.value = number_of(said->second).value_or(choice.value);
+    }
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }

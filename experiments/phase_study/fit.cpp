@@ -36,6 +36,11 @@ void fit_learning_curve(const Experiment& experiment, const PlayedRuns& runs,
   constexpr double most_seconds = 60.0;
   Experiment phase_alone = experiment;
   phase_alone.estimators = {"phase"};
+  ChosenConstants chosen;  // with all pieces
+  for (const std::string& simulator : experiment.simulators) {
+    const auto phase = models[simulator].find("phase");
+    if (phase != models[simulator].end()) chosen[simulator]["phase"] = phase->second.constants;
+  }
   for (const int number : learning_curve) {
     std::vector<RunSignals> all;
     for (const std::string& simulator : experiment.simulators) {
@@ -47,7 +52,7 @@ void fit_learning_curve(const Experiment& experiment, const PlayedRuns& runs,
       std::vector<RunSignals> pieces = pieces_with(experiment, runs, simulator, number);
       std::move(pieces.begin(), pieces.end(), std::back_inserter(all));
     }
-    for (auto& [simulator, by_estimator] : fit_models(phase_alone, {}, all, going_on)) {
+    for (auto& [simulator, by_estimator] : fit_models(phase_alone, {}, all, going_on, chosen)) {
       models[simulator + pieces_fit(number)] = std::move(by_estimator);
     }
   }

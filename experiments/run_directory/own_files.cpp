@@ -40,7 +40,7 @@ constexpr std::array fixed_names = {
         "latency|moments|odometry|overlap|reliability|runs|sample_efficiency|sensitivity|sensor_"
         "sweep|"
         "success|survival|torque_densities|torque_distributions|torques|training|transfer|"
-        "transitions|"
+        "transitions|tuning|"
         "verdicts|views)\\.csv|"
         "(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
     FixedNames{"videos", R"(report\.(mp4|jpg)|worst_.+\.mp4|closed_loop_.+\.(mp4|jpg))"},

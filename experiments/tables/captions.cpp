@@ -36,10 +36,19 @@ std::string intervals_text(const Experiment& experiment) {
                      100.0 * experiment.intervals.bootstrap.level, sample_text(experiment));
 }
 
+std::string tuning_text(const Experiment& experiment) {
+  if (!experiment.tuning) return {};
+  return fmt::format(
+      " Each estimator that has constants to choose had {}, its defaults first, judged on {} folds "
+      "of the fitted runs alone (tables/tuning.csv).",
+      plural(static_cast<std::size_t>(experiment.tuning->trials), "trial"),
+      experiment.tuning->folds);
+}
+
 std::string conditions_text(const Experiment& experiment) {
-  return fmt::format("Both wheels; {}{}; first {} ms not scored; {}.", labels_text(experiment),
+  return fmt::format("Both wheels; {}{}; first {} ms not scored; {}.{}", labels_text(experiment),
                      equipment_text(experiment), 1e3 * experiment.scoring.skip,
-                     intervals_text(experiment));
+                     intervals_text(experiment), tuning_text(experiment));
 }
 
 std::string noise_text(const noise::NoiseCell& cell) {

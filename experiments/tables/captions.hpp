@@ -20,7 +20,10 @@ std::string labels_text(const Experiment& experiment);
 std::string sample_text(const Experiment& experiment);
 /// "95 % bootstrap intervals over runs".
 std::string intervals_text(const Experiment& experiment);
-/// What all scores of both wheels have in common: labels, what is not scored, intervals.
+/// How estimators' constants were chosen, a sentence with a space before it; nothing where nobody
+/// chose.
+std::string tuning_text(const Experiment& experiment);
+/// What all scores of both wheels have in common: labels, what is not scored, intervals, tuning.
 std::string conditions_text(const Experiment& experiment);
 /// "torque noise 1 N·m, accelerometer noise 5 m/s²".
 std::string noise_text(const noise::NoiseCell& cell);

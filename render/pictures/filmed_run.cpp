@@ -13,6 +13,7 @@
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/sensors.hpp"
+#include "experiments/tuning/table.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/compiled_scenes.hpp"
 #include "scenarios/scenario.hpp"
@@ -105,6 +106,7 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
   const experiments::VideoConfig& video = experiment.video;
   const noise::SensorNoise levels =
       noise::as_on_grid({video.torque_noise, video.accelerometer_noise}, experiment.noise).levels();
+  experiments::ChosenConstants chosen = experiments::read_chosen(subject.directory);
   std::vector<FilmedRun> all;
   for (const experiments::RunSummary& run : subject.summary.runs) {
     if (run.role != experiments::RunRole::test || run.run != video.run) continue;
@@ -112,7 +114,9 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
     if (!fs::exists(log)) continue;
     experiments::FittedModels models;
     for (const std::string& estimator : video.estimators) {
-      models[run.simulator][estimator] = model_of(subject.directory, run.simulator, estimator);
+      experiments::FittedModel& model = models[run.simulator][estimator];
+      model = model_of(subject.directory, run.simulator, estimator);
+      model.constants = chosen[run.simulator][estimator];
     }
     all.push_back(filmed(recordings::read_recording(log), experiment, profile,
                          {video.estimators, models, levels}));

@@ -1,0 +1,83 @@
+#include "experiments/tuning/table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "estimator/numerics/number_text.hpp"
+#include "experiments/estimators/registry.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// "contact=12 low_pass=0.01".
+std::string text_of(const Constants& constants) {
+  std::vector<std::string> all;
+  for (const auto& [name, value] : constants) {
+    all.push_back(fmt::format("{}={}", name, exact(value)));
+  }
+  return fmt::format("{}", fmt::join(all, " "));
+}
+
+Constants constants_of(std::string_view text) {
+  Constants constants;
+  while (!text.empty()) {
+    const std::string_view one = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(text.size(), one.size() + 1));
+    const std::size_t equals = one.find('=');
+    if (equals == one.npos) continue;
+    const std::optional<double> value = number_of(std::string(one.substr(equals + 1)));
+    if (value) constants[std::string(one.substr(0, equals))] = *value;
+  }
+  return constants;
+}
+
+/// Fits are called "_robot_sensors"; a column needs no line at its beginning.
+std::string fit_text(const std::string& fit) { return fit.starts_with('_') ? fit.substr(1) : fit; }
+
+}  // namespace
+
+void write_table(const std::vector<Trial>& trials, const RunDirectory& directory) {
+  Table table{
+      {"simulator", "fit", "estimator", "trial", "constants", "balanced_accuracy", "chosen"}, {}};
+  for (const Trial& trial : trials) {
+    table.rows.push_back({trial.simulator, fit_text(trial.fit), trial.estimator,
+                          std::to_string(trial.number), text_of(trial.constants),
+                          metric(trial.score), trial.is_chosen ? "1" : "0"});
+  }
+  directory.write_table("tuning.csv", table);
+}
+
+ChosenConstants read_chosen(const std::filesystem::path& run_directory) {
+  const std::filesystem::path file = run_directory / "tables" / "tuning.csv";
+  if (!std::filesystem::exists(file)) return {};
+  const Table table = from_csv(read_file(file));
+  ChosenConstants chosen;
+  for (const std::vector<std::string>& row : table.rows) {
+    if (cell(table, row, "chosen") != "1" || !cell(table, row, "fit").empty()) continue;
+    chosen[cell(table, row, "simulator")][cell(table, row, "estimator")] =
+        constants_of(cell(table, row, "constants"));
+  }
+  return chosen;
+}
+
+std::string tuning_text(const std::vector<Trial>& trials, const Experiment& experiment) {
+  Table table{{"", "on", "defaults", "chosen", "with"}, {}};
+  const Trial* defaults = nullptr;
+  for (const Trial& trial : trials) {
+    if (trial.number == 0) defaults = &trial;
+    if (!trial.is_chosen) continue;
+    table.rows.push_back({estimator_entry(trial.estimator).title, trial.simulator + trial.fit,
+                          fmt::format("{:.3f}", defaults->score),
+                          fmt::format("{:.3f}", trial.score),
+                          trial.number == 0 ? "its defaults" : text_of(trial.constants)});
+  }
+  return fmt::format(
+      "Tuning: balanced accuracy, mean over scenes, of fitted runs in {} folds, each heard by fits "
+      "to the others; the best of {} trials\n{}",
+      experiment.tuning->folds, experiment.tuning->trials, to_text(table, 2));
+}
+
+}  // namespace touchdown::experiments

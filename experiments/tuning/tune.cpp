@@ -1,0 +1,159 @@
+#include "experiments/tuning/tune.hpp"
+
+#include <map>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/error.hpp"
+#include "core/progress.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/plan/plan.hpp"
+#include "experiments/signals/listener.hpp"
+#include "experiments/tuning/folds.hpp"
+#include "experiments/tuning/trials.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+using SceneCounts = std::map<std::string, scoring::Classification>;
+
+/// All trials of one estimator in one fold: they share what they can of its fits.
+struct Sitting {
+  std::string simulator;
+  const EstimatorEntry* entry;
+  std::size_t fold;             ///< index in the engine's
+  std::size_t first;            ///< index of the first trial
+  std::vector<SceneCounts> of;  ///< by trial
+};
+
+void count(Listener& listener, const RunSignals& run, const scoring::ScoringConfig& scoring,
+           scoring::Classification& sum) {
+  const std::size_t skip = scoring::first_scored_step(run.info.control_period_us, scoring);
+  listener.listen_to(
+      run, [&](std::size_t k) { return run.signals[k]; },
+      [&](std::size_t k, const Belief& belief) {
+        for (std::size_t w = 0; w < models::wheel_count && k >= skip; ++w) {
+          sum.add(run.contact[w][k] != 0, belief.wheel[w].contact);
+        }
+      });
+}
+
+/// Those that decide about the model.
+Constants fit_constants(const EstimatorEntry& entry, const Constants& constants) {
+  Constants those;
+  for (const Choice& choice : entry.choices) {
+    if (choice.is_fitted_with) those[choice.name] = constants.at(choice.name);
+  }
+  return those;
+}
+
+void sit(Sitting& sitting, const Fold& fold, std::span<const Trial> trials,
+         const scoring::ScoringConfig& scoring, const std::function<void()>& or_stop) {
+  const FitRuns runs{fold.fitted, fold.pieces, scoring, or_stop};
+  std::map<Constants, FittedModel> models;
+  for (const Trial& trial : trials) {
+    const EstimatorEntry entry = with_constants(*sitting.entry, trial.constants);
+    FittedModel model;
+    if (entry.fits()) {
+      const Constants key = fit_constants(entry, trial.constants);
+      if (!models.contains(key)) models[key] = fit_model(entry, runs);
+      model = models[key];
+      model.passport = new_passport(entry.name, runs, trial.constants);
+    }
+    SceneCounts& counts = sitting.of.emplace_back();
+    for (const RunSignals* run : fold.judged) {
+      or_stop();
+      Listener listener = listener_of(entry, {1.0 / period_of(*run), &model, &run->contact});
+      count(listener, *run, scoring, counts[run->info.scenario]);
+    }
+  }
+}
+
+/// Zero where nothing was scored.
+double mean_over_scenes(const SceneCounts& counts) {
+  double sum = 0.0;
+  double scenes = 0.0;
+  for (const auto& [scene, points] : counts) {
+    if (points.points() == 0) continue;
+    sum += points.balanced_accuracy();
+    scenes += 1.0;
+  }
+  return scenes > 0.0 ? sum / scenes : 0.0;
+}
+
+}  // namespace
+
+std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
+                        const std::vector<RunSignals>& fit_runs,
+                        const std::vector<RunSignals>& pieces,
+                        const std::function<bool()>& going_on) {
+  const auto or_stop = [&] {
+    if (going_on && !going_on()) throw Stopped();
+  };
+  std::map<std::string, std::vector<Fold>> folds;
+  std::vector<Trial> trials;
+  std::vector<Sitting> sittings;
+  for (const std::string& simulator : experiment.simulators) {
+    folds[simulator] =
+        folds_of(of_engine(fit_runs, simulator), of_engine(pieces, simulator),
+                 static_cast<std::size_t>(experiment.tuning->folds), experiment.fit.perturbed);
+    for (const std::string& name : experiment.estimators) {
+      const EstimatorEntry& entry = estimator_entry(name);
+      const std::vector<Constants> tried =
+          trial_constants(entry, seed_of_fit(experiment), experiment.tuning->trials);
+      for (std::size_t fold = 0; fold < folds[simulator].size() && !tried.empty(); ++fold) {
+        // A run that fell is not there: nothing is judged by a fold that lacks all of its runs.
+        if (folds[simulator][fold].judged.empty()) continue;
+        sittings.push_back({simulator, &entry, fold, trials.size(), {}});
+      }
+      for (const Constants& constants : tried) {
+        const auto number = static_cast<int>(&constants - tried.data());
+        trials.push_back({simulator, fit, name, number, constants, 0.0, false});
+      }
+    }
+  }
+  const auto number = static_cast<std::size_t>(experiment.tuning->trials);
+  Progress progress("tuning", "folds", static_cast<std::int64_t>(sittings.size()));
+  tbb::parallel_for(std::size_t{0}, sittings.size(), [&](std::size_t i) {
+    or_stop();
+    Sitting& sitting = sittings[i];
+    try {
+      sit(sitting, folds.at(sitting.simulator)[sitting.fold],
+          std::span(trials).subspan(sitting.first, number), experiment.scoring, or_stop);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("fit.tuning: {} on {}, without fold {} of {}: {}",
+                                   sitting.entry->name, sitting.simulator, sitting.fold + 1,
+                                   experiment.tuning->folds, error.what()));
+    }
+    progress.advance();
+  });
+  std::vector<SceneCounts> counts(trials.size());
+  for (const Sitting& sitting : sittings) {
+    for (std::size_t trial = 0; trial < number; ++trial) {
+      for (const auto& [scene, points] : sitting.of[trial]) {
+        counts[sitting.first + trial][scene] += points;
+      }
+    }
+  }
+  for (std::size_t first = 0; first < trials.size(); first += number) {
+    std::size_t best = first;
+    for (std::size_t trial = first; trial < first + number; ++trial) {
+      trials[trial].score = mean_over_scenes(counts[trial]);
+      if (trials[trial].score > trials[best].score) best = trial;
+    }
+    trials[best].is_chosen = true;
+  }
+  return trials;
+}
+
+ChosenConstants chosen_in(const std::vector<Trial>& trials) {
+  ChosenConstants chosen;
+  for (const Trial& trial : trials) {
+    if (trial.is_chosen) chosen[trial.simulator][trial.estimator] = trial.constants;
+  }
+  return chosen;
+}
+
+}  // namespace touchdown::experiments
