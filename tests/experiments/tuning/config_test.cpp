@@ -14,7 +14,8 @@ using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
 /// `fit` on the third line, the section on the fifth.
-Experiment read(const std::string& tuning, const std::string& runs = "runs: 4, perturbed: true") {
+Experiment tuning_of(const std::string& tuning,
+                     const std::string& runs = "runs: 4, perturbed: true") {
   return experiment_from_yaml(
       YamlDocument::parse("name: study\n"
                           "test: {scenarios: [scenarios/stairs.yaml]}\n"
@@ -28,13 +29,13 @@ auto complains(const std::string& place, const std::string& what) {
 }
 
 TEST(TuningConfig, NothingIsTunedUnlessTheFileAsks) {
-  const Experiment experiment = read("seed: 3");
+  const Experiment experiment = tuning_of("seed: 3");
   EXPECT_FALSE(experiment.tuning.has_value());
   EXPECT_THAT(to_yaml(experiment), Not(HasSubstr("tuning")));
 }
 
 TEST(TuningConfig, WhatIsWrittenReadsBackToTheSame) {
-  const Experiment experiment = read("tuning: {trials: 7, folds: 3}");
+  const Experiment experiment = tuning_of("tuning: {trials: 7, folds: 3}");
   ASSERT_TRUE(experiment.tuning.has_value());
   EXPECT_EQ(experiment.tuning->trials, 7);
   EXPECT_EQ(experiment.tuning->folds, 3);
@@ -44,25 +45,26 @@ TEST(TuningConfig, WhatIsWrittenReadsBackToTheSame) {
 }
 
 TEST(TuningConfig, ComplainsWhereItStandsAndSuggestsTheNearestKey) {
-  EXPECT_THAT([] { read("tunning: {trials: 7}"); },
+  EXPECT_THAT([] { tuning_of("tunning: {trials: 7}"); },
               complains("5:4: fit.tunning: ", "did you mean 'tuning'?"));
-  EXPECT_THAT([] { read("tuning: {trials: 7, fold: 2}"); },
+  EXPECT_THAT([] { tuning_of("tuning: {trials: 7, fold: 2}"); },
               complains("5:24: fit.tuning.fold: ", "did you mean 'folds'?"));
-  EXPECT_THAT([] { read("tuning: {folds: 2}"); },
+  EXPECT_THAT([] { tuning_of("tuning: {folds: 2}"); },
               complains("5:12: fit.tuning.trials: ", "missing"));
-  EXPECT_THAT([] { read("tuning: {trials: 0}"); },
-              complains("5:21: fit.tuning.trials: ", "expected 1 to 10000"));
-  EXPECT_THAT([] { read("tuning: {trials: 7, folds: 1}"); },
-              complains("5:31: fit.tuning.folds: ", "expected 2 to 1000"));
-  EXPECT_THAT([] { read("tuning: 7"); }, complains("5:12: fit.tuning: ", "expected a mapping"));
+  EXPECT_THAT([] { tuning_of("tuning: {trials: 0}"); },
+              complains("5:21: fit.tuning.trials: ", "expected a number from 1 to 10000"));
+  EXPECT_THAT([] { tuning_of("tuning: {trials: 7, folds: 1}"); },
+              complains("5:31: fit.tuning.folds: ", "expected a number from 2 to 1000"));
+  EXPECT_THAT([] { tuning_of("tuning: 7"); },
+              complains("5:12: fit.tuning: ", "expected a mapping"));
 }
 
 TEST(TuningConfig, ThereAreNoMoreFoldsThanDifferentRuns) {
-  EXPECT_NO_THROW(read("tuning: {trials: 7, folds: 4}"));
-  EXPECT_THAT([] { read("tuning: {trials: 7, folds: 5}"); },
+  EXPECT_NO_THROW(tuning_of("tuning: {trials: 7, folds: 4}"));
+  EXPECT_THAT([] { tuning_of("tuning: {trials: 7, folds: 5}"); },
               complains("5:31: fit.tuning.folds: ", "different runs are fitted, 4"));
   // The scene as it stands is one run, however often it is played.
-  EXPECT_THAT([] { read("tuning: {trials: 7}", "runs: 4, perturbed: false"); },
+  EXPECT_THAT([] { tuning_of("tuning: {trials: 7}", "runs: 4, perturbed: false"); },
               complains("5:12: fit.tuning.folds: ", "different runs are fitted, 1"));
 }
 

@@ -1,0 +1,95 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "experiments/run_directory/own_files.hpp"
+#include "experiments/run_experiment.hpp"
+#include "experiments/tuning/table.hpp"
+#include "tests/experiments/small_step_scene.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+/// An estimator that is fitted and one that is not, where they fall down a step.
+Experiment tuned_study(const ScratchFolder& folder, const std::string& tuning,
+                       const std::string& test = "") {
+  const std::string step = folder.write("small_step.yaml", small_step_scene).string();
+  YamlDocument document = YamlDocument::parse(
+      "name: small\nsimulators: [mujoco]\nestimators: [load_logistic, support_force]\nseed: 2\n"
+      "fit: {scenarios: [" +
+          step + "], runs: 2, perturbed: true, seed: 11" + tuning +
+          "}\n"
+          "test: {scenarios: [" +
+          step +
+          "], runs: 2}\nrecordings: none\nvideo: {enabled: false}\n"
+          "benchmark: {}\n",
+      "small.yaml");
+  if (!test.empty()) document.override_value(test);
+  return experiment_from_yaml(document);
+}
+
+class TunedExperiment : public ::testing::Test {
+ protected:
+  ExperimentResult run(const std::string& name, const Experiment& experiment) const {
+    RunOptions options;
+    options.out = folder / name;
+    return run_experiment(experiment, options);
+  }
+  std::string text(const std::string& name, const std::string& file) const {
+    return read_file(folder / name / file);
+  }
+  ScratchFolder folder;
+};
+
+TEST_F(TunedExperiment, TestRunsChangeNoChoice) {
+  const std::string tuning = ", tuning: {trials: 6}";
+  const std::string stand =
+      folder.write("stand.yaml", "name: stand\nend: {duration: 1.0}\n").string();
+  const ExperimentResult result = run("one", tuned_study(folder, tuning));
+  run("other_seed", tuned_study(folder, tuning, "seed=3"));
+  run("other_scenes", tuned_study(folder, tuning, "test.scenarios=[" + stand + "]"));
+  const std::string chosen = text("one", "tables/tuning.csv");
+  EXPECT_EQ(chosen, text("other_seed", "tables/tuning.csv"));
+  EXPECT_EQ(chosen, text("other_scenes", "tables/tuning.csv"));
+  EXPECT_EQ(text("one", "models/mujoco_load_logistic.npz"),
+            text("other_seed", "models/mujoco_load_logistic.npz"));
+  // They are others, as the scores say.
+  EXPECT_NE(text("one", "tables/benchmark.csv"), text("other_seed", "tables/benchmark.csv"));
+
+  // The same is read from the table that was chosen: films listen with it.
+  const Table table = from_csv(chosen);
+  EXPECT_EQ(table.rows.size(), 2U * 6);
+  const ChosenConstants read = read_chosen(folder / "one");
+  for (const char* estimator : {"load_logistic", "support_force"}) {
+    EXPECT_EQ(read.at("mujoco").at(estimator), result.models.at("mujoco").at(estimator).constants);
+    EXPECT_FALSE(read.at("mujoco").at(estimator).empty());
+  }
+  EXPECT_THAT(result.studies, Contains(HasSubstr("the best of 6 trials")));
+  EXPECT_THAT(own_files(folder / "one"), Contains(std::filesystem::path("tables/tuning.csv")));
+}
+
+TEST_F(TunedExperiment, ATrialOfTheDefaultsAloneGivesTheBytesOfNone) {
+  run("none", tuned_study(folder, ""));
+  run("defaults", tuned_study(folder, ", tuning: {trials: 1}"));
+  for (const char* file : {"tables/benchmark.csv", "tables/views.csv", "tables/success.csv",
+                           "tables/latency.csv", "models/mujoco_load_logistic.npz"}) {
+    EXPECT_EQ(text("none", file), text("defaults", file)) << file;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "none/tables/tuning.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "defaults/tables/tuning.csv"));
+}
+
+TEST_F(TunedExperiment, HasAnotherNameThanWithoutTrials) {
+  EXPECT_NE(request_of(tuned_study(folder, "")).id,
+            request_of(tuned_study(folder, ", tuning: {trials: 2}")).id);
+  EXPECT_NE(request_of(tuned_study(folder, ", tuning: {trials: 3}")).id,
+            request_of(tuned_study(folder, ", tuning: {trials: 2}")).id);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,75 @@
+#include "experiments/tuning/folds.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace touchdown::experiments {
+namespace {
+
+RunSignals run_of(const std::string& scene, std::int64_t number) {
+  RunSignals run;
+  run.info.scenario = scene;
+  run.info.run = number;
+  return run;
+}
+
+std::vector<const RunSignals*> pointers(const std::vector<RunSignals>& runs) {
+  std::vector<const RunSignals*> all;
+  for (const RunSignals& run : runs) all.push_back(&run);
+  return all;
+}
+
+bool holds(const std::vector<const RunSignals*>& runs, const RunSignals& draw) {
+  return std::any_of(runs.begin(), runs.end(), [&](const RunSignals* run) {
+    return run->info.scenario == draw.info.scenario && run->info.run == draw.info.run;
+  });
+}
+
+TEST(Folds, JudgeEveryWholeRunOnceByWhatWasNeitherFittedNorCutFromIt) {
+  const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
+                                         run_of("kerb", 2), run_of("kerb", 3)};
+  // The second and the third are cut from draws that are there whole.
+  const std::vector<RunSignals> pieces = {run_of("stairs", 7), run_of("stairs", 1),
+                                          run_of("kerb", 2), run_of("kerb", 0)};
+  for (const std::size_t count : {2U, 3U, 4U}) {
+    const std::vector<Fold> folds = folds_of(pointers(whole), pointers(pieces), count, true);
+    ASSERT_EQ(folds.size(), count);
+    std::size_t judged = 0;
+    std::size_t fitted_pieces = 0;
+    for (const Fold& fold : folds) {
+      judged += fold.judged.size();
+      fitted_pieces += fold.pieces.size();
+      EXPECT_FALSE(fold.judged.empty());
+      EXPECT_EQ(fold.judged.size() + fold.fitted.size(), whole.size());
+      for (const RunSignals* run : fold.judged) {
+        EXPECT_FALSE(holds(fold.fitted, *run));
+        EXPECT_FALSE(holds(fold.pieces, *run));
+      }
+    }
+    EXPECT_EQ(judged, whole.size());
+    // Each piece is fitted in all folds but its own.
+    EXPECT_EQ(fitted_pieces, pieces.size() * (count - 1));
+  }
+}
+
+TEST(Folds, SpreadEachSceneOverThem) {
+  const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
+                                         run_of("kerb", 2), run_of("kerb", 3)};
+  for (const Fold& fold : folds_of(pointers(whole), {}, 2, true)) {
+    ASSERT_EQ(fold.judged.size(), 2U);
+    EXPECT_NE(fold.judged[0]->info.scenario, fold.judged[1]->info.scenario);
+  }
+}
+
+TEST(Folds, TakeASceneAsItStandsForOneRunHoweverOftenItIsPlayed) {
+  const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
+                                         run_of("kerb", 2), run_of("kerb", 3)};
+  for (const Fold& fold : folds_of(pointers(whole), {}, 2, false)) {
+    ASSERT_EQ(fold.judged.size(), 2U);
+    EXPECT_EQ(fold.judged[0]->info.scenario, fold.judged[1]->info.scenario);
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,115 @@
+#include "experiments/tuning/trials.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/fitting.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+TEST(Trials, BeginWithTheDefaultsAndStayInTheRangesThatWereDeclared) {
+  for (const EstimatorEntry& entry : estimator_entries()) {
+    const std::vector<Constants> all = trial_constants(entry, 1, 200);
+    ASSERT_EQ(all.size(), entry.choices.empty() ? 0U : 200U) << entry.name;
+    for (const Choice& choice : entry.choices) {
+      EXPECT_EQ(all.front().at(choice.name), choice.value) << entry.name;
+      EXPECT_LT(choice.lowest, choice.value) << entry.name << " " << choice.name;
+      EXPECT_GT(choice.highest, choice.value) << entry.name << " " << choice.name;
+      double least = choice.highest;
+      double most = choice.lowest;
+      for (const Constants& constants : all) {
+        const double value = constants.at(choice.name);
+        // Three digits of a number may lie beyond the end by half of the last.
+        EXPECT_GE(value, choice.lowest - 0.005 * std::abs(choice.lowest)) << choice.name;
+        EXPECT_LE(value, choice.highest + 0.005 * std::abs(choice.highest)) << choice.name;
+        if (choice.scale == Choice::Scale::whole) {
+          EXPECT_EQ(value, std::round(value));
+        }
+        least = std::min(least, value);
+        most = std::max(most, value);
+      }
+      // 200 draws come close to both ends.
+      const bool by_ratio = choice.scale == Choice::Scale::by_ratio;
+      const auto place = [&](double x) { return by_ratio ? std::log(x) : x; };
+      const double span = place(choice.highest) - place(choice.lowest);
+      EXPECT_LT(place(least), place(choice.lowest) + 0.1 * span) << entry.name << choice.name;
+      EXPECT_GT(place(most), place(choice.highest) - 0.1 * span) << entry.name << choice.name;
+    }
+  }
+}
+
+TEST(Trials, DependOnTheSeedTheNameAndTheirNumberAlone) {
+  const EstimatorEntry& entry = estimator_entry("support_force");
+  const std::vector<Constants> few = trial_constants(entry, 1, 3);
+  const std::vector<Constants> more = trial_constants(entry, 1, 30);
+  EXPECT_EQ(few, std::vector<Constants>(more.begin(), more.begin() + 3));
+  EXPECT_NE(few[1], trial_constants(entry, 2, 3)[1]);
+  EstimatorEntry renamed = entry;
+  renamed.name = "another";
+  EXPECT_NE(few[1], trial_constants(renamed, 1, 3)[1]);
+  EXPECT_EQ(few[0], trial_constants(renamed, 1, 3)[0]);
+}
+
+/// What a run is taken for with these constants: all beliefs.
+std::vector<double> beliefs(const EstimatorEntry& plain, const Constants& constants,
+                            const RunSignals& fitted, const RunSignals& heard) {
+  const EstimatorEntry entry = with_constants(plain, constants);
+  const FitRuns runs{{&fitted}};
+  FittedModel model;
+  if (entry.fits()) {
+    model = fit_model(entry, runs);
+    model.passport = new_passport(entry.name, runs, constants);
+  }
+  Listener listener = listener_of(entry, {1000.0, &model, &heard.contact});
+  const NoiseRun noise = noise_run(heard, {.seed = 3, .run = 1});
+  std::vector<double> all;
+  for (const double level : {0.1, 0.7, 2.0}) {
+    const scoring::Prediction prediction = predict(listener, heard, noise,
+                                                   {.knee_torque = level,
+                                                    .wheel_torque = 0.2 * level,
+                                                    .acceleration = 5.0 * level,
+                                                    .hip_torque = level});
+    for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+      const scoring::Track& track = prediction[wheel];
+      all.insert(all.end(), track.p_contact.begin(), track.p_contact.end());
+      all.insert(all.end(), track.contact.begin(), track.contact.end());
+    }
+  }
+  return all;
+}
+
+/// A constant that nobody reads would be tuned for nothing.
+TEST(Trials, EveryChoiceChangesWhatItsEstimatorBelieves) {
+  const RunSignals fitted = synthetic_run(first_fit_run, 1500);
+  const RunSignals heard = synthetic_run(0, 3000);
+  for (const EstimatorEntry& entry : estimator_entries()) {
+    const bool is_slow = entry.name == "decision_network" || entry.name == "gradient_boosting";
+    if (is_slow) continue;
+    const std::vector<Constants> trials = trial_constants(entry, 1, 8);
+    for (const Choice& choice : entry.choices) {
+      // With some of the others, where it counts.
+      const bool counts = std::any_of(trials.begin(), trials.end(), [&](Constants constants) {
+        constants[choice.name] = choice.lowest;
+        const std::vector<double> least = beliefs(entry, constants, fitted, heard);
+        constants[choice.name] = choice.highest;
+        return least != beliefs(entry, constants, fitted, heard);
+      });
+      EXPECT_TRUE(counts) << entry.name << " " << choice.name;
+    }
+    EXPECT_EQ(beliefs(entry, {}, fitted, heard),
+              beliefs(entry, trials.empty() ? Constants{} : trials.front(), fitted, heard))
+        << entry.name << ": the first trial is the estimator as it is";
+    if (entry.choices.empty()) {
+      EXPECT_THROW((void)entry.chosen("threshold"), Error);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,152 @@
+#include "experiments/tuning/tune.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "core/error.hpp"
+#include "experiments/estimators/forces.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/make_estimator.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+std::vector<RunSignals> fitted_runs(int count) {
+  std::vector<RunSignals> runs;
+  for (int i = 0; i < count; ++i) runs.push_back(synthetic_run(first_fit_run + i, 2000));
+  return runs;
+}
+
+Experiment tuned_experiment(const std::vector<std::string>& estimators, int trials) {
+  Experiment experiment = synthetic_experiment(estimators);
+  experiment.fit = {.scenarios = {"synthetic"}, .runs = 4, .perturbed = true};
+  experiment.tuning = TuningConfig{.trials = trials, .folds = 2};
+  return experiment;
+}
+
+/// Support force, whose threshold is so far off that no wheel ever carries as much.
+EstimatorEntry rigged() {
+  EstimatorEntry entry = support_force_entry();
+  entry.name = "rigged";
+  for (Choice& choice : entry.choices) {
+    if (choice.name == "contact") choice = around("contact", 400.0, 200.0);
+  }
+  return entry;
+}
+
+const Trial& chosen_of(const std::vector<Trial>& trials) {
+  return *std::find_if(trials.begin(), trials.end(), [](const Trial& t) { return t.is_chosen; });
+}
+
+TEST(Tune, MendsADefaultThatIsFarOff) {
+  const GuestEstimators present({rigged()});
+  const std::vector<RunSignals> runs = fitted_runs(4);
+  const Experiment experiment = tuned_experiment({"rigged"}, 16);
+  const std::vector<Trial> trials = tune(experiment, "", runs, {}, {});
+  ASSERT_EQ(trials.size(), 16U);
+  EXPECT_EQ(trials.front().constants.at("contact"), 400.0);
+  EXPECT_NEAR(trials.front().score, 0.5, 0.01);  // never in contact
+  const Trial& best = chosen_of(trials);
+  EXPECT_GT(best.score, 0.9);
+  EXPECT_LT(best.constants.at("contact"), 60.0);
+  // It is not fitted, and listens with what was chosen all the same.
+  const FittedModels models = fit_models(experiment, runs, {}, {}, chosen_in(trials));
+  const RunSignals test = synthetic_run(0);
+  const Condition condition{"mujoco", "mujoco", "rigged"};
+  EXPECT_EQ(entry_of(condition, models).chosen("contact"), best.constants.at("contact"));
+  scoring::Classification with, without;
+  const std::vector<noise::NoiseCell> cells = {{}};
+  const NoiseRun noise = noise_run(test, {.seed = 1, .run = 0});
+  const FittedModels none;
+  for (const auto& [found, counts] : {std::pair(&models, &with), std::pair(&none, &without)}) {
+    for (const scoring::Classification& piece :
+         sweep_run(std::vector{condition}, cells, test, noise, *found, experiment.scoring,
+                   [] { return true; })) {
+      *counts += piece;
+    }
+  }
+  EXPECT_GT(with.balanced_accuracy(), 0.9);
+  EXPECT_LT(without.balanced_accuracy(), 0.6);
+}
+
+TEST(Tune, GivesEveryEstimatorThatHasSomethingToChooseAsManyTrials) {
+  const Experiment experiment = tuned_experiment(
+      {"robust", "phase", "load_logistic", "force_kinematics", "free_fall", "oracle"}, 3);
+  std::map<std::string, int> count, chosen;
+  for (const Trial& trial : tune(experiment, "", fitted_runs(4), {}, {})) {
+    EXPECT_EQ(trial.number, count[trial.estimator]++);
+    chosen[trial.estimator] += trial.is_chosen ? 1 : 0;
+    EXPECT_GT(trial.score, 0.3) << trial.estimator;
+    EXPECT_LE(trial.score, 1.0) << trial.estimator;
+  }
+  EXPECT_EQ(count, (std::map<std::string, int>{{"force_kinematics", 3},
+                                               {"free_fall", 3},
+                                               {"load_logistic", 3},
+                                               {"phase", 3},
+                                               {"robust", 3}}));
+  for (const auto& [estimator, times] : chosen) EXPECT_EQ(times, 1) << estimator;
+}
+
+TEST(Tune, ChoosesTheSameWhateverTheNumberOfThreads) {
+  const std::vector<RunSignals> runs = fitted_runs(4);
+  const Experiment experiment = tuned_experiment({"robust", "load_logistic", "support_force"}, 4);
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    std::vector<std::pair<double, bool>> all;
+    for (const Trial& trial : tune(experiment, "", runs, {}, {})) {
+      all.emplace_back(trial.score, trial.is_chosen);
+    }
+    return all;
+  };
+  EXPECT_EQ(with(1), with(4));
+}
+
+TEST(Tune, OfEqualTrialsTakesTheFirst) {
+  // Nothing moves: whatever the threshold, all of it is contact.
+  std::vector<RunSignals> runs = fitted_runs(2);
+  for (RunSignals& run : runs) {
+    for (Signals& step : run.signals) step.vertical_acceleration = 0.0;
+    for (auto& wheel : run.contact) std::fill(wheel.begin(), wheel.end(), std::uint8_t{1});
+  }
+  const std::vector<Trial> trials = tune(tuned_experiment({"free_fall"}, 5), "", runs, {}, {});
+  for (const Trial& trial : trials) EXPECT_EQ(trial.score, 1.0);
+  EXPECT_EQ(chosen_of(trials).number, 0);
+}
+
+TEST(Tune, SaysInWhichFoldTooLittleIsLeftToFitTo) {
+  std::vector<RunSignals> runs = fitted_runs(2);
+  for (auto& wheel : runs[1].contact) std::fill(wheel.begin(), wheel.end(), std::uint8_t{1});
+  EXPECT_THAT([&] { tune(tuned_experiment({"load_logistic"}, 2), "", runs, {}, {}); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("fit.tuning: load_logistic on mujoco, without fold 1 of 2: ")));
+  EXPECT_THROW(tune(tuned_experiment({"robust"}, 2), "", runs, {}, [] { return false; }), Stopped);
+}
+
+/// A robot reads them there.
+TEST(Tune, WhatWasChosenIsInTheModelsPassport) {
+  const std::vector<RunSignals> runs = fitted_runs(2);
+  const Experiment experiment = tuned_experiment({"load_logistic", "phase", "paper"}, 1);
+  const auto passport = [&](const std::string& estimator, const Constants& constants) {
+    const ChosenConstants chosen = {{"mujoco", {{estimator, constants}}}};
+    return fit_models(experiment, runs, {}, {}, chosen).at("mujoco").at(estimator).passport;
+  };
+  const auto usual = fit_models(experiment, runs).at("mujoco");
+  const auto tuned = passport("load_logistic", {{"threshold", 0.25}});
+  EXPECT_EQ(tuned->configuration.at("threshold"), "0.25");
+  EXPECT_EQ(usual.at("load_logistic").passport->configuration.at("threshold"), "0.5");
+  EXPECT_EQ(passport("paper", {{"transition.switch.offset", 3.5}})
+                ->configuration.at("transition.switch.offset"),
+            "3.5");
+  // The model has what the fit alone knows; a reader of passports would not.
+  const auto phase = passport("phase", {{"leave_below", 0.125}, {"torque_bandwidth", 0.3}});
+  EXPECT_EQ(phase->configuration.at("leave_below"), "0.125");
+  EXPECT_FALSE(phase->configuration.contains("torque_bandwidth"));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
