@@ -52,7 +52,7 @@ struct Fitted {
 
 /// One of the experiment's fits, of every engine, with its refits.
 Fitted fit(const Experiment& experiment, const PlayedRuns& runs, const std::string& name,
-           const GoingOn& going_on) {
+           const GoingOn& going_on, const SavedTrials& saved) {
   std::vector<RunSignals> fitted;
   for (const auto& [index, run] : runs) {
     const PlannedRun& plan = run.plan;
@@ -66,7 +66,7 @@ Fitted fit(const Experiment& experiment, const PlayedRuns& runs, const std::stri
     }
   }
   Fitted all;
-  if (experiment.tuning) all.trials = tune(experiment, name, fitted, pieces, going_on);
+  if (experiment.tuning) all.trials = tune(experiment, name, fitted, pieces, going_on, saved);
   const ChosenConstants chosen = chosen_in(all.trials);
   const auto add = [&](int refit, FittedModels&& of_refit) {
     for (auto& [simulator, by_estimator] : of_refit) {
@@ -95,9 +95,11 @@ Fitted fit(const RunningExperiment& running, const PlayedRuns& runs) {
   // A shard may have runs of one engine only.
   std::erase_if(experiment.simulators,
                 [&](const std::string& simulator) { return !played.contains(simulator); });
+  const SavedTrials saved(running.directory.path() / "state" / "tuning",
+                          state_key(running.request));
   Fitted all;
   for (const std::string& name : fits) {
-    Fitted one = fit(experiment, runs, name, running.going_on);
+    Fitted one = fit(experiment, runs, name, running.going_on, saved);
     all.models.merge(one.models);
     std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
   }

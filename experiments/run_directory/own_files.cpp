@@ -31,6 +31,7 @@ constexpr std::array fixed_names = {
     FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml)"},
     FixedNames{"state/listening", R"(.+_seed_\d{4,})"},
     FixedNames{"state/shards", R"(\d+_of_\d+)"},
+    FixedNames{"state/tuning", R"(.+_fold_\d+)"},
     FixedNames{"state/foreign", R"([^.].*)"},
     FixedNames{"state/closed_loop", R"(run_\d{6,})"},
     FixedNames{
@@ -50,10 +51,11 @@ constexpr std::array fixed_names = {
     FixedNames{"checkpoints", R"(\d{4,}\.pt)"}};
 
 /// Every folder that a run makes, the inner ones first.
-constexpr std::array all_folders = {
-    "state/listening", "state/recordings", "state/shards", "state/foreign", "state/closed_loop",
-    "state",           "recordings",       "models",       "tables",        "figures",
-    "videos",          "trajectories",     "checkpoints",  "logs"};
+constexpr std::array all_folders = {"state/listening", "state/recordings",  "state/shards",
+                                    "state/foreign",   "state/closed_loop", "state/tuning",
+                                    "state",           "recordings",        "models",
+                                    "tables",          "figures",           "videos",
+                                    "trajectories",    "checkpoints",       "logs"};
 
 /// The files in a folder itself; none where the folder is a link or is not there.
 Names files_in(const fs::path& folder) {

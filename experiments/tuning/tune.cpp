@@ -1,6 +1,7 @@
 #include "experiments/tuning/tune.hpp"
 
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -16,8 +17,6 @@
 namespace touchdown::experiments {
 
 namespace {
-
-using SceneCounts = std::map<std::string, scoring::Classification>;
 
 /// All trials of one estimator in one fold: they share what they can of its fits.
 struct Sitting {
@@ -88,7 +87,7 @@ double mean_over_scenes(const SceneCounts& counts) {
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                         const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& pieces,
-                        const std::function<bool()>& going_on) {
+                        const std::function<bool()>& going_on, const SavedTrials& saved) {
   const auto or_stop = [&] {
     if (going_on && !going_on()) throw Stopped();
   };
@@ -119,6 +118,12 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
   tbb::parallel_for(std::size_t{0}, sittings.size(), [&](std::size_t i) {
     or_stop();
     Sitting& sitting = sittings[i];
+    const std::string name = fmt::format("{}{}_{}_fold_{}", sitting.simulator, fit,
+                                         sitting.entry->name, sitting.fold + 1);
+    if (auto known = saved.read(name)) {
+      sitting.of = std::move(*known);
+      return progress.skip();
+    }
     try {
       sit(sitting, folds.at(sitting.simulator)[sitting.fold],
           std::span(trials).subspan(sitting.first, number), experiment.scoring, or_stop);
@@ -127,6 +132,7 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                                    sitting.entry->name, sitting.simulator, sitting.fold + 1,
                                    experiment.tuning->folds, error.what()));
     }
+    saved.write(name, sitting.of);
     progress.advance();
   });
   std::vector<SceneCounts> counts(trials.size());

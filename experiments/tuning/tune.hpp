@@ -7,6 +7,7 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/signals/run_signals.hpp"
+#include "experiments/tuning/saved.hpp"
 
 namespace touchdown::experiments {
 
@@ -25,12 +26,12 @@ struct Trial {
 
 /// As many trials of every estimator that has something to choose, on each engine, in parallel: by
 /// engine, estimator, then number. Only these runs decide: whole ones and pieces are fitted to,
-/// whole ones are judged, as they are heard. Errors: `InputError` where too few are left to fit to,
-/// `Stopped`.
+/// whole ones are judged, as they are heard. What is saved is not tried again. Errors: `InputError`
+/// where too few are left to fit to, `Stopped`.
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                         const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& pieces,
-                        const std::function<bool()>& going_on);
+                        const std::function<bool()>& going_on, const SavedTrials& saved = {});
 
 /// What was chosen, of the trials of one fit.
 ChosenConstants chosen_in(const std::vector<Trial>& trials);

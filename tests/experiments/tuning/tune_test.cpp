@@ -9,6 +9,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -104,6 +105,28 @@ TEST(Tune, ChoosesTheSameWhateverTheNumberOfThreads) {
     return all;
   };
   EXPECT_EQ(with(1), with(4));
+}
+
+TEST(Tune, WhatIsSavedIsNotTriedAgain) {
+  const ScratchFolder folder;
+  std::vector<RunSignals> runs = fitted_runs(4);
+  runs[1].info.scenario = "other scene";
+  const Experiment experiment = tuned_experiment({"robust", "free_fall"}, 3);
+  const auto scores = [&](const SavedTrials& saved) {
+    std::vector<double> all;
+    for (const Trial& trial : tune(experiment, "", runs, {}, {}, saved)) {
+      all.push_back(trial.score);
+    }
+    return all;
+  };
+  const std::vector<double> tried = scores({});
+  EXPECT_EQ(tried, scores({folder / "tuning", "key"}));
+  // All is flight now, and nobody listens: but under another key nothing is believed.
+  for (RunSignals& run : runs) {
+    for (Signals& step : run.signals) step.vertical_acceleration = -9.81;
+  }
+  EXPECT_EQ(tried, scores({folder / "tuning", "key"}));
+  EXPECT_NE(tried, scores({folder / "tuning", "another key"}));
 }
 
 TEST(Tune, OfEqualTrialsTakesTheFirst) {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scoring/classification.hpp"
+
+namespace touchdown::experiments {
+
+/// What was counted of one trial, by scene.
+using SceneCounts = std::map<std::string, scoring::Classification>;
+
+/// Where it is saved what trials made of a fold: an interrupted run, and whoever merges shards,
+/// need not try again.
+class SavedTrials {
+ public:
+  SavedTrials() = default;  ///< nowhere
+  /// `key` names the experiment and the build: nothing else is believed.
+  SavedTrials(std::filesystem::path folder, std::string key);
+
+  /// By trial.
+  std::optional<std::vector<SceneCounts>> read(const std::string& name) const;
+  void write(const std::string& name, const std::vector<SceneCounts>& trials) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::string key_;
+};
+
+}  // namespace touchdown::experiments
