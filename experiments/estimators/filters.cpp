@@ -113,8 +113,8 @@ FittedModel fit_phase(const EstimatorEntry& entry, const FitRuns& runs) {
                   : fit_phases(runs.pieces, config, 0.0, runs.before_density))};
 }
 
-std::shared_ptr<const NeuralNetwork> network() {
-  return std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network("nmn"));
+std::shared_ptr<const NeuralNetwork> network(const EstimatorEntry& entry) {
+  return std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network(entry.name));
 }
 
 NeuralEstimatorConfig neural_config(const EstimatorEntry& entry, const EstimatorSetup& setup) {
@@ -130,7 +130,7 @@ std::optional<EstimatorLanes> neural_lanes(const EstimatorEntry& entry, const Es
     sigmas.push_back(level.acceleration);
   }
   const NeuralEstimatorConfig config = neural_config(entry, setup);
-  const auto all = std::make_shared<NeuralLanes>(network(), config, sigmas);
+  const auto all = std::make_shared<NeuralLanes>(network(entry), config, sigmas);
   return EstimatorLanes{[all](const Signals& clean, const NoiseStep& draws) {
                           const auto& [x, y, z] = draws.linear_acceleration;
                           all->update(clean, {x, y, z});
@@ -239,9 +239,18 @@ EstimatorEntry neural_entry() {
           .trained_by = "touchdown train",
           .choices = {between("threshold", NeuralEstimatorConfig{}.threshold, 0.2, 0.95)},
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
-            return std::make_unique<NeuralEstimator>(network(), neural_config(entry, setup));
+            return std::make_unique<NeuralEstimator>(network(entry), neural_config(entry, setup));
           },
           .lanes = neural_lanes};
+}
+
+EstimatorEntry retrained_neural_entry() {
+  EstimatorEntry entry = neural_entry();
+  entry.name = "nmn_retrained";
+  entry.title = "NMN, retrained";
+  entry.summary =
+      "the paper's network, trained on what others are fitted to, through sensors and noise";
+  return entry;
 }
 
 }  // namespace touchdown::experiments

@@ -33,4 +33,8 @@ PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setu
 /// The paper's neural measurement network, as it is shipped.
 EstimatorEntry neural_entry();
 
+/// The same network, trained on the scenes that a benchmark's estimators are fitted to, through
+/// sensors and noise (experiments/nmn_retrained.yaml).
+EstimatorEntry retrained_neural_entry();
+
 }  // namespace touchdown::experiments

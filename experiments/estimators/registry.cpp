@@ -52,6 +52,7 @@ std::span<const EstimatorEntry> estimator_entries() {
         hmm_entry(),
         hmm_without_memory_entry(),
         neural_entry(),
+        retrained_neural_entry(),
         upkie_observer_entry(),
         free_fall_entry(),
         support_force_entry(),

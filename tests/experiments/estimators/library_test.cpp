@@ -47,12 +47,16 @@ TEST(LoadedEstimator, BelievesToTheBitWhatItsEntryDoes) {
   }
 }
 
-TEST(LoadedEstimator, OfTheShippedNetworkIsNmn) {
-  const std::filesystem::path file = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/nmn.npz";
+TEST(LoadedEstimator, OfAShippedNetworkIsNmn) {
   const RunSignals run = synthetic_run(3, 1000);
-  const EstimatorEntry& entry = estimator_entry("nmn");
-  EXPECT_EQ(told(*load_estimator(file, {.sample_rate = 1000.0}), run),
-            told(*entry.make(entry, {}), run));
+  for (const std::string name : {"nmn", "nmn_retrained"}) {
+    const std::filesystem::path file =
+        std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models" / (name + ".npz");
+    const EstimatorEntry& entry = estimator_entry(name);
+    EXPECT_EQ(told(*load_estimator(file, {.sample_rate = 1000.0}), run),
+              told(*entry.make(entry, {}), run))
+        << name;
+  }
 }
 
 TEST(LoadedEstimator, SharesFitsAsEntriesDo) {
