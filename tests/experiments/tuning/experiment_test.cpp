@@ -37,22 +37,22 @@ class TunedExperiment : public ::testing::Test {
  protected:
   ExperimentResult run(const std::string& name, const Experiment& experiment) const {
     RunOptions options;
-    options.out = folder / name;
+    options.out = folder_ / name;
     return run_experiment(experiment, options);
   }
   std::string text(const std::string& name, const std::string& file) const {
-    return read_file(folder / name / file);
+    return read_file(folder_ / name / file);
   }
-  ScratchFolder folder;
+  ScratchFolder folder_;
 };
 
 TEST_F(TunedExperiment, TestRunsChangeNoChoice) {
   const std::string tuning = ", tuning: {trials: 6}";
   const std::string stand =
-      folder.write("stand.yaml", "name: stand\nend: {duration: 1.0}\n").string();
-  const ExperimentResult result = run("one", tuned_study(folder, tuning));
-  run("other_seed", tuned_study(folder, tuning, "seed=3"));
-  run("other_scenes", tuned_study(folder, tuning, "test.scenarios=[" + stand + "]"));
+      folder_.write("stand.yaml", "name: stand\nend: {duration: 1.0}\n").string();
+  const ExperimentResult result = run("one", tuned_study(folder_, tuning));
+  run("other_seed", tuned_study(folder_, tuning, "seed=3"));
+  run("other_scenes", tuned_study(folder_, tuning, "test.scenarios=[" + stand + "]"));
   const std::string chosen = text("one", "tables/tuning.csv");
   EXPECT_EQ(chosen, text("other_seed", "tables/tuning.csv"));
   EXPECT_EQ(chosen, text("other_scenes", "tables/tuning.csv"));
@@ -64,31 +64,31 @@ TEST_F(TunedExperiment, TestRunsChangeNoChoice) {
   // The same is read from the table that was chosen: films listen with it.
   const Table table = from_csv(chosen);
   EXPECT_EQ(table.rows.size(), 2U * 6);
-  const ChosenConstants read = read_chosen(folder / "one");
+  const ChosenConstants read = read_chosen(folder_ / "one");
   for (const char* estimator : {"load_logistic", "support_force"}) {
     EXPECT_EQ(read.at("mujoco").at(estimator), result.models.at("mujoco").at(estimator).constants);
     EXPECT_FALSE(read.at("mujoco").at(estimator).empty());
   }
   EXPECT_THAT(result.studies, Contains(HasSubstr("the best of 6 trials")));
-  EXPECT_THAT(own_files(folder / "one"), Contains(std::filesystem::path("tables/tuning.csv")));
+  EXPECT_THAT(own_files(folder_ / "one"), Contains(std::filesystem::path("tables/tuning.csv")));
 }
 
 TEST_F(TunedExperiment, ATrialOfTheDefaultsAloneGivesTheBytesOfNone) {
-  run("none", tuned_study(folder, ""));
-  run("defaults", tuned_study(folder, ", tuning: {trials: 1}"));
+  run("none", tuned_study(folder_, ""));
+  run("defaults", tuned_study(folder_, ", tuning: {trials: 1}"));
   for (const char* file : {"tables/benchmark.csv", "tables/views.csv", "tables/success.csv",
                            "tables/latency.csv", "models/mujoco_load_logistic.npz"}) {
     EXPECT_EQ(text("none", file), text("defaults", file)) << file;
   }
-  EXPECT_FALSE(std::filesystem::exists(folder / "none/tables/tuning.csv"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "defaults/tables/tuning.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none/tables/tuning.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "defaults/tables/tuning.csv"));
 }
 
 TEST_F(TunedExperiment, HasAnotherNameThanWithoutTrials) {
-  EXPECT_NE(request_of(tuned_study(folder, "")).id,
-            request_of(tuned_study(folder, ", tuning: {trials: 2}")).id);
-  EXPECT_NE(request_of(tuned_study(folder, ", tuning: {trials: 3}")).id,
-            request_of(tuned_study(folder, ", tuning: {trials: 2}")).id);
+  EXPECT_NE(request_of(tuned_study(folder_, "")).id,
+            request_of(tuned_study(folder_, ", tuning: {trials: 2}")).id);
+  EXPECT_NE(request_of(tuned_study(folder_, ", tuning: {trials: 3}")).id,
+            request_of(tuned_study(folder_, ", tuning: {trials: 2}")).id);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "experiments/estimators/forces.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
+#include "experiments/logs/estimator.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -169,6 +170,17 @@ TEST(Tune, WhatWasChosenIsInTheModelsPassport) {
   const auto phase = passport("phase", {{"leave_below", 0.125}, {"torque_bandwidth", 0.3}});
   EXPECT_EQ(phase->configuration.at("leave_below"), "0.125");
   EXPECT_FALSE(phase->configuration.contains("torque_bandwidth"));
+}
+
+TEST(Tune, WhoHearsLogsHearsThemWithWhatWasChosen) {
+  const ScratchFolder folder;
+  const ChosenConstants chosen = {{"mujoco", {{"load_logistic", {{"threshold", 0.25}}}}}};
+  const FittedModels models =
+      fit_models(tuned_experiment({"load_logistic"}, 1), fitted_runs(2), {}, {}, chosen);
+  const std::filesystem::path file = folder / "model.npz";
+  write_fitted_model(models.at("mujoco").at("load_logistic"), file);
+  EXPECT_EQ(log_estimator({.model = file}).entry.chosen("threshold"), 0.25);
+  EXPECT_EQ(estimator_entry("load_logistic").chosen("threshold"), 0.5);
 }
 
 }  // namespace
