@@ -74,6 +74,8 @@ static void describe(Fields& fields, FitPieces& pieces) {
 static void describe(Fields& fields, TuningConfig& tuning, const RunsConfig& fit) {
   fields.require("trials", tuning.trials, 1, 10'000);
   fields("folds", tuning.folds, 2, 1000);
+  if (fields.present("noise", true)) fields.list("noise", tuning.noise);
+  fields.check(!tuning.noise.empty(), "noise", "expected at least one noise setting");
   const std::size_t runs =
       fit.scenarios.size() * (fit.perturbed ? static_cast<std::size_t>(fit.runs) : 1);
   fields.finish();
@@ -308,6 +310,9 @@ static void describe(Fields& fields, Experiment& experiment) {
   if (fields.present("sweep", !experiment.sweep.empty())) fields.section("sweep", experiment.sweep);
   const noise::NoiseGridConfig& noise = experiment.noise;
   fields.section("noise", experiment.noise);
+  if (experiment.tuning) {
+    for (noise::NoiseCell& cell : experiment.tuning->noise) cell = noise::as_on_grid(cell, noise);
+  }
   fields.list("highlights", experiment.highlights, noise);
   if (fields.reading() && experiment.highlights.empty()) {
     experiment.highlights = {

@@ -38,6 +38,7 @@ struct FitPieces {
 struct TuningConfig {
   int trials = 8;  ///< the first one an estimator's defaults
   int folds = 2;   ///< that the fitted runs are cut into: each is judged by fits to the others
+  std::vector<noise::NoiseCell> noise = {{}};  ///< in which they are, on top of what sensors do
 };
 
 /// Which recordings stay in the run directory. What has none is simulated again, to the bit, where

@@ -10,8 +10,8 @@
 
 namespace touchdown::experiments {
 
-/// What was counted of one trial, by scene.
-using SceneCounts = std::map<std::string, scoring::Classification>;
+/// What was counted of one trial, by scene and noise setting.
+using PlaceCounts = std::map<std::string, scoring::Classification>;
 
 /// Where it is saved what trials made of a fold: an interrupted run, and whoever merges shards,
 /// need not try again.
@@ -22,8 +22,8 @@ class SavedTrials {
   SavedTrials(std::filesystem::path folder, std::string key);
 
   /// By trial.
-  std::optional<std::vector<SceneCounts>> read(const std::string& name) const;
-  void write(const std::string& name, const std::vector<SceneCounts>& trials) const;
+  std::optional<std::vector<PlaceCounts>> read(const std::string& name) const;
+  void write(const std::string& name, const std::vector<PlaceCounts>& trials) const;
 
  private:
   std::filesystem::path folder_;

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
+#include "core/random.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/signals/listener.hpp"
@@ -24,14 +25,23 @@ struct Sitting {
   const EstimatorEntry* entry;
   std::size_t fold;             ///< index in the engine's
   std::size_t first;            ///< index of the first trial
-  std::vector<SceneCounts> of;  ///< by trial
+  std::vector<PlaceCounts> of;  ///< by trial
 };
 
-void count(Listener& listener, const RunSignals& run, const scoring::ScoringConfig& scoring,
+/// Noise of a judged run: no other run, and no test, is drawn with the same key.
+NoiseRun noise_of(const RunSignals& run, const Experiment& experiment) {
+  constexpr std::uint64_t tuning_stream = 0x74756e696e67;  // "tuning"
+  const auto bits = philox(seed_of_fit(experiment), tuning_stream, 0);
+  return noise_run(run, {.seed = (std::uint64_t{bits[0]} << 32U) | bits[1],
+                         .run = static_cast<std::uint64_t>(run.info.run)});
+}
+
+void count(Listener& listener, const RunSignals& run, const NoiseRun& noise,
+           const noise::SensorNoise& levels, const scoring::ScoringConfig& scoring,
            scoring::Classification& sum) {
   const std::size_t skip = scoring::first_scored_step(run.info.control_period_us, scoring);
   listener.listen_to(
-      run, [&](std::size_t k) { return run.signals[k]; },
+      run, [&](std::size_t k) { return noisy(run, noise, levels, k); },
       [&](std::size_t k, const Belief& belief) {
         for (std::size_t w = 0; w < models::wheel_count && k >= skip; ++w) {
           sum.add(run.contact[w][k] != 0, belief.wheel[w].contact);
@@ -49,8 +59,10 @@ Constants fit_constants(const EstimatorEntry& entry, const Constants& constants)
 }
 
 void sit(Sitting& sitting, const Fold& fold, std::span<const Trial> trials,
-         const scoring::ScoringConfig& scoring, const std::function<void()>& or_stop) {
-  const FitRuns runs{fold.fitted, fold.pieces, scoring, or_stop};
+         const Experiment& experiment, const std::function<void()>& or_stop) {
+  const FitRuns runs{fold.fitted, fold.pieces, experiment.scoring, or_stop};
+  std::vector<NoiseRun> noise;
+  for (const RunSignals* run : fold.judged) noise.push_back(noise_of(*run, experiment));
   std::map<Constants, FittedModel> models;
   for (const Trial& trial : trials) {
     const EstimatorEntry entry = with_constants(*sitting.entry, trial.constants);
@@ -61,25 +73,29 @@ void sit(Sitting& sitting, const Fold& fold, std::span<const Trial> trials,
       model = models[key];
       model.passport = new_passport(entry.name, runs, trial.constants);
     }
-    SceneCounts& counts = sitting.of.emplace_back();
-    for (const RunSignals* run : fold.judged) {
-      or_stop();
-      Listener listener = listener_of(entry, {1.0 / period_of(*run), &model, &run->contact});
-      count(listener, *run, scoring, counts[run->info.scenario]);
+    PlaceCounts& counts = sitting.of.emplace_back();
+    for (std::size_t i = 0; i < fold.judged.size(); ++i) {
+      const RunSignals& run = *fold.judged[i];
+      Listener listener = listener_of(entry, {1.0 / period_of(run), &model, &run.contact});
+      for (std::size_t cell = 0; cell < experiment.tuning->noise.size(); ++cell) {
+        or_stop();
+        count(listener, run, noise[i], experiment.tuning->noise[cell].levels(), experiment.scoring,
+              counts[fmt::format("{} {}", cell, run.info.scenario)]);
+      }
     }
   }
 }
 
 /// Zero where nothing was scored.
-double mean_over_scenes(const SceneCounts& counts) {
+double mean_over_places(const PlaceCounts& counts) {
   double sum = 0.0;
-  double scenes = 0.0;
-  for (const auto& [scene, points] : counts) {
+  double places = 0.0;
+  for (const auto& [place, points] : counts) {
     if (points.points() == 0) continue;
     sum += points.balanced_accuracy();
-    scenes += 1.0;
+    places += 1.0;
   }
-  return scenes > 0.0 ? sum / scenes : 0.0;
+  return places > 0.0 ? sum / places : 0.0;
 }
 
 }  // namespace
@@ -126,7 +142,7 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
     }
     try {
       sit(sitting, folds.at(sitting.simulator)[sitting.fold],
-          std::span(trials).subspan(sitting.first, number), experiment.scoring, or_stop);
+          std::span(trials).subspan(sitting.first, number), experiment, or_stop);
     } catch (const InputError& error) {
       throw InputError(fmt::format("fit.tuning: {} on {}, without fold {} of {}: {}",
                                    sitting.entry->name, sitting.simulator, sitting.fold + 1,
@@ -135,18 +151,18 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
     saved.write(name, sitting.of);
     progress.advance();
   });
-  std::vector<SceneCounts> counts(trials.size());
+  std::vector<PlaceCounts> counts(trials.size());
   for (const Sitting& sitting : sittings) {
     for (std::size_t trial = 0; trial < number; ++trial) {
-      for (const auto& [scene, points] : sitting.of[trial]) {
-        counts[sitting.first + trial][scene] += points;
+      for (const auto& [place, points] : sitting.of[trial]) {
+        counts[sitting.first + trial][place] += points;
       }
     }
   }
   for (std::size_t first = 0; first < trials.size(); first += number) {
     std::size_t best = first;
     for (std::size_t trial = first; trial < first + number; ++trial) {
-      trials[trial].score = mean_over_scenes(counts[trial]);
+      trials[trial].score = mean_over_places(counts[trial]);
       if (trials[trial].score > trials[best].score) best = trial;
     }
     trials[best].is_chosen = true;

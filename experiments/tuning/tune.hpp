@@ -18,16 +18,16 @@ struct Trial {
   std::string estimator;
   int number = 0;  ///< 0: its defaults
   Constants constants;
-  /// Mean over scenes of the balanced accuracy, both wheels and all runs of a scene added, each run
-  /// heard by an estimator that was fitted to runs of other folds.
+  /// Mean over scenes and noise settings of the balanced accuracy, both wheels and all runs of a
+  /// scene added, each run heard by an estimator that was fitted to runs of other folds.
   double score = 0.0;
   bool is_chosen = false;  ///< the best of its estimator in this engine; of equals the first
 };
 
 /// As many trials of every estimator that has something to choose, on each engine, in parallel: by
 /// engine, estimator, then number. Only these runs decide: whole ones and pieces are fitted to,
-/// whole ones are judged, as they are heard. What is saved is not tried again. Errors: `InputError`
-/// where too few are left to fit to, `Stopped`.
+/// whole ones are judged, as sensors report them and through the tuning's noise. What is saved is
+/// not tried again. Errors: `InputError` where too few are left to fit to, `Stopped`.
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                         const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& pieces,

@@ -35,10 +35,14 @@ TEST(TuningConfig, NothingIsTunedUnlessTheFileAsks) {
 }
 
 TEST(TuningConfig, WhatIsWrittenReadsBackToTheSame) {
-  const Experiment experiment = tuning_of("tuning: {trials: 7, folds: 3}");
+  const Experiment experiment = tuning_of(
+      "tuning: {trials: 7, folds: 3, noise: [{torque: 0, accelerometer: 0}, {torque: 1, "
+      "accelerometer: 5}]}");
   ASSERT_TRUE(experiment.tuning.has_value());
   EXPECT_EQ(experiment.tuning->trials, 7);
   EXPECT_EQ(experiment.tuning->folds, 3);
+  EXPECT_EQ(experiment.tuning->noise, (std::vector<noise::NoiseCell>{{0.0, 0.0}, {1.0, 5.0}}));
+  EXPECT_EQ(tuning_of("tuning: {trials: 7}").tuning->noise, std::vector<noise::NoiseCell>(1));
   const std::string text = to_yaml(experiment);
   EXPECT_THAT(text, HasSubstr("trials: 7"));
   EXPECT_EQ(text, to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))));
@@ -55,6 +59,10 @@ TEST(TuningConfig, ComplainsWhereItStandsAndSuggestsTheNearestKey) {
               complains("5:21: fit.tuning.trials: ", "expected a number from 1 to 10000"));
   EXPECT_THAT([] { tuning_of("tuning: {trials: 7, folds: 1}"); },
               complains("5:31: fit.tuning.folds: ", "expected a number from 2 to 1000"));
+  EXPECT_THAT([] { tuning_of("tuning: {trials: 7, noise: []}"); },
+              complains("5:31: fit.tuning.noise: ", "at least one noise setting"));
+  EXPECT_THAT([] { tuning_of("tuning: {trials: 7, noise: [{torque: 1}]}"); },
+              complains("5:32: fit.tuning.noise.0.accelerometer: ", "is missing"));
   EXPECT_THAT([] { tuning_of("tuning: 7"); },
               complains("5:12: fit.tuning: ", "expected a mapping"));
 }

@@ -108,6 +108,24 @@ TEST(Tune, ChoosesTheSameWhateverTheNumberOfThreads) {
   EXPECT_EQ(with(1), with(4));
 }
 
+/// What is best without noise is not what is best with much of it: a filter as quick as noise.
+TEST(Tune, HearsTheNoiseThatTheTuningDeclares) {
+  const std::vector<RunSignals> runs = fitted_runs(4);
+  Experiment experiment = tuned_experiment({"free_fall"}, 12);
+  const auto trials_with = [&](const std::vector<noise::NoiseCell>& noise) {
+    experiment.tuning->noise = noise;
+    return tune(experiment, "", runs, {}, {});
+  };
+  const std::vector<Trial> none = trials_with({{}});
+  const std::vector<Trial> much = trials_with({{0.0, 20.0}});
+  const std::vector<Trial> both = trials_with({{}, {0.0, 20.0}});
+  for (std::size_t i = 0; i < none.size(); ++i) {
+    EXPECT_LT(much[i].score, none[i].score) << i;
+    EXPECT_NEAR(both[i].score, 0.5 * (none[i].score + much[i].score), 1e-12) << i;
+  }
+  EXPECT_GT(chosen_of(much).constants.at("low_pass"), chosen_of(none).constants.at("low_pass"));
+}
+
 TEST(Tune, WhatIsSavedIsNotTriedAgain) {
   const ScratchFolder folder;
   std::vector<RunSignals> runs = fitted_runs(4);
