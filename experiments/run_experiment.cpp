@@ -50,9 +50,10 @@ struct Fitted {
   std::vector<Trial> trials;
 };
 
-/// One of the experiment's fits, of every engine, with its refits.
+/// One of the experiment's fits, of every engine, with its refits; with these constants unless it
+/// is tuned itself.
 Fitted fit(const Experiment& experiment, const PlayedRuns& runs, const std::string& name,
-           const GoingOn& going_on, const SavedTrials& saved) {
+           const GoingOn& going_on, const SavedTrials& saved, ChosenConstants chosen) {
   std::vector<RunSignals> fitted;
   for (const auto& [index, run] : runs) {
     const PlannedRun& plan = run.plan;
@@ -66,8 +67,10 @@ Fitted fit(const Experiment& experiment, const PlayedRuns& runs, const std::stri
     }
   }
   Fitted all;
-  if (experiment.tuning) all.trials = tune(experiment, name, fitted, pieces, going_on, saved);
-  const ChosenConstants chosen = chosen_in(all.trials);
+  if (experiment.tuning && (name.empty() || experiment.tuning->everywhere)) {
+    all.trials = tune(experiment, name, fitted, pieces, going_on, saved);
+    chosen = chosen_in(all.trials);
+  }
   const auto add = [&](int refit, FittedModels&& of_refit) {
     for (auto& [simulator, by_estimator] : of_refit) {
       all.models[model_key(simulator, name, refit)] = std::move(by_estimator);
@@ -99,7 +102,8 @@ Fitted fit(const RunningExperiment& running, const PlayedRuns& runs) {
                           state_key(running.request));
   Fitted all;
   for (const std::string& name : fits) {
-    Fitted one = fit(experiment, runs, name, running.going_on, saved);
+    // The own fit is the first: without `everywhere` the others have what was chosen for it.
+    Fitted one = fit(experiment, runs, name, running.going_on, saved, chosen_in(all.trials));
     all.models.merge(one.models);
     std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
   }

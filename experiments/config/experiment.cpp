@@ -74,6 +74,7 @@ static void describe(Fields& fields, FitPieces& pieces) {
 static void describe(Fields& fields, TuningConfig& tuning, const RunsConfig& fit) {
   fields.require("trials", tuning.trials, 1, 10'000);
   fields("folds", tuning.folds, 2, 1000);
+  fields("everywhere", tuning.everywhere);
   if (fields.present("noise", true)) fields.list("noise", tuning.noise);
   fields.check(!tuning.noise.empty(), "noise", "expected at least one noise setting");
   const std::size_t runs =

@@ -39,6 +39,9 @@ struct TuningConfig {
   int trials = 8;  ///< the first one an estimator's defaults
   int folds = 2;   ///< that the fitted runs are cut into: each is judged by fits to the others
   std::vector<noise::NoiseCell> noise = {{}};  ///< in which they are, on top of what sensors do
+  /// Whether a benchmark's other robots and sensors have trials of their own, or else the constants
+  /// that were chosen for its own.
+  bool everywhere = false;
 };
 
 /// Which recordings stay in the run directory. What has none is simulated again, to the bit, where

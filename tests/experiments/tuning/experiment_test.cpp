@@ -1,3 +1,5 @@
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -82,6 +84,28 @@ TEST_F(TunedExperiment, ATrialOfTheDefaultsAloneGivesTheBytesOfNone) {
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none/tables/tuning.csv"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "defaults/tables/tuning.csv"));
+}
+
+TEST_F(TunedExperiment, OtherSensorsHaveTheOwnOnesConstantsUnlessTheyAreTunedThemselves) {
+  const std::string harsh =
+      "benchmark.sensors=[" + std::string(TOUCHDOWN_SOURCE_DIR) + "/sensors/harsh.yaml]";
+  const auto fits_in = [&](const std::string& name) {
+    const Table table = from_csv(text(name, "tables/tuning.csv"));
+    std::set<std::string> fits;
+    for (const std::vector<std::string>& row : table.rows) fits.insert(cell(table, row, "fit"));
+    return fits.size();
+  };
+  const ExperimentResult once = run("once", tuned_study(folder_, ", tuning: {trials: 6}", harsh));
+  EXPECT_EQ(fits_in("once"), 1U);
+  ASSERT_EQ(once.models.size(), 2U);
+  const Constants& own = once.models.at("mujoco").at("support_force").constants;
+  EXPECT_FALSE(own.empty());
+  for (const auto& [fit, models] : once.models) {
+    EXPECT_EQ(models.at("support_force").constants, own) << fit;
+    EXPECT_TRUE(models.contains("load_logistic")) << fit;
+  }
+  run("everywhere", tuned_study(folder_, ", tuning: {trials: 6, everywhere: true}", harsh));
+  EXPECT_EQ(fits_in("everywhere"), 2U);
 }
 
 TEST_F(TunedExperiment, HasAnotherNameThanWithoutTrials) {
