@@ -75,6 +75,11 @@ std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSessio
 
 void render(const RenderFlags& flags, const CliSession& session) {
   check_outputs(files_of(flags.inputs), {flags.output});
+  if (flags.scene || flags.poster) {
+    require_extension(flags.output, {".png", ".jpg"}, "a picture");
+  } else {
+    require_extension(flags.output, {".mp4"}, "a film");
+  }
   const std::vector<render::FilmedRun> runs = runs_of(flags, session);
   render::VideoOptions options = flags.video;
   options.quality =

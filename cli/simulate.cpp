@@ -33,6 +33,7 @@ void simulate(const SimulateFlags& flags, const CliSession& session) {
   experiments::require_yaml_kind(document, experiments::YamlKind::scenario);
   scenarios::Scenario scenario = scenarios::complete_scenario(document);
   check_outputs({{file, "scenario"}, {scenario.robot, "robot"}}, {flags.output});
+  require_extension(flags.output, {".mpack"}, "a recording");
   if (flags.run >= 0) scenario = scenarios::perturbed(scenario, flags.seed, flags.run);
 
   recordings::Recording recording;

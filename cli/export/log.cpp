@@ -16,9 +16,7 @@ namespace touchdown::cli {
 namespace {
 
 void check_files(const ExportedLog& files) {
-  if (std::filesystem::path(files.output).extension() != ".mpack") {
-    throw InputError(fmt::format("-o: {}: expected a log, FILE.mpack", files.output));
-  }
+  require_extension(files.output, {".mpack"}, "a log");
   std::vector<std::filesystem::path> outputs = {files.output};
   if (!files.labels.empty()) outputs.emplace_back(files.labels);
   check_outputs({{files.log, "log"}, {files.mapping, "mapping"}}, outputs);

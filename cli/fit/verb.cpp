@@ -160,6 +160,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   for (const experiments::FitLog& log : logs) inputs.push_back({log.path, "log"});
   for (const std::string& labels : flags.labels) inputs.push_back({labels, "file of labels"});
   check_outputs(inputs, {flags.output});
+  require_extension(flags.output, {".npz"}, "a model");
   experiments::LogFitConfig config = flags.config;
   config.stop = session.stop;
   experiments::LogFitReport report;

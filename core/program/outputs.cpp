@@ -1,11 +1,13 @@
 #include "core/program/outputs.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 
@@ -70,6 +72,14 @@ void check_outputs(const std::vector<InputFile>& inputs, const std::vector<fs::p
     }
     check_replaceable(outputs[i]);
   }
+}
+
+void require_extension(const fs::path& output, const std::vector<std::string>& extensions,
+                       const std::string& what) {
+  const std::string extension = output.extension().string();
+  if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
+  throw InputError(fmt::format("{}: expected {}, whose name ends with {}", output.string(), what,
+                               fmt::join(extensions, " or ")));
 }
 
 }  // namespace touchdown

@@ -20,4 +20,9 @@ struct InputFile {
 void check_outputs(const std::vector<InputFile>& inputs,
                    const std::vector<std::filesystem::path>& outputs);
 
+/// Errors: `InputError` unless the output's name ends with one of these, such as ".mpack": who
+/// reads the file goes by its name. `what` it is: "a recording".
+void require_extension(const std::filesystem::path& output,
+                       const std::vector<std::string>& extensions, const std::string& what);
+
 }  // namespace touchdown

@@ -274,7 +274,7 @@ TEST_F(Mapping, WhatDoesNotGoTogetherIsRefusedAndNothingIsWritten) {
               HasSubstr("si.yaml:3:20: joints.position.from: bad.csv has no column 'lk_q' (did you "
                         "mean 'lh_q'?)"));
   EXPECT_THAT(refused("export bad.csv --mapping si.yaml -o bad.csv"),
-              HasSubstr("-o: bad.csv: expected a log, FILE.mpack"));
+              HasSubstr("bad.csv: expected a log, whose name ends with .mpack"));
   EXPECT_THAT(refused("export bad.csv --mapping si.yaml --benchmark d"),
               HasSubstr("--mapping: expected -o"));
   EXPECT_THAT(refused("export bad.csv --labels l.csv -o bad.mpack"),

@@ -29,8 +29,9 @@ class Overwrite : public ::testing::Test {
     folder_.write("robot.xml", read_file(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml"));
     folder_.write("own_robot.yaml",
                   fmt::format("robot: robot.xml\n{}", read_file(folder_ / "step.yaml")));
-    const Ended fitted = touchdown_program("fit a.mpack -o m.csv --grid 20 20", folder_.path());
+    const Ended fitted = touchdown_program("fit a.mpack -o m.npz --grid 20 20", folder_.path());
     EXPECT_EQ(fitted.exit_code, 0) << fitted.errors;
+    fs::rename(folder_ / "m.npz", folder_ / "m.csv");
   }
 
   std::map<std::string, std::string> files() const {
@@ -93,6 +94,17 @@ TEST_F(Overwrite, OfARecordingByItsFilmIsRefused) {
   folder_.write("run/config.yaml", "name: x\n");
   expect_refused("render run -o run/recordings/a.mpack", "is the run's own file itself");
   expect_refused("render run -o run/config.yaml", "is the run's config.yaml itself");
+}
+
+TEST_F(Overwrite, IsNoQuestionWhereTheNameIsOfAnotherKindOfFile) {
+  expect_refused("simulate step.yaml -o run.mp4",
+                 "run.mp4: expected a recording, whose name ends with .mpack");
+  expect_refused("fit a.mpack -o model.txt",
+                 "model.txt: expected a model, whose name ends with .npz");
+  expect_refused("render a.mpack -o film.avi",
+                 "film.avi: expected a film, whose name ends with .mp4");
+  expect_refused("render a.mpack --poster -o film.mp4",
+                 "film.mp4: expected a picture, whose name ends with .png or .jpg");
 }
 
 TEST_F(Overwrite, ByTheOtherOutputIsRefused) {
