@@ -1,7 +1,11 @@
 #include "models/robot_description.hpp"
 
+#include <system_error>
+#include <vector>
+
 #include "core/fields.hpp"
 #include "core/files.hpp"
+#include "core/resources.hpp"
 
 namespace touchdown::models {
 
@@ -59,8 +63,20 @@ RobotDescription robot_description(const std::filesystem::path& file) {
     alone.mjcf = file;
     return alone;
   }
-  auto robot = from_yaml<RobotDescription>(YamlDocument::load(file));
+  const YamlDocument document = YamlDocument::load(file);
+  auto robot = from_yaml<RobotDescription>(document);
   robot.mjcf = file.parent_path() / robot.mjcf;
+  // Not first where the model is compiled: that may be on behalf of the gains.
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(robot.mjcf, ignored)) {
+    std::vector<std::string> neighbours;
+    for (const auto& mjcf : resources_in(file.parent_path(), ".xml")) {
+      neighbours.push_back(mjcf.filename().string());
+    }
+    Fields(document).check(false, "mjcf",
+                           robot.mjcf.string() + ": no such file" +
+                               did_you_mean(robot.mjcf.filename().string(), neighbours));
+  }
   return robot;
 }
 

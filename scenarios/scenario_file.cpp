@@ -47,7 +47,7 @@ Scenario complete_scenario(const YamlDocument& document) {
   wanted = scenario_from_yaml(document, wanted,
                               [](const policies::WheelBalancerConfig& config) { return config; });
   Scenario defaults;
-  defaults.robot = find_resource(wanted.robot);
+  Fields(document).check("robot", [&] { defaults.robot = find_resource(wanted.robot); });
   const models::Stance stance = models::robot_description(defaults.robot).stance;
   defaults.start.hip = std::isnan(wanted.start.hip) ? stance.hip : wanted.start.hip;
   defaults.start.knee = std::isnan(wanted.start.knee) ? stance.knee : wanted.start.knee;
@@ -60,7 +60,10 @@ Scenario complete_scenario(const YamlDocument& document) {
 
 Scenario find_scenario(const std::filesystem::path& path, const std::string& robot) {
   YamlDocument document = YamlDocument::load(find_resource(path));
-  if (!robot.empty()) document.override_value("robot=" + robot);
+  if (!robot.empty()) {
+    (void)find_resource(robot);  // or the scenario would be blamed for it
+    document.override_value("robot=" + robot);
+  }
   return complete_scenario(document);
 }
 

@@ -89,7 +89,10 @@ TEST_F(RobotFile, WithABadValueSaysWhereAndWhatWasExpected) {
               HasSubstr("did you mean 'friction'?"));
   EXPECT_THAT(complaint_about("mjcf: upkie.xml\nactuators: {elbow: {}}\n"), HasSubstr("elbow"));
   EXPECT_THAT(complaint_about("actuators: {}\n"), HasSubstr("mjcf"));
-  EXPECT_THAT(complaint_about("mjcf: nothing.xml\n"), HasSubstr("nothing.xml"));
+  EXPECT_THAT(complaint_about("mjcf: nothing.xml\n"),
+              AllOf(HasSubstr("robot.yaml:1:7: mjcf: "), HasSubstr("nothing.xml: no such file")));
+  EXPECT_THAT(complaint_about("mass: 2\nmjcf: upky.xml\n"),
+              AllOf(HasSubstr("robot.yaml:2:7: mjcf: "), HasSubstr("did you mean 'upkie.xml'?")));
 }
 
 TEST_F(RobotFile, CountsWithTheMjcfThatItNamesWhereContentCounts) {

@@ -11,6 +11,8 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
 
 class ScenarioOfARobot : public ::testing::Test {
  protected:
@@ -82,6 +84,28 @@ TEST_F(ScenarioOfARobot, OfAnMjcfAloneIsWhatItSaysItself) {
     alone.robot = found.robot;
     EXPECT_EQ(to_yaml(found), to_yaml(alone));
   }
+}
+
+TEST_F(ScenarioOfARobot, ThatIsNotThereSaysWhoNamesIt) {
+  const std::string missing = (folder_ / "robto.yaml").string();
+  write_atomically(folder_ / "robot.yaml", "mjcf: upkie.xml\n");
+  write_atomically(folder_ / "scene.yaml", "name: x\nrobot: " + missing + "\n");
+  const std::string scene = (folder_ / "scene.yaml").string();
+  EXPECT_THAT([&] { (void)find_scenario(scene); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("scene.yaml:2:8: robot: "),
+                                              HasSubstr("robto.yaml: no such file"),
+                                              HasSubstr("robot.yaml'?)"))));
+  EXPECT_THAT([&] { (void)find_scenario(scene, missing); },
+              ThrowsMessage<InputError>(StartsWith(missing + ": no such file")))
+      << "somebody else names it";
+}
+
+TEST_F(ScenarioOfARobot, WhoseMjcfIsNotThereDoesNotBlameItsGains) {
+  write_atomically(folder_ / "robot.yaml", "balancer: {gains: lqr}\nmjcf: upky.xml\n");
+  write_atomically(folder_ / "scene.yaml",
+                   "name: x\nrobot: " + (folder_ / "robot.yaml").string() + "\n");
+  EXPECT_THAT([&] { (void)find_scenario(folder_ / "scene.yaml"); },
+              ThrowsMessage<InputError>(HasSubstr("robot.yaml:2:7: mjcf: ")));
 }
 
 TEST_F(ScenarioOfARobot, WithABadValueSaysInWhichFile) {
