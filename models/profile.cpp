@@ -102,8 +102,10 @@ Profile::Profile(const Strip& strip) {
     Edge edge = rounded_edge(segments_[i], bottom, pen.nosing_radii[i]);
     edge.segment = i;
     if (edge.tangent_x <= segments_[i].x0 || edge.centre_z < bottom) {
-      throw InputError(fmt::format("the edge at x = {:.3g} m has no room for a nosing of {:.3g} m",
-                                   edge.x, edge.radius));
+      throw InputError(
+          fmt::format("the edge at x = {:.3g} m has no room for a nosing of {:.3g} m: expected a "
+                      "smaller nosing_radius, a higher edge or more ground before it",
+                      edge.x, edge.radius));
     }
     edges_.push_back(edge);
   }
