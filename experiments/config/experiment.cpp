@@ -338,7 +338,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.check(
       !draws || experiment.recordings != KeptRecordings::none, "recordings",
       "expected all or pictured: the video, the detail and the cross-simulator overlay are "
-      "drawn from them");
+      "drawn from them; none goes with video.enabled: false and without the others");
   fields.know("benchmark");
   fields.section("benchmark", experiment.benchmark);
   fields.know("odometry");

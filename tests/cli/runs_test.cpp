@@ -15,6 +15,7 @@
 namespace touchdown::cli {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -222,7 +223,8 @@ TEST(Run, ThatIsFilmedNeedsRecordings) {
   const Ended ended = touchdown_program(
       "run tiny.yaml --set recordings=none --set video.enabled=true", folder.path());
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.errors, HasSubstr("recordings: expected all or pictured"));
+  EXPECT_THAT(ended.errors, AllOf(HasSubstr("recordings: expected all or pictured"),
+                                  HasSubstr("none goes with video.enabled: false")));
 }
 
 TEST(Simulate, RecordsTheSameRunTwice) {
