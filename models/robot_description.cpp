@@ -70,7 +70,7 @@ RobotDescription robot_description(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(robot.mjcf, ignored)) {
     std::vector<std::string> neighbours;
-    for (const auto& mjcf : resources_in(file.parent_path(), ".xml")) {
+    for (const auto& mjcf : resources_in(robot.mjcf.parent_path(), ".xml")) {
       neighbours.push_back(mjcf.filename().string());
     }
     Fields(document).check(false, "mjcf",

@@ -93,6 +93,9 @@ TEST_F(RobotFile, WithABadValueSaysWhereAndWhatWasExpected) {
               AllOf(HasSubstr("robot.yaml:1:7: mjcf: "), HasSubstr("nothing.xml: no such file")));
   EXPECT_THAT(complaint_about("mass: 2\nmjcf: upky.xml\n"),
               AllOf(HasSubstr("robot.yaml:2:7: mjcf: "), HasSubstr("did you mean 'upkie.xml'?")));
+  EXPECT_THAT(complaint_about("mjcf: " TOUCHDOWN_SOURCE_DIR "/models/upky.xml\n"),
+              HasSubstr("did you mean 'upkie.xml'?"))
+      << "elsewhere";
 }
 
 TEST_F(RobotFile, CountsWithTheMjcfThatItNamesWhereContentCounts) {
