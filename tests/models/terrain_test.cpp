@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/files.hpp"
 #include "models/terrain_yaml.hpp"
 #include "tests/models/terrains.hpp"
 
@@ -85,6 +86,18 @@ TEST(Terrain, GroundBelowTheFloorIsRefused) {
   const Terrain terrain{.pieces = {Flat{1.0}, Step{0.2, 0.0}, Flat{1.0}, Ramp{10.0, 0.3}}};
   EXPECT_THAT([&] { (void)height_at(terrain, 0.0); },
               ThrowsMessage<InputError>(HasSubstr("below the floor")));
+}
+
+TEST(Terrain, OfTheDocumentationCanBeBuilt) {
+  const std::string text = read_file(TOUCHDOWN_SOURCE_DIR "/docs/models.md");
+  const std::string before = "```yaml\nterrain:\n";
+  const std::size_t begin = text.find(before);
+  ASSERT_NE(begin, std::string::npos);
+  const std::string keys =
+      text.substr(begin + before.size(), text.find("```\n", begin + 1) - begin - before.size());
+  const auto terrain = from_yaml<Terrain>(YamlDocument::parse(keys, "models.md"));
+  EXPECT_EQ(terrain.pieces.size(), 6U);
+  EXPECT_EQ(terrain.beside.size(), 1U);
 }
 
 TEST(Terrain, NosingLargerThanItsStepIsRefused) {
