@@ -161,7 +161,9 @@ TEST_F(Render, UnwritableOutputsAreRefusedBeforeAnythingIsDrawn) {
     EXPECT_THAT(errors, HasSubstr("cannot be written"));
     EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
   }
-  EXPECT_THAT(complaint_about("a.mpack -o .", 1), HasSubstr("cannot be written"));
+  fs::create_directory(folder_ / "folder.mp4");
+  EXPECT_THAT(complaint_about("a.mpack -o folder.mp4", 1), HasSubstr("cannot be written"));
+  EXPECT_THAT(complaint_about("a.mpack -o .", 2), HasSubstr(".mp4"));
 }
 
 /// Live children of `parent`, by /proc: zombies do not count.
