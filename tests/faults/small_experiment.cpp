@@ -35,7 +35,7 @@ std::string small_run_without_pictures(const ScratchFolder& folder) {
 }
 
 std::string small_closed_loop(const ScratchFolder& folder) {
-  const std::string run = small_run_without_pictures(folder);
+  std::string run = small_run_without_pictures(folder);
   std::ofstream(folder / "small.yaml", std::ios::app) << R"(closed_loop:
   contact: [truth, measurement_only, always]
   runs: 3
