@@ -56,6 +56,7 @@ void run(const RunFlags& flags, const CliSession& session) {
                                         .stop = session.stop,
                                         .overwrite = flags.overwrite};
   const experiments::Experiment experiment = experiments::experiment_from_yaml(document);
+  experiments::require_files(document);
   if (flags.dry_run) {
     outline(experiment, options);
     return;

@@ -15,8 +15,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-Fields::Fields(YAML::Node node, std::string file, std::string path)
-    : reading_(true), node_(node), file_(std::move(file)), path_(std::move(path)) {
+Fields::Fields(YAML::Node node, YamlDocument document, std::string path)
+    : reading_(true), node_(node), document_(std::move(document)), path_(std::move(path)) {
   if (node_ && !node_.IsNull() && !node_.IsMap()) {
     fail(node_, "", "expected a mapping of keys to values");
   }
@@ -42,12 +42,14 @@ void Fields::names(std::string_view key, const std::vector<std::string>& known,
                    std::vector<std::string>& values) {
   (*this)(key, values);
   check(!values.empty(), key, "expected at least one name");
-  for (auto name = values.begin(); name != values.end(); ++name) {
-    check(contains(known, *name), key,
-          fmt::format("'{}' is not one of {}{}", *name, fmt::join(known, ", "),
-                      did_you_mean(*name, known)));
-    check(std::find(values.begin(), name, *name) == name, key,
-          fmt::format("'{}' stands there twice", *name));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string& name = values[i];
+    check_item(contains(known, name), key, i,
+               fmt::format("'{}' is not one of {}{}", name, fmt::join(known, ", "),
+                           did_you_mean(name, known)));
+    const auto here = values.begin() + static_cast<std::ptrdiff_t>(i);
+    check_item(std::find(values.begin(), here, name) == here, key, i,
+               fmt::format("'{}' stands there twice", name));
   }
 }
 
@@ -57,7 +59,7 @@ void Fields::in_line(std::string_view key, std::vector<double>& numbers) {
 }
 
 void Fields::within(std::string_view key, const std::function<void(Fields&)>& describe_section) {
-  Fields inner = reading() ? Fields(take(key), file_, path_to(key)) : Fields();
+  Fields inner = reading() ? Fields(take(key), document_, path_to(key)) : Fields();
   describe_section(inner);
   inner.finish();
   if (!reading()) node_[std::string(key)] = inner.node();
@@ -69,7 +71,7 @@ void Fields::items(std::string_view key, std::size_t count,
     const YAML::Node list = take(key);
     if (list && !list.IsSequence()) fail(key, "expected a list");
     for (std::size_t i = 0; list && i < list.size(); ++i) {
-      Fields item(list[i], file_, fmt::format("{}.{}", path_to(key), i));
+      Fields item(list[i], document_, fmt::format("{}.{}", path_to(key), i));
       describe_item(item, i);
       item.finish();
     }
@@ -110,6 +112,13 @@ void Fields::check(bool holds, std::string_view key, const std::string& message)
   if (reading() && !holds) fail(key, message);
 }
 
+void Fields::check_item(bool holds, std::string_view key, std::size_t item,
+                        const std::string& message) const {
+  if (!reading() || holds) return;
+  const YAML::Node list = node_[std::string(key)];
+  fail(list.IsSequence() && item < list.size() ? list[item] : list, key, message);
+}
+
 void Fields::check(std::string_view key, const std::function<void()>& action) const {
   if (!reading()) return;
   try {
@@ -139,11 +148,8 @@ void Fields::fail(std::string_view key, const std::string& message) const {
 
 void Fields::fail(const YAML::Node& node, std::string_view key, const std::string& message) const {
   const std::string where = path_to(key);
-  // Values set from the command line have no place in the file.
-  const YAML::Mark mark = node ? node.Mark() : YAML::Mark::null_mark();
-  const std::string place =
-      mark.is_null() ? file_ : fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
-  throw InputError(fmt::format("{}: {}{}{}", place, where, where.empty() ? "" : ": ", message));
+  throw InputError(fmt::format("{}: {}{}{}", document_.place_of(node, where), where,
+                               where.empty() ? "" : ": ", message));
 }
 
 void Fields::refuse_leading_zeros(const YAML::Node& given, std::string_view key) const {

@@ -29,7 +29,7 @@ namespace touchdown {
 class Fields {
  public:
   Fields() = default;  ///< writes
-  explicit Fields(const YamlDocument& document) : Fields(document.root(), document.name(), "") {}
+  explicit Fields(const YamlDocument& document) : Fields(document.root(), document, "") {}
 
   bool reading() const { return reading_; }
   /// What is read, or has been written.
@@ -133,11 +133,14 @@ class Fields {
 
   /// Reading: complains about the key's value unless `holds`.
   void check(bool holds, std::string_view key, const std::string& message) const;
+  /// The same at the place of one of the key's values, if it is a list.
+  void check_item(bool holds, std::string_view key, std::size_t item,
+                  const std::string& message) const;
   /// Reading: an `InputError` of `action` is a complaint about the key's value.
   void check(std::string_view key, const std::function<void()>& action) const;
 
  private:
-  Fields(YAML::Node node, std::string file, std::string path);
+  Fields(YAML::Node node, YamlDocument document, std::string path);
 
   void items(std::string_view key, std::size_t count,
              const std::function<void(Fields&, std::size_t)>& describe_item);
@@ -179,7 +182,7 @@ class Fields {
 
   bool reading_ = false;
   YAML::Node node_;
-  std::string file_;
+  YamlDocument document_;
   std::string path_;
   std::vector<std::string> known_;
 };

@@ -1,14 +1,15 @@
 #include "core/resources.hpp"
 
+#include <algorithm>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/fingerprint.hpp"
-#include "core/yaml.hpp"
 
 namespace touchdown {
 
@@ -18,6 +19,19 @@ std::vector<std::filesystem::path> roots() {
   std::error_code ignored;
   const std::filesystem::path own = std::filesystem::weakly_canonical(own_binary(), ignored);
   return {".", TOUCHDOWN_SOURCE_DIR, TOUCHDOWN_SHARE_DIR, own.parent_path() / "share/touchdown"};
+}
+
+/// The names of the files of its kind that are in its folder.
+std::vector<std::string> neighbours_of(const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::filesystem::path name = entry.path().filename();
+    if (name.extension() == path.extension()) names.push_back(name.string());
+  }
+  std::sort(names.begin(), names.end());  // a folder has no order
+  return names;
 }
 
 }  // namespace
@@ -50,6 +64,47 @@ std::filesystem::path find_resource(const std::filesystem::path& path) {
   }
   throw InputError(
       fmt::format("{}: no such file{}", path.string(), did_you_mean(path.string(), neighbours)));
+}
+
+void require_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw InputError(fmt::format("{}: is a folder, expected a file", path.string()));
+  }
+  if (std::filesystem::exists(path, ignored)) return;
+  throw InputError(fmt::format("{}: no such file{}", path.string(),
+                               did_you_mean(path.filename().string(), neighbours_of(path))));
+}
+
+namespace {
+
+/// The values at the end of a dotted key below `node`, of lists all items'.
+void require_below(const YamlDocument& document, const YAML::Node& node, const std::string& key,
+                   std::string_view rest) {
+  if (node.IsSequence()) {
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      require_below(document, node[i], fmt::format("{}.{}", key, i), rest);
+    }
+  } else if (rest.empty() && node.IsScalar()) {
+    try {
+      (void)find_resource(node.Scalar());
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}: {}", document.place_of(node, key), key, error.what()));
+    }
+  } else if (!rest.empty() && node.IsMap()) {
+    const std::size_t dot = std::min(rest.find('.'), rest.size());
+    const std::string name(rest.substr(0, dot));
+    const YAML::Node below = node[name];
+    if (!below) return;
+    require_below(document, below, key.empty() ? name : fmt::format("{}.{}", key, name),
+                  rest.substr(std::min(dot + 1, rest.size())));
+  }
+}
+
+}  // namespace
+
+void require_resources(const YamlDocument& document, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) require_below(document, document.root(), "", key);
 }
 
 }  // namespace touchdown

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/yaml.hpp"
+
 namespace touchdown {
 
 /// Where a file that an experiment, a scenario or a command names really is: `path` itself if it
@@ -12,9 +14,18 @@ namespace touchdown {
 /// Errors: `InputError` naming the nearest existing file.
 std::filesystem::path find_resource(const std::filesystem::path& path);
 
+/// Errors: `InputError` when there is no such file, with the nearest name in its folder, or when it
+/// is a folder itself.
+void require_file(const std::filesystem::path& path);
+
 /// The files in `folder` with this extension, from here and from where the project's own ones are,
 /// as `find_resource` takes them; sorted.
 std::vector<std::filesystem::path> resources_in(const std::filesystem::path& folder,
                                                 const std::string& extension);
+
+/// Looks for every file that a document names under these dotted keys, of lists in all their items:
+/// "fit.pieces.scenario". Errors: `InputError` for the first that is not there, with the place that
+/// names it.
+void require_resources(const YamlDocument& document, const std::vector<std::string>& keys);
 
 }  // namespace touchdown

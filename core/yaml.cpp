@@ -123,6 +123,17 @@ void YamlDocument::override_value(std::string_view assignment) {
   } else {
     parent[keys.back()] = value;
   }
+  overrides_.push_back({std::string(assignment.substr(0, equals)), std::string(assignment)});
+}
+
+std::string YamlDocument::place_of(const YAML::Node& node, std::string_view key) const {
+  for (auto last = overrides_.rbegin(); last != overrides_.rend(); ++last) {
+    const bool within = key.starts_with(last->key) &&
+                        (key.size() == last->key.size() || key[last->key.size()] == '.');
+    if (within) return "--set " + last->assignment;
+  }
+  const YAML::Mark mark = node ? node.Mark() : YAML::Mark::null_mark();
+  return mark.is_null() ? name_ : fmt::format("{}:{}:{}", name_, mark.line + 1, mark.column + 1);
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {

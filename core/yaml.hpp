@@ -26,9 +26,19 @@ class YamlDocument {
   const YAML::Node& root() const { return root_; }
   const std::string& name() const { return name_; }
 
+  /// Where a value comes from that stands under a dotted key: `file:line:column`, or the assignment
+  /// that put it there.
+  std::string place_of(const YAML::Node& node, std::string_view key) const;
+
  private:
+  struct Override {
+    std::string key;  ///< dotted
+    std::string assignment;
+  };
+
   YAML::Node root_;
   std::string name_;
+  std::vector<Override> overrides_;
 };
 
 /// The entry of `candidates` that is fewest edits away from `word`, or empty if none is near.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <utility>
 
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
@@ -34,15 +35,16 @@ YamlDocument document_of(const Asked& asked) {
   return document;
 }
 
-/// The estimators that an experiment asks for and that are written in Python, by name.
-std::vector<std::string> python_estimators(const Asked& asked) {
-  std::vector<std::string> names;
+/// The estimators that an experiment asks for and that are written in Python, by name, each with
+/// the place that names it.
+std::vector<std::pair<std::string, std::string>> python_estimators(const Asked& asked) {
+  std::vector<std::pair<std::string, std::string>> names;
   const YamlDocument document = document_of(asked);
   const YAML::Node given = document.root()["estimators"];
   if (!given || !given.IsSequence()) return names;
   for (const auto& item : given) {
     if (item.IsScalar() && item.Scalar().starts_with(experiments::python_prefix)) {
-      names.push_back(item.Scalar());
+      names.emplace_back(item.Scalar(), document.place_of(item, "estimators"));
     }
   }
   return names;
@@ -59,9 +61,11 @@ py::dict run(const Asked& asked, const fs::path& out, bool overwrite, const std:
              const py::list& guests) {
   const experiments::GuestEstimators present(guests_of(guests));
   const Finished finished = long_call([&](const std::atomic<bool>& stop) {
+    const YamlDocument document = document_of(asked);
+    const experiments::Experiment experiment = experiments::experiment_from_yaml(document);
+    experiments::require_files(document);
     const experiments::ExperimentResult result = experiments::run_experiment(
-        experiments::experiment_from_yaml(document_of(asked)),
-        {.out = out, .command = command, .stop = &stop, .overwrite = overwrite});
+        experiment, {.out = out, .command = command, .stop = &stop, .overwrite = overwrite});
     return Finished{result.directory.path(), result.id, result.studies, result.failed_demands};
   });
   py::dict about;

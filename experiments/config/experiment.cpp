@@ -7,6 +7,7 @@
 
 #include "core/fields.hpp"
 #include "core/file_names.hpp"
+#include "core/resources.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "noise/sensors/factor.hpp"
 #include "simulators/registry.hpp"
@@ -19,10 +20,10 @@ namespace {
 void describe_subset(Fields& fields, std::string_view key, const std::vector<std::string>& known,
                      std::vector<std::string>& names) {
   fields(key, names);
-  for (const std::string& name : names) {
-    fields.check(std::find(known.begin(), known.end(), name) != known.end(), key,
-                 fmt::format("'{}' is not one of the experiment's: {}{}", name,
-                             fmt::join(known, ", "), did_you_mean(name, known)));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    fields.check_item(std::find(known.begin(), known.end(), names[i]) != known.end(), key, i,
+                      fmt::format("'{}' is not one of the experiment's: {}{}", names[i],
+                                  fmt::join(known, ", "), did_you_mean(names[i], known)));
   }
 }
 
@@ -268,12 +269,14 @@ static void require_python(const Fields& fields) {
   const YAML::Node given = fields.node()["estimators"];
   if (!given || !given.IsSequence()) return;
   const std::vector<std::string> known = estimator_names();
-  for (const auto& item : given) {
-    if (!item.IsScalar() || !item.Scalar().starts_with(python_prefix)) continue;
-    fields.check(std::find(known.begin(), known.end(), item.Scalar()) != known.end(), "estimators",
-                 fmt::format("'{}' is written in Python: run the experiment from there, by "
-                             "'python3 -m touchdown run' or touchdown.run",
-                             item.Scalar()));
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (!given[i].IsScalar()) continue;
+    const std::string& name = given[i].Scalar();
+    const bool is_present = std::find(known.begin(), known.end(), name) != known.end();
+    fields.check_item(is_present || !name.starts_with(python_prefix), "estimators", i,
+                      fmt::format("'{}' is written in Python: run the experiment from there, by "
+                                  "'python3 -m touchdown run' or touchdown.run",
+                                  name));
   }
 }
 
@@ -366,6 +369,12 @@ Experiment experiment_from_yaml(const YamlDocument& document) {
   defaults.fit = {.scenarios = {}, .runs = 1, .perturbed = false};
   defaults.test = {.scenarios = {}, .runs = 8, .perturbed = true};
   return from_yaml(document, defaults);
+}
+
+void require_files(const YamlDocument& document) {
+  require_resources(document,
+                    {"fit.scenarios", "fit.pieces.scenario", "test.scenarios", "robot", "sensors",
+                     "benchmark.robots", "benchmark.sensors", "closed_loop.scenes.scenario"});
 }
 
 std::string to_yaml(const Experiment& experiment) { return YAML::Dump(to_node(experiment)) + "\n"; }

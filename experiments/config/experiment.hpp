@@ -222,6 +222,10 @@ inline constexpr std::int64_t first_fit_run = 1'000'000;
 /// estimators are checked here, scenario files when they are loaded.
 Experiment experiment_from_yaml(const YamlDocument& document);
 
+/// Complains about the first file of an experiment that is not there, at the place that names it.
+/// Errors: `InputError` with file:line:column and the nearest existing file.
+void require_files(const YamlDocument& document);
+
 /// The experiment with every default written out, as YAML that reads back to the same experiment.
 /// Leaves out `workers`: it changes no result.
 std::string to_yaml(const Experiment& experiment);

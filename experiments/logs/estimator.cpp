@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/resources.hpp"
 #include "estimator/models/configuration.hpp"
 #include "estimator/numerics/number_text.hpp"
 #include "experiments/estimators/registry.hpp"
@@ -131,6 +132,7 @@ LogEstimator log_estimator(const LogEstimatorRequest& request) {
     check_needs(entry, request.model);
     return {entry, none, request};
   }
+  require_file(request.model);
   const ModelKind kind = kind_of_model_file(request.model);
   FittedModel model = read_fitted_model(kind, request.model);
   const EstimatorEntry& entry =

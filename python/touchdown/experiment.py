@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import csv
+import difflib
 import importlib
 import inspect
 import json
@@ -81,23 +82,44 @@ class Result:
         return f"<Result: {self.path}>"
 
 
-def _found(name: str) -> type:
-    """The class that an experiment calls `python:module.Class`."""
+class _Signals(dict):
+    """What an estimator is given: whoever asks for what is not there is told what is."""
+
+    def __missing__(self, name: str) -> Any:
+        near = difflib.get_close_matches(str(name), self, 1)
+        raise KeyError(f"'{name}' is no signal: expected one of {', '.join(self)}" + (f" (did you mean '{near[0]}'?)" if near else ""))
+
+
+class _Listener:
+    """Somebody's estimator, for one run of the robot."""
+
+    def __init__(self, estimator: Any):
+        self._estimator = estimator
+
+    def run(self, signals: dict[str, Any]) -> Any:
+        return self._estimator.run(_Signals(signals))
+
+
+def _found(name: str, place: str) -> type:
+    """The class that an experiment calls `python:module.Class`, at this place of its file."""
+    complaint = f"{place}: estimators: '{name}'"
     module_name, _, class_name = name.removeprefix(PREFIX).rpartition(".")
     if not module_name or not class_name:
-        raise InputError(f"estimators: '{name}': expected python:module.Class")
+        raise InputError(f"{complaint}: expected python:module.Class")
     try:
         found: Any = importlib.import_module(module_name)
     except ModuleNotFoundError as error:
         if error.name is None or not module_name.startswith(error.name):
             raise  # it is there, and needs another one
-        raise InputError(f"estimators: '{name}': there is no module '{module_name}' in {os.getcwd()} "
+        raise InputError(f"{complaint}: there is no module '{module_name}' in {os.getcwd()} "
                          "or where Python looks for modules") from error
     if not hasattr(found, class_name):
-        raise InputError(f"estimators: '{name}': module '{module_name}' has no '{class_name}'")
+        near = difflib.get_close_matches(class_name, dir(found), 1)
+        raise InputError(f"{complaint}: module '{module_name}' has no '{class_name}'" +
+                         (f" (did you mean '{near[0]}'?)" if near else ""))
     found = getattr(found, class_name)
     if not callable(getattr(found, "run", None)):
-        raise InputError(f"estimators: '{name}': expected a class with a method run(self, signals)")
+        raise InputError(f"{complaint}: expected a class with a method run(self, signals)")
     return found
 
 
@@ -136,13 +158,13 @@ def _revision(estimator: type) -> str:
         return uuid.uuid4().hex  # nobody knows: nothing counts
 
 
-def _guest(name: str) -> dict[str, Any]:
-    estimator = _found(name)
+def _guest(name: str, place: str) -> dict[str, Any]:
+    estimator = _found(name, place)
     lines = (inspect.getdoc(estimator) or "").splitlines()
     return {"name": name, "title": getattr(estimator, "title", estimator.__name__),
             "summary": lines[0] if lines else "written in Python",
             "sensors": list(getattr(estimator, "sensors", SENSORS)), "revision": _revision(estimator),
-            "make": estimator}
+            "make": lambda: _Listener(estimator())}
 
 
 def run(experiment: str | os.PathLike | Mapping[str, Any], *, overrides: Mapping[str, Any] | Iterable[str] | None = None,
@@ -172,7 +194,7 @@ def run(experiment: str | os.PathLike | Mapping[str, Any], *, overrides: Mapping
     changes = assignments(overrides)
     text = as_text(experiment, indent=1) if isinstance(experiment, Mapping) else None
     file = "experiment" if isinstance(experiment, Mapping) else os.fspath(experiment)
-    guests = [_guest(name) for name in _touchdown.python_estimators(file, text, changes)]
+    guests = [_guest(name, place) for name, place in _touchdown.python_estimators(file, text, changes)]
     command = " ".join(["touchdown.run" if text else "python3 -m touchdown run", shlex.quote(file)] +
                        [f"--set {shlex.quote(change)}" for change in changes])
     return Result(**_touchdown.run(file, text, changes, out or "", overwrite, command, guests))

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/resources.hpp"
 #include "recordings/log/packing.hpp"
 
 namespace touchdown::recordings {
@@ -92,6 +93,7 @@ class DictionaryReader {
 }  // namespace
 
 Beliefs read_belief_mpack(const std::filesystem::path& path) {
+  require_file(path);
   const std::string bytes = read_file(path);
   DictionaryReader reader(path);
   std::size_t offset = 0;

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/resources.hpp"
 
 namespace touchdown::recordings {
 
@@ -140,6 +141,7 @@ class LineReader {
 }  // namespace
 
 void read_numbers_csv(const std::filesystem::path& path, const NumbersCsv& taker) {
+  require_file(path);
   const std::string text = read_file(path);
   std::string_view rest = text;
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/resources.hpp"
 
 namespace touchdown::recordings {
 
@@ -42,7 +43,9 @@ ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool
   const int opened =
       name == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT
   if (opened < 0) {
-    throw InputError(fmt::format("{}: cannot be opened: {}", name, std::strerror(errno)));
+    const std::string why = std::strerror(errno);
+    require_file(name);
+    throw InputError(fmt::format("{}: cannot be opened: {}", name, why));
   }
   const auto descriptor = std::make_shared<Descriptor>(opened);
   return [descriptor, name, stop](std::span<char> buffer) {

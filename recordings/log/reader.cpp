@@ -184,9 +184,12 @@ void LogReader::finish() {
 
 void LogReader::complain_about_garbage(std::size_t offset) const {
   const bool is_foreign = name_.ends_with(".csv") || name_.ends_with(".npz");
+  const bool is_scenario = name_.ends_with(".yaml") || name_.ends_with(".yml");
   throw InputError(fmt::format(
       "{}: byte {}: expected a MessagePack map, one per control step{}", name_, offset_ + offset,
-      is_foreign ? ": `touchdown export --mapping` makes such a log" : ""));
+      is_foreign    ? ": `touchdown export --mapping` makes such a log"
+      : is_scenario ? ": `touchdown simulate` makes such a log of a scenario"
+                    : ""));
 }
 
 void LogReader::complain_about_missing_keys() const {

@@ -176,6 +176,7 @@ class Converter {
     if (std::isfinite(time)) {
       if (!has_time_) converted_.start = time;
       if (has_time_ && time < converted_.end) ++converted_.back;
+      if (has_time_ && time > converted_.end + longest_period) ++long_steps_;
       converted_.end = time;
       has_time_ = true;
     }
@@ -186,6 +187,12 @@ class Converter {
     if (converted_.rows == 0) throw InputError(fmt::format("{}: holds no rows", log.string()));
     if (!has_time_) {
       throw InputError(fmt::format("{}: no row has a time that is a finite number", log.string()));
+    }
+    if (2 * long_steps_ > converted_.rows) {
+      throw InputError(fmt::format(
+          "{}: most rows come more than {} s after the one before: is time in ms, us or ns? Its "
+          "`unit` says so",
+          log.string(), longest_period));
     }
     stretches_->finish();
     return std::move(converted_);
@@ -198,6 +205,7 @@ class Converter {
   std::optional<LogWriter> writer_;
   std::optional<Stretches> stretches_;
   ConvertedLog converted_;
+  std::uint64_t long_steps_ = 0;
   bool has_time_ = false;
 };
 

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "core/fields.hpp"
+#include "core/resources.hpp"
 
 namespace touchdown::recordings {
 
@@ -234,8 +235,8 @@ void describe_axes(Fields& fields, Eigen::Matrix3d& axes) {
 void describe_time(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   fields("period", mapping.period);
   const bool has_period = fields.present("period", false);
-  fields.check(!has_period || (mapping.period > 0.0 && std::isfinite(mapping.period)), "period",
-               "expected the time between two rows (s)");
+  fields.check(!has_period || (mapping.period > 0.0 && mapping.period <= longest_period), "period",
+               fmt::format("expected the time between two rows (s), at most {}", longest_period));
   reader.optional(fields, "time",
                   {"time", 1, {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}},
                   mapping.time);
@@ -271,6 +272,7 @@ void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
 }  // namespace
 
 LogMapping read_log_mapping(const std::filesystem::path& path, const ForeignNames& names) {
+  require_file(path);
   const YamlDocument document = YamlDocument::load(path);
   LogMapping mapping;
   MappingReader reader(names, mapping);

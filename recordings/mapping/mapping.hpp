@@ -46,6 +46,10 @@ struct MappedSignal {
   }
 };
 
+/// More time between two rows than any sensor of a robot that balances takes (s): its unit is
+/// wrong.
+inline constexpr double longest_period = 0.5;
+
 /// Which columns of somebody else's log are which of our signals, and how they differ: in units,
 /// signs, order and axes. Joints are in Upkie's order: left hip, knee, wheel, right hip, knee,
 /// wheel.

@@ -48,6 +48,17 @@ TEST(WrongRequest, AMissingFileSuggestsTheNearestOne) {
                     HasSubstr("did you mean 'experiments/stairs.yaml'?")));
 }
 
+TEST(WrongRequest, AFileThatAnExperimentNamesAndThatIsMissingIsShownWithItsPlace) {
+  const ScratchFolder folder;
+  folder.write("step.yaml", "name: step\n");
+  folder.write("x.yaml", minimal("sensors: sensors/upkei.yaml\n"));
+  for (const char* run : {"run x.yaml", "run x.yaml --dry-run"}) {
+    EXPECT_THAT(complaint_about(run, folder),
+                AllOf(HasSubstr("x.yaml:4:10: sensors: sensors/upkei.yaml: no such file"),
+                      HasSubstr("did you mean 'sensors/upkie.yaml'?")));
+  }
+}
+
 TEST(WrongRequest, AnUnknownKeyIsShownWithItsPlaceAndTheNearestKey) {
   const ScratchFolder folder;
   folder.write("x.yaml", minimal("noise:\n  sedes: 3\n"));
@@ -73,7 +84,7 @@ TEST(WrongRequest, AnUnknownSimulatorSuggestsTheNearestOne) {
   const ScratchFolder folder;
   folder.write("x.yaml", minimal("simulators: [mujco]\n"));
   EXPECT_THAT(complaint_about("run x.yaml", folder),
-              AllOf(HasSubstr("x.yaml:4:13: simulators"), HasSubstr("did you mean 'mujoco'?")));
+              AllOf(HasSubstr("x.yaml:4:14: simulators"), HasSubstr("did you mean 'mujoco'?")));
   write_tiny_experiment(folder);
   EXPECT_THAT(complaint_about("simulate step.yaml --simulator bulet -o x.mpack", folder),
               HasSubstr("bullet"));
@@ -120,6 +131,11 @@ TEST(WrongRequest, ALogThatIsNoneIsRefused) {
   const ScratchFolder folder;
   folder.write("x.mpack", "no log");
   complaint_about("render x.mpack -o x.mp4", folder);
+  EXPECT_THAT(complaint_about("render scenarios/stairs.yaml -o x.mp4", folder),
+              HasSubstr("no such file"));
+  folder.write("scene.yaml", "name: scene\n");
+  EXPECT_THAT(complaint_about("render scene.yaml -o x.mp4", folder),
+              HasSubstr("`touchdown simulate` makes such a log of a scenario"));
   complaint_about("render missing.mpack -o x.mp4", folder);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.mp4"));
 }

@@ -112,7 +112,8 @@ TEST(Fields, NamesAreKnownDifferentAndNotNone) {
   EXPECT_THAT(complaint("drivers: []\n"), HasSubstr("at least one name"));
   EXPECT_THAT(complaint("drivers: [bop]\n"),
               HasSubstr("'bop' is not one of ann, bob (did you mean 'bob'?)"));
-  EXPECT_THAT(complaint("drivers: [bob, bob]\n"), HasSubstr("'bob' stands there twice"));
+  EXPECT_THAT(complaint("drivers: [bob, bob]\n"),
+              AllOf(StartsWith("car.yaml:1:16: drivers: "), HasSubstr("'bob' stands there twice")));
 }
 
 TEST(Fields, ANumberBetweenQuotesHasNoLeadingZeroEither) {

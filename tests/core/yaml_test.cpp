@@ -198,8 +198,17 @@ TEST(YamlOverride, AddsKeysThatTheFileLeavesOut) {
 
 TEST(YamlOverride, AnUnknownKeyIsCaughtByWhoeverReads) {
   EXPECT_THAT(complaint_of(good, {"noise.seedz=5"}),
-              AllOf(StartsWith("test.yaml: noise.seedz: "), HasSubstr("'seeds'")));
-  EXPECT_THAT(complaint_of(good, {"duration=-2"}), HasSubstr("duration: expected a number from 0"));
+              AllOf(StartsWith("--set noise.seedz=5: noise.seedz: "), HasSubstr("'seeds'")));
+  EXPECT_THAT(complaint_of(good, {"duration=-2"}),
+              StartsWith("--set duration=-2: duration: expected a number from 0"));
+}
+
+TEST(YamlOverride, IsBlamedForWhatItSetAndForNothingElse) {
+  EXPECT_THAT(complaint_of(good, {"noise={seeds: 1, seedz: 5}"}),
+              StartsWith("--set noise={seeds: 1, seedz: 5}: noise.seedz: unknown key"));
+  EXPECT_THAT(complaint_of(good, {"duration=1", "duration=-3"}), StartsWith("--set duration=-3: "));
+  EXPECT_THAT(complaint_of("name: x\nduration: -1\n", {"noise.seeds=1"}),
+              StartsWith("test.yaml:2:11: duration: "));
 }
 
 TEST(YamlOverride, WhatIsNoAssignmentIsRefused) {

@@ -60,6 +60,10 @@ ESTIMATORS = textwrap.dedent('''\
     class WithoutRun:
         pass
 
+    class Misspells:
+        def run(self, signals):
+            return signals["knee_torque"] > 1.0
+
     class Deaf(Never):
         sensors = ["acceleratoin"]
     ''')
@@ -180,6 +184,7 @@ class WrittenInPython(InExperimentFolder):
         for name, words in (
                 ("python:mine.Short", "python:mine.Short: beliefs about 3 steps, expected 3201"),
                 ("python:mine.Nobody", "module 'mine' has no 'Nobody'"),
+                ("python:mine.Nevr", "^--set estimators=.*: estimators: 'python:mine.Nevr'.*did you mean 'Never'"),
                 ("python:nowhere.Nobody", "there is no module 'nowhere' in .* or where Python looks"),
                 ("python:mine", "expected python:module.Class"),
                 ("python:mine.WithoutRun", r"expected a class with a method run\(self, signals\)"),
@@ -188,6 +193,24 @@ class WrittenInPython(InExperimentFolder):
         ):
             with self.assertRaisesRegex(touchdown.InputError, words):
                 touchdown.run("hops.yaml", overrides={"estimators": [name]})
+
+    def test_that_is_wrong_in_a_file_is_said_with_its_place(self):
+        text = (self.folder / "hops.yaml").read_text()
+        line = next(line for line in text.splitlines() if line.startswith("estimators:"))
+        (self.folder / "wrong.yaml").write_text(text.replace(line, "estimators: [free_fall, python:mine.Nobody]"))
+        number = 1 + text.splitlines().index(line)
+        with self.assertRaisesRegex(touchdown.InputError, f"^wrong.yaml:{number}:25: estimators: 'python:mine.Nobody'"):
+            touchdown.run("wrong.yaml")
+
+    def test_that_asks_for_a_signal_that_is_not_there_is_told_which_are(self):
+        try:
+            touchdown.run("hops.yaml", overrides={"estimators": ["python:mine.Misspells"]})
+        except KeyError as error:
+            self.assertRegex(str(error), "'knee_torque' is no signal: expected one of .*torque, .*sample_rate"
+                                         ".*did you mean 'torque'")
+            self.assertEqual(traceback.extract_tb(error.__traceback__)[-2].filename, str(self.folder / "mine.py"))
+        else:
+            self.fail("nothing was raised")
 
     def test_from_the_command_line(self):
         import contextlib

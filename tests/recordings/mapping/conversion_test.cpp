@@ -148,15 +148,27 @@ TEST_F(Conversion, PeriodStandsForTimes) {
   EXPECT_EQ(rows[2].observation.time, 0.01);
 }
 
+TEST_F(Conversion, ClockThatSeemsToCountAnotherUnitIsRefusedAndAPauseIsNot) {
+  const auto log = [](std::initializer_list<const char*> times) {
+    std::string text = names + "\n";
+    for (const char* time : times) text += row(time) + "\n";
+    return text;
+  };
+  EXPECT_THAT(complaint(log({"0", "1", "2", "3"})),
+              HasSubstr("log.csv: most rows come more than 0.5 s after the one before: is time in "
+                        "ms, us or ns?"));
+  EXPECT_EQ(convert(log({"0", "0.01", "0.02", "7", "7.01", "7.02"})).size(), 6U);
+}
+
 TEST_F(Conversion, UnitsSignsAndZerosAreThoseOfTheMapping) {
   std::string mapping = replaced(mapping_head, "from: t", "from: t, unit: us");
   mapping = replaced(mapping, "q5]", "q5], unit: deg, sign: -1, zero: [0, 0, 0.5, 0, 0, 0]");
   mapping = replaced(mapping, "v5]", "v5], unit: rev/s, sign: [1, 1, 1, -1, -1, -1]");
   mapping = replaced(mapping, "m5]", "m5], unit: mNm");
   mapping = replaced(mapping, "az]", "az], unit: g");
-  const auto rows = convert(names + "\n" + row("0") + "\n" + row("1e6") + "\n", mapping);
+  const auto rows = convert(names + "\n" + row("0") + "\n" + row("1e5") + "\n", mapping);
   const models::Observation& o = rows.at(1).observation;
-  EXPECT_DOUBLE_EQ(o.time, 1.0);
+  EXPECT_DOUBLE_EQ(o.time, 0.1);
   EXPECT_DOUBLE_EQ(o.servo[1].position, -2.5 * M_PI / 180.0);
   EXPECT_DOUBLE_EQ(o.servo[2].position, 0.5 - 3.5 * M_PI / 180.0);
   EXPECT_DOUBLE_EQ(o.servo[2].velocity, 9.5 * 2.0 * M_PI);
@@ -259,6 +271,7 @@ TEST_F(Conversion, MappingThatIsWrongIsNamedByItsPlaceWithTheNearestName) {
   expect(
       "time:", "period: 0.001\ntime:", "map.yaml:1:9: period: 'time' says when rows were logged");
   expect("time: {from: t}", "period: 0", "period: expected the time between two rows (s)");
+  expect("time: {from: t}", "period: 2", "period: expected the time between two rows (s), at most");
   expect("qz]", "qz], order: zyxw", "imu.orientation.order: expected one of wxyz, xyzw");
   expect("qz]", "qz], reference: up", "imu.orientation.reference: expected one of z_down, z_up");
   for (const char* axes : {"[x, y]", "[x, y, y]", "[x, y, -z]", "[x, y, w]", "[x, '', z]"}) {

@@ -1,0 +1,71 @@
+#include "core/resources.hpp"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
+
+std::string missing_in(YamlDocument document, const std::string& assignment = "") {
+  if (!assignment.empty()) document.override_value(assignment);
+  try {
+    require_resources(document, {"robot", "fit.scenarios", "fit.pieces.scenario"});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string missing_in(const std::string& text, const std::string& assignment = "") {
+  return missing_in(YamlDocument::parse(text, "x.yaml"), assignment);
+}
+
+TEST(RequiredResources, ThatAreThereOrNotAskedForAreNoComplaint) {
+  EXPECT_EQ(missing_in("fit: {scenarios: [scenarios/stairs.yaml, scenarios/roam.yaml]}\n"
+                       "robot: models/upkie_actuated.yaml\n"),
+            "");
+  EXPECT_EQ(missing_in("fits: {scenarios: [nowhere.yaml]}\nfit: {pieces: []}\n"), "");
+}
+
+TEST(RequiredResources, ThatAreMissingAreNamedWhereTheyStand) {
+  EXPECT_THAT(missing_in("fit:\n  scenarios: [scenarios/roam.yaml, scenarios/stiars.yaml]\n"),
+              AllOf(StartsWith("x.yaml:2:36: fit.scenarios.1: scenarios/stiars.yaml: no such file"),
+                    EndsWith("(did you mean 'scenarios/stairs.yaml'?)")));
+  EXPECT_THAT(
+      missing_in("fit:\n  pieces:\n    - {runs: 1}\n    - {scenario: scenarios/hnag.yaml}\n"),
+      StartsWith("x.yaml:4:18: fit.pieces.1.scenario: scenarios/hnag.yaml: no such file"));
+}
+
+TEST(RequiredFile, ThatIsNotThereBringsTheNearestOfItsKindToMind) {
+  const ScratchFolder folder;
+  for (const char* name : {"labels.csv", "label.npz", "other.csv"}) folder.write(name, "");
+  const auto complains = [](const std::string& end) {
+    return ThrowsMessage<InputError>(EndsWith(end));
+  };
+  EXPECT_THAT([&] { require_file(folder / "lables.csv"); },
+              complains("lables.csv: no such file (did you mean 'labels.csv'?)"));
+  EXPECT_THAT([&] { require_file(folder / "unlike.csv"); }, complains("unlike.csv: no such file"));
+  EXPECT_THAT([&] { require_file(folder / "nowhere/labels.csv"); },
+              complains("nowhere/labels.csv: no such file"));
+  EXPECT_THAT([&] { require_file(folder.path()); }, complains(": is a folder, expected a file"));
+  EXPECT_NO_THROW(require_file(folder / "labels.csv"));
+  EXPECT_NO_THROW(require_file("/dev/null"));
+}
+
+TEST(RequiredResources, ThatSomebodySetAreBlamedOnThat) {
+  EXPECT_THAT(missing_in("robot: models/upkie_actuated.yaml\n", "robot=models/upkei.xml"),
+              StartsWith("--set robot=models/upkei.xml: robot: models/upkei.xml: no such file"));
+}
+
+}  // namespace
+}  // namespace touchdown
