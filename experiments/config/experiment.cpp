@@ -34,7 +34,13 @@ constexpr std::size_t most_panels = 4;
 
 void describe_choice(Fields& fields, DropChoice& choice, const Experiment& experiment) {
   fields("run", choice.run, 0, experiment.test.runs - 1);
+  fields.choose("wheels", {"both", "left", "right"}, choice.wheels);
   fields("drop", choice.drop, 0, 1000);
+  fields.know("at");
+  if (fields.present("at", choice.at.has_value())) {
+    if (fields.reading()) choice.at.emplace();
+    fields("at", *choice.at, 0.0, 1e6);
+  }
   fields("seed", choice.seed, 0, experiment.noise.seeds - 1);
   fields("before", choice.before, 0.0, 10.0);
   fields("after", choice.after, 0.01, 10.0);

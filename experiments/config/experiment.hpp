@@ -61,13 +61,18 @@ struct VideoConfig {
   double accelerometer_noise = 0.0;     ///< m/s²
 };
 
-/// One drop of one test run, and how much of the time around it is shown. Drops are counted from 0,
-/// as `drops` finds them.
+/// Whose flights count as drops: those of both wheels at once, or of one whatever the other does.
+enum class DropWheels : int { both, left, right };
+
+/// One drop of one test run, or any moment of it, and how much of the time around it is shown.
+/// Drops are counted from 0, as `drops` finds them.
 struct DropChoice {
   int run = 0;
+  DropWheels wheels = DropWheels::both;
   int drop = 0;
+  std::optional<double> at = {};  ///< s since the run's start; then no drop is looked for
   int seed = 0;          ///< of the noise: the realisation that the study hears under this number
-  double before = 0.15;  ///< shown before takeoff (s)
+  double before = 0.15;  ///< shown before takeoff, or that moment (s)
   double after = 0.45;   ///< and after it (s)
 };
 

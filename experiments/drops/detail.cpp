@@ -1,5 +1,6 @@
 #include "experiments/drops/detail.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "estimator/bayes/transition_model.hpp"
@@ -68,6 +69,26 @@ TorqueTrace trace_torque(const DropWindow& window, const std::vector<Signals>& h
   return trace;
 }
 
+/// NaN where it has not measured yet.
+std::vector<double> trace_torque_evidence(const Experiment& experiment, const Condition& shown,
+                                          const FittedModels& models, const RunSignals& run,
+                                          const DropWindow& window,
+                                          const std::vector<Signals>& heard) {
+  const auto& names = experiment.estimators;
+  if (std::find(names.begin(), names.end(), shown.estimator) == names.end()) {
+    return std::vector<double>(window.steps(), Evidence::unknown);
+  }
+  const std::unique_ptr<ContactEstimator> filter = make_estimator(shown, models, run);
+  std::vector<double> trace;
+  for (std::size_t k = 0; k < window.end; ++k) {
+    if (is_heard(heard[k])) filter->update(heard[k]);
+    if (k < window.begin) continue;
+    const Evidence::Measurement said = filter->evidence().wheel[left];
+    trace.push_back(std::log(said.contact_likelihood / said.no_contact_likelihood));
+  }
+  return trace;
+}
+
 }  // namespace
 
 DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
@@ -76,15 +97,17 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
   const DropWindow window =
       drop_window(run, config.choice, experiment.scoring.minimum_flight, "detail");
   const double rate = 1e6 / static_cast<double>(run.info.control_period_us);
-  const EstimatorEntry entry = entry_of(
-      {run.info.simulator, run.info.simulator, spectrum_entry(config.estimators).name}, models);
+  const Condition shown{run.info.simulator, run.info.simulator,
+                        spectrum_entry(config.estimators).name};
+  const EstimatorEntry entry = entry_of(shown, models);
   const TransitionConfig& transition = entry.config->transition;
 
   DropDetail detail;
   detail.simulator = run.info.simulator;
-  detail.time = time_since_takeoff(window, 1.0 / rate);
+  detail.at = config.choice.at;
+  detail.time = time_in(window, 1.0 / rate);
   detail.contact = inside(run.contact[left], window);
-  const double start = recording.truth[window.drop.takeoff].base_position.z();
+  const double start = recording.truth[window.zero].base_position.z();
   for (std::size_t k = window.begin; k < window.end; ++k) {
     detail.height.push_back(recording.truth[k].base_position.z() - start);
   }
@@ -99,8 +122,11 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
     const noise::SensorNoise levels = cell.levels();
     std::vector<Signals> heard;
     for (std::size_t k = 0; k < window.end; ++k) heard.push_back(noisy(run, noise, levels, k));
-    NoisyDrop drop{
-        cell, trace_torque(window, heard), trace_spectrum(transition, rate, window, heard), {}};
+    NoisyDrop drop{cell,
+                   trace_torque(window, heard),
+                   trace_torque_evidence(experiment, shown, models, run, window, heard),
+                   trace_spectrum(transition, rate, window, heard),
+                   {}};
     for (const std::string& name : config.estimators) {
       Listener listener = listener_of({detail.simulator, detail.simulator, name}, models, run);
       const scoring::Prediction prediction = predict(listener, run, noise, levels);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct BeliefTrace {
 struct NoisyDrop {
   noise::NoiseCell noise;
   TorqueTrace torque;
+  /// log (P(m_t | C) / P(m_t | ¬C)) of the left leg, Eq. (6), by `DropDetail::transition_of`; NaN
+  /// if the experiment has not fitted it.
+  std::vector<double> torque_evidence;
   SpectrumTrace spectrum;
   std::vector<BeliefTrace> beliefs;
 };
@@ -51,11 +55,12 @@ struct NoisyDrop {
 /// Everything about one drop that the paper's Fig. 5 shows of one: columns with one entry per step.
 struct DropDetail {
   std::string simulator;
-  std::vector<double> time;           ///< since takeoff (s)
+  std::optional<double> at = {};      ///< the moment that was asked for instead of a drop (s)
+  std::vector<double> time;           ///< since takeoff, or that moment (s)
   std::vector<double> height;         ///< of the base, above that at takeoff (m)
   std::vector<std::uint8_t> contact;  ///< of the left wheel, by its label
   double bin_width = 0.0;             ///< of the spectra (Hz)
-  std::string transition_of;          ///< whose transition model the spectra belong to
+  std::string transition_of;          ///< whose models the spectra and the evidence belong to
   double switch_power = 0.0;          ///< where P(switch) is one half (m²/s⁴)
   TorqueTrace torque;                 ///< noiseless
   SpectrumTrace spectrum;             ///< noiseless

@@ -1,6 +1,11 @@
 #include "experiments/drops/posterior.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "estimator/phase/labels.hpp"
+#include "estimator/phase/senses.hpp"
 #include "experiments/estimators/filters.hpp"
 #include "experiments/estimators/phase_fitting.hpp"
 #include "experiments/fitting/make_estimator.hpp"
@@ -20,6 +25,51 @@ std::vector<Phase> true_phases(const RunSignals& run, const PhaseLabelConfig& co
                       config, carried);
 }
 
+PhaseProbabilities by_phase(const PhaseRow& left_leg, const PhaseRow& right_leg,
+                            const PhaseRow& vertical) {
+  const PhaseRecursion::Lanes lanes = PhaseRecursion::evidence(left_leg, right_leg, vertical);
+  PhaseProbabilities phases{};
+  std::copy_n(lanes.begin(), phase_count, phases.begin());
+  return phases;
+}
+
+/// What the filter's last step was told by its own densities at the noise that it assumed; what was
+/// not finite told nothing.
+PhaseEvidence evidence_of(const PhaseSenses& senses, const PhaseNoise& noise,
+                          const Signals& heard) {
+  const auto leg = [&](std::size_t side) {
+    const double mirror = side == 0 ? 1.0 : -1.0;
+    const double knee = mirror * heard.leg[side].knee.torque;
+    const double wheel = mirror * heard.leg[side].wheel.torque;
+    if (!std::isfinite(knee) || !std::isfinite(wheel)) return PhaseRow{};
+    return senses.torque(knee, wheel, senses.torque.ladder().place(noise.knee_torque),
+                         senses.torque.ladder().place(noise.wheel_torque));
+  };
+  const PhaseRow vertical =
+      std::isfinite(heard.vertical_acceleration)
+          ? senses.acceleration(heard.vertical_acceleration,
+                                senses.acceleration.ladder().place(noise.acceleration))
+          : PhaseRow{};
+  return {by_phase(leg(0), {}, {}), by_phase({}, leg(1), {}), by_phase({}, {}, vertical)};
+}
+
+Misled misled_by(const PhaseEvidence& evidence, const PhaseProbabilities& believed, Phase truth) {
+  const auto first = std::max_element(believed.begin(), believed.end());
+  const auto phase = static_cast<Phase>(first - believed.begin());
+  if (left_touches(phase) == left_touches(truth) && right_touches(phase) == right_touches(truth)) {
+    return {};
+  }
+  const auto preference = [&](const PhaseProbabilities& of) {
+    return of[index(phase)] - of[index(truth)];
+  };
+  const double least = std::numeric_limits<double>::min();
+  const double whole = std::log(*first / std::max(least, believed[index(truth)]));
+  Misled misled{preference(evidence.left), preference(evidence.right),
+                preference(evidence.acceleration)};
+  misled.memory = whole - misled.left - misled.right - misled.acceleration;
+  return misled;
+}
+
 }  // namespace
 
 DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig& config,
@@ -29,21 +79,30 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
   DropPosterior posterior;
   posterior.simulator = run.info.simulator;
   posterior.noise = config.noise;
-  posterior.time =
-      time_since_takeoff(window, 1e-6 * static_cast<double>(run.info.control_period_us));
+  posterior.at = config.choice.at;
+  posterior.time = time_in(window, 1e-6 * static_cast<double>(run.info.control_period_us));
 
   const Condition condition{run.info.simulator, run.info.simulator, "phase"};
   const EstimatorEntry entry = entry_of(condition, models);
-  PhaseFilter filter = phase_filter(entry, setup_of(condition, models, run));
+  const EstimatorSetup setup = setup_of(condition, models, run);
+  PhaseFilter filter = phase_filter(entry, setup);
+  const PhaseSenses senses(setup.model->phase->model, filter.config());
   const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));
   const noise::SensorNoise levels = config.noise.levels();
   const std::vector<Phase> truth = true_phases(run, entry.phase->fit.labels);
   Belief belief;
+  PhaseEvidence evidence;
   for (std::size_t k = 0; k < window.end; ++k) {
-    if (is_heard(run.signals[k])) belief = filter.update(noisy(run, noise, levels, k));
+    if (is_heard(run.signals[k])) {
+      const Signals heard = noisy(run, noise, levels, k);
+      belief = filter.update(heard);
+      if (k >= window.begin) evidence = evidence_of(senses, filter.noise(), heard);
+    }
     if (k < window.begin) continue;
     posterior.truth.push_back(truth[k]);
+    posterior.evidence.push_back(evidence);
     posterior.phases.push_back(filter.phases());
+    posterior.misled.push_back(misled_by(evidence, filter.phases(), truth[k]));
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       posterior.contact[wheel].push_back(run.contact[wheel][k]);
       posterior.p_contact[wheel].push_back(belief.wheel[wheel].p_contact);

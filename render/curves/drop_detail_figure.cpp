@@ -12,7 +12,16 @@
 namespace touchdown::render {
 namespace {
 
-enum Row : std::size_t { height, knee, wheel, belief, true_spectrum, noisy_spectrum, transition };
+enum Row : std::size_t {
+  height,
+  knee,
+  wheel,
+  evidence,
+  belief,
+  true_spectrum,
+  noisy_spectrum,
+  transition
+};
 
 /// Spectra are drawn over octaves, log2 of the frequency in Hz: what tells takeoffs from landings
 /// is below 30 Hz.
@@ -66,6 +75,7 @@ PlotColumns detail_columns(const experiments::DropDetail& detail,
   columns.add("noisy_knee_torque_nm", drop.torque.knee);
   columns.add("wheel_torque_nm", detail.torque.wheel);
   columns.add("noisy_wheel_torque_nm", drop.torque.wheel);
+  columns.add("torque_evidence", drop.torque_evidence);
   columns.add("acceleration_mps2", detail.spectrum.acceleration);
   columns.add("noisy_acceleration_mps2", drop.spectrum.acceleration);
   columns.add("power_m2ps4", detail.spectrum.power);
@@ -98,10 +108,12 @@ struct DetailColumn {
         "plot NaN with boxes fillcolor rgb '#dceee0' title 'left wheel touches', {}\n"
         "set ytics autofreq\n",
         heights.low, heights.high,
-        line("height_m", "lc rgb '#009e73' lw 2.2", "base, above takeoff"));
+        line("height_m", "lc rgb '#009e73' lw 2.2",
+             detail.at ? "base, above that moment" : "base, above takeoff"));
     text += torques(knee, "knee torque\n(N·m)", "knee_torque_nm", &experiments::TorqueTrace::knee);
     text +=
         torques(wheel, "wheel torque\n(N·m)", "wheel_torque_nm", &experiments::TorqueTrace::wheel);
+    text += torque_evidence();
     text += beliefs();
     text += spectrum(true_spectrum, 0, "true acceleration\nfrequency (Hz)", "");
     text += spectrum(noisy_spectrum, number + 1, "noisy acceleration\nfrequency (Hz)", "noisy_");
@@ -136,6 +148,17 @@ struct DetailColumn {
                axis.low, axis.high, tick_step(axis),
                line("noisy_" + column, "lc rgb '#8fb9dd' lw 1", row == knee ? "with noise" : ""),
                line(column, "lc rgb '#08306b' lw 1.8", row == knee ? "true" : ""));
+  }
+
+  /// More than this is certainty, and would flatten all else.
+  std::string torque_evidence() const {
+    constexpr double most = 12.0;
+    return panel(evidence, "torques for\ncontact (nats)") +
+           fmt::format(
+               "set yrange [-{0}:{0}]\nset ytics -{0},{0}\nset clip two\nplot 0 with lines lc "
+               "rgb '#8a9299' lw 1 dt 1 notitle, {1}\nset ytics autofreq\n",
+               most,
+               line("torque_evidence", "lc rgb '#0072b2' lw 1.6", "their log likelihood ratio"));
   }
 
   std::string beliefs() const {
@@ -217,7 +240,8 @@ Figure draw_drop_detail(const experiments::DropDetail& detail, const FigureText&
   const std::string name = stem.filename().string();
   PanelGrid::Layout layout;
   layout.columns.clear();
-  layout.row_heights = {84.0, 118.0, 118.0, 156.0, 150.0, 150.0, 130.0};
+  layout.at = detail.at;
+  layout.row_heights = {84.0, 118.0, 118.0, 100.0, 156.0, 150.0, 150.0, 130.0};
   layout.panel_width = 427.0;
   layout.right = 300.0;
   for (const experiments::NoisyDrop& drop : detail.noisy) {

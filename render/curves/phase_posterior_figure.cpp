@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -13,28 +14,39 @@
 namespace touchdown::render {
 namespace {
 
-enum PosteriorRow : std::size_t { wheel_row, label_row, posterior_row, belief_row };
+enum PosteriorRow : std::size_t {
+  wheel_row,
+  label_row,
+  likelihood_row,
+  misled_row,
+  posterior_row,
+  belief_row
+};
 
-/// How a phase is named and coloured (0xRRGGBB).
+/// Below the likeliest phase this much less likely is impossible (nats).
+constexpr double faintest = -8.0;
+
+/// How a phase is named, in short and in full, and coloured (0xRRGGBB).
 struct PhaseStyle {
+  const char* tick;
   const char* title;
   unsigned colour;
 };
 
 /// By `Phase`. Grey on the ground, orange towards a takeoff, blue in the air, green after a
 /// landing; darker the nearer the event.
-constexpr std::array<PhaseStyle, phase_count> styles = {{{"rolling", 0xd4d7da},
-                                                         {"unloading, 150–60 ms", 0xfde0b0},
-                                                         {"unloading, 60–20 ms", 0xf2ae3d},
-                                                         {"unloading, 20–0 ms", 0xb86b00},
-                                                         {"flight", 0x0a5a9c},
-                                                         {"impact, 0–15 ms", 0x00563f},
-                                                         {"impact, 15–60 ms", 0x2fa884},
-                                                         {"impact, 60–150 ms", 0xb5dfd0},
-                                                         {"held", 0x8d3b72},
-                                                         {"carried", 0xdba3c4},
-                                                         {"left wheel only", 0x56b4e9},
-                                                         {"right wheel only", 0xa9d8f3}}};
+constexpr std::array<PhaseStyle, phase_count> styles = {{{"R", "rolling", 0xd4d7da},
+                                                         {"U1", "unloading, 150–60 ms", 0xfde0b0},
+                                                         {"U2", "unloading, 60–20 ms", 0xf2ae3d},
+                                                         {"U3", "unloading, 20–0 ms", 0xb86b00},
+                                                         {"F", "flight", 0x0a5a9c},
+                                                         {"I1", "impact, 0–15 ms", 0x00563f},
+                                                         {"I2", "impact, 15–60 ms", 0x2fa884},
+                                                         {"I3", "impact, 60–150 ms", 0xb5dfd0},
+                                                         {"H", "held", 0x8d3b72},
+                                                         {"C", "carried", 0xdba3c4},
+                                                         {"LO", "left wheel only", 0x56b4e9},
+                                                         {"RO", "right wheel only", 0xa9d8f3}}};
 
 PlotColumns columns_of(const experiments::DropPosterior& drop) {
   PlotColumns columns;
@@ -44,6 +56,18 @@ PlotColumns columns_of(const experiments::DropPosterior& drop) {
     for (const PhaseProbabilities& p : drop.phases) values.push_back(p[phase]);
     columns.add("p_" + std::string(phase_names[phase]), std::move(values));
   }
+  std::vector<double> truth;
+  for (const Phase phase : drop.truth) truth.push_back(static_cast<double>(index(phase)));
+  columns.add("true_phase", std::move(truth));
+  const auto add_misled = [&](const char* name, double experiments::Misled::*part) {
+    std::vector<double> values;
+    for (const experiments::Misled& misled : drop.misled) values.push_back(misled.*part);
+    columns.add(name, std::move(values));
+  };
+  add_misled("misled_by_left_leg", &experiments::Misled::left);
+  add_misled("misled_by_right_leg", &experiments::Misled::right);
+  add_misled("misled_by_acceleration", &experiments::Misled::acceleration);
+  add_misled("misled_by_memory", &experiments::Misled::memory);
   columns.add("p_left_wheel", drop.p_contact[0]);
   columns.add("p_right_wheel", drop.p_contact[1]);
   return columns;
@@ -75,6 +99,38 @@ std::string truth_text(const experiments::DropPosterior& drop) {
                    [](Phase phase) { return styles[index(phase)].colour; });
 }
 
+/// Rows: phases; columns: times; how much less likely than the likeliest phase (nats).
+std::string likelihood_text(const experiments::DropPosterior& drop) {
+  std::string text = "# log likelihood below the likeliest phase; row i: phase i; columns: times\n";
+  std::vector<double> largest;
+  for (const experiments::PhaseEvidence& step : drop.evidence) {
+    double most = step.sum(Phase::rolling);
+    for (std::size_t i = 1; i < phase_count; ++i) {
+      most = std::max(most, step.sum(static_cast<Phase>(i)));
+    }
+    largest.push_back(most);
+  }
+  for (std::size_t i = 0; i < phase_count; ++i) {
+    for (std::size_t k = 0; k < drop.evidence.size(); ++k) {
+      const double below = drop.evidence[k].sum(static_cast<Phase>(i)) - largest[k];
+      fmt::format_to(std::back_inserter(text), "{:.3f}\t", std::max(faintest, below));
+    }
+    text.back() = '\n';
+  }
+  return text;
+}
+
+/// Wide enough for the strongest word of any ingredient.
+double strongest(const experiments::DropPosterior& drop) {
+  double most = 1.0;
+  for (const experiments::Misled& misled : drop.misled) {
+    for (const double value : {misled.left, misled.right, misled.acceleration, misled.memory}) {
+      most = std::max(most, std::abs(value));
+    }
+  }
+  return most;
+}
+
 std::string boxes(const std::string& file, int block) {
   return fmt::format(
       "'{}' index {} using (($1+$2)/2):(($3+$4)/2):1:2:3:4:5 with boxxyerror "
@@ -83,8 +139,8 @@ std::string boxes(const std::string& file, int block) {
 }
 
 std::string column_commands(const experiments::DropPosterior& drop, const PanelGrid& grid,
-                            std::size_t column, bool last, const PlotColumns& columns,
-                            const std::string& name) {
+                            std::size_t column, bool last, double most_misled,
+                            const PlotColumns& columns, const std::string& name) {
   const std::string data = fmt::format("{}_{}.dat", name, column + 1);
   const std::string truth = fmt::format("{}_truth_{}.dat", name, column + 1);
   const auto panel = [&](PosteriorRow row, std::string_view text) {
@@ -103,8 +159,37 @@ std::string column_commands(const experiments::DropPosterior& drop, const PanelG
   text += panel(label_row, "");
   text += fmt::format("set yrange [0:1]\nset ytics ({} 0.5) scale 0\nplot {}\n",
                       column == 0 ? "'phase'" : "''", boxes(truth, 1));
-  text += panel(posterior_row, "P(phase)");
-  text += "set ytics 0,0.5,1 scale 0.5\nset grid\nplot ";
+  text += panel(likelihood_row, "likelihood");
+  text += fmt::format("set yrange [-0.5:{}]\nset cbrange [{}:0]\nset ytics (",
+                      static_cast<double>(phase_count) - 0.5, faintest);
+  for (std::size_t phase = 0; phase < phase_count; ++phase) {
+    text += fmt::format("'{}' {}{}", column == 0 ? styles[phase].tick : "", phase,
+                        phase + 1 < phase_count ? ", " : ") scale 0 font ',10'\n");
+  }
+  text += last ? grid.colour_bar(likelihood_row, 14.0, 16.0) +
+                     "set cblabel 'nats below the likeliest' font ',11' offset 1.2,0\n"
+                     "set cbtics 2 font ',11'\n"
+               : "unset colorbox\n";
+  const double step = drop.time.size() > 1 ? 1e3 * (drop.time[1] - drop.time[0]) : 1.0;
+  text += fmt::format(
+      "plot '{}_likelihood_{}.dat' matrix using ({}+{}*$1):2:3 with image notitle, "
+      "'{}' using 1:{} with steps lc rgb 'black' lw 2 dt 1 notitle\n",
+      name, column + 1, 1e3 * drop.time.front(), step, data, columns.number_of("true_phase"));
+  text += panel(misled_row, "what misleads\n(nats)");
+  text += fmt::format(
+      "set yrange [-{0}:{0}]\nset ytics autofreq scale 0.5 norangelimit font ',13'\n"
+      "set grid\nplot 0 with lines lc rgb '#8a9299' lw 1 dt 1 notitle",
+      1.05 * most_misled);
+  const auto misled = [&](const char* key, const char* style, const char* title) {
+    text += fmt::format(", '{}' using 1:{} with lines {} dt 1 title {}", data,
+                        columns.number_of(key), style, gnuplot_text(title));
+  };
+  misled("misled_by_left_leg", "lt 6 lw 2", "left leg's torques");
+  misled("misled_by_right_leg", "lt 2 lw 2", "right leg's torques");
+  misled("misled_by_acceleration", "lt 3 lw 2", "acceleration");
+  misled("misled_by_memory", "lc rgb '#101418' lw 2", "memory");
+  text += "\n" + panel(posterior_row, "P(phase)");
+  text += "set yrange [0:1]\nset ytics 0,0.5,1 scale 0.5\nset grid\nplot ";
   // From the whole downwards, each painted over the ones above: no seams between neighbours.
   for (std::size_t phase = phase_count; phase-- > 0;) {
     text += fmt::format(
@@ -128,21 +213,25 @@ Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops
   const std::string name = stem.filename().string();
   PanelGrid::Layout layout;
   layout.columns.clear();
-  layout.row_heights = {52.0, 26.0, 290.0, 120.0};
-  double from = 0.0, to = 0.0;
+  layout.at = drops.front().at;
+  layout.row_heights = {52.0, 26.0, 216.0, 120.0, 250.0, 120.0};
+  double from = 0.0, to = 0.0, most_misled = 0.0;
   for (const experiments::DropPosterior& drop : drops) {
     layout.columns.push_back(simulators::simulator_title(drop.simulator));
     from = std::min(from, 1e3 * drop.time.front());
     to = std::max(to, 1e3 * drop.time.back());
+    most_misled = std::max(most_misled, strongest(drop));
   }
   const PanelGrid grid(layout, text);
   std::vector<PlotData> data;
   std::string commands = grid.begin(from, to);
   for (std::size_t i = 0; i < drops.size(); ++i) {
     const PlotColumns columns = columns_of(drops[i]);
-    commands += column_commands(drops[i], grid, i, i + 1 == drops.size(), columns, name);
+    commands +=
+        column_commands(drops[i], grid, i, i + 1 == drops.size(), most_misled, columns, name);
     data.push_back({fmt::format("{}_{}.dat", name, i + 1), columns.text()});
     data.push_back({fmt::format("{}_truth_{}.dat", name, i + 1), truth_text(drops[i])});
+    data.push_back({fmt::format("{}_likelihood_{}.dat", name, i + 1), likelihood_text(drops[i])});
   }
   return grid.draw(stem, commands, data);
 }

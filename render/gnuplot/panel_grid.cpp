@@ -18,6 +18,21 @@ constexpr double gap_x = 22.0, gap_y = 22.0;  ///< between panels (px)
 constexpr double line_height = 21.0;          ///< of the caption (px)
 constexpr double letter = 9.3;                ///< of the caption, on average (px)
 
+/// Tics from `from` to `to`, at most seven, none so near an end that labels of neighbours meet.
+std::string inner_tics(double from, double to) {
+  const double least = (to - from) / 7.0;
+  double step = std::pow(10.0, std::ceil(std::log10(least)));
+  for (const double part : {0.2, 0.5}) {
+    if (part * step >= least) {
+      step *= part;
+      break;
+    }
+  }
+  const double margin = 0.04 * (to - from);
+  return fmt::format("{:.9g},{:.9g},{:.9g}", step * std::ceil((from + margin) / step), step,
+                     step * std::floor((to - margin) / step));
+}
+
 }  // namespace
 
 PanelGrid::PanelGrid(Layout layout, FigureText text)
@@ -54,10 +69,10 @@ double PanelGrid::screen_y(double pixels) const { return 1.0 - pixels / height()
 std::string PanelGrid::begin(double from, double to) const {
   std::string text = fmt::format(
       "set multiplot\nset xrange [{}:{}]\nset ytics nomirror autofreq font ',11'\n"
-      "set xtics font ',12'\nset key font ',11' spacing 1.15 samplen 1.6\nunset key\n"
+      "set xtics {} font ',12'\nset key font ',11' spacing 1.15 samplen 1.6\nunset key\n"
       "set label 101 {} at screen {}, screen {} left font ',15'\n"
       "set label 102 {} at screen {}, screen {} left font ',11' textcolor rgb '#40464e'\n",
-      from, to, gnuplot_text(text_.title), screen_x(20.0), screen_y(24.0),
+      from, to, inner_tics(from, to), gnuplot_text(text_.title), screen_x(20.0), screen_y(24.0),
       gnuplot_text(caption_lines_), screen_x(20.0), screen_y(height() - caption_height_ + 12.0));
   for (std::size_t i = 0; i < layout_.columns.size(); ++i) {
     if (layout_.columns[i].empty()) continue;
@@ -88,8 +103,9 @@ std::string PanelGrid::panel(std::size_t row, std::size_t column, std::string_vi
       text += fmt::format("unset label {}\n", 110 + i);
     }
   }
-  text +=
-      last ? "set xlabel 'time since takeoff (ms)' font ',12' offset 0,0.2\n" : "unset xlabel\n";
+  text += last ? fmt::format("set xlabel 'time since {} (ms)' font ',12' offset 0,0.2\n",
+                             layout_.at ? fmt::format("{:.6g} s", *layout_.at) : "takeoff")
+               : "unset xlabel\n";
   return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@ class PanelGrid {
     std::vector<double> row_heights;          ///< px
     double panel_width = 452.0;               ///< px
     double right = 250.0;                     ///< beside the panels, for legends (px)
+    std::optional<double> at = {};            ///< what times count from (s); without it, a takeoff
   };
 
   PanelGrid(Layout layout, FigureText text);

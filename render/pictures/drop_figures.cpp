@@ -32,10 +32,12 @@ const experiments::PlayedRun& chosen_run(const experiments::ExperimentResult& re
 
 std::string which_drop(const experiments::Experiment& experiment,
                        const experiments::DropChoice& choice) {
-  return fmt::format(
-      "Test run {}, drop {} of both wheels (from 0), experiment seed {}, noise seed {}; {}{}.",
-      choice.run, choice.drop, experiment.seed, choice.seed, experiments::labels_text(experiment),
-      experiments::equipment_text(experiment));
+  const std::string when = choice.at ? fmt::format("around {:.6g} s", *choice.at)
+                                     : fmt::format("drop {} of {} (from 0)", choice.drop,
+                                                   experiments::to_text(choice.wheels));
+  return fmt::format("Test run {}, {}, experiment seed {}, noise seed {}; {}{}.", choice.run, when,
+                     experiment.seed, choice.seed, experiments::labels_text(experiment),
+                     experiments::equipment_text(experiment));
 }
 
 /// "Not shown: NMN, Free fall."; nothing where all of the experiment's estimators are.
@@ -58,17 +60,19 @@ Figure draw_detail(const experiments::ExperimentResult& result, const std::strin
   const experiments::DropDetail detail =
       experiments::drop_detail(experiment, config, recording, run.signals, result.models);
   const FigureText text{
-      fmt::format("One drop in detail: {}, {}", experiment.name,
+      fmt::format("One {} in detail: {}, {}", config.choice.at ? "moment" : "drop", experiment.name,
                   simulators::simulator_title(simulator)),
       fmt::format("{} Left wheel and leg. Spectra, power and median frequency are those of the "
-                  "{:.0f} ms that end at each instant; they and the switch probabilities come from "
-                  "the transition model of {}. Dashed verticals: the left wheel leaves or lands.{}",
+                  "{:.0f} ms that end at each instant; they, the switch probabilities and "
+                  "what the torques say come from the models of {}. Dashed verticals: the left "
+                  "wheel leaves or lands.{}",
                   which_drop(experiment, config.choice), 1e3 / detail.bin_width,
                   detail.transition_of, left_out_text(experiment, config.estimators)),
       fmt::format(
           "Rows of curves over the time around one drop, {} noise settings beside each "
-          "other: height of the base, knee and wheel torque with and without noise, contact "
-          "probability of {}, spectrograms of the true and of the noisy vertical "
+          "other: height of the base, knee and wheel torque with and without noise, what these "
+          "torques say about contact, contact probability of {}, spectrograms of the true and of "
+          "the noisy vertical "
           "acceleration with their power and median frequency, and the probabilities of a "
           "takeoff and a landing. The time in which the wheel truly touches is tinted.",
           config.noise.size(), fmt::join(config.estimators, ", "))};
@@ -78,15 +82,19 @@ Figure draw_detail(const experiments::ExperimentResult& result, const std::strin
 FigureText posterior_text(const experiments::Experiment& experiment,
                           const experiments::PosteriorConfig& config) {
   return {
-      fmt::format("The phase filter through one drop: {}", experiment.name),
+      fmt::format("The phase filter through one {}: {}", config.choice.at ? "moment" : "drop",
+                  experiment.name),
       fmt::format("{} Noise: {} N·m on torques, {} m/s² on the accelerometer. True phases look "
-                  "ahead: an unloading is named after the takeoff that follows. Dashed "
-                  "verticals: the last wheel leaves, the first one lands.",
+                  "ahead: an unloading is named after the takeoff that follows. "
+                  "Likelihoods are those of one step, tempered as the filter does; black: the true "
+                  "phase. What misleads: where the most probable phase is wrong about a wheel, how "
+                  "much each ingredient prefers it to the true one; memory is what was believed "
+                  "before. Dashed verticals: the last wheel leaves, the first one lands.",
                   which_drop(experiment, config.choice), config.noise.torque,
                   config.noise.accelerometer),
       "Over the time around one drop, for each engine: which wheels truly touch, the true phase, "
-      "the probabilities of all phases stacked upon each other, and the contact probability of "
-      "both wheels."};
+      "the likelihood of every phase, what speaks for a wrong one, the probabilities of all phases "
+      "stacked upon each other, and the contact probability of both wheels."};
 }
 
 /// What an engine's run cannot give is said, not thrown.

@@ -68,9 +68,10 @@ TEST(DropFigures, AMissingDropIsSaidAndDoesNotCostTheExperiment) {
       write_tiny_experiment(folder) + small + " --set detail.drop=9 --set posterior.drop=9";
   const Ended ended = touchdown_program("run " + experiment + " --out a", folder.path());
   EXPECT_EQ(ended.exit_code, 0) << ended.errors;
-  for (const char* place : {"detail.drop: run 0 in mujoco has 1 drop, counted from 0; none is "
-                            "number 9",
-                            "detail.drop: run 0 in bullet", "posterior.drop: run 0 in bullet"}) {
+  for (const char* place :
+       {"detail.drop: run 0 in mujoco has 1 drop of both wheels, counted from 0; none is "
+        "number 9",
+        "detail.drop: run 0 in bullet", "posterior.drop: run 0 in bullet"}) {
     EXPECT_THAT(ended.errors, HasSubstr(place));
   }
   EXPECT_TRUE(data_in(folder.path() / "a").empty());

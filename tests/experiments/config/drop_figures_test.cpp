@@ -68,14 +68,18 @@ TEST(DropConfig, EstimatorsThatTheUserAddedAreShownAsFarAsSixAreReadable) {
 
 TEST(DropConfig, ReadsBackToWhatItWrites) {
   const Experiment first = read(
-      "detail: {run: 3, drop: 2, seed: 1, before: 0.2, after: 0.3,\n"
+      "detail: {run: 3, wheels: right, drop: 2, seed: 1, before: 0.2, after: 0.3,\n"
       "         noise: [{torque: 2, accelerometer: 0}], estimators: [phase]}\n"
-      "posterior: {drop: 1, noise: {torque: 0, accelerometer: 7}}\n");
+      "posterior: {at: 2.5, noise: {torque: 0, accelerometer: 7}}\n");
   const Experiment again = experiment_from_yaml(YamlDocument::parse(to_yaml(first), "config.yaml"));
   EXPECT_EQ(to_yaml(again), to_yaml(first));
   ASSERT_TRUE(again.detail && again.posterior);
   EXPECT_EQ(again.detail->choice.run, 3);
   EXPECT_EQ(again.detail->choice.seed, 1);
+  EXPECT_EQ(again.detail->choice.wheels, DropWheels::right);
+  EXPECT_EQ(again.posterior->choice.wheels, DropWheels::both);
+  EXPECT_EQ(again.detail->choice.at, std::nullopt);
+  EXPECT_EQ(again.posterior->choice.at, 2.5);
   EXPECT_EQ(again.detail->choice.before, 0.2);
   EXPECT_EQ(again.detail->noise[0].wheel, 2.0);
   EXPECT_EQ(again.detail->noise[0].levels().joint_velocity, 0.5);
@@ -89,6 +93,7 @@ TEST(DropConfig, WrongKeysAndValuesAreShownWithTheirPlace) {
   EXPECT_THAT([] { read("detail: {seed: 3}\n"); }, complains("11:", "detail.seed"));
   EXPECT_THAT([] { read("detail: {drop: -1}\n"); }, complains("11:", "detail.drop"));
   EXPECT_THAT([] { read("detail: {after: .nan}\n"); }, complains("11:", "detail.after"));
+  EXPECT_THAT([] { read("detail: {wheels: lift}\n"); }, complains("11:18", "did you mean 'left'?"));
   EXPECT_THAT([] { read("detail: {noise: []}\n"); }, complains("11:", "1 to 3 noise settings"));
   EXPECT_THAT([] { read("detail: {noise: [{torque: 1}]}\n"); },
               complains("11:", "detail.noise.0.accelerometer: is missing"));

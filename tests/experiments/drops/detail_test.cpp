@@ -196,7 +196,7 @@ TEST(DropDetail, NamesTheDropsThereAreWhereOneIsMissing) {
   study.config.choice.drop = 9;
   EXPECT_THAT([&] { study.detail(synthetic_run(3)); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("detail.drop: run 3 in mujoco"),
-                                              HasSubstr("4 drops, counted from 0"),
+                                              HasSubstr("4 drops of both wheels, counted from 0"),
                                               HasSubstr("none is number 9"))));
   RunSignals standing = synthetic_run(3, 500);
   EXPECT_THAT([&] { study.detail(standing); }, ThrowsMessage<InputError>(HasSubstr("has no drop")));

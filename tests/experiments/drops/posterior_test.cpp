@@ -1,6 +1,9 @@
 #include "experiments/drops/posterior.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,12 +67,92 @@ TEST(DropPosterior, KnowsTheTruePhasesBesideTheBelieved) {
   EXPECT_GT(posterior.phases[300][index(Phase::flight)], 0.9);
 }
 
+/// Eq. of docs/phase_filter.md, done again with the model's transitions.
+TEST(DropPosterior, FollowsFromTheOneBeforeAndTheEvidenceOfTheStep) {
+  const PosteriorStudy study;
+  const RunSignals run = synthetic_run(3);
+  const DropPosterior posterior = drop_posterior(study.experiment, study.config, run, study.models);
+  const PhaseModel& model =
+      setup_of({"mujoco", "mujoco", "phase"}, study.models, run).model->phase->model;
+  for (std::size_t k = 1; k < posterior.time.size(); ++k) {
+    PhaseProbabilities expected{};
+    double sum = 0.0;
+    for (std::size_t j = 0; j < phase_count; ++j) {
+      for (std::size_t i = 0; i < phase_count; ++i) {
+        expected[j] += posterior.phases[k - 1][i] * model.transition[i][j];
+      }
+      expected[j] *= std::exp(posterior.evidence[k].sum(static_cast<Phase>(j)));
+      sum += expected[j];
+    }
+    for (std::size_t j = 0; j < phase_count; ++j) {
+      EXPECT_NEAR(posterior.phases[k][j], expected[j] / sum, 1e-5) << k << " " << phase_names[j];
+    }
+  }
+}
+
+TEST(DropPosterior, WhatMisleadsAddsUpToWhatItMadeOfTheBelief) {
+  const PosteriorStudy study;
+  const DropPosterior posterior =
+      drop_posterior(study.experiment, study.config, synthetic_run(3), study.models);
+  std::size_t wrong = 0;
+  for (std::size_t k = 0; k < posterior.time.size(); ++k) {
+    const PhaseProbabilities& p = posterior.phases[k];
+    const auto first = static_cast<Phase>(std::max_element(p.begin(), p.end()) - p.begin());
+    const Phase truth = posterior.truth[k];
+    const Misled& misled = posterior.misled[k];
+    const double sum = misled.left + misled.right + misled.acceleration + misled.memory;
+    const bool is_right =
+        left_touches(first) == left_touches(truth) && right_touches(first) == right_touches(truth);
+    if (is_right) {
+      EXPECT_EQ(sum, 0.0);
+    } else {
+      EXPECT_NEAR(sum, std::log(p[index(first)] / p[index(truth)]), 1e-9);
+      EXPECT_GE(sum, 0.0);
+    }
+    wrong += is_right ? 0 : 1;
+  }
+  EXPECT_GT(wrong, 0U);  // a takeoff is called some steps late
+}
+
+TEST(DropPosterior, ShowsTheDropsOfTheWheelThatIsAskedFor) {
+  PosteriorStudy study;
+  const auto takeoff = [&](DropWheels wheels) {
+    study.config.choice.wheels = wheels;
+    const RunSignals run = synthetic_run(3);
+    const DropPosterior posterior =
+        drop_posterior(study.experiment, study.config, run, study.models);
+    const auto at = static_cast<std::size_t>(
+        std::find(posterior.time.begin(), posterior.time.end(), 0.0) - posterior.time.begin());
+    return std::pair(posterior.contact[0][at], posterior.contact[1][at]);
+  };
+  EXPECT_EQ(takeoff(DropWheels::both), std::pair(std::uint8_t{0}, std::uint8_t{0}));
+  EXPECT_EQ(takeoff(DropWheels::left), std::pair(std::uint8_t{0}, std::uint8_t{1}));
+  EXPECT_EQ(takeoff(DropWheels::right), std::pair(std::uint8_t{0}, std::uint8_t{0}));
+}
+
+TEST(DropPosterior, ShowsAnyMomentThatIsAskedFor) {
+  PosteriorStudy study;
+  study.config.choice.at = 0.3;
+  const RunSignals run = synthetic_run(3);
+  const DropPosterior posterior = drop_posterior(study.experiment, study.config, run, study.models);
+  ASSERT_EQ(posterior.time.size(), 601U);
+  EXPECT_NEAR(posterior.time.front(), -0.15, 1e-12);
+  EXPECT_EQ(posterior.contact[0][449], run.contact[0][599]);
+  EXPECT_EQ(posterior.contact[0][450], run.contact[0][600]);
+  EXPECT_NE(posterior.contact[0][449], posterior.contact[0][450]);
+  study.config.choice.at = 4.0;
+  EXPECT_THAT(
+      [&] { drop_posterior(study.experiment, study.config, run, study.models); },
+      ThrowsMessage<InputError>(HasSubstr("posterior.at: run 3 in mujoco is over after 4 s")));
+}
+
 TEST(DropPosterior, NamesTheDropsThereAreWhereOneIsMissing) {
   PosteriorStudy study;
   study.config.choice.drop = 4;
   EXPECT_THAT(
       [&] { drop_posterior(study.experiment, study.config, synthetic_run(3), study.models); },
-      ThrowsMessage<InputError>(HasSubstr("posterior.drop: run 3 in mujoco has 4 drops")));
+      ThrowsMessage<InputError>(
+          HasSubstr("posterior.drop: run 3 in mujoco has 4 drops of both wheels")));
 }
 
 }  // namespace

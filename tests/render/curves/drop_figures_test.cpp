@@ -58,8 +58,11 @@ experiments::DropDetail staged_detail(std::size_t settings) {
   detail.switch_power = 50.0;
   detail.spectrum = staged_spectrum(0.1);
   for (std::size_t i = 0; i < settings; ++i) {
-    experiments::NoisyDrop drop{
-        {1.0 + static_cast<double>(i), 5.0}, detail.torque, staged_spectrum(10.0), {}};
+    experiments::NoisyDrop drop{{1.0 + static_cast<double>(i), 5.0},
+                                detail.torque,
+                                std::vector<double>(drop_steps, 3.0),
+                                staged_spectrum(10.0),
+                                {}};
     for (const auto& [name, title] :
          {std::pair("robust", "Bayes filter"), std::pair("phase", "Phase filter")}) {
       drop.beliefs.push_back({name, title, std::vector<double>(drop_steps, 0.9)});
@@ -81,6 +84,10 @@ experiments::DropPosterior staged_posterior(const std::string& simulator) {
     p[index(Phase::rolling)] = air ? 0.1 : 0.75;
     p[index(Phase::flight)] = air ? 0.9 : 0.25;
     posterior.phases.push_back(p);
+    experiments::PhaseEvidence evidence;
+    evidence.left[index(Phase::held)] = 3.0;
+    posterior.evidence.push_back(evidence);
+    posterior.misled.push_back({.left = 3.0, .memory = -1.0});
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       posterior.contact[wheel].push_back(air ? 0 : 1);
       posterior.p_contact[wheel].push_back(p[index(Phase::rolling)]);
@@ -130,7 +137,7 @@ TEST_F(DropFigures, DetailIsAsWideAsAScreenWithItsDataBesideIt) {
   const auto columns = numbers_in(folder_ / "detail_2.dat");
   ASSERT_EQ(columns.size(), drop_steps);
   for (const auto& row : columns) {
-    ASSERT_EQ(row.size(), 16U + 2U);
+    ASSERT_EQ(row.size(), 17U + 2U);
     for (const double value : row) EXPECT_TRUE(std::isfinite(value));
   }
   EXPECT_EQ(columns.front()[0], -20.0);
@@ -204,7 +211,7 @@ TEST_F(DropFigures, PosteriorShowsEveryPhaseOfBothEngines) {
   const auto rows = numbers_in(folder_ / "posterior_2.dat");
   ASSERT_EQ(rows.size(), drop_steps);
   for (const auto& row : rows) {
-    ASSERT_EQ(row.size(), 1U + phase_count + 2U);
+    ASSERT_EQ(row.size(), 1U + phase_count + 7U);
     double sum = 0.0;
     for (std::size_t phase = 0; phase < phase_count; ++phase) sum += row[1 + phase];
     EXPECT_NEAR(sum, 1.0, 1e-12);
