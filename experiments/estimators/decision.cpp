@@ -2,9 +2,11 @@
 
 #include <span>
 
+#include "core/resources.hpp"
 #include "estimator/decision/filter.hpp"
 #include "estimator/decision/fit.hpp"
 #include "experiments/estimators/parameter_fitting.hpp"
+#include "recordings/models/parameter_model.hpp"
 
 namespace touchdown::experiments {
 
@@ -43,6 +45,24 @@ EstimatorEntry decision_network_entry() {
                 decision_model_of(setup.model->parameters->parameters),
                 configured(DecisionConfig{.sample_rate = setup.sample_rate}, entry, setup));
           }};
+}
+
+EstimatorEntry shipped_decision_network_entry() {
+  EstimatorEntry entry = decision_network_entry();
+  entry.name = "decision_network_shipped";
+  entry.title = "Decision network, shipped";
+  entry.summary = "the same, fitted to Upkie on bent and on straight legs once and for all";
+  entry.fit = nullptr;
+  entry.learns_from_pieces = false;
+  entry.trained_by = "scripts/fit_shipped_network.sh";
+  entry.choices = {};
+  entry.make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
+    const auto file =
+        recordings::read_parameter_model(find_resource("models/decision_network.npz"));
+    return std::make_unique<DecisionNetwork>(decision_model_of(file.parameters),
+                                             DecisionConfig{.sample_rate = setup.sample_rate});
+  };
+  return entry;
 }
 
 }  // namespace touchdown::experiments

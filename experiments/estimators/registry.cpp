@@ -59,6 +59,7 @@ std::span<const EstimatorEntry> estimator_entries() {
         load_logistic_entry(),
         force_kinematics_entry(),
         decision_network_entry(),
+        shipped_decision_network_entry(),
         gradient_boosting_entry(),
         oracle_entry(),
         always_contact_entry(),

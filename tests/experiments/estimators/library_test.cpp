@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/yaml.hpp"
 #include "estimator/models/make_estimator.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
+#include "experiments/foreign/sha256.hpp"
 #include "onboard/load_estimator.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
@@ -57,6 +60,23 @@ TEST(LoadedEstimator, OfAShippedNetworkIsNmn) {
               told(*entry.make(entry, {}), run))
         << name;
   }
+}
+
+TEST(LoadedEstimator, OfTheShippedDecisionNetworkIsItsEntry) {
+  const std::filesystem::path file =
+      std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/decision_network.npz";
+  const RunSignals run = synthetic_run(3, 1000);
+  const EstimatorEntry& entry = estimator_entry("decision_network_shipped");
+  EXPECT_EQ(told(*load_estimator(file), run), told(*entry.make(entry, {}), run));
+  EXPECT_EQ(load_passport(file).estimator, "decision_network");
+  EXPECT_EQ(load_passport(file).robot, "upkie");
+}
+
+TEST(ShippedDecisionNetwork, IsTheOneThatItsManifestNames) {
+  const std::filesystem::path models = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models";
+  const YAML::Node manifest = YamlDocument::load(models / "decision_network.json").root();
+  EXPECT_EQ(manifest["sha256"].as<std::string>(),
+            sha256(read_file(models / "decision_network.npz")));
 }
 
 TEST(LoadedEstimator, SharesFitsAsEntriesDo) {
