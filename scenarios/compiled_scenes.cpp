@@ -54,4 +54,11 @@ std::shared_ptr<const models::RobotModel> CompiledScenes::of(const Scenario& sce
   return compiled_.emplace(scene, compile_scene(scenario)).first->second;
 }
 
+std::shared_ptr<const models::RobotModel> CompiledScenes::as_described(Scenario scenario) {
+  scenario.terrain = {};
+  scenario.mass_scale = 1.0;
+  scenario.deviations = {};
+  return of(scenario);
+}
+
 }  // namespace touchdown::scenarios

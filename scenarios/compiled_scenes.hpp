@@ -21,6 +21,9 @@ std::shared_ptr<const models::RobotModel> compile_scene(const Scenario& scenario
 class CompiledScenes {
  public:
   std::shared_ptr<const models::RobotModel> of(const Scenario& scenario);
+  /// The scenario's robot alone, as its file has it: nobody who listens to a robot knows how this
+  /// very one deviates, or what it carries.
+  std::shared_ptr<const models::RobotModel> as_described(Scenario scenario);
 
  private:
   static constexpr std::size_t most = 16;  ///< of the last ones: some scenes have one run each

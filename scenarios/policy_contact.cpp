@@ -10,7 +10,9 @@
 #include "core/error.hpp"
 #include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
+#include "models/robot_model.hpp"
 #include "recordings/signals_from.hpp"
+#include "scenarios/leg_geometry.hpp"
 
 namespace touchdown::scenarios {
 
@@ -48,7 +50,8 @@ policies::WheelContact told_late(policies::WheelContact contact, std::size_t ste
   };
 }
 
-policies::WheelContact source(const std::string& name, const simulators::Simulator& simulator) {
+policies::WheelContact source(const Scenario& scenario, const simulators::Simulator& simulator) {
+  const std::string& name = scenario.policy.contact;
   const double period = simulator.control_period();
   if (name == "upkie_observer") return policies::upkie_contact(period);
   if (name == "always") {
@@ -58,7 +61,9 @@ policies::WheelContact source(const std::string& name, const simulators::Simulat
     return told_by(std::make_shared<FreeFall>(FreeFallConfig{.sample_rate = 1.0 / period}));
   }
   if (name == "support_force") {
-    return told_by(std::make_shared<SupportForce>(SupportForceConfig{.sample_rate = 1.0 / period}));
+    const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
+    return told_by(std::make_shared<SupportForce>(
+        SupportForceConfig{.sample_rate = 1.0 / period, .geometry = leg_geometry(robot)}));
   }
   if (name == "truth") return told_by_truth(simulator);
   throw InputError(fmt::format("policy.contact: nobody is called '{}'", name));
@@ -69,7 +74,7 @@ policies::WheelContact source(const std::string& name, const simulators::Simulat
 policies::WheelContact policy_contact(const Scenario& scenario,
                                       const simulators::Simulator& simulator,
                                       policies::WheelContact told) {
-  if (!told) told = source(scenario.policy.contact, simulator);
+  if (!told) told = source(scenario, simulator);
   const auto late = std::llround(scenario.policy.late / simulator.control_period());
   return told_late(std::move(told), static_cast<std::size_t>(late));
 }

@@ -35,7 +35,7 @@ struct Request {
 struct Recipe {
   std::string_view name;
   std::string_view fit;  ///< the name of whoever is fitted in the same way
-  std::function<ConfigurationText(double sample_rate)> configuration;
+  std::function<ConfigurationText(double sample_rate, const LegGeometry& legs)> configuration;
   std::function<Made(const ModelArrays& arrays, const Request& request)> make;
 };
 
@@ -60,15 +60,18 @@ BayesFilterConfig configured(BayesFilterConfig config, const Request& request) {
 
 template <typename Estimator>
 Recipe of_torques(std::string_view name, std::string_view fit, const BayesFilterConfig& config) {
-  return {name, fit, [config](double rate) { return text_of(at_rate(config, rate)); },
-          [config](const ModelArrays& arrays, const Request& request) -> Made {
-            return std::make_unique<Estimator>(measurement_model_of(arrays),
-                                               configured(config, request));
-          }};
+  return {
+      name, fit,
+      [config](double rate, const LegGeometry& /*legs*/) { return text_of(at_rate(config, rate)); },
+      [config](const ModelArrays& arrays, const Request& request) -> Made {
+        return std::make_unique<Estimator>(measurement_model_of(arrays),
+                                           configured(config, request));
+      }};
 }
 
 Recipe of_phases(std::string_view name) {
-  return {name, name, [](double /*rate*/) { return text_of(PhaseFilterConfig{}); },
+  return {name, name,
+          [](double /*rate*/, const LegGeometry& /*legs*/) { return text_of(PhaseFilterConfig{}); },
           [](const ModelArrays& arrays, const Request& request) -> Made {
             return std::make_unique<PhaseFilter>(phase_model_of(arrays),
                                                  configured(PhaseFilterConfig{}, request));
@@ -77,20 +80,24 @@ Recipe of_phases(std::string_view name) {
 
 template <typename Estimator, typename Config, auto model_of>
 Recipe of_parameters(std::string_view name) {
-  return {name, name, [](double /*rate*/) { return text_of(Config{}); },
-          [](const ModelArrays& arrays, const Request& request) -> Made {
-            return std::make_unique<Estimator>(model_of(parameters_of(arrays)),
-                                               configured(Config{}, request));
-          }};
+  return {
+      name, name,
+      [](double /*rate*/, const LegGeometry& legs) { return text_of(Config{.geometry = legs}); },
+      [](const ModelArrays& arrays, const Request& request) -> Made {
+        return std::make_unique<Estimator>(model_of(parameters_of(arrays)),
+                                           configured(Config{}, request));
+      }};
 }
 
 Recipe of_neural_network() {
-  return {"nmn", "nmn", [](double /*rate*/) { return text_of(NeuralEstimatorConfig{}); },
-          [](const ModelArrays& arrays, const Request& request) -> Made {
-            return std::make_unique<NeuralEstimator>(
-                std::make_shared<const NeuralNetwork>(neural_network_of(arrays)),
-                configured(NeuralEstimatorConfig{}, request));
-          }};
+  return {
+      "nmn", "nmn",
+      [](double /*rate*/, const LegGeometry& /*legs*/) { return text_of(NeuralEstimatorConfig{}); },
+      [](const ModelArrays& arrays, const Request& request) -> Made {
+        return std::make_unique<NeuralEstimator>(
+            std::make_shared<const NeuralNetwork>(neural_network_of(arrays)),
+            configured(NeuralEstimatorConfig{}, request));
+      }};
 }
 
 const std::vector<Recipe>& recipes() {
@@ -151,8 +158,9 @@ ModelPassport passport_by_arrays(const ModelArrays& arrays) {
 
 }  // namespace
 
-ConfigurationText default_configuration(std::string_view estimator, double sample_rate) {
-  return recipe(estimator).configuration(sample_rate);
+ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
+                                        const LegGeometry& legs) {
+  return recipe(estimator).configuration(sample_rate, legs);
 }
 
 bool makes_estimator(std::string_view name) { return find_recipe(name) != nullptr; }

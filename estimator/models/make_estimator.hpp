@@ -19,9 +19,10 @@ std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays,
 /// The passport that `make_estimator` goes by. Errors: those of it that are about the passport.
 ModelPassport passport_for(const ModelArrays& arrays, const ModelUse& use = {});
 
-/// What an estimator is run with at this rate (Hz) unless somebody says otherwise. Errors:
-/// `InputError` for a name that no model is fitted for.
-ConfigurationText default_configuration(std::string_view estimator, double sample_rate);
+/// What an estimator is run with at this rate (Hz), on a robot with these legs, unless somebody
+/// says otherwise. Errors: `InputError` for a name that no model is fitted for.
+ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
+                                        const LegGeometry& legs = {});
 
 /// Whether this library makes an estimator of this name from a model: studies have others.
 bool makes_estimator(std::string_view name);

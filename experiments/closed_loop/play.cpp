@@ -15,6 +15,7 @@
 #include "experiments/run_directory/saved_state.hpp"
 #include "experiments/signals/motion.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/leg_geometry.hpp"
 #include "scenarios/policy_contact.hpp"
 
 namespace touchdown::experiments {
@@ -23,11 +24,11 @@ namespace {
 
 /// The estimator that was fitted in the engine in which it steers.
 std::unique_ptr<ContactEstimator> estimator_of(const LoopCell& cell, const FittedModels& models,
-                                               double period) {
+                                               double period, const LegGeometry& legs) {
   const EstimatorEntry entry = entry_of({cell.simulator, cell.simulator, cell.contact}, models);
   const FittedModel* model =
       entry.fits() ? &models.at(model_key(cell.simulator, {})).at(entry.name) : nullptr;
-  return entry.make(entry, {.sample_rate = 1.0 / period, .model = model});
+  return entry.make(entry, {.sample_rate = 1.0 / period, .model = model, .legs = legs});
 }
 
 LoopOutcome played(const RunRequest& request, const LoopCell& cell, std::int64_t run,
@@ -36,10 +37,9 @@ LoopOutcome played(const RunRequest& request, const LoopCell& cell, std::int64_t
   const Experiment& experiment = request.experiment;
   try {
     const LoopRun loop = play_loop(request, cell, run, models, scenes, going_on);
-    scenarios::Scenario described = loop.scenario;
-    described.deviations = {};
-    return outcome_of(loop.recording, loop.told.contact, wheeled_biped(*scenes.of(described)),
-                      experiment.labels, experiment.scoring);
+    return outcome_of(loop.recording, loop.told.contact,
+                      wheeled_biped(*scenes.as_described(loop.scenario)), experiment.labels,
+                      experiment.scoring);
   } catch (const InputError&) {
     throw;
   } catch (const Stopped&) {
@@ -70,7 +70,8 @@ LoopRun play_loop(const RunRequest& request, const LoopCell& cell, std::int64_t 
     at_once.policy.late = 0.0;
     told = noted(scenarios::policy_contact(at_once, *simulator), loop.told);
   } else {
-    told = teller(estimator_of(cell, models, period),
+    const LegGeometry legs = scenarios::leg_geometry(*scenes.as_described(scenario));
+    told = teller(estimator_of(cell, models, period, legs),
                   {profile_of(request.sensors, experiment.sensors), sensor_key(experiment, run),
                    cell.noise.levels(), noise_key(experiment, 0, run)},
                   period, loop.told);

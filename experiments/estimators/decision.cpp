@@ -16,8 +16,8 @@ using Made = std::unique_ptr<ContactEstimator>;
 
 FittedModel fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
-    return parameters_of(
-        fit_decision_model(labelled, {}, {.decay = entry.chosen("decay")}, runs.before_density));
+    return parameters_of(fit_decision_model(labelled, {.geometry = legs_of(runs)},
+                                            {.decay = entry.chosen("decay")}, runs.before_density));
   });
 }
 
@@ -59,8 +59,10 @@ EstimatorEntry shipped_decision_network_entry() {
   entry.make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
     const auto file =
         recordings::read_parameter_model(find_resource("models/decision_network.npz"));
-    return std::make_unique<DecisionNetwork>(decision_model_of(file.parameters),
-                                             DecisionConfig{.sample_rate = setup.sample_rate});
+    return std::make_unique<DecisionNetwork>(
+        decision_model_of(file.parameters),
+        DecisionConfig{.sample_rate = setup.sample_rate,
+                       .geometry = setup.legs.value_or(LegGeometry{})});
   };
   return entry;
 }

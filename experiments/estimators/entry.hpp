@@ -11,6 +11,7 @@
 
 #include "estimator/bayes/config.hpp"
 #include "estimator/contact_estimator.hpp"
+#include "estimator/force/leg_geometry.hpp"
 #include "estimator/phase/config.hpp"
 #include "experiments/estimators/fit_runs.hpp"
 #include "experiments/estimators/fitted_model.hpp"
@@ -25,6 +26,8 @@ namespace touchdown::experiments {
 struct EstimatorSetup {
   double sample_rate = 1000.0;         ///< Hz
   const FittedModel* model = nullptr;  ///< for those that are fitted
+  /// Of the robot that it will listen to, where its file is known: before what its model says.
+  std::optional<LegGeometry> legs = {};
   /// The labels of the run that it will listen to, for the one that repeats them.
   const std::array<scoring::ContactSequence, models::wheel_count>* truth = nullptr;
 };

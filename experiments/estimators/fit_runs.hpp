@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "estimator/force/leg_geometry.hpp"
 #include "recordings/models/provenance.hpp"
 #include "recordings/recording.hpp"
 #include "scoring/transitions.hpp"
@@ -38,6 +39,7 @@ std::string robot_of(const recordings::RecordingInfo& info);
 struct FittedTo {
   double sample_rate = 0.0;  ///< of the first of them (Hz)
   std::set<std::string> robots;
+  LegGeometry legs = {};
 
   void add(const recordings::RecordingInfo& info);
 };

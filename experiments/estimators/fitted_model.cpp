@@ -13,13 +13,14 @@
 namespace touchdown::experiments {
 
 ModelPassport new_passport(const std::string& estimator, const FittedTo& fitted_to) {
-  return {.estimator = estimator,
-          .sample_rate = fitted_to.sample_rate,
-          .robot = fmt::format("{}", fmt::join(fitted_to.robots, ", ")),
-          .configuration = makes_estimator(estimator)
-                               ? default_configuration(estimator, fitted_to.sample_rate)
-                               : ConfigurationText{},
-          .fingerprint = {}};
+  return {
+      .estimator = estimator,
+      .sample_rate = fitted_to.sample_rate,
+      .robot = fmt::format("{}", fmt::join(fitted_to.robots, ", ")),
+      .configuration = makes_estimator(estimator)
+                           ? default_configuration(estimator, fitted_to.sample_rate, fitted_to.legs)
+                           : ConfigurationText{},
+      .fingerprint = {}};
 }
 
 ModelKind kind_of_model_file(const std::filesystem::path& path) {

@@ -17,7 +17,8 @@ constexpr Sensors of_a_load = {
 
 FittedModel fit_logistic_curve(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs, [&](std::span<const LabelledRun> labelled) {
-    return parameters_of(fit_load_logistic(labelled, {.low_pass = entry.chosen("low_pass")}));
+    return parameters_of(fit_load_logistic(
+        labelled, {.geometry = legs_of(runs), .low_pass = entry.chosen("low_pass")}));
   });
 }
 
@@ -29,8 +30,9 @@ Made make_load_logistic(const EstimatorEntry& entry, const EstimatorSetup& setup
 
 FittedModel fit_wheel_states(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs, [&](std::span<const LabelledRun> labelled) {
-    return parameters_of(fit_force_kinematics(
-        labelled, {.low_pass = entry.chosen("low_pass"), .leak = entry.chosen("leak")}));
+    return parameters_of(fit_force_kinematics(labelled, {.geometry = legs_of(runs),
+                                                         .low_pass = entry.chosen("low_pass"),
+                                                         .leak = entry.chosen("leak")}));
   });
 }
 
@@ -54,6 +56,7 @@ EstimatorEntry support_force_entry() {
             const double contact = entry.chosen("contact");
             return std::make_unique<SupportForce>(
                 SupportForceConfig{.sample_rate = setup.sample_rate,
+                                   .geometry = setup.legs.value_or(LegGeometry{}),
                                    .low_pass = entry.chosen("low_pass"),
                                    .contact = contact,
                                    .release = contact * entry.chosen("release_share")});

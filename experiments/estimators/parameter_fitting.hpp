@@ -18,12 +18,17 @@ using FitParameters = std::function<recordings::Parameters(std::span<const Label
 FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs,
                            const FitParameters& fit);
 
-/// As the model's passport says, if it is the entry's own.
+/// As the model's passport says, if it is the entry's own; the legs are those of the robot that is
+/// listened to, where they are known.
 template <typename Config>
 Config configured(Config config, const EstimatorEntry& entry, const EstimatorSetup& setup) {
   const std::optional<ModelPassport>& passport = setup.model->passport;
   if (passport && passport->estimator == entry.name) configure(config, passport->configuration);
+  if (setup.legs) config.geometry = *setup.legs;
   return config;
 }
+
+/// Of the robot that is fitted to, which runs that are fitted together share.
+LegGeometry legs_of(const FitRuns& runs);
 
 }  // namespace touchdown::experiments

@@ -9,6 +9,7 @@
 #include "core/progress.hpp"
 #include "estimator/models/make_estimator.hpp"
 #include "estimator/numerics/number_text.hpp"
+#include "experiments/estimators/parameter_fitting.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
@@ -74,6 +75,7 @@ FittedModel fit_model(const EstimatorEntry& entry, const FitRuns& runs) {
 ModelPassport new_passport(const std::string& estimator, const FitRuns& runs,
                            const Constants& constants) {
   FittedTo fitted_to;
+  fitted_to.legs = legs_of(runs);
   for (const auto* group : {&runs.whole, &runs.pieces}) {
     for (const RunSignals* run : *group) fitted_to.add(run->info);
   }

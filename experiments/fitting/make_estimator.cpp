@@ -23,7 +23,7 @@ EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,
           ? &models.at(model_key(condition.fit_simulator, condition.fit, condition.refit))
                  .at(condition.estimator)
           : nullptr;
-  return {1e6 / static_cast<double>(run.info.control_period_us), model, &run.contact};
+  return {1e6 / static_cast<double>(run.info.control_period_us), model, run.legs, &run.contact};
 }
 
 std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,

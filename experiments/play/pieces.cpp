@@ -11,6 +11,7 @@ namespace {
 RunSignals cut(const RunSignals& run, std::size_t begin, std::size_t length) {
   RunSignals piece;
   piece.info = run.info;
+  piece.legs = run.legs;
   const auto first = static_cast<std::ptrdiff_t>(std::min(begin, run.steps()));
   const auto last = static_cast<std::ptrdiff_t>(std::min(begin + length, run.steps()));
   piece.signals.assign(run.signals.begin() + first, run.signals.begin() + last);

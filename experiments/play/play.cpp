@@ -17,6 +17,7 @@
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/compiled_scenes.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/leg_geometry.hpp"
 
 namespace touchdown::experiments {
 
@@ -59,23 +60,16 @@ PlayedRun failed(const PlannedRun& plan, const std::string& why) {
   return run;
 }
 
-/// The robot as its own description has it: odometry does not know how this very one differs.
-std::shared_ptr<const models::RobotModel> described_robot(const PlannedRun& run,
-                                                          scenarios::CompiledScenes& scenes) {
-  scenarios::Scenario scenario = run.scenario;
-  scenario.deviations = {};
-  return scenes.of(scenario);
-}
-
 PlayedRun played(const PlannedRun& run, recordings::Recording recording,
                  const noise::SensorProfile& sensors, const Experiment& experiment,
                  scenarios::CompiledScenes& scenes) {
   report_through_sensors(sensors, experiment, run.run, recording.period(), recording.observation);
   RunSignals signals =
       signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
+  const std::shared_ptr<const models::RobotModel> robot = scenes.as_described(run.scenario);
+  signals.legs = scenarios::leg_geometry(*robot);
   if (experiment.odometry && run.role == RunRole::test) {
-    signals.motion =
-        std::make_shared<RunMotion>(motion_of(recording, *described_robot(run, scenes)));
+    signals.motion = std::make_shared<RunMotion>(motion_of(recording, *robot));
   }
   const auto shortest = static_cast<std::size_t>(
       std::llround(experiment.scoring.minimum_flight / recording.period()));

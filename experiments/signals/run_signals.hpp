@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "estimator/contact_estimator.hpp"
+#include "estimator/force/leg_geometry.hpp"
 #include "estimator/signals.hpp"
 #include "experiments/signals/motion.hpp"
 #include "noise/sensor_noise.hpp"
@@ -30,6 +31,7 @@ struct RunSignals {
   std::array<scoring::ContactSequence, models::wheel_count> contact;  ///< labels
   std::array<std::vector<double>, models::wheel_count> normal_force;  ///< truth, per wheel (N)
   std::vector<std::size_t> pieces;               ///< first steps of the statistical samples
+  LegGeometry legs = {};                         ///< of the robot, as its file has it
   std::shared_ptr<const RunMotion> motion = {};  ///< of tested runs, where odometry is studied
 
   std::size_t steps() const { return signals.size(); }

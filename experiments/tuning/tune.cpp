@@ -76,7 +76,8 @@ void sit(Sitting& sitting, const Fold& fold, std::span<const Trial> trials,
     PlaceCounts& counts = sitting.of.emplace_back();
     for (std::size_t i = 0; i < fold.judged.size(); ++i) {
       const RunSignals& run = *fold.judged[i];
-      Listener listener = listener_of(entry, {1.0 / period_of(run), &model, &run.contact});
+      Listener listener =
+          listener_of(entry, {1.0 / period_of(run), &model, run.legs, &run.contact});
       for (std::size_t cell = 0; cell < experiment.tuning->noise.size(); ++cell) {
         or_stop();
         count(listener, run, noise[i], experiment.tuning->noise[cell].levels(), experiment.scoring,

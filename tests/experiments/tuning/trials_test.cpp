@@ -66,7 +66,7 @@ std::vector<double> beliefs(const EstimatorEntry& plain, const Constants& consta
     model = fit_model(entry, runs);
     model.passport = new_passport(entry.name, runs, constants);
   }
-  Listener listener = listener_of(entry, {1000.0, &model, &heard.contact});
+  Listener listener = listener_of(entry, {1000.0, &model, heard.legs, &heard.contact});
   const NoiseRun noise = noise_run(heard, {.seed = 3, .run = 1});
   std::vector<double> all;
   for (const double level : {0.1, 0.7, 2.0}) {

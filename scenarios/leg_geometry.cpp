@@ -1,0 +1,79 @@
+#include "scenarios/leg_geometry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace touchdown::scenarios {
+
+namespace {
+
+using models::Servo;
+
+constexpr std::array<Servo, 3> leg_servos = {Servo::left_hip, Servo::left_knee, Servo::left_wheel};
+
+/// What one of the leg's joints moves and the next one does not.
+struct Link {
+  double mass = 0.0;                                          ///< kg
+  Eigen::Vector3d weighted_centre = Eigen::Vector3d::Zero();  ///< kg·m
+};
+
+int joint_of(const models::RobotModel& robot, Servo servo) {
+  return robot.mj->dof_jntid[robot.dof_address[models::index(servo)]];
+}
+
+std::array<Link, leg_servos.size()> links_of(const models::RobotModel& robot, const mjData& data) {
+  const mjModel& mj = *robot.mj;
+  std::array<Link, leg_servos.size()> links;
+  for (int body = 1; body < mj.nbody; ++body) {
+    for (int above = body; above > 0; above = mj.body_parentid[above]) {
+      const int joint = mj.body_jntnum[above] > 0 ? mj.body_jntadr[above] : -1;
+      const auto mover = std::find_if(leg_servos.begin(), leg_servos.end(),
+                                      [&](Servo servo) { return joint_of(robot, servo) == joint; });
+      if (joint < 0) continue;
+      if (mover != leg_servos.end()) {
+        Link& link = links[static_cast<std::size_t>(mover - leg_servos.begin())];
+        link.mass += mj.body_mass[body];
+        link.weighted_centre += mj.body_mass[body] * models::vector_at(data.xipos, body);
+      }
+      break;
+    }
+  }
+  return links;
+}
+
+/// To that many parts of one: what is finer comes from the arithmetic.
+double rounded(double value, double parts) { return std::round(value * parts) / parts; }
+
+}  // namespace
+
+LegGeometry leg_geometry(const models::RobotModel& robot) {
+  const models::MjDataPtr data = models::at_zero(robot);
+  const int hip = joint_of(robot, leg_servos[0]);
+  const Eigen::Vector3d axis = models::vector_at(data->xaxis, hip);
+  const auto in_plane = [&](const Eigen::Vector3d& vector) -> Eigen::Vector3d {
+    return vector - axis * axis.dot(vector);
+  };
+  std::array<Eigen::Vector3d, leg_servos.size()> anchor;
+  for (std::size_t i = 0; i < leg_servos.size(); ++i) {
+    anchor[i] = models::vector_at(data->xanchor, joint_of(robot, leg_servos[i]));
+  }
+  const auto links = links_of(robot, *data);
+  const auto length_and_centre = [&](std::size_t i) {
+    const Eigen::Vector3d along = in_plane(anchor[i + 1] - anchor[i]);
+    const Eigen::Vector3d centre = links[i].weighted_centre / links[i].mass - anchor[i];
+    return std::pair(along.norm(), along.dot(centre) / along.squaredNorm());
+  };
+  const auto [upper_length, upper_centre] = length_and_centre(0);
+  const auto [lower_length, lower_centre] = length_and_centre(1);
+  return {.upper_length = rounded(upper_length, 1e6),
+          .lower_length = rounded(lower_length, 1e6),
+          .upper_mass = rounded(links[0].mass, 1e6),
+          .lower_mass = rounded(links[1].mass, 1e6),
+          .wheel_mass = rounded(links[2].mass, 1e6),
+          .upper_centre = rounded(upper_centre, 1e3),
+          .lower_centre = rounded(lower_centre, 1e3)};
+}
+
+}  // namespace touchdown::scenarios
