@@ -154,9 +154,11 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
           number(*panels[p].ceiling));
     }
     commands += fmt::format(
-        "set border 1\nset title {} offset 0,-0.6\nset yrange [-0.6:{}]\nset xrange [{:.2f}:1]\n"
-        "set xtics nomirror autofreq\nset ytics scale 0 ({})\nset xlabel 'mean balanced accuracy'\n"
-        "plot {} index {} using 1:4:2:3 with xerrorbars lt 1 lw 1.6 dt 1 pt 7 ps 0.9\n",
+        "set border 1\nset title {0} offset 0,-0.6\nset yrange [-0.6:{1}]\nset xrange [{2:.2f}:1]\n"
+        "set xtics nomirror autofreq\nset ytics scale 0 ({3})\n"
+        "set xlabel 'mean balanced accuracy'\n"
+        "plot {4} index {5} using 1:4 with points lt 1 pt 7 ps 0.9, \\\n"
+        "     '' index {5} using 1:4:2:3 with xerrorbars lt 1 lw 1.6 dt 1 pt 7 ps 0.9\n",
         gnuplot_text("noise: " + places.front().noise), static_cast<double>(places.size()) - 0.4,
         std::floor(20.0 * lowest) / 20.0, estimators, file, 2 * p);
     commands += "unset arrow\n";

@@ -1,5 +1,9 @@
 #include "render/benchmark/page.hpp"
 
+#include <cmath>
+#include <set>
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -85,6 +89,26 @@ TEST_F(BenchmarkPage, SaysWhereEachFailsAndHow) {
                             HasSubstr("<b>stairs</b> 0.500: misses 100 % of the time in the air "
                                       "and says nothing else"),
                             HasSubstr("Level with the first in 1 of 1 settings")));
+}
+
+/// One run a scene says nothing about others.
+TEST_F(BenchmarkPage, DrawsMeansWithoutIntervalsToo) {
+  BenchmarkScores scores = benchmark_scores(folder_.path());
+  const auto points = [&](const char* name) {
+    const Figure figure =
+        draw_standings_figure(scores, scores.standings.front().setting, 0.95, folder_ / name);
+    const std::string svg = read_file(figure.svg);
+    std::set<std::string> places;  // of dots: where two lie upon each other is one
+    for (std::size_t at = svg.find("#gpPt6"); at != std::string::npos;
+         at = svg.find("#gpPt6", at + 1)) {
+      const std::size_t begin = svg.find("translate(", at);
+      places.insert(svg.substr(begin, svg.find(')', begin) - begin));
+    }
+    return places.size();
+  };
+  EXPECT_EQ(points("with"), 2U * 4U);  // the mean and the worst scene of four
+  for (Standing& place : scores.standings) place.mean.low = place.mean.high = NAN;
+  EXPECT_EQ(points("without"), 2U * 4U);
 }
 
 TEST_F(BenchmarkPage, DrawsTheLearnedCeilingAsALine) {
