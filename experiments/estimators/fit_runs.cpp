@@ -21,6 +21,13 @@ FitRuns FitRuns::together() const {
   return all;
 }
 
+LegGeometry legs_of(const FitRuns& runs) {
+  for (const auto* group : {&runs.whole, &runs.pieces}) {
+    if (!group->empty()) return group->front()->legs;
+  }
+  return {};
+}
+
 double period_of(const RunSignals& run) {
   return 1e-6 * static_cast<double>(run.info.control_period_us);
 }

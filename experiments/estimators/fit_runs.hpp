@@ -30,6 +30,9 @@ struct FitRuns {
   [[nodiscard]] FitRuns together() const;
 };
 
+/// Of the robot that is fitted to, which runs that are fitted together share.
+LegGeometry legs_of(const FitRuns& runs);
+
 double period_of(const RunSignals& run);
 
 /// The robot of a run, as its file is called; empty for a log that does not say.

@@ -21,11 +21,4 @@ FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs,
                   provenance_of(entry.name, runs.whole, runs.scoring.skip)})};
 }
 
-LegGeometry legs_of(const FitRuns& runs) {
-  for (const auto* group : {&runs.whole, &runs.pieces}) {
-    if (!group->empty()) return group->front()->legs;
-  }
-  return {};
-}
-
 }  // namespace touchdown::experiments

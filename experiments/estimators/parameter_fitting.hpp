@@ -28,7 +28,4 @@ Config configured(Config config, const EstimatorEntry& entry, const EstimatorSet
   return config;
 }
 
-/// Of the robot that is fitted to, which runs that are fitted together share.
-LegGeometry legs_of(const FitRuns& runs);
-
 }  // namespace touchdown::experiments

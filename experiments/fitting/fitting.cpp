@@ -9,7 +9,6 @@
 #include "core/progress.hpp"
 #include "estimator/models/make_estimator.hpp"
 #include "estimator/numerics/number_text.hpp"
-#include "experiments/estimators/parameter_fitting.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 

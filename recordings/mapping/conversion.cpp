@@ -174,9 +174,12 @@ class Converter {
     if (!is_whole) ++converted_.lacking;
     const double time = values[log_slot::time];
     if (std::isfinite(time)) {
-      if (!has_time_) converted_.start = time;
-      if (has_time_ && time < converted_.end) ++converted_.back;
-      if (has_time_ && time > converted_.end + longest_period) ++long_steps_;
+      if (has_time_) {
+        if (time < converted_.end) ++converted_.back;
+        if (time > converted_.end + longest_period) ++long_steps_;
+      } else {
+        converted_.start = time;
+      }
       converted_.end = time;
       has_time_ = true;
     }

@@ -54,16 +54,6 @@ Axis range_of(const experiments::DropDetail& detail,
   return range_of(all);
 }
 
-/// 1, 2 or 5 times a power of ten, so that there are at most six ticks.
-double tick_step(const Axis& axis) {
-  const double least = (axis.high - axis.low) / 6.0;
-  const double decade = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (step * decade >= least) return step * decade;
-  }
-  return 10.0 * decade;
-}
-
 /// What is drawn of one noise setting, a line per step.
 PlotColumns detail_columns(const experiments::DropDetail& detail,
                            const experiments::NoisyDrop& drop) {
@@ -145,14 +135,13 @@ struct DetailColumn {
     return panel(row, label) +
            fmt::format(
                "set yrange [{}:{}]\nset ytics autofreq {}\nplot {}, {}\nset ytics autofreq\n",
-               axis.low, axis.high, tick_step(axis),
+               axis.low, axis.high, tick_step(axis.high - axis.low, 6.0),
                line("noisy_" + column, "lc rgb '#8fb9dd' lw 1", row == knee ? "with noise" : ""),
                line(column, "lc rgb '#08306b' lw 1.8", row == knee ? "true" : ""));
   }
 
-  /// More than this is certainty, and would flatten all else.
   std::string torque_evidence() const {
-    constexpr double most = 12.0;
+    constexpr double most = 12.0;  // more is certainty, and would flatten all else
     return panel(evidence, "torques for\ncontact (nats)") +
            fmt::format(
                "set yrange [-{0}:{0}]\nset ytics -{0},{0}\nset clip two\nplot 0 with lines lc "

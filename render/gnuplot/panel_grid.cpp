@@ -20,20 +20,22 @@ constexpr double letter = 9.3;                ///< of the caption, on average (p
 
 /// Tics from `from` to `to`, at most seven, none so near an end that labels of neighbours meet.
 std::string inner_tics(double from, double to) {
-  const double least = (to - from) / 7.0;
-  double step = std::pow(10.0, std::ceil(std::log10(least)));
-  for (const double part : {0.2, 0.5}) {
-    if (part * step >= least) {
-      step *= part;
-      break;
-    }
-  }
+  const double step = tick_step(to - from, 7.0);
   const double margin = 0.04 * (to - from);
   return fmt::format("{:.9g},{:.9g},{:.9g}", step * std::ceil((from + margin) / step), step,
                      step * std::floor((to - margin) / step));
 }
 
 }  // namespace
+
+double tick_step(double span, double most) {
+  const double least = span / most;
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (step * decade >= least) return step * decade;
+  }
+  return 10.0 * decade;
+}
 
 PanelGrid::PanelGrid(Layout layout, FigureText text)
     : layout_(std::move(layout)), text_(std::move(text)) {

@@ -10,6 +10,10 @@
 
 namespace touchdown::render {
 
+/// From one tick of an axis to the next, so that there are at most so many: 1, 2 or 5 times a power
+/// of ten.
+double tick_step(double span, double most);
+
 /// Panels in rows and columns that share their time axis, placed to the pixel, with a title above,
 /// a caption below, and room on the right of every row for its legend. Gives the gnuplot commands
 /// of a figure made for a width of 1280 pixels; texts are large enough to survive a paper's column.

@@ -166,9 +166,9 @@ TEST_F(Conversion, UnitsSignsAndZerosAreThoseOfTheMapping) {
   mapping = replaced(mapping, "v5]", "v5], unit: rev/s, sign: [1, 1, 1, -1, -1, -1]");
   mapping = replaced(mapping, "m5]", "m5], unit: mNm");
   mapping = replaced(mapping, "az]", "az], unit: g");
-  const auto rows = convert(names + "\n" + row("0") + "\n" + row("1e5") + "\n", mapping);
+  const auto rows = convert(names + "\n" + row("0") + "\n" + row("1e6") + "\n", mapping);
   const models::Observation& o = rows.at(1).observation;
-  EXPECT_DOUBLE_EQ(o.time, 0.1);
+  EXPECT_DOUBLE_EQ(o.time, 1.0);
   EXPECT_DOUBLE_EQ(o.servo[1].position, -2.5 * M_PI / 180.0);
   EXPECT_DOUBLE_EQ(o.servo[2].position, 0.5 - 3.5 * M_PI / 180.0);
   EXPECT_DOUBLE_EQ(o.servo[2].velocity, 9.5 * 2.0 * M_PI);
