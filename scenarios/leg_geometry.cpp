@@ -43,6 +43,14 @@ std::array<Link, leg_servos.size()> links_of(const models::RobotModel& robot, co
   return links;
 }
 
+/// What resists the wheel's servo (kg·m²): the wheel and its rotor, about the axle.
+double inertia_about_axle(const models::RobotModel& robot, mjData& data) {
+  const mjModel& mj = *robot.mj;
+  mj_comPos(&mj, &data);
+  mj_crb(&mj, &data);
+  return data.qM[mj.dof_Madr[robot.dof_address[models::index(Servo::left_wheel)]]];
+}
+
 /// To that many parts of one: what is finer comes from the arithmetic.
 double rounded(double value, double parts) { return std::round(value * parts) / parts; }
 
@@ -65,6 +73,11 @@ LegGeometry leg_geometry(const models::RobotModel& robot) {
     const Eigen::Vector3d centre = links[i].weighted_centre / links[i].mass - anchor[i];
     return std::pair(along.norm(), along.dot(centre) / along.squaredNorm());
   };
+  // Estimators take the wheel's mass to be at its axle: no share of its inertia is due to an
+  // offset.
+  const Link& wheel = links[2];
+  const double off_axle = in_plane(wheel.weighted_centre / wheel.mass - anchor[2]).norm();
+  const double wheel_inertia = inertia_about_axle(robot, *data) - wheel.mass * off_axle * off_axle;
   const auto [upper_length, upper_centre] = length_and_centre(0);
   const auto [lower_length, lower_centre] = length_and_centre(1);
   return {.upper_length = rounded(upper_length, 1e6),
@@ -73,7 +86,8 @@ LegGeometry leg_geometry(const models::RobotModel& robot) {
           .lower_mass = rounded(links[1].mass, 1e6),
           .wheel_mass = rounded(links[2].mass, 1e6),
           .upper_centre = rounded(upper_centre, 1e3),
-          .lower_centre = rounded(lower_centre, 1e3)};
+          .lower_centre = rounded(lower_centre, 1e3),
+          .wheel_inertia = rounded(wheel_inertia, 1e8)};
 }
 
 }  // namespace touchdown::scenarios

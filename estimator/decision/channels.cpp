@@ -21,7 +21,7 @@ double within(double value, double largest) noexcept {
 }  // namespace
 
 LegListener::LegListener(const DecisionConfig& config, bool mirrored)
-    : geometry_(config.geometry), inertia_(config.wheel_inertia), mirrored_(mirrored) {
+    : geometry_(config.geometry), mirrored_(mirrored) {
   const double steps = std::clamp(std::round(config.difference * config.sample_rate), 1.0, 1e4);
   velocities_.resize(static_cast<std::size_t>(steps));
   rate_ = config.sample_rate / steps;
@@ -39,10 +39,10 @@ LegChannels LegListener::update(const LegSignals& leg, double vertical_accelerat
   const double area = geometry_.upper_length * geometry_.lower_length * std::sin(leg.knee.position);
   const double load = vertical_force(geometry_, leg, mirrored_, vertical_acceleration) * area *
                       area / (area * area + least_area * least_area);
-  return {
-      within(load, largest_load),
-      within(sign * leg.wheel.torque - inertia_ * rate_ * (now[0] - before[0]), largest_channel),
-      now[1], within(vertical_acceleration + rate_ * (now[1] - before[1]), largest_channel)};
+  return {within(load, largest_load),
+          within(sign * leg.wheel.torque - geometry_.wheel_inertia * rate_ * (now[0] - before[0]),
+                 largest_channel),
+          now[1], within(vertical_acceleration + rate_ * (now[1] - before[1]), largest_channel)};
 }
 
 bool is_usable(const LegSignals& leg, const SignalGuardConfig& guard) noexcept {

@@ -35,7 +35,6 @@ class LegListener {
 
  private:
   LegGeometry geometry_;
-  double inertia_;
   bool mirrored_;
   double rate_;
   /// Of the wheel (rad/s) and of the axle beneath the hip (m/s): the last few, in turn.

@@ -31,8 +31,7 @@ void check_decision_config(const DecisionConfig& config) {
         leg.lower_length > 0.0)) {
     throw InputError("decision network: sample_rate (Hz), lengths (m) must be positive");
   }
-  if (!(is_level(config.wheel_inertia) && is_level(config.difference) &&
-        is_level(config.smoothing))) {
+  if (!(is_level(leg.wheel_inertia) && is_level(config.difference) && is_level(config.smoothing))) {
     throw InputError(
         "decision network: wheel_inertia (kg·m²), difference (s) and smoothing (s per N·m) must "
         "not be negative");

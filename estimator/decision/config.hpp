@@ -29,7 +29,6 @@ struct DecisionFitConfig {
 struct DecisionConfig {
   double sample_rate = 1000.0;  ///< at which `update` is called (Hz)
   LegGeometry geometry = {};
-  double wheel_inertia = 1.7456e-4;  ///< about its axle (kg·m²)
   /// Over this time differences of the wheel's and the axle's velocities are accelerations (s).
   double difference = 0.005;
   /// Time constant of the logit's low-pass for each N·m of estimated torque noise (s).

@@ -14,6 +14,9 @@ struct LegGeometry {
   double wheel_mass = 0.18455;  ///< kg, at the axle
   double upper_centre = 0.855;  ///< of mass, as a share of the length from the hip
   double lower_centre = 0.742;  ///< likewise, from the knee
+  /// Of the wheel about its axle (kg·m²), with its motor's rotor as the joint feels it: what the
+  /// torque that the servo reports sets in motion.
+  double wheel_inertia = 1.7456e-4;
 
   bool operator==(const LegGeometry&) const = default;
 };

@@ -189,7 +189,8 @@ template <typename Visit, typename Config>
 requires std::same_as<std::remove_const_t<Config>, DecisionConfig>
 void visit_members(Visit& visit, Config& config) {
   visit_geometry(visit, config.geometry);
-  visit("wheel_inertia", config.wheel_inertia);
+  // Only this one hears how wheels spin; its files have had the key from the first.
+  visit("wheel_inertia", config.geometry.wheel_inertia);
   visit("difference", config.difference);
   visit("smoothing", config.smoothing);
   visit("leave_below", config.leave_below);

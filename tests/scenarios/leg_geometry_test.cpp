@@ -1,6 +1,9 @@
 #include "scenarios/leg_geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <memory>
 #include <string>
 
 #include <fmt/format.h>
@@ -8,7 +11,10 @@
 
 #include "core/files.hpp"
 #include "core/resources.hpp"
+#include "estimator/decision/channels.hpp"
+#include "recordings/signals_from.hpp"
 #include "tests/scratch_folder.hpp"
+#include "tests/simulators/upkie.hpp"
 
 namespace touchdown::scenarios {
 namespace {
@@ -18,10 +24,46 @@ LegGeometry of_robot(const std::string& file) {
 }
 
 TEST(LegGeometry, OfUpkieIsTheEstimatorsDefaultToTheBit) {
-  for (const char* file : {"models/upkie.xml", "models/upkie_actuated.yaml",
-                           "models/upkie_straight.yaml", "models/upkie_large_wheels.yaml"}) {
+  for (const char* file :
+       {"models/upkie.xml", "models/upkie_actuated.yaml", "models/upkie_straight.yaml"}) {
     EXPECT_EQ(of_robot(file), LegGeometry{}) << file;
   }
+  LegGeometry large = of_robot("models/upkie_large_wheels.yaml");
+  EXPECT_GT(large.wheel_inertia, 2.0 * LegGeometry{}.wheel_inertia);
+  large.wheel_inertia = LegGeometry{}.wheel_inertia;
+  EXPECT_EQ(large, LegGeometry{}) << "all but the wheels' inertia";
+}
+
+/// By MuJoCo's inverse dynamics: what torque accelerates the left wheel alone, without weight and
+/// with its centre put on its axle.
+double inertia_by_inverse_dynamics(const models::RobotModel& robot) {
+  robot.mj->opt.disableflags |= mjDSBL_GRAVITY | mjDSBL_CONTACT;
+  const int body = robot.mj->geom_bodyid[robot.tyre_geom[0]];
+  robot.mj->body_ipos[3 * body] = robot.mj->body_ipos[3 * body + 2] = 0.0;
+  const models::MjDataPtr data = models::at_zero(robot);
+  const int wheel = robot.dof_address[models::index(models::Servo::left_wheel)];
+  data->qacc[wheel] = 1.0;
+  mj_inverse(robot.mj.get(), data.get());
+  return data->qfrc_inverse[wheel];
+}
+
+TEST(LegGeometry, HasTheWheelsInertiaOfTheRobotsModel) {
+  const ScratchFolder folder;
+  const auto with_rotors = folder.write(
+      "rotors.yaml",
+      fmt::format("mjcf: {}\nactuators: {{wheel: {{armature: 0.0002}}}}\n",
+                  std::filesystem::absolute(find_resource("models/upkie.xml")).string()));
+  const auto of = [](const std::filesystem::path& file) {
+    const models::RobotModel robot = models::compile_robot_model(file, {});
+    const double found = leg_geometry(robot).wheel_inertia;
+    EXPECT_NEAR(found, inertia_by_inverse_dynamics(robot), 0.5e-8) << file;
+    return found;
+  };
+  const double upkie = of(find_resource("models/upkie.xml"));
+  EXPECT_NEAR(of(find_resource("models/upkie_heavy.yaml")), 1.5 * upkie, 1e-8);
+  EXPECT_NEAR(of(find_resource("models/upkie_long_legs.yaml")), upkie, 1e-8);
+  EXPECT_GT(of(find_resource("models/upkie_large_wheels.yaml")), 2.0 * upkie);
+  EXPECT_NEAR(of(with_rotors), upkie + 2e-4, 1e-8);
 }
 
 TEST(LegGeometry, OfLongerLegsAndOfMoreMassIsWhatTheirFilesSay) {
@@ -36,6 +78,46 @@ TEST(LegGeometry, OfLongerLegsAndOfMoreMassIsWhatTheirFilesSay) {
   EXPECT_NEAR(heavy.lower_mass, 1.5 * upkie.lower_mass, 1e-6);
   EXPECT_NEAR(heavy.wheel_mass, 1.5 * upkie.wheel_mass, 1e-6);
   EXPECT_EQ(heavy.lower_length, upkie.lower_length);
+}
+
+/// What the estimators' ear for wheels hears while wheels are spun in the air, to and fro.
+TEST(LegGeometry, LeavesNoReactionOfTheGroundToWheelsThatSpinFreely) {
+  const ScratchFolder folder;
+  const auto with_rotors = folder.write(
+      "rotors.yaml",
+      fmt::format("mjcf: {}\nactuators: {{wheel: {{armature: 0.0005, torque_lag: "
+                  "0.001}}}}\n",
+                  std::filesystem::absolute(find_resource("models/upkie.xml")).string()));
+  for (const auto& file : {find_resource("models/upkie.xml"),
+                           find_resource("models/upkie_large_wheels.yaml"), with_rotors}) {
+    const auto robot =
+        std::make_shared<const models::RobotModel>(models::compile_robot_model(file, {}));
+    for (const std::string& engine : simulators::simulator_names()) {
+      const auto simulator = simulators::make_simulator(engine, robot, {});
+      const simulators::RobotState start = simulators::at_height(5.0);
+      simulator->reset(start);
+      LegListener listener({.geometry = leg_geometry(*robot)}, false);
+      models::Action action = simulators::stiff_legs(start);
+      double largest_torque = 0.0;
+      double largest_reaction = 0.0;
+      for (int step = 0; step < 200; ++step) {
+        const double torque = 0.2 * std::sin(60.0 * 0.001 * step);
+        // Both wheels are mirrored joints: the same torque turns them against each other, and
+        // nothing else turns.
+        for (const models::Servo wheel : models::wheel_servos) {
+          action.servo[models::index(wheel)].feedforward_torque = torque;
+        }
+        simulator->step(action);
+        const Signals heard = recordings::signals_from(simulator->observation(), 0.0);
+        const double reaction = listener.update(heard.leg[0], heard.vertical_acceleration).reaction;
+        largest_torque = std::max(largest_torque, std::abs(heard.leg[0].wheel.torque));
+        if (step > 10) largest_reaction = std::max(largest_reaction, std::abs(reaction));
+      }
+      EXPECT_GT(largest_torque, 0.19) << file << ' ' << engine;
+      // The difference over five milliseconds lags behind the torque by half of them: a seventh.
+      EXPECT_LT(largest_reaction, 0.17 * largest_torque) << file << ' ' << engine;
+    }
+  }
 }
 
 /// A leg whose links are rods of known mass, written by hand: the thigh .3 m long with its mass in
@@ -80,7 +162,8 @@ TEST(LegGeometry, IsMeasuredInThePlaneInWhichTheLegBends) {
                                .lower_mass = 0.5,
                                .wheel_mass = 0.2,
                                .upper_centre = 0.5,
-                               .lower_centre = 0.75}));
+                               .lower_centre = 0.75,
+                               .wheel_inertia = 0.001}));
 }
 
 }  // namespace

@@ -48,22 +48,26 @@ TEST(LegListener, HearsOfAStraightLegNothingThatJumps) {
 }
 
 TEST(LegListener, TakesTheWheelsOwnInertiaOffItsTorque) {
-  const DecisionConfig config;
-  LegListener left(config, false);
-  LegListener right(config, true);
-  constexpr double acceleration = 300.0;  // rad/s²
-  constexpr double ground = -0.2;         // N·m
-  LegChannels last;
-  LegChannels mirror;
-  for (int k = 0; k < 20; ++k) {
-    LegSignals leg;
-    leg.wheel.velocity = 4.0 + 0.001 * acceleration * k;
-    leg.wheel.torque = config.wheel_inertia * acceleration + ground;
-    last = left.update(leg, 0.0);
-    mirror = right.update(test::mirrored(leg), 0.0);
+  for (const double inertia : {LegGeometry{}.wheel_inertia, 9e-4}) {
+    DecisionConfig config;
+    config.geometry.wheel_inertia = inertia;
+    LegListener left(config, false);
+    LegListener right(config, true);
+    constexpr double acceleration = 300.0;     // rad/s²
+    for (const double ground : {-0.2, 0.0}) {  // N·m
+      LegChannels last;
+      LegChannels mirror;
+      for (int k = 0; k < 20; ++k) {
+        LegSignals leg;
+        leg.wheel.velocity = 4.0 + 0.001 * acceleration * k;
+        leg.wheel.torque = inertia * acceleration + ground;
+        last = left.update(leg, 0.0);
+        mirror = right.update(test::mirrored(leg), 0.0);
+      }
+      EXPECT_NEAR(last.reaction, ground, 1e-12);
+      EXPECT_EQ(mirror.reaction, last.reaction);
+    }
   }
-  EXPECT_NEAR(last.reaction, ground, 1e-12);
-  EXPECT_EQ(mirror.reaction, last.reaction);
 }
 
 TEST(LegListener, HearsTheAxleRiseBeneathTheHip) {

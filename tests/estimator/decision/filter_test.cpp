@@ -254,7 +254,7 @@ TEST(DecisionNetwork, RefusesWhatMakesNoSense) {
   };
   refused({.sample_rate = 0.0});
   refused({.geometry = {.lower_length = 0.0}});
-  refused({.wheel_inertia = -1.0});
+  refused({.geometry = {.wheel_inertia = -1.0}});
   refused({.smoothing = std::numeric_limits<double>::quiet_NaN()});
   refused({.leave_below = 0.9, .return_above = 0.5});
   refused({.leave_below = 0.0});

@@ -179,13 +179,22 @@ TEST(Configuration, ComesBackFromItsText) {
   configure(phase_read, text_of(phase));
   EXPECT_EQ(phase_read, phase);
   DecisionConfig decision;
-  decision.wheel_inertia = 1.0 / 3e4;
+  decision.geometry.wheel_inertia = 1.0 / 3e4;
   decision.leave_below = 0.6;
   decision.geometry.upper_mass = 0.7;
   decision.guard.frozen_after = 0.0;
   DecisionConfig decision_read;
   configure(decision_read, text_of(decision));
   EXPECT_EQ(decision_read, decision);
+}
+
+TEST(Configuration, OfDecisionNetworksKeepsTheInertiaOfFilesFromBeforeLegsHadIt) {
+  DecisionConfig read;
+  configure(read, {{"wheel_inertia", "0.125"}});
+  EXPECT_EQ(read.geometry.wheel_inertia, 0.125);
+  EXPECT_EQ(text_of(read).at("wheel_inertia"), "0.125");
+  // What does not hear how wheels spin says nothing of it.
+  EXPECT_FALSE(text_of(LoadLogisticConfig{}).contains("geometry.wheel_inertia"));
 }
 
 TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
