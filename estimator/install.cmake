@@ -19,7 +19,7 @@ set(public
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
 # What these hold by value. Not for programs, and not promised to stay.
 set(detail
-  decision/channels decision/senses force/axle_motion force/wheel_loads neural/forward
+  decision/channels decision/repetition decision/senses force/axle_motion force/wheel_loads neural/forward
   numerics/axis numerics/exponential numerics/noise_estimate phase/recursion phase/senses
   phase/tables spectrum/sliding_dft spectrum/summary)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)

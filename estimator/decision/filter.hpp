@@ -12,9 +12,10 @@ namespace touchdown {
 /// the roll rate, all at eight time scales, and how noisy they are (docs/estimator.md). Its belief
 /// is decided by hysteresis.
 ///
-/// `update` never throws, allocates or locks, and never returns NaN. A leg that cannot be used is
-/// taken to fare like the other one by the other one's wheel, while its own belief relaxes to the
-/// prior; without a usable IMU both do. The status says why.
+/// `update` never throws, allocates or locks, and never returns NaN. A leg that cannot be used, or
+/// that has frozen, is taken to fare like the other one by the other one's wheel, while its own
+/// belief relaxes to the prior; without a usable IMU both do. The status says why. After that, as
+/// after a gap, it goes on from what it knew before.
 class DecisionNetwork : public ContactEstimator {
  public:
   /// Throws InputError for weights that are not finite and configurations that make no sense.

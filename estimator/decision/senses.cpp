@@ -41,9 +41,21 @@ void TimeScales::update(double input) noexcept {
   for (std::size_t i = 0; i < decision_scales; ++i) values_[i] += gains_[i] * (x - values_[i]);
 }
 
+void TimeScales::catch_up(double input, double seconds) noexcept {
+  if (!is_started_) return;
+  const auto x = static_cast<float>(input);
+  for (std::size_t i = 0; i < decision_scales; ++i) {
+    const double time_constant = std::ldexp(shortest_scale, static_cast<int>(i));
+    values_[i] += static_cast<float>(-std::expm1(-seconds / time_constant)) * (x - values_[i]);
+  }
+}
+
 DecisionSenses::DecisionSenses(const DecisionConfig& config)
     : config_(checked(config).guard),
       guard_(config.guard, config.sample_rate),
+      leg_repetition_{Repetition<9>(config.guard, config.sample_rate),
+                      Repetition<9>(config.guard, config.sample_rate)},
+      gyro_repetition_(config.guard, config.sample_rate),
       listener_{LegListener(config, false), LegListener(config, true)},
       leg_{LegScales{TimeScales(config.sample_rate), TimeScales(config.sample_rate),
                      TimeScales(config.sample_rate), TimeScales(config.sample_rate)},
@@ -56,60 +68,120 @@ DecisionSenses::DecisionSenses(const DecisionConfig& config)
 
 void DecisionSenses::reset() noexcept {
   guard_.reset();
+  for (Repetition<9>& leg : leg_repetition_) leg.reset();
+  gyro_repetition_.reset();
   torque_noise_.reset();
   acceleration_noise_.reset();
-  restart();
-}
-
-/// What comes does not follow what was.
-void DecisionSenses::restart() noexcept {
   for (std::size_t side = 0; side < 2; ++side) {
     listener_[side].reset();
     for (TimeScales& channel : leg_[side]) channel.reset();
   }
   acceleration_.reset();
   roll_rate_.reset();
+  leg_silence_ = {};
+  acceleration_silence_ = roll_rate_silence_ = 0.0;
+}
+
+/// Nothing was heard for so many seconds.
+void DecisionSenses::miss(double seconds) noexcept {
+  for (double& silence : leg_silence_) silence += seconds;
+  acceleration_silence_ += seconds;
+  roll_rate_silence_ += seconds;
   torque_noise_.forget_signals();
   acceleration_noise_.forget_signals();
 }
 
-DecisionSenses::Step DecisionSenses::update(const Signals& signals) noexcept {
-  const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
-  Step step{verdict.status, verdict.elapsed, verdict.restart, {}};
-  if (verdict.restart) restart();
-  const double roll_rate = signals.angular_velocity.x();
-  const bool is_imu_usable = verdict.acceleration_good && std::isfinite(roll_rate);
-  if (!std::isfinite(roll_rate)) step.status = SignalStatus::invalid;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const bool usable = is_usable(signals.leg[side], config_);
-    if (!usable && verdict.status == SignalStatus::good) step.status = SignalStatus::invalid;
-    step.is_heard[side] = usable && is_imu_usable;
-  }
-  if (!step.is_heard[0] && !step.is_heard[1]) return step;
+/// A leg's bus that hangs: one servo alone may rest.
+bool DecisionSenses::is_frozen(const LegSignals& leg, std::size_t side) noexcept {
+  return leg_repetition_[side].update({leg.hip.position, leg.hip.velocity, leg.hip.torque,
+                                       leg.knee.position, leg.knee.velocity, leg.knee.torque,
+                                       leg.wheel.position, leg.wheel.velocity, leg.wheel.torque});
+}
 
-  constexpr double fastest_roll = 1e4;  // rad/s
-  acceleration_.update(signals.vertical_acceleration);
-  roll_rate_.update(std::clamp(roll_rate, -fastest_roll, fastest_roll));
-  const auto noisy = [&](std::size_t side) {
-    return step.is_heard[side] ? signals.leg[side].knee.torque : std::nan("");
-  };
-  torque_noise_.update({noisy(0), noisy(1)});
-  acceleration_noise_.update({signals.vertical_acceleration});
+/// What was silent for longer than a gap is taken to have been as it is now all the while.
+void DecisionSenses::hear(TimeScales& channel, double input, double silence) const noexcept {
+  if (silence > config_.maximum_gap) channel.catch_up(input, silence);
+  channel.update(input);
+}
+
+void DecisionSenses::hear_legs(const Signals& signals, const std::array<bool, 2>& is_heard,
+                               bool is_acceleration_heard, double elapsed) noexcept {
   for (std::size_t side = 0; side < 2; ++side) {
-    if (!step.is_heard[side]) continue;
+    double& silence = leg_silence_[side];
+    if (!is_heard[side]) {
+      silence += elapsed;
+      continue;
+    }
+    if (silence > config_.maximum_gap) listener_[side].reset();
     const LegChannels heard =
         listener_[side].update(signals.leg[side], signals.vertical_acceleration);
-    leg_[side][0].update(heard.load);
-    leg_[side][1].update(heard.reaction);
-    leg_[side][2].update(heard.axle_velocity);
-    leg_[side][3].update(heard.axle_acceleration);
+    hear(leg_[side][1], heard.reaction, silence);
+    hear(leg_[side][2], heard.axle_velocity, silence);
+    if (is_acceleration_heard) {  // the others cannot do without
+      const double longer = std::max(silence, acceleration_silence_);
+      hear(leg_[side][0], heard.load, longer);
+      hear(leg_[side][3], heard.axle_acceleration, longer);
+    }
+    silence = 0.0;
   }
   // A leg that says nothing is taken to fare like the other one.
   for (std::size_t side = 0; side < 2; ++side) {
-    if (step.is_heard[side]) continue;
+    if (is_heard[side] || !is_heard[1 - side]) continue;
     leg_[side] = leg_[1 - side];
+    leg_silence_[side] = 0.0;
     listener_[side].reset();
   }
+}
+
+/// Every channel goes on for as long as its own sensor does, so that it need not begin anew when
+/// another one comes back.
+DecisionSenses::Step DecisionSenses::update(const Signals& signals) noexcept {
+  const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
+  Step step{verdict.status, verdict.elapsed, verdict.elapsed > config_.maximum_gap, {}};
+  if (!std::isfinite(signals.time)) return step;  // no record: the next one's time tells its length
+  if (step.restart) miss(step.elapsed);
+  const auto say = [&](SignalStatus status) {
+    if (step.status == SignalStatus::good) step.status = status;
+  };
+  std::array<bool, 2> is_leg_heard{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const LegSignals& leg = signals.leg[side];
+    const bool frozen = is_frozen(leg, side);
+    const bool usable = is_usable(leg, config_);
+    is_leg_heard[side] = usable && !frozen;
+    if (!usable) say(SignalStatus::invalid);
+    if (frozen) say(SignalStatus::frozen);
+  }
+  const Eigen::Vector3d& turn = signals.angular_velocity;
+  const bool is_gyro_frozen = gyro_repetition_.update({turn.x(), turn.y(), turn.z()});
+  const bool is_roll_rate_heard = std::isfinite(turn.x()) && !is_gyro_frozen;
+  if (is_gyro_frozen) say(SignalStatus::frozen);
+  if (!std::isfinite(turn.x())) step.status = SignalStatus::invalid;
+  for (std::size_t side = 0; side < 2; ++side) {
+    step.is_heard[side] = is_leg_heard[side] && verdict.acceleration_good && is_roll_rate_heard;
+  }
+
+  const double elapsed = step.restart ? 0.0 : step.elapsed;  // a gap's is counted already
+  hear_legs(signals, is_leg_heard, verdict.acceleration_good, elapsed);
+  if (verdict.acceleration_good) {
+    hear(acceleration_, signals.vertical_acceleration, acceleration_silence_);
+    acceleration_silence_ = 0.0;
+  } else {
+    acceleration_silence_ += elapsed;
+  }
+  if (is_roll_rate_heard) {
+    constexpr double fastest_roll = 1e4;  // rad/s
+    hear(roll_rate_, std::clamp(turn.x(), -fastest_roll, fastest_roll), roll_rate_silence_);
+    roll_rate_silence_ = 0.0;
+  } else {
+    roll_rate_silence_ += elapsed;
+  }
+  const auto noisy = [&](std::size_t side) {
+    return is_leg_heard[side] ? signals.leg[side].knee.torque : std::nan("");
+  };
+  torque_noise_.update({noisy(0), noisy(1)});
+  acceleration_noise_.update(
+      {verdict.acceleration_good ? signals.vertical_acceleration : std::nan("")});
   return step;
 }
 

@@ -5,6 +5,7 @@
 
 #include "estimator/decision/channels.hpp"
 #include "estimator/decision/network.hpp"
+#include "estimator/decision/repetition.hpp"
 #include "estimator/numerics/noise_estimate.hpp"
 #include "estimator/signal_guard.hpp"
 
@@ -19,6 +20,8 @@ class TimeScales {
 
   void reset() noexcept { is_started_ = false; }
   void update(double input) noexcept;
+  /// Takes the input for what there was in `seconds` without one, which the next update ends.
+  void catch_up(double input, double seconds) noexcept;
   [[nodiscard]] const Values& values() const noexcept { return values_; }
 
  private:
@@ -34,7 +37,7 @@ class DecisionSenses {
   struct Step {
     SignalStatus status = SignalStatus::good;
     double elapsed = 0.0;               ///< since the previous step (s)
-    bool restart = false;               ///< what was heard before does not precede this
+    bool restart = false;               ///< time jumped: what was believed is old
     std::array<bool, 2> is_heard = {};  ///< whether there are inputs of this step; left, right
   };
 
@@ -60,14 +63,24 @@ class DecisionSenses {
  private:
   using LegScales = std::array<TimeScales, decision_leg_channels>;
 
-  void restart() noexcept;
+  void miss(double seconds) noexcept;
+  bool is_frozen(const LegSignals& leg, std::size_t side) noexcept;
+  void hear(TimeScales& channel, double input, double silence) const noexcept;
+  void hear_legs(const Signals& signals, const std::array<bool, 2>& is_heard,
+                 bool is_acceleration_heard, double elapsed) noexcept;
 
   SignalGuardConfig config_;
   SignalGuard guard_;
+  std::array<Repetition<9>, 2> leg_repetition_;
+  Repetition<3> gyro_repetition_;
   std::array<LegListener, 2> listener_;
   std::array<LegScales, 2> leg_;
   TimeScales acceleration_;
   TimeScales roll_rate_;
+  /// For how long each of these has not been heard (s).
+  std::array<double, 2> leg_silence_{};
+  double acceleration_silence_ = 0.0;
+  double roll_rate_silence_ = 0.0;
   NoiseEstimate<2> torque_noise_;
   NoiseEstimate<1> acceleration_noise_;
   std::array<DecisionInputs, 2> inputs_{};

@@ -1,6 +1,7 @@
 #include "estimator/decision/senses.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,32 @@ TEST(TimeScales, BeginAnewWithWhatComesAfterAReset) {
   scales.reset();
   scales.update(-7.0);
   for (const float value : scales.values()) EXPECT_EQ(value, -7.0F);
+}
+
+TEST(TimeScales, TakeWhatTheyMissedToHaveBeenAsItIsNow) {
+  TimeScales heard(1000.0);
+  TimeScales missed(1000.0);
+  for (TimeScales* scales : {&heard, &missed}) scales->update(2.0);
+  for (int k = 0; k < 100; ++k) heard.update(5.0);
+  missed.catch_up(5.0, 0.099);
+  missed.update(5.0);
+  for (std::size_t i = 0; i < decision_scales; ++i) {
+    EXPECT_NEAR(missed.values()[i], heard.values()[i], 1e-5) << i;
+  }
+  missed.catch_up(-7.0, std::numeric_limits<double>::infinity());
+  for (const float value : missed.values()) EXPECT_NEAR(value, -7.0F, 1e-5);
+}
+
+TEST(Repetition, IsFrozenAfterSoManyStepsInWhichNothingChangesTheLeast) {
+  Repetition<2> repetition({.frozen_after = 0.1}, 100.0);
+  for (int round = 0; round < 2; ++round) {
+    for (int k = 0; k <= 12; ++k) EXPECT_EQ(repetition.update({1.0, 2.0}), k >= 10) << k;
+    EXPECT_FALSE(repetition.update({1.0, std::nextafter(2.0, 3.0)}));
+  }
+  for (int k = 0; k < 30; ++k) EXPECT_FALSE(repetition.update({1.0, std::nan("")}));
+  for (int k = 0; k < 30; ++k) EXPECT_FALSE(repetition.update({0.0, 0.0}));
+  Repetition<2> never({.frozen_after = 0.0}, 100.0);
+  for (int k = 0; k < 1000; ++k) EXPECT_FALSE(never.update({1.0, 2.0}));
 }
 
 /// A robot whose loads, torques, motions and accelerations all wander.

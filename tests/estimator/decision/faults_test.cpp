@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "estimator/decision/filter.hpp"
+#include "tests/estimator/decision/lifted_run.hpp"
+
+namespace touchdown {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+void silence(LegSignals& leg) {
+  for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) *joint = {nan, nan, nan};
+}
+
+/// What becomes of a step's signals while something is at fault; `before`: the last healthy step.
+using Fault = std::function<void(Signals& signals, const Signals& before)>;
+
+const Fault left_leg_drops_out = [](Signals& s, const Signals&) { silence(s.leg[0]); };
+const Fault left_torque_drops_out = [](Signals& s, const Signals&) { s.leg[0].knee.torque = nan; };
+const Fault both_legs_drop_out = [](Signals& s, const Signals&) {
+  for (LegSignals& leg : s.leg) silence(leg);
+};
+const Fault imu_drops_out = [](Signals& s, const Signals&) {
+  s.vertical_acceleration = nan;
+  s.linear_acceleration.setConstant(nan);
+  s.angular_velocity.setConstant(nan);
+};
+const Fault record_is_empty = [](Signals& s, const Signals& before) {
+  imu_drops_out(s, before);
+  both_legs_drop_out(s, before);
+  s.time = nan;
+};
+const Fault left_leg_freezes = [](Signals& s, const Signals& before) { s.leg[0] = before.leg[0]; };
+const Fault gyro_freezes = [](Signals& s, const Signals& before) {
+  s.angular_velocity = before.angular_velocity;
+};
+const Fault accelerometer_freezes = [](Signals& s, const Signals& before) {
+  s.vertical_acceleration = before.vertical_acceleration;
+};
+
+constexpr std::array<bool, 2> left = {true, false};
+constexpr std::array<bool, 2> both = {true, true};
+
+/// What an estimator says while one after the other stretch of a run is at fault, beside one that
+/// hears all of it.
+class Faults : public ::testing::Test {
+ protected:
+  static constexpr std::size_t first = 700;      // standing on both, noise is estimated
+  static constexpr std::size_t recovered = 200;  // ms
+  static constexpr std::size_t watched = 200;    // ms from there on
+
+  Faults() {
+    run_ = test::lifted_run(3, 11);
+    for (Signals& s : run_.signals) {
+      // What a gyro says of the other axes, and a robot that rolls on.
+      s.angular_velocity.y() = 0.01 * std::sin(s.time);
+      for (LegSignals& leg : s.leg) leg.wheel.position = s.time;
+    }
+    DecisionNetwork healthy(test::lifted_network());
+    for (const Signals& s : run_.signals) expected_.push_back(healthy.update(s));
+  }
+
+  /// From `told` milliseconds of it on the status must say `status`, and the belief of `silent`
+  /// wheels must fade to one half. 200 ms after its end all must be as if nothing had been.
+  void expect_recovery(const Fault& fault, std::size_t length, SignalStatus status,
+                       std::size_t told, const std::array<bool, 2>& silent) {
+    DecisionNetwork healthy(test::lifted_network());
+    std::size_t heard = 0;
+    std::size_t places = 0;
+    for (std::size_t begin = first; begin + length + recovered + watched < run_.signals.size();
+         begin += 83) {
+      for (; heard < begin; ++heard) healthy.update(run_.signals[heard]);
+      DecisionNetwork estimator = healthy;
+      Belief belief = expected_[begin - 1];
+      const std::array<WheelBelief, 2> before = belief.wheel;
+      for (std::size_t k = begin; k < begin + length; ++k) {
+        Signals s = run_.signals[k];
+        fault(s, run_.signals[begin - 1]);
+        belief = estimator.update(s);
+        for (const WheelBelief& wheel : belief.wheel) {
+          ASSERT_GT(wheel.p_contact, 0.0);
+          ASSERT_LT(wheel.p_contact, 1.0);
+        }
+        ASSERT_EQ(belief.status, k < begin + told ? SignalStatus::good : status) << k - begin;
+      }
+      const double faded = std::exp(-1e-3 * static_cast<double>(length - told) / 0.1);
+      for (std::size_t w = 0; w < 2; ++w) {
+        if (!silent[w]) continue;
+        EXPECT_LE(std::abs(belief.wheel[w].p_contact - 0.5), 0.5 * faded + 1e-9);
+        if (told == 0) {
+          EXPECT_EQ(belief.wheel[w].contact, before[w].contact) << "the last decision stands";
+        }
+      }
+      const std::size_t end = begin + length;
+      for (std::size_t k = end; k < end + recovered + watched; ++k) {
+        belief = estimator.update(run_.signals[k]);
+        if (k < end + recovered) continue;
+        EXPECT_EQ(belief.status, SignalStatus::good);
+        for (std::size_t w = 0; w < 2; ++w) {
+          // Within a takeoff or a landing a belief changes by .1 in a millisecond.
+          const double expected = expected_[k].wheel[w].p_contact;
+          const bool is_settled = expected < 0.05 || expected > 0.95;
+          ASSERT_NEAR(belief.wheel[w].p_contact, expected, is_settled ? 0.02 : 0.1)
+              << "wheel " << w << ", fault at " << begin << ", " << k - end << " ms later";
+          ASSERT_EQ(belief.wheel[w].contact, expected_[k].wheel[w].contact)
+              << "wheel " << w << ", fault at " << begin << ", " << k - end << " ms later";
+        }
+      }
+      ++places;
+    }
+    EXPECT_GE(places, 30U);
+  }
+
+  test::CarriedRun run_;
+  std::vector<Belief> expected_;
+};
+
+TEST_F(Faults, OfOneLegThatDropsOutAreOverWithin200Milliseconds) {
+  expect_recovery(left_leg_drops_out, 100, SignalStatus::invalid, 0, left);
+  expect_recovery(left_torque_drops_out, 100, SignalStatus::invalid, 0, left);
+}
+
+TEST_F(Faults, OfBothLegsThatDropOutAreOverWithin200Milliseconds) {
+  expect_recovery(both_legs_drop_out, 100, SignalStatus::invalid, 0, both);
+}
+
+TEST_F(Faults, OfAnImuThatDropsOutAreOverWithin200Milliseconds) {
+  expect_recovery(imu_drops_out, 100, SignalStatus::invalid, 0, both);
+}
+
+TEST_F(Faults, OfRecordsThatAreEmptyAreOverWithin200Milliseconds) {
+  expect_recovery(record_is_empty, 100, SignalStatus::invalid, 0, both);
+}
+
+/// A gap that ends while the accelerometer says nothing is a gap all the same.
+TEST_F(Faults, OfRecordsThatAreMissingAreOverWithin200Milliseconds) {
+  DecisionNetwork healthy(test::lifted_network());
+  std::size_t heard = 0;
+  for (std::size_t begin = first; begin + 500 < run_.signals.size(); begin += 83) {
+    for (; heard < begin; ++heard) healthy.update(run_.signals[heard]);
+    DecisionNetwork estimator = healthy;
+    Belief belief;
+    for (std::size_t k = begin + 100; k < begin + 500; ++k) {
+      Signals s = run_.signals[k];
+      if (k < begin + 105) s.vertical_acceleration = nan;
+      belief = estimator.update(s);
+      if (k < begin + 100 + recovered) continue;
+      for (std::size_t w = 0; w < 2; ++w) {
+        ASSERT_EQ(belief.wheel[w].contact, expected_[k].wheel[w].contact) << begin << ' ' << k;
+      }
+    }
+  }
+}
+
+TEST_F(Faults, OfALegThatFreezesAreOverWithin200Milliseconds) {
+  expect_recovery(left_leg_freezes, 700, SignalStatus::frozen, 499, left);
+}
+
+TEST_F(Faults, OfAGyroThatFreezesAreOverWithin200Milliseconds) {
+  expect_recovery(gyro_freezes, 700, SignalStatus::frozen, 499, both);
+}
+
+TEST_F(Faults, OfAnAccelerometerThatFreezesAreOverWithin200Milliseconds) {
+  expect_recovery(accelerometer_freezes, 700, SignalStatus::frozen, 499, both);
+}
+
+TEST_F(Faults, AreNotSensorsThatHoldTheirSamplesOrSayNothing) {
+  DecisionNetwork estimator(test::lifted_network());
+  Signals held;
+  for (std::size_t k = 0; k < run_.signals.size(); ++k) {
+    if (k % 20 == 0) held = run_.signals[k];
+    held.time = run_.signals[k].time;
+    held.angular_velocity.setZero();  // a robot without a gyro
+    ASSERT_EQ(estimator.update(held).status, SignalStatus::good) << k;
+  }
+}
+
+TEST_F(Faults, AreNotServosOfWhichOneRests) {
+  DecisionNetwork estimator(test::lifted_network());
+  for (Signals s : run_.signals) {
+    for (LegSignals& leg : s.leg) leg.hip = {0.455, 0.0, 1.0};
+    ASSERT_EQ(estimator.update(s).status, SignalStatus::good);
+  }
+}
+
+TEST_F(Faults, AreNotBlowsThatAnAccelerometerCutsOff) {
+  constexpr double blow = 80.0;                     // m/s²
+  constexpr double range = 58.86;                   // m/s²: 6 g
+  for (const std::size_t begin : {1250U, 2950U}) {  // landings
+    DecisionNetwork whole(test::lifted_network());
+    DecisionNetwork cut_off(test::lifted_network());
+    std::array<int, 2> late = {};  // ms
+    for (std::size_t k = 0; k < begin + 400; ++k) {
+      Signals s = run_.signals[k];
+      if (k >= begin && k < begin + 8) s.vertical_acceleration += blow;
+      const Belief expected = whole.update(s);
+      s.vertical_acceleration = std::min(s.vertical_acceleration, range);
+      const Belief& belief = cut_off.update(s);
+      ASSERT_EQ(belief.status, SignalStatus::good);
+      for (std::size_t w = 0; w < 2; ++w) {
+        if (belief.wheel[w].contact != expected.wheel[w].contact) ++late[w];
+        if (k >= begin + recovered) {
+          ASSERT_EQ(belief.wheel[w].contact, expected.wheel[w].contact) << k;
+          ASSERT_NEAR(belief.wheel[w].p_contact, expected.wheel[w].p_contact, 0.02) << k;
+        }
+      }
+    }
+    for (const int steps : late) EXPECT_LE(steps, 3) << begin;
+  }
+}
+
+}  // namespace
+}  // namespace touchdown
