@@ -27,17 +27,19 @@ LegListener::LegListener(const DecisionConfig& config, bool mirrored)
   rate_ = config.sample_rate / steps;
 }
 
-LegChannels LegListener::update(const LegSignals& leg, double vertical_acceleration) noexcept {
+LegChannels LegListener::update(const LegSignals& leg, const FootJacobian& foot,
+                                double vertical_acceleration) noexcept {
   const double sign = mirrored_ ? -1.0 : 1.0;
   const std::array<double, 2> now = {sign * leg.wheel.velocity,
-                                     within(axle_velocity(geometry_, leg), largest_channel)};
+                                     within(axle_velocity(foot, leg, mirrored_), largest_channel)};
   const std::array<double, 2> before = heard_ < velocities_.size() ? now : velocities_[next_];
   velocities_[next_] = now;
   next_ = next_ + 1 == velocities_.size() ? 0 : next_ + 1;
   heard_ = std::min(heard_ + 1, velocities_.size());
 
-  const double area = geometry_.upper_length * geometry_.lower_length * std::sin(leg.knee.position);
-  const double load = vertical_force(geometry_, leg, mirrored_, vertical_acceleration) * area *
+  const double area = foot.determinant();
+  const double load = vertical_force_times_determinant(geometry_, foot, leg, mirrored_,
+                                                       vertical_acceleration) *
                       area / (area * area + least_area * least_area);
   return {within(load, largest_load),
           within(sign * leg.wheel.torque - geometry_.wheel_inertia * rate_ * (now[0] - before[0]),

@@ -30,8 +30,9 @@ class LegListener {
   LegListener(const DecisionConfig& config, bool mirrored);
 
   void reset() noexcept { heard_ = 0; }
-  /// Signals must be usable.
-  LegChannels update(const LegSignals& leg, double vertical_acceleration) noexcept;
+  /// Signals must be usable, `foot` this leg's in this pose.
+  LegChannels update(const LegSignals& leg, const FootJacobian& foot,
+                     double vertical_acceleration) noexcept;
 
  private:
   LegGeometry geometry_;

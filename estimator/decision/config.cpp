@@ -16,6 +16,10 @@ void check_decision_fit_config(const DecisionFitConfig& config) {
   if (config.passes == 0 || config.rows == 0 || config.batch == 0 || config.epochs == 0) {
     throw InputError("decision network: passes, rows, batch and epochs must be positive");
   }
+  if (!(config.steps_of_slow > 0 && config.share_slow >= 0.0 && config.share_slow <= 1.0)) {
+    throw InputError(
+        "decision network: steps_of_slow must be positive, share_slow between 0 and 1");
+  }
   if (!(std::isfinite(config.learning_rate) && config.learning_rate > 0.0 &&
         is_level(config.decay) && std::isfinite(config.class_exponent))) {
     throw InputError(

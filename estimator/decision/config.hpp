@@ -14,6 +14,9 @@ struct DecisionFitConfig {
   std::uint64_t seed = 1;       ///< of everything that is drawn
   std::size_t passes = 24;      ///< how often each run is heard, disturbed anew each time
   std::size_t rows = 400'000;   ///< about so many steps of wheels are learned from
+  /// A share of the hearings hears one step in so many, as robots whose programs are slower do.
+  std::size_t steps_of_slow = 5;
+  double share_slow = 0.2;
   std::size_t batch = 512;      ///< rows of one step of the descent
   std::size_t epochs = 14;      ///< how often each row is learned from, on average
   double learning_rate = 3e-3;  ///< of the first step; falls to nothing along a cosine

@@ -26,7 +26,7 @@ class DecisionNetwork : public ContactEstimator {
 
  private:
   DecisionConfig config_;
-  DecisionModel model_;
+  PairedDecisionNetwork network_;
   DecisionSenses senses_;
   std::array<double, 2> logit_{};  ///< low-passed
   std::array<bool, 2> is_started_{};

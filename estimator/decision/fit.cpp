@@ -44,12 +44,13 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
   Draws draws(fit.seed);
   for (std::size_t pass = 0; pass < fit.passes; ++pass) {
     for (const LabelledRun& run : runs) {
+      const std::size_t apart = draws.uniform() < fit.share_slow ? fit.steps_of_slow : 1;
       DecisionConfig own = config;
-      own.sample_rate = run.sample_rate;
+      own.sample_rate = run.sample_rate / static_cast<double>(apart);
       DecisionSenses senses(own);
       Disturbance disturbed(fit.disturbance, draws);
       std::size_t next = run.skip + draws.below(stride);
-      for (std::size_t k = 0; k < run.signals.size(); ++k) {
+      for (std::size_t k = 0; k < run.signals.size(); k += apart) {
         const DecisionSenses::Step step = senses.update(disturbed(run.signals[k]));
         if (k < next) continue;
         next += stride;

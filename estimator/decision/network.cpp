@@ -26,6 +26,14 @@ std::array<float, outputs> rectified(const std::array<float, inputs * outputs>& 
   return values;
 }
 
+/// What the last two layers make of the first one's sums.
+float logit_of(const DecisionModel& model, const std::array<float, decision_first>& first) noexcept {
+  const auto second = rectified(model.second_weight, model.second_bias, first);
+  float logit = model.last_bias;
+  for (std::size_t k = 0; k < second.size(); ++k) logit += model.last_weight[k] * second[k];
+  return logit;
+}
+
 template <typename Numbers>
 bool is_finite(const Numbers& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
@@ -34,11 +42,65 @@ bool is_finite(const Numbers& numbers) {
 }  // namespace
 
 float decision_logit(const DecisionModel& model, const DecisionInputs& inputs) noexcept {
-  const auto first = rectified(model.first_weight, model.first_bias, inputs);
-  const auto second = rectified(model.second_weight, model.second_bias, first);
-  float logit = model.last_bias;
-  for (std::size_t k = 0; k < second.size(); ++k) logit += model.last_weight[k] * second[k];
-  return logit;
+  return logit_of(model, rectified(model.first_weight, model.first_bias, inputs));
+}
+
+PairedDecisionNetwork::PairedDecisionNetwork(const DecisionModel& model) noexcept : model_(model) {
+  constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
+  for (std::size_t unit = 0; unit < decision_first; ++unit) {
+    const auto weight = [&](std::size_t input) {
+      return model.first_weight[input * decision_first + unit];
+    };
+    for (std::size_t i = 0; i < of_legs; ++i) {
+      common_[i * decision_first + unit] = 0.5F * (weight(i) + weight(of_legs + i));
+      difference_[i * decision_first + unit] = 0.5F * (weight(i) - weight(of_legs + i));
+    }
+    for (std::size_t i = 0; i < decision_scales; ++i) {
+      common_[(of_legs + i) * decision_first + unit] = weight(2 * of_legs + i);
+      difference_[(of_legs + i) * decision_first + unit] =
+          weight(2 * of_legs + decision_scales + i);
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      common_[(of_legs + decision_scales + i) * decision_first + unit] =
+          weight(2 * of_legs + 2 * decision_scales + i);
+    }
+  }
+}
+
+std::array<float, 2> PairedDecisionNetwork::logits(
+    const DecisionPairInputs& inputs) const noexcept {
+  using Sums = Eigen::Array<float, static_cast<int>(decision_first), 1>;
+  using Column = Eigen::Map<const Sums, Eigen::Aligned32>;
+  Sums common = Eigen::Map<const Sums>(model_.first_bias.data());
+  Sums difference = Sums::Zero();
+  for (std::size_t i = 0; i < inputs.difference.size(); ++i) {
+    common += inputs.common[i] * Column(common_.data() + i * decision_first);
+    difference += inputs.difference[i] * Column(difference_.data() + i * decision_first);
+  }
+  for (std::size_t i = inputs.difference.size(); i < inputs.common.size(); ++i) {
+    common += inputs.common[i] * Column(common_.data() + i * decision_first);
+  }
+  const Sums left = (common + difference).max(0.0F);
+  const Sums right = (common - difference).max(0.0F);
+  // In four sums side by side, none of which has to wait for the one before.
+  using SecondSums = Eigen::Array<float, static_cast<int>(decision_second), 1>;
+  const auto weights = [&](std::size_t unit) {
+    return Eigen::Map<const SecondSums>(model_.second_weight.data() + unit * decision_second);
+  };
+  SecondSums left_even = Eigen::Map<const SecondSums>(model_.second_bias.data());
+  SecondSums right_even = left_even;
+  SecondSums left_odd = SecondSums::Zero();
+  SecondSums right_odd = left_odd;
+  for (std::size_t unit = 0; unit < decision_first; unit += 2) {
+    const auto even = static_cast<Eigen::Index>(unit);
+    left_even += left[even] * weights(unit);
+    right_even += right[even] * weights(unit);
+    left_odd += left[even + 1] * weights(unit + 1);
+    right_odd += right[even + 1] * weights(unit + 1);
+  }
+  const Eigen::Map<const SecondSums> last(model_.last_weight.data());
+  return {model_.last_bias + ((left_even + left_odd).max(0.0F) * last).sum(),
+          model_.last_bias + ((right_even + right_odd).max(0.0F) * last).sum()};
 }
 
 void check_decision_model(const DecisionModel& model) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <tuple>
 
 namespace touchdown {
 
@@ -12,7 +13,7 @@ inline constexpr std::size_t decision_channels = 2 * decision_leg_channels + 2;
 /// … each at so many time scales, and how noisy torques and acceleration are.
 inline constexpr std::size_t decision_scales = 8;
 inline constexpr std::size_t decision_inputs = decision_channels * decision_scales + 2;
-inline constexpr std::size_t decision_first = 32;
+inline constexpr std::size_t decision_first = 24;
 inline constexpr std::size_t decision_second = 16;
 
 using DecisionInputs = std::array<float, decision_inputs>;
@@ -33,6 +34,39 @@ struct DecisionModel {
 /// ln P(contact) / P(no contact) of one wheel.
 [[nodiscard]] float decision_logit(const DecisionModel& model,
                                    const DecisionInputs& inputs) noexcept;
+
+/// What the network hears of both wheels, as what is common to them and what tells them apart: of
+/// each channel of a leg the sum and the difference, left − right, of both legs.
+struct DecisionPairInputs {
+  static constexpr std::size_t of_legs = decision_leg_channels * decision_scales;
+
+  /// Sums; then the vertical acceleration, then how noisy torques and acceleration are.
+  std::array<float, of_legs + decision_scales + 2> common{};
+  /// Differences; then the roll rate.
+  std::array<float, of_legs + decision_scales> difference{};
+};
+
+/// The network of both wheels at once. Their inputs are the same numbers in another order, so with
+///
+///     W_own x_own + W_other x_other = (W_own + W_other)/2 · (x_own + x_other)
+///                                   + (W_own − W_other)/2 · (x_own − x_other)
+///
+/// the first layer of both takes as many products as that of one.
+class PairedDecisionNetwork {
+ public:
+  explicit PairedDecisionNetwork(const DecisionModel& model) noexcept;
+
+  /// Of the left and of the right wheel: `decision_logit` of each, up to rounding.
+  [[nodiscard]] std::array<float, 2> logits(const DecisionPairInputs& inputs) const noexcept;
+
+ private:
+  template <std::size_t inputs>
+  using Weights = std::array<float, inputs * decision_first>;
+
+  alignas(32) Weights<std::tuple_size_v<decltype(DecisionPairInputs::common)>> common_{};
+  alignas(32) Weights<std::tuple_size_v<decltype(DecisionPairInputs::difference)>> difference_{};
+  DecisionModel model_;
+};
 
 /// Throws InputError for weights that are not finite.
 void check_decision_model(const DecisionModel& model);

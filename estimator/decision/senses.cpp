@@ -19,9 +19,11 @@ const DecisionConfig& checked(const DecisionConfig& config) {
 constexpr double shortest_scale = 1e-3;  // s
 constexpr double warm_up = 0.1;          // s, of the noise estimates
 constexpr double noise_gain = 0.01;
+constexpr double reference_rate = 1000.0;  // Hz
 
 /// Where each channel's compression begins to bend: N, N·m, m/s, m/s², m/s², rad/s.
 constexpr std::array<float, decision_leg_channels> leg_bends = {5.0F, 0.1F, 0.1F, 3.0F};
+constexpr float largest_input = 4.0F;  ///< that compressed channels tend to
 constexpr float acceleration_bend = 3.0F;
 constexpr float roll_rate_bend = 0.3F;
 
@@ -52,6 +54,7 @@ void TimeScales::catch_up(double input, double seconds) noexcept {
 
 DecisionSenses::DecisionSenses(const DecisionConfig& config)
     : config_(checked(config).guard),
+      geometry_(config.geometry),
       guard_(config.guard, config.sample_rate),
       leg_repetition_{Repetition<9>(config.guard, config.sample_rate),
                       Repetition<9>(config.guard, config.sample_rate)},
@@ -63,6 +66,8 @@ DecisionSenses::DecisionSenses(const DecisionConfig& config)
                      TimeScales(config.sample_rate), TimeScales(config.sample_rate)}},
       acceleration_(config.sample_rate),
       roll_rate_(config.sample_rate),
+      density_(std::sqrt(reference_rate / config.sample_rate)),
+      log_density_(std::log(density_)),
       torque_noise_(0.01, 10.0, noise_gain, warm_up * config.sample_rate),
       acceleration_noise_(0.05, 30.0, noise_gain, warm_up * config.sample_rate) {}
 
@@ -106,6 +111,7 @@ void DecisionSenses::hear(TimeScales& channel, double input, double silence) con
 
 void DecisionSenses::hear_legs(const Signals& signals, const std::array<bool, 2>& is_heard,
                                bool is_acceleration_heard, double elapsed) noexcept {
+  const std::array<FootJacobian, 2> foot = foot_jacobians(geometry_, signals.leg);
   for (std::size_t side = 0; side < 2; ++side) {
     double& silence = leg_silence_[side];
     if (!is_heard[side]) {
@@ -114,7 +120,7 @@ void DecisionSenses::hear_legs(const Signals& signals, const std::array<bool, 2>
     }
     if (silence > config_.maximum_gap) listener_[side].reset();
     const LegChannels heard =
-        listener_[side].update(signals.leg[side], signals.vertical_acceleration);
+        listener_[side].update(signals.leg[side], foot[side], signals.vertical_acceleration);
     hear(leg_[side][1], heard.reaction, silence);
     hear(leg_[side][2], heard.axle_velocity, silence);
     if (is_acceleration_heard) {  // the others cannot do without
@@ -185,43 +191,55 @@ DecisionSenses::Step DecisionSenses::update(const Signals& signals) noexcept {
   return step;
 }
 
-/// Compresses every channel, y → asinh(y / bend), and hands it to the wheels.
+/// Compresses every channel: what is large differs less than what is small.
 void DecisionSenses::arrange() noexcept {
-  constexpr std::size_t leg_size = decision_leg_channels * decision_scales;
-  constexpr std::size_t count = 2 * leg_size + 2 * decision_scales;
-  std::array<float, count> x;
-  auto end = x.begin();
+  constexpr auto scales = static_cast<int>(decision_scales);
+  using Scales = Eigen::Array<float, scales, 1>;
+  float* end = heard_.data();
   const auto add = [&](const TimeScales& channel, float bend) {
-    for (const float value : channel.values()) *end++ = value / bend;
+    const Scales y = Eigen::Map<const Scales>(channel.values().data()) * (1.0F / bend);
+    Eigen::Map<Scales> compressed(end);
+    compressed = y / (1.0F + y.abs() / largest_input);
+    end += scales;
   };
   for (const LegScales& leg : leg_) {
     for (std::size_t i = 0; i < decision_leg_channels; ++i) add(leg[i], leg_bends[i]);
   }
   add(acceleration_, acceleration_bend);
   add(roll_rate_, roll_rate_bend);
+  noise_ = {static_cast<float>(torque_noise_.log_sigma() + log_density_),
+            static_cast<float>(acceleration_noise_.log_sigma() + log_density_)};
+}
 
-  Eigen::Map<Eigen::Array<float, static_cast<int>(count), 1>> all(x.data());
-  const Eigen::Array<float, static_cast<int>(count), 1> size = all.abs();
-  const Eigen::Array<float, static_cast<int>(count), 1> compressed =
-      (size + (size.square() + 1.0F).sqrt()).log();
-  for (std::size_t i = 0; i < count; ++i) {
-    x[i] = std::copysign(compressed[static_cast<int>(i)], x[i]);
-  }
+DecisionInputs DecisionSenses::inputs(std::size_t side) const noexcept {
+  constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
+  DecisionInputs inputs;
+  const auto own = heard_.begin() + side * of_legs;
+  const auto other = heard_.begin() + (1 - side) * of_legs;
+  auto end = std::copy_n(own, of_legs, inputs.begin());
+  end = std::copy_n(other, of_legs, end);
+  const auto acceleration = heard_.begin() + 2 * of_legs;
+  end = std::copy_n(acceleration, decision_scales, end);
+  const float sign = side == 0 ? 1.0F : -1.0F;
+  end = std::transform(acceleration + decision_scales, heard_.end(), end,
+                       [&](float roll) { return sign * roll; });
+  std::copy(noise_.begin(), noise_.end(), end);
+  return inputs;
+}
 
-  const auto torque_noise = static_cast<float>(std::log(torque_noise_.sigma()));
-  const auto acceleration_noise = static_cast<float>(std::log(acceleration_noise_.sigma()));
-  for (std::size_t side = 0; side < 2; ++side) {
-    auto out = inputs_[side].begin();
-    const auto hand = [&](std::size_t first, std::size_t n, float sign) {
-      for (std::size_t i = first; i < first + n; ++i) *out++ = sign * x[i];
-    };
-    hand(side * leg_size, leg_size, 1.0F);
-    hand((1 - side) * leg_size, leg_size, 1.0F);
-    hand(2 * leg_size, decision_scales, 1.0F);
-    hand(2 * leg_size + decision_scales, decision_scales, side == 0 ? 1.0F : -1.0F);
-    *out++ = torque_noise;
-    *out++ = acceleration_noise;
+DecisionPairInputs DecisionSenses::pair_inputs() const noexcept {
+  constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
+  DecisionPairInputs inputs;
+  for (std::size_t i = 0; i < of_legs; ++i) {
+    inputs.common[i] = heard_[i] + heard_[of_legs + i];
+    inputs.difference[i] = heard_[i] - heard_[of_legs + i];
   }
+  for (std::size_t i = 0; i < decision_scales; ++i) {
+    inputs.common[of_legs + i] = heard_[2 * of_legs + i];
+    inputs.difference[of_legs + i] = heard_[2 * of_legs + decision_scales + i];
+  }
+  std::copy(noise_.begin(), noise_.end(), inputs.common.end() - 2);
+  return inputs;
 }
 
 }  // namespace touchdown

@@ -49,12 +49,12 @@ class DecisionSenses {
 
   /// Makes the network's inputs of what was heard so far.
   void arrange() noexcept;
-  /// As they were last arranged.
-  [[nodiscard]] const DecisionInputs& inputs(std::size_t side) const noexcept {
-    return inputs_[side];
-  }
-  /// The estimated white noise of torques (N·m).
-  [[nodiscard]] double torque_noise() const noexcept { return torque_noise_.sigma(); }
+  /// As they were last arranged: of one wheel, of both.
+  [[nodiscard]] DecisionInputs inputs(std::size_t side) const noexcept;
+  [[nodiscard]] DecisionPairInputs pair_inputs() const noexcept;
+  /// The estimated white noise of torques (N·m), as dense as at 1 kHz: at a lower rate there are fewer
+  /// samples of it to average.
+  [[nodiscard]] double torque_noise() const noexcept { return density_ * torque_noise_.sigma(); }
   /// A belief after `elapsed` seconds without news.
   [[nodiscard]] double relaxed(double p_contact, double elapsed) const noexcept {
     return guard_.relaxed(p_contact, elapsed);
@@ -70,6 +70,7 @@ class DecisionSenses {
                  bool is_acceleration_heard, double elapsed) noexcept;
 
   SignalGuardConfig config_;
+  LegGeometry geometry_;
   SignalGuard guard_;
   std::array<Repetition<9>, 2> leg_repetition_;
   Repetition<3> gyro_repetition_;
@@ -77,13 +78,18 @@ class DecisionSenses {
   std::array<LegScales, 2> leg_;
   TimeScales acceleration_;
   TimeScales roll_rate_;
+  double density_;  ///< what white noise at this rate is worth at 1 kHz
+  double log_density_;
   /// For how long each of these has not been heard (s).
   std::array<double, 2> leg_silence_{};
   double acceleration_silence_ = 0.0;
   double roll_rate_silence_ = 0.0;
   NoiseEstimate<2> torque_noise_;
   NoiseEstimate<1> acceleration_noise_;
-  std::array<DecisionInputs, 2> inputs_{};
+  /// Compressed: the channels of the left leg, of the right leg, the vertical acceleration, the roll
+  /// rate.
+  alignas(32) std::array<float, decision_channels * decision_scales> heard_{};
+  std::array<float, 2> noise_{};  ///< ln of the estimated levels of torques and acceleration
 };
 
 }  // namespace touchdown

@@ -1,31 +1,87 @@
 #include "estimator/force/leg_geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+
+#include "estimator/numerics/sine.hpp"
 
 namespace touchdown {
 
-double vertical_force(const LegGeometry& geometry, const LegSignals& leg, bool mirrored,
-                      double acceleration) noexcept {
-  constexpr double gravity = 9.81;
+namespace {
+
+/// The angles of as many links from vertical, side by side.
+template <std::size_t links>
+std::array<SineCosine, links> sines_and_cosines(const std::array<double, links>& angle) noexcept {
+  constexpr double largest = 1e5;  // rad, that sines are defined for
+  std::array<double, links> x;
+  for (std::size_t i = 0; i < links; ++i) x[i] = std::clamp(angle[i], -largest, largest);
+  std::array<double, links> sine;
+  std::array<double, links> cosine;
+  for (std::size_t i = 0; i < links; ++i) {
+    const SineCosine both = sine_and_cosine(x[i]);
+    sine[i] = both.sine;
+    cosine[i] = both.cosine;
+  }
+  std::array<SineCosine, links> all;
+  for (std::size_t i = 0; i < links; ++i) all[i] = {sine[i], cosine[i]};
+  return all;
+}
+
+FootJacobian jacobian_of(const LegGeometry& geometry, SineCosine upper, SineCosine lower) noexcept {
+  return {.upper_x = geometry.upper_length * upper.cosine,
+          .upper_z = geometry.upper_length * upper.sine,
+          .lower_x = geometry.lower_length * lower.cosine,
+          .lower_z = geometry.lower_length * lower.sine};
+}
+
+}  // namespace
+
+std::array<FootJacobian, 2> foot_jacobians(const LegGeometry& geometry,
+                                           const std::array<LegSignals, 2>& legs) noexcept {
+  const double left = legs[0].hip.position;
+  const double right = -legs[1].hip.position;
+  const auto links = sines_and_cosines<4>(
+      {left, left + legs[0].knee.position, right, right - legs[1].knee.position});
+  return {jacobian_of(geometry, links[0], links[1]), jacobian_of(geometry, links[2], links[3])};
+}
+
+FootJacobian foot_jacobian(const LegGeometry& geometry, const LegSignals& leg,
+                           bool mirrored) noexcept {
   const double sign = mirrored ? -1.0 : 1.0;
   const double hip = sign * leg.hip.position;
-  const double knee = hip + sign * leg.knee.position;
-  // Where the foot goes with each joint: ∂x/∂q, ∂z/∂q.
-  const double upper_x = geometry.upper_length * std::cos(hip);
-  const double upper_z = geometry.upper_length * std::sin(hip);
-  const double lower_x = geometry.lower_length * std::cos(knee);
-  const double lower_z = geometry.lower_length * std::sin(knee);
+  const auto links = sines_and_cosines<2>({hip, hip + sign * leg.knee.position});
+  return jacobian_of(geometry, links[0], links[1]);
+}
+
+double vertical_force_times_determinant(const LegGeometry& geometry, const FootJacobian& foot,
+                                        const LegSignals& leg, bool mirrored,
+                                        double acceleration) noexcept {
+  constexpr double gravity = 9.81;
+  const double sign = mirrored ? -1.0 : 1.0;
   // What the links and the wheel weigh on each joint, by their arms.
   const double below_knee = geometry.lower_centre * geometry.lower_mass + geometry.wheel_mass;
-  const double on_knee = below_knee * lower_z;
+  const double on_knee = below_knee * foot.lower_z;
   const double on_hip =
       (geometry.upper_centre * geometry.upper_mass + geometry.lower_mass + geometry.wheel_mass) *
-          upper_z +
+          foot.upper_z +
       on_knee;
   const double hip_load = -sign * leg.hip.torque + on_hip * (gravity + acceleration);
   const double knee_load = -sign * leg.knee.torque + on_knee * (gravity + acceleration);
-  const double determinant = upper_x * lower_z - lower_x * upper_z;
-  return ((upper_x + lower_x) * knee_load - lower_x * hip_load) / determinant;
+  return (foot.upper_x + foot.lower_x) * knee_load - foot.lower_x * hip_load;
+}
+
+double vertical_force(const LegGeometry& geometry, const LegSignals& leg, bool mirrored,
+                      double acceleration) noexcept {
+  const FootJacobian foot = foot_jacobian(geometry, leg, mirrored);
+  return vertical_force_times_determinant(geometry, foot, leg, mirrored, acceleration) /
+         foot.determinant();
+}
+
+double axle_velocity(const FootJacobian& foot, const LegSignals& leg, bool mirrored) noexcept {
+  const double sign = mirrored ? -1.0 : 1.0;
+  return foot.upper_z * (sign * leg.hip.velocity) +
+         foot.lower_z * (sign * leg.hip.velocity + sign * leg.knee.velocity);
 }
 
 double axle_velocity(const LegGeometry& geometry, const LegSignals& leg) noexcept {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "estimator/signals.hpp"
 
 namespace touchdown {
@@ -21,22 +23,53 @@ struct LegGeometry {
   bool operator==(const LegGeometry&) const = default;
 };
 
-/// The vertical force of the ground on a leg's foot (N) that explains its torques, if the torso is
-/// level and all of the leg accelerates upwards with `acceleration` (m/s², without gravity). With
-/// the hip at q₁ and the knee at q₂ from straight, forward positive,
+/// How a leg's foot moves with its joints in one pose, in the left leg's signs. With the hip at q₁ and
+/// the knee at q₂ from straight, forward positive,
 ///
 ///     x = L₁ sin q₁ + L₂ sin(q₁ + q₂),   z = −L₁ cos q₁ − L₂ cos(q₁ + q₂),
+///
+/// whose terms have these derivatives (m/rad): the upper link's by q₁, the lower link's by q₁ + q₂.
+struct FootJacobian {
+  double upper_x;
+  double upper_z;
+  double lower_x;
+  double lower_z;
+
+  /// det ∂(x, z)/∂(q₁, q₂) = L₁ L₂ sin q₂ (m²): 0 of a straight leg.
+  [[nodiscard]] double determinant() const noexcept {
+    return upper_x * lower_z - lower_x * upper_z;
+  }
+};
+
+/// Of the left, of the right leg, whose joints' signs are mirrored.
+[[nodiscard]] std::array<FootJacobian, 2> foot_jacobians(
+    const LegGeometry& geometry, const std::array<LegSignals, 2>& legs) noexcept;
+/// Of one leg. `mirrored`: the joints' signs are those of the right leg.
+[[nodiscard]] FootJacobian foot_jacobian(const LegGeometry& geometry, const LegSignals& leg,
+                                         bool mirrored) noexcept;
+
+/// The vertical force of the ground on a leg's foot (N) that explains its torques, if the torso is
+/// level and all of the leg accelerates upwards with `acceleration` (m/s², without gravity):
+///
 ///     Jᵀ F = −τ + Σ_i m_i (g + a) ∂z_i/∂q,
 ///
-/// over the links and the wheel, solved for F = (F_x, F_z). `mirrored`: the joints' signs are those
-/// of the right leg. Not finite where the knee is straight: a straight leg carries any load without
-/// torques.
+/// over the links and the wheel, solved for F = (F_x, F_z), times the determinant of J (N·m²): always
+/// finite, whereas a straight leg carries any load without torques.
+[[nodiscard]] double vertical_force_times_determinant(const LegGeometry& geometry,
+                                                      const FootJacobian& foot,
+                                                      const LegSignals& leg, bool mirrored,
+                                                      double acceleration) noexcept;
+
+/// The force alone (N). Not finite where the knee is straight.
 [[nodiscard]] double vertical_force(const LegGeometry& geometry, const LegSignals& leg,
                                     bool mirrored, double acceleration) noexcept;
 
 /// How fast the axle moves upwards beneath the hip (m/s), ż of the above, if the torso is level and
-/// does not turn. For both legs: where one is mirrored, the signs of a sine and of a velocity
-/// cancel.
+/// does not turn.
+[[nodiscard]] double axle_velocity(const FootJacobian& foot, const LegSignals& leg,
+                                   bool mirrored) noexcept;
+
+/// Likewise, for both legs: where one is mirrored, the signs of a sine and of a velocity cancel.
 [[nodiscard]] double axle_velocity(const LegGeometry& geometry, const LegSignals& leg) noexcept;
 
 }  // namespace touchdown

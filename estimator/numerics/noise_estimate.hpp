@@ -48,10 +48,14 @@ class NoiseEstimate {
  public:
   /// From `floor` up to at least `ceiling` in relative steps of `gain` per update; for the first
   /// `warm_up` updates in larger ones.
-  NoiseEstimate(double floor, double ceiling, double gain, double warm_up) : warm_up_(warm_up) {
-    const double rung = gain / static_cast<double>(channels);
-    const auto rungs = static_cast<int>(std::ceil(std::log(ceiling / floor) / rung));
-    for (int i = 0; i <= std::max(1, rungs); ++i) sigma_.push_back(floor * std::exp(i * rung));
+  NoiseEstimate(double floor, double ceiling, double gain, double warm_up)
+      : log_floor_(std::log(floor)),
+        log_step_(gain / static_cast<double>(channels)),
+        warm_up_(warm_up) {
+    const auto rungs = static_cast<int>(std::ceil(std::log(ceiling / floor) / log_step_));
+    for (int i = 0; i <= std::max(1, rungs); ++i) {
+      sigma_.push_back(floor * std::exp(i * log_step_));
+    }
   }
 
   void reset() noexcept {
@@ -83,12 +87,18 @@ class NoiseEstimate {
   }
 
   [[nodiscard]] double sigma() const noexcept { return sigma_[rung_]; }
+  /// Its natural logarithm, without computing one.
+  [[nodiscard]] double log_sigma() const noexcept {
+    return log_floor_ + log_step_ * static_cast<double>(rung_);
+  }
   [[nodiscard]] std::size_t rung() const noexcept { return rung_; }
   /// The standard deviation of every rung.
   [[nodiscard]] const std::vector<double>& rungs() const noexcept { return sigma_; }
 
  private:
   std::vector<double> sigma_;
+  double log_floor_;
+  double log_step_;  ///< from rung to rung
   double warm_up_;
   std::size_t rung_ = 0;
   double updates_ = 0.0;

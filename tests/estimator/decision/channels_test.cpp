@@ -14,7 +14,7 @@ constexpr double crouched_hip = 0.455;  // rad
 constexpr double crouched_knee = -0.791;
 
 LegChannels channels_of(const LegSignals& leg, bool mirrored, double acceleration = 0.0) {
-  return LegListener({}, mirrored).update(leg, acceleration);
+  return LegListener({}, mirrored).update(leg, foot_jacobian({}, leg, mirrored), acceleration);
 }
 
 TEST(LegListener, HearsTheLoadOfABentLegInEitherLegsSigns) {
@@ -104,7 +104,7 @@ TEST(LegListener, HearsNoAccelerationOfAnAxleThatStaysWhileTheTorsoFalls) {
     LegSignals leg;
     leg.hip = {now[0], (later[0] - before[0]) / (2.0 * step), 0.0};
     leg.knee = {now[1], (later[1] - before[1]) / (2.0 * step), 0.0};
-    last = listener.update(leg, -6.0);
+    last = listener.update(leg, foot_jacobian(config.geometry, leg, false), -6.0);
   }
   EXPECT_NEAR(last.axle_velocity, 6.0 * 0.099, 1e-3);
   EXPECT_NEAR(last.axle_acceleration, 0.0, 0.01);

@@ -95,7 +95,8 @@ TEST(DecisionNetwork, MeansItsProbabilityWhateverItsClassesWeigh) {
       const double p = estimator.update(others.signals[k]).wheel[0].p_contact;
       const double load =
           LegListener({}, false)
-              .update(others.signals[k].leg[0], others.signals[k].vertical_acceleration)
+              .update(others.signals[k].leg[0], foot_jacobian({}, others.signals[k].leg[0], false),
+                      others.signals[k].vertical_acceleration)
               .load;
       // Bayes' rule on two Gaussians: the logit is linear in the load.
       const double truth = 1.0 / (1.0 + std::exp(-(std::log(3.0) + 0.5 * load - 2.0)));

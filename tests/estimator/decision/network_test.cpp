@@ -1,10 +1,15 @@
 #include "estimator/decision/network.hpp"
 
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "tests/estimator/decision/random_model.hpp"
+#include "tests/estimator/random.hpp"
 
 namespace touchdown {
 namespace {
@@ -28,6 +33,39 @@ TEST(DecisionLogit, OfTwoWeightsIsWhatPencilAndPaperSay) {
   EXPECT_EQ(decision_logit(model, inputs), 8.0F + 0.5F - 3.0F);
   inputs[3] = 0.0F;
   EXPECT_EQ(decision_logit(model, inputs), -2.5F);
+}
+
+TEST(PairedDecisionNetwork, SaysOfEachWheelWhatTheNetworkSaysOfIt) {
+  constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
+  test::Normal normal(3);
+  for (int round = 0; round < 20; ++round) {
+    const DecisionModel model = test::random_model(static_cast<std::uint32_t>(round));
+    DecisionInputs left{};
+    for (float& x : left) x = static_cast<float>(normal());
+    DecisionInputs right = left;
+    DecisionPairInputs pair;
+    for (std::size_t i = 0; i < of_legs; ++i) {
+      right[i] = left[of_legs + i];
+      right[of_legs + i] = left[i];
+      pair.common[i] = left[i] + right[i];
+      pair.difference[i] = left[i] - right[i];
+    }
+    for (std::size_t i = 0; i < decision_scales; ++i) {
+      const std::size_t roll = 2 * of_legs + decision_scales + i;
+      right[roll] = -left[roll];
+      pair.common[of_legs + i] = left[2 * of_legs + i];
+      pair.difference[of_legs + i] = left[roll];
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      pair.common[of_legs + decision_scales + i] = left[decision_inputs - 2 + i];
+    }
+    const std::array<float, 2> both = PairedDecisionNetwork(model).logits(pair);
+    const float of_left = decision_logit(model, left);
+    const float of_right = decision_logit(model, right);
+    EXPECT_NEAR(both[0], of_left, 1e-4F * (1.0F + std::abs(of_left)));
+    EXPECT_NEAR(both[1], of_right, 1e-4F * (1.0F + std::abs(of_right)));
+    EXPECT_NE(of_left, of_right);
+  }
 }
 
 TEST(DecisionModel, WithWeightsThatAreNotFiniteIsRefused) {

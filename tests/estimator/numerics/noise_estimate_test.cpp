@@ -23,6 +23,7 @@ TEST_P(NoiseOf, GaussianNoiseIsFoundWithinAFewPercent) {
     estimate.update(x);
     if (k == 1500) {
       EXPECT_NEAR(estimate.sigma(), sigma, 0.15 * sigma);
+      EXPECT_NEAR(estimate.log_sigma(), std::log(estimate.sigma()), 1e-12);
     }
     if (k >= 4000) mean += estimate.sigma() / 4000.0;
   }

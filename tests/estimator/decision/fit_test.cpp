@@ -1,0 +1,59 @@
+#include "estimator/decision/fit.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/decision/senses.hpp"
+#include "tests/estimator/decision/lifted_run.hpp"
+
+namespace touchdown {
+namespace {
+
+/// Every step that is heard, as it is.
+DecisionFitConfig undisturbed() {
+  DecisionFitConfig fit{.passes = 1, .rows = 1'000'000};
+  fit.disturbance = {.largest_torque_noise = 0.0,
+                     .largest_acceleration_noise = 0.0,
+                     .torque_bias = 0.0,
+                     .position_bias = 0.0,
+                     .gain_error = 0.0};
+  return fit;
+}
+
+TEST(DecisionRows, OfSlowHearingsAreWhatARobotHearsThatIsAsSlow) {
+  const test::CarriedRun run = test::lifted_run(1, 3);
+  for (const std::size_t apart : {1, 5}) {
+    DecisionFitConfig fit = undisturbed();
+    fit.steps_of_slow = 5;
+    fit.share_slow = apart == 5 ? 1.0 : 0.0;
+    const DecisionRows rows = decision_rows(std::vector<LabelledRun>{run.view()}, {}, fit);
+    DecisionSenses senses({.sample_rate = 1000.0 / static_cast<double>(apart)});
+    Eigen::Index row = 0;
+    for (std::size_t k = 0; k < run.signals.size(); k += apart) {
+      senses.update(run.signals[k]);
+      senses.arrange();
+      for (std::size_t side = 0; side < 2; ++side, ++row) {
+        ASSERT_LT(row, rows.inputs.cols());
+        ASSERT_EQ(rows.is_contact[row], run.contact[side][k] != 0 ? 1.0F : 0.0F);
+        const DecisionInputs heard = senses.inputs(side);
+        for (std::size_t i = 0; i < heard.size(); ++i) {
+          ASSERT_EQ(rows.inputs(static_cast<Eigen::Index>(i), row), heard[i]) << k << ", " << i;
+        }
+      }
+    }
+    EXPECT_EQ(row, rows.inputs.cols());
+  }
+}
+
+TEST(DecisionFitConfig, OfHearingsThatCannotBeIsRefused) {
+  for (const double share : {-0.1, 1.1, std::nan("")}) {
+    EXPECT_THROW(check_decision_fit_config({.share_slow = share}), InputError) << share;
+  }
+  EXPECT_THROW(check_decision_fit_config({.steps_of_slow = 0}), InputError);
+}
+
+}  // namespace
+}  // namespace touchdown
