@@ -61,8 +61,9 @@ TEST(LegListener, TakesTheWheelsOwnInertiaOffItsTorque) {
         LegSignals leg;
         leg.wheel.velocity = 4.0 + 0.001 * acceleration * k;
         leg.wheel.torque = inertia * acceleration + ground;
-        last = left.update(leg, 0.0);
-        mirror = right.update(test::mirrored(leg), 0.0);
+        last = left.update(leg, foot_jacobian(config.geometry, leg, false), 0.0);
+        mirror = right.update(test::mirrored(leg),
+                              foot_jacobian(config.geometry, test::mirrored(leg), true), 0.0);
       }
       EXPECT_NEAR(last.reaction, ground, 1e-12);
       EXPECT_EQ(mirror.reaction, last.reaction);

@@ -49,6 +49,26 @@ const Fault accelerometer_freezes = [](Signals& s, const Signals& before) {
 constexpr std::array<bool, 2> left = {true, false};
 constexpr std::array<bool, 2> both = {true, true};
 
+/// Whether a wheel's belief is the undisturbed one of step k. Within a takeoff or a landing that
+/// one runs through everything in some milliseconds, and may do so this much earlier or later.
+bool is_as_undisturbed(const WheelBelief& belief, const std::vector<Belief>& undisturbed,
+                       std::size_t k, std::size_t wheel) {
+  constexpr std::size_t shift = 3;  // ms
+  double least = 1.0;
+  double most = 0.0;
+  bool is_decided_alike = false;
+  for (std::size_t i = k - shift; i <= std::min(k + shift, undisturbed.size() - 1); ++i) {
+    const WheelBelief& other = undisturbed[i].wheel[wheel];
+    least = std::min(least, other.p_contact);
+    most = std::max(most, other.p_contact);
+    is_decided_alike = is_decided_alike || other.contact == belief.contact;
+  }
+  // The slowest low-pass still knows a little of the fault.
+  const double expected = undisturbed[k].wheel[wheel].p_contact;
+  const double near = expected < 0.05 || expected > 0.95 ? 0.02 : 0.1;
+  return is_decided_alike && belief.p_contact >= least - near && belief.p_contact <= most + near;
+}
+
 /// What an estimator says while one after the other stretch of a run is at fault, beside one that
 /// hears all of it.
 class Faults : public ::testing::Test {
@@ -105,13 +125,10 @@ class Faults : public ::testing::Test {
         if (k < end + recovered) continue;
         EXPECT_EQ(belief.status, SignalStatus::good);
         for (std::size_t w = 0; w < 2; ++w) {
-          // Within a takeoff or a landing a belief changes by .1 in a millisecond.
-          const double expected = expected_[k].wheel[w].p_contact;
-          const bool is_settled = expected < 0.05 || expected > 0.95;
-          ASSERT_NEAR(belief.wheel[w].p_contact, expected, is_settled ? 0.02 : 0.1)
-              << "wheel " << w << ", fault at " << begin << ", " << k - end << " ms later";
-          ASSERT_EQ(belief.wheel[w].contact, expected_[k].wheel[w].contact)
-              << "wheel " << w << ", fault at " << begin << ", " << k - end << " ms later";
+          ASSERT_TRUE(is_as_undisturbed(belief.wheel[w], expected_, k, w))
+              << "wheel " << w << ", fault at " << begin << ", " << k - end
+              << " ms later: " << belief.wheel[w].p_contact << " instead of "
+              << expected_[k].wheel[w].p_contact;
         }
       }
       ++places;
@@ -154,7 +171,7 @@ TEST_F(Faults, OfRecordsThatAreMissingAreOverWithin200Milliseconds) {
       belief = estimator.update(s);
       if (k < begin + 100 + recovered) continue;
       for (std::size_t w = 0; w < 2; ++w) {
-        ASSERT_EQ(belief.wheel[w].contact, expected_[k].wheel[w].contact) << begin << ' ' << k;
+        ASSERT_TRUE(is_as_undisturbed(belief.wheel[w], expected_, k, w)) << begin << ' ' << k;
       }
     }
   }
@@ -197,19 +214,22 @@ TEST_F(Faults, AreNotBlowsThatAnAccelerometerCutsOff) {
   for (const std::size_t begin : {1250U, 2950U}) {  // landings
     DecisionNetwork whole(test::lifted_network());
     DecisionNetwork cut_off(test::lifted_network());
-    std::array<int, 2> late = {};  // ms
+    std::vector<Belief> expected;
+    std::vector<Belief> told;
     for (std::size_t k = 0; k < begin + 400; ++k) {
       Signals s = run_.signals[k];
       if (k >= begin && k < begin + 8) s.vertical_acceleration += blow;
-      const Belief expected = whole.update(s);
+      expected.push_back(whole.update(s));
       s.vertical_acceleration = std::min(s.vertical_acceleration, range);
-      const Belief& belief = cut_off.update(s);
-      ASSERT_EQ(belief.status, SignalStatus::good);
+      told.push_back(cut_off.update(s));
+    }
+    std::array<int, 2> late = {};  // ms
+    for (std::size_t k = 0; k < told.size(); ++k) {
+      ASSERT_EQ(told[k].status, SignalStatus::good);
       for (std::size_t w = 0; w < 2; ++w) {
-        if (belief.wheel[w].contact != expected.wheel[w].contact) ++late[w];
+        if (told[k].wheel[w].contact != expected[k].wheel[w].contact) ++late[w];
         if (k >= begin + recovered) {
-          ASSERT_EQ(belief.wheel[w].contact, expected.wheel[w].contact) << k;
-          ASSERT_NEAR(belief.wheel[w].p_contact, expected.wheel[w].p_contact, 0.02) << k;
+          ASSERT_TRUE(is_as_undisturbed(told[k].wheel[w], expected, k, w)) << k;
         }
       }
     }

@@ -82,7 +82,8 @@ TEST(DecisionNetwork, MeansItsProbabilityWhateverItsClassesWeigh) {
   const test::CarriedRun seen = drawn();
   const test::CarriedRun others = drawn();
   for (const double exponent : {0.0, -1.0}) {
-    DecisionFitConfig config{.passes = 1, .rows = 40'000, .batch = 256, .epochs = 8};
+    DecisionFitConfig config{
+        .passes = 1, .rows = 40'000, .share_slow = 0.0, .batch = 256, .epochs = 8};
     config.class_exponent = exponent;
     config.disturbance.largest_torque_noise = config.disturbance.largest_acceleration_noise = 0.0;
     config.disturbance.torque_bias = config.disturbance.gain_error = 0.0;

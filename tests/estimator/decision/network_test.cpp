@@ -40,30 +40,30 @@ TEST(PairedDecisionNetwork, SaysOfEachWheelWhatTheNetworkSaysOfIt) {
   test::Normal normal(3);
   for (int round = 0; round < 20; ++round) {
     const DecisionModel model = test::random_model(static_cast<std::uint32_t>(round));
-    DecisionInputs left{};
-    for (float& x : left) x = static_cast<float>(normal());
-    DecisionInputs right = left;
+    DecisionInputs of_one{};
+    for (float& x : of_one) x = static_cast<float>(normal());
+    DecisionInputs of_other = of_one;
     DecisionPairInputs pair;
     for (std::size_t i = 0; i < of_legs; ++i) {
-      right[i] = left[of_legs + i];
-      right[of_legs + i] = left[i];
-      pair.common[i] = left[i] + right[i];
-      pair.difference[i] = left[i] - right[i];
+      of_other[i] = of_one[of_legs + i];
+      of_other[of_legs + i] = of_one[i];
+      pair.common[i] = of_one[i] + of_other[i];
+      pair.difference[i] = of_one[i] - of_other[i];
     }
     for (std::size_t i = 0; i < decision_scales; ++i) {
       const std::size_t roll = 2 * of_legs + decision_scales + i;
-      right[roll] = -left[roll];
-      pair.common[of_legs + i] = left[2 * of_legs + i];
-      pair.difference[of_legs + i] = left[roll];
+      of_other[roll] = -of_one[roll];
+      pair.common[of_legs + i] = of_one[2 * of_legs + i];
+      pair.difference[of_legs + i] = of_one[roll];
     }
     for (std::size_t i = 0; i < 2; ++i) {
-      pair.common[of_legs + decision_scales + i] = left[decision_inputs - 2 + i];
+      pair.common[of_legs + decision_scales + i] = of_one[decision_inputs - 2 + i];
     }
-    const std::array<float, 2> both = PairedDecisionNetwork(model).logits(pair);
-    const float of_left = decision_logit(model, left);
-    const float of_right = decision_logit(model, right);
-    EXPECT_NEAR(both[0], of_left, 1e-4F * (1.0F + std::abs(of_left)));
-    EXPECT_NEAR(both[1], of_right, 1e-4F * (1.0F + std::abs(of_right)));
+    const std::array<float, 2> logits = PairedDecisionNetwork(model).logits(pair);
+    const float of_left = decision_logit(model, of_one);
+    const float of_right = decision_logit(model, of_other);
+    EXPECT_NEAR(logits[0], of_left, 1e-4F * (1.0F + std::abs(of_left)));
+    EXPECT_NEAR(logits[1], of_right, 1e-4F * (1.0F + std::abs(of_right)));
     EXPECT_NE(of_left, of_right);
   }
 }

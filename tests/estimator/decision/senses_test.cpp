@@ -140,7 +140,7 @@ TEST(DecisionSenses, EstimateTheNoiseThatTheyHear) {
 TEST(DecisionSenses, TakeNoiseAtALowRateForAsMuchAsItLeavesBehindALowPass) {
   // White noise behind the low-pass of 64 ms: as large at 200 Hz as √5 times as much at 1 kHz.
   std::array<double, 2> told{};
-  std::array<double, 2> left{};
+  std::array<double, 2> remaining{};
   for (const std::size_t slow : {0, 1}) {
     const double rate = slow == 0 ? 1000.0 : 200.0;
     DecisionSenses senses({.sample_rate = rate});
@@ -158,10 +158,10 @@ TEST(DecisionSenses, TakeNoiseAtALowRateForAsMuchAsItLeavesBehindALowPass) {
       if (k >= 1000) squares += scales.values()[6] * scales.values()[6];
     }
     told[slow] = senses.torque_noise();
-    left[slow] = std::sqrt(squares);
+    remaining[slow] = std::sqrt(squares);
   }
   EXPECT_NEAR(told[1] / told[0], 1.0, 0.15);
-  EXPECT_NEAR(std::log(left[1] / left[0]), 0.0, 0.15);
+  EXPECT_NEAR(std::log(remaining[1] / remaining[0]), 0.0, 0.15);
 }
 
 TEST(DecisionSenses, HandThePairOfWheelsSumsAndDifferencesOfWhatTheyHandEach) {
@@ -169,19 +169,19 @@ TEST(DecisionSenses, HandThePairOfWheelsSumsAndDifferencesOfWhatTheyHandEach) {
   DecisionSenses senses({});
   for (const Signals& s : wandering(200)) senses.update(s);
   senses.arrange();
-  const DecisionInputs left = senses.inputs(0);
-  const DecisionInputs right = senses.inputs(1);
+  const DecisionInputs of_left = senses.inputs(0);
+  const DecisionInputs of_right = senses.inputs(1);
   const DecisionPairInputs pair = senses.pair_inputs();
   for (std::size_t i = 0; i < of_legs; ++i) {
-    EXPECT_EQ(pair.common[i], left[i] + right[i]);
-    EXPECT_EQ(pair.difference[i], left[i] - right[i]);
+    EXPECT_EQ(pair.common[i], of_left[i] + of_right[i]);
+    EXPECT_EQ(pair.difference[i], of_left[i] - of_right[i]);
   }
   for (std::size_t i = 0; i < decision_scales; ++i) {
-    EXPECT_EQ(pair.common[of_legs + i], left[2 * of_legs + i]);
-    EXPECT_EQ(pair.difference[of_legs + i], left[2 * of_legs + decision_scales + i]);
+    EXPECT_EQ(pair.common[of_legs + i], of_left[2 * of_legs + i]);
+    EXPECT_EQ(pair.difference[of_legs + i], of_left[2 * of_legs + decision_scales + i]);
   }
-  EXPECT_EQ(pair.common[of_legs + decision_scales], left[decision_inputs - 2]);
-  EXPECT_EQ(pair.common[of_legs + decision_scales + 1], left[decision_inputs - 1]);
+  EXPECT_EQ(pair.common[of_legs + decision_scales], of_left[decision_inputs - 2]);
+  EXPECT_EQ(pair.common[of_legs + decision_scales + 1], of_left[decision_inputs - 1]);
 }
 
 TEST(DecisionSenses, TakeASilentLegToFareLikeTheOther) {
