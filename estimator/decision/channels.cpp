@@ -38,9 +38,9 @@ LegChannels LegListener::update(const LegSignals& leg, const FootJacobian& foot,
   heard_ = std::min(heard_ + 1, velocities_.size());
 
   const double area = foot.determinant();
-  const double load = vertical_force_times_determinant(geometry_, foot, leg, mirrored_,
-                                                       vertical_acceleration) *
-                      area / (area * area + least_area * least_area);
+  const double load =
+      vertical_force_times_determinant(geometry_, foot, leg, mirrored_, vertical_acceleration) *
+      area / (area * area + least_area * least_area);
   return {within(load, largest_load),
           within(sign * leg.wheel.torque - geometry_.wheel_inertia * rate_ * (now[0] - before[0]),
                  largest_channel),

@@ -11,9 +11,9 @@ namespace touchdown {
 
 /// How a `DecisionModel` is fitted.
 struct DecisionFitConfig {
-  std::uint64_t seed = 1;       ///< of everything that is drawn
-  std::size_t passes = 24;      ///< how often each run is heard, disturbed anew each time
-  std::size_t rows = 400'000;   ///< about so many steps of wheels are learned from
+  std::uint64_t seed = 1;      ///< of everything that is drawn
+  std::size_t passes = 24;     ///< how often each run is heard, disturbed anew each time
+  std::size_t rows = 400'000;  ///< about so many steps of wheels are learned from
   /// A share of the hearings hears one step in so many, as robots whose programs are slower do.
   std::size_t steps_of_slow = 5;
   double share_slow = 0.2;

@@ -27,7 +27,8 @@ std::array<float, outputs> rectified(const std::array<float, inputs * outputs>& 
 }
 
 /// What the last two layers make of the first one's sums.
-float logit_of(const DecisionModel& model, const std::array<float, decision_first>& first) noexcept {
+float logit_of(const DecisionModel& model,
+               const std::array<float, decision_first>& first) noexcept {
   const auto second = rectified(model.second_weight, model.second_bias, first);
   float logit = model.last_bias;
   for (std::size_t k = 0; k < second.size(); ++k) logit += model.last_weight[k] * second[k];

@@ -52,8 +52,8 @@ class DecisionSenses {
   /// As they were last arranged: of one wheel, of both.
   [[nodiscard]] DecisionInputs inputs(std::size_t side) const noexcept;
   [[nodiscard]] DecisionPairInputs pair_inputs() const noexcept;
-  /// The estimated white noise of torques (N·m), as dense as at 1 kHz: at a lower rate there are fewer
-  /// samples of it to average.
+  /// The estimated white noise of torques (N·m), as dense as at 1 kHz: at a lower rate there are
+  /// fewer samples of it to average.
   [[nodiscard]] double torque_noise() const noexcept { return density_ * torque_noise_.sigma(); }
   /// A belief after `elapsed` seconds without news.
   [[nodiscard]] double relaxed(double p_contact, double elapsed) const noexcept {
@@ -86,8 +86,8 @@ class DecisionSenses {
   double roll_rate_silence_ = 0.0;
   NoiseEstimate<2> torque_noise_;
   NoiseEstimate<1> acceleration_noise_;
-  /// Compressed: the channels of the left leg, of the right leg, the vertical acceleration, the roll
-  /// rate.
+  /// Compressed: the channels of the left leg, of the right leg, the vertical acceleration, the
+  /// roll rate.
   alignas(32) std::array<float, decision_channels * decision_scales> heard_{};
   std::array<float, 2> noise_{};  ///< ln of the estimated levels of torques and acceleration
 };

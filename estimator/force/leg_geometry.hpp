@@ -23,8 +23,8 @@ struct LegGeometry {
   bool operator==(const LegGeometry&) const = default;
 };
 
-/// How a leg's foot moves with its joints in one pose, in the left leg's signs. With the hip at q₁ and
-/// the knee at q₂ from straight, forward positive,
+/// How a leg's foot moves with its joints in one pose, in the left leg's signs. With the hip at q₁
+/// and the knee at q₂ from straight, forward positive,
 ///
 ///     x = L₁ sin q₁ + L₂ sin(q₁ + q₂),   z = −L₁ cos q₁ − L₂ cos(q₁ + q₂),
 ///
@@ -53,8 +53,8 @@ struct FootJacobian {
 ///
 ///     Jᵀ F = −τ + Σ_i m_i (g + a) ∂z_i/∂q,
 ///
-/// over the links and the wheel, solved for F = (F_x, F_z), times the determinant of J (N·m²): always
-/// finite, whereas a straight leg carries any load without torques.
+/// over the links and the wheel, solved for F = (F_x, F_z), times the determinant of J (N·m²):
+/// always finite, whereas a straight leg carries any load without torques.
 [[nodiscard]] double vertical_force_times_determinant(const LegGeometry& geometry,
                                                       const FootJacobian& foot,
                                                       const LegSignals& leg, bool mirrored,

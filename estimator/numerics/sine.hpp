@@ -7,11 +7,12 @@ struct SineCosine {
   double cosine;
 };
 
-/// sin x and cos x to two units in the last place of 1, for |x| ≤ 10⁵ rad. Without a branch or a call,
-/// so that loops over it become vector code; a bound in here would bring the branches back.
+/// sin x and cos x to two units in the last place of 1, for |x| ≤ 10⁵ rad. Without a branch or a
+/// call, so that loops over it become vector code; a bound in here would bring the branches back.
 ///
-/// x = k·π/2 + r with |r| ≤ π/4, π/2 in three parts, the first two of which times k are exact; Taylor
-/// polynomials of r up to r¹⁵ and r¹⁶ (remainders below 5e-17); k mod 4 says which of the two is which.
+/// x = k·π/2 + r with |r| ≤ π/4, π/2 in three parts, the first two of which times k are exact;
+/// Taylor polynomials of r up to r¹⁵ and r¹⁶ (remainders below 5e-17); k mod 4 says which of the
+/// two is which.
 inline SineCosine sine_and_cosine(double x) noexcept {
   constexpr double inverse_half_pi = 0x1.45f306dc9c883p-1;
   constexpr double half_pi_high = 0x1.921fb54400000p+0;
@@ -24,24 +25,22 @@ inline SineCosine sine_and_cosine(double x) noexcept {
   const double r = ((x - k * half_pi_high) - k * half_pi_middle) - k * half_pi_low;
   const double r2 = r * r;
   const double odd =
-      r +
-      r * r2 *
-          (-1.0 / 6 +
-           r2 * (1.0 / 120 +
-                 r2 * (-1.0 / 5040 +
-                       r2 * (1.0 / 362880 +
-                             r2 * (-1.0 / 39916800 +
-                                   r2 * (1.0 / 6227020800.0 - r2 * (1.0 / 1307674368000.0)))))));
+      r + r * r2 *
+              (-1.0 / 6 +
+               r2 * (1.0 / 120 +
+                     r2 * (-1.0 / 5040 +
+                           r2 * (1.0 / 362880 +
+                                 r2 * (-1.0 / 39916800 + r2 * (1.0 / 6227020800.0 -
+                                                               r2 * (1.0 / 1307674368000.0)))))));
   const double even =
       1.0 +
       r2 * (-1.0 / 2 +
             r2 * (1.0 / 24 +
                   r2 * (-1.0 / 720 +
-                        r2 * (1.0 / 40320 +
-                              r2 * (-1.0 / 3628800 +
-                                    r2 * (1.0 / 479001600 +
-                                          r2 * (-1.0 / 87178291200.0 +
-                                                r2 * (1.0 / 20922789888000.0))))))));
+                        r2 * (1.0 / 40320 + r2 * (-1.0 / 3628800 +
+                                                  r2 * (1.0 / 479001600 +
+                                                        r2 * (-1.0 / 87178291200.0 +
+                                                              r2 * (1.0 / 20922789888000.0))))))));
   // 0, 1, 2 or 3 quarters beyond a whole turn; nothing that is rounded lies halfway. Products by 0
   // and 1 choose, where a compiler would branch.
   const double turns = ((k * 0.25 - 0.375) + shifter) - shifter;
