@@ -25,7 +25,7 @@ DecisionFitConfig undisturbed() {
 
 TEST(DecisionRows, OfSlowHearingsAreWhatARobotHearsThatIsAsSlow) {
   const test::CarriedRun run = test::lifted_run(1, 3);
-  for (const std::size_t apart : {1, 5}) {
+  for (const std::size_t apart : {1U, 5U}) {
     DecisionFitConfig fit = undisturbed();
     fit.steps_of_slow = 5;
     fit.share_slow = apart == 5 ? 1.0 : 0.0;

@@ -141,7 +141,7 @@ TEST(DecisionSenses, TakeNoiseAtALowRateForAsMuchAsItLeavesBehindALowPass) {
   // White noise behind the low-pass of 64 ms: as large at 200 Hz as √5 times as much at 1 kHz.
   std::array<double, 2> told{};
   std::array<double, 2> remaining{};
-  for (const std::size_t slow : {0, 1}) {
+  for (const std::size_t slow : {0U, 1U}) {
     const double rate = slow == 0 ? 1000.0 : 200.0;
     DecisionSenses senses({.sample_rate = rate});
     test::Normal normal(7);
