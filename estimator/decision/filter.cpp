@@ -1,48 +1,19 @@
 #include "estimator/decision/filter.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace touchdown {
 
 DecisionNetwork::DecisionNetwork(const DecisionModel& model, const DecisionConfig& config)
-    : config_(config), model_(model), senses_(config) {
+    : model_(model), decision_(config) {
   check_decision_model(model);
-  reset();
-}
-
-void DecisionNetwork::reset() noexcept {
-  senses_.reset();
-  is_started_ = {};
-  belief_ = Belief{};
-  for (WheelBelief& wheel : belief_.wheel) wheel.contact = true;
 }
 
 const Belief& DecisionNetwork::update(const Signals& signals) noexcept {
-  const DecisionSenses::Step step = senses_.update(signals);
-  belief_.status = step.status;
-  if (step.restart) is_started_ = {};
-  if (step.is_heard[0] || step.is_heard[1]) senses_.arrange();
-  const double steps = config_.smoothing * senses_.torque_noise() * config_.sample_rate;
-  const double gain = 1.0 / (1.0 + steps);
+  const std::array<bool, 2>& is_heard = decision_.hear(signals);
+  std::array<double, 2> logit{};
   for (std::size_t side = 0; side < 2; ++side) {
-    WheelBelief& wheel = belief_.wheel[side];
-    if (step.is_heard[side]) {
-      constexpr double surest = 30.0;
-      const double logit =
-          std::clamp<double>(decision_logit(model_, senses_.inputs(side)), -surest, surest);
-      logit_[side] = is_started_[side] ? logit_[side] + gain * (logit - logit_[side]) : logit;
-      is_started_[side] = true;
-      wheel.p_contact = 1.0 / (1.0 + std::exp(-logit_[side]));
-      wheel.contact = wheel.contact ? wheel.p_contact >= config_.leave_below
-                                    : wheel.p_contact > config_.return_above;
-    } else {  // the last decision stands
-      wheel.p_contact = senses_.relaxed(wheel.p_contact, step.elapsed);
-      is_started_[side] = false;
-    }
+    if (is_heard[side]) logit[side] = decision_logit(model_, decision_.inputs(side));
   }
-  multiply_wheels(belief_);
-  return belief_;
+  return decision_.decide(logit);
 }
 
 }  // namespace touchdown

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "estimator/decision/fit.hpp"
-#include "tests/estimator/force/carried_run.hpp"
+#include "tests/estimator/decision/lifted_run.hpp"
 #include "tests/estimator/random.hpp"
 
 namespace touchdown {
@@ -17,41 +17,9 @@ namespace {
 
 constexpr DecisionFitConfig quick = {.passes = 4, .rows = 40'000, .batch = 256, .epochs = 8};
 
-/// A robot that stands, lifts its left wheel, its right one, falls, is lifted, in turn, with a
-/// little noise.
-test::CarriedRun lifted_run(int rounds, std::uint32_t seed, double noise = 0.02) {
-  test::Normal normal(seed);
-  test::CarriedRun run;
-  const auto go_on = [&](double left, double right, double acceleration, int steps) {
-    for (int k = 0; k < steps; ++k) {
-      Signals& s = run.add(left, right, acceleration);
-      for (LegSignals& leg : s.leg) {
-        for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
-          joint->torque += noise * normal();
-        }
-      }
-      s.vertical_acceleration += 0.1 * normal();
-      s.angular_velocity.x() = left == right ? 0.02 * normal() : 0.3 + 0.02 * normal();
-      if (left > right) s.angular_velocity.x() *= -1.0;
-      run.touch(left > 1.0, right > 1.0);
-    }
-  };
-  for (int round = 0; round < rounds; ++round) {
-    go_on(26.0, 26.0, 0.0, 300);
-    go_on(0.0, 52.0, 0.0, 150);
-    go_on(26.0, 26.0, 0.0, 250);
-    go_on(52.0, 0.0, 0.0, 150);
-    go_on(20.0, 20.0, 0.0, 250);
-    go_on(0.0, 0.0, -9.81, 150);
-    go_on(35.0, 35.0, 1.0, 250);
-    go_on(0.0, 0.0, 0.3, 200);
-  }
-  return run;
-}
-
 const DecisionModel& lifted_network() {
   static const DecisionModel model = [] {
-    const test::CarriedRun run = lifted_run(4, 1);
+    const test::CarriedRun run = test::lifted_run(4, 1);
     return fit_decision_model(std::vector<LabelledRun>{run.view()}, {}, quick);
   }();
   return model;
@@ -76,13 +44,13 @@ double share_right(ContactEstimator& estimator, const test::CarriedRun& run) {
 
 TEST(DecisionNetwork, LearnsToTellWheelsThatCarryFromThoseThatDoNot) {
   DecisionNetwork estimator(lifted_network());
-  EXPECT_GT(share_right(estimator, lifted_run(2, 2)), 0.99);
+  EXPECT_GT(share_right(estimator, test::lifted_run(2, 2)), 0.99);
   DecisionNetwork in_noise(lifted_network());
-  EXPECT_GT(share_right(in_noise, lifted_run(2, 3, 0.5)), 0.95);
+  EXPECT_GT(share_right(in_noise, test::lifted_run(2, 3, 0.5)), 0.95);
 }
 
 TEST(DecisionNetwork, IsFittedToTheSameBits) {
-  const test::CarriedRun run = lifted_run(1, 4);
+  const test::CarriedRun run = test::lifted_run(1, 4);
   const std::vector<LabelledRun> runs = {run.view()};
   const DecisionFitConfig config{.passes = 1, .rows = 2000, .batch = 64, .epochs = 1};
   EXPECT_EQ(fit_decision_model(runs, {}, config), fit_decision_model(runs, {}, config));
@@ -91,7 +59,7 @@ TEST(DecisionNetwork, IsFittedToTheSameBits) {
 TEST(DecisionNetwork, BelievesOfTheMirroredRobotWhatItBelievedOfTheOtherWheel) {
   DecisionNetwork estimator(lifted_network());
   DecisionNetwork mirror(lifted_network());
-  for (Signals s : lifted_run(1, 5, 0.3).signals) {
+  for (Signals s : test::lifted_run(1, 5, 0.3).signals) {
     const Belief belief = estimator.update(s);
     std::swap(s.leg[0], s.leg[1]);
     for (LegSignals& leg : s.leg) leg = test::mirrored(leg);
@@ -177,7 +145,7 @@ TEST(DecisionNetwork, GoesOnWithOneLegWhileTheOtherOneSaysNothing) {
 
 TEST(DecisionNetwork, RelaxesWithoutAnImuSaysWhyAndRecovers) {
   DecisionNetwork estimator(lifted_network());
-  test::CarriedRun run = lifted_run(1, 8);
+  test::CarriedRun run = test::lifted_run(1, 8);
   const std::size_t standing = 250;
   run.signals.resize(standing);
   last_of(estimator, run);
@@ -230,7 +198,7 @@ TEST(DecisionNetwork, BelievesAfterAGapWhatANewOneWould) {
 TEST(DecisionNetwork, IsNeverLostWhateverItHears) {
   DecisionNetwork estimator(lifted_network());
   constexpr double huge = std::numeric_limits<double>::max();
-  Signals s = lifted_run(1, 9).signals.front();
+  Signals s = test::lifted_run(1, 9).signals.front();
   for (const double extreme : {huge, -huge, 1e308, 1e4, -1e4, 0.0}) {
     for (int k = 0; k < 50; ++k) {
       s.time += 0.001;
@@ -262,7 +230,7 @@ TEST(DecisionNetwork, RefusesWhatMakesNoSense) {
   broken.last_bias = std::numeric_limits<float>::infinity();
   EXPECT_THROW(DecisionNetwork{broken}, InputError);
 
-  const test::CarriedRun run = lifted_run(1, 10);
+  const test::CarriedRun run = test::lifted_run(1, 10);
   const std::vector<LabelledRun> runs = {run.view()};
   const auto refused_fit = [&](const DecisionFitConfig& config) {
     EXPECT_THROW(static_cast<void>(fit_decision_model(runs, {}, config)), InputError);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include "tests/estimator/force/carried_run.hpp"
+#include "tests/estimator/random.hpp"
+
+namespace touchdown::test {
+
+/// A robot that stands, lifts its left wheel, its right one, falls, is lifted, in turn, with a
+/// little noise.
+inline CarriedRun lifted_run(int rounds, std::uint32_t seed, double noise = 0.02) {
+  Normal normal(seed);
+  CarriedRun run;
+  const auto go_on = [&](double left, double right, double acceleration, int steps) {
+    for (int k = 0; k < steps; ++k) {
+      Signals& s = run.add(left, right, acceleration);
+      for (LegSignals& leg : s.leg) {
+        for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
+          joint->torque += noise * normal();
+        }
+      }
+      s.vertical_acceleration += 0.1 * normal();
+      s.angular_velocity.x() = left == right ? 0.02 * normal() : 0.3 + 0.02 * normal();
+      if (left > right) s.angular_velocity.x() *= -1.0;
+      run.touch(left > 1.0, right > 1.0);
+    }
+  };
+  for (int round = 0; round < rounds; ++round) {
+    go_on(26.0, 26.0, 0.0, 300);
+    go_on(0.0, 52.0, 0.0, 150);
+    go_on(26.0, 26.0, 0.0, 250);
+    go_on(52.0, 0.0, 0.0, 150);
+    go_on(20.0, 20.0, 0.0, 250);
+    go_on(0.0, 0.0, -9.81, 150);
+    go_on(35.0, 35.0, 1.0, 250);
+    go_on(0.0, 0.0, 0.3, 200);
+  }
+  return run;
+}
+
+}  // namespace touchdown::test
