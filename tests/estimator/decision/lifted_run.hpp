@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
+#include "estimator/contact_estimator.hpp"
 #include "tests/estimator/force/carried_run.hpp"
 #include "tests/estimator/random.hpp"
 
@@ -37,6 +39,18 @@ inline CarriedRun lifted_run(int rounds, std::uint32_t seed, double noise = 0.02
     go_on(0.0, 0.0, 0.3, 200);
   }
   return run;
+}
+
+/// In how many of a run's steps and wheels contact is told right.
+inline double share_right(ContactEstimator& estimator, const CarriedRun& run) {
+  std::size_t right = 0;
+  for (std::size_t k = 0; k < run.signals.size(); ++k) {
+    const Belief& belief = estimator.update(run.signals[k]);
+    for (std::size_t w = 0; w < 2; ++w) {
+      right += belief.wheel[w].contact == (run.contact[w][k] != 0) ? 1 : 0;
+    }
+  }
+  return static_cast<double>(right) / static_cast<double>(2 * run.signals.size());
 }
 
 }  // namespace touchdown::test
