@@ -26,15 +26,6 @@ std::array<float, outputs> rectified(const std::array<float, inputs * outputs>& 
   return values;
 }
 
-/// What the last two layers make of the first one's sums.
-float logit_of(const DecisionModel& model,
-               const std::array<float, decision_first>& first) noexcept {
-  const auto second = rectified(model.second_weight, model.second_bias, first);
-  float logit = model.last_bias;
-  for (std::size_t k = 0; k < second.size(); ++k) logit += model.last_weight[k] * second[k];
-  return logit;
-}
-
 template <typename Numbers>
 bool is_finite(const Numbers& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
@@ -43,7 +34,11 @@ bool is_finite(const Numbers& numbers) {
 }  // namespace
 
 float decision_logit(const DecisionModel& model, const DecisionInputs& inputs) noexcept {
-  return logit_of(model, rectified(model.first_weight, model.first_bias, inputs));
+  const auto first = rectified(model.first_weight, model.first_bias, inputs);
+  const auto second = rectified(model.second_weight, model.second_bias, first);
+  float logit = model.last_bias;
+  for (std::size_t k = 0; k < second.size(); ++k) logit += model.last_weight[k] * second[k];
+  return logit;
 }
 
 PairedDecisionNetwork::PairedDecisionNetwork(const DecisionModel& model) noexcept : model_(model) {
