@@ -11,7 +11,8 @@ set(public
   contact_estimator free_fall labelled_run signal_guard signals torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model c_interface/handle
-  decision/config decision/disturbance decision/draws decision/filter decision/fit decision/network decision/training
+  decision/config decision/descent decision/disturbance decision/draws decision/filter decision/fit
+  decision/network decision/training
   force/force_kinematics force/force_kinematics_fit force/leg_geometry force/load_logistic
   force/load_logistic_fit force/logistic_regression force/support_force
   models/arrays models/compiled models/make_estimator models/passport
@@ -19,9 +20,9 @@ set(public
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
 # What these hold by value. Not for programs, and not promised to stay.
 set(detail
-  decision/channels decision/repetition decision/senses force/axle_motion force/wheel_loads neural/forward
-  numerics/axis numerics/exponential numerics/noise_estimate phase/recursion phase/senses
-  phase/tables spectrum/sliding_dft spectrum/summary)
+  decision/channels decision/logit_decision decision/repetition decision/senses force/axle_motion
+  force/wheel_loads neural/forward numerics/axis numerics/exponential numerics/noise_estimate
+  phase/recursion phase/senses phase/tables spectrum/sliding_dft spectrum/summary)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 target_include_directories(touchdown_estimator PUBLIC
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>

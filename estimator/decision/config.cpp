@@ -14,7 +14,7 @@ bool is_level(double x) { return std::isfinite(x) && x >= 0.0; }
 
 void check_decision_fit_config(const DecisionFitConfig& config) {
   if (config.passes == 0 || config.rows == 0 || config.batch == 0 || config.epochs == 0) {
-    throw InputError("decision network: passes, rows, batch and epochs must be positive");
+    throw InputError("decision: passes, rows, batch and epochs must be positive");
   }
   if (!(config.steps_of_slow > 0 && config.share_slow >= 0.0 && config.share_slow <= 1.0)) {
     throw InputError(
@@ -23,7 +23,7 @@ void check_decision_fit_config(const DecisionFitConfig& config) {
   if (!(std::isfinite(config.learning_rate) && config.learning_rate > 0.0 &&
         is_level(config.decay) && std::isfinite(config.class_exponent))) {
     throw InputError(
-        "decision network: learning_rate must be positive, decay not negative, class_exponent "
+        "decision: learning_rate must be positive, decay not negative, class_exponent "
         "finite");
   }
   check_disturbance_config(config.disturbance);
@@ -33,17 +33,16 @@ void check_decision_config(const DecisionConfig& config) {
   const LegGeometry& leg = config.geometry;
   if (!(std::isfinite(config.sample_rate) && config.sample_rate > 0.0 && leg.upper_length > 0.0 &&
         leg.lower_length > 0.0)) {
-    throw InputError("decision network: sample_rate (Hz), lengths (m) must be positive");
+    throw InputError("decision: sample_rate (Hz), lengths (m) must be positive");
   }
   if (!(is_level(leg.wheel_inertia) && is_level(config.difference) && is_level(config.smoothing))) {
     throw InputError(
-        "decision network: wheel_inertia (kg·m²), difference (s) and smoothing (s per N·m) must "
+        "decision: wheel_inertia (kg·m²), difference (s) and smoothing (s per N·m) must "
         "not be negative");
   }
   if (!(config.leave_below > 0.0 && config.leave_below <= config.return_above &&
         config.return_above < 1.0)) {
-    throw InputError(
-        "decision network: leave_below and return_above must be probabilities in this order");
+    throw InputError("decision: leave_below and return_above must be probabilities in this order");
   }
 }
 

@@ -23,7 +23,7 @@ std::array<double, 2> class_weights(const DecisionRows& rows, double exponent) {
   const double contact = rows.is_contact.cast<double>().sum();
   const double air = static_cast<double>(rows.is_contact.size()) - contact;
   if (!(contact > 0.0 && air > 0.0)) {
-    throw InputError("decision network: runs with contact and without are needed");
+    throw InputError("decision: runs with contact and without are needed");
   }
   return {std::pow(air, exponent), std::pow(contact, exponent)};
 }
@@ -79,6 +79,15 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
   return rows;
 }
 
+float weights_offset(const DecisionRows& rows) {
+  // Rows in contact weigh 1, those without this much.
+  const float air_weight =
+      rows.weight.cwiseProduct(Eigen::RowVectorXf::Ones(rows.weight.size()) - rows.is_contact)
+          .sum() /
+      (static_cast<float>(rows.is_contact.size()) - rows.is_contact.sum());
+  return std::log(air_weight);
+}
+
 DecisionModel fit_decision_model(std::span<const LabelledRun> runs, const DecisionConfig& config,
                                  const DecisionFitConfig& fit,
                                  const std::function<void()>& before_step) {
@@ -86,12 +95,7 @@ DecisionModel fit_decision_model(std::span<const LabelledRun> runs, const Decisi
   check_decision_fit_config(fit);
   const DecisionRows rows = decision_rows(runs, config, fit);
   DecisionModel model = train_decision_model(rows, fit, before_step);
-  // Rows in contact weigh 1 here, those without this much.
-  const float air_weight =
-      rows.weight.cwiseProduct(Eigen::RowVectorXf::Ones(rows.weight.size()) - rows.is_contact)
-          .sum() /
-      (static_cast<float>(rows.is_contact.size()) - rows.is_contact.sum());
-  model.last_bias += std::log(air_weight);
+  model.last_bias += weights_offset(rows);
   return model;
 }
 

@@ -9,12 +9,16 @@
 
 namespace touchdown {
 
-/// What the network learns from: steps of both wheels of all runs at which it would hear them, each
-/// run heard several times through other noise, biases and scales. Throws InputError for labels
-/// that are not one per step, and where one class is missing.
+/// What those learn from that hear `DecisionSenses`: steps of both wheels of all runs at which they
+/// would hear them, each run heard several times through other noise, biases and scales. Throws
+/// InputError for labels that are not one per step, and where one class is missing.
 [[nodiscard]] DecisionRows decision_rows(std::span<const LabelledRun> runs,
                                          const DecisionConfig& config,
                                          const DecisionFitConfig& fit);
+
+/// What a logit that was fitted to these rows lacks, so that it means the probability of contact
+/// as if every row weighed alike: ln of the weight of a row without contact to one in contact.
+[[nodiscard]] float weights_offset(const DecisionRows& rows);
 
 /// Fits the network to decide: cross-entropy with classes weighted, the weight taken off its logit
 /// again, so that it means the probability of contact in runs like these. The same runs and

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "estimator/decision/draws.hpp"
 
@@ -103,48 +102,16 @@ double decision_loss(const DecisionModel& model, const DecisionRows& rows,
 
 DecisionModel train_decision_model(const DecisionRows& rows, const DecisionFitConfig& config,
                                    const std::function<void()>& before_step) {
-  constexpr double keep_mean = 0.9;
-  constexpr double keep_square = 0.999;
-  constexpr float tiny = 1e-8F;
-  constexpr std::size_t between_calls = 64;
   Draws draws(config.seed);
   DecisionModel model = drawn(draws);
   DecisionModel gradient;
   DecisionModel mean;
   DecisionModel square;
-  DecisionRows batch;
-  const auto count = static_cast<Eigen::Index>(config.batch);
-  batch.inputs.resize(inputs, count);
-  batch.is_contact.resize(count);
-  batch.weight.resize(count);
-  const auto all = static_cast<std::uint64_t>(rows.inputs.cols());
-  const std::size_t steps =
-      (static_cast<std::size_t>(all) * config.epochs + config.batch - 1) / config.batch;
-  for (std::size_t step = 0; step < steps; ++step) {
-    if (before_step && step % between_calls == 0) before_step();
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const auto row = static_cast<Eigen::Index>(draws.below(all));
-      batch.inputs.col(i) = rows.inputs.col(row);
-      batch.is_contact[i] = rows.is_contact[row];
-      batch.weight[i] = rows.weight[row];
-    }
-    static_cast<void>(decision_loss(model, batch, &gradient));
-    const double progress = static_cast<double>(step) / static_cast<double>(steps);
-    const double rate = 0.5 * config.learning_rate * (1.0 + std::cos(std::numbers::pi * progress));
-    const double n = static_cast<double>(step + 1);
-    const auto of_mean = static_cast<float>(rate / (1.0 - std::pow(keep_mean, n)));
-    const auto of_square = static_cast<float>(1.0 / (1.0 - std::pow(keep_square, n)));
-    const auto kept = static_cast<float>(1.0 - rate * config.decay);
-    for_each_part(
-        [&](auto w, auto g, auto m, auto v) {
-          for (std::size_t i = 0; i < w.size(); ++i) {
-            m[i] += static_cast<float>(1.0 - keep_mean) * (g[i] - m[i]);
-            v[i] += static_cast<float>(1.0 - keep_square) * (g[i] * g[i] - v[i]);
-            w[i] = kept * w[i] - of_mean * m[i] / (std::sqrt(of_square * v[i]) + tiny);
-          }
-        },
-        model, gradient, mean, square);
-  }
+  descend(rows, config, draws, before_step,
+          [&](const DecisionRows& batch, const AdamStep& adam_step) {
+            static_cast<void>(decision_loss(model, batch, &gradient));
+            for_each_part(adam_step, model, gradient, mean, square);
+          });
   return model;
 }
 

@@ -1,23 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <span>
-
-#include <Eigen/Core>
 
 #include "estimator/decision/config.hpp"
+#include "estimator/decision/descent.hpp"
 #include "estimator/decision/network.hpp"
 
 namespace touchdown {
-
-/// What a network learns from: a column of inputs for each row, whether it is contact, and how much
-/// it weighs.
-struct DecisionRows {
-  Eigen::Matrix<float, static_cast<int>(decision_inputs), Eigen::Dynamic> inputs;
-  Eigen::RowVectorXf is_contact;  ///< 1 or 0
-  Eigen::RowVectorXf weight;
-};
 
 /// The weighted mean of the cross-entropy of these rows, and its gradient where one is asked for.
 [[nodiscard]] double decision_loss(const DecisionModel& model, const DecisionRows& rows,

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "estimator/decision/config.hpp"
+#include "estimator/decision/draws.hpp"
+#include "estimator/decision/network.hpp"
+
+namespace touchdown {
+
+/// What those learn from that hear `DecisionSenses`: a column of inputs for each row, whether it is
+/// contact, and how much it weighs.
+struct DecisionRows {
+  Eigen::Matrix<float, static_cast<int>(decision_inputs), Eigen::Dynamic> inputs;
+  Eigen::RowVectorXf is_contact;  ///< 1 or 0
+  Eigen::RowVectorXf weight;
+};
+
+/// One step of Adam (Kingma, Ba 2015) with decoupled decay, whose learning rate falls to nothing
+/// along a cosine.
+class AdamStep {
+ public:
+  AdamStep(std::size_t step, std::size_t steps, const DecisionFitConfig& config) {
+    const double progress = static_cast<double>(step) / static_cast<double>(steps);
+    const double rate = 0.5 * config.learning_rate * (1.0 + std::cos(std::numbers::pi * progress));
+    const double n = static_cast<double>(step + 1);
+    of_mean_ = static_cast<float>(rate / (1.0 - std::pow(keep_mean, n)));
+    of_square_ = static_cast<float>(1.0 / (1.0 - std::pow(keep_square, n)));
+    kept_ = static_cast<float>(1.0 - rate * config.decay);
+  }
+
+  /// Moves weights; `mean` and `square` are the gradient's, from step to step. All have one size.
+  void operator()(std::span<float> w, std::span<const float> g, std::span<float> mean,
+                  std::span<float> square) const {
+    constexpr float tiny = 1e-8F;
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      mean[i] += static_cast<float>(1.0 - keep_mean) * (g[i] - mean[i]);
+      square[i] += static_cast<float>(1.0 - keep_square) * (g[i] * g[i] - square[i]);
+      w[i] = kept_ * w[i] - of_mean_ * mean[i] / (std::sqrt(of_square_ * square[i]) + tiny);
+    }
+  }
+
+ private:
+  static constexpr double keep_mean = 0.9;
+  static constexpr double keep_square = 0.999;
+
+  float of_mean_ = 0.0F;
+  float of_square_ = 0.0F;
+  float kept_ = 1.0F;
+};
+
+/// Calls `step(batch, adam)` for batches that are drawn with replacement, as many as the configured
+/// epochs have. `before_step` is called now and then: what it throws ends the descent.
+template <typename Step>
+void descend(const DecisionRows& rows, const DecisionFitConfig& config, Draws& draws,
+             const std::function<void()>& before_step, const Step& step) {
+  constexpr std::size_t between_calls = 64;
+  DecisionRows batch;
+  const auto count = static_cast<Eigen::Index>(config.batch);
+  batch.inputs.resize(static_cast<int>(decision_inputs), count);
+  batch.is_contact.resize(count);
+  batch.weight.resize(count);
+  const auto all = static_cast<std::uint64_t>(rows.inputs.cols());
+  const std::size_t steps =
+      (static_cast<std::size_t>(all) * config.epochs + config.batch - 1) / config.batch;
+  for (std::size_t n = 0; n < steps; ++n) {
+    if (before_step && n % between_calls == 0) before_step();
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto row = static_cast<Eigen::Index>(draws.below(all));
+      batch.inputs.col(i) = rows.inputs.col(row);
+      batch.is_contact[i] = rows.is_contact[row];
+      batch.weight[i] = rows.weight[row];
+    }
+    step(batch, AdamStep(n, steps, config));
+  }
+}
+
+}  // namespace touchdown

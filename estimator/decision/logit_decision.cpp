@@ -1,0 +1,50 @@
+#include "estimator/decision/logit_decision.hpp"
+
+#include <algorithm>
+
+#include "estimator/numerics/exponential.hpp"
+
+namespace touchdown {
+
+LogitDecision::LogitDecision(const DecisionConfig& config) : config_(config), senses_(config) {
+  reset();
+}
+
+void LogitDecision::reset() noexcept {
+  senses_.reset();
+  is_started_ = {};
+  belief_ = Belief{};
+  for (WheelBelief& wheel : belief_.wheel) wheel.contact = true;
+}
+
+const std::array<bool, 2>& LogitDecision::hear(const Signals& signals) noexcept {
+  step_ = senses_.update(signals);
+  belief_.status = step_.status;
+  if (step_.restart) is_started_ = {};
+  if (step_.is_heard[0] || step_.is_heard[1]) senses_.arrange();
+  return step_.is_heard;
+}
+
+const Belief& LogitDecision::decide(const std::array<double, 2>& logit) noexcept {
+  constexpr double surest = 30.0;
+  const double steps = config_.smoothing * senses_.torque_noise() * config_.sample_rate;
+  const double gain = 1.0 / (1.0 + steps);
+  for (std::size_t side = 0; side < 2; ++side) {
+    WheelBelief& wheel = belief_.wheel[side];
+    if (step_.is_heard[side]) {
+      const double now = std::clamp(logit[side], -surest, surest);
+      logit_[side] = is_started_[side] ? logit_[side] + gain * (now - logit_[side]) : now;
+      is_started_[side] = true;
+      wheel.p_contact = 1.0 / (1.0 + exponential(-logit_[side]));
+      wheel.contact = wheel.contact ? wheel.p_contact >= config_.leave_below
+                                    : wheel.p_contact > config_.return_above;
+    } else {  // the last decision stands
+      wheel.p_contact = senses_.relaxed(wheel.p_contact, step_.elapsed);
+      is_started_[side] = false;
+    }
+  }
+  multiply_wheels(belief_);
+  return belief_;
+}
+
+}  // namespace touchdown
