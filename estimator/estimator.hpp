@@ -12,6 +12,8 @@
 #include "estimator/contact_estimator.hpp"
 #include "estimator/decision/filter.hpp"
 #include "estimator/decision/fit.hpp"
+#include "estimator/evidence/filter.hpp"
+#include "estimator/evidence/fit.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/force_kinematics_fit.hpp"
 #include "estimator/force/load_logistic.hpp"

@@ -21,12 +21,6 @@ constexpr double warm_up = 0.1;          // s, of the noise estimates
 constexpr double noise_gain = 0.01;
 constexpr double reference_rate = 1000.0;  // Hz
 
-/// Where each channel's compression begins to bend: N, N·m, m/s, m/s², m/s², rad/s.
-constexpr std::array<float, decision_leg_channels> leg_bends = {5.0F, 0.1F, 0.1F, 3.0F};
-constexpr float largest_input = 4.0F;  ///< that compressed channels tend to
-constexpr float acceleration_bend = 3.0F;
-constexpr float roll_rate_bend = 0.3F;
-
 }  // namespace
 
 TimeScales::TimeScales(double sample_rate) noexcept {

@@ -11,6 +11,16 @@
 
 namespace touchdown {
 
+/// What is large differs less than what is small: with y = value / bend every channel is heard as
+/// y / (1 + |y| / largest), which tends to this.
+inline constexpr float largest_input = 4.0F;
+/// Where the compression begins to bend: of a leg's load (N), reaction (N·m), axle velocity (m/s)
+/// and axle acceleration (m/s²), …
+inline constexpr std::array<float, decision_leg_channels> leg_bends = {5.0F, 0.1F, 0.1F, 3.0F};
+/// … vertical acceleration (m/s²) and roll rate (rad/s).
+inline constexpr float acceleration_bend = 3.0F;
+inline constexpr float roll_rate_bend = 0.3F;
+
 /// First-order low-passes of 1, 2, 4, … 128 ms, side by side. Starts at its first input.
 class TimeScales {
  public:

@@ -10,6 +10,7 @@
 #include "estimator/bayes/ladder.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
+#include "estimator/evidence/filter.hpp"
 #include "estimator/models/configuration.hpp"
 #include "estimator/models/measurement.hpp"
 #include "estimator/models/neural.hpp"
@@ -116,7 +117,9 @@ const std::vector<Recipe>& recipes() {
         of_parameters<LoadLogistic, LoadLogisticConfig, logistic_curve_of>("load_logistic"),
         of_parameters<ForceKinematics, ForceKinematicsConfig, force_kinematics_model_of>(
             "force_kinematics"),
-        of_parameters<DecisionNetwork, DecisionConfig, decision_model_of>("decision_network")};
+        of_parameters<DecisionNetwork, DecisionConfig, decision_model_of>("decision_network"),
+        of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_curves"),
+        of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_pairs")};
     for (const BayesRung& rung : rungs_from_paper_to_robust()) {
       const bool hears_as_robust = rung.config.measurement == robust.measurement;
       recipes.push_back(

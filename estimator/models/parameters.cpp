@@ -6,6 +6,8 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "estimator/evidence/channels.hpp"
+#include "estimator/evidence/pairs.hpp"
 #include "estimator/models/passport.hpp"
 
 namespace touchdown {
@@ -33,6 +35,37 @@ void for_each_part(Model& model, const Part& part) {
   part("last_weight", std::span(model.last_weight));
   part("last_bias", std::span(&model.last_bias, 1));
 }
+
+/// Calls `part(name, first, count)` for each run of inputs whose curves are one parameter: the time
+/// scales of a channel, or a noise level.
+template <typename Part>
+void for_each_channel(const Part& part) {
+  std::size_t first = 0;
+  for (const EvidenceChannel& channel : evidence_channels) {
+    part(channel.name, first, decision_scales);
+    first += decision_scales;
+  }
+  for (const char* const name : evidence_noise_names) part(name, first++, std::size_t{1});
+}
+
+/// The pairs that tables are of, so that those of other pairs are not taken for them.
+std::vector<double> places_of_pairs() {
+  std::vector<double> places;
+  for (const EvidencePair& pair : evidence_pairs) {
+    places.push_back(static_cast<double>(pair.first));
+    places.push_back(static_cast<double>(pair.second));
+  }
+  return places;
+}
+
+/// Values that came from floats, floats again.
+void take(const double* from, std::span<float> to) {
+  std::transform(from, from + to.size(), to.begin(),
+                 [](double value) { return static_cast<float>(value); });
+}
+
+std::string curves_name(const char* channel) { return std::string("curves_") + channel; }
+std::string seen_name(const char* channel) { return std::string("seen_") + channel; }
 
 }  // namespace
 
@@ -106,9 +139,50 @@ DecisionModel decision_model_of(const Parameters& parameters) {
   DecisionModel model;
   for_each_part(model, [&](const char* name, auto numbers) {
     const std::vector<double>& values = parameter(parameters, name, numbers.size());
-    std::transform(values.begin(), values.end(), numbers.begin(),
-                   [](double value) { return static_cast<float>(value); });
+    take(values.data(), numbers);
   });
+  return model;
+}
+
+Parameters parameters_of(const EvidenceModel& model) {
+  Parameters parameters = {{"bias", {model.bias}}};
+  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
+    std::vector<double>& curves = parameters[curves_name(name)];
+    std::vector<double>& seen = parameters[seen_name(name)];
+    for (std::size_t i = first; i < first + count; ++i) {
+      curves.insert(curves.end(), model.curve[i].begin(), model.curve[i].end());
+      seen.insert(seen.end(), model.seen[i].begin(), model.seen[i].end());
+    }
+  });
+  if (model.table.empty()) return parameters;
+  parameters["pairs"] = places_of_pairs();
+  for (const EvidenceTable& table : model.table) {
+    parameters["tables"].insert(parameters["tables"].end(), table.begin(), table.end());
+  }
+  return parameters;
+}
+
+EvidenceModel evidence_model_of(const Parameters& parameters) {
+  EvidenceModel model;
+  model.bias = static_cast<float>(parameter(parameters, "bias"));
+  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
+    const std::vector<double>& curves =
+        parameter(parameters, curves_name(name), count * evidence_knots);
+    const std::vector<double>& seen = parameter(parameters, seen_name(name), 2 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      take(curves.data() + i * evidence_knots, model.curve[first + i]);
+      take(seen.data() + 2 * i, model.seen[first + i]);
+    }
+  });
+  if (!parameters.contains("pairs")) return model;
+  if (parameters.at("pairs") != places_of_pairs()) {
+    throw InputError("pairs: its tables are of other pairs than this version's");
+  }
+  constexpr std::size_t size = std::tuple_size_v<EvidenceTable>;
+  const std::vector<double>& tables = parameter(parameters, "tables", evidence_pairs.size() * size);
+  for (std::size_t p = 0; p < evidence_pairs.size(); ++p) {
+    take(tables.data() + p * size, model.table.emplace_back());
+  }
   return model;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "estimator/decision/network.hpp"
+#include "estimator/evidence/curves.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/logistic_regression.hpp"
 #include "estimator/models/arrays.hpp"
@@ -40,9 +41,14 @@ double parameter(const Parameters& parameters, std::string_view name);
 Parameters parameters_of(const LogisticCurve& curve);
 Parameters parameters_of(const ForceKinematicsModel& model);
 Parameters parameters_of(const DecisionModel& model);
+/// `curves_<channel>` by time scale, then by knot (nats); what of each was `seen`, a lower and an
+/// upper end; `tables` of `pairs`, by row.
+Parameters parameters_of(const EvidenceModel& model);
 LogisticCurve logistic_curve_of(const Parameters& parameters);
 ForceKinematicsModel force_kinematics_model_of(const Parameters& parameters);
 /// Doubles that came from floats are floats again.
 DecisionModel decision_model_of(const Parameters& parameters);
+/// Likewise. Errors: also for tables of other pairs.
+EvidenceModel evidence_model_of(const Parameters& parameters);
 
 }  // namespace touchdown

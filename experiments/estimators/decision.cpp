@@ -5,6 +5,8 @@
 #include "core/resources.hpp"
 #include "estimator/decision/filter.hpp"
 #include "estimator/decision/fit.hpp"
+#include "estimator/evidence/filter.hpp"
+#include "estimator/evidence/fit.hpp"
 #include "experiments/estimators/parameter_fitting.hpp"
 #include "recordings/models/parameter_model.hpp"
 
@@ -18,6 +20,15 @@ FittedModel fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
     return parameters_of(fit_decision_model(labelled, {.geometry = legs_of(runs)},
                                             {.decay = entry.chosen("decay")}, runs.before_density));
+  });
+}
+
+template <bool with_pairs>
+FittedModel fit_evidence(const EstimatorEntry& entry, const FitRuns& runs) {
+  return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
+    return parameters_of(fit_evidence_model(
+        labelled, {.geometry = legs_of(runs)},
+        {.smoothness = entry.chosen("smoothness"), .with_pairs = with_pairs}, runs.before_density));
   });
 }
 
@@ -65,6 +76,40 @@ EstimatorEntry shipped_decision_network_entry() {
                        .geometry = setup.legs.value_or(LegGeometry{})});
   };
   return entry;
+}
+
+EstimatorEntry evidence_curves_entry() {
+  return {
+      .name = "evidence_curves",
+      .title = "Evidence curves",
+      .summary =
+          "the decision network's transparent twin: a curve of evidence for each of its inputs, "
+          "added",
+      .sensors = decision_network_entry().sensors,
+      .fit = fit_evidence<false>,
+      .learns_from_pieces = true,
+      .choices = {fitted_with(around("smoothness", EvidenceFitConfig{}.smoothness, 10.0)),
+                  between("leave_below", DecisionConfig{}.leave_below, 0.25, 0.8),
+                  between("return_above", DecisionConfig{}.return_above, 0.8, 0.97)},
+      .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+        return std::make_unique<EvidenceCurves>(
+            evidence_model_of(setup.model->parameters->parameters),
+            configured(DecisionConfig{.sample_rate = setup.sample_rate}, entry, setup));
+      }};
+}
+
+EstimatorEntry evidence_pairs_entry() {
+  EstimatorEntry entry = evidence_curves_entry();
+  entry.name = "evidence_pairs";
+  entry.title = "Evidence curves and pairs";
+  entry.summary = "the same, with tables of evidence for a few pairs of inputs";
+  entry.fit = fit_evidence<true>;
+  return entry;
+}
+
+std::optional<EvidenceModel> evidence_in(const FittedModel& model) {
+  if (!model.parameters || !model.parameters->estimator.starts_with("evidence_")) return {};
+  return evidence_model_of(model.parameters->parameters);
 }
 
 }  // namespace touchdown::experiments

@@ -60,6 +60,8 @@ std::span<const EstimatorEntry> estimator_entries() {
         force_kinematics_entry(),
         decision_network_entry(),
         shipped_decision_network_entry(),
+        evidence_curves_entry(),
+        evidence_pairs_entry(),
         gradient_boosting_entry(),
         oracle_entry(),
         always_contact_entry(),

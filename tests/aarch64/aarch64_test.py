@@ -15,12 +15,12 @@ import shutil
 import subprocess
 import sys
 
-# The network computes in single precision.
-TOLERANCE = {'neural': 1e-5, 'decision_network': 1e-5}
+# These compute in single precision.
+TOLERANCE = {'neural': 1e-5, 'decision_network': 1e-5, 'evidence_pairs': 1e-5}
 DOUBLE = 1e-12
 # What qemu would take minutes for.
 SLOW = ('*PhaseFilter*', '*BayesFilter*', '*SlidingDft*', '*TransitionSpectrum*', 'PhaseModel*',
-        'MeasurementOnly*', 'NeuralForward*', 'Decision*', 'PairedDecision*', 'Faults*')
+        'MeasurementOnly*', 'NeuralForward*', 'Decision*', 'PairedDecision*', 'Evidence*', 'Faults*')
 NEEDED = {
     'g++-aarch64-linux-gnu': shutil.which('aarch64-linux-gnu-g++'),
     'qemu-user': shutil.which('qemu-aarch64'),
@@ -83,7 +83,7 @@ def main():
 
     there = beliefs(run(*qemu, build / 'estimator_beliefs'))
     here = beliefs(run(program))
-    assert there.keys() == here.keys() and len(here) == 12, (there.keys(), here.keys())
+    assert there.keys() == here.keys() and len(here) == 13, (there.keys(), here.keys())
     apart = []
     for name, expected in here.items():
         found = there[name]

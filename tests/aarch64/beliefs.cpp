@@ -9,6 +9,7 @@
 
 #include "estimator/estimator.hpp"
 #include "tests/estimator/decision/random_model.hpp"
+#include "tests/estimator/evidence/random_curves.hpp"
 #include "tests/estimator/named_config.hpp"
 #include "tests/estimator/neural/sample.hpp"
 #include "tests/estimator/phase/synthetic.hpp"
@@ -116,6 +117,7 @@ void listen_all() {
   listen("load_logistic", LoadLogistic(fit_load_logistic(labels)), heard);
   listen("force_kinematics", ForceKinematics(fit_force_kinematics(labels)), heard);
   listen("decision_network", DecisionNetwork(test::random_model(2)), heard);
+  listen("evidence_pairs", EvidenceCurves(test::random_curves(2)), heard);
   listen("upkie_observer", UpkieObserver(), heard);
 }
 

@@ -160,7 +160,8 @@ TEST_F(Fit, OfParametersIsTheOneThatExperimentsMake) {
   log("a.mpack", test::synthetic_log(3.0));
   const experiments::RunSignals run = experiments::signals_of(
       recordings::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
-  for (const std::string name : {"load_logistic", "force_kinematics", "decision_network"}) {
+  for (const std::string name :
+       {"load_logistic", "force_kinematics", "decision_network", "evidence_curves"}) {
     EXPECT_THAT(fit("a.mpack -o m.npz --estimator " + name), HasSubstr("2.700 s of 1 log"));
     const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
     const recordings::ParameterModelFile written =

@@ -13,6 +13,7 @@
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
+#include "estimator/evidence/filter.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/load_logistic.hpp"
 #include "estimator/force/support_force.hpp"
@@ -22,6 +23,7 @@
 #include "experiments/lanes/bayes.hpp"
 #include "odometry/filter.hpp"
 #include "tests/estimator/decision/random_model.hpp"
+#include "tests/estimator/evidence/random_curves.hpp"
 #include "tests/estimator/named_config.hpp"
 #include "tests/estimator/phase/synthetic.hpp"
 #include "tests/estimator/synthetic.hpp"
@@ -144,10 +146,12 @@ TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
   LoadLogistic load_logistic({.slope = 0.5, .intercept = -5.0});
   ForceKinematics force_kinematics({.air = {}, .contact = {.force_mean = 26.0}});
   DecisionNetwork decision_network(test::random_model(1));
+  EvidenceCurves evidence_curves(test::random_curves(1));
   for (ContactEstimator* const estimator : {static_cast<ContactEstimator*>(&support_force),
                                             static_cast<ContactEstimator*>(&load_logistic),
                                             static_cast<ContactEstimator*>(&force_kinematics),
-                                            static_cast<ContactEstimator*>(&decision_network)}) {
+                                            static_cast<ContactEstimator*>(&decision_network),
+                                            static_cast<ContactEstimator*>(&evidence_curves)}) {
     estimator->update(stream.front());
     EXPECT_NE(estimator->update(stream[1]).wheel[0].p_contact, 0.5);
     EXPECT_EQ(allocations_of([&] {

@@ -25,22 +25,11 @@ Belief last_of(ContactEstimator& estimator, const test::CarriedRun& run) {
   return belief;
 }
 
-double share_right(ContactEstimator& estimator, const test::CarriedRun& run) {
-  std::size_t right = 0;
-  for (std::size_t k = 0; k < run.signals.size(); ++k) {
-    const Belief& belief = estimator.update(run.signals[k]);
-    for (std::size_t w = 0; w < 2; ++w) {
-      right += belief.wheel[w].contact == (run.contact[w][k] != 0) ? 1 : 0;
-    }
-  }
-  return static_cast<double>(right) / static_cast<double>(2 * run.signals.size());
-}
-
 TEST(DecisionNetwork, LearnsToTellWheelsThatCarryFromThoseThatDoNot) {
   DecisionNetwork estimator(lifted_network());
-  EXPECT_GT(share_right(estimator, lifted_run(2, 2)), 0.99);
+  EXPECT_GT(test::share_right(estimator, lifted_run(2, 2)), 0.99);
   DecisionNetwork in_noise(lifted_network());
-  EXPECT_GT(share_right(in_noise, lifted_run(2, 3, 0.5)), 0.95);
+  EXPECT_GT(test::share_right(in_noise, lifted_run(2, 3, 0.5)), 0.95);
 }
 
 TEST(DecisionNetwork, IsFittedToTheSameBits) {

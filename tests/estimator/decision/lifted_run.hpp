@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "estimator/contact_estimator.hpp"
 #include "estimator/decision/fit.hpp"
 #include "tests/estimator/force/carried_run.hpp"
 #include "tests/estimator/random.hpp"
@@ -52,6 +54,18 @@ inline const DecisionModel& lifted_network() {
     return fit_decision_model(std::vector<LabelledRun>{run.view()}, {}, quick);
   }();
   return model;
+}
+
+/// In how many of a run's steps and wheels contact is told right.
+inline double share_right(ContactEstimator& estimator, const CarriedRun& run) {
+  std::size_t right = 0;
+  for (std::size_t k = 0; k < run.signals.size(); ++k) {
+    const Belief& belief = estimator.update(run.signals[k]);
+    for (std::size_t w = 0; w < 2; ++w) {
+      right += belief.wheel[w].contact == (run.contact[w][k] != 0) ? 1 : 0;
+    }
+  }
+  return static_cast<double>(right) / static_cast<double>(2 * run.signals.size());
 }
 
 }  // namespace touchdown::test

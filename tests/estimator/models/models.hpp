@@ -8,6 +8,7 @@
 #include "estimator/models/parameters.hpp"
 #include "estimator/models/phase.hpp"
 #include "tests/estimator/decision/random_model.hpp"
+#include "tests/estimator/evidence/random_curves.hpp"
 #include "tests/estimator/named_config.hpp"
 #include "tests/estimator/neural/sample.hpp"
 #include "tests/estimator/phase/synthetic.hpp"
@@ -33,6 +34,8 @@ inline ModelArrays fitted_arrays(const std::string& name) {
         .air = {.force_mean = 0.3}, .contact = {.force_mean = 26.0, .leaving_rate = 0.7}}));
   }
   if (name == "decision_network") return of_parameters(parameters_of(random_model(3)));
+  if (name == "evidence_curves") return of_parameters(parameters_of(random_curves(3, false)));
+  if (name == "evidence_pairs") return of_parameters(parameters_of(random_curves(4)));
   const BayesFilterConfig config = named(name == "measurement_only" ? "robust" : name);
   MeasurementConfig measurement = config.measurement;
   measurement.fit.knee_count = measurement.fit.wheel_count = 40;

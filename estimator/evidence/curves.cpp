@@ -1,0 +1,110 @@
+#include "estimator/evidence/curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "core/error.hpp"
+#include "estimator/evidence/pairs.hpp"
+
+namespace touchdown {
+
+namespace {
+
+float table_at(const EvidenceTable& table, const EvidencePair& pair,
+               const DecisionInputs& inputs) noexcept {
+  const EvidencePlace row = evidence_place(inputs[pair.first], evidence_pair_knots);
+  const EvidencePlace column = evidence_place(inputs[pair.second], evidence_pair_knots);
+  constexpr auto width = static_cast<int>(evidence_pair_knots);
+  const float* const knot = table.data() + row.knot * width + column.knot;
+  const float near = knot[0] + column.share * (knot[1] - knot[0]);
+  const float far = knot[width] + column.share * (knot[width + 1] - knot[width]);
+  return near + row.share * (far - near);
+}
+
+bool all_finite(const auto& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+float evidence_logit(const EvidenceModel& model, const DecisionInputs& inputs) noexcept {
+  float sum = model.bias;
+  for (std::size_t i = 0; i < decision_inputs; ++i) sum += evidence_at(model.curve[i], inputs[i]);
+  for (std::size_t p = 0; p < model.table.size(); ++p) {
+    sum += table_at(model.table[p], evidence_pairs[p], inputs);
+  }
+  return sum;
+}
+
+PairedEvidence::PairedEvidence(const EvidenceModel& model)
+    : table_(model.table), bias_(model.bias) {
+  constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
+  constexpr std::size_t roll = of_legs + decision_scales;
+  for (std::size_t i = 0; i < curve_.size(); ++i) {
+    for (std::size_t k = 0; k < evidence_knots; ++k) {
+      const std::size_t own = i < of_legs ? i : of_legs + i;
+      const std::size_t other = of_legs + i;
+      // What rolls to the left rolls to the right for the other wheel.
+      const bool is_roll = i >= roll && i < roll + decision_scales;
+      curve_[i][k] = {model.curve[own][k],
+                      model.curve[other][is_roll ? evidence_knots - 1 - k : k]};
+    }
+  }
+}
+
+std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left,
+                                            const DecisionInputs& right) const noexcept {
+  constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
+  std::array<int, decision_inputs> knot;
+  std::array<float, decision_inputs> share;
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    const EvidencePlace at = evidence_place(left[i], evidence_knots);
+    knot[i] = at.knot;
+    share[i] = at.share;
+  }
+  // Of a knot and the next one, each to one wheel and to the other.
+  using Four = Eigen::Array4f;
+  const Four here(1.0F, 1.0F, 0.0F, 0.0F);
+  const Four onwards(-1.0F, -1.0F, 1.0F, 1.0F);
+  const auto of = [&](std::size_t curve, std::size_t input) -> Four {
+    const float* const from = curve_[curve][static_cast<std::size_t>(knot[input])].data();
+    return Eigen::Map<const Four>(from) * (here + onwards * share[input]);
+  };
+  Four of_left = Four::Zero();
+  Four of_right = Four::Zero();
+  Four of_both = Four::Zero();
+  for (std::size_t i = 0; i < of_legs; ++i) {
+    of_left += of(i, i);
+    of_right += of(i, of_legs + i);
+  }
+  for (std::size_t i = of_legs; i < curve_.size(); ++i) of_both += of(i, of_legs + i);
+  std::array<float, 2> sum{};
+  for (Eigen::Index side = 0; side < 2; ++side) {
+    sum[static_cast<std::size_t>(side)] = bias_ + of_left[side] + of_left[side + 2] +
+                                          of_right[1 - side] + of_right[3 - side] + of_both[side] +
+                                          of_both[side + 2];
+  }
+  for (std::size_t p = 0; p < table_.size(); ++p) {
+    sum[0] += table_at(table_[p], evidence_pairs[p], left);
+    sum[1] += table_at(table_[p], evidence_pairs[p], right);
+  }
+  return sum;
+}
+
+void check_evidence_model(const EvidenceModel& model) {
+  if (!model.table.empty() && model.table.size() != evidence_pairs.size()) {
+    throw InputError("evidence curves: expected a table for each pair, or none");
+  }
+  if (std::all_of(model.curve.begin(), model.curve.end(),
+                  [](const auto& curve) { return all_finite(curve); }) &&
+      std::all_of(model.table.begin(), model.table.end(),
+                  [](const auto& table) { return all_finite(table); }) &&
+      std::isfinite(model.bias)) {
+    return;
+  }
+  throw InputError("evidence curves: their numbers must be finite");
+}
+
+}  // namespace touchdown

@@ -1,0 +1,26 @@
+#include "estimator/evidence/filter.hpp"
+
+namespace touchdown {
+
+namespace {
+
+const EvidenceModel& checked(const EvidenceModel& model) {
+  check_evidence_model(model);
+  return model;
+}
+
+}  // namespace
+
+EvidenceCurves::EvidenceCurves(const EvidenceModel& model, const DecisionConfig& config)
+    : evidence_(checked(model)), decision_(config) {}
+
+const Belief& EvidenceCurves::update(const Signals& signals) noexcept {
+  const std::array<bool, 2>& is_heard = decision_.hear(signals);
+  std::array<float, 2> logits{};
+  if (is_heard[0] || is_heard[1]) {
+    logits = evidence_.logits(decision_.inputs(0), decision_.inputs(1));
+  }
+  return decision_.decide({logits[0], logits[1]});
+}
+
+}  // namespace touchdown

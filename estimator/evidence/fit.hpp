@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "estimator/decision/config.hpp"
+#include "estimator/evidence/training.hpp"
+#include "estimator/labelled_run.hpp"
+
+namespace touchdown {
+
+/// Fits evidence curves as `fit_decision_model` fits the network: to the same rows, and so that the
+/// logit means the probability of contact in runs like these. The same runs and configuration give
+/// the same numbers. Throws InputError as that does.
+[[nodiscard]] EvidenceModel fit_evidence_model(std::span<const LabelledRun> runs,
+                                               const DecisionConfig& config = {},
+                                               const EvidenceFitConfig& fit = {},
+                                               const std::function<void()>& before_step = {});
+
+}  // namespace touchdown

@@ -1,0 +1,205 @@
+#include "estimator/evidence/training.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "core/error.hpp"
+#include "estimator/evidence/pairs.hpp"
+
+namespace touchdown {
+
+namespace {
+
+constexpr auto pair_width = static_cast<int>(evidence_pair_knots);
+
+/// The four knots around a pair's inputs, and how much each counts.
+struct PairPlace {
+  int knot = 0;
+  std::array<float, 4> share{};  ///< of the knot, the next, and those a row further
+};
+
+PairPlace pair_place(const EvidencePair& pair, const float* inputs) {
+  const EvidencePlace row = evidence_place(inputs[pair.first], evidence_pair_knots);
+  const EvidencePlace column = evidence_place(inputs[pair.second], evidence_pair_knots);
+  return {row.knot * pair_width + column.knot,
+          {(1.0F - row.share) * (1.0F - column.share), (1.0F - row.share) * column.share,
+           row.share * (1.0F - column.share), row.share * column.share}};
+}
+
+constexpr std::array<int, 4> pair_offsets = {0, 1, pair_width, pair_width + 1};
+
+void add(EvidenceCurve& curve, const EvidencePlace& at, float amount) {
+  const auto knot = static_cast<std::size_t>(at.knot);
+  curve[knot] += (1.0F - at.share) * amount;
+  curve[knot + 1] += at.share * amount;
+}
+
+void add(EvidenceTable& table, const PairPlace& at, float amount) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    table[static_cast<std::size_t>(at.knot + pair_offsets[k])] += at.share[k] * amount;
+  }
+}
+
+DecisionInputs inputs_of(const DecisionRows& rows, Eigen::Index row) {
+  DecisionInputs inputs;
+  std::copy_n(rows.inputs.col(row).data(), decision_inputs, inputs.begin());
+  return inputs;
+}
+
+/// All numbers that are learned, part by part, of as many models at once.
+template <typename Part, typename... Models>
+void for_each_part(const Part& part, Models&... models) {
+  for (std::size_t i = 0; i < decision_inputs; ++i) part(std::span(models.curve[i])...);
+  const std::size_t tables = std::min({models.table.size()...});
+  for (std::size_t p = 0; p < tables; ++p) part(std::span(models.table[p])...);
+  part(std::span(&models.bias, 1)...);
+}
+
+/// Adds the gradient of `cost`/2 times the squared differences of neighbours.
+void add_smoothness(const EvidenceModel& model, float cost, EvidenceModel& gradient) {
+  const auto between = [cost](const auto& values, auto& slopes, std::size_t a, std::size_t b) {
+    const float slope = cost * (values[b] - values[a]);
+    slopes[a] -= slope;
+    slopes[b] += slope;
+  };
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    for (std::size_t k = 0; k + 1 < evidence_knots; ++k) {
+      between(model.curve[i], gradient.curve[i], k, k + 1);
+    }
+  }
+  for (std::size_t p = 0; p < model.table.size(); ++p) {
+    for (std::size_t row = 0; row < evidence_pair_knots; ++row) {
+      for (std::size_t column = 0; column < evidence_pair_knots; ++column) {
+        const std::size_t at = row * evidence_pair_knots + column;
+        if (column + 1 < evidence_pair_knots) {
+          between(model.table[p], gradient.table[p], at, at + 1);
+        }
+        if (row + 1 < evidence_pair_knots) {
+          between(model.table[p], gradient.table[p], at, at + evidence_pair_knots);
+        }
+      }
+    }
+  }
+}
+
+/// Takes from a curve or a table its mean, given how much each knot counted.
+template <typename Values>
+float centred(Values& values, const std::vector<double>& counted) {
+  double sum = 0.0;
+  double all = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    sum += counted[k] * static_cast<double>(values[k]);
+    all += counted[k];
+  }
+  const auto mean = static_cast<float>(sum / all);
+  for (float& value : values) value -= mean;
+  return mean;
+}
+
+/// Centres every curve and table over the rows; what that takes off goes into the bias.
+void centre(EvidenceModel& model, const DecisionRows& rows) {
+  std::vector<double> counted(evidence_knots);
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    std::fill(counted.begin(), counted.end(), 0.0);
+    for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
+      const EvidencePlace at =
+          evidence_place(rows.inputs(static_cast<Eigen::Index>(i), row), evidence_knots);
+      const auto knot = static_cast<std::size_t>(at.knot);
+      counted[knot] += static_cast<double>(rows.weight[row] * (1.0F - at.share));
+      counted[knot + 1] += static_cast<double>(rows.weight[row] * at.share);
+    }
+    model.bias += centred(model.curve[i], counted);
+  }
+  counted.assign(std::tuple_size_v<EvidenceTable>, 0.0);
+  for (std::size_t p = 0; p < model.table.size(); ++p) {
+    std::fill(counted.begin(), counted.end(), 0.0);
+    for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
+      const PairPlace at = pair_place(evidence_pairs[p], rows.inputs.col(row).data());
+      for (std::size_t k = 0; k < 4; ++k) {
+        counted[static_cast<std::size_t>(at.knot + pair_offsets[k])] +=
+            static_cast<double>(rows.weight[row] * at.share[k]);
+      }
+    }
+    model.bias += centred(model.table[p], counted);
+  }
+}
+
+/// Where all but two in a thousand rows of each input lie.
+void note_what_was_seen(EvidenceModel& model, const DecisionRows& rows) {
+  const auto count = static_cast<std::size_t>(rows.inputs.cols());
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    for (std::size_t row = 0; row < count; ++row) {
+      values[row] = rows.inputs(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(row));
+    }
+    const std::size_t beyond = count / 1000;
+    for (const bool upper : {false, true}) {
+      const auto nth =
+          values.begin() + static_cast<std::ptrdiff_t>(upper ? count - 1 - beyond : beyond);
+      std::nth_element(values.begin(), nth, values.end());
+      model.seen[i][upper ? 1 : 0] = *nth;
+    }
+  }
+}
+
+}  // namespace
+
+void check_evidence_fit_config(const EvidenceFitConfig& config) {
+  check_decision_fit_config(config.descent);
+  if (!(std::isfinite(config.smoothness) && config.smoothness >= 0.0)) {
+    throw InputError("evidence curves: smoothness must not be negative");
+  }
+}
+
+double evidence_loss(const EvidenceModel& model, const DecisionRows& rows,
+                     EvidenceModel* gradient) {
+  if (gradient != nullptr) {
+    *gradient = {};
+    gradient->table.assign(model.table.size(), EvidenceTable{});
+  }
+  const float all = rows.weight.sum();
+  double loss = 0.0;
+  for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
+    const DecisionInputs inputs = inputs_of(rows, row);
+    const float logit = evidence_logit(model, inputs);
+    // log(1 + e^z) − y z, for any z.
+    const float tail = std::exp(-std::abs(logit));
+    loss += static_cast<double>(rows.weight[row] * (std::max(logit, 0.0F) + std::log1p(tail) -
+                                                    rows.is_contact[row] * logit));
+    if (gradient == nullptr) continue;
+    const float p = (logit >= 0.0F ? 1.0F : tail) / (tail + 1.0F);
+    const float to_logit = (p - rows.is_contact[row]) * rows.weight[row] / all;
+    gradient->bias += to_logit;
+    for (std::size_t i = 0; i < decision_inputs; ++i) {
+      add(gradient->curve[i], evidence_place(inputs[i], evidence_knots), to_logit);
+    }
+    for (std::size_t pair = 0; pair < model.table.size(); ++pair) {
+      add(gradient->table[pair], pair_place(evidence_pairs[pair], inputs.data()), to_logit);
+    }
+  }
+  return loss / static_cast<double>(all);
+}
+
+EvidenceModel train_evidence_model(const DecisionRows& rows, const EvidenceFitConfig& config,
+                                   const std::function<void()>& before_step) {
+  EvidenceModel model;
+  if (config.with_pairs) model.table.assign(evidence_pairs.size(), EvidenceTable{});
+  EvidenceModel gradient = model;
+  EvidenceModel mean = model;
+  EvidenceModel square = model;
+  Draws draws(config.descent.seed);
+  descend(rows, config.descent, draws, before_step,
+          [&](const DecisionRows& batch, const AdamStep& adam_step) {
+            static_cast<void>(evidence_loss(model, batch, &gradient));
+            add_smoothness(model, static_cast<float>(config.smoothness), gradient);
+            for_each_part(adam_step, model, gradient, mean, square);
+          });
+  centre(model, rows);
+  note_what_was_seen(model, rows);
+  return model;
+}
+
+}  // namespace touchdown

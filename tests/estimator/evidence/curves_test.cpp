@@ -1,0 +1,141 @@
+#include "estimator/evidence/curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/evidence/pairs.hpp"
+#include "tests/estimator/evidence/random_curves.hpp"
+
+namespace touchdown {
+namespace {
+
+double place_of_knot(std::size_t knot, std::size_t knots) {
+  return -4.0 + 8.0 * static_cast<double>(knot) / static_cast<double>(knots - 1);
+}
+
+/// Hat functions by their definition, in double precision.
+double share_of_knot(double x, std::size_t knot, std::size_t knots) {
+  const double inside = std::clamp(x, -4.0, 4.0);
+  const double width = 8.0 / static_cast<double>(knots - 1);
+  return std::max(0.0, 1.0 - std::abs(inside - place_of_knot(knot, knots)) / width);
+}
+
+double logit_of(const EvidenceModel& model, const DecisionInputs& inputs) {
+  double sum = model.bias;
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    for (std::size_t k = 0; k < evidence_knots; ++k) {
+      sum += share_of_knot(inputs[i], k, evidence_knots) * model.curve[i][k];
+    }
+  }
+  for (std::size_t p = 0; p < model.table.size(); ++p) {
+    for (std::size_t row = 0; row < evidence_pair_knots; ++row) {
+      for (std::size_t column = 0; column < evidence_pair_knots; ++column) {
+        sum += share_of_knot(inputs[evidence_pairs[p].first], row, evidence_pair_knots) *
+               share_of_knot(inputs[evidence_pairs[p].second], column, evidence_pair_knots) *
+               model.table[p][row * evidence_pair_knots + column];
+      }
+    }
+  }
+  return sum;
+}
+
+TEST(EvidenceLogit, AddsWhatEveryCurveAndTableSays) {
+  for (const bool with_pairs : {false, true}) {
+    const EvidenceModel model = test::random_curves(1, with_pairs);
+    test::Normal normal(2);
+    for (int round = 0; round < 200; ++round) {
+      DecisionInputs inputs{};
+      for (float& x : inputs) x = static_cast<float>(3.0 * normal());
+      ASSERT_NEAR(evidence_logit(model, inputs), logit_of(model, inputs), 1e-4) << round;
+    }
+  }
+}
+
+/// The other wheel's inputs, by their definition.
+DecisionInputs of_the_other(const DecisionInputs& inputs) {
+  constexpr std::size_t of_leg = decision_leg_channels * decision_scales;
+  DecisionInputs other = inputs;
+  for (std::size_t i = 0; i < of_leg; ++i) std::swap(other[i], other[of_leg + i]);
+  for (std::size_t i = 0; i < decision_scales; ++i) {
+    other[2 * of_leg + decision_scales + i] *= -1.0F;
+  }
+  return other;
+}
+
+TEST(PairedEvidence, SaysToBothWheelsWhatIsSaidToEachAlone) {
+  for (const bool with_pairs : {false, true}) {
+    const EvidenceModel model = test::random_curves(6, with_pairs);
+    const PairedEvidence paired(model);
+    test::Normal normal(7);
+    for (int round = 0; round < 200; ++round) {
+      DecisionInputs left{};
+      for (float& x : left) x = static_cast<float>(2.0 * normal());
+      const DecisionInputs right = of_the_other(left);
+      const std::array<float, 2> logits = paired.logits(left, right);
+      ASSERT_NEAR(logits[0], logit_of(model, left), 1e-4) << round;
+      ASSERT_NEAR(logits[1], logit_of(model, right), 1e-4) << round;
+      ASSERT_GT(std::abs(logits[0] - logits[1]), 1e-4) << round;
+    }
+  }
+}
+
+TEST(EvidenceLogit, StaysWhatItWasBeyondTheOuterKnots) {
+  const EvidenceModel model = test::random_curves(3);
+  for (const float sign : {-1.0F, 1.0F}) {
+    DecisionInputs end{};
+    DecisionInputs beyond{};
+    end.fill(sign * 4.0F);
+    beyond.fill(sign * 1e6F);
+    EXPECT_NEAR(evidence_logit(model, beyond), evidence_logit(model, end), 1e-4);
+  }
+}
+
+TEST(EvidenceLogit, IsANumberWhateverItHears) {
+  const EvidenceModel model = test::random_curves(4);
+  for (const float strange :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+        -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::max()}) {
+    DecisionInputs inputs{};
+    inputs.fill(strange);
+    EXPECT_TRUE(std::isfinite(evidence_logit(model, inputs))) << strange;
+  }
+}
+
+TEST(EvidenceModel, IsRefusedWithNumbersThatAreNotFinite) {
+  const EvidenceModel good = test::random_curves(5);
+  check_evidence_model(good);
+  const auto refused = [](const EvidenceModel& model) {
+    EXPECT_THROW(check_evidence_model(model), InputError);
+  };
+  EvidenceModel broken = good;
+  broken.curve[81][32] = std::nanf("");
+  refused(broken);
+  broken = good;
+  broken.table.back().back() = HUGE_VALF;
+  refused(broken);
+  broken = good;
+  broken.bias = -HUGE_VALF;
+  refused(broken);
+  broken = good;
+  broken.table.emplace_back();
+  refused(broken);
+}
+
+TEST(EvidencePairs, AreOfTwoDifferentInputsAndNoneIsThereTwice) {
+  for (std::size_t p = 0; p < evidence_pairs.size(); ++p) {
+    EXPECT_LT(evidence_pairs[p].first, evidence_pairs[p].second);
+    EXPECT_LT(evidence_pairs[p].second, decision_inputs);
+    for (std::size_t other = 0; other < p; ++other) {
+      EXPECT_FALSE(evidence_pairs[p].first == evidence_pairs[other].first &&
+                   evidence_pairs[p].second == evidence_pairs[other].second)
+          << p << " " << other;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,175 @@
+#include "estimator/evidence/filter.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/evidence/channels.hpp"
+#include "estimator/evidence/fit.hpp"
+#include "tests/estimator/decision/lifted_run.hpp"
+#include "tests/estimator/evidence/random_curves.hpp"
+
+namespace touchdown {
+namespace {
+
+constexpr EvidenceFitConfig brief_fit(bool with_pairs) {
+  EvidenceFitConfig config;
+  config.descent.passes = 4;
+  config.descent.rows = 40'000;
+  config.descent.share_slow = 0.0;  // as the decision network's tests
+  config.descent.batch = 256;
+  config.descent.epochs = 8;
+  config.with_pairs = with_pairs;
+  return config;
+}
+
+const EvidenceModel& lifted_curves(bool with_pairs = true) {
+  static const std::array<EvidenceModel, 2> models = [] {
+    const test::CarriedRun run = test::lifted_run(4, 1);
+    const std::vector<LabelledRun> runs = {run.view()};
+    return std::array{fit_evidence_model(runs, {}, brief_fit(false)),
+                      fit_evidence_model(runs, {}, brief_fit(true))};
+  }();
+  return models[with_pairs ? 1 : 0];
+}
+
+TEST(EvidenceCurves, LearnToTellWheelsThatCarryFromThoseThatDoNot) {
+  for (const bool with_pairs : {false, true}) {
+    EvidenceCurves estimator(lifted_curves(with_pairs));
+    EXPECT_GT(test::share_right(estimator, test::lifted_run(2, 2)), 0.99) << with_pairs;
+    EvidenceCurves in_noise(lifted_curves(with_pairs));
+    EXPECT_GT(test::share_right(in_noise, test::lifted_run(2, 3, 0.5)), 0.95) << with_pairs;
+  }
+}
+
+TEST(EvidenceCurves, SayThatMoreLoadSpeaksForContact) {
+  const EvidenceModel& model = lifted_curves(false);
+  DecisionInputs none{};
+  DecisionInputs carries{};
+  for (std::size_t scale = 0; scale < decision_scales; ++scale) {
+    carries[scale] = static_cast<float>(compressed(26.0, 5.0));
+  }
+  EXPECT_GT(evidence_logit(model, carries), evidence_logit(model, none) + 3.0F);
+}
+
+TEST(EvidenceCurves, BelieveOfTheMirroredRobotWhatTheyBelievedOfTheOtherWheel) {
+  EvidenceCurves estimator(lifted_curves());
+  EvidenceCurves mirror(lifted_curves());
+  double largest = 0.0;
+  for (Signals s : test::lifted_run(1, 5, 0.3).signals) {
+    const Belief belief = estimator.update(s);
+    std::swap(s.leg[0], s.leg[1]);
+    for (LegSignals& leg : s.leg) leg = test::mirrored(leg);
+    s.angular_velocity.x() *= -1.0;
+    const Belief& mirrored = mirror.update(s);
+    for (std::size_t side = 0; side < 2; ++side) {
+      ASSERT_NEAR(mirrored.wheel[side].p_contact, belief.wheel[1 - side].p_contact, 1e-4);
+    }
+    largest = std::max(largest, std::abs(belief.wheel[0].p_contact - belief.wheel[1].p_contact));
+  }
+  EXPECT_GT(largest, 0.9);  // the wheels were told apart
+}
+
+TEST(EvidenceCurves, MeanTheirProbabilityWhateverTheirClassesWeigh) {
+  test::Normal normal(7);
+  const auto drawn = [&] {
+    test::CarriedRun run;
+    for (int k = 0; k < 20'000; ++k) {  // loads overlap; three in four are contact
+      const std::array<bool, 2> touches = {normal() < 0.6745, normal() < 0.6745};
+      run.add(touches[0] ? 8.0 + 4.0 * normal() : 4.0 * normal(),
+              touches[1] ? 8.0 + 4.0 * normal() : 4.0 * normal());
+      run.touch(touches[0], touches[1]);
+    }
+    return run;
+  };
+  const test::CarriedRun seen = drawn();
+  const test::CarriedRun others = drawn();
+  for (const double exponent : {0.0, -1.0}) {
+    EvidenceFitConfig config = brief_fit(false);
+    config.descent.passes = 1;
+    config.descent.class_exponent = exponent;
+    config.descent.disturbance.largest_torque_noise = 0.0;
+    config.descent.disturbance.largest_acceleration_noise = 0.0;
+    config.descent.disturbance.torque_bias = config.descent.disturbance.gain_error = 0.0;
+    EvidenceCurves estimator(fit_evidence_model(std::vector<LabelledRun>{seen.view()}, {}, config),
+                             {.smoothing = 0.0});
+    double believed = 0.0;
+    for (std::size_t k = 0; k < others.signals.size(); ++k) {
+      believed += estimator.update(others.signals[k]).wheel[0].p_contact -
+                  (others.contact[0][k] != 0 ? 1.0 : 0.0);
+    }
+    EXPECT_NEAR(believed / static_cast<double>(others.signals.size()), 0.0, 0.03) << exponent;
+  }
+}
+
+TEST(EvidenceCurves, RelaxWithoutALegAndWithoutAnImuAndSayWhy) {
+  EvidenceCurves estimator(lifted_curves());
+  test::CarriedRun run = test::lifted_run(1, 8);
+  Signals s;
+  for (std::size_t k = 0; k < 250; ++k) estimator.update(s = run.signals[k]);
+  Belief belief;
+  const auto wait = [&](auto fault) {
+    for (int k = 0; k < 1000; ++k) {
+      s.time += 0.001;
+      s.vertical_acceleration = 1e-3 * (k % 3);
+      for (LegSignals& leg : s.leg) leg.wheel.position += 1e-3;  // what moves is not frozen
+      s.angular_velocity.y() += 1e-6;
+      Signals heard = s;
+      fault(heard);
+      belief = estimator.update(heard);
+    }
+  };
+  wait([](Signals& heard) { heard.leg[1].knee.torque = std::nan(""); });
+  EXPECT_EQ(belief.status, SignalStatus::invalid);
+  EXPECT_GT(belief.wheel[0].p_contact, 0.95);
+  EXPECT_NEAR(belief.wheel[1].p_contact, 0.5, 0.01);
+  EXPECT_TRUE(belief.wheel[1].contact);  // the last decision
+  wait([](Signals& heard) { heard.angular_velocity.x() = std::nan(""); });
+  EXPECT_NEAR(belief.wheel[0].p_contact, 0.5, 0.01);
+  wait([](Signals&) {});
+  EXPECT_EQ(belief.status, SignalStatus::good);
+  EXPECT_GT(belief.wheel[1].p_contact, 0.95);
+  estimator.reset();
+  EXPECT_EQ(estimator.update(s).status, SignalStatus::good);
+}
+
+TEST(EvidenceCurves, AreNeverLostWhateverTheyHear) {
+  EvidenceCurves estimator(test::random_curves(3));
+  constexpr double huge = std::numeric_limits<double>::max();
+  Signals s = test::lifted_run(1, 9).signals.front();
+  for (const double extreme : {huge, -huge, 1e4, -1e4, 0.0}) {
+    for (int k = 0; k < 50; ++k) {
+      s.time += 0.001;
+      s.vertical_acceleration = 0.5 * k;
+      s.angular_velocity.setConstant(extreme);
+      for (LegSignals& leg : s.leg) {
+        for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
+          *joint = {extreme, extreme, std::clamp(extreme, -1e4, 1e4)};
+        }
+      }
+      for (const WheelBelief& wheel : estimator.update(s).wheel) {
+        ASSERT_TRUE(wheel.p_contact >= 0.0 && wheel.p_contact <= 1.0) << extreme;
+      }
+    }
+  }
+}
+
+TEST(EvidenceCurves, RefuseWhatMakesNoSense) {
+  EXPECT_THROW((EvidenceCurves{EvidenceModel(), {.sample_rate = 0.0}}), InputError);
+  EvidenceModel broken;
+  broken.curve[0][0] = std::nanf("");
+  EXPECT_THROW(EvidenceCurves{broken}, InputError);
+  EXPECT_THROW(static_cast<void>(fit_evidence_model({}, {}, brief_fit(false))), InputError);
+  test::CarriedRun standing = test::lifted_run(1, 10);
+  for (auto& wheel : standing.contact) wheel.assign(wheel.size(), 1);
+  EXPECT_THROW(static_cast<void>(fit_evidence_model(std::vector<LabelledRun>{standing.view()}, {},
+                                                    brief_fit(false))),
+               InputError);
+}
+
+}  // namespace
+}  // namespace touchdown

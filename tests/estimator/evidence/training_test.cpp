@@ -1,0 +1,202 @@
+#include "estimator/evidence/training.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/evidence/pairs.hpp"
+#include "tests/estimator/evidence/random_curves.hpp"
+#include "tests/estimator/random.hpp"
+
+namespace touchdown {
+namespace {
+
+DecisionRows empty_rows(int count) {
+  DecisionRows rows;
+  rows.inputs.setZero(static_cast<int>(decision_inputs), count);
+  rows.is_contact.setZero(count);
+  rows.weight = Eigen::RowVectorXf::Ones(count);
+  return rows;
+}
+
+/// One input that is drawn from N(1, 1) in contact and from N(−1, 1) without, as often; all others
+/// are silent. By Bayes' rule the logit is twice the input.
+DecisionRows two_gaussians(int count, std::size_t input, std::uint32_t seed) {
+  test::Normal normal(seed);
+  DecisionRows rows = empty_rows(count);
+  for (int row = 0; row < count; ++row) {
+    rows.is_contact[row] = row % 2 == 0 ? 1.0F : 0.0F;
+    rows.inputs(static_cast<int>(input), row) =
+        static_cast<float>((row % 2 == 0 ? 1.0 : -1.0) + normal());
+  }
+  return rows;
+}
+
+constexpr EvidenceFitConfig brisk = {
+    .descent = {.batch = 256, .epochs = 20, .learning_rate = 0.02, .decay = 0.0}};
+
+float curve_at(const EvidenceModel& model, std::size_t input, float x) {
+  EvidenceModel alone;
+  alone.curve[input] = model.curve[input];
+  DecisionInputs inputs{};
+  inputs[input] = x;
+  return evidence_logit(alone, inputs);
+}
+
+TEST(EvidenceTraining, FindsTheLineThatTwoGaussiansAre) {
+  constexpr std::size_t heard = 3;
+  const EvidenceModel model = train_evidence_model(two_gaussians(40'000, heard, 1), brisk);
+  for (float x = -2.0F; x <= 2.0F; x += 0.25F) {
+    EXPECT_NEAR(model.bias + curve_at(model, heard, x), 2.0F * x, 0.35F) << x;
+  }
+  EXPECT_NEAR(model.bias, 0.0F, 0.15F);
+}
+
+TEST(EvidenceTraining, LeavesACurveFlatThatWasNeverVisited) {
+  const EvidenceModel model = train_evidence_model(two_gaussians(4000, 3, 2), brisk);
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    if (i == 3) continue;
+    // All rows were at one place: there it says nothing, and nowhere else was anything heard.
+    for (const float value : model.curve[i]) ASSERT_NEAR(value, 0.0F, 0.1F) << i;
+  }
+  // What lies beyond what was heard follows the last that was.
+  const auto& [low, high] = model.seen[3];
+  EXPECT_LT(low, -3.0F);
+  EXPECT_GT(high, 3.0F);
+  EXPECT_LT(high, 4.5F);
+  EXPECT_EQ(curve_at(model, 3, 4.0F), curve_at(model, 3, 60.0F));
+}
+
+TEST(EvidenceTraining, CentresEveryCurveOverItsRows) {
+  test::Normal normal(4);
+  DecisionRows rows = two_gaussians(5000, 7, 3);
+  for (Eigen::Index row = 0; row < rows.weight.size(); ++row) {
+    rows.weight[row] = 1.0F + static_cast<float>(row % 3);
+    for (int i = 0; i < rows.inputs.rows(); ++i) {
+      rows.inputs(i, row) += static_cast<float>(0.5 + normal());
+    }
+  }
+  EvidenceFitConfig config = brisk;
+  config.with_pairs = true;
+  const EvidenceModel model = train_evidence_model(rows, config);
+  ASSERT_EQ(model.table.size(), evidence_pairs.size());
+  const auto mean_of = [&](const EvidenceModel& alone) {
+    double sum = 0.0;
+    for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
+      DecisionInputs inputs;
+      std::copy_n(rows.inputs.col(row).data(), decision_inputs, inputs.begin());
+      sum += static_cast<double>(rows.weight[row] * evidence_logit(alone, inputs));
+    }
+    return sum / static_cast<double>(rows.weight.sum());
+  };
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    EvidenceModel alone;
+    alone.curve[i] = model.curve[i];
+    ASSERT_NEAR(mean_of(alone), 0.0, 1e-4) << i;
+  }
+  for (std::size_t p = 0; p < model.table.size(); ++p) {
+    EvidenceModel alone;
+    alone.table.resize(evidence_pairs.size());
+    alone.table[p] = model.table[p];
+    ASSERT_NEAR(mean_of(alone), 0.0, 1e-4) << p;
+  }
+}
+
+/// Contact where both inputs of a pair have one sign: neither says anything alone.
+TEST(EvidenceTraining, HearsInAPairWhatNeitherSaysAlone) {
+  test::Normal normal(6);
+  DecisionRows rows = empty_rows(20'000);
+  const auto& [first, second] = evidence_pairs.front();
+  for (int row = 0; row < rows.inputs.cols(); ++row) {
+    const double x = 2.0 * normal();
+    const double y = 2.0 * normal();
+    rows.inputs(static_cast<int>(first), row) = static_cast<float>(x);
+    rows.inputs(static_cast<int>(second), row) = static_cast<float>(y);
+    rows.is_contact[row] = x * y > 0.0 ? 1.0F : 0.0F;
+  }
+  EvidenceFitConfig config = brisk;
+  const double alone = evidence_loss(train_evidence_model(rows, config), rows);
+  config.with_pairs = true;
+  const double together = evidence_loss(train_evidence_model(rows, config), rows);
+  EXPECT_NEAR(alone, std::log(2.0), 0.02);
+  EXPECT_LT(together, 0.5 * alone);
+}
+
+TEST(EvidenceTraining, BendsLessTheMoreBendingCosts) {
+  const DecisionRows rows = two_gaussians(4000, 3, 7);
+  const auto roughness = [&](double smoothness) {
+    EvidenceFitConfig config = brisk;
+    config.smoothness = smoothness;
+    const EvidenceCurve curve = train_evidence_model(rows, config).curve[3];
+    double sum = 0.0;
+    for (std::size_t k = 1; k < curve.size(); ++k) {
+      sum += std::pow(static_cast<double>(curve[k] - curve[k - 1]), 2);
+    }
+    return sum;
+  };
+  const double free = roughness(0.0);
+  const double held = roughness(0.01);
+  EXPECT_LT(held, 0.7 * free);
+  EXPECT_LT(roughness(1.0), 0.1 * held);
+}
+
+TEST(EvidenceLoss, HasTheGradientThatItsDifferencesHave) {
+  const EvidenceModel model = test::random_curves(8);
+  DecisionRows rows = empty_rows(30);
+  test::Normal normal(9);
+  for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
+    for (int i = 0; i < rows.inputs.rows(); ++i) {
+      rows.inputs(i, row) = static_cast<float>(2.0 * normal());
+    }
+    rows.is_contact[row] = static_cast<float>(row % 2);
+    rows.weight[row] = 1.0F + static_cast<float>(row % 3);
+  }
+  EvidenceModel gradient;
+  static_cast<void>(evidence_loss(model, rows, &gradient));
+  ASSERT_EQ(gradient.table.size(), model.table.size());
+  double largest = 0.0;
+  const auto check = [&](float& number, EvidenceModel& moved, float found) {
+    constexpr float step = 0.05F;
+    const float value = number;
+    number = value + step;
+    const double up = evidence_loss(moved, rows);
+    number = value - step;
+    const double expected = (up - evidence_loss(moved, rows)) / (2.0 * step);
+    number = value;
+    ASSERT_NEAR(found, expected, 2e-5);
+    largest = std::max(largest, std::abs(expected));
+  };
+  EvidenceModel moved = model;
+  for (const std::size_t i : {std::size_t{0}, std::size_t{40}, std::size_t{81}}) {
+    for (std::size_t k = 0; k < evidence_knots; ++k) {
+      check(moved.curve[i][k], moved, gradient.curve[i][k]);
+    }
+  }
+  for (std::size_t k = 0; k < moved.table[0].size(); ++k) {
+    check(moved.table[0][k], moved, gradient.table[0][k]);
+  }
+  check(moved.bias, moved, gradient.bias);
+  EXPECT_GT(largest, 0.01);
+}
+
+TEST(EvidenceTraining, RepeatsItselfToTheBit) {
+  const DecisionRows rows = two_gaussians(2000, 5, 10);
+  EvidenceFitConfig config = brisk;
+  config.descent.epochs = 2;
+  const EvidenceModel once = train_evidence_model(rows, config);
+  EXPECT_EQ(train_evidence_model(rows, config), once);
+  config.descent.seed = 2;
+  EXPECT_FALSE(train_evidence_model(rows, config) == once);
+}
+
+TEST(EvidenceTraining, RefusesWhatMakesNoSense) {
+  EXPECT_THROW(check_evidence_fit_config({.smoothness = -1.0}), InputError);
+  EXPECT_THROW(check_evidence_fit_config({.smoothness = std::nan("")}), InputError);
+  EXPECT_THROW(check_evidence_fit_config({.descent = {.batch = 0}}), InputError);
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "experiments/estimators/decision.hpp"
+#include "experiments/signals/run_signals.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+TEST(EvidenceEntries, KeepTheirCurvesToTheBitInAFile) {
+  const ScratchFolder folder;
+  const RunSignals run = synthetic_run(1'000'000, 1500);
+  const RunSignals other = synthetic_run(3, 1500);
+  for (const EstimatorEntry& entry : {evidence_curves_entry(), evidence_pairs_entry()}) {
+    const FittedModel fitted = entry.fit(entry, {.whole = {&run}});
+    write_fitted_model(fitted, folder.path() / "m.npz");
+    const FittedModel read = read_fitted_model(ModelKind::parameters, folder.path() / "m.npz");
+    EXPECT_EQ(read.parameters->parameters, fitted.parameters->parameters);
+    EXPECT_EQ(read.parameters->estimator, entry.name);
+    EXPECT_EQ(evidence_in(read), evidence_in(fitted));
+    EXPECT_EQ(evidence_in(read)->table.empty(), entry.name == "evidence_curves");
+    const auto told = [&](const FittedModel& model) {
+      return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
+          .p_contact;
+    };
+    EXPECT_EQ(told(read), told(fitted));
+  }
+}
+
+TEST(EvidenceEntries, StopWhenTheyAreAskedTo) {
+  struct Asked {};
+  const EstimatorEntry entry = evidence_curves_entry();
+  const RunSignals run = synthetic_run(1'000'000, 1500);
+  EXPECT_THROW(entry.fit(entry, {.whole = {&run}, .before_density = [] { throw Asked(); }}), Asked);
+}
+
+TEST(EvidenceEntries, AreFittedWithTheSmoothnessThatIsChosen) {
+  const RunSignals run = synthetic_run(1'000'000, 1500);
+  const EstimatorEntry entry = evidence_curves_entry();
+  const EstimatorEntry other = with_constants(entry, {{"smoothness", 1e-3}});
+  EXPECT_NE(evidence_in(entry.fit(entry, {.whole = {&run}})),
+            evidence_in(other.fit(other, {.whole = {&run}})));
+}
+
+TEST(EvidenceEntries, RefuseModelsThatLackAPartOrAreOfOtherPairs) {
+  const EstimatorEntry entry = evidence_pairs_entry();
+  const RunSignals run = synthetic_run(1'000'000, 1500);
+  const recordings::ParameterModelFile good = *entry.fit(entry, {.whole = {&run}}).parameters;
+  const auto refused = [&](const auto& spoil) {
+    recordings::ParameterModelFile file = good;
+    spoil(file.parameters);
+    const FittedModel model = {
+        .parameters = std::make_shared<recordings::ParameterModelFile>(std::move(file))};
+    EXPECT_THROW(entry.make(entry, {.model = &model}), InputError);
+  };
+  refused([](recordings::Parameters& all) { all.erase("curves_load"); });
+  refused([](recordings::Parameters& all) { all.erase("tables"); });
+  refused([](recordings::Parameters& all) { all.at("curves_torque_noise").pop_back(); });
+  refused([](recordings::Parameters& all) { all.at("pairs")[0] += 1.0; });
+  refused([](recordings::Parameters& all) { all.at("bias")[0] = HUGE_VAL; });
+}
+
+TEST(EvidenceEntries, DecideByTheThresholdsThatTheirPassportsSay) {
+  const EstimatorEntry entry = evidence_curves_entry();
+  const RunSignals run = synthetic_run(1'000'000, 1500);
+  const RunSignals other = synthetic_run(3, 3000);
+  FittedModel model = entry.fit(entry, {.whole = {&run}});
+  const auto told = [&](const char* key, const char* value) {
+    model.passport = ModelPassport{.estimator = entry.name,
+                                   .sample_rate = 1000.0,
+                                   .robot = {},
+                                   .configuration = {{key, value}},
+                                   .fingerprint = {}};
+    const scoring::Prediction tracks =
+        predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {});
+    return std::array{tracks[0].contact, tracks[1].contact};
+  };
+  EXPECT_NE(told("leave_below", "0.0001"), told("leave_below", "0.9"));
+  EXPECT_NE(told("return_above", "0.75"), told("return_above", "0.9999999"));
+}
+
+TEST(EvidenceIn, IsNothingOfOtherModels) {
+  EXPECT_FALSE(evidence_in({}));
+  EXPECT_FALSE(evidence_in({.parameters = std::make_shared<recordings::ParameterModelFile>(
+                                recordings::ParameterModelFile{"load_logistic", {}, {}})}));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
