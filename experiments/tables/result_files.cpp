@@ -7,6 +7,7 @@
 #include "core/files.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/tables/captions.hpp"
+#include "experiments/tables/evidence.hpp"
 #include "experiments/tables/label_sensitivity.hpp"
 #include "experiments/tables/paper.hpp"
 #include "experiments/tables/scores.hpp"
@@ -66,6 +67,8 @@ void write_score_tables(const ExperimentResult& result) {
 
 void write_result_files(const ExperimentResult& result) {
   write_models(result.models, result.directory);
+  const Table evidence = evidence_table(result.models);
+  if (!evidence.rows.empty()) result.directory.write_table("evidence.csv", evidence);
   result.directory.write_table("runs.csv", runs_table(result.runs));
   result.directory.write_table("success.csv", success_table(result.summaries));
   result.directory.write_table("classification.csv", classification_table(result.summaries));

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "experiments/estimators/decision.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/tables/captions.hpp"
+#include "render/curves/evidence_figure.hpp"
 #include "render/curves/score_figure.hpp"
 #include "render/maps/density_figure.hpp"
 #include "simulators/registry.hpp"
@@ -42,6 +44,15 @@ std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result
   return panels;
 }
 
+/// How many runs an engine's models were fitted to, pieces left aside.
+std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator) {
+  std::size_t runs = 0;
+  for (const experiments::PlayedRun& run : result.runs) {
+    runs += run.plan.role == experiments::RunRole::fit && run.plan.simulator == simulator ? 1U : 0U;
+  }
+  return runs;
+}
+
 std::optional<DensityFigure> density_figure(const experiments::ExperimentResult& result,
                                             const std::string& simulator) {
   const experiments::Experiment& experiment = result.experiment;
@@ -62,19 +73,48 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
     figure.rows.push_back({entry.title, model->second.measurement->grids()});
   }
   if (figure.rows.empty()) return std::nullopt;
-  std::size_t runs = 0;
-  for (const experiments::PlayedRun& run : result.runs) {
-    runs += run.plan.role == experiments::RunRole::fit && run.plan.simulator == simulator ? 1U : 0U;
-  }
   figure.title = fmt::format("Torques in contact and in the air: {}, {}", experiment.name,
                              simulators::simulator_title(simulator));
   figure.caption = fmt::format(
       "Kernel densities fitted to {} without noise, both legs, seed {}; {}{}. Lines enclose 50, 90 "
       "and 99 % of a density; on the right they are P = 0.5 and the decision, 0.8. Axes end where "
       "97 % of both densities lie.",
-      experiments::plural(runs, "run"), experiment.seed, experiments::labels_text(experiment),
-      experiments::equipment_text(experiment));
+      experiments::plural(fitted_runs(result, simulator), "run"), experiment.seed,
+      experiments::labels_text(experiment), experiments::equipment_text(experiment));
   return figure;
+}
+
+/// Of every estimator that has curves, with its name.
+std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
+    const experiments::ExperimentResult& result, const std::string& simulator) {
+  std::vector<std::pair<std::string, EvidenceFigure>> figures;
+  const experiments::Experiment& experiment = result.experiment;
+  const auto models = result.models.find(simulator);
+  if (models == result.models.end()) return figures;
+  for (const std::string& estimator : experiment.estimators) {
+    const auto fitted = models->second.find(estimator);
+    if (fitted == models->second.end()) continue;
+    std::optional<EvidenceModel> model = experiments::evidence_in(fitted->second);
+    if (!model) continue;
+    const bool has_pairs = !model->table.empty();
+    figures.emplace_back(
+        estimator,
+        EvidenceFigure{
+            fmt::format("How loudly each quantity speaks for a wheel's contact: {}, {}, {}",
+                        experiments::estimator_entry(estimator).title, experiment.name,
+                        simulators::simulator_title(simulator)),
+            std::move(*model),
+            fmt::format(
+                "Fitted to {}{}, seed {}; {}{}. Above 0 speaks for contact, below against "
+                "it; what all curves say is added{}. Each is 0 on average over what was learned "
+                "from, and drawn where all but two in a thousand of its rows lie. Axes are "
+                "compressed by asinh, those of noise levels by logarithms.",
+                experiments::plural(fitted_runs(result, simulator), "run"),
+                experiment.fit_pieces.empty() ? "" : " and pieces of others", experiment.seed,
+                experiments::labels_text(experiment), experiments::equipment_text(experiment),
+                has_pairs ? ", and what pairs of them say besides" : "")});
+  }
+  return figures;
 }
 
 }  // namespace
@@ -90,6 +130,9 @@ std::vector<Figure> draw_score_figures(const experiments::ExperimentResult& resu
     };
     if (const auto densities = density_figure(result, simulator)) {
       figures.push_back(draw_density_figure(*densities, stem("densities")));
+    }
+    for (const auto& [estimator, evidence] : evidence_figures(result, simulator)) {
+      figures.push_back(draw_evidence_figure(evidence, stem(estimator.c_str())));
     }
     const std::vector<ScorePanel> panels = score_panels(result, simulator);
     if (panels.empty()) continue;

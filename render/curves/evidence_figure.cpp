@@ -1,0 +1,221 @@
+#include "render/curves/evidence_figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "estimator/evidence/channels.hpp"
+#include "render/gnuplot/frame.hpp"
+#include "render/gnuplot/panel_grid.hpp"
+#include "render/gnuplot/text.hpp"
+#include "render/palette.hpp"
+
+namespace touchdown::render {
+namespace {
+
+constexpr double evidence_width = 232.0, evidence_height = 168.0, evidence_left = 76.0,
+                 evidence_top = 62.0;
+constexpr double evidence_gap_x = 26.0, evidence_gap_y = 82.0;
+constexpr std::size_t evidence_columns = 4;
+
+/// One panel: the inputs that it draws, and the axis that they share.
+struct EvidencePanel {
+  std::string title;
+  std::string unit;
+  std::size_t first = 0;  ///< of its inputs
+  std::size_t count = 1;
+  double bend = 0.0;  ///< of its compression; 0: a logarithm
+};
+
+std::vector<EvidencePanel> evidence_panels() {
+  std::vector<EvidencePanel> all;
+  std::size_t first = 0;
+  for (const EvidenceChannel& channel : evidence_channels) {
+    all.push_back(
+        {channel.title, channel.unit, first, decision_scales, static_cast<double>(channel.bend)});
+    first += decision_scales;
+  }
+  all.push_back({"noise of its torques", "N·m", first++, 1, 0.0});
+  all.push_back({"noise of the acceleration", "m/s²", first, 1, 0.0});
+  return all;
+}
+
+/// Where any input of a panel was seen.
+std::array<double, 2> evidence_ends(const EvidenceModel& model, const EvidencePanel& panel) {
+  std::array<double, 2> ends = {std::numeric_limits<double>::max(),
+                                std::numeric_limits<double>::lowest()};
+  for (std::size_t i = panel.first; i < panel.first + panel.count; ++i) {
+    ends[0] = std::min(ends[0], static_cast<double>(model.seen[i][0]));
+    ends[1] = std::max(ends[1], static_cast<double>(model.seen[i][1]));
+  }
+  // A channel that never moved still has a width.
+  if (!(ends[1] - ends[0] > 0.01)) ends = {ends[0] - 0.5, ends[1] + 0.5};
+  if (panel.bend > 0.0) {  // the very end is infinitely far
+    constexpr double furthest = 0.995 * static_cast<double>(largest_input);
+    ends = {std::max(ends[0], -furthest), std::min(ends[1], furthest)};
+  }
+  return ends;
+}
+
+/// The panel's block: compressed input, value, a column of nats for each scale.
+std::string evidence_block(const EvidenceModel& model, const EvidencePanel& panel) {
+  constexpr int points = 240;
+  const auto [low, high] = evidence_ends(model, panel);
+  std::string text = "#compressed\tvalue";
+  for (std::size_t k = 0; k < panel.count; ++k) {
+    text += panel.count > 1 ? fmt::format("\tnats_{}_ms", 1U << k) : "\tnats";
+  }
+  for (int point = 0; point <= points; ++point) {
+    const double x = low + (high - low) * point / points;
+    const double value = panel.bend > 0.0 ? uncompressed(x, panel.bend) : std::exp(x);
+    fmt::format_to(std::back_inserter(text), "\n{:.5g}\t{:.5g}", x, value);
+    for (std::size_t i = panel.first; i < panel.first + panel.count; ++i) {
+      const auto at = static_cast<float>(x);
+      const bool is_seen = at >= model.seen[i][0] && at <= model.seen[i][1];
+      text += is_seen ? fmt::format("\t{:.4g}", evidence_at(model.curve[i], at)) : "\tNaN";
+    }
+  }
+  return text + "\n\n\n";
+}
+
+/// The loudest that anything says where it was seen (nats).
+double loudest_evidence(const EvidenceModel& model, const EvidencePanel& panel) {
+  double most = 0.0;
+  for (std::size_t i = panel.first; i < panel.first + panel.count; ++i) {
+    const float step = (model.seen[i][1] - model.seen[i][0]) / 240.0F;
+    for (int point = 0; point <= 240; ++point) {
+      const float x = model.seen[i][0] + step * static_cast<float>(point);
+      most = std::max(most, std::abs(static_cast<double>(evidence_at(model.curve[i], x))));
+    }
+  }
+  return most;
+}
+
+/// Of a time scale, from dark to bright: the fastest is the darkest.
+std::string scale_colour(std::size_t scale, std::size_t count) {
+  if (count == 1) return "#22262b";
+  return fmt::format("#{:06x}", viridis[scale]);
+}
+
+std::string evidence_ticks(const EvidencePanel& panel, double low, double high) {
+  std::string text;
+  for (const CompressedTick& tick : compressed_ticks(low, high, panel.bend)) {
+    const std::string sign = tick.value < 0.0 ? "−" : "";
+    fmt::format_to(std::back_inserter(text), "{}'{}{:g}' {:.5g}", text.empty() ? "" : ", ", sign,
+                   std::abs(tick.value), tick.place);
+  }
+  return text;
+}
+
+std::string evidence_plot(const EvidencePanel& panel, const std::string& file, std::size_t block) {
+  std::string text = "plot 0 with lines lc rgb '#9aa1a9' lw 1 dt 1";
+  for (std::size_t k = 0; k < panel.count; ++k) {
+    fmt::format_to(std::back_inserter(text),
+                   ", \\\n     {} index {} using 1:{} with lines lc rgb '{}' lw 1.7 dt 1", file,
+                   block, k + 3, scale_colour(k, panel.count));
+  }
+  return text + "\n";
+}
+
+/// The time scales and their colours, in a line above the panels.
+std::string scale_legend(const FigureFrame& frame) {
+  std::string text = frame.label("time scale", evidence_left, 8.0, "left font ',10'");
+  for (std::size_t k = 0; k < decision_scales; ++k) {
+    const double left = evidence_left + 80.0 + 66.0 * static_cast<double>(k);
+    text += frame.label(
+        "▬", left, 8.0,
+        fmt::format("left font ',12' textcolor rgb '{}'", scale_colour(k, decision_scales))
+            .c_str());
+    text += frame.label(fmt::format("{} ms", 1U << k), left + 16.0, 8.0, "left font ',10'");
+  }
+  return text;
+}
+
+std::string evidence_described(const EvidenceFigure& figure,
+                               const std::vector<EvidencePanel>& all) {
+  std::string text =
+      "Curves of evidence for contact over what is heard, at eight time scales. The loudest of "
+      "each, in nats:";
+  for (const EvidencePanel& panel : all) {
+    fmt::format_to(std::back_inserter(text), " {} {:.2f},", panel.title,
+                   loudest_evidence(figure.model, panel));
+  }
+  text.back() = '.';
+  return text;
+}
+
+}  // namespace
+
+std::vector<CompressedTick> compressed_ticks(double low, double high, double bend) {
+  constexpr double apart = 0.12;  // of the axis
+  const double span = high - low;
+  std::vector<CompressedTick> chosen;
+  const auto offer = [&](double value) {
+    if (bend <= 0.0 && !(value > 0.0)) return;
+    const double place = bend > 0.0 ? compressed(value, bend) : std::log(value);
+    const bool is_inside = place >= low && place <= high;
+    const bool is_apart = std::all_of(chosen.begin(), chosen.end(), [&](const auto& other) {
+      return std::abs(other.place - place) >= apart * span;
+    });
+    if (is_inside && is_apart) chosen.push_back({value, place});
+  };
+  offer(0.0);
+  for (const double digit : {1.0, 3.0}) {
+    for (int power = 4; power >= -3; --power) {
+      const double value = digit * std::pow(10.0, power);
+      offer(value);
+      offer(-value);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end(),
+            [](const auto& a, const auto& b) { return a.place < b.place; });
+  return chosen;
+}
+
+Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem::path& stem) {
+  const std::vector<EvidencePanel> all = evidence_panels();
+  const std::size_t row_count = (all.size() + evidence_columns - 1) / evidence_columns;
+  const auto rows = static_cast<double>(row_count);
+  const FigureFrame frame(
+      figure.title, figure.caption,
+      evidence_left + evidence_columns * evidence_width + (evidence_columns - 1) * evidence_gap_x +
+          22.0,
+      evidence_top + rows * evidence_height + (rows - 1.0) * evidence_gap_y + 56.0);
+  double height = 0.1;
+  for (const EvidencePanel& panel : all) {
+    height = std::max(height, loudest_evidence(figure.model, panel));
+  }
+  height *= 1.05;
+  const std::string file = gnuplot_text(stem.filename().string() + ".dat");
+  std::string commands = fmt::format(
+      "unset key\nset border 3\nset tics nomirror out scale 0.5\nset grid xtics ytics\n"
+      "set yrange [{:.4g}:{:.4g}]\nset ytics {}\n",
+      -height, height, tick_step(2.0 * height, 6.0));
+  std::string data;
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    const EvidencePanel& panel = all[p];
+    const auto [low, high] = evidence_ends(figure.model, panel);
+    const std::size_t row = p / evidence_columns;
+    const std::size_t column = p % evidence_columns;
+    const double left =
+        evidence_left + static_cast<double>(column) * (evidence_width + evidence_gap_x);
+    const double top = evidence_top + static_cast<double>(row) * (evidence_height + evidence_gap_y);
+    commands += frame.panel(left, top, evidence_width, evidence_height);
+    if (p == 0) commands += scale_legend(frame);
+    commands += fmt::format(
+        "set title {} offset 0,-0.6\nset xlabel {} offset 0,0.5\nset xrange [{:.5g}:{:.5g}]\n"
+        "set xtics ({})\nset ylabel '{}' offset 0,0\nset format y '{}'\n",
+        gnuplot_text(panel.title), gnuplot_text(panel.unit), low, high,
+        evidence_ticks(panel, low, high), column == 0 ? "evidence for contact (nats)" : "",
+        column == 0 ? "%g" : "");
+    commands += evidence_plot(panel, file, p) + FigureFrame::end_panel();
+    data += evidence_block(figure.model, panel);
+  }
+  return frame.draw(stem, commands, data, evidence_described(figure, all));
+}
+
+}  // namespace touchdown::render
