@@ -10,32 +10,14 @@
 #include "core/error.hpp"
 #include "estimator/evidence/channels.hpp"
 #include "estimator/evidence/fit.hpp"
-#include "tests/estimator/decision/lifted_run.hpp"
+#include "tests/estimator/evidence/lifted_curves.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
 
 namespace touchdown {
 namespace {
 
-constexpr EvidenceFitConfig brief_fit(bool with_pairs) {
-  EvidenceFitConfig config;
-  config.descent.passes = 4;
-  config.descent.rows = 40'000;
-  config.descent.share_slow = 0.0;  // as the decision network's tests
-  config.descent.batch = 256;
-  config.descent.epochs = 8;
-  config.with_pairs = with_pairs;
-  return config;
-}
-
-const EvidenceModel& lifted_curves(bool with_pairs = true) {
-  static const std::array<EvidenceModel, 2> models = [] {
-    const test::CarriedRun run = test::lifted_run(4, 1);
-    const std::vector<LabelledRun> runs = {run.view()};
-    return std::array{fit_evidence_model(runs, {}, brief_fit(false)),
-                      fit_evidence_model(runs, {}, brief_fit(true))};
-  }();
-  return models[with_pairs ? 1 : 0];
-}
+using test::brief_fit;
+using test::lifted_curves;
 
 TEST(EvidenceCurves, LearnToTellWheelsThatCarryFromThoseThatDoNot) {
   for (const bool with_pairs : {false, true}) {
