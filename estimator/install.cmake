@@ -13,7 +13,8 @@ set(public
   bayes/transition_model c_interface/handle
   decision/config decision/descent decision/disturbance decision/draws decision/filter decision/fit
   decision/network decision/training
-  evidence/curves evidence/filter evidence/fit evidence/training
+  evidence/curves evidence/filter evidence/fit evidence/touchdown evidence/touchdown_fit
+  evidence/training
   force/force_kinematics force/force_kinematics_fit force/leg_geometry force/load_logistic
   force/load_logistic_fit force/logistic_regression force/support_force
   models/arrays models/compiled models/make_estimator models/passport

@@ -25,9 +25,8 @@ class LogitDecision {
 
   /// Hears a step. Returns whether there are inputs of it: left, right.
   const std::array<bool, 2>& hear(const Signals& signals) noexcept;
-  [[nodiscard]] DecisionInputs inputs(std::size_t side) const noexcept {
-    return senses_.inputs(side);
-  }
+  /// Its inputs: of the left wheel, which are the other one's in another order; of both.
+  [[nodiscard]] const DecisionInputs& left_inputs() const noexcept { return senses_.left_inputs(); }
   [[nodiscard]] DecisionPairInputs pair_inputs() const noexcept { return senses_.pair_inputs(); }
   /// What is believed, given ln P(contact) / P(no contact) of each wheel that has inputs.
   const Belief& decide(const std::array<double, 2>& logit) noexcept;

@@ -33,6 +33,16 @@ bool is_finite(const Numbers& numbers) {
 
 }  // namespace
 
+DecisionInputs of_other_wheel(const DecisionInputs& inputs) noexcept {
+  constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
+  constexpr std::size_t roll = 2 * of_legs + decision_scales;
+  DecisionInputs other = inputs;
+  std::copy_n(inputs.begin(), of_legs, other.begin() + of_legs);
+  std::copy_n(inputs.begin() + of_legs, of_legs, other.begin());
+  for (std::size_t i = roll; i < roll + decision_scales; ++i) other[i] = -inputs[i];
+  return other;
+}
+
 float decision_logit(const DecisionModel& model, const DecisionInputs& inputs) noexcept {
   const auto first = rectified(model.first_weight, model.first_bias, inputs);
   const auto second = rectified(model.second_weight, model.second_bias, first);

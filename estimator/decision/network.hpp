@@ -18,6 +18,10 @@ inline constexpr std::size_t decision_second = 16;
 
 using DecisionInputs = std::array<float, decision_inputs>;
 
+/// What is heard of the other wheel when this is heard of one: the legs change places, and what
+/// rolls towards one side rolls away from the other.
+[[nodiscard]] DecisionInputs of_other_wheel(const DecisionInputs& inputs) noexcept;
+
 /// A perceptron of two rectified layers and one output, the same for both wheels. Weights lie by
 /// input: those from one input to all outputs of its layer are neighbours.
 struct DecisionModel {

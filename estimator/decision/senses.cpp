@@ -201,24 +201,8 @@ void DecisionSenses::arrange() noexcept {
   }
   add(acceleration_, acceleration_bend);
   add(roll_rate_, roll_rate_bend);
-  noise_ = {static_cast<float>(torque_noise_.log_sigma() + log_density_),
-            static_cast<float>(acceleration_noise_.log_sigma() + log_density_)};
-}
-
-DecisionInputs DecisionSenses::inputs(std::size_t side) const noexcept {
-  constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
-  DecisionInputs inputs;
-  const auto own = heard_.begin() + side * of_legs;
-  const auto other = heard_.begin() + (1 - side) * of_legs;
-  auto end = std::copy_n(own, of_legs, inputs.begin());
-  end = std::copy_n(other, of_legs, end);
-  const auto acceleration = heard_.begin() + 2 * of_legs;
-  end = std::copy_n(acceleration, decision_scales, end);
-  const float sign = side == 0 ? 1.0F : -1.0F;
-  end = std::transform(acceleration + decision_scales, heard_.end(), end,
-                       [&](float roll) { return sign * roll; });
-  std::copy(noise_.begin(), noise_.end(), end);
-  return inputs;
+  end[0] = static_cast<float>(torque_noise_.log_sigma() + log_density_);
+  end[1] = static_cast<float>(acceleration_noise_.log_sigma() + log_density_);
 }
 
 DecisionPairInputs DecisionSenses::pair_inputs() const noexcept {
@@ -232,7 +216,7 @@ DecisionPairInputs DecisionSenses::pair_inputs() const noexcept {
     inputs.common[of_legs + i] = heard_[2 * of_legs + i];
     inputs.difference[of_legs + i] = heard_[2 * of_legs + decision_scales + i];
   }
-  std::copy(noise_.begin(), noise_.end(), inputs.common.end() - 2);
+  std::copy(heard_.end() - 2, heard_.end(), inputs.common.end() - 2);
   return inputs;
 }
 

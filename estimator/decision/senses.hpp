@@ -59,8 +59,11 @@ class DecisionSenses {
 
   /// Makes the network's inputs of what was heard so far.
   void arrange() noexcept;
-  /// As they were last arranged: of one wheel, of both.
-  [[nodiscard]] DecisionInputs inputs(std::size_t side) const noexcept;
+  /// As they were last arranged: of the left wheel, of one wheel, of both.
+  [[nodiscard]] const DecisionInputs& left_inputs() const noexcept { return heard_; }
+  [[nodiscard]] DecisionInputs inputs(std::size_t side) const noexcept {
+    return side == 0 ? heard_ : of_other_wheel(heard_);
+  }
   [[nodiscard]] DecisionPairInputs pair_inputs() const noexcept;
   /// The estimated white noise of torques (N·m), as dense as at 1 kHz: at a lower rate there are
   /// fewer samples of it to average.
@@ -96,10 +99,7 @@ class DecisionSenses {
   double roll_rate_silence_ = 0.0;
   NoiseEstimate<2> torque_noise_;
   NoiseEstimate<1> acceleration_noise_;
-  /// Compressed: the channels of the left leg, of the right leg, the vertical acceleration, the
-  /// roll rate.
-  alignas(32) std::array<float, decision_channels * decision_scales> heard_{};
-  std::array<float, 2> noise_{};  ///< ln of the estimated levels of torques and acceleration
+  alignas(32) DecisionInputs heard_{};  ///< of the left wheel
 };
 
 }  // namespace touchdown

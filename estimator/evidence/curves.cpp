@@ -54,8 +54,7 @@ PairedEvidence::PairedEvidence(const EvidenceModel& model)
   }
 }
 
-std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left,
-                                            const DecisionInputs& right) const noexcept {
+std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left) const noexcept {
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
   std::array<int, decision_inputs> knot;
   std::array<float, decision_inputs> share;
@@ -86,6 +85,8 @@ std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left,
                                           of_right[1 - side] + of_right[3 - side] + of_both[side] +
                                           of_both[side + 2];
   }
+  if (table_.empty()) return sum;
+  const DecisionInputs right = of_other_wheel(left);
   for (std::size_t p = 0; p < table_.size(); ++p) {
     sum[0] += table_at(table_[p], evidence_pairs[p], left);
     sum[1] += table_at(table_[p], evidence_pairs[p], right);

@@ -66,10 +66,9 @@ class PairedEvidence {
  public:
   explicit PairedEvidence(const EvidenceModel& model);
 
-  /// Of the left and of the right wheel, from the inputs that one step has for either:
-  /// `evidence_logit` of each, up to rounding.
-  [[nodiscard]] std::array<float, 2> logits(const DecisionInputs& left,
-                                            const DecisionInputs& right) const noexcept;
+  /// Of the left and of the right wheel, from what is heard of the left one: `evidence_logit` of
+  /// each, up to rounding.
+  [[nodiscard]] std::array<float, 2> logits(const DecisionInputs& left) const noexcept;
 
  private:
   /// By knot: what it says to the wheel that it is of, or to the left one; to the other one.

@@ -17,9 +17,7 @@ EvidenceCurves::EvidenceCurves(const EvidenceModel& model, const DecisionConfig&
 const Belief& EvidenceCurves::update(const Signals& signals) noexcept {
   const std::array<bool, 2>& is_heard = decision_.hear(signals);
   std::array<float, 2> logits{};
-  if (is_heard[0] || is_heard[1]) {
-    logits = evidence_.logits(decision_.inputs(0), decision_.inputs(1));
-  }
+  if (is_heard[0] || is_heard[1]) logits = evidence_.logits(decision_.left_inputs());
   return decision_.decide({logits[0], logits[1]});
 }
 

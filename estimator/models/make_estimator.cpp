@@ -11,6 +11,7 @@
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
 #include "estimator/evidence/filter.hpp"
+#include "estimator/evidence/touchdown.hpp"
 #include "estimator/models/configuration.hpp"
 #include "estimator/models/measurement.hpp"
 #include "estimator/models/neural.hpp"
@@ -119,7 +120,8 @@ const std::vector<Recipe>& recipes() {
             "force_kinematics"),
         of_parameters<DecisionNetwork, DecisionConfig, decision_model_of>("decision_network"),
         of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_curves"),
-        of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_pairs")};
+        of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_pairs"),
+        of_parameters<TouchdownEstimator, DecisionConfig, touchdown_model_of>("touchdown")};
     for (const BayesRung& rung : rungs_from_paper_to_robust()) {
       const bool hears_as_robust = rung.config.measurement == robust.measurement;
       recipes.push_back(

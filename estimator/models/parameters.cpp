@@ -186,4 +186,14 @@ EvidenceModel evidence_model_of(const Parameters& parameters) {
   return model;
 }
 
+Parameters parameters_of(const TouchdownModel& model) {
+  Parameters parameters = parameters_of(model.evidence);
+  parameters.merge(parameters_of(model.network));
+  return parameters;
+}
+
+TouchdownModel touchdown_model_of(const Parameters& parameters) {
+  return {evidence_model_of(parameters), decision_model_of(parameters)};
+}
+
 }  // namespace touchdown

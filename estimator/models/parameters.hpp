@@ -9,6 +9,7 @@
 
 #include "estimator/decision/network.hpp"
 #include "estimator/evidence/curves.hpp"
+#include "estimator/evidence/touchdown.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/logistic_regression.hpp"
 #include "estimator/models/arrays.hpp"
@@ -44,11 +45,14 @@ Parameters parameters_of(const DecisionModel& model);
 /// `curves_<channel>` by time scale, then by knot (nats); what of each was `seen`, a lower and an
 /// upper end; `tables` of `pairs`, by row.
 Parameters parameters_of(const EvidenceModel& model);
+/// Those of its curves and of its network.
+Parameters parameters_of(const TouchdownModel& model);
 LogisticCurve logistic_curve_of(const Parameters& parameters);
 ForceKinematicsModel force_kinematics_model_of(const Parameters& parameters);
 /// Doubles that came from floats are floats again.
 DecisionModel decision_model_of(const Parameters& parameters);
 /// Likewise. Errors: also for tables of other pairs.
 EvidenceModel evidence_model_of(const Parameters& parameters);
+TouchdownModel touchdown_model_of(const Parameters& parameters);
 
 }  // namespace touchdown

@@ -7,6 +7,7 @@
 #include "estimator/decision/fit.hpp"
 #include "estimator/evidence/filter.hpp"
 #include "estimator/evidence/fit.hpp"
+#include "estimator/evidence/touchdown_fit.hpp"
 #include "experiments/estimators/parameter_fitting.hpp"
 #include "recordings/models/parameter_model.hpp"
 
@@ -20,6 +21,14 @@ FittedModel fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
     return parameters_of(fit_decision_model(labelled, {.geometry = legs_of(runs)},
                                             {.decay = entry.chosen("decay")}, runs.before_density));
+  });
+}
+
+FittedModel fit_touchdown(const EstimatorEntry& entry, const FitRuns& runs) {
+  return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
+    return parameters_of(
+        fit_touchdown_model(labelled, {.geometry = legs_of(runs)}, {.decay = entry.chosen("decay")},
+                            {.smoothness = entry.chosen("smoothness")}, runs.before_density));
   });
 }
 
@@ -58,26 +67,6 @@ EstimatorEntry decision_network_entry() {
           }};
 }
 
-EstimatorEntry shipped_decision_network_entry() {
-  EstimatorEntry entry = decision_network_entry();
-  entry.name = "decision_network_shipped";
-  entry.title = "Decision network, shipped";
-  entry.summary = "the same, fitted to Upkie on bent and on straight legs once and for all";
-  entry.fit = nullptr;
-  entry.learns_from_pieces = false;
-  entry.trained_by = "scripts/fit_shipped_network.sh";
-  entry.choices = {};
-  entry.make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
-    const auto file =
-        recordings::read_parameter_model(find_resource("models/decision_network.npz"));
-    return std::make_unique<DecisionNetwork>(
-        decision_model_of(file.parameters),
-        DecisionConfig{.sample_rate = setup.sample_rate,
-                       .geometry = setup.legs.value_or(LegGeometry{})});
-  };
-  return entry;
-}
-
 EstimatorEntry evidence_curves_entry() {
   return {
       .name = "evidence_curves",
@@ -107,8 +96,45 @@ EstimatorEntry evidence_pairs_entry() {
   return entry;
 }
 
+EstimatorEntry touchdown_entry() {
+  EstimatorEntry entry = decision_network_entry();
+  entry.name = "touchdown";
+  entry.title = "Touchdown";
+  entry.summary = "evidence curves and the decision network, whose logits are averaged";
+  entry.fit = fit_touchdown;
+  entry.choices.insert(entry.choices.begin() + 1,
+                       fitted_with(around("smoothness", EvidenceFitConfig{}.smoothness, 10.0)));
+  entry.make = [](const EstimatorEntry& made, const EstimatorSetup& setup) -> Made {
+    return std::make_unique<TouchdownEstimator>(
+        touchdown_model_of(setup.model->parameters->parameters),
+        configured(DecisionConfig{.sample_rate = setup.sample_rate}, made, setup));
+  };
+  return entry;
+}
+
+EstimatorEntry shipped_touchdown_entry() {
+  EstimatorEntry entry = touchdown_entry();
+  entry.name = "touchdown_shipped";
+  entry.title = "Touchdown, shipped";
+  entry.summary = "the same, fitted to Upkie on bent and on straight legs once and for all";
+  entry.fit = nullptr;
+  entry.learns_from_pieces = false;
+  entry.trained_by = "scripts/fit_shipped_model.sh";
+  entry.choices = {};
+  entry.make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
+    const auto file = recordings::read_parameter_model(find_resource("models/touchdown.npz"));
+    return std::make_unique<TouchdownEstimator>(
+        touchdown_model_of(file.parameters),
+        DecisionConfig{.sample_rate = setup.sample_rate,
+                       .geometry = setup.legs.value_or(LegGeometry{})});
+  };
+  return entry;
+}
+
 std::optional<EvidenceModel> evidence_in(const FittedModel& model) {
-  if (!model.parameters || !model.parameters->estimator.starts_with("evidence_")) return {};
+  if (!model.parameters) return {};
+  const std::string& estimator = model.parameters->estimator;
+  if (!estimator.starts_with("evidence_") && estimator != "touchdown") return {};
   return evidence_model_of(model.parameters->parameters);
 }
 

@@ -118,6 +118,8 @@ void listen_all() {
   listen("force_kinematics", ForceKinematics(fit_force_kinematics(labels)), heard);
   listen("decision_network", DecisionNetwork(test::random_model(2)), heard);
   listen("evidence_pairs", EvidenceCurves(test::random_curves(2)), heard);
+  listen("touchdown", TouchdownEstimator({test::random_curves(3, false), test::random_model(3)}),
+         heard);
   listen("upkie_observer", UpkieObserver(), heard);
 }
 

@@ -48,7 +48,8 @@ std::vector<double> told(ContactEstimator& estimator) {
 }
 
 TEST_F(LoadEstimator, BelievesWhatWasFitted) {
-  for (const std::string name : {"robust", "phase", "decision_network", "evidence_pairs"}) {
+  for (const std::string name :
+       {"robust", "phase", "decision_network", "evidence_pairs", "touchdown"}) {
     const ModelArrays arrays = test::fitted_model(name);
     EXPECT_EQ(told(*load_estimator(file("m.npz", arrays), {.robot = "upkie"})),
               told(*make_estimator(arrays)))

@@ -75,7 +75,7 @@ TEST(PairedEvidence, SaysToBothWheelsWhatIsSaidToEachAlone) {
       DecisionInputs left{};
       for (float& x : left) x = static_cast<float>(2.0 * normal());
       const DecisionInputs right = of_the_other(left);
-      const std::array<float, 2> logits = paired.logits(left, right);
+      const std::array<float, 2> logits = paired.logits(left);
       ASSERT_NEAR(logits[0], logit_of(model, left), 1e-4) << round;
       ASSERT_NEAR(logits[1], logit_of(model, right), 1e-4) << round;
       ASSERT_GT(std::abs(logits[0] - logits[1]), 1e-4) << round;

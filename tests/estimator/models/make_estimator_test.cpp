@@ -207,8 +207,9 @@ TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
 }
 
 TEST(CompiledModel, BelievesTheSameToTheBit) {
-  for (const std::string name : {"robust", "phase", "nmn", "load_logistic", "force_kinematics",
-                                 "decision_network", "evidence_curves", "evidence_pairs"}) {
+  for (const std::string name :
+       {"robust", "phase", "nmn", "load_logistic", "force_kinematics", "decision_network",
+        "evidence_curves", "evidence_pairs", "touchdown"}) {
     const ModelArrays arrays = test::fitted_model(name);
     std::vector<std::vector<float>> floats;
     std::vector<std::string> texts;

@@ -35,6 +35,9 @@ inline ModelArrays fitted_arrays(const std::string& name) {
   }
   if (name == "decision_network") return of_parameters(parameters_of(random_model(3)));
   if (name == "evidence_curves") return of_parameters(parameters_of(random_curves(3, false)));
+  if (name == "touchdown") {
+    return of_parameters(parameters_of(TouchdownModel{random_curves(5, false), random_model(6)}));
+  }
   if (name == "evidence_pairs") return of_parameters(parameters_of(random_curves(4)));
   const BayesFilterConfig config = named(name == "measurement_only" ? "robust" : name);
   MeasurementConfig measurement = config.measurement;

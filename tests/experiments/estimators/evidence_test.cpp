@@ -13,14 +13,15 @@ TEST(EvidenceEntries, KeepTheirCurvesToTheBitInAFile) {
   const ScratchFolder folder;
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const RunSignals other = synthetic_run(3, 1500);
-  for (const EstimatorEntry& entry : {evidence_curves_entry(), evidence_pairs_entry()}) {
+  for (const EstimatorEntry& entry :
+       {evidence_curves_entry(), evidence_pairs_entry(), touchdown_entry()}) {
     const FittedModel fitted = entry.fit(entry, {.whole = {&run}});
     write_fitted_model(fitted, folder.path() / "m.npz");
     const FittedModel read = read_fitted_model(ModelKind::parameters, folder.path() / "m.npz");
     EXPECT_EQ(read.parameters->parameters, fitted.parameters->parameters);
     EXPECT_EQ(read.parameters->estimator, entry.name);
     EXPECT_EQ(evidence_in(read), evidence_in(fitted));
-    EXPECT_EQ(evidence_in(read)->table.empty(), entry.name == "evidence_curves");
+    EXPECT_EQ(evidence_in(read)->table.empty(), entry.name != "evidence_pairs");
     const auto told = [&](const FittedModel& model) {
       return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
           .p_contact;

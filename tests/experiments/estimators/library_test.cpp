@@ -62,21 +62,20 @@ TEST(LoadedEstimator, OfAShippedNetworkIsNmn) {
   }
 }
 
-TEST(LoadedEstimator, OfTheShippedDecisionNetworkIsItsEntry) {
+TEST(LoadedEstimator, OfTheShippedModelIsItsEntry) {
   const std::filesystem::path file =
-      std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/decision_network.npz";
+      std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/touchdown.npz";
   const RunSignals run = synthetic_run(3, 1000);
-  const EstimatorEntry& entry = estimator_entry("decision_network_shipped");
+  const EstimatorEntry& entry = estimator_entry("touchdown_shipped");
   EXPECT_EQ(told(*load_estimator(file), run), told(*entry.make(entry, {}), run));
-  EXPECT_EQ(load_passport(file).estimator, "decision_network");
+  EXPECT_EQ(load_passport(file).estimator, "touchdown");
   EXPECT_EQ(load_passport(file).robot, "upkie");
 }
 
-TEST(ShippedDecisionNetwork, IsTheOneThatItsManifestNames) {
+TEST(ShippedModel, IsTheOneThatItsManifestNames) {
   const std::filesystem::path models = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models";
-  const YAML::Node manifest = YamlDocument::load(models / "decision_network.json").root();
-  EXPECT_EQ(manifest["sha256"].as<std::string>(),
-            sha256(read_file(models / "decision_network.npz")));
+  const YAML::Node manifest = YamlDocument::load(models / "touchdown.json").root();
+  EXPECT_EQ(manifest["sha256"].as<std::string>(), sha256(read_file(models / "touchdown.npz")));
 }
 
 TEST(LoadedEstimator, SharesFitsAsEntriesDo) {

@@ -90,7 +90,8 @@ TEST(FitPieces, AreNotPlayedForEstimatorsThatTakeNone) {
 
 TEST(FitPieces, ArePlayedWhoeverElseListens) {
   Experiment experiment = experiment_with_pieces();
-  for (const char* name : {"hmm", "decision_network", "evidence_curves", "gradient_boosting"}) {
+  for (const char* name :
+       {"hmm", "decision_network", "evidence_curves", "touchdown", "gradient_boosting"}) {
     experiment.estimators = {name};
     EXPECT_EQ(plan_of(request_of(experiment)).runs.size(), 2U * (2U + 3U + 1U + 1U)) << name;
   }

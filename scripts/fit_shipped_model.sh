@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fits the decision network that is shipped, in two minutes: Upkie crouched and on nearly straight legs, with
+# Fits the model that is shipped, in three minutes: Upkie crouched and on nearly straight legs, with
 # ideal and with real actuators, in both engines, on what the benchmark fits and hanging; other draws.
-# Usage: scripts/fit_shipped_network.sh build/release/touchdown models/decision_network.npz
+# Usage: scripts/fit_shipped_model.sh build/release/touchdown models/touchdown.npz
 set -euo pipefail
 program="$(realpath "$1")"
 output="$(realpath -m "$2")"
@@ -23,13 +23,13 @@ for robot in "${robots[@]}"; do
     done
   done
 done
-"$program" fit "$logs"/*.mpack --estimator decision_network --robot upkie -o "$output"
+"$program" fit "$logs"/*.mpack --estimator touchdown --robot upkie -o "$output"
 
 words() { printf '"%s", ' "$@" | sed 's/, $//'; }
 cat >"${output%.npz}.json" <<END
 {
-  "network": "decision_network",
-  "command": "scripts/fit_shipped_network.sh build/release/touchdown models/decision_network.npz",
+  "model": "touchdown",
+  "command": "scripts/fit_shipped_model.sh build/release/touchdown models/touchdown.npz",
   "sha256": "$(sha256sum "$output" | cut -d' ' -f1)",
   "scenes": [$(words "${scenes[@]}")],
   "robots": [$(words "${robots[@]}")],

@@ -1,0 +1,31 @@
+#include "estimator/evidence/touchdown.hpp"
+
+namespace touchdown {
+
+namespace {
+
+const TouchdownModel& checked(const TouchdownModel& model) {
+  check_evidence_model(model.evidence);
+  check_decision_model(model.network);
+  return model;
+}
+
+}  // namespace
+
+TouchdownEstimator::TouchdownEstimator(const TouchdownModel& model, const DecisionConfig& config)
+    : evidence_(checked(model).evidence), network_(model.network), decision_(config) {}
+
+const Belief& TouchdownEstimator::update(const Signals& signals) noexcept {
+  const std::array<bool, 2>& is_heard = decision_.hear(signals);
+  std::array<double, 2> logit{};
+  if (is_heard[0] || is_heard[1]) {
+    const std::array<float, 2> of_curves = evidence_.logits(decision_.left_inputs());
+    const std::array<float, 2> of_network = network_.logits(decision_.pair_inputs());
+    for (std::size_t side = 0; side < 2; ++side) {
+      logit[side] = 0.5 * static_cast<double>(of_curves[side] + of_network[side]);
+    }
+  }
+  return decision_.decide(logit);
+}
+
+}  // namespace touchdown
