@@ -8,7 +8,7 @@
 
 namespace touchdown::bench {
 
-/// Rolling, flights and landings with sensor noise, one step per millisecond.
+/// Rolling, flights and landings on bent legs with sensor noise, one step per millisecond.
 inline std::vector<Signals> signals(std::size_t steps) {
   std::mt19937 engine(1);
   const auto noise = [&engine] { return static_cast<double>(engine()) / 2147483648.0 - 1.0; };
@@ -23,8 +23,16 @@ inline std::vector<Signals> signals(std::size_t steps) {
         (air ? -9.81 : 150.0 * std::exp(-phase / 0.01) * std::cos(600.0 * phase)) + 3.0 * noise();
     for (int side = 0; side < 2; ++side) {
       LegSignals& leg = s.leg[static_cast<std::size_t>(side)];
-      leg.knee.torque = (side == 0 ? 1.0 : -1.0) * (air ? 0.1 : 1.3) + 0.5 * noise();
-      leg.wheel.torque = (side == 0 ? 1.0 : -1.0) * (air ? 0.0 : 0.2) + 0.2 * noise();
+      const double sign = side == 0 ? 1.0 : -1.0;
+      leg.knee.torque = sign * (air ? 0.1 : 1.3) + 0.5 * noise();
+      leg.wheel.torque = sign * (air ? 0.0 : 0.2) + 0.2 * noise();
+      // Crouched, and swaying: estimators that compute loads divide by what legs do.
+      const double sway = 0.01 * std::sin(20.0 * time);
+      leg.hip = {sign * (0.455 + sway), sign * 0.2 * std::cos(20.0 * time), sign * 0.4};
+      leg.knee.position = -sign * (0.791 + 2.0 * sway);
+      leg.knee.velocity = -sign * 0.4 * std::cos(20.0 * time);
+      leg.wheel.position = 10.0 * time;
+      leg.wheel.velocity = 10.0;
     }
   }
   return stream;
