@@ -18,7 +18,7 @@ struct EvidenceFigure {
   std::string caption;
 };
 
-/// A tick of an axis that is compressed by asinh(value / bend).
+/// A tick of an axis that is compressed as a channel with this bend is heard.
 struct CompressedTick {
   double value = 0.0;
   double place = 0.0;  ///< on the compressed axis

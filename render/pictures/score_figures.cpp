@@ -97,6 +97,7 @@ std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
     std::optional<EvidenceModel> model = experiments::evidence_in(fitted->second);
     if (!model) continue;
     const bool has_pairs = !model->table.empty();
+    const bool has_network = estimator == "touchdown";
     figures.emplace_back(
         estimator,
         EvidenceFigure{
@@ -108,11 +109,13 @@ std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
                 "Fitted to {}{}, seed {}; {}{}. Above 0 speaks for contact, below against "
                 "it; what all curves say is added{}. Each is 0 on average over what was learned "
                 "from, and drawn where all but two in a thousand of its rows lie. Axes are "
-                "compressed by asinh, those of noise levels by logarithms.",
+                "compressed as the estimator hears them, those of noise levels by logarithms.",
                 experiments::plural(fitted_runs(result, simulator), "run"),
                 experiment.fit_pieces.empty() ? "" : " and pieces of others", experiment.seed,
                 experiments::labels_text(experiment), experiments::equipment_text(experiment),
-                has_pairs ? ", and what pairs of them say besides" : "")});
+                has_pairs     ? ", and what pairs of them say besides"
+                : has_network ? ", and averaged with what the network says"
+                              : "")});
   }
   return figures;
 }
