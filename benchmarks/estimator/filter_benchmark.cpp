@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <chrono>
 #include <complex>
 #include <memory>
 #include <string>
@@ -11,13 +9,11 @@
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "experiments/lanes/bayes.hpp"
-#include "signals_for_benchmarks.hpp"
 #include "tests/estimator/named_config.hpp"
+#include "time_updates.hpp"
 
 namespace touchdown {
 namespace {
-
-constexpr std::size_t stream_length = 4096;
 
 /// The yardstick: one real transform of 128 samples.
 void yardstick_fft_128(benchmark::State& state) {
@@ -45,48 +41,17 @@ std::unique_ptr<ContactEstimator> estimator(const char* name) {
   return std::make_unique<BayesFilter>(bench::model(config), config);
 }
 
-/// One `update`: transition, and for both wheels lookup and recursion.
+/// Transition, and for both wheels lookup and recursion.
 void update(benchmark::State& state, const char* name) {
-  const auto filter = estimator(name);
-  std::vector<Signals> stream = bench::signals(stream_length);
-  std::size_t i = 0;
-  double time = 0.0;
-  for (auto _ : state) {
-    Signals& s = stream[i];
-    s.time = time += 0.001;
-    benchmark::DoNotOptimize(double{filter->update(s).p_any_wheel});
-    i = (i + 1) % stream_length;
-  }
+  bench::time_updates(state, *estimator(name));
 }
 BENCHMARK_CAPTURE(update, paper, "paper");
 BENCHMARK_CAPTURE(update, reference, "reference");
 BENCHMARK_CAPTURE(update, robust, "robust");
 BENCHMARK_CAPTURE(update, measurement_only, "measurement_only");
 
-/// The time of every single update, clock included, as percentiles (ns).
 void latency(benchmark::State& state, const char* name) {
-  using Clock = std::chrono::steady_clock;
-  const auto filter = estimator(name);
-  std::vector<Signals> stream = bench::signals(stream_length);
-  std::vector<double> nanoseconds;
-  double time = 0.0;
-  for (auto _ : state) {
-    for (std::size_t i = 0; i < stream_length; ++i) {
-      stream[i].time = time += 0.001;
-      const auto start = Clock::now();
-      benchmark::DoNotOptimize(double{filter->update(stream[i]).p_any_wheel});
-      const auto end = Clock::now();
-      nanoseconds.push_back(std::chrono::duration<double, std::nano>(end - start).count());
-    }
-  }
-  std::sort(nanoseconds.begin(), nanoseconds.end());
-  const auto percentile = [&](double p) {
-    return nanoseconds[static_cast<std::size_t>(p * static_cast<double>(nanoseconds.size() - 1))];
-  };
-  state.counters["p50_ns"] = percentile(0.5);
-  state.counters["p99_ns"] = percentile(0.99);
-  state.counters["p99.9_ns"] = percentile(0.999);
-  state.counters["max_ns"] = nanoseconds.back();
+  bench::time_every_update(state, *estimator(name));
 }
 BENCHMARK_CAPTURE(latency, robust, "robust")->Iterations(250);
 BENCHMARK_CAPTURE(latency, reference, "reference")->Iterations(250);
@@ -107,8 +72,8 @@ void lanes_update(benchmark::State& state, const char* name, int torques, int ac
     }
   }
   experiments::BayesFilterLanes lanes(bench::model(config), config, levels);
-  const std::vector<Signals> stream = bench::signals(stream_length);
-  const std::vector<Signals> noise = bench::signals(stream_length + 7);
+  const std::vector<Signals> stream = bench::signals(bench::stream_length);
+  const std::vector<Signals> noise = bench::signals(bench::stream_length + 7);
   std::size_t i = 0;
   for (auto _ : state) {
     experiments::NoiseStep draws;
@@ -119,7 +84,7 @@ void lanes_update(benchmark::State& state, const char* name, int torques, int ac
     lanes.update(stream[i], draws);
     benchmark::DoNotOptimize(lanes.p_contact(Side::left).data());
     benchmark::ClobberMemory();
-    i = (i + 1) % stream_length;
+    i = (i + 1) % bench::stream_length;
   }
   state.counters["per_lane_update"] = benchmark::Counter(
       static_cast<double>(levels.size()),

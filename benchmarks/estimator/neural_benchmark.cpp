@@ -6,12 +6,10 @@
 
 #include "estimator/neural/estimator.hpp"
 #include "experiments/lanes/neural.hpp"
-#include "signals_for_benchmarks.hpp"
+#include "time_updates.hpp"
 
 namespace touchdown {
 namespace {
-
-constexpr std::size_t stream_length = 4096;
 
 /// The paper's sizes; small weights that are no denormals.
 std::shared_ptr<const NeuralNetwork> network() {
@@ -52,15 +50,7 @@ BENCHMARK(neural_step);
 /// One `update` at 1 kHz, of which every fifth steps the network; compare with the filter's.
 void neural_update(benchmark::State& state) {
   NeuralEstimator estimator(network());
-  std::vector<Signals> stream = bench::signals(stream_length);
-  std::size_t i = 0;
-  double time = 0.0;
-  for (auto _ : state) {
-    Signals& s = stream[i];
-    s.time = time += 0.001;
-    benchmark::DoNotOptimize(double{estimator.update(s).p_any_wheel});
-    i = (i + 1) % stream_length;
-  }
+  bench::time_updates(state, estimator);
 }
 BENCHMARK(neural_update);
 
@@ -69,12 +59,12 @@ void neural_lanes_update(benchmark::State& state) {
   std::vector<double> sigmas;
   for (std::int64_t i = 0; i < state.range(0); ++i) sigmas.push_back(0.3 * static_cast<double>(i));
   experiments::NeuralLanes lanes(network(), {}, sigmas);
-  const std::vector<Signals> stream = bench::signals(stream_length);
+  const std::vector<Signals> stream = bench::signals(bench::stream_length);
   std::size_t i = 0;
   for (auto _ : state) {
     lanes.update(stream[i], Eigen::Vector3d::Constant(0.1));
     benchmark::DoNotOptimize(lanes.p_contact().data());
-    i = (i + 1) % stream_length;
+    i = (i + 1) % bench::stream_length;
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }

@@ -42,7 +42,7 @@ def balanced_accuracy(contact, truth):
 # %%
 parser = argparse.ArgumentParser(description="How much labelled data does an estimator need?")
 parser.add_argument("--seconds", type=float, nargs="+", default=[2, 20, 120, 1200])
-parser.add_argument("--estimators", nargs="+", default=["robust", "phase", "load_logistic", "decision_network"])
+parser.add_argument("--estimators", nargs="+", default=["robust", "phase", "load_logistic", "touchdown"])
 parser.add_argument("--scenes", nargs="+", default=JUDGED)
 parser.add_argument("--simulator", default="mujoco")
 parser.add_argument("--draws", type=int, default=3, help="fits to other runs")

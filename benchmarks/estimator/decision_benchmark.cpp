@@ -1,0 +1,64 @@
+#include <cmath>
+#include <cstddef>
+
+#include <benchmark/benchmark.h>
+
+#include "estimator/decision/filter.hpp"
+#include "estimator/evidence/filter.hpp"
+#include "estimator/evidence/pairs.hpp"
+#include "estimator/evidence/touchdown.hpp"
+#include "time_updates.hpp"
+
+namespace touchdown {
+namespace {
+
+void fill(auto& numbers, float size) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] = size * std::sin(static_cast<float>(i));
+  }
+}
+
+/// Weights that keep every layer busy.
+DecisionModel busy_network() {
+  DecisionModel model;
+  fill(model.first_weight, 0.2F);
+  fill(model.second_weight, 0.3F);
+  fill(model.last_weight, 0.5F);
+  return model;
+}
+
+EvidenceModel wavy_curves(bool with_pairs = false) {
+  EvidenceModel model;
+  for (EvidenceCurve& curve : model.curve) fill(curve, 0.1F);
+  if (with_pairs) model.table.resize(evidence_pairs.size());
+  for (EvidenceTable& table : model.table) fill(table, 0.1F);
+  return model;
+}
+
+void update_decision_network(benchmark::State& state) {
+  DecisionNetwork estimator(busy_network());
+  bench::time_updates(state, estimator);
+}
+BENCHMARK(update_decision_network)->Name("update/decision_network");
+
+void update_evidence(benchmark::State& state, bool with_pairs) {
+  EvidenceCurves estimator(wavy_curves(with_pairs));
+  bench::time_updates(state, estimator);
+}
+BENCHMARK_CAPTURE(update_evidence, curves, false)->Name("update/evidence_curves");
+BENCHMARK_CAPTURE(update_evidence, pairs, true)->Name("update/evidence_pairs");
+
+void update_touchdown(benchmark::State& state) {
+  TouchdownEstimator estimator({wavy_curves(), busy_network()});
+  bench::time_updates(state, estimator);
+}
+BENCHMARK(update_touchdown)->Name("update/touchdown");
+
+void latency_touchdown(benchmark::State& state) {
+  TouchdownEstimator estimator({wavy_curves(), busy_network()});
+  bench::time_every_update(state, estimator);
+}
+BENCHMARK(latency_touchdown)->Name("latency/touchdown")->Iterations(250);
+
+}  // namespace
+}  // namespace touchdown
