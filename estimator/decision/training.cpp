@@ -10,20 +10,20 @@ namespace touchdown {
 
 namespace {
 
-constexpr int inputs = static_cast<int>(decision_inputs);
-constexpr int first = static_cast<int>(decision_first);
-constexpr int second = static_cast<int>(decision_second);
+constexpr int input_count = static_cast<int>(decision_inputs);
+constexpr int first_count = static_cast<int>(decision_first);
+constexpr int second_count = static_cast<int>(decision_second);
 
 // A model's weights, outputs × inputs: by input, as they lie.
 template <typename Model>
 auto weights_of_first(Model& model) {
-  using Matrix = Eigen::Matrix<float, first, inputs>;
+  using Matrix = Eigen::Matrix<float, first_count, input_count>;
   return Eigen::Map<std::conditional_t<std::is_const_v<Model>, const Matrix, Matrix>>(
       model.first_weight.data());
 }
 template <typename Model>
 auto weights_of_second(Model& model) {
-  using Matrix = Eigen::Matrix<float, second, first>;
+  using Matrix = Eigen::Matrix<float, second_count, first_count>;
   return Eigen::Map<std::conditional_t<std::is_const_v<Model>, const Matrix, Matrix>>(
       model.second_weight.data());
 }
@@ -57,9 +57,9 @@ DecisionModel drawn(Draws& draws) {
       weight = static_cast<float>(std::sqrt(2.0 / fan_in) * draws.normal());
     }
   };
-  fill(model.first_weight, inputs);
-  fill(model.second_weight, first);
-  fill(model.last_weight, second);
+  fill(model.first_weight, input_count);
+  fill(model.second_weight, first_count);
+  fill(model.last_weight, second_count);
   return model;
 }
 

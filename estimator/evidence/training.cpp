@@ -51,7 +51,7 @@ DecisionInputs inputs_of(const DecisionRows& rows, Eigen::Index row) {
 
 /// All numbers that are learned, part by part, of as many models at once.
 template <typename Part, typename... Models>
-void for_each_part(const Part& part, Models&... models) {
+void for_each_number(const Part& part, Models&... models) {
   for (std::size_t i = 0; i < decision_inputs; ++i) part(std::span(models.curve[i])...);
   const std::size_t tables = std::min({models.table.size()...});
   for (std::size_t p = 0; p < tables; ++p) part(std::span(models.table[p])...);
@@ -195,7 +195,7 @@ EvidenceModel train_evidence_model(const DecisionRows& rows, const EvidenceFitCo
           [&](const DecisionRows& batch, const AdamStep& adam_step) {
             static_cast<void>(evidence_loss(model, batch, &gradient));
             add_smoothness(model, static_cast<float>(config.smoothness), gradient);
-            for_each_part(adam_step, model, gradient, mean, square);
+            for_each_number(adam_step, model, gradient, mean, square);
           });
   centre(model, rows);
   note_what_was_seen(model, rows);
