@@ -104,7 +104,7 @@ TEST(DecisionSenses, HearTheOtherWheelOfAMirroredRobot) {
 }
 
 /// What every channel is compressed by: y → y / (1 + |y| / 4).
-double compressed(double y) { return y / (1.0 + 0.25 * std::abs(y)); }
+double heard_as(double y) { return y / (1.0 + 0.25 * std::abs(y)); }
 
 TEST(DecisionSenses, CompressEveryChannelSoThatNoneIsLargerThanFour) {
   DecisionSenses senses({});
@@ -115,9 +115,9 @@ TEST(DecisionSenses, CompressEveryChannelSoThatNoneIsLargerThanFour) {
   senses.arrange();
   constexpr std::size_t acceleration = 2 * decision_leg_channels * decision_scales;
   for (std::size_t i = acceleration; i < acceleration + decision_scales; ++i) {
-    EXPECT_NEAR(senses.inputs(0)[i], compressed(-9.0 / 3.0), 1e-6);
-    EXPECT_NEAR(senses.inputs(0)[i + decision_scales], compressed(0.6 / 0.3), 1e-6);
-    EXPECT_NEAR(senses.inputs(1)[i + decision_scales], -compressed(0.6 / 0.3), 1e-6);
+    EXPECT_NEAR(senses.inputs(0)[i], heard_as(-9.0 / 3.0), 1e-6);
+    EXPECT_NEAR(senses.inputs(0)[i + decision_scales], heard_as(0.6 / 0.3), 1e-6);
+    EXPECT_NEAR(senses.inputs(1)[i + decision_scales], -heard_as(0.6 / 0.3), 1e-6);
   }
 }
 

@@ -16,7 +16,7 @@
 namespace touchdown {
 namespace {
 
-double logit(double p) { return std::log(p / (1.0 - p)); }
+double log_odds(double p) { return std::log(p / (1.0 - p)); }
 
 TEST(TouchdownEstimator, SaysTheMeanOfWhatCurvesAndNetworkSay) {
   const DecisionConfig config{.smoothing = 0.0};
@@ -31,10 +31,10 @@ TEST(TouchdownEstimator, SaysTheMeanOfWhatCurvesAndNetworkSay) {
     const Belief& other = network.update(s);
     const Belief& mean = together.update(s);
     for (std::size_t side = 0; side < 2; ++side) {
-      const double a = logit(one.wheel[side].p_contact);
-      const double b = logit(other.wheel[side].p_contact);
+      const double a = log_odds(one.wheel[side].p_contact);
+      const double b = log_odds(other.wheel[side].p_contact);
       if (std::max(std::abs(a), std::abs(b)) > 20.0) continue;  // rounded to certainty
-      ASSERT_NEAR(logit(mean.wheel[side].p_contact), 0.5 * (a + b), 1e-3);
+      ASSERT_NEAR(log_odds(mean.wheel[side].p_contact), 0.5 * (a + b), 1e-3);
       apart += std::abs(a - b) > 0.5 ? 1 : 0;
       ++compared;
     }
