@@ -31,15 +31,15 @@ PairPlace pair_place(const EvidencePair& pair, const float* inputs) {
 
 constexpr std::array<int, 4> pair_offsets = {0, 1, pair_width, pair_width + 1};
 
-void add(EvidenceCurve& curve, const EvidencePlace& at, float amount) {
+/// Gives to each knot around a place its share.
+void add(auto& values, const EvidencePlace& at, float amount) {
   const auto knot = static_cast<std::size_t>(at.knot);
-  curve[knot] += (1.0F - at.share) * amount;
-  curve[knot + 1] += at.share * amount;
+  values[knot] += (1.0F - at.share) * amount;
+  values[knot + 1] += at.share * amount;
 }
-
-void add(EvidenceTable& table, const PairPlace& at, float amount) {
+void add(auto& values, const PairPlace& at, float amount) {
   for (std::size_t k = 0; k < 4; ++k) {
-    table[static_cast<std::size_t>(at.knot + pair_offsets[k])] += at.share[k] * amount;
+    values[static_cast<std::size_t>(at.knot + pair_offsets[k])] += at.share[k] * amount;
   }
 }
 
@@ -105,11 +105,8 @@ void centre(EvidenceModel& model, const DecisionRows& rows) {
   for (std::size_t i = 0; i < decision_inputs; ++i) {
     std::fill(counted.begin(), counted.end(), 0.0);
     for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
-      const EvidencePlace at =
-          evidence_place(rows.inputs(static_cast<Eigen::Index>(i), row), evidence_knots);
-      const auto knot = static_cast<std::size_t>(at.knot);
-      counted[knot] += static_cast<double>(rows.weight[row] * (1.0F - at.share));
-      counted[knot + 1] += static_cast<double>(rows.weight[row] * at.share);
+      add(counted, evidence_place(rows.inputs(static_cast<Eigen::Index>(i), row), evidence_knots),
+          rows.weight[row]);
     }
     model.bias += centred(model.curve[i], counted);
   }
@@ -117,11 +114,7 @@ void centre(EvidenceModel& model, const DecisionRows& rows) {
   for (std::size_t p = 0; p < model.table.size(); ++p) {
     std::fill(counted.begin(), counted.end(), 0.0);
     for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
-      const PairPlace at = pair_place(evidence_pairs[p], rows.inputs.col(row).data());
-      for (std::size_t k = 0; k < 4; ++k) {
-        counted[static_cast<std::size_t>(at.knot + pair_offsets[k])] +=
-            static_cast<double>(rows.weight[row] * at.share[k]);
-      }
+      add(counted, pair_place(evidence_pairs[p], rows.inputs.col(row).data()), rows.weight[row]);
     }
     model.bias += centred(model.table[p], counted);
   }

@@ -1,6 +1,7 @@
 #include "experiments/estimators/decision.hpp"
 
 #include <span>
+#include <vector>
 
 #include "core/resources.hpp"
 #include "estimator/decision/filter.hpp"
@@ -41,6 +42,24 @@ FittedModel fit_evidence(const EstimatorEntry& entry, const FitRuns& runs) {
   });
 }
 
+template <typename Estimator, auto model_of>
+Made make_fitted(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return std::make_unique<Estimator>(
+      model_of(setup.model->parameters->parameters),
+      configured(DecisionConfig{.sample_rate = setup.sample_rate}, entry, setup));
+}
+
+Choice decay() { return fitted_with(around("decay", DecisionFitConfig{}.decay, 10.0)); }
+Choice smoothness() {
+  return fitted_with(around("smoothness", EvidenceFitConfig{}.smoothness, 10.0));
+}
+/// What the fit chooses, then the thresholds of the decision.
+std::vector<Choice> and_thresholds(std::vector<Choice> of_fit) {
+  of_fit.push_back(between("leave_below", DecisionConfig{}.leave_below, 0.25, 0.8));
+  of_fit.push_back(between("return_above", DecisionConfig{}.return_above, 0.8, 0.97));
+  return of_fit;
+}
+
 }  // namespace
 
 EstimatorEntry decision_network_entry() {
@@ -57,34 +76,20 @@ EstimatorEntry decision_network_entry() {
                       .joint_velocity = true},
           .fit = fit_network,
           .learns_from_pieces = true,
-          .choices = {fitted_with(around("decay", DecisionFitConfig{}.decay, 10.0)),
-                      between("leave_below", DecisionConfig{}.leave_below, 0.25, 0.8),
-                      between("return_above", DecisionConfig{}.return_above, 0.8, 0.97)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
-            return std::make_unique<DecisionNetwork>(
-                decision_model_of(setup.model->parameters->parameters),
-                configured(DecisionConfig{.sample_rate = setup.sample_rate}, entry, setup));
-          }};
+          .choices = and_thresholds({decay()}),
+          .make = make_fitted<DecisionNetwork, decision_model_of>};
 }
 
 EstimatorEntry evidence_curves_entry() {
-  return {
-      .name = "evidence_curves",
-      .title = "Evidence curves",
-      .summary =
-          "the decision network's transparent twin: a curve of evidence for each of its inputs, "
-          "added",
-      .sensors = decision_network_entry().sensors,
-      .fit = fit_evidence<false>,
-      .learns_from_pieces = true,
-      .choices = {fitted_with(around("smoothness", EvidenceFitConfig{}.smoothness, 10.0)),
-                  between("leave_below", DecisionConfig{}.leave_below, 0.25, 0.8),
-                  between("return_above", DecisionConfig{}.return_above, 0.8, 0.97)},
-      .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
-        return std::make_unique<EvidenceCurves>(
-            evidence_model_of(setup.model->parameters->parameters),
-            configured(DecisionConfig{.sample_rate = setup.sample_rate}, entry, setup));
-      }};
+  EstimatorEntry entry = decision_network_entry();
+  entry.name = "evidence_curves";
+  entry.title = "Evidence curves";
+  entry.summary =
+      "the decision network's transparent twin: a curve of evidence for each of its inputs, added";
+  entry.fit = fit_evidence<false>;
+  entry.choices = and_thresholds({smoothness()});
+  entry.make = make_fitted<EvidenceCurves, evidence_model_of>;
+  return entry;
 }
 
 EstimatorEntry evidence_pairs_entry() {
@@ -102,13 +107,8 @@ EstimatorEntry touchdown_entry() {
   entry.title = "Touchdown";
   entry.summary = "evidence curves and the decision network, whose logits are averaged";
   entry.fit = fit_touchdown;
-  entry.choices.insert(entry.choices.begin() + 1,
-                       fitted_with(around("smoothness", EvidenceFitConfig{}.smoothness, 10.0)));
-  entry.make = [](const EstimatorEntry& made, const EstimatorSetup& setup) -> Made {
-    return std::make_unique<TouchdownEstimator>(
-        touchdown_model_of(setup.model->parameters->parameters),
-        configured(DecisionConfig{.sample_rate = setup.sample_rate}, made, setup));
-  };
+  entry.choices = and_thresholds({decay(), smoothness()});
+  entry.make = make_fitted<TouchdownEstimator, touchdown_model_of>;
   return entry;
 }
 
