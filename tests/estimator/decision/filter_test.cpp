@@ -42,12 +42,9 @@ TEST(DecisionNetwork, IsFittedToTheSameBits) {
 TEST(DecisionNetwork, BelievesOfTheMirroredRobotWhatItBelievedOfTheOtherWheel) {
   DecisionNetwork estimator(lifted_network());
   DecisionNetwork mirror(lifted_network());
-  for (Signals s : lifted_run(1, 5, 0.3).signals) {
+  for (const Signals& s : lifted_run(1, 5, 0.3).signals) {
     const Belief belief = estimator.update(s);
-    std::swap(s.leg[0], s.leg[1]);
-    for (LegSignals& leg : s.leg) leg = test::mirrored(leg);
-    s.angular_velocity.x() *= -1.0;
-    const Belief& mirrored = mirror.update(s);
+    const Belief& mirrored = mirror.update(test::in_the_mirror(s));
     for (std::size_t side = 0; side < 2; ++side) {
       ASSERT_NEAR(mirrored.wheel[side].p_contact, belief.wheel[1 - side].p_contact, 1e-4);
     }
@@ -55,21 +52,9 @@ TEST(DecisionNetwork, BelievesOfTheMirroredRobotWhatItBelievedOfTheOtherWheel) {
 }
 
 TEST(DecisionNetwork, MeansItsProbabilityWhateverItsClassesWeigh) {
-  // Wheels that carry something between nothing and a little: a coin's class, three in four
-  // contact.
   test::Normal normal(7);
-  const auto drawn = [&] {
-    test::CarriedRun run;
-    for (int k = 0; k < 20'000; ++k) {
-      const std::array<bool, 2> touches = {normal() < 0.6745, normal() < 0.6745};
-      run.add(touches[0] ? 8.0 + 4.0 * normal() : 4.0 * normal(),
-              touches[1] ? 8.0 + 4.0 * normal() : 4.0 * normal());
-      run.touch(touches[0], touches[1]);
-    }
-    return run;
-  };
-  const test::CarriedRun seen = drawn();
-  const test::CarriedRun others = drawn();
+  const test::CarriedRun seen = test::overlapping_loads(normal);
+  const test::CarriedRun others = test::overlapping_loads(normal);
   for (const double exponent : {0.0, -1.0}) {
     DecisionFitConfig config{
         .passes = 1, .rows = 40'000, .share_slow = 0.0, .batch = 256, .epochs = 8};
@@ -189,23 +174,7 @@ TEST(DecisionNetwork, BelievesAfterAGapWhatANewOneWould) {
 
 TEST(DecisionNetwork, IsNeverLostWhateverItHears) {
   DecisionNetwork estimator(lifted_network());
-  constexpr double huge = std::numeric_limits<double>::max();
-  Signals s = lifted_run(1, 9).signals.front();
-  for (const double extreme : {huge, -huge, 1e308, 1e4, -1e4, 0.0}) {
-    for (int k = 0; k < 50; ++k) {
-      s.time += 0.001;
-      s.vertical_acceleration = 0.5 * k;
-      s.angular_velocity.setConstant(extreme);
-      for (LegSignals& leg : s.leg) {
-        for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
-          *joint = {extreme, extreme, std::clamp(extreme, -1e4, 1e4)};
-        }
-      }
-      for (const WheelBelief& wheel : estimator.update(s).wheel) {
-        ASSERT_TRUE(wheel.p_contact >= 0.0 && wheel.p_contact <= 1.0) << extreme;
-      }
-    }
-  }
+  test::expect_never_lost(estimator);
 }
 
 TEST(DecisionNetwork, RefusesWhatMakesNoSense) {

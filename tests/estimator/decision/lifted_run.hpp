@@ -1,8 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "estimator/contact_estimator.hpp"
 #include "estimator/decision/fit.hpp"
@@ -66,6 +71,39 @@ inline double share_right(ContactEstimator& estimator, const CarriedRun& run) {
     }
   }
   return static_cast<double>(right) / static_cast<double>(2 * run.signals.size());
+}
+
+/// Wheels that carry something between nothing and a little: a coin's class, three in four contact.
+inline CarriedRun overlapping_loads(Normal& normal) {
+  CarriedRun run;
+  for (int k = 0; k < 20'000; ++k) {
+    const std::array<bool, 2> touches = {normal() < 0.6745, normal() < 0.6745};
+    run.add(touches[0] ? 8.0 + 4.0 * normal() : 4.0 * normal(),
+            touches[1] ? 8.0 + 4.0 * normal() : 4.0 * normal());
+    run.touch(touches[0], touches[1]);
+  }
+  return run;
+}
+
+/// Whatever it hears, beliefs are probabilities.
+inline void expect_never_lost(ContactEstimator& estimator) {
+  constexpr double huge = std::numeric_limits<double>::max();
+  Signals s = lifted_run(1, 9).signals.front();
+  for (const double extreme : {huge, -huge, 1e308, 1e4, -1e4, 0.0}) {
+    for (int k = 0; k < 50; ++k) {
+      s.time += 0.001;
+      s.vertical_acceleration = 0.5 * k;
+      s.angular_velocity.setConstant(extreme);
+      for (LegSignals& leg : s.leg) {
+        for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
+          *joint = {extreme, extreme, std::clamp(extreme, -1e4, 1e4)};
+        }
+      }
+      for (const WheelBelief& wheel : estimator.update(s).wheel) {
+        ASSERT_TRUE(wheel.p_contact >= 0.0 && wheel.p_contact <= 1.0) << extreme;
+      }
+    }
+  }
 }
 
 }  // namespace touchdown::test

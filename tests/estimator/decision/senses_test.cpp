@@ -78,21 +78,13 @@ std::vector<Signals> wandering(std::size_t steps) {
   return run.signals;
 }
 
-/// As a mirror at the robot's plane shows it.
-Signals in_the_mirror(Signals s) {
-  std::swap(s.leg[0], s.leg[1]);
-  for (LegSignals& leg : s.leg) leg = test::mirrored(leg);
-  s.angular_velocity.x() *= -1.0;
-  return s;
-}
-
 TEST(DecisionSenses, HearTheOtherWheelOfAMirroredRobot) {
   DecisionSenses robot({});
   DecisionSenses mirror({});
   for (const Signals& s : wandering(500)) {
     robot.update(s);
     robot.arrange();
-    mirror.update(in_the_mirror(s));
+    mirror.update(test::in_the_mirror(s));
     mirror.arrange();
     for (std::size_t side = 0; side < 2; ++side) {
       for (std::size_t i = 0; i < decision_inputs; ++i) {

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -42,12 +41,9 @@ TEST(EvidenceCurves, BelieveOfTheMirroredRobotWhatTheyBelievedOfTheOtherWheel) {
   EvidenceCurves estimator(lifted_curves());
   EvidenceCurves mirror(lifted_curves());
   double largest = 0.0;
-  for (Signals s : test::lifted_run(1, 5, 0.3).signals) {
+  for (const Signals& s : test::lifted_run(1, 5, 0.3).signals) {
     const Belief belief = estimator.update(s);
-    std::swap(s.leg[0], s.leg[1]);
-    for (LegSignals& leg : s.leg) leg = test::mirrored(leg);
-    s.angular_velocity.x() *= -1.0;
-    const Belief& mirrored = mirror.update(s);
+    const Belief& mirrored = mirror.update(test::in_the_mirror(s));
     for (std::size_t side = 0; side < 2; ++side) {
       ASSERT_NEAR(mirrored.wheel[side].p_contact, belief.wheel[1 - side].p_contact, 1e-4);
     }
@@ -58,18 +54,8 @@ TEST(EvidenceCurves, BelieveOfTheMirroredRobotWhatTheyBelievedOfTheOtherWheel) {
 
 TEST(EvidenceCurves, MeanTheirProbabilityWhateverTheirClassesWeigh) {
   test::Normal normal(7);
-  const auto drawn = [&] {
-    test::CarriedRun run;
-    for (int k = 0; k < 20'000; ++k) {  // loads overlap; three in four are contact
-      const std::array<bool, 2> touches = {normal() < 0.6745, normal() < 0.6745};
-      run.add(touches[0] ? 8.0 + 4.0 * normal() : 4.0 * normal(),
-              touches[1] ? 8.0 + 4.0 * normal() : 4.0 * normal());
-      run.touch(touches[0], touches[1]);
-    }
-    return run;
-  };
-  const test::CarriedRun seen = drawn();
-  const test::CarriedRun others = drawn();
+  const test::CarriedRun seen = test::overlapping_loads(normal);
+  const test::CarriedRun others = test::overlapping_loads(normal);
   for (const double exponent : {0.0, -1.0}) {
     EvidenceFitConfig config = brief_fit(false);
     config.descent.passes = 1;
@@ -121,23 +107,7 @@ TEST(EvidenceCurves, RelaxWithoutALegAndWithoutAnImuAndSayWhy) {
 
 TEST(EvidenceCurves, AreNeverLostWhateverTheyHear) {
   EvidenceCurves estimator(test::random_curves(3));
-  constexpr double huge = std::numeric_limits<double>::max();
-  Signals s = test::lifted_run(1, 9).signals.front();
-  for (const double extreme : {huge, -huge, 1e4, -1e4, 0.0}) {
-    for (int k = 0; k < 50; ++k) {
-      s.time += 0.001;
-      s.vertical_acceleration = 0.5 * k;
-      s.angular_velocity.setConstant(extreme);
-      for (LegSignals& leg : s.leg) {
-        for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
-          *joint = {extreme, extreme, std::clamp(extreme, -1e4, 1e4)};
-        }
-      }
-      for (const WheelBelief& wheel : estimator.update(s).wheel) {
-        ASSERT_TRUE(wheel.p_contact >= 0.0 && wheel.p_contact <= 1.0) << extreme;
-      }
-    }
-  }
+  test::expect_never_lost(estimator);
 }
 
 TEST(EvidenceCurves, RefuseWhatMakesNoSense) {

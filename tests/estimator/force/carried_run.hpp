@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "estimator/labelled_run.hpp"
@@ -33,5 +34,13 @@ struct CarriedRun {
   }
   [[nodiscard]] LabelledRun view() const { return {signals, {contact[0], contact[1]}}; }
 };
+
+/// As a mirror at the robot's plane shows it.
+inline Signals in_the_mirror(Signals s) {
+  std::swap(s.leg[0], s.leg[1]);
+  for (LegSignals& leg : s.leg) leg = mirrored(leg);
+  s.angular_velocity.x() *= -1.0;
+  return s;
+}
 
 }  // namespace touchdown::test
