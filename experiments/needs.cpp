@@ -123,12 +123,16 @@ double bytes_of_parts(const Plan& plan) {
     const auto counted = static_cast<double>(group.counted.size() + group.disturbed.size());
     const double told =
         group.odometry ? most + 1.0 + static_cast<double>(group.odometry->late.size()) : 0.0;
+    const std::size_t points =
+        group.operating_points ? 1 + points_of(*group.operating_points).size() : 0;
     const double bytes =
         head + told * sizeof(scoring::TrajectoryScore) +
-        most * (counted * sizeof(scoring::Classification) +
-                static_cast<double>(group.scored.size()) *
-                    (sizeof(scoring::RobotScore) +
-                     (group.is_looked_at_closely ? sizeof(scoring::CloseScore) : 0)));
+        most *
+            (static_cast<double>(group.scored.size() * points) * sizeof(scoring::OperatingScore) +
+             counted * sizeof(scoring::Classification) +
+             static_cast<double>(group.scored.size()) *
+                 (sizeof(scoring::RobotScore) +
+                  (group.is_looked_at_closely ? sizeof(scoring::CloseScore) : 0)));
     of_group.push_back(block * std::ceil(bytes / block));
   }
   double bytes = 0.0;

@@ -22,6 +22,7 @@
 #include "experiments/needs.hpp"
 #include "experiments/odometry_study/tables.hpp"
 #include "experiments/odometry_study/trajectories.hpp"
+#include "experiments/operating_points/tables.hpp"
 #include "experiments/phase_study/fit.hpp"
 #include "experiments/phase_study/tables.hpp"
 #include "experiments/play/pieces.hpp"
@@ -205,6 +206,12 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
       write_tables(rows, running.directory);
       write_trajectories(listened, result.models, running.directory);
       result.studies.push_back(odometry_text(rows, experiment));
+    }
+    if (experiment.operating_points) {
+      const std::vector<OperatingRow> rows = operating_rows(listened);
+      const std::vector<OperatingMean> means = operating_means(rows);
+      write_tables(rows, means, running.directory);
+      result.studies.push_back(operating_points_text(means, experiment));
     }
     if (experiment.closed_loop) {
       const std::vector<SurvivalRow> rows = survival_rows(running.request, running.saved_loops);

@@ -63,14 +63,6 @@ FlightCounts match_flights(const ContactSequence& truth, const ContactSequence& 
   return counts;
 }
 
-std::int64_t switches(const ContactSequence& predicted, std::size_t first) {
-  std::int64_t count = 0;
-  for (std::size_t k = std::max<std::size_t>(first, 1); k < predicted.size(); ++k) {
-    count += predicted[k] != predicted[k - 1] ? 1 : 0;
-  }
-  return count;
-}
-
 }  // namespace
 
 void Latencies::add(std::int64_t latency_us) {
@@ -141,8 +133,6 @@ CloseScore close_score(const std::array<ContactSequence, models::wheel_count>& t
   CloseScore result;
   const std::size_t first = first_scored_step(period_us, config);
   const double period = 1e-6 * static_cast<double>(period_us);
-  ScoringConfig any_flight = config;
-  any_flight.minimum_flight = 0.0;
   for (std::size_t w = 0; w < models::wheel_count; ++w) {
     const ContactSequence& predicted = prediction[w].contact;
     const std::vector<bool> near = near_events(truth[w], period_us);
@@ -160,11 +150,7 @@ CloseScore close_score(const std::array<ContactSequence, models::wheel_count>& t
       const bool is_takeoff = judged.kind == EventKind::takeoff;
       (is_takeoff ? result.takeoff : result.landing).add(judged.latency * period_us);
     }
-    result.extra_switches += switches(predicted, first);
-    for (const JudgedTransition& judged :
-         judge_transitions(truth[w], predicted, period, any_flight)) {
-      result.extra_switches -= judged.verdict == Judgement::detected ? 1 : 0;
-    }
+    result.extra_switches += extra_switches(truth[w], predicted, period, config);
     result.flights +=
         match_flights(truth[w], predicted, first,
                       static_cast<std::size_t>(std::llround(config.minimum_flight / period)));

@@ -130,6 +130,19 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
   return judged;
 }
 
+std::int64_t extra_switches(const ContactSequence& truth, const ContactSequence& predicted,
+                            double period, ScoringConfig config) {
+  const Step skip = limits_in_steps(config, period).skip;
+  config.minimum_flight = 0.0;
+  const auto judged = judge_transitions(truth, predicted, period, config);
+  const auto detected = std::count_if(judged.begin(), judged.end(), [](const auto& one) {
+    return one.verdict == Judgement::detected;
+  });
+  return static_cast<std::int64_t>(predicted_steps(EventKind::takeoff, predicted, skip).size() +
+                                   predicted_steps(EventKind::landing, predicted, skip).size()) -
+         detected;
+}
+
 void TransitionCounts::add(const JudgedTransition& judged, std::int64_t period_us) {
   if (judged.verdict == Judgement::false_alarm) {
     false_alarms += 1;

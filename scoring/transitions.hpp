@@ -40,6 +40,11 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
                                                 const ContactSequence& predicted, double period,
                                                 const ScoringConfig& config);
 
+/// Changes of what is predicted, in the scored part of the sequence, but the detections of flights
+/// however short.
+std::int64_t extra_switches(const ContactSequence& truth, const ContactSequence& predicted,
+                            double period, ScoringConfig config);
+
 /// How latencies are distributed: events per 5 ms, from 60 ms early to 250 ms late; the outermost
 /// bins hold what lies beyond. Counts, so they add.
 struct LatencyHistogram {

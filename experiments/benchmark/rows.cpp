@@ -19,9 +19,8 @@ bool is_fitted_scene(const Experiment& experiment, const std::string& file) {
 std::vector<std::size_t> runs_in_scene(const Plan& plan, const Experiment& experiment,
                                        std::size_t group, std::size_t scene) {
   std::vector<std::size_t> runs = plan.runs_in(group);
-  std::erase_if(runs, [&](std::size_t run) {
-    return plan.runs[run].run / experiment.test.runs != static_cast<std::int64_t>(scene);
-  });
+  std::erase_if(runs,
+                [&](std::size_t run) { return scene_of(plan.runs[run], experiment) != scene; });
   return runs;
 }
 

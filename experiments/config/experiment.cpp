@@ -202,6 +202,21 @@ static void describe(Fields& fields, OdometryStudyConfig& odometry) {
   }
 }
 
+static void describe(Fields& fields, OperatingPointsConfig& config) {
+  const auto describe_thresholds = [&](const char* key, std::vector<double>& thresholds) {
+    fields.in_line(key, thresholds);
+    fields.check(!thresholds.empty(), key, "expected at least one probability");
+    fields.check(thresholds.empty() ||
+                     (thresholds.front() > 0.0 && thresholds.back() < 1.0 &&
+                      std::is_sorted(thresholds.begin(), thresholds.end(), std::less_equal<>())),
+                 key, "expected probabilities that grow, none of them 0 or 1");
+  };
+  describe_thresholds("leave_below", config.leave_below);
+  describe_thresholds("return_above", config.return_above);
+  fields.check(config.leave_below.front() <= config.return_above.back(), "return_above",
+               "expected one that is no lower than one of leave_below");
+}
+
 static void describe(Fields& fields, LoopScene& scene, const Experiment& experiment) {
   fields.require("scenario", scene.scenario);
   fields.know("key");
@@ -258,6 +273,29 @@ static void describe(Fields& fields, ClosedLoopConfig& config, const Experiment&
   fields.within("film", [&](Fields& film) { describe(film, *config.film, config); });
 }
 
+/// By estimator, then name, as tuning would choose them.
+static void describe_constants(Fields& fields, Experiment& experiment) {
+  constexpr const char* key = "constants";
+  fields.know(key);
+  if (!fields.present(key, !experiment.constants.empty())) return;
+  fields.within(key, [&](Fields& all) {
+    for (const std::string& name : experiment.estimators) {
+      const auto given = experiment.constants.find(name);
+      all.know(name);
+      if (!all.present(name, given != experiment.constants.end())) continue;
+      Constants& constants = experiment.constants[name];
+      all.within(name, [&](Fields& own) {
+        for (const Choice& choice : estimator_entry(name).choices) {
+          own.know(choice.name);
+          if (!own.present(choice.name, constants.contains(choice.name))) continue;
+          own(choice.name, constants[choice.name]);
+        }
+      });
+    }
+  });
+  fields.check(!experiment.tuning, key, "expected no fit.tuning beside it, which chooses them");
+}
+
 static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
   constexpr const char* key = "cross_simulator";
   std::optional<CrossSimulatorConfig>& config = experiment.cross_simulator;
@@ -307,6 +345,7 @@ static void describe(Fields& fields, Experiment& experiment) {
     if (fit.reading()) experiment.fit_seed.emplace();
     fit("seed", *experiment.fit_seed);
   });
+  describe_constants(fields, experiment);
   fields.section("test", experiment.test);
   const auto file_if_any = [&](const char* key, std::string& file) {
     fields.know(key);
@@ -352,6 +391,8 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.section("benchmark", experiment.benchmark);
   fields.know("odometry");
   fields.section("odometry", experiment.odometry);
+  fields.know("operating_points");
+  fields.section("operating_points", experiment.operating_points);
   fields.know("closed_loop");
   if (fields.present("closed_loop", experiment.closed_loop.has_value())) {
     if (fields.reading()) experiment.closed_loop.emplace();
@@ -364,6 +405,16 @@ static void describe(Fields& fields, Experiment& experiment) {
     fields.check(!experiment.phase_study || !experiment.fit_pieces.empty(), "phase_study",
                  "expected fit.pieces, which the learning curve varies");
   }
+}
+
+std::vector<scoring::Hysteresis> points_of(const OperatingPointsConfig& config) {
+  std::vector<scoring::Hysteresis> points;
+  for (const double leave_below : config.leave_below) {
+    for (const double return_above : config.return_above) {
+      if (leave_below <= return_above) points.push_back({leave_below, return_above});
+    }
+  }
+  return points;
 }
 
 std::size_t points_of(const LoopScene& scene) {

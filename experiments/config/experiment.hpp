@@ -2,14 +2,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/yaml.hpp"
+#include "experiments/estimators/fitted_model.hpp"
 #include "noise/grid.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
+#include "scoring/operating_point.hpp"
 #include "scoring/transitions.hpp"
 
 namespace touchdown::experiments {
@@ -153,6 +156,17 @@ struct OdometryStudyConfig {
   std::vector<double> late;  ///< s
 };
 
+/// The section `operating_points`: what every estimator is worth where its decision is made by
+/// these thresholds instead of its own, each of one list with each of the other that is no lower
+/// (docs/metrics.md).
+struct OperatingPointsConfig {
+  std::vector<double> leave_below = {0.02, 0.05, 0.1, 0.15, 0.25, 0.4, 0.5, 0.6, 0.75, 0.85, 0.95};
+  std::vector<double> return_above = {0.25, 0.5, 0.75, 0.9, 0.98};
+};
+
+/// Its pairs of thresholds.
+std::vector<scoring::Hysteresis> points_of(const OperatingPointsConfig& config);
+
 /// A scene in which beliefs steer, with at most one thing that is varied: a number of the scenario,
 /// the noise of the sensors, or how late the law is told.
 struct LoopScene {
@@ -191,6 +205,7 @@ struct Experiment {
   std::uint64_t seed = 1;
   std::vector<std::string> simulators = {"mujoco", "bullet"};
   std::vector<std::string> estimators = {"robust"};
+  std::map<std::string, Constants> constants = {};  ///< of these, instead of their defaults
   RunsConfig fit;  ///< noiseless runs that the measurement models are fitted to
   /// What filters with a phase model are fitted to instead, if anything is named.
   std::vector<FitPieces> fit_pieces;
@@ -213,6 +228,7 @@ struct Experiment {
   std::optional<CrossSimulatorConfig> cross_simulator;
   std::optional<BenchmarkConfig> benchmark;
   std::optional<OdometryStudyConfig> odometry;
+  std::optional<OperatingPointsConfig> operating_points;
   std::optional<ClosedLoopConfig> closed_loop;
   bool moments = false;       ///< adds tables of torques beside the real robot's (docs/realism.md)
   bool phase_study = false;   ///< adds what the phase filter's study measures (docs/protocol.md)

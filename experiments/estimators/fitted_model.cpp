@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/error.hpp"
 #include "estimator/models/make_estimator.hpp"
+#include "estimator/numerics/number_text.hpp"
 #include "recordings/models/measurement_model.hpp"
 #include "recordings/models/npz.hpp"
 
@@ -21,6 +23,27 @@ ModelPassport new_passport(const std::string& estimator, const FittedTo& fitted_
                            ? default_configuration(estimator, fitted_to.sample_rate, fitted_to.legs)
                            : ConfigurationText{},
       .fingerprint = {}};
+}
+
+Constants constants_of(const std::vector<std::string>& assignments) {
+  Constants constants;
+  for (const std::string& one : assignments) {
+    const std::size_t equals = std::min(one.find('='), one.size());
+    const std::optional<double> value =
+        equals < one.size() ? number_of(one.substr(equals + 1)) : std::nullopt;
+    if (equals == 0 || !value)
+      throw InputError(fmt::format("{}: expected name=number, as in leave_below=0.25", one));
+    constants[one.substr(0, equals)] = *value;
+  }
+  return constants;
+}
+
+void put_into(ModelPassport& passport, const Constants& constants) {
+  for (const auto& [name, value] : constants) {
+    const bool is_known =
+        passport.configuration.contains(name) || !makes_estimator(passport.estimator);
+    if (is_known) passport.configuration[name] = text_of(value);
+  }
 }
 
 ModelKind kind_of_model_file(const std::filesystem::path& path) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "estimator/bayes/measurement_model.hpp"
 #include "estimator/models/passport.hpp"
@@ -14,7 +15,7 @@
 
 namespace touchdown::experiments {
 
-/// Constants of an estimator that tuning chose, by name.
+/// Constants of an estimator that are not its defaults, by name.
 using Constants = std::map<std::string, double>;
 
 /// What an estimator was fitted with: one of the three, and what it says about itself; files that
@@ -31,6 +32,13 @@ struct FittedModel {
 
 /// The passport of a model that is fitted now.
 ModelPassport new_passport(const std::string& estimator, const FittedTo& fitted_to);
+
+/// Of "name=number" each. Errors: `InputError` for anything else.
+Constants constants_of(const std::vector<std::string>& assignments);
+
+/// Puts constants where the passport's configuration has them; of an estimator that the library
+/// does not make, all of them.
+void put_into(ModelPassport& passport, const Constants& constants);
 
 /// Models by engine that was fitted on, then by estimator. Estimators that need the same model
 /// share it.

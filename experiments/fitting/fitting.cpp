@@ -7,8 +7,6 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
-#include "estimator/models/make_estimator.hpp"
-#include "estimator/numerics/number_text.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
@@ -55,6 +53,15 @@ std::vector<Job> jobs_of(const Experiment& experiment, const ChosenConstants& ch
 
 }  // namespace
 
+ChosenConstants or_given(ChosenConstants chosen, const Experiment& experiment) {
+  for (const std::string& simulator : experiment.simulators) {
+    for (const auto& [name, constants] : experiment.constants) {
+      chosen[simulator].try_emplace(name, constants);
+    }
+  }
+  return chosen;
+}
+
 std::vector<const RunSignals*> of_engine(const std::vector<RunSignals>& runs,
                                          const std::string& simulator) {
   std::vector<const RunSignals*> own;
@@ -79,16 +86,14 @@ ModelPassport new_passport(const std::string& estimator, const FitRuns& runs,
     for (const RunSignals* run : *group) fitted_to.add(run->info);
   }
   ModelPassport passport = new_passport(estimator, fitted_to);
-  for (const auto& [name, value] : constants) {
-    const bool is_known = passport.configuration.contains(name) || !makes_estimator(estimator);
-    if (is_known) passport.configuration[name] = text_of(value);
-  }
+  put_into(passport, constants);
   return passport;
 }
 
 FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& pieces,
-                        const std::function<bool()>& going_on, const ChosenConstants& chosen) {
+                        const std::function<bool()>& going_on, const ChosenConstants& of_tuning) {
+  const ChosenConstants chosen = or_given(of_tuning, experiment);
   std::vector<Job> jobs = jobs_of(experiment, chosen);
   const auto or_stop = [&] {
     if (going_on && !going_on()) throw Stopped();

@@ -14,6 +14,9 @@ namespace touchdown::experiments {
 /// Constants that were chosen for estimators, by engine, then estimator.
 using ChosenConstants = std::map<std::string, std::map<std::string, Constants>>;
 
+/// What was chosen, and for estimators without a choice what the experiment's file says.
+ChosenConstants or_given(ChosenConstants chosen, const Experiment& experiment);
+
 /// The runs of one engine.
 std::vector<const RunSignals*> of_engine(const std::vector<RunSignals>& runs,
                                          const std::string& simulator);
@@ -28,9 +31,9 @@ ModelPassport new_passport(const std::string& estimator, const FitRuns& runs,
                            const Constants& constants);
 
 /// Fits what the experiment's estimators need, for each engine on its own runs, in parallel: phase
-/// models to the pieces of an engine that has any. Estimators that something was chosen for have it
-/// in their models, also those that are not fitted. `going_on` is asked before each density; false
-/// ends it with `Stopped`.
+/// models to the pieces of an engine that has any. Estimators that something was chosen for, or
+/// given, have it in their models, also those that are not fitted. `going_on` is asked before each
+/// density; false ends it with `Stopped`.
 FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& pieces = {},
                         const std::function<bool()>& going_on = {},

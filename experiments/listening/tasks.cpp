@@ -87,12 +87,29 @@ scoring::Classification count(Listener& listener, const RunSignals& run, const N
   return sum;
 }
 
+/// What an estimator's decisions are worth, and those that its probabilities make elsewhere.
+void add_operating_scores(const RunSignals& run, const scoring::Prediction& prediction,
+                          const OperatingPointsConfig& config,
+                          const scoring::ScoringConfig& scoring, TaskCounts& counts) {
+  using Decided = std::array<scoring::ContactSequence, models::wheel_count>;
+  const auto add = [&](const Decided& decided) {
+    counts.operating.push_back(
+        scoring::operating_score(run.contact, decided, run.info.control_period_us, scoring));
+  };
+  add({prediction[0].contact, prediction[1].contact});
+  for (const scoring::Hysteresis& point : points_of(config)) {
+    add({scoring::decisions(prediction[0].p_contact, point),
+         scoring::decisions(prediction[1].p_contact, point)});
+  }
+}
+
 }  // namespace
 
 std::string to_bytes(const TaskCounts& counts) {
   std::string bytes;
   for_each_part([&](const auto& part) { append(bytes, part); }, counts);
   append(bytes, counts.odometry);
+  append(bytes, counts.operating);
   return bytes;
 }
 
@@ -100,6 +117,7 @@ TaskCounts take_counts(std::string_view& bytes) {
   TaskCounts counts;
   for_each_part([&](auto& part) { take(part, bytes); }, counts);
   take(counts.odometry, bytes);
+  take(counts.operating, bytes);
   return counts;
 }
 
@@ -181,6 +199,9 @@ TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,
       const scoring::Prediction prediction = predict(listener, run, noise, cell.levels());
       add_scores(run, prediction, scoring, group.is_looked_at_closely && condition.refit == 0,
                  counts);
+      if (group.tries_points(condition)) {
+        add_operating_scores(run, prediction, *group.operating_points, scoring, counts);
+      }
       if (&cell == &group.scored.front() && group.tells_odometry(condition)) {
         add_odometry({prediction[0].p_contact, prediction[1].p_contact});
       }

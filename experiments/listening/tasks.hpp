@@ -12,6 +12,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/play/play.hpp"
 #include "scoring/close_score.hpp"
+#include "scoring/operating_point.hpp"
 #include "scoring/trajectory.hpp"
 
 namespace touchdown::experiments {
@@ -25,6 +26,9 @@ struct TaskCounts {
   std::vector<scoring::Classification> disturbed;  ///< likewise
   /// What odometry makes of the oracles, then of conditions at home; the whole run.
   std::vector<scoring::TrajectoryScore> odometry;
+  /// Of conditions at home: their own decisions in a cell, then those at the operating points; the
+  /// whole run.
+  std::vector<scoring::OperatingScore> operating;
 };
 
 /// As they lie in memory: for this build alone.

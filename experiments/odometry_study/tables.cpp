@@ -58,8 +58,7 @@ SceneRows scene_rows(const Listened& listened, const BenchmarkSetting& setting, 
   found.samples.resize(found.rows.size());
   for (const std::size_t index : listened.plan.runs_in(setting.group)) {
     const PlannedRun& run = listened.plan.runs[index];
-    const bool is_its_own = run.simulator == simulator &&
-                            run.run / experiment.test.runs == static_cast<std::int64_t>(scene);
+    const bool is_its_own = run.simulator == simulator && scene_of(run, experiment) == scene;
     if (!is_its_own) continue;
     const bool failed = listened.runs.at(index).failed();
     const std::vector<scoring::TrajectoryScore> scores = scores_of(listened, index);

@@ -120,8 +120,13 @@ Plan plan_of(const RunRequest& request) {
   plan_runs(request, RunRole::test, {}, 0, plan);
   plan.groups.push_back({"", own_engine_conditions(experiment),
                          noise::noise_cells(experiment.noise), experiment.highlights});
+  plan.groups.front().operating_points = experiment.operating_points;
   plan_tasks(experiment, 0, plan);
   return plan;
+}
+
+std::size_t scene_of(const PlannedRun& run, const Experiment& experiment) {
+  return static_cast<std::size_t>(run.run / experiment.test.runs);
 }
 
 std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks) {

@@ -63,11 +63,17 @@ struct RunGroup {
   /// Whether those at home tell odometry about contact, in the first scored setting.
   std::optional<OdometryStudyConfig> odometry = {};
 
+  /// Whether those at home decide by other thresholds, too, in every scored setting.
+  std::optional<OperatingPointsConfig> operating_points = {};
+
   bool scores(const Condition& condition) const {
     return scores_guests || condition.is_fit_of_home(fit);
   }
   bool tells_odometry(const Condition& condition) const {
     return odometry && condition.is_fitted_here(fit);
+  }
+  bool tries_points(const Condition& condition) const {
+    return operating_points && condition.is_fitted_here(fit);
   }
   /// A refit is scored alone.
   bool counts(const Condition& condition) const { return !counted.empty() && condition.refit == 0; }
@@ -112,6 +118,9 @@ struct Plan {
 
 /// The group of the fitted runs of one entry of `fit.pieces`.
 constexpr std::size_t piece_group(std::size_t entry) { return 1 + entry; }
+
+/// Which of the experiment's test scenarios a test run plays.
+std::size_t scene_of(const PlannedRun& run, const Experiment& experiment);
 
 /// The seed that fitted runs are drawn with.
 std::uint64_t seed_of_fit(const Experiment& experiment);

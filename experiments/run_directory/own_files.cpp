@@ -38,9 +38,9 @@ constexpr std::array fixed_names = {
         "tables",
         "(agreement|benchmark|benchmark_differences|benchmark_standings|calibration|classification|"
         "density_overlap|differences|labels|"
-        "latency|moments|odometry|overlap|reliability|runs|sample_efficiency|sensitivity|sensor_"
-        "sweep|"
-        "success|survival|torque_densities|torque_distributions|torques|training|transfer|"
+        "latency|moments|odometry|operating_points|operating_points_by_scene|overlap|reliability|"
+        "runs|sample_efficiency|sensitivity|sensor_sweep|success|"
+        "survival|torque_densities|torque_distributions|torques|training|transfer|"
         "transitions|tuning|"
         "verdicts|views)\\.csv|"
         "(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},

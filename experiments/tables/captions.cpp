@@ -37,6 +37,14 @@ std::string intervals_text(const Experiment& experiment) {
 }
 
 std::string tuning_text(const Experiment& experiment) {
+  std::string given;
+  for (const auto& [estimator, constants] : experiment.constants) {
+    for (const auto& [name, value] : constants) {
+      given += fmt::format("{}{} of {}: {}", given.empty() ? " Given: " : ", ", name,
+                           estimator_title(estimator), exact(value));
+    }
+  }
+  if (!given.empty()) return given + '.';
   if (!experiment.tuning) return {};
   return fmt::format(
       " Each estimator that has constants to choose had {}, its defaults first, judged on {} folds "

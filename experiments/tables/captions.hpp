@@ -20,8 +20,8 @@ std::string labels_text(const Experiment& experiment);
 std::string sample_text(const Experiment& experiment);
 /// "95 % bootstrap intervals over runs".
 std::string intervals_text(const Experiment& experiment);
-/// How estimators' constants were chosen, a sentence with a space before it; nothing where nobody
-/// chose.
+/// How estimators' constants were chosen, or what the file gives, a sentence with a space before
+/// it; nothing where they are the defaults.
 std::string tuning_text(const Experiment& experiment);
 /// What all scores of both wheels have in common: labels, what is not scored, intervals, tuning.
 std::string conditions_text(const Experiment& experiment);

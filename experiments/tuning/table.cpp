@@ -1,11 +1,13 @@
 #include "experiments/tuning/table.hpp"
 
+#include <iterator>
+#include <sstream>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/files.hpp"
 #include "core/table.hpp"
-#include "estimator/numerics/number_text.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -21,17 +23,9 @@ std::string text_of(const Constants& constants) {
   return fmt::format("{}", fmt::join(all, " "));
 }
 
-Constants constants_of(std::string_view text) {
-  Constants constants;
-  while (!text.empty()) {
-    const std::string_view one = text.substr(0, text.find(' '));
-    text.remove_prefix(std::min(text.size(), one.size() + 1));
-    const std::size_t equals = one.find('=');
-    if (equals == one.npos) continue;
-    const std::optional<double> value = number_of(std::string(one.substr(equals + 1)));
-    if (value) constants[std::string(one.substr(0, equals))] = *value;
-  }
-  return constants;
+Constants constants_in(const std::string& text) {
+  std::istringstream words(text);
+  return constants_of(std::vector<std::string>(std::istream_iterator<std::string>(words), {}));
 }
 
 /// Fits are called "_robot_sensors"; a column needs no line at its beginning.
@@ -58,7 +52,7 @@ ChosenConstants read_chosen(const std::filesystem::path& run_directory) {
   for (const std::vector<std::string>& row : table.rows) {
     if (cell(table, row, "chosen") != "1" || !cell(table, row, "fit").empty()) continue;
     chosen[cell(table, row, "simulator")][cell(table, row, "estimator")] =
-        constants_of(cell(table, row, "constants"));
+        constants_in(cell(table, row, "constants"));
   }
   return chosen;
 }

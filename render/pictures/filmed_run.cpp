@@ -106,7 +106,8 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
   const experiments::VideoConfig& video = experiment.video;
   const noise::SensorNoise levels =
       noise::as_on_grid({video.torque_noise, video.accelerometer_noise}, experiment.noise).levels();
-  experiments::ChosenConstants chosen = experiments::read_chosen(subject.directory);
+  experiments::ChosenConstants chosen =
+      experiments::or_given(experiments::read_chosen(subject.directory), experiment);
   std::vector<FilmedRun> all;
   for (const experiments::RunSummary& run : subject.summary.runs) {
     if (run.role != experiments::RunRole::test || run.run != video.run) continue;

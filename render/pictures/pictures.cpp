@@ -11,6 +11,7 @@
 #include "render/curves/moments_figure.hpp"
 #include "render/film/video.hpp"
 #include "render/odometry/errors_figure.hpp"
+#include "render/operating_points/front_figure.hpp"
 #include "render/pictures/closed_loop_film.hpp"
 #include "render/pictures/drop_figures.hpp"
 #include "render/pictures/heatmaps.hpp"
@@ -57,6 +58,12 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     }
     if (result.experiment.odometry) {
       draw_odometry_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
+    }
+    if (result.experiment.operating_points) {
+      draw_operating_points_figure(
+          from_csv(read_file(result.directory.file("tables", "operating_points.csv"))),
+          experiments::labels_text(result.experiment),
+          result.directory.file("figures", "operating_points"));
     }
     if (result.experiment.closed_loop) {
       draw_survival_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);

@@ -1,0 +1,74 @@
+#include "scoring/operating_point.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace touchdown::scoring {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST(OperatingPoint, LeavesBelowOneThresholdAndReturnsAboveTheOther) {
+  const std::vector<double> p = {0.5, 0.3, 0.29, 0.6, 0.8, 0.81, 0.3, 0.1, 0.79};
+  EXPECT_THAT(decisions(p, {0.3, 0.8}), ElementsAre(1, 1, 0, 0, 0, 1, 1, 0, 0));
+  EXPECT_THAT(decisions(p, {0.3, 0.3}), ElementsAre(1, 1, 0, 1, 1, 1, 1, 0, 1));
+  EXPECT_THAT(decisions({}, {0.3, 0.8}), ElementsAre());
+}
+
+using BothWheels = std::array<ContactSequence, models::wheel_count>;
+
+/// Contact of 3 s at 1 kHz but for these flights, the right wheel always in contact.
+BothWheels contact_but(const std::vector<Flight>& flights) {
+  BothWheels contact = {ContactSequence(3000, 1), ContactSequence(3000, 1)};
+  for (const Flight& flight : flights) {
+    for (std::size_t k = flight.takeoff; k < flight.landing; ++k) contact[0][k] = 0;
+  }
+  return contact;
+}
+
+TEST(OperatingPoint, CountsWhatIsToldBesidesTheFlights) {
+  // Told 4 ms late, interrupted for 3 ms, and once where there is none.
+  const OperatingScore score =
+      operating_score(contact_but({{1000, 1200}}),
+                      contact_but({{1004, 1100}, {1103, 1200}, {2000, 2010}}), 1000, {});
+  EXPECT_EQ(score.flights, 1);
+  EXPECT_EQ(score.found, 1);
+  EXPECT_DOUBLE_EQ(score.takeoff_error(), 0.004);
+  EXPECT_EQ(score.extra_switches, 4);  // landed and left, left and landed
+  EXPECT_EQ(score.false_takeoffs, 1);
+  EXPECT_EQ(score.points.flight_as_contact, 4 + 3);
+  EXPECT_EQ(score.points.contact_as_flight, 10);
+  EXPECT_EQ(score.points.points(), 2 * 2700);
+  EXPECT_DOUBLE_EQ(score.extra_switches_per_minute(), 4.0 * 60.0 / 5.4);
+  EXPECT_DOUBLE_EQ(score.extra_switches_per_flight(), 4.0);
+  EXPECT_DOUBLE_EQ(score.false_takeoffs_per_minute(), 60.0 / 5.4);
+}
+
+TEST(OperatingPoint, AnEarlyTakeoffIsAsFarOffAsALateOne) {
+  const BothWheels truth = contact_but({{1000, 1200}});
+  EXPECT_DOUBLE_EQ(operating_score(truth, contact_but({{990, 1200}}), 1000, {}).takeoff_error(),
+                   0.010);
+  EXPECT_DOUBLE_EQ(operating_score(truth, contact_but({{1010, 1200}}), 1000, {}).takeoff_error(),
+                   0.010);
+}
+
+TEST(OperatingPoint, ScoresOfRunsAdd) {
+  const OperatingScore found =
+      operating_score(contact_but({{1000, 1200}}), contact_but({{1002, 1200}}), 1000, {});
+  const OperatingScore missed =
+      operating_score(contact_but({{1000, 1200}}), contact_but({}), 1000, {});
+  OperatingScore sum = found;
+  sum += missed;
+  EXPECT_EQ(sum.flights, 2);
+  EXPECT_DOUBLE_EQ(sum.takeoff_recall(), 0.5);
+  EXPECT_DOUBLE_EQ(sum.takeoff_error(), 0.002);
+  EXPECT_EQ(sum.scored_us, 2 * 5'400'000);
+  EXPECT_TRUE(std::isnan(missed.takeoff_error()));
+  EXPECT_TRUE(std::isnan(
+      operating_score(contact_but({}), contact_but({}), 1000, {}).extra_switches_per_flight()));
+}
+
+}  // namespace
+}  // namespace touchdown::scoring
