@@ -34,6 +34,7 @@ struct EstimateFlags {
   std::string estimator;
   std::string robot;
   bool transfer = false;
+  std::vector<std::string> constants;
   std::vector<std::string> outputs;
   std::string figure;
   DrawnPart drawn;
@@ -191,7 +192,8 @@ void estimate_log(const std::string& path, const recordings::ContactIntervals* l
 
 void estimate(const EstimateFlags& flags, const CliSession& session) {
   const experiments::LogEstimator estimator =
-      experiments::log_estimator({flags.estimator, flags.model, flags.robot, flags.transfer});
+      experiments::log_estimator({flags.estimator, flags.model, flags.robot, flags.transfer,
+                                  experiments::constants_of(flags.constants)});
   const std::vector<EstimateOutputs> outputs =
       estimate_outputs(flags.logs, flags.model, flags.labels, flags.outputs, flags.figure);
   const std::vector<recordings::ContactIntervals> labels =
@@ -224,6 +226,11 @@ void add_estimate(CLI::App& program, const CliSession& session) {
   verb.option("--robot", &flags->robot,
               "Whose logs they are (default: as a simulated log says): not the model's is an error")
       .value_name("NAME");
+  verb.option("--set", &flags->constants,
+              "Run the estimator with another constant than its model says, for example\n"
+              "leave_below=0.25")
+      .value_name("NAME=NUMBER")
+      .one_at_a_time();
   verb.flag("--transfer", &flags->transfer,
             "Use a model at another rate or on another robot than it was fitted for");
   verb.option("-o,--output", &flags->outputs,

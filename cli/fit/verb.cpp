@@ -22,6 +22,7 @@ struct FitFlags {
   std::vector<std::string> labels;
   std::string output;
   std::string estimator = "robust";
+  std::vector<std::string> constants;
   experiments::LogFitConfig config;
   std::vector<int> grid;
   std::vector<double> bandwidth;
@@ -107,6 +108,11 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
       .value_name("FILE.csv");
   verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
   verb.option("--estimator", &flags.estimator, fitted_estimators()).shows_default();
+  verb.option("--set", &flags.constants,
+              "Run and fit the estimator with another constant than its default, for example\n"
+              "leave_below=0.25")
+      .value_name("NAME=NUMBER")
+      .one_at_a_time();
   verb.option("--robot", &flags.config.robot,
               "Whose logs they are, for the model to say (default: as simulated logs do)")
       .value_name("NAME");
@@ -156,13 +162,14 @@ void fit(const FitFlags& flags, const CliSession& session) {
         fitted_estimators()));
   }
   shape_densities(entry, flags);
+  experiments::LogFitConfig config = flags.config;
+  config.stop = session.stop;
+  config.constants = experiments::constants_of(flags.constants);
   std::vector<InputFile> inputs;
   for (const experiments::FitLog& log : logs) inputs.push_back({log.path, "log"});
   for (const std::string& labels : flags.labels) inputs.push_back({labels, "file of labels"});
   check_outputs(inputs, {flags.output});
   require_extension(flags.output, {".npz"}, "a model");
-  experiments::LogFitConfig config = flags.config;
-  config.stop = session.stop;
   experiments::LogFitReport report;
   experiments::write_fitted_model(experiments::fit_to_logs(entry, logs, config, report),
                                   flags.output);

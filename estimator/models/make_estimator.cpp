@@ -161,6 +161,26 @@ ModelPassport passport_by_arrays(const ModelArrays& arrays) {
   return passport;
 }
 
+/// The model's own, for the estimator that it was fitted for, but for what is replaced.
+ConfigurationText configuration_for(const ModelPassport& passport, const std::string& estimator,
+                                    const ConfigurationText& replaced) {
+  ConfigurationText configuration;
+  if (estimator == passport.estimator) configuration = passport.configuration;
+  if (replaced.empty()) return configuration;
+  const ConfigurationText usual = recipe(estimator).configuration(passport.sample_rate, {});
+  if (configuration.empty()) configuration = usual;
+  for (const auto& [key, value] : replaced) {
+    if (!usual.contains(key)) {
+      std::string known;
+      for (const auto& [other, text] : usual) known.append(known.empty() ? "" : ", ").append(other);
+      throw InputError("the configuration of '" + estimator + "' has no '" + key +
+                       "': expected one of " + known);
+    }
+    configuration[key] = value;
+  }
+  return configuration;
+}
+
 }  // namespace
 
 ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
@@ -198,9 +218,8 @@ std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays, cons
   const ModelPassport passport = passport_for(arrays, use);
   const std::string& name = use.estimator.empty() ? passport.estimator : use.estimator;
   return recipe(name).make(
-      arrays, {name == passport.estimator ? passport.configuration : ConfigurationText{},
-               passport.sample_rate, use.sample_rate > 0.0 ? use.sample_rate : passport.sample_rate,
-               use.geometry});
+      arrays, {configuration_for(passport, name, use.configuration), passport.sample_rate,
+               use.sample_rate > 0.0 ? use.sample_rate : passport.sample_rate, use.geometry});
 }
 
 }  // namespace touchdown

@@ -12,7 +12,7 @@ namespace touchdown {
 /// than these or from elsewhere, is taken as well if `use` says what it does not: the estimator of
 /// a grid, and the sample rate of all but a phase model.
 /// Errors: `InputError`, one line: what is missing; an estimator, a rate or a robot that is not the
-/// model's; numbers that the estimator cannot be made with.
+/// model's; a configuration without such a member; numbers that the estimator cannot be made with.
 std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays,
                                                  const ModelUse& use = {});
 

@@ -49,6 +49,8 @@ struct ModelUse {
   std::string robot = {};
   /// The legs, for estimators that use kinematics.
   std::optional<LegGeometry> geometry = {};
+  /// Members of the configuration that shall not be as the model has them.
+  ConfigurationText configuration = {};
 };
 
 /// Errors: `InputError` that says what was expected and what the model was fitted for, if its rate

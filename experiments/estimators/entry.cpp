@@ -4,8 +4,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/yaml.hpp"
 
 namespace touchdown::experiments {
 
@@ -41,6 +43,18 @@ EstimatorEntry with_constants(EstimatorEntry entry, const Constants& constants) 
   }
   if (entry.settle != nullptr) entry.settle(entry);
   return entry;
+}
+
+void check_names(const Constants& constants, const EstimatorEntry& entry) {
+  std::vector<std::string> known;
+  for (const Choice& choice : entry.choices) known.push_back(choice.name);
+  for (const auto& [name, value] : constants) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw InputError(known.empty() ? fmt::format("'{}' has no constants", entry.name)
+                                   : fmt::format("'{}' has no constant '{}'{}: expected one of {}",
+                                                 entry.name, name, did_you_mean(name, known),
+                                                 fmt::join(known, ", ")));
+  }
 }
 
 noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& levels) {

@@ -124,6 +124,9 @@ struct EstimatorEntry {
 /// count.
 EstimatorEntry with_constants(EstimatorEntry entry, const Constants& constants);
 
+/// Errors: `InputError`, one line with the nearest name, for one that is none of its choices.
+void check_names(const Constants& constants, const EstimatorEntry& entry);
+
 /// The estimator, however it listens, made for this.
 Listener listener_of(const EstimatorEntry& entry, const EstimatorSetup& setup);
 

@@ -130,7 +130,8 @@ LogEstimator log_estimator(const LogEstimatorRequest& request) {
                                       ? usual_estimator(ModelKind::measurement, none)
                                       : estimator_entry(request.name);
     check_needs(entry, request.model);
-    return {entry, none, request};
+    check_names(request.constants, entry);
+    return {with_constants(entry, request.constants), none, request};
   }
   require_file(request.model);
   const ModelKind kind = kind_of_model_file(request.model);
@@ -139,7 +140,10 @@ LogEstimator log_estimator(const LogEstimatorRequest& request) {
       request.name.empty() ? usual_estimator(kind, model) : estimator_entry(request.name);
   check_fit(entry, kind, model, request.model);
   if (kind == ModelKind::parameters) check_parameters(entry, model, request.model);
-  return {configured(entry, model, request.model), std::move(model), request};
+  check_names(request.constants, entry);
+  EstimatorEntry own = configured(entry, model, request.model);
+  if (model.passport) put_into(*model.passport, request.constants);
+  return {with_constants(std::move(own), request.constants), std::move(model), request};
 }
 
 }  // namespace touchdown::experiments

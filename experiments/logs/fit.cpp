@@ -380,9 +380,11 @@ FittedModel fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
 
 FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                         const LogFitConfig& config, LogFitReport& report) {
-  FittedModel model = fit_model(entry, logs, config, report);
+  check_names(config.constants, entry);
+  FittedModel model = fit_model(with_constants(entry, config.constants), logs, config, report);
   if (!config.robot.empty()) report.fitted_to.robots = {config.robot};
   model.passport = new_passport(entry.name, report.fitted_to);
+  put_into(*model.passport, config.constants);
   return model;
 }
 

@@ -31,6 +31,7 @@ struct LogFitConfig {
   scoring::LabelConfig labels;  ///< of logs with ground truth
   double skip = 0.3;            ///< not used at the beginning of each log (s)
   std::string robot = {};       ///< whose logs they are; empty: as they say, if they do
+  Constants constants = {};     ///< of the estimator, instead of its defaults
   /// Stops with `Stopped` once true; may be null.
   const std::atomic<bool>* stop = nullptr;
 };
@@ -45,9 +46,9 @@ struct LogFitReport {
   std::vector<std::string> warnings;
 };
 
-/// The model that an estimator needs, fitted to logs. Errors: `InputError` for logs of reserved
-/// seeds, without ground truth where none is declared, with labels about other times, or
-/// unreadable.
+/// The model that an estimator needs, fitted to logs. Errors: `InputError` for constants that it
+/// does not have, for logs of reserved seeds, without ground truth where none is declared, with
+/// labels about other times, or unreadable.
 ///
 /// A measurement model is fitted as in experiments/fitting, at a memory that does not grow with the
 /// logs: each is read twice, which standard input cannot be. A torque that is not finite, or

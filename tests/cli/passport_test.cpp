@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/files.hpp"
 #include "onboard/load_estimator.hpp"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
@@ -54,6 +55,26 @@ TEST_F(Passport, SaysForWhomAtWhichRateAndToWhatAModelWasFitted) {
               HasSubstr("model        m.npz: fitted for 'robust' at 1000 Hz to 'tall', "
                         "fingerprint " +
                         passport.fingerprint + "\n"));
+}
+
+TEST_F(Passport, SaysWhichConstantsTheFitWasTold) {
+  run("fit a.mpack -o other.npz --robot tall --grid 60 60 --set threshold=0.5");
+  EXPECT_EQ(load_passport(folder_ / "other.npz").configuration.at("threshold"), "0.5");
+  EXPECT_EQ(load_passport(folder_ / "m.npz").configuration.at("threshold"), "0.8");
+  run("estimate a.mpack --model other.npz -o fitted_so.csv");
+  run("estimate a.mpack --model m.npz --set threshold=0.5 -o run_so.csv");
+  run("estimate a.mpack --model m.npz -o usual.csv");
+  const std::string told = read_file(folder_ / "fitted_so.csv");
+  EXPECT_EQ(told, read_file(folder_ / "run_so.csv"));
+  EXPECT_NE(told, read_file(folder_ / "usual.csv"));
+  EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --set thresold=0.5"),
+              AllOf(HasSubstr("'robust' has no constant 'thresold'"),
+                    HasSubstr("did you mean 'threshold'")));
+  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set thresold=0.5"),
+              HasSubstr("did you mean 'threshold'"));
+  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set threshold=half"),
+              HasSubstr("threshold=half: expected name=number, as in leave_below=0.25"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "x.npz"));
 }
 
 TEST_F(Passport, OfASimulatedLogNamesItsRobot) {

@@ -145,6 +145,20 @@ TEST(MakeEstimator, GivesTheSameFitTheSameFingerprint) {
   EXPECT_EQ(fingerprint(without_derived), robust);
 }
 
+TEST(MakeEstimator, RunsItAsItsUserSaysInsteadOfThePassport) {
+  const ModelArrays arrays = test::fitted_model("robust");
+  BayesFilterConfig config = BayesFilterConfig::robust();
+  config.threshold = 0.3;
+  BayesFilter expected(measurement_model_of(arrays), config);
+  const ModelUse use{.configuration = {{"threshold", "0.3"}}};
+  EXPECT_EQ(told(*make_estimator(arrays, use)), told(expected));
+  EXPECT_NE(told(*make_estimator(arrays)), told(expected));
+  EXPECT_THAT(complaint_about(arrays, {.configuration = {{"thresold", "0.3"}}}),
+              AllOf(HasSubstr("has no 'thresold'"), HasSubstr("threshold")));
+  EXPECT_THAT(complaint_about(arrays, {.configuration = {{"threshold", "low"}}}),
+              HasSubstr("'low' is no value for it"));
+}
+
 TEST(MakeEstimator, TakesTheLegsOfAnotherRobot) {
   const ModelArrays arrays = test::fitted_model("load_logistic");
   LegGeometry longer;
