@@ -27,7 +27,9 @@ class LogitDecision {
   const std::array<bool, 2>& hear(const Signals& signals) noexcept;
   /// Its inputs: of the left wheel, which are the other one's in another order; of both.
   [[nodiscard]] const DecisionInputs& left_inputs() const noexcept { return senses_.left_inputs(); }
-  [[nodiscard]] DecisionPairInputs pair_inputs() const noexcept { return senses_.pair_inputs(); }
+  [[nodiscard]] const DecisionPairInputs& pair_inputs() const noexcept {
+    return senses_.pair_inputs();
+  }
   /// What is believed, given ln P(contact) / P(no contact) of each wheel that has inputs.
   const Belief& decide(const std::array<double, 2>& logit) noexcept;
 

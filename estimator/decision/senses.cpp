@@ -185,39 +185,39 @@ DecisionSenses::Step DecisionSenses::update(const Signals& signals) noexcept {
   return step;
 }
 
-/// Compresses every channel: what is large differs less than what is small.
+/// Compresses every channel: what is large differs less than what is small. Inputs of one wheel and
+/// of both are made together: reading again what has just been written takes longer.
 void DecisionSenses::arrange() noexcept {
   constexpr auto scales = static_cast<int>(decision_scales);
-  using Scales = Eigen::Array<float, scales, 1>;
-  float* end = heard_.data();
-  const auto add = [&](const TimeScales& channel, float bend) {
-    const Scales y = Eigen::Map<const Scales>(channel.values().data()) * (1.0F / bend);
-    Eigen::Map<Scales> compressed(end);
-    compressed = y / (1.0F + y.abs() / largest_input);
-    end += scales;
-  };
-  for (const LegScales& leg : leg_) {
-    for (std::size_t i = 0; i < decision_leg_channels; ++i) add(leg[i], leg_bends[i]);
-  }
-  add(acceleration_, acceleration_bend);
-  add(roll_rate_, roll_rate_bend);
-  end[0] = static_cast<float>(torque_noise_.log_sigma() + log_density_);
-  end[1] = static_cast<float>(acceleration_noise_.log_sigma() + log_density_);
-}
-
-DecisionPairInputs DecisionSenses::pair_inputs() const noexcept {
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
-  DecisionPairInputs inputs;
-  for (std::size_t i = 0; i < of_legs; ++i) {
-    inputs.common[i] = heard_[i] + heard_[of_legs + i];
-    inputs.difference[i] = heard_[i] - heard_[of_legs + i];
+  using Scales = Eigen::Array<float, scales, 1>;
+  const auto compressed = [](const TimeScales& channel, float bend) -> Scales {
+    const Scales y = Eigen::Map<const Scales>(channel.values().data()) * (1.0F / bend);
+    return y / (1.0F + y.abs() / largest_input);
+  };
+  const auto at = [](auto& inputs, std::size_t begin) {
+    return Eigen::Map<Scales>(inputs.data() + begin);
+  };
+  for (std::size_t i = 0; i < decision_leg_channels; ++i) {
+    const std::size_t begin = i * decision_scales;
+    const Scales left = compressed(leg_[0][i], leg_bends[i]);
+    const Scales right = compressed(leg_[1][i], leg_bends[i]);
+    at(heard_, begin) = left;
+    at(heard_, of_legs + begin) = right;
+    at(pair_.common, begin) = left + right;
+    at(pair_.difference, begin) = left - right;
   }
-  for (std::size_t i = 0; i < decision_scales; ++i) {
-    inputs.common[of_legs + i] = heard_[2 * of_legs + i];
-    inputs.difference[of_legs + i] = heard_[2 * of_legs + decision_scales + i];
-  }
-  std::copy(heard_.end() - 2, heard_.end(), inputs.common.end() - 2);
-  return inputs;
+  const Scales acceleration = compressed(acceleration_, acceleration_bend);
+  at(heard_, 2 * of_legs) = acceleration;
+  at(pair_.common, of_legs) = acceleration;
+  const Scales roll_rate = compressed(roll_rate_, roll_rate_bend);
+  at(heard_, 2 * of_legs + decision_scales) = roll_rate;
+  at(pair_.difference, of_legs) = roll_rate;
+  const std::array<float, 2> noise = {
+      static_cast<float>(torque_noise_.log_sigma() + log_density_),
+      static_cast<float>(acceleration_noise_.log_sigma() + log_density_)};
+  std::copy(noise.begin(), noise.end(), heard_.end() - 2);
+  std::copy(noise.begin(), noise.end(), pair_.common.end() - 2);
 }
 
 }  // namespace touchdown

@@ -64,7 +64,7 @@ class DecisionSenses {
   [[nodiscard]] DecisionInputs inputs(std::size_t side) const noexcept {
     return side == 0 ? heard_ : of_other_wheel(heard_);
   }
-  [[nodiscard]] DecisionPairInputs pair_inputs() const noexcept;
+  [[nodiscard]] const DecisionPairInputs& pair_inputs() const noexcept { return pair_; }
   /// The estimated white noise of torques (N·m), as dense as at 1 kHz: at a lower rate there are
   /// fewer samples of it to average.
   [[nodiscard]] double torque_noise() const noexcept { return density_ * torque_noise_.sigma(); }
@@ -99,7 +99,8 @@ class DecisionSenses {
   double roll_rate_silence_ = 0.0;
   NoiseEstimate<2> torque_noise_;
   NoiseEstimate<1> acceleration_noise_;
-  alignas(32) DecisionInputs heard_{};  ///< of the left wheel
+  alignas(32) DecisionInputs heard_{};     ///< of the left wheel
+  alignas(32) DecisionPairInputs pair_{};  ///< of both
 };
 
 }  // namespace touchdown
