@@ -30,13 +30,6 @@ TimeScales::TimeScales(double sample_rate) noexcept {
   }
 }
 
-void TimeScales::update(double input) noexcept {
-  const auto x = static_cast<float>(input);
-  if (!is_started_) values_.fill(x);
-  is_started_ = true;
-  for (std::size_t i = 0; i < decision_scales; ++i) values_[i] += gains_[i] * (x - values_[i]);
-}
-
 void TimeScales::catch_up(double input, double seconds) noexcept {
   if (!is_started_) return;
   const auto x = static_cast<float>(input);
@@ -90,21 +83,23 @@ void DecisionSenses::miss(double seconds) noexcept {
   acceleration_noise_.forget_signals();
 }
 
+// The next ones are inline since a compiler of position-independent code calls all others.
+
 /// A leg's bus that hangs: one servo alone may rest.
-bool DecisionSenses::is_frozen(const LegSignals& leg, std::size_t side) noexcept {
+inline bool DecisionSenses::is_frozen(const LegSignals& leg, std::size_t side) noexcept {
   return leg_repetition_[side].update({leg.hip.position, leg.hip.velocity, leg.hip.torque,
                                        leg.knee.position, leg.knee.velocity, leg.knee.torque,
                                        leg.wheel.position, leg.wheel.velocity, leg.wheel.torque});
 }
 
 /// What was silent for longer than a gap is taken to have been as it is now all the while.
-void DecisionSenses::hear(TimeScales& channel, double input, double silence) const noexcept {
+inline void DecisionSenses::hear(TimeScales& channel, double input, double silence) const noexcept {
   if (silence > config_.maximum_gap) channel.catch_up(input, silence);
   channel.update(input);
 }
 
-void DecisionSenses::hear_legs(const Signals& signals, const std::array<bool, 2>& is_heard,
-                               bool is_acceleration_heard, double elapsed) noexcept {
+inline void DecisionSenses::hear_legs(const Signals& signals, const std::array<bool, 2>& is_heard,
+                                      bool is_acceleration_heard, double elapsed) noexcept {
   const std::array<FootJacobian, 2> foot = foot_jacobians(geometry_, signals.leg);
   for (std::size_t side = 0; side < 2; ++side) {
     double& silence = leg_silence_[side];

@@ -29,7 +29,12 @@ class TimeScales {
   explicit TimeScales(double sample_rate) noexcept;
 
   void reset() noexcept { is_started_ = false; }
-  void update(double input) noexcept;
+  void update(double input) noexcept {
+    const auto x = static_cast<float>(input);
+    if (!is_started_) values_.fill(x);
+    is_started_ = true;
+    for (std::size_t i = 0; i < decision_scales; ++i) values_[i] += gains_[i] * (x - values_[i]);
+  }
   /// Takes the input for what there was in `seconds` without one, which the next update ends.
   void catch_up(double input, double seconds) noexcept;
   [[nodiscard]] const Values& values() const noexcept { return values_; }
