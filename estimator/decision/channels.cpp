@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimator/force/wheel_loads.hpp"
-
 namespace touchdown {
 
 namespace {
@@ -45,12 +43,6 @@ LegChannels LegListener::update(const LegSignals& leg, const FootJacobian& foot,
           within(sign * leg.wheel.torque - geometry_.wheel_inertia * rate_ * (now[0] - before[0]),
                  largest_channel),
           now[1], within(vertical_acceleration + rate_ * (now[1] - before[1]), largest_channel)};
-}
-
-bool is_usable(const LegSignals& leg, const SignalGuardConfig& guard) noexcept {
-  return tells_of_load(leg, guard) && is_torque(leg.wheel.torque, guard) &&
-         std::isfinite(leg.hip.velocity) && std::isfinite(leg.knee.velocity) &&
-         std::isfinite(leg.wheel.velocity);
 }
 
 }  // namespace touchdown

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "estimator/decision/config.hpp"
+#include "estimator/force/wheel_loads.hpp"
 
 namespace touchdown {
 
@@ -45,6 +47,11 @@ class LegListener {
 };
 
 /// Whether all that the network hears of a leg can be used.
-[[nodiscard]] bool is_usable(const LegSignals& leg, const SignalGuardConfig& guard) noexcept;
+[[nodiscard]] inline bool is_usable(const LegSignals& leg,
+                                    const SignalGuardConfig& guard) noexcept {
+  return tells_of_load(leg, guard) && is_torque(leg.wheel.torque, guard) &&
+         std::isfinite(leg.hip.velocity) && std::isfinite(leg.knee.velocity) &&
+         std::isfinite(leg.wheel.velocity);
+}
 
 }  // namespace touchdown

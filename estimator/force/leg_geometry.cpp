@@ -54,34 +54,11 @@ FootJacobian foot_jacobian(const LegGeometry& geometry, const LegSignals& leg,
   return jacobian_of(geometry, links[0], links[1]);
 }
 
-double vertical_force_times_determinant(const LegGeometry& geometry, const FootJacobian& foot,
-                                        const LegSignals& leg, bool mirrored,
-                                        double acceleration) noexcept {
-  constexpr double gravity = 9.81;
-  const double sign = mirrored ? -1.0 : 1.0;
-  // What the links and the wheel weigh on each joint, by their arms.
-  const double below_knee = geometry.lower_centre * geometry.lower_mass + geometry.wheel_mass;
-  const double on_knee = below_knee * foot.lower_z;
-  const double on_hip =
-      (geometry.upper_centre * geometry.upper_mass + geometry.lower_mass + geometry.wheel_mass) *
-          foot.upper_z +
-      on_knee;
-  const double hip_load = -sign * leg.hip.torque + on_hip * (gravity + acceleration);
-  const double knee_load = -sign * leg.knee.torque + on_knee * (gravity + acceleration);
-  return (foot.upper_x + foot.lower_x) * knee_load - foot.lower_x * hip_load;
-}
-
 double vertical_force(const LegGeometry& geometry, const LegSignals& leg, bool mirrored,
                       double acceleration) noexcept {
   const FootJacobian foot = foot_jacobian(geometry, leg, mirrored);
   return vertical_force_times_determinant(geometry, foot, leg, mirrored, acceleration) /
          foot.determinant();
-}
-
-double axle_velocity(const FootJacobian& foot, const LegSignals& leg, bool mirrored) noexcept {
-  const double sign = mirrored ? -1.0 : 1.0;
-  return foot.upper_z * (sign * leg.hip.velocity) +
-         foot.lower_z * (sign * leg.hip.velocity + sign * leg.knee.velocity);
 }
 
 double axle_velocity(const LegGeometry& geometry, const LegSignals& leg) noexcept {

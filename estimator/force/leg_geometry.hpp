@@ -55,10 +55,23 @@ struct FootJacobian {
 ///
 /// over the links and the wheel, solved for F = (F_x, F_z), times the determinant of J (N·m²):
 /// always finite, whereas a straight leg carries any load without torques.
-[[nodiscard]] double vertical_force_times_determinant(const LegGeometry& geometry,
-                                                      const FootJacobian& foot,
-                                                      const LegSignals& leg, bool mirrored,
-                                                      double acceleration) noexcept;
+[[nodiscard]] inline double vertical_force_times_determinant(const LegGeometry& geometry,
+                                                             const FootJacobian& foot,
+                                                             const LegSignals& leg, bool mirrored,
+                                                             double acceleration) noexcept {
+  constexpr double gravity = 9.81;
+  const double sign = mirrored ? -1.0 : 1.0;
+  // What the links and the wheel weigh on each joint, by their arms.
+  const double below_knee = geometry.lower_centre * geometry.lower_mass + geometry.wheel_mass;
+  const double on_knee = below_knee * foot.lower_z;
+  const double on_hip =
+      (geometry.upper_centre * geometry.upper_mass + geometry.lower_mass + geometry.wheel_mass) *
+          foot.upper_z +
+      on_knee;
+  const double hip_load = -sign * leg.hip.torque + on_hip * (gravity + acceleration);
+  const double knee_load = -sign * leg.knee.torque + on_knee * (gravity + acceleration);
+  return (foot.upper_x + foot.lower_x) * knee_load - foot.lower_x * hip_load;
+}
 
 /// The force alone (N). Not finite where the knee is straight.
 [[nodiscard]] double vertical_force(const LegGeometry& geometry, const LegSignals& leg,
@@ -66,8 +79,12 @@ struct FootJacobian {
 
 /// How fast the axle moves upwards beneath the hip (m/s), ż of the above, if the torso is level and
 /// does not turn.
-[[nodiscard]] double axle_velocity(const FootJacobian& foot, const LegSignals& leg,
-                                   bool mirrored) noexcept;
+[[nodiscard]] inline double axle_velocity(const FootJacobian& foot, const LegSignals& leg,
+                                          bool mirrored) noexcept {
+  const double sign = mirrored ? -1.0 : 1.0;
+  return foot.upper_z * (sign * leg.hip.velocity) +
+         foot.lower_z * (sign * leg.hip.velocity + sign * leg.knee.velocity);
+}
 
 /// Likewise, for both legs: where one is mirrored, the signs of a sine and of a velocity cancel.
 [[nodiscard]] double axle_velocity(const LegGeometry& geometry, const LegSignals& leg) noexcept;

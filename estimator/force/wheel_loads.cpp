@@ -7,11 +7,6 @@
 
 namespace touchdown {
 
-bool tells_of_load(const LegSignals& leg, const SignalGuardConfig& guard) noexcept {
-  return is_torque(leg.hip.torque, guard) && is_torque(leg.knee.torque, guard) &&
-         std::isfinite(leg.hip.position) && std::isfinite(leg.knee.position);
-}
-
 bool is_sensible(const WheelLoadsConfig& config) noexcept {
   return config.low_pass >= 0.0 && config.geometry.upper_length > 0.0 &&
          config.geometry.lower_length > 0.0 && config.largest > 0.0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "estimator/contact_estimator.hpp"
@@ -20,7 +21,11 @@ struct WheelLoadsConfig {
 };
 
 /// Whether all that a load is computed from can be used.
-[[nodiscard]] bool tells_of_load(const LegSignals& leg, const SignalGuardConfig& guard) noexcept;
+[[nodiscard]] inline bool tells_of_load(const LegSignals& leg,
+                                        const SignalGuardConfig& guard) noexcept {
+  return is_torque(leg.hip.torque, guard) && is_torque(leg.knee.torque, guard) &&
+         std::isfinite(leg.hip.position) && std::isfinite(leg.knee.position);
+}
 
 /// Whether lengths are positive and the time constant is not negative.
 [[nodiscard]] bool is_sensible(const WheelLoadsConfig& config) noexcept;
