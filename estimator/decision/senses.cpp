@@ -186,7 +186,7 @@ void DecisionSenses::arrange() noexcept {
   constexpr auto scales = static_cast<int>(decision_scales);
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
   using Scales = Eigen::Array<float, scales, 1>;
-  const auto compressed = [](const TimeScales& channel, float bend) -> Scales {
+  const auto bent = [](const TimeScales& channel, float bend) -> Scales {
     const Scales y = Eigen::Map<const Scales>(channel.values().data()) * (1.0F / bend);
     return y / (1.0F + y.abs() / largest_input);
   };
@@ -195,17 +195,17 @@ void DecisionSenses::arrange() noexcept {
   };
   for (std::size_t i = 0; i < decision_leg_channels; ++i) {
     const std::size_t begin = i * decision_scales;
-    const Scales left = compressed(leg_[0][i], leg_bends[i]);
-    const Scales right = compressed(leg_[1][i], leg_bends[i]);
+    const Scales left = bent(leg_[0][i], leg_bends[i]);
+    const Scales right = bent(leg_[1][i], leg_bends[i]);
     at(heard_, begin) = left;
     at(heard_, of_legs + begin) = right;
     at(pair_.common, begin) = left + right;
     at(pair_.difference, begin) = left - right;
   }
-  const Scales acceleration = compressed(acceleration_, acceleration_bend);
+  const Scales acceleration = bent(acceleration_, acceleration_bend);
   at(heard_, 2 * of_legs) = acceleration;
   at(pair_.common, of_legs) = acceleration;
-  const Scales roll_rate = compressed(roll_rate_, roll_rate_bend);
+  const Scales roll_rate = bent(roll_rate_, roll_rate_bend);
   at(heard_, 2 * of_legs + decision_scales) = roll_rate;
   at(pair_.difference, of_legs) = roll_rate;
   const std::array<float, 2> noise = {

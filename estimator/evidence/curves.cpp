@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <Eigen/Core>
 
@@ -90,6 +91,7 @@ std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left) const no
     return Eigen::Map<const Four>(from) * (here + onwards * at.share[input]);
   };
   // In four sums side by side, none of which has to wait for the one before.
+  static_assert(of_legs % 2 == 0 && std::tuple_size_v<decltype(curve_)> % 2 == 0);
   Four left_even = Four::Zero();
   Four left_odd = Four::Zero();
   Four right_even = Four::Zero();
