@@ -171,6 +171,12 @@ std::string SavedCounts::key_of(const Plan& plan, const Task& task) const {
   return fmt::format("{} part {}", key_, task_name(plan, task));
 }
 
+static TaskCounts saved_counts(const Plan& plan, const Task& task, const SavedCounts& saved) {
+  std::optional<TaskCounts> found = saved.read(plan, task);
+  if (!found) throw Error(fmt::format("the results of {} are missing", task_name(plan, task)));
+  return *std::move(found);
+}
+
 TaskCounts listen(const Plan& plan, const Task& task, const RunSignals& run,
                   const scoring::ScoringConfig& scoring, const FittedModels& models,
                   const GoingOn& going_on) {
@@ -240,6 +246,14 @@ std::size_t listen(const Plan& plan, const TaskRange& tasks, const PlayedRuns& r
   return computed;
 }
 
+std::vector<TaskCounts> findings_of(std::size_t run, const Plan& plan, const SavedCounts& saved) {
+  std::vector<TaskCounts> all;
+  for (const Task& task : plan.tasks) {
+    if (task.run == run) all.push_back(saved_counts(plan, task, saved));
+  }
+  return all;
+}
+
 CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
                         const SavedCounts& saved) {
   CollectedCounts all;
@@ -259,13 +273,12 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
   }
   for (const Task& task : plan.tasks) {
     if (std::find(runs.begin(), runs.end(), task.run) == runs.end()) continue;
-    const std::optional<TaskCounts> found = saved.read(plan, task);
-    if (!found) throw Error(fmt::format("the results of {} are missing", task_name(plan, task)));
-    if (found->counted.empty() && found->scored.empty()) continue;
+    const TaskCounts found = saved_counts(plan, task, saved);
+    if (found.counted.empty() && found.scored.empty()) continue;
     const std::string& simulator = plan.runs[task.run].simulator;
     for_each_part(
         [&](auto& sums, const auto& part) { add_samples(sums, part, simulator, task.seed == 0); },
-        all, *found);
+        all, found);
   }
   return all;
 }

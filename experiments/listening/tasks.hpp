@@ -126,6 +126,10 @@ struct CollectedCounts {
 CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
                         const SavedCounts& saved);
 
+/// What the tasks that listen to one run found out, noise seed by noise seed. Errors: `Error` when
+/// one is missing.
+std::vector<TaskCounts> findings_of(std::size_t run, const Plan& plan, const SavedCounts& saved);
+
 /// An experiment that has been listened to, as its studies see it.
 struct Listened {
   const RunRequest& request;

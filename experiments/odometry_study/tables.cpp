@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
 #include "core/table.hpp"
 #include "experiments/odometry/contact_sources.hpp"
 #include "experiments/odometry_study/plan.hpp"
@@ -19,14 +18,9 @@ namespace {
 /// failed.
 std::vector<scoring::TrajectoryScore> scores_of(const Listened& listened, std::size_t run) {
   std::vector<scoring::TrajectoryScore> sums;
-  for (const Task& task : listened.plan.tasks) {
-    if (task.run != run) continue;
-    const std::optional<TaskCounts> found = listened.saved.read(listened.plan, task);
-    if (!found) {
-      throw Error(fmt::format("the results of {} are missing", task_name(listened.plan, task)));
-    }
-    sums.resize(std::max(sums.size(), found->odometry.size()));
-    for (std::size_t i = 0; i < found->odometry.size(); ++i) sums[i] += found->odometry[i];
+  for (const TaskCounts& found : findings_of(run, listened.plan, listened.saved)) {
+    sums.resize(std::max(sums.size(), found.odometry.size()));
+    for (std::size_t i = 0; i < found.odometry.size(); ++i) sums[i] += found.odometry[i];
   }
   return sums;
 }

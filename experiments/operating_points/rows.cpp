@@ -4,9 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
-#include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -15,19 +12,6 @@ namespace {
 
 using Scores = std::vector<scoring::OperatingScore>;
 
-/// Adds what the tasks of one run found out, noise seed by noise seed.
-void add_run(const Listened& listened, std::size_t run, Scores& sums) {
-  for (const Task& task : listened.plan.tasks) {
-    if (task.run != run) continue;
-    const std::optional<TaskCounts> found = listened.saved.read(listened.plan, task);
-    if (!found) {
-      throw Error(fmt::format("the results of {} are missing", task_name(listened.plan, task)));
-    }
-    sums.resize(std::max(sums.size(), found->operating.size()));
-    for (std::size_t i = 0; i < found->operating.size(); ++i) sums[i] += found->operating[i];
-  }
-}
-
 /// What a scene has in one engine, as its tasks have them; empty without any run to score.
 Scores scores_of(const Listened& listened, std::size_t scene, const std::string& simulator) {
   Scores sums;
@@ -35,7 +19,11 @@ Scores scores_of(const Listened& listened, std::size_t scene, const std::string&
     const PlannedRun& run = listened.plan.runs[index];
     const bool is_its_own =
         run.simulator == simulator && scene_of(run, listened.request.experiment) == scene;
-    if (is_its_own) add_run(listened, index, sums);
+    if (!is_its_own) continue;
+    for (const TaskCounts& found : findings_of(index, listened.plan, listened.saved)) {
+      sums.resize(std::max(sums.size(), found.operating.size()));
+      for (std::size_t i = 0; i < found.operating.size(); ++i) sums[i] += found.operating[i];
+    }
   }
   return sums;
 }
