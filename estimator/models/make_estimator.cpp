@@ -161,6 +161,13 @@ ModelPassport passport_by_arrays(const ModelArrays& arrays) {
   return passport;
 }
 
+std::string no_such_member(const std::string& estimator, const std::string& key,
+                           const ConfigurationText& known) {
+  std::string names;
+  for (const auto& [name, text] : known) names.append(names.empty() ? "" : ", ").append(name);
+  return "the configuration of '" + estimator + "' has no '" + key + "': expected one of " + names;
+}
+
 /// The model's own, for the estimator that it was fitted for, but for what is replaced.
 ConfigurationText configuration_for(const ModelPassport& passport, const std::string& estimator,
                                     const ConfigurationText& replaced) {
@@ -170,12 +177,7 @@ ConfigurationText configuration_for(const ModelPassport& passport, const std::st
   const ConfigurationText usual = recipe(estimator).configuration(passport.sample_rate, {});
   if (configuration.empty()) configuration = usual;
   for (const auto& [key, value] : replaced) {
-    if (!usual.contains(key)) {
-      std::string known;
-      for (const auto& [other, text] : usual) known.append(known.empty() ? "" : ", ").append(other);
-      throw InputError("the configuration of '" + estimator + "' has no '" + key +
-                       "': expected one of " + known);
-    }
+    if (!usual.contains(key)) throw InputError(no_such_member(estimator, key, usual));
     configuration[key] = value;
   }
   return configuration;
