@@ -141,6 +141,11 @@ LogEstimator log_estimator(const LogEstimatorRequest& request) {
   check_fit(entry, kind, model, request.model);
   if (kind == ModelKind::parameters) check_parameters(entry, model, request.model);
   check_names(request.constants, entry);
+  for (const Choice& choice : entry.choices) {
+    if (!choice.is_fitted_with || !request.constants.contains(choice.name)) continue;
+    throw InputError(fmt::format("'{0}' is decided by the fit: touchdown fit --set {0}={1}",
+                                 choice.name, text_of(request.constants.at(choice.name))));
+  }
   EstimatorEntry own = configured(entry, model, request.model);
   if (model.passport) put_into(*model.passport, request.constants);
   return {with_constants(std::move(own), request.constants), std::move(model), request};

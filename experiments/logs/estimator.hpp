@@ -17,7 +17,7 @@ struct LogEstimatorRequest {
   std::string robot = {};            ///< whose logs they are; empty: as they say, if they do
   /// At other rates and on other robots than it was fitted for, too.
   bool transfer = false;
-  Constants constants = {};  ///< instead of the model's
+  Constants constants = {};  ///< instead of the model's; of those that its fit did not need
 };
 
 /// An estimator for logs: which one, and what it was fitted with.

@@ -70,6 +70,8 @@ TEST_F(Passport, SaysWhichConstantsTheFitWasTold) {
   EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --set thresold=0.5"),
               AllOf(HasSubstr("'robust' has no constant 'thresold'"),
                     HasSubstr("did you mean 'threshold'")));
+  EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --set bandwidth_floor=0.01"),
+              HasSubstr("'bandwidth_floor' is decided by the fit: touchdown fit --set"));
   EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set thresold=0.5"),
               HasSubstr("did you mean 'threshold'"));
   EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set threshold=half"),
