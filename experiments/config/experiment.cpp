@@ -280,9 +280,8 @@ static void describe_constants(Fields& fields, Experiment& experiment) {
   if (!fields.present(key, !experiment.constants.empty())) return;
   fields.within(key, [&](Fields& all) {
     for (const std::string& name : experiment.estimators) {
-      const auto given = experiment.constants.find(name);
       all.know(name);
-      if (!all.present(name, given != experiment.constants.end())) continue;
+      if (!all.present(name, experiment.constants.contains(name))) continue;
       Constants& constants = experiment.constants[name];
       all.within(name, [&](Fields& own) {
         for (const Choice& choice : estimator_entry(name).choices) {
