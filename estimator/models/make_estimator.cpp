@@ -138,11 +138,17 @@ const Recipe* find_recipe(std::string_view name) {
   return found == recipes().end() ? nullptr : &*found;
 }
 
+/// "a, b, c".
+std::string listed(const auto& all, const auto& name_of) {
+  std::string names;
+  for (const auto& one : all) names.append(names.empty() ? "" : ", ").append(name_of(one));
+  return names;
+}
+
 const Recipe& recipe(std::string_view name) {
   if (const Recipe* found = find_recipe(name)) return *found;
-  std::string known;
-  for (const Recipe& each : recipes()) known.append(known.empty() ? "" : ", ").append(each.name);
-  throw InputError("no model is fitted for '" + std::string(name) + "': expected one of " + known);
+  throw InputError("no model is fitted for '" + std::string(name) + "': expected one of " +
+                   listed(recipes(), [](const Recipe& each) { return each.name; }));
 }
 
 /// What a model without a passport tells by its arrays.
@@ -163,9 +169,8 @@ ModelPassport passport_by_arrays(const ModelArrays& arrays) {
 
 std::string no_such_member(const std::string& estimator, const std::string& key,
                            const ConfigurationText& known) {
-  std::string names;
-  for (const auto& [name, text] : known) names.append(names.empty() ? "" : ", ").append(name);
-  return "the configuration of '" + estimator + "' has no '" + key + "': expected one of " + names;
+  return "the configuration of '" + estimator + "' has no '" + key + "': expected one of " +
+         listed(known, [](const auto& member) { return member.first; });
 }
 
 /// The model's own, for the estimator that it was fitted for, but for what is replaced.
