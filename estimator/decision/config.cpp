@@ -20,6 +20,13 @@ void check_decision_fit_config(const DecisionFitConfig& config) {
     throw InputError(
         "decision network: steps_of_slow must be positive, share_slow between 0 and 1");
   }
+  if (!(config.share_forgetful >= 0.0 && config.share_forgetful <= 1.0 &&
+        std::isfinite(config.forget_after) && config.forget_after > 0.0 &&
+        is_level(config.forget_after_noise))) {
+    throw InputError(
+        "decision: share_forgetful must be between 0 and 1, forget_after (s) positive, "
+        "forget_after_noise (s per N·m) not negative");
+  }
   if (!(std::isfinite(config.learning_rate) && config.learning_rate > 0.0 &&
         is_level(config.decay) && std::isfinite(config.class_exponent))) {
     throw InputError(

@@ -17,6 +17,12 @@ struct DecisionFitConfig {
   /// A share of the hearings hears one step in so many, as robots whose programs are slower do.
   std::size_t steps_of_slow = 5;
   double share_slow = 0.2;
+  /// In a share of the hearings the low-passes begin anew from time to time, so that what is plain
+  /// now counts at once, whatever was before: after so long on average (s), and so much longer for
+  /// each N·m of noise, through which nothing is plain.
+  double share_forgetful = 0.25;
+  double forget_after = 0.1;
+  double forget_after_noise = 0.4;
   std::size_t batch = 512;      ///< rows of one step of the descent
   std::size_t epochs = 14;      ///< how often each row is learned from, on average
   double learning_rate = 3e-3;  ///< of the first step; falls to nothing along a cosine

@@ -35,6 +35,8 @@ class Disturbance {
   /// The next step as it is heard.
   Signals operator()(Signals signals);
 
+  [[nodiscard]] double torque_noise() const noexcept { return torque_noise_; }  ///< N·m
+
  private:
   struct Bias {
     double torque = 0.0;    ///< N·m

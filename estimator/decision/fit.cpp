@@ -18,6 +18,13 @@ std::size_t steps_of(const LabelledRun& run) {
   return run.signals.size() - std::min(run.signals.size(), run.skip);
 }
 
+double share_of_steps_that_forget(const DecisionFitConfig& fit, const Disturbance& disturbance,
+                                  double sample_rate, Draws& draws) {
+  if (!(fit.share_forgetful > 0.0 && draws.uniform() < fit.share_forgetful)) return 0.0;
+  const double after = fit.forget_after + fit.forget_after_noise * disturbance.torque_noise();
+  return 1.0 / (after * sample_rate);
+}
+
 /// The weight of each class: no contact, contact.
 std::array<double, 2> class_weights(const DecisionRows& rows, double exponent) {
   const double contact = rows.is_contact.cast<double>().sum();
@@ -49,8 +56,10 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
       own.sample_rate = run.sample_rate / static_cast<double>(apart);
       DecisionSenses senses(own);
       Disturbance disturbed(fit.disturbance, draws);
+      const double forgets = share_of_steps_that_forget(fit, disturbed, own.sample_rate, draws);
       std::size_t next = run.skip + draws.below(stride);
       for (std::size_t k = 0; k < run.signals.size(); k += apart) {
+        if (forgets > 0.0 && draws.uniform() < forgets) senses.forget();
         const DecisionSenses::Step step = senses.update(disturbed(run.signals[k]));
         if (k < next) continue;
         next += stride;

@@ -64,14 +64,18 @@ void DecisionSenses::reset() noexcept {
   gyro_repetition_.reset();
   torque_noise_.reset();
   acceleration_noise_.reset();
-  for (std::size_t side = 0; side < 2; ++side) {
-    listener_[side].reset();
-    for (TimeScales& channel : leg_[side]) channel.reset();
+  for (LegListener& listener : listener_) listener.reset();
+  forget();
+  leg_silence_ = {};
+  acceleration_silence_ = roll_rate_silence_ = 0.0;
+}
+
+void DecisionSenses::forget() noexcept {
+  for (LegScales& leg : leg_) {
+    for (TimeScales& channel : leg) channel.reset();
   }
   acceleration_.reset();
   roll_rate_.reset();
-  leg_silence_ = {};
-  acceleration_silence_ = roll_rate_silence_ = 0.0;
 }
 
 /// Nothing was heard for so many seconds.

@@ -60,6 +60,8 @@ class DecisionSenses {
   explicit DecisionSenses(const DecisionConfig& config);
 
   void reset() noexcept;
+  /// The low-passes begin anew with what comes next; noise levels and silent sensors stay known.
+  void forget() noexcept;
   Step update(const Signals& signals) noexcept;
 
   /// Makes the network's inputs of what was heard so far.

@@ -14,7 +14,7 @@ namespace {
 
 /// Every step that is heard, as it is.
 DecisionFitConfig undisturbed() {
-  DecisionFitConfig fit{.passes = 1, .rows = 1'000'000};
+  DecisionFitConfig fit{.passes = 1, .rows = 1'000'000, .share_forgetful = 0.0};
   fit.disturbance = {.largest_torque_noise = 0.0,
                      .largest_acceleration_noise = 0.0,
                      .torque_bias = 0.0,
@@ -48,11 +48,38 @@ TEST(DecisionRows, OfSlowHearingsAreWhatARobotHearsThatIsAsSlow) {
   }
 }
 
+TEST(DecisionRows, OfForgetfulHearingsAreOfLowPassesThatBeganAnewFromTimeToTime) {
+  test::CarriedRun run;  // loads that never stay
+  for (int k = 0; k < 20'000; ++k) {
+    run.add(20.0 + 0.001 * k, 30.0 - 0.0005 * k, 0.001 * (k % 7));
+    run.touch(k % 2 == 0, true);
+  }
+  DecisionFitConfig fit = undisturbed();
+  fit.share_slow = 0.0;
+  fit.share_forgetful = 1.0;
+  fit.forget_after = 0.05;
+  const DecisionRows rows = decision_rows(std::vector<LabelledRun>{run.view()}, {}, fit);
+  ASSERT_EQ(rows.inputs.cols(), 2 * 20'000);
+  int begun = 0;
+  for (Eigen::Index i = 0; i < rows.inputs.cols(); i += 2) {  // the left wheel's load, all scales
+    const auto load = rows.inputs.col(i).head(static_cast<Eigen::Index>(decision_scales));
+    begun += (load.array() == load[0]).all() ? 1 : 0;
+  }
+  EXPECT_NEAR(begun, 20.0 / 0.05, 5.0 * std::sqrt(20.0 / 0.05));
+}
+
 TEST(DecisionFitConfig, OfHearingsThatCannotBeIsRefused) {
   for (const double share : {-0.1, 1.1, std::nan("")}) {
     EXPECT_THROW(check_decision_fit_config({.share_slow = share}), InputError) << share;
   }
   EXPECT_THROW(check_decision_fit_config({.steps_of_slow = 0}), InputError);
+  for (const double share : {-0.1, 1.1, std::nan("")}) {
+    EXPECT_THROW(check_decision_fit_config({.share_forgetful = share}), InputError) << share;
+  }
+  for (const double after : {0.0, -1.0, std::nan("")}) {
+    EXPECT_THROW(check_decision_fit_config({.forget_after = after}), InputError) << after;
+  }
+  EXPECT_THROW(check_decision_fit_config({.forget_after_noise = -0.1}), InputError);
 }
 
 }  // namespace
