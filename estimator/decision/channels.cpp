@@ -7,7 +7,9 @@ namespace touchdown {
 
 namespace {
 
-constexpr double least_area = 0.002;     // m²
+constexpr double untold_load = 15.0;     // N
+constexpr double least_area = 0.003;     // m²
+constexpr double area_of_noise = 0.004;  // m² for each N·m
 constexpr double largest_load = 200.0;   // N: four times Upkie's weight
 constexpr double largest_channel = 1e4;  // of any other, so that floats hold it
 
@@ -26,7 +28,7 @@ LegListener::LegListener(const DecisionConfig& config, bool mirrored)
 }
 
 LegChannels LegListener::update(const LegSignals& leg, const FootJacobian& foot,
-                                double vertical_acceleration) noexcept {
+                                double vertical_acceleration, double torque_noise) noexcept {
   const double sign = mirrored_ ? -1.0 : 1.0;
   const std::array<double, 2> now = {sign * leg.wheel.velocity,
                                      within(axle_velocity(foot, leg, mirrored_), largest_channel)};
@@ -36,9 +38,12 @@ LegChannels LegListener::update(const LegSignals& leg, const FootJacobian& foot,
   heard_ = std::min(heard_ + 1, velocities_.size());
 
   const double area = foot.determinant();
-  const double load =
-      vertical_force_times_determinant(geometry_, foot, leg, mirrored_, vertical_acceleration) *
-      area / (area * area + least_area * least_area);
+  const double noisy_area = area_of_noise * torque_noise;
+  const double untold = least_area * least_area + noisy_area * noisy_area;
+  const double load = (area * vertical_force_times_determinant(geometry_, foot, leg, mirrored_,
+                                                               vertical_acceleration) +
+                       untold * untold_load) /
+                      (area * area + untold);
   return {within(load, largest_load),
           within(sign * leg.wheel.torque - geometry_.wheel_inertia * rate_ * (now[0] - before[0]),
                  largest_channel),

@@ -12,9 +12,11 @@ namespace touchdown {
 
 /// What the decision network hears of one leg, in the left leg's signs.
 struct LegChannels {
-  /// What the wheel carries (N): F of `vertical_force` times d²/(d² + ε²), with the determinant of
-  /// the leg's Jacobian, d = L₁ L₂ sin q₂, and ε = 0.002 m². A bent leg is hardly changed (Upkie's
-  /// crouch: 1 %); towards a straight one, which carries without torques, it fades to nothing.
+  /// What the wheel carries (N), as far as its leg tells: (d² F + ε² F₀) / (d² + ε²), with F of
+  /// `vertical_force` and the determinant of the leg's Jacobian, d = L₁ L₂ sin q₂. A bent leg tells
+  /// F (Upkie's crouch: 2 % of F₀ in it); a straight one, which carries any load without torques,
+  /// tells F₀ = 15 N, which means neither contact nor air. ε² = (0.003 m²)² + (0.004 m²/(N·m) σ)²:
+  /// through torques' noise σ a leg must be bent further to be heard.
   double load = 0.0;
   /// The torque of the ground on the wheel (N·m): what its servo's does not turn into its
   /// acceleration.
@@ -32,9 +34,10 @@ class LegListener {
   LegListener(const DecisionConfig& config, bool mirrored);
 
   void reset() noexcept { heard_ = 0; }
-  /// Signals must be usable, `foot` this leg's in this pose.
-  LegChannels update(const LegSignals& leg, const FootJacobian& foot,
-                     double vertical_acceleration) noexcept;
+  /// Signals must be usable, `foot` this leg's in this pose, `torque_noise` that of
+  /// `DecisionSenses` (N·m).
+  LegChannels update(const LegSignals& leg, const FootJacobian& foot, double vertical_acceleration,
+                     double torque_noise) noexcept;
 
  private:
   LegGeometry geometry_;

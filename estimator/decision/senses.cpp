@@ -105,6 +105,7 @@ inline void DecisionSenses::hear(TimeScales& channel, double input, double silen
 inline void DecisionSenses::hear_legs(const Signals& signals, const std::array<bool, 2>& is_heard,
                                       bool is_acceleration_heard, double elapsed) noexcept {
   const std::array<FootJacobian, 2> foot = foot_jacobians(geometry_, signals.leg);
+  const double noise = torque_noise();
   for (std::size_t side = 0; side < 2; ++side) {
     double& silence = leg_silence_[side];
     if (!is_heard[side]) {
@@ -113,7 +114,7 @@ inline void DecisionSenses::hear_legs(const Signals& signals, const std::array<b
     }
     if (silence > config_.maximum_gap) listener_[side].reset();
     const LegChannels heard =
-        listener_[side].update(signals.leg[side], foot[side], signals.vertical_acceleration);
+        listener_[side].update(signals.leg[side], foot[side], signals.vertical_acceleration, noise);
     hear(leg_[side][1], heard.reaction, silence);
     hear(leg_[side][2], heard.axle_velocity, silence);
     if (is_acceleration_heard) {  // the others cannot do without

@@ -20,6 +20,8 @@ inline constexpr std::array<float, decision_leg_channels> leg_bends = {5.0F, 0.1
 /// … vertical acceleration (m/s²) and roll rate (rad/s).
 inline constexpr float acceleration_bend = 3.0F;
 inline constexpr float roll_rate_bend = 0.3F;
+/// Which senses these are: what was fitted to others is no model for them.
+inline constexpr int decision_senses = 2;
 
 /// First-order low-passes of 1, 2, 4, … 128 ms, side by side. Starts at its first input.
 class TimeScales {

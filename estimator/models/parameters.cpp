@@ -64,6 +64,19 @@ void take(const double* from, std::span<float> to) {
                  [](double value) { return static_cast<float>(value); });
 }
 
+void add_senses(Parameters& parameters) {
+  parameters["senses"] = {static_cast<double>(decision_senses)};
+}
+
+/// Errors: `InputError` for what was fitted to other senses than today's.
+void check_senses(const Parameters& parameters) {
+  if (parameters.contains("senses") && parameter(parameters, "senses") == decision_senses) return;
+  throw InputError(
+      "senses: expected " + std::to_string(decision_senses) +
+      ", what this version hears of loads: this model was fitted to what another one hears of "
+      "them, fit it again");
+}
+
 std::string curves_name(const char* channel) { return std::string("curves_") + channel; }
 std::string seen_name(const char* channel) { return std::string("seen_") + channel; }
 
@@ -129,6 +142,7 @@ ForceKinematicsModel force_kinematics_model_of(const Parameters& parameters) {
 
 Parameters parameters_of(const DecisionModel& model) {
   Parameters parameters;
+  add_senses(parameters);
   for_each_part(model, [&](const char* name, auto numbers) {
     parameters[name].assign(numbers.begin(), numbers.end());
   });
@@ -136,6 +150,7 @@ Parameters parameters_of(const DecisionModel& model) {
 }
 
 DecisionModel decision_model_of(const Parameters& parameters) {
+  check_senses(parameters);
   DecisionModel model;
   for_each_part(model, [&](const char* name, auto numbers) {
     const std::vector<double>& values = parameter(parameters, name, numbers.size());
@@ -146,6 +161,7 @@ DecisionModel decision_model_of(const Parameters& parameters) {
 
 Parameters parameters_of(const EvidenceModel& model) {
   Parameters parameters = {{"bias", {model.bias}}};
+  add_senses(parameters);
   for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
     std::vector<double>& curves = parameters[curves_name(name)];
     std::vector<double>& seen = parameters[seen_name(name)];
@@ -163,6 +179,7 @@ Parameters parameters_of(const EvidenceModel& model) {
 }
 
 EvidenceModel evidence_model_of(const Parameters& parameters) {
+  check_senses(parameters);
   EvidenceModel model;
   model.bias = static_cast<float>(parameter(parameters, "bias"));
   for_each_channel([&](const char* name, std::size_t first, std::size_t count) {

@@ -112,7 +112,8 @@ TEST(LegGeometry, LeavesNoReactionOfTheGroundToWheelsThatSpinFreely) {
         const Signals heard = recordings::signals_from(simulator->observation(), 0.0);
         const LegSignals& leg = heard.leg[0];
         const double reaction =
-            listener.update(leg, foot_jacobian(geometry, leg, false), heard.vertical_acceleration)
+            listener
+                .update(leg, foot_jacobian(geometry, leg, false), heard.vertical_acceleration, 0.0)
                 .reaction;
         largest_torque = std::max(largest_torque, std::abs(leg.wheel.torque));
         if (step > 10) largest_reaction = std::max(largest_reaction, std::abs(reaction));

@@ -13,8 +13,10 @@ namespace {
 constexpr double crouched_hip = 0.455;  // rad
 constexpr double crouched_knee = -0.791;
 
-LegChannels channels_of(const LegSignals& leg, bool mirrored, double acceleration = 0.0) {
-  return LegListener({}, mirrored).update(leg, foot_jacobian({}, leg, mirrored), acceleration);
+LegChannels channels_of(const LegSignals& leg, bool mirrored, double acceleration = 0.0,
+                        double torque_noise = 0.0) {
+  return LegListener({}, mirrored)
+      .update(leg, foot_jacobian({}, leg, mirrored), acceleration, torque_noise);
 }
 
 TEST(LegListener, HearsTheLoadOfABentLegInEitherLegsSigns) {
@@ -23,7 +25,7 @@ TEST(LegListener, HearsTheLoadOfABentLegInEitherLegsSigns) {
       const LegSignals leg =
           test::holding({}, crouched_hip, crouched_knee, 0.0, force, acceleration);
       const double found = channels_of(leg, false, acceleration).load;
-      EXPECT_NEAR(found, force, 0.02 * force + 1e-6);
+      EXPECT_NEAR(found, force, 0.021 * std::abs(force - 15.0) + 1e-6);
       EXPECT_EQ(channels_of(test::mirrored(leg), true, acceleration).load, found);
     }
   }
@@ -42,9 +44,39 @@ TEST(LegListener, HearsOfAStraightLegNothingThatJumps) {
     }
     before = load;
   }
-  LegSignals straight;
-  straight.knee.torque = 1.0;
-  EXPECT_EQ(channels_of(straight, false).load, 0.0);
+}
+
+TEST(LegListener, HearsOfAStraightLegNeitherContactNorAirWhateverItsTorques) {
+  for (const double torque : {0.0, 1.0, -20.0}) {
+    for (const double noise : {0.0, 3.0}) {
+      LegSignals straight;
+      straight.knee.torque = torque;
+      EXPECT_EQ(channels_of(straight, false, 0.0, noise).load, 15.0) << torque;
+    }
+  }
+}
+
+TEST(LegListener, HearsTheLessOfALegTheStraighterItIsAndTheNoisierItsTorques) {
+  for (const double force : {0.0, 26.0}) {
+    double nearer = 0.0;
+    for (const double knee : {-0.8, -0.3, -0.17, -0.1, -0.05, -0.01}) {
+      double before = nearer;
+      for (const double noise : {0.0, 0.3, 1.0, 3.0}) {
+        const LegSignals leg = test::holding({}, -0.5 * knee, knee, 0.0, force, 0.0);
+        const double told = channels_of(leg, false, 0.0, noise).load - 15.0;
+        const double share = told / (force - 15.0);
+        EXPECT_TRUE(share > 0.0 && share < 1.0) << knee << ", " << noise;
+        if (noise > 0.0) {
+          EXPECT_LT(share, before) << knee << ", " << noise;
+        } else if (before > 0.0) {
+          EXPECT_LT(share, nearer) << knee;
+        }
+        before = share;
+        if (noise == 0.0) nearer = share;
+      }
+    }
+    EXPECT_LT(nearer, 0.03);
+  }
 }
 
 TEST(LegListener, TakesTheWheelsOwnInertiaOffItsTorque) {
@@ -61,9 +93,9 @@ TEST(LegListener, TakesTheWheelsOwnInertiaOffItsTorque) {
         LegSignals leg;
         leg.wheel.velocity = 4.0 + 0.001 * acceleration * k;
         leg.wheel.torque = inertia * acceleration + ground;
-        last = left.update(leg, foot_jacobian(config.geometry, leg, false), 0.0);
+        last = left.update(leg, foot_jacobian(config.geometry, leg, false), 0.0, 0.0);
         mirror = right.update(test::mirrored(leg),
-                              foot_jacobian(config.geometry, test::mirrored(leg), true), 0.0);
+                              foot_jacobian(config.geometry, test::mirrored(leg), true), 0.0, 0.0);
       }
       EXPECT_NEAR(last.reaction, ground, 1e-12);
       EXPECT_EQ(mirror.reaction, last.reaction);
@@ -105,7 +137,7 @@ TEST(LegListener, HearsNoAccelerationOfAnAxleThatStaysWhileTheTorsoFalls) {
     LegSignals leg;
     leg.hip = {now[0], (later[0] - before[0]) / (2.0 * step), 0.0};
     leg.knee = {now[1], (later[1] - before[1]) / (2.0 * step), 0.0};
-    last = listener.update(leg, foot_jacobian(config.geometry, leg, false), -6.0);
+    last = listener.update(leg, foot_jacobian(config.geometry, leg, false), -6.0, 0.0);
   }
   EXPECT_NEAR(last.axle_velocity, 6.0 * 0.099, 1e-3);
   EXPECT_NEAR(last.axle_acceleration, 0.0, 0.01);

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "estimator/decision/fit.hpp"
+#include "estimator/force/leg_geometry.hpp"
 #include "tests/estimator/decision/lifted_run.hpp"
 #include "tests/estimator/random.hpp"
 
@@ -68,11 +69,8 @@ TEST(DecisionNetwork, MeansItsProbabilityWhateverItsClassesWeigh) {
     double best = 0.0;
     for (std::size_t k = 0; k < others.signals.size(); ++k) {
       const double p = estimator.update(others.signals[k]).wheel[0].p_contact;
-      const double load =
-          LegListener({}, false)
-              .update(others.signals[k].leg[0], foot_jacobian({}, others.signals[k].leg[0], false),
-                      others.signals[k].vertical_acceleration)
-              .load;
+      const double load = vertical_force({}, others.signals[k].leg[0], false,
+                                         others.signals[k].vertical_acceleration);
       // Bayes' rule on two Gaussians: the logit is linear in the load.
       const double truth = 1.0 / (1.0 + std::exp(-(std::log(3.0) + 0.5 * load - 2.0)));
       believed += p - (others.contact[0][k] != 0 ? 1.0 : 0.0);

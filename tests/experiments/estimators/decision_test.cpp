@@ -44,11 +44,23 @@ TEST(DecisionNetworkEntry, StopsWhenItIsAskedTo) {
   EXPECT_THROW(entry.fit(entry, {.whole = {&run}, .before_density = [] { throw Asked(); }}), Asked);
 }
 
-TEST(DecisionNetworkEntry, RefusesAModelThatLacksALayer) {
+TEST(DecisionNetworkEntry, RefusesAModelThatLacksALayerOrWasFittedToOtherSenses) {
   const EstimatorEntry entry = decision_network_entry();
-  const FittedModel model = {.parameters = std::make_shared<recordings::ParameterModelFile>(
-                                 recordings::ParameterModelFile{entry.name, {}, {}})};
-  EXPECT_THROW(entry.make(entry, {.model = &model}), InputError);
+  const RunSignals run = synthetic_run(1'000'000, 1500);
+  const recordings::ParameterModelFile good = *entry.fit(entry, {.whole = {&run}}).parameters;
+  for (const char* const part : {"second_weight", "senses"}) {
+    for (const bool is_missing : {true, false}) {
+      recordings::ParameterModelFile file = good;
+      if (is_missing) {
+        file.parameters.erase(part);
+      } else {
+        file.parameters.at(part) = {1.0};
+      }
+      const FittedModel model = {
+          .parameters = std::make_shared<recordings::ParameterModelFile>(std::move(file))};
+      EXPECT_THROW(entry.make(entry, {.model = &model}), InputError) << part;
+    }
+  }
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(EvidenceEntries, AreFittedWithTheSmoothnessThatIsChosen) {
             evidence_in(other.fit(other, {.whole = {&run}})));
 }
 
-TEST(EvidenceEntries, RefuseModelsThatLackAPartOrAreOfOtherPairs) {
+TEST(EvidenceEntries, RefuseModelsThatLackAPartOrAreOfOtherPairsOrSenses) {
   const EstimatorEntry entry = evidence_pairs_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const recordings::ParameterModelFile good = *entry.fit(entry, {.whole = {&run}}).parameters;
@@ -61,6 +61,8 @@ TEST(EvidenceEntries, RefuseModelsThatLackAPartOrAreOfOtherPairs) {
   refused([](recordings::Parameters& all) { all.at("curves_torque_noise").pop_back(); });
   refused([](recordings::Parameters& all) { all.at("pairs")[0] += 1.0; });
   refused([](recordings::Parameters& all) { all.at("bias")[0] = HUGE_VAL; });
+  refused([](recordings::Parameters& all) { all.at("senses")[0] -= 1.0; });
+  refused([](recordings::Parameters& all) { all.erase("senses"); });
 }
 
 TEST(EvidenceEntries, DecideByTheThresholdsThatTheirPassportsSay) {
