@@ -61,6 +61,9 @@ static void describe(Fields& fields, Scenario& scenario, const policies::LqrGain
   fields.section("tether", scenario.tether);
   fields.list_if_any("guides", scenario.guides);
   fields.list_if_any("forces", scenario.forces);
+  double meant_for = scenario.forces_for_mass.value_or(0.0);
+  if (fields.reading() || meant_for > 0.0) fields("forces_for_mass", meant_for, 0.01, 1e4);
+  if (meant_for > 0.0) scenario.forces_for_mass = meant_for;
   fields("mass_scale", scenario.mass_scale, 0.01, 100.0);
   fields.know("deviations");
   if (fields.present("deviations", scenario.deviations != Deviations{})) {

@@ -63,6 +63,8 @@ struct Scenario {
   std::optional<policies::Tether> tether;
   std::vector<policies::Guide> guides;
   policies::ForceScript forces;
+  /// The mass of the robot that `forces` and random lifts are meant for (kg), if they go with it.
+  std::optional<double> forces_for_mass;
   double mass_scale = 1.0;  ///< on the mass and inertia of every body of the robot
   Deviations deviations;
   simulators::SimulatorOptions simulation;

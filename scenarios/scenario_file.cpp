@@ -37,6 +37,21 @@ policies::WheelBalancerConfig balancer_of(const std::filesystem::path& robot,
   return balancer;
 }
 
+/// Forces that are meant for a robot of one mass, in proportion for this one.
+void suit_forces(Scenario& scenario) {
+  if (!scenario.forces_for_mass) return;
+  const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
+  const double mass = mj_getTotalmass(robot.mj.get());
+  const double factor = mass / *scenario.forces_for_mass;
+  constexpr double the_same = 1e-6;  // that robot: what is written, to the bit
+  if (std::abs(factor - 1.0) < the_same) return;
+  for (policies::TimedForce& timed : scenario.forces) timed.force *= factor;
+  if (auto& lift = scenario.perturbation.lift) {
+    lift->force = {factor * lift->force.low, factor * lift->force.high};
+  }
+  scenario.forces_for_mass = mass;
+}
+
 }  // namespace
 
 Scenario complete_scenario(const YamlDocument& document) {
@@ -55,6 +70,7 @@ Scenario complete_scenario(const YamlDocument& document) {
   defaults.balancer = balancer_of(defaults.robot, lqr);
   Scenario scenario = scenario_from_yaml(document, defaults, lqr);
   scenario.robot = defaults.robot;
+  suit_forces(scenario);
   return scenario;
 }
 

@@ -57,6 +57,13 @@ TEST_P(Robot, ComesDownAStep) {
   EXPECT_GE(flights(recording, 0.1).size(), 1U);
 }
 
+TEST_P(Robot, IsLiftedOffTheGroundWhateverItWeighs) {
+  Scenario scenario = of_this_robot("lift_slowly");
+  scenario.end.duration = 2.5;
+  const recordings::Recording recording = play(perturbed(scenario, 7, 0), engine());
+  EXPECT_GE(flights(recording, 0.1).size(), 1U);
+}
+
 /// The sum of both equations of motion, in which the wheels' torques cancel, over a time in which
 /// they push: D·Δθ̇ + (C/r)·Δṡ = G·∫θ.
 TEST_P(Robot, MovesLikeThePendulumThatItsGainsAreFoundFor) {

@@ -76,6 +76,28 @@ TEST_F(ScenarioOfARobot, IsNumbersThatNeedNoRobotAfterwards) {
   EXPECT_EQ(again.balancer.pitch_damping, scenario.balancer.pitch_damping);
 }
 
+TEST_F(ScenarioOfARobot, FeelsForcesMeantForUpkieInProportionToItsMass) {
+  const std::string pushes =
+      "forces: [{time: 1, duration: 1, force: [2, 0, 10]}]\n"
+      "perturbation: {lift: {force: [53, 57]}}\n";
+  const auto force_on = [&](const std::string& robot, const std::string& meant_for) {
+    const Scenario scenario = with(robot, pushes + meant_for);
+    EXPECT_NEAR(scenario.forces[0].force.x(), 0.2 * scenario.forces[0].force.z(), 1e-12);
+    EXPECT_NEAR(scenario.perturbation.lift->force.high,
+                57.0 / 53.0 * scenario.perturbation.lift->force.low, 1e-12);
+    EXPECT_NEAR(scenario.perturbation.lift->force.low, 5.3 * scenario.forces[0].force.z(), 1e-12);
+    return scenario.forces[0].force.z();
+  };
+  EXPECT_EQ(force_on("", "forces_for_mass: 5.33922\n"), 10.0) << "to the bit";
+  EXPECT_NEAR(force_on("mass: 1.5\n", "forces_for_mass: 5.33922\n"), 15.0, 1e-5);
+  EXPECT_NEAR(force_on("mass: 1.5\n", "forces_for_mass: 8\n"), 10.01104, 1e-5);
+  EXPECT_EQ(force_on("mass: 1.5\n", ""), 10.0) << "newtons are newtons unless it says whose";
+
+  const std::string resolved = to_yaml(with("mass: 1.5\n", pushes + "forces_for_mass: 5.33922\n"));
+  EXPECT_EQ(to_yaml(complete_scenario(YamlDocument::parse(resolved, "again.yaml"))), resolved)
+      << "once";
+}
+
 TEST_F(ScenarioOfARobot, OfAnMjcfAloneIsWhatItSaysItself) {
   for (const char* name : {"stairs", "roam_crouching", "hang"}) {
     const std::string file = std::string("scenarios/") + name + ".yaml";
@@ -120,6 +142,9 @@ TEST_F(ScenarioOfARobot, WithABadValueSaysInWhichFile) {
       AllOf(HasSubstr("robot.yaml:3:19: balancer.gains: lqr"), HasSubstr("leg_kp_scale: ex")));
   EXPECT_THAT(complaint_about("", "deviatons: {com_x: 1}\n"),
               HasSubstr("did you mean 'deviations'?"));
+  EXPECT_THAT(complaint_about("", "forces_for_mas: 5\n"),
+              HasSubstr("did you mean 'forces_for_mass'?"));
+  EXPECT_THAT(complaint_about("", "forces_for_mass: -5\n"), HasSubstr("scene.yaml:3:18"));
   EXPECT_THAT(complaint_about("", "deviations: {torque_error: [0, 0]}\n"),
               AllOf(HasSubstr("scene.yaml:3:28"), HasSubstr("six numbers")));
   EXPECT_THROW((void)complete_scenario(YamlDocument::parse("name: x\nrobot: no.yaml\n", "s")),
