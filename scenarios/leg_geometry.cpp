@@ -87,7 +87,8 @@ LegGeometry leg_geometry(const models::RobotModel& robot) {
           .wheel_mass = rounded(links[2].mass, 1e6),
           .upper_centre = rounded(upper_centre, 1e3),
           .lower_centre = rounded(lower_centre, 1e3),
-          .wheel_inertia = rounded(wheel_inertia, 1e8)};
+          .wheel_inertia = rounded(wheel_inertia, 1e8),
+          .robot_mass = rounded(mj_getTotalmass(robot.mj.get()), 1e6)};
 }
 
 }  // namespace touchdown::scenarios

@@ -21,7 +21,7 @@ double within(double value, double largest) noexcept {
 }  // namespace
 
 LegListener::LegListener(const DecisionConfig& config, bool mirrored)
-    : geometry_(config.geometry), mirrored_(mirrored) {
+    : geometry_(config.geometry), mass_ratio_(mass_ratio(config.geometry)), mirrored_(mirrored) {
   const double steps = std::clamp(std::round(config.difference * config.sample_rate), 1.0, 1e4);
   velocities_.resize(static_cast<std::size_t>(steps));
   rate_ = config.sample_rate / steps;
@@ -40,14 +40,13 @@ LegChannels LegListener::update(const LegSignals& leg, const FootJacobian& foot,
   const double area = foot.determinant();
   const double noisy_area = area_of_noise * torque_noise;
   const double untold = least_area * least_area + noisy_area * noisy_area;
-  const double load = (area * vertical_force_times_determinant(geometry_, foot, leg, mirrored_,
-                                                               vertical_acceleration) +
-                       untold * untold_load) /
-                      (area * area + untold);
-  return {within(load, largest_load),
-          within(sign * leg.wheel.torque - geometry_.wheel_inertia * rate_ * (now[0] - before[0]),
-                 largest_channel),
-          now[1], within(vertical_acceleration + rate_ * (now[1] - before[1]), largest_channel)};
+  const double told =
+      vertical_force_times_determinant(geometry_, foot, leg, mirrored_, vertical_acceleration);
+  const double load = (area * mass_ratio_ * told + untold * untold_load) / (area * area + untold);
+  const double reaction =
+      sign * leg.wheel.torque - geometry_.wheel_inertia * rate_ * (now[0] - before[0]);
+  return {within(load, largest_load), within(mass_ratio_ * reaction, largest_channel), now[1],
+          within(vertical_acceleration + rate_ * (now[1] - before[1]), largest_channel)};
 }
 
 }  // namespace touchdown

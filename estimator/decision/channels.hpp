@@ -12,13 +12,14 @@ namespace touchdown {
 
 /// What the decision network hears of one leg, in the left leg's signs.
 struct LegChannels {
-  /// What the wheel carries (N), as far as its leg tells: (d² F + ε² F₀) / (d² + ε²), with F of
-  /// `vertical_force` and the determinant of the leg's Jacobian, d = L₁ L₂ sin q₂. A bent leg tells
-  /// F (Upkie's crouch: 2 % of F₀ in it); a straight one, which carries any load without torques,
-  /// tells F₀ = 15 N, which means neither contact nor air. ε² = (0.003 m²)² + (0.004 m²/(N·m) σ)²:
-  /// through torques' noise σ a leg must be bent further to be heard.
+  /// What the wheel carries (N), as far as its leg tells: (d² μF + ε² F₀) / (d² + ε²), with F of
+  /// `vertical_force`, μ of `mass_ratio` and the determinant of the leg's Jacobian,
+  /// d = L₁ L₂ sin q₂. A bent leg tells μF (Upkie's crouch: 2 % of F₀ in it); a straight one, which
+  /// carries any load without torques, tells F₀ = 15 N, which means neither contact nor air.
+  /// ε² = (0.003 m²)² + (0.004 m²/(N·m) σ)²: through torques' noise σ a leg must be bent further to
+  /// be heard.
   double load = 0.0;
-  /// The torque of the ground on the wheel (N·m): what its servo's does not turn into its
+  /// The torque of the ground on the wheel (N·m), times μ: what its servo's does not turn into its
   /// acceleration.
   double reaction = 0.0;
   /// How fast the axle moves upwards beneath the hip (m/s).
@@ -27,6 +28,12 @@ struct LegChannels {
   /// torso falls.
   double axle_acceleration = 0.0;
 };
+
+/// Robots are heard as if they had Upkie's mass, since all forces and torques of one that is
+/// heavier throughout are larger in proportion: μ = Upkie's mass / the robot's.
+[[nodiscard]] inline double mass_ratio(const LegGeometry& geometry) noexcept {
+  return LegGeometry{}.robot_mass / geometry.robot_mass;
+}
 
 /// From signals to channels, one leg.
 class LegListener {
@@ -41,6 +48,7 @@ class LegListener {
 
  private:
   LegGeometry geometry_;
+  double mass_ratio_;
   bool mirrored_;
   double rate_;
   /// Of the wheel (rad/s) and of the axle beneath the hip (m/s): the last few, in turn.

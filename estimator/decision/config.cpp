@@ -39,8 +39,9 @@ void check_decision_fit_config(const DecisionFitConfig& config) {
 void check_decision_config(const DecisionConfig& config) {
   const LegGeometry& leg = config.geometry;
   if (!(std::isfinite(config.sample_rate) && config.sample_rate > 0.0 && leg.upper_length > 0.0 &&
-        leg.lower_length > 0.0)) {
-    throw InputError("decision: sample_rate (Hz), lengths (m) must be positive");
+        leg.lower_length > 0.0 && std::isfinite(leg.robot_mass) && leg.robot_mass > 0.0)) {
+    throw InputError(
+        "decision: sample_rate (Hz), lengths (m) and robot_mass (kg) must be positive");
   }
   if (!(is_level(leg.wheel_inertia) && is_level(config.difference) && is_level(config.smoothing))) {
     throw InputError(

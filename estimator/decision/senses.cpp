@@ -42,6 +42,7 @@ void TimeScales::catch_up(double input, double seconds) noexcept {
 DecisionSenses::DecisionSenses(const DecisionConfig& config)
     : config_(checked(config).guard),
       geometry_(config.geometry),
+      mass_ratio_(mass_ratio(config.geometry)),
       guard_(config.guard, config.sample_rate),
       leg_repetition_{Repetition<9>(config.guard, config.sample_rate),
                       Repetition<9>(config.guard, config.sample_rate)},
@@ -177,7 +178,7 @@ DecisionSenses::Step DecisionSenses::update(const Signals& signals) noexcept {
     roll_rate_silence_ += elapsed;
   }
   const auto noisy = [&](std::size_t side) {
-    return is_leg_heard[side] ? signals.leg[side].knee.torque : std::nan("");
+    return is_leg_heard[side] ? mass_ratio_ * signals.leg[side].knee.torque : std::nan("");
   };
   torque_noise_.update({noisy(0), noisy(1)});
   acceleration_noise_.update(

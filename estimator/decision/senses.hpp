@@ -74,8 +74,8 @@ class DecisionSenses {
     return side == 0 ? heard_ : of_other_wheel(heard_);
   }
   [[nodiscard]] const DecisionPairInputs& pair_inputs() const noexcept { return pair_; }
-  /// The estimated white noise of torques (N·m), as dense as at 1 kHz: at a lower rate there are
-  /// fewer samples of it to average.
+  /// The estimated white noise of torques (N·m) of a robot of Upkie's mass, as dense as at 1 kHz:
+  /// at a lower rate there are fewer samples of it to average.
   [[nodiscard]] double torque_noise() const noexcept { return density_ * torque_noise_.sigma(); }
   /// A belief after `elapsed` seconds without news.
   [[nodiscard]] double relaxed(double p_contact, double elapsed) const noexcept {
@@ -93,6 +93,7 @@ class DecisionSenses {
 
   SignalGuardConfig config_;
   LegGeometry geometry_;
+  double mass_ratio_;
   SignalGuard guard_;
   std::array<Repetition<9>, 2> leg_repetition_;
   Repetition<3> gyro_repetition_;

@@ -19,6 +19,7 @@ struct LegGeometry {
   /// Of the wheel about its axle (kg·m²), with its motor's rotor as the joint feels it: what the
   /// torque that the servo reports sets in motion.
   double wheel_inertia = 1.7456e-4;
+  double robot_mass = 5.33922;  ///< of all of the robot (kg), which both legs carry
 
   bool operator==(const LegGeometry&) const = default;
 };

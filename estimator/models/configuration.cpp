@@ -189,8 +189,10 @@ template <typename Visit, typename Config>
 requires std::same_as<std::remove_const_t<Config>, DecisionConfig>
 void visit_members(Visit& visit, Config& config) {
   visit_geometry(visit, config.geometry);
-  // Only this one hears how wheels spin; its files have had the key from the first.
+  // Only this one hears how wheels spin, its files have had the key from the first, and how heavy
+  // the robot is, which those of before do not say: they are Upkie's.
   visit("wheel_inertia", config.geometry.wheel_inertia);
+  visit("robot_mass", config.geometry.robot_mass);
   visit("difference", config.difference);
   visit("smoothing", config.smoothing);
   visit("leave_below", config.leave_below);

@@ -77,6 +77,7 @@ TEST(LegGeometry, OfLongerLegsAndOfMoreMassIsWhatTheirFilesSay) {
   EXPECT_NEAR(heavy.upper_mass, 1.5 * upkie.upper_mass, 1e-6);
   EXPECT_NEAR(heavy.lower_mass, 1.5 * upkie.lower_mass, 1e-6);
   EXPECT_NEAR(heavy.wheel_mass, 1.5 * upkie.wheel_mass, 1e-6);
+  EXPECT_NEAR(heavy.robot_mass, 1.5 * upkie.robot_mass, 1e-6);
   EXPECT_EQ(heavy.lower_length, upkie.lower_length);
 }
 
@@ -168,7 +169,8 @@ TEST(LegGeometry, IsMeasuredInThePlaneInWhichTheLegBends) {
                                .wheel_mass = 0.2,
                                .upper_centre = 0.5,
                                .lower_centre = 0.75,
-                               .wheel_inertia = 0.001}));
+                               .wheel_inertia = 0.001,
+                               .robot_mass = 6.4}));
 }
 
 }  // namespace

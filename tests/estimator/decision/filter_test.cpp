@@ -1,5 +1,6 @@
 #include "estimator/decision/filter.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -50,6 +51,33 @@ TEST(DecisionNetwork, BelievesOfTheMirroredRobotWhatItBelievedOfTheOtherWheel) {
       ASSERT_NEAR(mirrored.wheel[side].p_contact, belief.wheel[1 - side].p_contact, 1e-4);
     }
   }
+}
+
+TEST(DecisionNetwork, BelievesOfARobotTwiceAsHeavyWhatItBelievesOfUpkie) {
+  LegGeometry heavy;
+  for (double* of_mass : {&heavy.upper_mass, &heavy.lower_mass, &heavy.wheel_mass,
+                          &heavy.wheel_inertia, &heavy.robot_mass}) {
+    *of_mass *= 2.0;
+  }
+  DecisionNetwork of_upkie(lifted_network());
+  DecisionNetwork of_heavy(lifted_network(), {.geometry = heavy});
+  DecisionNetwork untold(lifted_network());
+  double largest_difference = 0.0;
+  for (Signals s : lifted_run(1, 6, 0.3).signals) {
+    const Belief expected = of_upkie.update(s);
+    for (LegSignals& leg : s.leg) {
+      for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) joint->torque *= 2.0;
+    }
+    const Belief belief = of_heavy.update(s);
+    const Belief without_its_mass = untold.update(s);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double p = belief.wheel[side].p_contact;
+      ASSERT_EQ(p, expected.wheel[side].p_contact);
+      largest_difference =
+          std::max(largest_difference, std::abs(p - without_its_mass.wheel[side].p_contact));
+    }
+  }
+  EXPECT_GT(largest_difference, 0.1);
 }
 
 TEST(DecisionNetwork, MeansItsProbabilityWhateverItsClassesWeigh) {
@@ -182,6 +210,7 @@ TEST(DecisionNetwork, RefusesWhatMakesNoSense) {
   refused({.sample_rate = 0.0});
   refused({.geometry = {.lower_length = 0.0}});
   refused({.geometry = {.wheel_inertia = -1.0}});
+  refused({.geometry = {.robot_mass = 0.0}});
   refused({.smoothing = std::numeric_limits<double>::quiet_NaN()});
   refused({.leave_below = 0.9, .return_above = 0.5});
   refused({.leave_below = 0.0});

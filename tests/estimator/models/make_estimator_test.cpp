@@ -196,6 +196,7 @@ TEST(Configuration, ComesBackFromItsText) {
   decision.geometry.wheel_inertia = 1.0 / 3e4;
   decision.leave_below = 0.6;
   decision.geometry.upper_mass = 0.7;
+  decision.geometry.robot_mass = 8.1;
   decision.guard.frozen_after = 0.0;
   DecisionConfig decision_read;
   configure(decision_read, text_of(decision));
@@ -207,8 +208,10 @@ TEST(Configuration, OfDecisionNetworksKeepsTheInertiaOfFilesFromBeforeLegsHadIt)
   configure(read, {{"wheel_inertia", "0.125"}});
   EXPECT_EQ(read.geometry.wheel_inertia, 0.125);
   EXPECT_EQ(text_of(read).at("wheel_inertia"), "0.125");
-  // What does not hear how wheels spin says nothing of it.
+  EXPECT_EQ(read.geometry.robot_mass, LegGeometry{}.robot_mass) << "which they do not say";
+  // What does not hear how wheels spin and what the robot weighs says nothing of it.
   EXPECT_FALSE(text_of(LoadLogisticConfig{}).contains("geometry.wheel_inertia"));
+  EXPECT_FALSE(text_of(LoadLogisticConfig{}).contains("robot_mass"));
 }
 
 TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
