@@ -191,9 +191,9 @@ void estimate_log(const std::string& path, const recordings::ContactIntervals* l
 }
 
 void estimate(const EstimateFlags& flags, const CliSession& session) {
-  const experiments::LogEstimator estimator =
-      experiments::log_estimator({flags.estimator, flags.model, flags.robot, flags.transfer,
-                                  experiments::constants_of(flags.constants)});
+  const experiments::LogEstimator estimator = experiments::log_estimator(
+      {flags.estimator, flags.model, experiments::robot_called(flags.robot), flags.transfer,
+       experiments::constants_of(flags.constants)});
   const std::vector<EstimateOutputs> outputs =
       estimate_outputs(flags.logs, flags.model, flags.labels, flags.outputs, flags.figure);
   const std::vector<recordings::ContactIntervals> labels =
@@ -223,9 +223,11 @@ void add_estimate(CLI::App& program, const CliSession& session) {
   verb.option("--model", &flags->model, "What `touchdown fit` wrote").value_name("FILE.npz");
   verb.option("--estimator", &flags->estimator,
               "Any that `touchdown list` shows (default: whom the model was fitted for)");
-  verb.option("--robot", &flags->robot,
-              "Whose logs they are (default: as a simulated log says): not the model's is an error")
-      .value_name("NAME");
+  verb.option(
+          "--robot", &flags->robot,
+          "Whose logs they are (default: as a simulated log says): not the model's is an error.\n"
+          "Its file tells estimators that compute loads about its legs (default: the model's)")
+      .value_name("NAME|FILE");
   verb.option("--set", &flags->constants,
               "Run the estimator with another constant than its model says, for example\n"
               "leave_below=0.25")

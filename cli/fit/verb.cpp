@@ -24,6 +24,7 @@ struct FitFlags {
   std::string estimator = "robust";
   std::vector<std::string> constants;
   experiments::LogFitConfig config;
+  std::string robot;
   std::vector<int> grid;
   std::vector<double> bandwidth;
   std::vector<double> bandwidth_floor;
@@ -113,9 +114,11 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
               "leave_below=0.25")
       .value_name("NAME=NUMBER")
       .one_at_a_time();
-  verb.option("--robot", &flags.config.robot,
-              "Whose logs they are, for the model to say (default: as simulated logs do)")
-      .value_name("NAME");
+  verb.option(
+          "--robot", &flags.robot,
+          "Whose logs they are, for the model to say (default: as simulated logs do); its file\n"
+          "tells estimators that compute loads about its legs, which else are Upkie's")
+      .value_name("NAME|FILE");
   verb.option("--skip", &flags.config.skip, "Not used at the beginning of each log (s)")
       .not_negative()
       .shows_default();
@@ -165,6 +168,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   experiments::LogFitConfig config = flags.config;
   config.stop = session.stop;
   config.constants = experiments::constants_of(flags.constants);
+  config.robot = experiments::robot_called(flags.robot);
   std::vector<InputFile> inputs;
   for (const experiments::FitLog& log : logs) inputs.push_back({log.path, "log"});
   for (const std::string& labels : flags.labels) inputs.push_back({labels, "file of labels"});

@@ -96,8 +96,9 @@ std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
                                                      const recordings::RecordingInfo& log) const {
   if (model.passport && !request.transfer) {
     try {
-      check_use(*model.passport, {.sample_rate = sample_rate,
-                                  .robot = request.robot.empty() ? robot_of(log) : request.robot});
+      check_use(*model.passport,
+                {.sample_rate = sample_rate,
+                 .robot = request.robot.name.empty() ? robot_of(log) : request.robot.name});
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {} (--transfer uses it all the same)",
                                    request.model.string(), error.what()));
@@ -105,7 +106,7 @@ std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
   }
   EstimatorEntry heard = entry;
   if (heard.config) heard.config = at_rate(*entry.config, sample_rate);
-  return heard.make(heard, {sample_rate, &model});
+  return heard.make(heard, {sample_rate, &model, request.robot.legs});
 }
 
 std::string LogEstimator::model_text() const {

@@ -6,6 +6,7 @@
 
 #include "estimator/contact_estimator.hpp"
 #include "experiments/estimators/entry.hpp"
+#include "experiments/logs/robot.hpp"
 #include "recordings/recording.hpp"
 
 namespace touchdown::experiments {
@@ -14,7 +15,7 @@ namespace touchdown::experiments {
 struct LogEstimatorRequest {
   std::string name = {};             ///< empty: as the model says
   std::filesystem::path model = {};  ///< empty: none
-  std::string robot = {};            ///< whose logs they are; empty: as they say, if they do
+  LogRobot robot = {};               ///< whose logs they are; its legs before the model's
   /// At other rates and on other robots than it was fitted for, too.
   bool transfer = false;
   Constants constants = {};  ///< instead of the model's; of those that its fit did not need

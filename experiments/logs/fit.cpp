@@ -316,7 +316,8 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
   report = {};
   std::vector<RunSignals> runs;
   for (const FitLog& log : logs) add_runs_of_log(log, config, check, report, runs);
-  for (const RunSignals& run : runs) {
+  for (RunSignals& run : runs) {
+    run.legs = config.robot.legs.value_or(LegGeometry{});
     const std::size_t skipped = skipped_steps(run, config.skip);
     report.seconds += static_cast<double>(run.steps() - skipped) * period_of(run);
     for (const scoring::ContactSequence& contact : run.contact) {
@@ -382,7 +383,8 @@ FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> log
                         const LogFitConfig& config, LogFitReport& report) {
   check_names(config.constants, entry);
   FittedModel model = fit_model(with_constants(entry, config.constants), logs, config, report);
-  if (!config.robot.empty()) report.fitted_to.robots = {config.robot};
+  if (!config.robot.name.empty()) report.fitted_to.robots = {config.robot.name};
+  report.fitted_to.legs = config.robot.legs.value_or(LegGeometry{});
   model.passport = new_passport(entry.name, report.fitted_to);
   put_into(*model.passport, config.constants);
   return model;

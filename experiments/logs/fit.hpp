@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/estimators/entry.hpp"
+#include "experiments/logs/robot.hpp"
 #include "recordings/beliefs/contact_intervals.hpp"
 #include "scoring/labels.hpp"
 
@@ -30,7 +31,7 @@ struct FitLog {
 struct LogFitConfig {
   scoring::LabelConfig labels;  ///< of logs with ground truth
   double skip = 0.3;            ///< not used at the beginning of each log (s)
-  std::string robot = {};       ///< whose logs they are; empty: as they say, if they do
+  LogRobot robot = {};          ///< whose logs they are; without legs: Upkie's
   Constants constants = {};     ///< of the estimator, instead of its defaults
   /// Stops with `Stopped` once true; may be null.
   const std::atomic<bool>* stop = nullptr;

@@ -91,6 +91,30 @@ TEST_F(Passport, OfASimulatedLogNamesItsRobot) {
                         "uses it all the same)"));
 }
 
+TEST_F(Passport, OfARobotsFileHasItsLegs) {
+  const std::string robot = "--robot models/upkie_long_legs.yaml";
+  run("fit a.mpack -o long.npz --estimator load_logistic " + robot);
+  const ModelPassport passport = load_passport(folder_ / "long.npz");
+  EXPECT_EQ(passport.robot, "upkie_long_legs");
+  EXPECT_EQ(passport.configuration.at("geometry.upper_length"), "0.2352") << "1.4 times 0.168 m";
+
+  const auto beliefs = [&](const std::string& of_whom) {
+    run("estimate a.mpack --model long.npz -o beliefs.csv " + of_whom);
+    return read_file(folder_ / "beliefs.csv");
+  };
+  const std::string told = beliefs("");
+  EXPECT_EQ(beliefs(robot), told);
+  EXPECT_EQ(beliefs("--robot upkie --transfer"), told) << "a name says nothing of legs";
+  EXPECT_NE(beliefs("--robot models/upkie.xml --transfer"), told);
+  EXPECT_THAT(complaint_about("estimate a.mpack --model long.npz --robot models/upkie.xml"),
+              HasSubstr("was fitted to the robot 'upkie_long_legs', not to 'upkie' (--transfer"));
+  for (const char* verb : {"estimate a.mpack --model long.npz", "fit a.mpack -o x.npz"}) {
+    EXPECT_THAT(
+        complaint_about(std::string(verb) + " --robot models/upkie_hevy.yaml"),
+        AllOf(HasSubstr("models/upkie_hevy.yaml: no such file"), HasSubstr("upkie_heavy.yaml'?")));
+  }
+}
+
 TEST_F(Passport, OfAnotherEstimatorRateOrRobotIsAnError) {
   EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --estimator reference"),
               HasSubstr("m.npz: is a model of 'robust', which 'reference' cannot use (did you mean "
