@@ -133,7 +133,7 @@ bool Fields::has(std::string_view key) const {
 }
 
 YAML::Node Fields::take(std::string_view key) {
-  known_.emplace_back(key);
+  if (!contains(known_, std::string(key))) known_.emplace_back(key);
   if (!has(key)) return YAML::Node(YAML::NodeType::Undefined);
   return node_[std::string(key)];
 }

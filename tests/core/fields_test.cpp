@@ -8,6 +8,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -106,6 +107,12 @@ TEST(Fields, ComplainWithTheirPlace) {
               AllOf(StartsWith("car.yaml:1:8: place: "), HasSubstr("two numbers")));
   EXPECT_THAT(complaint("colour: gren\n"), HasSubstr("did you mean 'green'?"));
   EXPECT_THAT(complaint("owner: nobody\n"), HasSubstr("car.yaml:1:8: owner: expected somebody"));
+}
+
+TEST(Fields, ListWhatIsKnownOnceWhereNothingIsNear) {
+  EXPECT_THAT(complaint("xyzzyxyzzy: 1\n"),
+              AllOf(HasSubstr("unknown key (known: owner, colour, place, "),
+                    EndsWith(", wheels, more_wheels)")));
 }
 
 TEST(Fields, NamesAreKnownDifferentAndNotNone) {
