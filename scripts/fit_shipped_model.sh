@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fits the model that is shipped, in three minutes: Upkie crouched, with ideal and with real
-# actuators, in both engines, on what the benchmark fits and hanging; a fifth of it on nearly straight
+# actuators, in both engines, on what the benchmark fits and hanging; a quarter of it on nearly straight
 # legs, nearly all of that on the way into the air or back; other draws.
 # Usage: scripts/fit_shipped_model.sh build/release/touchdown models/touchdown.npz
 set -euo pipefail
