@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """tidy.py <compile_commands.json> [path prefix...]: clang-tidy over every source that the build compiles.
 
-clang-tidy spends most of a file's time in other people's headers, again for every file. So files that
-are compiled alike are checked together, as one translation unit that includes them; where they do not
-go together (two of them define the same private name), the unit is cut in half until they do.
+clang-tidy spends most of a file's time in other people's headers, again for every file. So files are
+checked together, as one translation unit that includes them, with all of their options; those that do
+not go together with the others of their unit (they define the same private name) make up another one.
+What the build wrote itself is nobody's to tidy.
 Prints what clang-tidy has to say; the exit code is 1 if that is anything.
 """
-import collections
 import concurrent.futures
 import json
 import os
@@ -17,20 +17,39 @@ import subprocess
 import sys
 import tempfile
 
-FILES_AT_ONCE = 16
+FILES_AT_ONCE = 48
 # What g++ alone knows: how it reads its precompiled headers, which clang cannot, and an optimisation.
 OF_GCC = re.compile(r" -(Winvalid-pch|fpch-preprocess|include \S*cmake_pch\.hxx|fexpensive-optimizations)")
 # "12 warnings generated." counts what was hidden in other people's headers.
 NOISE = re.compile(r"^\d+ (warnings?|errors?)( and \d+ errors?)? (generated|treated as errors?)\.?$")
 
 
+# What an option takes with it as its next word.
+WITH_A_WORD = ("-isystem", "-include")
+
+
 def flags_of(entry):
-    """The compiler's options, without the file and where its object goes."""
+    """The compiler's options, each with what it takes, without the file and where its object goes."""
     words = shlex.split(OF_GCC.sub("", entry["command"]))
     compiler = next(i for i, word in enumerate(words) if word.endswith("c++"))
-    words = words[compiler + 1:]
-    output = words.index("-o")
-    return tuple(words[:output])
+    words = iter(words[compiler + 1:words.index("-o")])
+    return [(word, next(words)) if word in WITH_A_WORD else (word,) for word in words]
+
+
+def is_dialect(flag):
+    return flag[0].startswith("-std=")
+
+
+def macros_of(flags):
+    return dict(word.split("=", 1) for word, *_ in flags if word.startswith("-D") and "=" in word)
+
+
+def contradict(flags, others):
+    """Whether it is another language, the last that is named, or a macro has another value."""
+    dialects = [[flag for flag in each if is_dialect(flag)][-1:] for each in (flags, others)]
+    ours, theirs = macros_of(flags), macros_of(others)
+    return dialects[0] != dialects[1] or any(
+        ours[name] != theirs[name] for name in ours.keys() & theirs.keys())
 
 
 def sources_of(entry):
@@ -52,17 +71,23 @@ def together(flags, files, folder):
     return unit
 
 
-def compiles(flags, unit):
-    command = ["clang++", *flags, "-w", "-fsyntax-only", unit]
-    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+def misfits(flags, files, unit):
+    """Those of the files that do not compile together with the others before them."""
+    command = ["clang++", *flags, "-w", "-fsyntax-only", "-ferror-limit=0", unit]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    wrong = set(re.findall(r"^(.*?):\d+:\d+: (?:fatal )?error: ", done.stderr, re.MULTILINE))
+    found = [file for file in files if file in wrong]
+    # An error that is none of the files': whose it is, halves will tell.
+    return found if found or done.returncode == 0 else files[len(files) // 2:]
 
 
 def check(flags, files, folder):
     """What clang-tidy says of the files, as text; empty if nothing."""
     unit = together(flags, files, folder)
-    if len(files) > 1 and not compiles(flags, unit):
-        middle = len(files) // 2
-        return check(flags, files[:middle], folder) + check(flags, files[middle:], folder)
+    if len(files) > 1 and (apart := misfits(flags, files, unit)):
+        rest = [file for file in files if file not in apart] or apart[:1]
+        apart = [file for file in files if file not in rest]
+        return check(flags, rest, folder) + check(flags, apart, folder)
     done = subprocess.run(
         # A private name of one file does not shadow another file's; the compiler looks for real ones.
         ["clang-tidy", "--quiet", "--warnings-as-errors=*", unit, "--", *flags, "-Wno-shadow"],
@@ -74,16 +99,30 @@ def check(flags, files, folder):
     return said + "\n" if done.returncode else ""
 
 
+def groups_of(commands, prefixes):
+    """Files that can be checked together: the options of any of them, and the files, sorted."""
+    groups = []
+    for entry in commands:
+        flags = flags_of(entry)
+        files = {file for file in sources_of(entry)
+                 if file.startswith(prefixes) and not file.startswith(entry["directory"] + os.sep)}
+        if not files:
+            continue
+        for theirs, members in groups:
+            if not contradict(flags, theirs):
+                theirs += [flag for flag in flags if flag not in theirs and not is_dialect(flag)]
+                members |= files
+                break
+        else:
+            groups.append((flags, files))
+    return [([word for flag in flags for word in flag], sorted(files)) for flags, files in groups]
+
+
 def main():
     commands = json.loads(pathlib.Path(sys.argv[1]).read_text())
-    prefixes = tuple(os.path.abspath(path) for path in sys.argv[2:])
-    alike = collections.defaultdict(list)
-    for entry in commands:
-        for file in sources_of(entry):
-            if "cmake_pch" not in file and file.startswith(prefixes or ("/",)):
-                alike[flags_of(entry)].append(file)
+    prefixes = tuple(os.path.abspath(path) for path in sys.argv[2:]) or ("/",)
     batches = [(flags, files[start:start + FILES_AT_ONCE])
-               for flags, unsorted in alike.items() for files in [sorted(set(unsorted))]
+               for flags, files in groups_of(commands, prefixes)
                for start in range(0, len(files), FILES_AT_ONCE)]
     batches.sort(key=lambda batch: -len(batch[1]))  # the long ones first
     jobs = int(os.environ.get("JOBS") or os.cpu_count())
