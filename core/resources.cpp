@@ -34,6 +34,13 @@ std::vector<std::string> neighbours_of(const std::filesystem::path& path) {
   return names;
 }
 
+/// Errors: `InputError` for a folder.
+void require_no_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return;
+  throw InputError(fmt::format("{}: is a folder, expected a file", path.string()));
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> resources_in(const std::filesystem::path& folder,
@@ -58,6 +65,7 @@ std::filesystem::path find_resource(const std::filesystem::path& path) {
       if (std::filesystem::is_regular_file(root / path, ignored)) return root / path;
     }
   }
+  require_no_folder(path);
   std::vector<std::string> neighbours;  // named as the request would have to name them
   for (const auto& file : resources_in(path.parent_path(), path.extension().string())) {
     neighbours.push_back(file.string());
@@ -67,10 +75,8 @@ std::filesystem::path find_resource(const std::filesystem::path& path) {
 }
 
 void require_file(const std::filesystem::path& path) {
+  require_no_folder(path);
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError(fmt::format("{}: is a folder, expected a file", path.string()));
-  }
   if (std::filesystem::exists(path, ignored)) return;
   throw InputError(fmt::format("{}: no such file{}", path.string(),
                                did_you_mean(path.filename().string(), neighbours_of(path))));

@@ -11,7 +11,7 @@ namespace touchdown {
 /// Where a file that an experiment, a scenario or a command names really is: `path` itself if it
 /// exists from here, otherwise the same path in the project's sources, in its installation, or in
 /// `share/touchdown` beside the program or library that asks.
-/// Errors: `InputError` naming the nearest existing file.
+/// Errors: `InputError` naming the nearest existing file, or saying that it is a folder.
 std::filesystem::path find_resource(const std::filesystem::path& path);
 
 /// Errors: `InputError` when there is no such file, with the nearest name in its folder, or when it

@@ -10,8 +10,11 @@
 #include "core/files.hpp"
 #include "core/program/outputs.hpp"
 #include "core/progress.hpp"
+#include "core/resources.hpp"
 #include "experiments/export_benchmark.hpp"
+#include "experiments/logs/robot.hpp"
 #include "recordings/models/header.hpp"
+#include "recordings/models/model_file.hpp"
 
 namespace touchdown::cli {
 
@@ -26,13 +29,15 @@ struct ExportFlags {
   std::string mapping;
   std::string labels;
   ModelUse use;
+  std::vector<std::string> configuration;  ///< key=value
 };
 
 /// A header's name as one of C++. Errors: `InputError` for an extension that is none of a header's.
 std::string name_of(const std::filesystem::path& header) {
   const std::string extension = header.extension().string();
   if (extension != ".hpp" && extension != ".h") {
-    throw InputError(fmt::format("-o: {}: expected a header, FILE.hpp", header.string()));
+    throw InputError(
+        fmt::format("-o: {}: expected a header, FILE.hpp, or a model, FILE.npz", header.string()));
   }
   std::string name = header.stem().string();
   std::replace_if(
@@ -40,16 +45,53 @@ std::string name_of(const std::filesystem::path& header) {
   return std::isdigit(static_cast<unsigned char>(name.front())) != 0 ? "model_" + name : name;
 }
 
-void export_model(const ExportFlags& flags) {
-  const std::string name = name_of(flags.output);
-  check_outputs({{flags.source, "model"}}, {flags.output});
+/// Errors: `InputError` for what is no key=value.
+ConfigurationText configuration_of(const std::vector<std::string>& assignments) {
+  ConfigurationText configuration;
+  for (const std::string& one : assignments) {
+    const std::size_t equals = one.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      throw InputError(fmt::format("--set: {}: expected NAME=VALUE, as in leave_below=0.25", one));
+    }
+    configuration[one.substr(0, equals)] = one.substr(equals + 1);
+  }
+  return configuration;
+}
+
+/// How the model will be used, as the flags say.
+ModelUse use_of(const ExportFlags& flags) {
   ModelUse use = flags.use;
-  if (!flags.part.robots.empty()) use.robot = flags.part.robots.front();
-  const std::string text = recordings::header_of_model(flags.source, name, use);
+  if (!flags.part.robots.empty()) {
+    const experiments::LogRobot robot = experiments::robot_called(flags.part.robots.front());
+    use.robot = robot.name;
+    use.geometry = robot.legs;
+  }
+  use.configuration = configuration_of(flags.configuration);
+  return use;
+}
+
+void export_header(const std::filesystem::path& model, const ExportFlags& flags) {
+  const std::string name = name_of(flags.output);
+  const std::string text = recordings::header_of_model(model, name, use_of(flags));
   write_atomically(flags.output, text);
   fmt::print("header    {}, {:.2f} MB\n", flags.output, 1e-6 * static_cast<double>(text.size()));
   fmt::print("next      #include \"{}\"; touchdown::make_estimator(touchdown::compiled::{})\n",
              std::filesystem::path(flags.output).filename().string(), name);
+}
+
+void export_model(const ExportFlags& flags) {
+  const std::filesystem::path model = find_resource(flags.source);
+  check_outputs({{model.string(), "model"}}, {flags.output});
+  if (std::filesystem::path(flags.output).extension() != ".npz") {
+    return export_header(model, flags);
+  }
+  const ModelPassport passport = recordings::copy_model(model, flags.output, use_of(flags));
+  fmt::print(
+      "model     {}, for '{}' at {:.6g} Hz on {}, fingerprint {}\n", flags.output,
+      passport.estimator, passport.sample_rate,
+      passport.robot.empty() ? "a robot that nobody named" : fmt::format("'{}'", passport.robot),
+      passport.fingerprint);
+  fmt::print("next      touchdown estimate LOG --model {}\n", flags.output);
 }
 
 void export_benchmark(const ExportFlags& flags, const CliSession& session) {
@@ -73,8 +115,9 @@ void export_benchmark(const ExportFlags& flags, const CliSession& session) {
 void export_source(const ExportFlags& flags, const CliSession& session) {
   if (flags.output.empty() == flags.folder.empty()) {
     throw InputError(
-        "export: expected either --benchmark DIR, for what estimators hear, or -o FILE.hpp, for a "
-        "model, or --mapping FILE.yaml -o FILE.mpack, for somebody else's log, or -o FILE.mcap, "
+        "export: expected either --benchmark DIR, for what estimators hear, or -o FILE.hpp or "
+        "FILE.npz, for a model, or --mapping FILE.yaml -o FILE.mpack, for somebody else's log, or "
+        "-o FILE.mcap, "
         "for "
         "a log of ours");
   }
@@ -108,13 +151,16 @@ void add_export(CLI::App& program, const CliSession& session) {
       "touchdown export --benchmark signals experiments/benchmark.yaml\n"
       "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
       "touchdown export model.npz -o model.hpp\n"
+      "touchdown export models/touchdown.npz --robot my_robot.xml -o mine.npz\n"
       "touchdown export robot.csv --mapping robot.yaml -o robot.mpack\n"
       "touchdown export robot.mpack -o robot.mcap\n\n"
       "Writes what estimators of a benchmark hear, for an estimator in any language. What\n"
       "it believes is then scored by `touchdown score`. Or writes a fitted model as a C++\n"
-      "header, for a robot without files. Or writes a log of another robot, CSV or NumPy's\n"
-      "arrays, in Upkie's layout, which `fit`, `estimate` and all others read. Or writes a log\n"
-      "of that layout, with the beliefs that `estimate` wrote into it, for Foxglove.");
+      "header, for a robot without files, or as another file, told a robot's legs or another\n"
+      "constant, so that whoever loads it need not say. Or writes a log of another robot, CSV or\n"
+      "NumPy's arrays, in Upkie's layout, which `fit`, `estimate` and all others read. Or writes "
+      "a\n"
+      "log of that layout, with the beliefs that `estimate` wrote into it, for Foxglove.");
   const auto flags = std::make_shared<ExportFlags>();
   verb.option("source", &flags->source,
               "Experiment file with a section `benchmark`, or the run "
@@ -123,7 +169,7 @@ void add_export(CLI::App& program, const CliSession& session) {
       .required();
   verb.option("--benchmark", &flags->folder, "New or empty folder for the files").value_name("DIR");
   verb.option("-o,--output", &flags->output,
-              "Header for the model, or the log as FILE.mpack or FILE.mcap")
+              "The model as FILE.hpp or FILE.npz, or the log as FILE.mpack or FILE.mcap")
       .value_name("FILE");
   verb.option("--mapping", &flags->mapping,
               "Which columns of the log are which signals, in which units, signs and order")
@@ -135,9 +181,15 @@ void add_export(CLI::App& program, const CliSession& session) {
   verb.option("--estimator", &flags->use.estimator,
               "Of a model that does not say: whom it was fitted for");
   verb.option("--rate", &flags->use.sample_rate, "Likewise: at which rate (Hz)").not_negative();
-  verb.option("--robot", &flags->part.robots,
-              "Only this robot, as the benchmark's table names it; or the model's")
-      .value_name("NAME")
+  verb.option(
+          "--robot", &flags->part.robots,
+          "Only this robot, as the benchmark's table names it; or the model's, whose file tells\n"
+          "an estimator that computes loads about its legs")
+      .value_name("NAME|FILE")
+      .one_at_a_time();
+  verb.option("--set", &flags->configuration,
+              "The model with another constant than its own, for example leave_below=0.25")
+      .value_name("NAME=VALUE")
       .one_at_a_time();
   verb.option("--sensors", &flags->part.sensors, "Only these sensors, likewise")
       .value_name("NAME")

@@ -185,14 +185,20 @@ void visit_members(Visit& visit, Config& config) {
   visit_guard(visit, config.guard);
 }
 
+template <typename Visit, typename Geometry>
+requires std::same_as<std::remove_const_t<Geometry>, LegGeometry>
+void visit_members(Visit& visit, Geometry& geometry) {
+  visit_geometry(visit, geometry);
+  visit("wheel_inertia", geometry.wheel_inertia);
+  visit("robot_mass", geometry.robot_mass);
+}
+
 template <typename Visit, typename Config>
 requires std::same_as<std::remove_const_t<Config>, DecisionConfig>
 void visit_members(Visit& visit, Config& config) {
-  visit_geometry(visit, config.geometry);
-  // Only this one hears how wheels spin, its files have had the key from the first, and how heavy
-  // the robot is, which those of before do not say: they are Upkie's.
-  visit("wheel_inertia", config.geometry.wheel_inertia);
-  visit("robot_mass", config.geometry.robot_mass);
+  // Only this one hears how wheels spin, and how heavy the robot is. Files of before that do not
+  // say the mass are Upkie's.
+  visit_members(visit, config.geometry);
   visit("difference", config.difference);
   visit("smoothing", config.smoothing);
   visit("leave_below", config.leave_below);
@@ -222,6 +228,7 @@ ConfigurationText text_of(const NeuralEstimatorConfig& config) { return written(
 ConfigurationText text_of(const LoadLogisticConfig& config) { return written(config); }
 ConfigurationText text_of(const ForceKinematicsConfig& config) { return written(config); }
 ConfigurationText text_of(const DecisionConfig& config) { return written(config); }
+ConfigurationText text_of(const LegGeometry& geometry) { return written(geometry); }
 
 void configure(BayesFilterConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(PhaseFilterConfig& config, const ConfigurationText& text) { read(config, text); }

@@ -18,6 +18,8 @@ ConfigurationText text_of(const NeuralEstimatorConfig& config);
 ConfigurationText text_of(const LoadLogisticConfig& config);
 ConfigurationText text_of(const ForceKinematicsConfig& config);
 ConfigurationText text_of(const DecisionConfig& config);
+/// What the configuration of an estimator that uses kinematics says of a robot, or a part of this.
+ConfigurationText text_of(const LegGeometry& geometry);
 
 /// The inverse; what the text does not say stays as it is. Errors: `InputError` for a key that is
 /// not known, and for values of the wrong kind.

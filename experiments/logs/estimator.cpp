@@ -123,7 +123,7 @@ std::string LogEstimator::model_text() const {
       passport.fingerprint);
 }
 
-LogEstimator log_estimator(const LogEstimatorRequest& request) {
+LogEstimator log_estimator(LogEstimatorRequest request) {
   if (!request.name.empty()) check_needs(estimator_entry(request.name), request.model);
   if (request.model.empty()) {
     const FittedModel none;
@@ -134,7 +134,7 @@ LogEstimator log_estimator(const LogEstimatorRequest& request) {
     check_names(request.constants, entry);
     return {with_constants(entry, request.constants), none, request};
   }
-  require_file(request.model);
+  request.model = find_resource(request.model);
   const ModelKind kind = kind_of_model_file(request.model);
   FittedModel model = read_fitted_model(kind, request.model);
   const EstimatorEntry& entry =
@@ -149,7 +149,7 @@ LogEstimator log_estimator(const LogEstimatorRequest& request) {
   }
   EstimatorEntry own = configured(entry, model, request.model);
   if (model.passport) put_into(*model.passport, request.constants);
-  return {with_constants(std::move(own), request.constants), std::move(model), request};
+  return {with_constants(std::move(own), request.constants), std::move(model), std::move(request)};
 }
 
 }  // namespace touchdown::experiments

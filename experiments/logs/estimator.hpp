@@ -37,10 +37,11 @@ struct LogEstimator {
   std::string model_text() const;
 };
 
-/// Whose the model is, if no name is given: as its passport or its parameters say, or else `phase`
+/// The model may be one of the project's own (core/resources.hpp), wherever the program is called.
+/// Whose it is, if no name is given: as its passport or its parameters say, or else `phase`
 /// for a phase model, `robust` for a grid. Errors: `InputError` for an unknown name (with the
 /// nearest one), a model that is missing, not needed, another estimator's or unreadable, and for an
 /// estimator that does not listen to logs.
-LogEstimator log_estimator(const LogEstimatorRequest& request);
+LogEstimator log_estimator(LogEstimatorRequest request);
 
 }  // namespace touchdown::experiments

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "estimator/models/make_estimator.hpp"
+#include "estimator/models/model_for.hpp"
 #include "estimator/models/parameters.hpp"
 #include "onboard/model_needs.hpp"
 #include "recordings/models/model_file.hpp"
@@ -49,18 +49,6 @@ void put_text(std::string& text, const std::string& value) {
     }
   }
   text += '"';
-}
-
-/// The arrays with a passport, whether they had one or not.
-NpzArrays with_passport(NpzArrays arrays, const ModelUse& use) {
-  ModelPassport passport = passport_for(arrays, use);
-  if (!passport_of(arrays)) {
-    passport.robot = use.robot;
-    passport.configuration = default_configuration(passport.estimator, passport.sample_rate);
-    add_passport(arrays, passport);
-  }
-  make_estimator(arrays);  // says what is wrong with it now rather than on the robot
-  return arrays;
 }
 
 std::string header_of(const NpzArrays& arrays, const std::string& source, const std::string& name) {
@@ -106,7 +94,7 @@ std::string header_of(const NpzArrays& arrays, const std::string& source, const 
 std::string header_of_model(const std::filesystem::path& path, const std::string& name,
                             const ModelUse& use) {
   return made_of_npz(path, model_needs(path), [&](const NpzArrays& arrays) {
-    return header_of(with_passport(arrays, use), path.filename().string(), name);
+    return header_of(model_for(arrays, use), path.filename().string(), name);
   });
 }
 

@@ -24,6 +24,12 @@ auto read_model(const std::filesystem::path& path, const NpzNeeds& needs,
   });
 }
 
+/// Writes the model of one file to another, as it is to be used (estimator/models/model_for.hpp),
+/// with whatever else the file holds. Returns its passport. Errors: `InputError` that names the
+/// file that is read, `Error` for one that cannot be written.
+ModelPassport copy_model(const std::filesystem::path& from, const std::filesystem::path& to,
+                         const ModelUse& use);
+
 /// Writes a model's arrays, with its passport if it has one. Errors: `Error`.
 void write_model(NpzArrays arrays, const std::filesystem::path& path,
                  const std::optional<ModelPassport>& passport);

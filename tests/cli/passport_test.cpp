@@ -115,6 +115,37 @@ TEST_F(Passport, OfARobotsFileHasItsLegs) {
   }
 }
 
+TEST_F(Passport, OfAModelThatIsToldAnotherRobotsLegsHasThem) {
+  const std::string shipped = "models/touchdown.npz";
+  EXPECT_THAT(run("export " + shipped + " --robot models/upkie_long_legs.yaml -o long.npz"),
+              AllOf(HasSubstr("model     long.npz, for 'touchdown' at 1000 Hz on "
+                              "'upkie_long_legs', fingerprint "),
+                    HasSubstr("next      touchdown estimate LOG --model long.npz\n")));
+  const auto beliefs = [&](const std::string& of_whom) {
+    run("estimate a.mpack -o beliefs.csv --model " + of_whom);
+    return read_file(folder_ / "beliefs.csv");
+  };
+  const std::string told = beliefs("long.npz");
+  EXPECT_EQ(told, beliefs(shipped + " --robot models/upkie_long_legs.yaml --transfer"));
+  EXPECT_NE(told, beliefs(shipped));
+
+  run("export long.npz --robot models/upkie.xml --set leave_below=0.25 -o quiet.npz");
+  EXPECT_EQ(beliefs("quiet.npz"), beliefs(shipped + " --set leave_below=0.25"));
+  run("export " + shipped + " --robot models/upkie_long_legs.yaml -o long.hpp");
+  EXPECT_THAT(read_file(folder_ / "long.hpp"),
+              HasSubstr(load_passport(folder_ / "long.npz").fingerprint));
+
+  EXPECT_THAT(complaint_about("export " + shipped + " --robot upkie_heavy -o x.npz"),
+              HasSubstr("not to 'upkie_heavy'"));
+  EXPECT_THAT(complaint_about("export m.npz --robot models/upkie.xml -o x.npz"),
+              HasSubstr("m.npz: 'robust' uses no kinematics"));
+  EXPECT_THAT(complaint_about("export " + shipped + " --set leave_bellow=0.25 -o x.npz"),
+              HasSubstr("has no 'leave_bellow': expected one of"));
+  EXPECT_THAT(complaint_about("export " + shipped + " --set leave_below -o x.npz"),
+              HasSubstr("--set: leave_below: expected NAME=VALUE"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "x.npz"));
+}
+
 TEST_F(Passport, OfAnotherEstimatorRateOrRobotIsAnError) {
   EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --estimator reference"),
               HasSubstr("m.npz: is a model of 'robust', which 'reference' cannot use (did you mean "
@@ -159,7 +190,9 @@ TEST_F(Passport, GoesWithAModelThatIsExportedAsAHeader) {
       read_file(folder_ / "out/my-model.hpp"),
       AllOf(HasSubstr("inline constexpr CompiledArray my_model[] = {"),
             HasSubstr(load_passport(folder_ / "m.npz").fingerprint), Not(HasSubstr("P_contact"))));
-  EXPECT_THAT(complaint_about("export m.npz -o m.npz"), HasSubstr("expected a header, FILE.hpp"));
+  EXPECT_THAT(complaint_about("export m.npz -o m.txt"),
+              HasSubstr("expected a header, FILE.hpp, or a model, FILE.npz"));
+  EXPECT_THAT(complaint_about("export m.npz -o m.npz"), HasSubstr("m.npz"));
   EXPECT_THAT(complaint_about("export m.npz"), HasSubstr("either --benchmark DIR"));
   EXPECT_THAT(complaint_about("export a.mpack -o m.hpp"), HasSubstr("a.mpack: is not a readable"));
 }
