@@ -15,9 +15,11 @@ using ConfigurationText = std::map<std::string, std::string>;
 
 /// What a model says about itself.
 struct ModelPassport {
-  std::string estimator;            ///< whom it was fitted for
-  double sample_rate = 0.0;         ///< of what it was fitted to (Hz)
-  std::string robot;                ///< that it was fitted to; empty where nobody knows
+  std::string estimator;     ///< whom it was fitted for
+  double sample_rate = 0.0;  ///< of what it was fitted to (Hz)
+  /// That it was fitted to, or whose legs it was told since (model_for.hpp); empty where nobody
+  /// knows.
+  std::string robot;
   ConfigurationText configuration;  ///< that the estimator is run with
   /// A name for all of this and the model's numbers, sixteen hexadecimal digits: equal for equal
   /// fits.

@@ -55,7 +55,7 @@ std::string header_of(const NpzArrays& arrays, const std::string& source, const 
   const ModelPassport passport = *passport_of(arrays);
   std::string text = fmt::format(
       "#pragma once\n\n"
-      "// {}, written by `touchdown export`: fitted for '{}' at {:.6g} Hz to the robot '{}',\n"
+      "// {}, written by `touchdown export`: for '{}' at {:.6g} Hz on the robot '{}',\n"
       "// fingerprint {}. touchdown::make_estimator(touchdown::compiled::{}) makes the "
       "estimator.\n\n"
       "// clang-format off\n"

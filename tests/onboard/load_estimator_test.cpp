@@ -93,7 +93,7 @@ TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveAPassport) {
               HasSubstr("grid.npz: has no passport"));
   EXPECT_THAT(recordings::header_of_model(grid, "grid", {"reference", 1000.0, "upkie"}),
               AllOf(HasSubstr("inline constexpr CompiledArray grid[] = {"),
-                    HasSubstr("fitted for 'reference' at 1000 Hz to the robot 'upkie'"),
+                    HasSubstr("for 'reference' at 1000 Hz on the robot 'upkie'"),
                     HasSubstr("sample_rate: 1000\\n\"")));
 }
 
