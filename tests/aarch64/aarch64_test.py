@@ -20,7 +20,8 @@ TOLERANCE = {'neural': 1e-5, 'decision_network': 1e-5, 'evidence_pairs': 1e-5, '
 DOUBLE = 1e-12
 # What qemu would take minutes for.
 SLOW = ('*PhaseFilter*', '*BayesFilter*', '*SlidingDft*', '*TransitionSpectrum*', 'PhaseModel*',
-        'MeasurementOnly*', 'NeuralForward*', 'Decision*', 'PairedDecision*', 'Evidence*', 'Faults*')
+        'MeasurementOnly*', 'NeuralForward*', 'Decision*', 'PairedDecision*', 'Evidence*',
+        'TouchdownEstimator*', 'Faults*')
 NEEDED = {
     'g++-aarch64-linux-gnu': shutil.which('aarch64-linux-gnu-g++'),
     'qemu-user': shutil.which('qemu-aarch64'),
