@@ -72,21 +72,22 @@ def together(flags, files, folder):
 
 
 def misfits(flags, files, unit):
-    """Those of the files that do not compile together with the others before them."""
+    """Those of several files that do not compile together with the others; never all."""
     command = ["clang++", *flags, "-w", "-fsyntax-only", "-ferror-limit=0", unit]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode == 0:
+        return []
     wrong = set(re.findall(r"^(.*?):\d+:\d+: (?:fatal )?error: ", done.stderr, re.MULTILINE))
     found = [file for file in files if file in wrong]
-    # An error that is none of the files': whose it is, halves will tell.
-    return found if found or done.returncode == 0 else files[len(files) // 2:]
+    # Where it is an error of none of the files, or of all: whose it is, halves will tell.
+    return found if 0 < len(found) < len(files) else files[len(files) // 2:]
 
 
 def check(flags, files, folder):
     """What clang-tidy says of the files, as text; empty if nothing."""
     unit = together(flags, files, folder)
     if len(files) > 1 and (apart := misfits(flags, files, unit)):
-        rest = [file for file in files if file not in apart] or apart[:1]
-        apart = [file for file in files if file not in rest]
+        rest = [file for file in files if file not in apart]
         return check(flags, rest, folder) + check(flags, apart, folder)
     done = subprocess.run(
         # A private name of one file does not shadow another file's; the compiler looks for real ones.

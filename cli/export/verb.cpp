@@ -86,11 +86,9 @@ void export_model(const ExportFlags& flags) {
     return export_header(model, flags);
   }
   const ModelPassport passport = recordings::copy_model(model, flags.output, use_of(flags));
-  fmt::print(
-      "model     {}, for '{}' at {:.6g} Hz on {}, fingerprint {}\n", flags.output,
-      passport.estimator, passport.sample_rate,
-      passport.robot.empty() ? "a robot that nobody named" : fmt::format("'{}'", passport.robot),
-      passport.fingerprint);
+  fmt::print("model     {}, for '{}' at {:.6g} Hz on {}, fingerprint {}\n", flags.output,
+             passport.estimator, passport.sample_rate, experiments::robot_text(passport.robot),
+             passport.fingerprint);
   fmt::print("next      touchdown estimate LOG --model {}\n", flags.output);
 }
 
@@ -117,9 +115,7 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
     throw InputError(
         "export: expected either --benchmark DIR, for what estimators hear, or -o FILE.hpp or "
         "FILE.npz, for a model, or --mapping FILE.yaml -o FILE.mpack, for somebody else's log, or "
-        "-o FILE.mcap, "
-        "for "
-        "a log of ours");
+        "-o FILE.mcap, for a log of ours");
   }
   if (flags.mapping.empty() && !flags.labels.empty()) {
     throw InputError("--labels: expected --mapping FILE.yaml, which says where they are");
@@ -157,10 +153,10 @@ void add_export(CLI::App& program, const CliSession& session) {
       "Writes what estimators of a benchmark hear, for an estimator in any language. What\n"
       "it believes is then scored by `touchdown score`. Or writes a fitted model as a C++\n"
       "header, for a robot without files, or as another file, told a robot's legs or another\n"
-      "constant, so that whoever loads it need not say. Or writes a log of another robot, CSV or\n"
-      "NumPy's arrays, in Upkie's layout, which `fit`, `estimate` and all others read. Or writes "
-      "a\n"
-      "log of that layout, with the beliefs that `estimate` wrote into it, for Foxglove.");
+      "constant, so that whoever loads it need not say. Or writes a log of another robot, CSV\n"
+      "or NumPy's arrays, in Upkie's layout, which `fit`, `estimate` and all others read. Or\n"
+      "writes a log of that layout, with the beliefs that `estimate` wrote into it, for\n"
+      "Foxglove.");
   const auto flags = std::make_shared<ExportFlags>();
   verb.option("source", &flags->source,
               "Experiment file with a section `benchmark`, or the run "

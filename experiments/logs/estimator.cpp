@@ -116,11 +116,9 @@ std::string LogEstimator::model_text() const {
                        request.model.string(), entry.name);
   }
   const ModelPassport& passport = *model.passport;
-  return fmt::format(
-      "{}: fitted for '{}' at {:.6g} Hz to {}, fingerprint {}", request.model.string(),
-      passport.estimator, passport.sample_rate,
-      passport.robot.empty() ? "a robot that nobody named" : fmt::format("'{}'", passport.robot),
-      passport.fingerprint);
+  return fmt::format("{}: fitted for '{}' at {:.6g} Hz to {}, fingerprint {}",
+                     request.model.string(), passport.estimator, passport.sample_rate,
+                     robot_text(passport.robot), passport.fingerprint);
 }
 
 LogEstimator log_estimator(LogEstimatorRequest request) {

@@ -16,4 +16,8 @@ LogRobot robot_called(const std::string& name_or_file) {
           .legs = scenarios::leg_geometry(models::compile_robot_model(find_resource(path), {}))};
 }
 
+std::string robot_text(const std::string& name) {
+  return name.empty() ? "a robot that nobody named" : "'" + name + "'";
+}
+
 }  // namespace touchdown::experiments

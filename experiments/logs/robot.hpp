@@ -18,4 +18,7 @@ struct LogRobot {
 /// a file that is not there, with the nearest name in its folder, or that describes no robot.
 LogRobot robot_called(const std::string& name_or_file);
 
+/// A model's robot as a message has it: its name in quotes, or that it has none.
+std::string robot_text(const std::string& name);
+
 }  // namespace touchdown::experiments
