@@ -29,7 +29,7 @@ std::uintmax_t remove(const experiments::OldRun& run, const CliSession& session)
     fmt::print("{}\n", error.what());
     return 0;
   }
-  const experiments::Strangers left = experiments::remove_run(run.directory);
+  const experiments::UntrackedFiles left = experiments::remove_run(run.directory);
   if (left.files > 0) {
     fmt::print("{}  {} files stay that no run made\n", run.directory.string(), left.files);
   }

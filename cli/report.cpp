@@ -6,7 +6,7 @@
 
 #include "cli/verbs.hpp"
 #include "experiments/run_directory/lock.hpp"
-#include "experiments/run_directory/occupant.hpp"
+#include "experiments/run_directory/owner.hpp"
 #include "render/pictures/filmed_report.hpp"
 
 namespace touchdown::cli {
@@ -31,7 +31,7 @@ void add_report(CLI::App& program, const CliSession& session) {
   verb.flag("--no-film", &flags->no_film, "Without the video inside");
   verb.action([flags, &session] {
     std::optional<experiments::DirectoryLock> lock;
-    if (experiments::occupant_of(flags->directory)) {
+    if (experiments::owner_of(flags->directory)) {
       lock.emplace(flags->directory, experiments::Access::alone, session.command);
     }
     const render::ReportSubject subject = render::read_subject(flags->directory);

@@ -29,7 +29,7 @@ struct RunFlags {
 void run_one_shard(const experiments::Experiment& experiment, const experiments::Shard& shard,
                    const experiments::RunOptions& options) {
   const experiments::ShardReport report = experiments::run_shard(experiment, shard, options);
-  for (const experiments::PlayedRun& run : report.failed_runs) {
+  for (const experiments::Rollout& run : report.failed_runs) {
     fmt::print(
         "Not used: {} ({})\n", run.plan.file,
         run.report.error.empty() ? recordings::to_text(run.report.outcome) : run.report.error);

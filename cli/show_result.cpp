@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "core/program/streams.hpp"
-#include "experiments/tables/manifest.hpp"
-#include "experiments/tables/terminal.hpp"
+#include "experiments/results/manifest.hpp"
+#include "experiments/results/terminal.hpp"
 #include "render/pictures/filmed_report.hpp"
 #include "render/pictures/pictures.hpp"
 

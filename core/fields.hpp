@@ -123,6 +123,8 @@ class Fields {
   bool present(std::string_view key, bool has_value) const;
   /// Names a key that may be absent, for the suggestions that a misspelt one gets.
   void know(std::string_view key);
+  /// Reading: refuses a key of an earlier version and names the key that replaced it.
+  void renamed(std::string_view old_key, std::string_view key) const;
   /// How many keys there are.
   std::size_t size() const;
 

@@ -60,7 +60,7 @@ inline void multiply_wheels(Belief& belief) noexcept {
 }
 
 /// As above, and to the wheels' decisions.
-inline void conclude(Belief& belief, double threshold) noexcept {
+inline void apply_threshold(Belief& belief, double threshold) noexcept {
   for (WheelBelief& wheel : belief.wheel) wheel.contact = wheel.p_contact >= threshold;
   multiply_wheels(belief);
 }

@@ -24,7 +24,7 @@
 #include "estimator/free_fall.hpp"
 #include "estimator/models/compiled.hpp"
 #include "estimator/models/make_estimator.hpp"
-#include "estimator/models/passport.hpp"
+#include "estimator/models/metadata.hpp"
 #include "estimator/neural/estimator.hpp"
 #include "estimator/phase/filter.hpp"
 #include "estimator/phase/fit.hpp"

@@ -42,7 +42,7 @@ bool WheelContactObserver::update(double torque, double velocity, double time_st
 UpkieObserver::UpkieObserver(const UpkieObserverConfig& config) noexcept
     : config_(config),
       wheel_{WheelContactObserver(config.wheel), WheelContactObserver(config.wheel)} {
-  conclude();
+  apply_threshold();
 }
 
 void UpkieObserver::reset() noexcept { *this = UpkieObserver(config_); }
@@ -63,11 +63,11 @@ const Belief& UpkieObserver::update(const Signals& signals) noexcept {
     upper_leg_torque_ += gain * (std::sqrt(squares) - upper_leg_torque_);
   }
   belief_.status = usable && upper_leg_usable ? SignalStatus::good : SignalStatus::invalid;
-  conclude();
+  apply_threshold();
   return belief_;
 }
 
-void UpkieObserver::conclude() noexcept {
+void UpkieObserver::apply_threshold() noexcept {
   for (std::size_t side = 0; side < 2; ++side) {
     belief_.wheel[side].contact = wheel_[side].contact();
     belief_.wheel[side].p_contact = wheel_[side].contact() ? 1.0 : 0.0;

@@ -85,7 +85,7 @@ class UpkieObserver : public ContactEstimator {
   [[nodiscard]] double upper_leg_torque() const noexcept { return upper_leg_torque_; }
 
  private:
-  void conclude() noexcept;
+  void apply_threshold() noexcept;
 
   UpkieObserverConfig config_;
   std::array<WheelContactObserver, 2> wheel_;

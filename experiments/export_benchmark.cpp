@@ -28,7 +28,7 @@ RunRequest request_in(const std::filesystem::path& source) {
 std::string export_outline(const ExportRequest& wanted) {
   const RunRequest request = request_in(wanted.source);
   const Plan plan = whole_plan(request);
-  const std::vector<HeardRun> runs = part_of(heard_runs(request, plan), wanted.part, plan);
+  const std::vector<HeardRun> runs = part_of(exported_runs(request, plan), wanted.part, plan);
   std::map<std::array<std::string, 3>, std::vector<HeardRun>> parts;
   for (const HeardRun& run : runs) {
     parts[{run.robot, run.sensors, plan.runs[run.run].simulator}].push_back(run);
@@ -53,17 +53,17 @@ std::string export_outline(const ExportRequest& wanted) {
 ExportReport export_benchmark(const ExportRequest& wanted, const RunOptions& options) {
   RunRequest request = request_in(wanted.source);
   const auto write = [&](RunDirectory directory) {
-    RunningExperiment running = start(std::move(request), std::move(directory), options);
-    Plan& plan = running.plan;
+    ExperimentContext context = start(std::move(request), std::move(directory), options);
+    Plan& plan = context.plan;
     const std::vector<HeardRun> runs =
-        part_of(heard_runs(running.request, plan), wanted.part, plan);
+        part_of(exported_runs(context.request, plan), wanted.part, plan);
     for (const HeardRun& heard : runs) {
       PlannedRun& run = plan.runs[heard.run];
-      run.kept = run.kept && is_recorded(run, running.directory);
+      run.kept = run.kept && is_recorded(run, context.directory);
     }
     try {
-      return export_runs(running.request, plan, runs, running.directory, wanted.folder,
-                         running.going_on);
+      return export_runs(context.request, plan, runs, context.directory, wanted.folder,
+                         context.should_continue);
     } catch (const Stopped&) {
       throw Stopped("stopped; nothing was written");
     }

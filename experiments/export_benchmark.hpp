@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/foreign/export.hpp"
-#include "experiments/running_experiment.hpp"
+#include "experiments/submissions/export.hpp"
+#include "experiments/experiment_context.hpp"
 
 namespace touchdown::experiments {
 

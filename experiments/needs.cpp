@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "experiments/listening/tasks.hpp"
-#include "experiments/phase_study/plan.hpp"
+#include "experiments/evaluation/tasks.hpp"
+#include "experiments/studies/phase_study/plan.hpp"
 
 namespace touchdown::experiments {
 
@@ -49,8 +49,8 @@ Needs needs_of(const RunRequest& request) {
   for (const std::string& file : experiment.fit.scenarios) {
     add_runs(needs, scenario_of(request, file).scenario, engines * experiment.fit.runs, 0.0);
   }
-  for (const FitPieces& pieces : experiment.fit_pieces) {
-    add_runs(needs, scenario_of(request, pieces.scenario).scenario, engines * pieces.runs, 0.0);
+  for (const TrainingSegments& segments : experiment.training_segments) {
+    add_runs(needs, scenario_of(request, segments.scenario).scenario, engines * segments.runs, 0.0);
   }
   double sensors = 1.0;
   for (const SensorFactor& factor : experiment.sweep) {
@@ -96,15 +96,15 @@ void require_memory(const RunRequest& request, double share_of_runs, double memo
   const Needs needs = needs_of(request);
   const double planned = needs.runs * planned_bytes + needs.parts * sizeof(Task);
   const double step = heard_step_bytes + (request.experiment.odometry ? moved_step_bytes : 0.0);
-  const double played = share_of_runs * needs.steps * step;
-  if (planned + played <= memory) return;
+  const double rollout = share_of_runs * needs.steps * step;
+  if (planned + rollout <= memory) return;
   const Experiment& experiment = request.experiment;
-  const bool too_long = played > planned;
+  const bool too_long = rollout > planned;
   throw Error(fmt::format(
       "{}: {:.0f} runs of {:.0f} s together and {:.0f} parts (test.runs={}, fit.runs={}, "
       "noise.seeds={}) need at least {:.1f} GB of memory, and this machine has {:.1f} GB: {}",
       experiment.name, needs.runs, needs.seconds, needs.parts, experiment.test.runs,
-      experiment.fit.runs, experiment.noise.seeds, 1e-9 * (planned + played), 1e-9 * memory,
+      experiment.fit.runs, experiment.noise.seeds, 1e-9 * (planned + rollout), 1e-9 * memory,
       too_long ? "lower test.runs or fit.runs, or compute it in shards (--shard)"
                : "lower test.runs or noise.seeds"));
 }
@@ -122,7 +122,7 @@ double bytes_of_parts(const Plan& plan) {
     }
     const auto counted = static_cast<double>(group.counted.size() + group.disturbed.size());
     const double told =
-        group.odometry ? most + 1.0 + static_cast<double>(group.odometry->late.size()) : 0.0;
+        group.odometry ? most + 1.0 + static_cast<double>(group.odometry->delay.size()) : 0.0;
     const std::size_t points =
         group.operating_points ? 1 + points_of(*group.operating_points).size() : 0;
     const double bytes =
@@ -132,7 +132,7 @@ double bytes_of_parts(const Plan& plan) {
              counted * sizeof(scoring::Classification) +
              static_cast<double>(group.scored.size()) *
                  (sizeof(scoring::RobotScore) +
-                  (group.is_looked_at_closely ? sizeof(scoring::CloseScore) : 0)));
+                  (group.has_extended_scores ? sizeof(scoring::ExtendedScore) : 0)));
     of_group.push_back(block * std::ceil(bytes / block));
   }
   double bytes = 0.0;

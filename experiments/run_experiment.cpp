@@ -11,35 +11,35 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
-#include "experiments/benchmark/overlap.hpp"
-#include "experiments/benchmark/plan.hpp"
-#include "experiments/benchmark/refits.hpp"
-#include "experiments/benchmark/tables.hpp"
-#include "experiments/closed_loop/tables.hpp"
-#include "experiments/cross_simulator/tables.hpp"
-#include "experiments/foreign/rows.hpp"
-#include "experiments/moments/tables.hpp"
+#include "experiments/studies/benchmark/overlap.hpp"
+#include "experiments/studies/benchmark/plan.hpp"
+#include "experiments/studies/benchmark/refits.hpp"
+#include "experiments/studies/benchmark/tables.hpp"
+#include "experiments/studies/closed_loop/tables.hpp"
+#include "experiments/studies/cross_simulator/tables.hpp"
+#include "experiments/submissions/rows.hpp"
+#include "experiments/studies/moments/tables.hpp"
 #include "experiments/needs.hpp"
-#include "experiments/odometry_study/tables.hpp"
-#include "experiments/odometry_study/trajectories.hpp"
-#include "experiments/operating_points/tables.hpp"
-#include "experiments/phase_study/fit.hpp"
-#include "experiments/phase_study/tables.hpp"
-#include "experiments/play/pieces.hpp"
-#include "experiments/run_directory/occupant.hpp"
+#include "experiments/studies/odometry/tables.hpp"
+#include "experiments/studies/odometry/trajectories.hpp"
+#include "experiments/studies/operating_points/tables.hpp"
+#include "experiments/studies/phase_study/fit.hpp"
+#include "experiments/studies/phase_study/tables.hpp"
+#include "experiments/rollouts/training_segments.hpp"
+#include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/touches.hpp"
-#include "experiments/sensor_sweep/tables.hpp"
+#include "experiments/run_directory/test_seed_log.hpp"
+#include "experiments/studies/sensor_sweep/tables.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
-#include "experiments/tables/manifest.hpp"
-#include "experiments/tables/result_files.hpp"
+#include "experiments/results/manifest.hpp"
+#include "experiments/results/result_files.hpp"
 #include "experiments/tuning/table.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-bool is_any_scored(const PlayedRuns& runs) {
+bool is_any_scored(const Rollouts& runs) {
   return std::any_of(runs.begin(), runs.end(), [](const auto& entry) {
     return entry.second.plan.role == RunRole::test && !entry.second.failed();
   });
@@ -53,23 +53,23 @@ struct Fitted {
 
 /// One of the experiment's fits, of every engine, with its refits; with these constants unless it
 /// is tuned itself.
-Fitted fit(const Experiment& experiment, const PlayedRuns& runs, const std::string& name,
-           const GoingOn& going_on, const SavedTrials& saved, ChosenConstants chosen) {
+Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string& name,
+           const ShouldContinue& should_continue, const SavedTrials& saved, TunedHyperparameters chosen) {
   std::vector<RunSignals> fitted;
   for (const auto& [index, run] : runs) {
     const PlannedRun& plan = run.plan;
     const bool is_wanted = plan.role == RunRole::fit && plan.fit == name && plan.group == 0;
     if (is_wanted && !run.failed()) fitted.push_back(run.signals);
   }
-  std::vector<RunSignals> pieces;
+  std::vector<RunSignals> segments;
   for (const std::string& simulator : experiment.simulators) {
-    for (RunSignals& piece : pieces_of(runs, simulator, experiment.fit_pieces, name)) {
-      pieces.push_back(std::move(piece));
+    for (RunSignals& segment : training_segments_of(runs, simulator, experiment.training_segments, name)) {
+      segments.push_back(std::move(segment));
     }
   }
   Fitted all;
   if (experiment.tuning && (name.empty() || experiment.tuning->everywhere)) {
-    all.trials = tune(experiment, name, fitted, pieces, going_on, saved);
+    all.trials = tune(experiment, name, fitted, segments, should_continue, saved);
     chosen = chosen_in(all.trials);
   }
   const auto add = [&](int refit, FittedModels&& of_refit) {
@@ -77,52 +77,52 @@ Fitted fit(const Experiment& experiment, const PlayedRuns& runs, const std::stri
       all.models[model_key(simulator, name, refit)] = std::move(by_estimator);
     }
   };
-  add(0, fit_models(experiment, fitted, pieces, going_on, chosen));
+  add(0, fit_models(experiment, fitted, segments, should_continue, chosen));
   const int refits = experiment.benchmark ? refits_of(*experiment.benchmark, name) : 0;
   for (int refit = 1; refit <= refits; ++refit) {
     add(refit, fit_models(experiment, drawn_anew(fitted, experiment.seed, refit),
-                          drawn_anew(pieces, experiment.seed, refit), going_on, chosen));
+                          drawn_anew(segments, experiment.seed, refit), should_continue, chosen));
   }
   return all;
 }
 
 /// What the estimators need that listen to these runs; nothing when none can be scored.
-Fitted fit(const RunningExperiment& running, const PlayedRuns& runs) {
+Fitted fit(const ExperimentContext& context, const Rollouts& runs) {
   if (!is_any_scored(runs)) return {};
-  Experiment experiment = running.request.experiment;
-  std::set<std::string> played;
+  Experiment experiment = context.request.experiment;
+  std::set<std::string> rollout;
   std::set<std::string> fits = {""};
   for (const auto& [index, run] : runs) {
-    played.insert(run.plan.simulator);
+    rollout.insert(run.plan.simulator);
     if (run.plan.role == RunRole::fit) fits.insert(run.plan.fit);
   }
   // A shard may have runs of one engine only.
   std::erase_if(experiment.simulators,
-                [&](const std::string& simulator) { return !played.contains(simulator); });
-  const SavedTrials saved(running.directory.path() / "state" / "tuning",
-                          state_key(running.request));
+                [&](const std::string& simulator) { return !rollout.contains(simulator); });
+  const SavedTrials saved(context.directory.path() / "state" / "tuning",
+                          state_key(context.request));
   Fitted all;
   for (const std::string& name : fits) {
     // The own fit is the first: without `everywhere` the others have what was chosen for it.
-    Fitted one = fit(experiment, runs, name, running.going_on, saved, chosen_in(all.trials));
+    Fitted one = fit(experiment, runs, name, context.should_continue, saved, chosen_in(all.trials));
     all.models.merge(one.models);
     std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
   }
-  if (experiment.phase_study) fit_learning_curve(experiment, runs, running.going_on, all.models);
-  if (!running.going_on()) throw Stopped();
+  if (experiment.phase_study) fit_learning_curve(experiment, runs, context.should_continue, all.models);
+  if (!context.should_continue()) throw Stopped();
   return all;
 }
 
 struct Computed {
-  PlayedRuns runs;
+  Rollouts runs;
   Fitted fitted;
   std::size_t tasks = 0;  ///< that were not saved already
 };
 
 /// The runs that these tasks need, and those that the estimators are fitted to that steer.
-std::set<std::size_t> runs_for(const RunningExperiment& running, const TaskRange& tasks,
+std::set<std::size_t> runs_for(const ExperimentContext& context, const TaskRange& tasks,
                                const TaskRange& loops) {
-  const Plan& plan = running.plan;
+  const Plan& plan = context.plan;
   std::set<std::size_t> runs = runs_for(plan, tasks);
   for (std::size_t i = 0; i < plan.runs.size() && loops.size() > 0; ++i) {
     if (plan.runs[i].role == RunRole::fit && plan.runs[i].fit.empty()) runs.insert(i);
@@ -131,103 +131,103 @@ std::set<std::size_t> runs_for(const RunningExperiment& running, const TaskRange
 }
 
 /// The first half of the way: play → fit → listen, and steer. What is saved is read.
-Computed compute(RunningExperiment& running, const TaskRange& tasks, MissingRun missing) {
-  const Experiment& experiment = running.request.experiment;
-  const TaskRange loops = loop_runs_of(experiment, tasks, running.plan.tasks.size());
+Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun missing) {
+  const Experiment& experiment = context.request.experiment;
+  const TaskRange loops = closed_loop_runs_of(experiment, tasks, context.plan.tasks.size());
   try {
     Computed done;
-    done.runs = timed(running, "simulate", [&] {
-      return play_runs(experiment, running.plan, runs_for(running, tasks, loops), running.directory,
-                       missing, running.going_on);
+    done.runs = timed(context, "simulate", [&] {
+      return run_rollouts(experiment, context.plan, runs_for(context, tasks, loops), context.directory,
+                       missing, context.should_continue);
     });
-    done.fitted = timed(running, "fit", [&] { return fit(running, done.runs); });
-    done.tasks = timed(running, "listen", [&] {
-      return listen(running.plan, tasks, done.runs, experiment.scoring, done.fitted.models,
-                    running.saved, running.going_on);
+    done.fitted = timed(context, "fit", [&] { return fit(context, done.runs); });
+    done.tasks = timed(context, "listen", [&] {
+      return evaluate(context.plan, tasks, done.runs, experiment.scoring, done.fitted.models,
+                    context.saved, context.should_continue);
     });
     if (loops.size() > 0) {
-      timed(running, "steer", [&] {
-        close_loops(running.request, loops, done.fitted.models, running.saved_loops, missing,
-                    running.going_on);
+      timed(context, "steer", [&] {
+        run_closed_loops(context.request, loops, done.fitted.models, context.saved_closed_loops, missing,
+                    context.should_continue);
         return 0;
       });
     }
     return done;
   } catch (const Stopped&) {
-    throw Stopped(what_is_saved(running));
+    throw Stopped(what_is_saved(context));
   }
 }
 
 /// The second half: score → tables. Listens to nothing.
-ExperimentResult conclude(RunningExperiment& running, Computed done) {
-  const Experiment& experiment = running.request.experiment;
-  const Plan& plan = running.plan;
+ExperimentResult summarize(ExperimentContext& context, Computed done) {
+  const Experiment& experiment = context.request.experiment;
+  const Plan& plan = context.plan;
   ExperimentResult result{
-      experiment, running.request.id, running.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+      experiment, context.request.id, context.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   result.models = std::move(done.fitted.models);
   result.cells = plan.groups.front().counted;
-  timed(running, "score", [&] {
+  timed(context, "score", [&] {
     if (!is_any_scored(done.runs)) {
       throw Error("no test run stayed upright: there is nothing to score");
     }
-    const CollectedCounts counts = collect(plan, plan.runs_in(0), running.saved);
+    const CollectedCounts counts = collect(plan, plan.runs_in(0), context.saved);
     const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
     result.summaries = summarise(own(counts.counted), result.cells, bootstrap);
     const std::vector<ConditionScores> scored = own(counts.scored);
     result.scores = summarise(scored, experiment.highlights, bootstrap);
     result.differences = differences(scored, experiment.highlights, bootstrap);
     if (experiment.tuning) {
-      write_table(done.fitted.trials, running.directory);
+      write_table(done.fitted.trials, context.directory);
       result.studies.push_back(tuning_text(done.fitted.trials, experiment));
     }
-    const Listened listened{running.request, plan, done.runs, running.saved, counts};
+    const Evaluation evaluation{context.request, plan, done.runs, context.saved, counts};
     if (experiment.cross_simulator) {
-      const CrossSimulatorResult check = check_across_simulators(listened);
-      write_tables(check, running.directory);
+      const CrossSimulatorResult check = check_across_simulators(evaluation);
+      write_tables(check, context.directory);
       result.studies.push_back(report_text(check));
       result.failed_demands = failed_demands(check.verdicts);
     }
     if (experiment.phase_study) {
-      result.studies.push_back(phase_study_text(listened));
-      write_atomically(running.directory.file("tables", "phase_study.md"), result.studies.back());
+      result.studies.push_back(phase_study_text(evaluation));
+      write_atomically(context.directory.file("tables", "phase_study.md"), result.studies.back());
     }
     if (experiment.moments) {
-      const std::vector<EngineTorques> torques = torques_by_engine(listened);
-      write_tables(torques, running.directory);
+      const std::vector<EngineTorques> torques = torques_by_engine(evaluation);
+      write_tables(torques, context.directory);
       result.studies.push_back(moments_text(torques, experiment));
     }
     if (experiment.benchmark) {
-      const BenchmarkResult found = write_benchmark(listened, running.directory);
-      write_overlap(result.models, listened, running.directory);
+      const BenchmarkResult found = write_benchmark(evaluation, context.directory);
+      write_overlap(result.models, evaluation, context.directory);
       result.studies.push_back(benchmark_text(found, experiment));
     }
     if (experiment.odometry) {
-      const std::vector<OdometryRow> rows = odometry_rows(listened);
-      write_tables(rows, running.directory);
-      write_trajectories(listened, result.models, running.directory);
+      const std::vector<OdometryRow> rows = odometry_rows(evaluation);
+      write_tables(rows, context.directory);
+      write_trajectories(evaluation, result.models, context.directory);
       result.studies.push_back(odometry_text(rows, experiment));
     }
     if (experiment.operating_points) {
-      const std::vector<OperatingRow> rows = operating_rows(listened);
+      const std::vector<OperatingRow> rows = operating_rows(evaluation);
       const std::vector<OperatingMean> means = operating_means(rows);
-      write_tables(rows, means, running.directory);
+      write_tables(rows, means, context.directory);
       result.studies.push_back(operating_points_text(means, experiment));
     }
     if (experiment.closed_loop) {
-      const std::vector<SurvivalRow> rows = survival_rows(running.request, running.saved_loops);
-      write_tables(rows, running.directory);
+      const std::vector<SurvivalRow> rows = survival_rows(context.request, context.saved_closed_loops);
+      write_tables(rows, context.directory);
       result.studies.push_back(survival_text(rows, experiment));
     }
     if (!experiment.sweep.empty()) {
-      const std::vector<SensorSweepPoint> sweep = sensor_sweep(listened);
-      write_tables(sweep, running.directory);
+      const std::vector<SensorSweepPoint> sweep = sensor_sweep(evaluation);
+      write_tables(sweep, context.directory);
       result.studies.push_back(sensor_sweep_text(sweep, experiment));
     }
     return 0;
   });
   if (is_reserved(experiment.seed)) {
     const int others =
-        note_touch(running.directory.path(), {experiment.seed, result.id, build_commit()});
+        log_evaluation(context.directory.path(), {experiment.seed, result.id, build_commit()});
     result.studies.push_back(fmt::format(
         "Seed {} is reserved for numbers that are reported once: other configurations or builds "
         "scored its runs {} times before (reserved_seeds.csv beside the run directory)\n",
@@ -236,10 +236,10 @@ ExperimentResult conclude(RunningExperiment& running, Computed done) {
   for (auto& [index, run] : done.runs) {
     if (run.plan.group == 0) result.runs.push_back(std::move(run));
   }
-  result.provenance = running.provenance;
+  result.provenance = context.provenance;
   write_result_files(result);
-  remove_shard_notes(running.directory.path());
-  remove_partial_files(running.directory.path());
+  remove_shard_marks(context.directory.path());
+  remove_partial_files(context.directory.path());
   write_manifest(result);
   return result;
 }
@@ -282,21 +282,21 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& 
   require_memory(request, 1.0);
   RunDirectory directory = place_for(request, Access::alone, options);
   remove_partial_files(directory.path());
-  RunningExperiment running = start(std::move(request), std::move(directory), options);
-  return conclude(running, compute(running, running.plan.all_tasks(), MissingRun::simulate));
+  ExperimentContext context = start(std::move(request), std::move(directory), options);
+  return summarize(context, compute(context, context.plan.all_tasks(), MissingRun::simulate));
 }
 
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
   RunRequest request = request_of(experiment);
   require_memory(request, 1.0 / shard.count);
   RunDirectory directory = place_for(request, Access::shared, options);
-  note_shard(directory.path(), shard);
-  RunningExperiment running = start(std::move(request), std::move(directory), options);
-  const std::size_t all = running.plan.tasks.size();
+  mark_shard_started(directory.path(), shard);
+  ExperimentContext context = start(std::move(request), std::move(directory), options);
+  const std::size_t all = context.plan.tasks.size();
   const TaskRange tasks{shard.begin(all), shard.end(all)};
-  ShardReport report{running.directory, tasks.size(), 0, {}};
+  ShardReport report{context.directory, tasks.size(), 0, {}};
   if (tasks.size() == 0) return report;
-  const Computed done = compute(running, tasks, MissingRun::simulate);
+  const Computed done = compute(context, tasks, MissingRun::simulate);
   report.computed = done.tasks;
   for (const auto& [index, run] : done.runs) {
     if (run.failed()) report.failed_runs.push_back(run);
@@ -306,14 +306,14 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
 
 ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& options) {
   std::optional<DirectoryLock> lock;
-  if (occupant_of(path)) lock.emplace(path, Access::alone, options.command);
+  if (owner_of(path)) lock.emplace(path, Access::alone, options.command);
   RunRequest request = read_request(path);  // complains of a directory that is nobody's
   require_memory(request, 1.0);
   RunDirectory directory(request.experiment.name, request.id, path);
   directory.keep(*lock);
-  RunningExperiment running = start(std::move(request), std::move(directory), options);
-  require_all_shards(running);
-  return conclude(running, compute(running, running.plan.all_tasks(), MissingRun::refuse));
+  ExperimentContext context = start(std::move(request), std::move(directory), options);
+  require_all_shards(context);
+  return summarize(context, compute(context, context.plan.all_tasks(), MissingRun::refuse));
 }
 
 }  // namespace touchdown::experiments

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/run_directory/shard.hpp"
-#include "experiments/running_experiment.hpp"
+#include "experiments/experiment_context.hpp"
 
 namespace touchdown::experiments {
 
@@ -30,7 +30,7 @@ struct ShardReport {
   RunDirectory directory;
   std::size_t tasks = 0;     ///< of the shard
   std::size_t computed = 0;  ///< of these; the others were there already
-  std::vector<PlayedRun> failed_runs;
+  std::vector<Rollout> failed_runs;
 };
 
 /// Computes one shard of an experiment: the recordings that it needs and its share of the

@@ -9,13 +9,13 @@
 
 #include "core/error.hpp"
 #include "core/file_names.hpp"
-#include "experiments/benchmark/tables.hpp"
+#include "experiments/studies/benchmark/tables.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/foreign/belief_folder.hpp"
-#include "experiments/foreign/prediction.hpp"
-#include "experiments/foreign/rows.hpp"
-#include "experiments/foreign/saved_scores.hpp"
-#include "experiments/run_directory/occupant.hpp"
+#include "experiments/submissions/belief_folder.hpp"
+#include "experiments/submissions/prediction.hpp"
+#include "experiments/submissions/rows.hpp"
+#include "experiments/submissions/saved_scores.hpp"
+#include "experiments/run_directory/owner.hpp"
 #include "recordings/beliefs/file.hpp"
 
 namespace touchdown::experiments {
@@ -42,15 +42,15 @@ std::string name_of(const BeliefRequest& wanted) {
 }
 
 /// Every run as the parts that are saved tell of it: whether it can be scored, and nothing more.
-PlayedRuns runs_as_saved(const RunningExperiment& running) {
-  const Plan& plan = running.plan;
-  PlayedRuns runs;
+Rollouts runs_as_saved(const ExperimentContext& context) {
+  const Plan& plan = context.plan;
+  Rollouts runs;
   for (std::size_t i = 0; i < plan.runs.size(); ++i) runs[i].plan = plan.runs[i];
   for (const Task& task : plan.tasks) {
-    const std::optional<TaskCounts> counts = running.saved.read(plan, task);
+    const std::optional<TaskCounts> counts = context.saved.read(plan, task);
     if (!counts) {
       throw InputError(fmt::format("{}: is not finished: run the same experiment again first",
-                                   running.directory.path().string()));
+                                   context.directory.path().string()));
     }
     if (counts->counted.empty() && counts->scored.empty()) {
       runs.at(task.run).report.outcome = recordings::Outcome::fell;
@@ -62,7 +62,7 @@ PlayedRuns runs_as_saved(const RunningExperiment& running) {
 /// Runs of which every noise realisation was handed in, at one noise setting, are scored; others
 /// are not, and what was not handed in for any that could be is named.
 std::vector<BeliefFile> complete(const std::vector<BeliefFile>& files,
-                                 const std::vector<HeardRun>& heard, const PlayedRuns& runs,
+                                 const std::vector<HeardRun>& heard, const Rollouts& runs,
                                  BeliefReport& report) {
   std::set<std::size_t> given;
   for (const BeliefFile& file : files) given.insert(file.heard);
@@ -87,27 +87,27 @@ std::vector<BeliefFile> complete(const std::vector<BeliefFile>& files,
   return scored;
 }
 
-ForeignScores scores_of(const std::vector<BeliefFile>& files, const std::vector<HeardRun>& heard,
-                        RunningExperiment& running, BeliefReport& report) {
-  Plan& plan = running.plan;
-  const Experiment& experiment = running.request.experiment;
-  ForeignScores scores{report.name, {}};
+SubmissionScores scores_of(const std::vector<BeliefFile>& files, const std::vector<HeardRun>& heard,
+                        ExperimentContext& context, BeliefReport& report) {
+  Plan& plan = context.plan;
+  const Experiment& experiment = context.request.experiment;
+  SubmissionScores scores{report.name, {}};
   scores.by_cell.resize(experiment.highlights.size());
   std::map<std::size_t, std::vector<const BeliefFile*>> by_run;
   std::set<std::size_t> needed;
   for (const BeliefFile& file : files) {
     PlannedRun& run = plan.runs[heard[file.heard].run];
-    run.kept = run.kept && is_recorded(run, running.directory);
+    run.kept = run.kept && is_recorded(run, context.directory);
     by_run[heard[file.heard].run].push_back(&file);
     needed.insert(heard[file.heard].run);
   }
   std::mutex mutex;
-  for_each_played(experiment, plan, needed, running.directory, MissingRun::refuse, running.going_on,
-                  [&](std::size_t index, const PlayedRun& run) {
+  for_each_rollout(experiment, plan, needed, context.directory, MissingRun::refuse, context.should_continue,
+                  [&](std::size_t index, const Rollout& run) {
                     for (const BeliefFile* file : by_run.at(index)) {
-                      if (!running.going_on()) throw Stopped();
+                      if (!context.should_continue()) throw Stopped();
                       const HeardRun& about = heard[file->heard];
-                      const ForeignPrediction said =
+                      const SubmittedPrediction said =
                           prediction_of(recordings::read_beliefs(file->path), run.signals);
                       TaskCounts counts;
                       add_scores(run.signals, said.prediction, experiment.scoring, true, counts);
@@ -121,13 +121,13 @@ ForeignScores scores_of(const std::vector<BeliefFile>& files, const std::vector<
   return scores;
 }
 
-BeliefReport scored(const BeliefRequest& wanted, RunningExperiment& running) {
+BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
   BeliefReport report;
   report.name = name_of(wanted);
-  const std::vector<HeardRun> heard = heard_runs(running.request, running.plan);
-  const PlayedRuns runs = runs_as_saved(running);
-  const HandedIn handed = handed_in(wanted.beliefs, heard);
-  require_sound(handed.files, running.going_on);
+  const std::vector<HeardRun> heard = exported_runs(context.request, context.plan);
+  const Rollouts runs = runs_as_saved(context);
+  const Submission handed = handed_in(wanted.beliefs, heard);
+  require_sound(handed.files, context.should_continue);
   report.about_fitted = handed.about_fitted;
   const std::vector<BeliefFile> files = complete(handed.files, heard, runs, report);
   if (files.empty()) {
@@ -137,14 +137,14 @@ BeliefReport scored(const BeliefRequest& wanted, RunningExperiment& running) {
         wanted.beliefs.string(), report.without.size(),
         report.without.empty() ? heard.back().name : report.without.front()));
   }
-  const ForeignScores scores = scores_of(files, heard, running, report);
-  if (!running.going_on()) throw Stopped();
-  save(scores, running.request, running.directory);
-  const Plan& plan = running.plan;
-  const CollectedCounts own = collect(plan, plan.runs_in(0), running.saved);
-  const Listened listened{running.request, plan, runs, running.saved, own};
+  const SubmissionScores scores = scores_of(files, heard, context, report);
+  if (!context.should_continue()) throw Stopped();
+  save(scores, context.request, context.directory);
+  const Plan& plan = context.plan;
+  const CollectedCounts own = collect(plan, plan.runs_in(0), context.saved);
+  const Evaluation evaluation{context.request, plan, runs, context.saved, own};
   report.table =
-      benchmark_text(write_benchmark(listened, running.directory), running.request.experiment);
+      benchmark_text(write_benchmark(evaluation, context.directory), context.request.experiment);
   return report;
 }
 
@@ -152,7 +152,7 @@ BeliefReport scored(const BeliefRequest& wanted, RunningExperiment& running) {
 
 BeliefReport score_beliefs(const BeliefRequest& wanted, const RunOptions& options) {
   std::optional<DirectoryLock> lock;
-  if (occupant_of(wanted.run)) lock.emplace(wanted.run, Access::alone, options.command);
+  if (owner_of(wanted.run)) lock.emplace(wanted.run, Access::alone, options.command);
   RunRequest request = read_request(wanted.run);  // complains of a directory that is nobody's
   if (!fs::exists(wanted.run / "manifest.json")) {
     throw InputError(fmt::format("{}: is not finished: run the same experiment again first",
@@ -160,9 +160,9 @@ BeliefReport score_beliefs(const BeliefRequest& wanted, const RunOptions& option
   }
   RunDirectory directory(request.experiment.name, request.id, wanted.run);
   directory.keep(*lock);
-  RunningExperiment running = start(std::move(request), std::move(directory), options);
+  ExperimentContext context = start(std::move(request), std::move(directory), options);
   try {
-    return scored(wanted, running);
+    return scored(wanted, context);
   } catch (const Stopped&) {
     throw Stopped("stopped; nothing was scored or changed");
   }

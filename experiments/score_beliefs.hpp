@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/running_experiment.hpp"
+#include "experiments/experiment_context.hpp"
 
 namespace touchdown::experiments {
 

@@ -90,7 +90,7 @@ void ContactOdometry::reset(const OdometryState& start) noexcept {
   force_ = config_.gravity * up;
 }
 
-void ContactOdometry::hear_imu(const OdometrySample& sample) noexcept {
+void ContactOdometry::update_imu(const OdometrySample& sample) noexcept {
   constexpr double fastest = 1e3;  // rad/s
   constexpr double hardest = 1e5;  // m/s²
   last_rate_ = rate_;
@@ -227,7 +227,7 @@ void ContactOdometry::correct(const WheeledLeg& leg, const LegJoints& joints, do
 
 const OdometryState& ContactOdometry::update(const OdometrySample& sample) noexcept {
   if (!std::isfinite(sample.time)) return state_;
-  hear_imu(sample);
+  update_imu(sample);
   if (!is_placed_) level();
   const double step = sample.time - time_;
   time_ = sample.time;

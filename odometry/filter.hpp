@@ -87,7 +87,7 @@ class ContactOdometry {
   [[nodiscard]] const OdometryState& state() const noexcept { return state_; }
 
  private:
-  void hear_imu(const OdometrySample& sample) noexcept;
+  void update_imu(const OdometrySample& sample) noexcept;
   void level() noexcept;
   void propagate(double step) noexcept;
   void add_noise(double step, const Eigen::Matrix3d& to_world,

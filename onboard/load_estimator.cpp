@@ -10,9 +10,9 @@ std::unique_ptr<ContactEstimator> load_estimator(const std::filesystem::path& pa
                      [&](const ModelArrays& arrays) { return make_estimator(arrays, use); });
 }
 
-ModelPassport load_passport(const std::filesystem::path& path, const ModelUse& use) {
+ModelMetadata load_metadata(const std::filesystem::path& path, const ModelUse& use) {
   return made_of_npz(path, model_needs(path),
-                     [&](const ModelArrays& arrays) { return passport_for(arrays, use); });
+                     [&](const ModelArrays& arrays) { return metadata_for(arrays, use); });
 }
 
 }  // namespace touchdown

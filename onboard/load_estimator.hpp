@@ -15,6 +15,6 @@ std::unique_ptr<ContactEstimator> load_estimator(const std::filesystem::path& pa
                                                  const ModelUse& use = {});
 
 /// What the file says about itself, as far as that decides what `load_estimator` does.
-ModelPassport load_passport(const std::filesystem::path& path, const ModelUse& use = {});
+ModelMetadata load_metadata(const std::filesystem::path& path, const ModelUse& use = {});
 
 }  // namespace touchdown

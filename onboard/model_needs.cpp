@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "estimator/models/parameters.hpp"
-#include "estimator/models/passport.hpp"
+#include "estimator/models/metadata.hpp"
 
 namespace touchdown {
 
@@ -33,7 +33,7 @@ NpzNeeds model_needs(const std::filesystem::path& path) {
     belongs = [](std::string_view /*name*/) { return true; };
   }
   return [belongs](std::string_view name) {
-    return name == passport_array || belongs(name) ? any_array(name) : 0;
+    return name == metadata_array || belongs(name) ? any_array(name) : 0;
   };
 }
 

@@ -64,7 +64,7 @@ void SoftLander::update_ground_velocity(const models::Observation& observation) 
   };
   const Eigen::Vector2d centre = robot_.centre(mean(0), mean(1), observation.pitch);
   const double lean = std::atan2(centre.x(), centre.y());
-  if (touches_[0] || touches_[1]) {
+  if (contact_[0] || contact_[1]) {
     const double gain = -std::expm1(-course_.period / speed_low_pass);
     held_velocity_ += gain * (course_.rolling_speed(observation) - held_velocity_);
   }
@@ -130,9 +130,9 @@ void SoftLander::command_leg(std::size_t side, const models::Observation& observ
 
 models::Action SoftLander::act(const models::Observation& observation) {
   course_.follow(observation, config_);
-  touches_ = told_(observation, ground_velocity_);
-  in_air_ = touches_[0] || touches_[1] ? 0.0 : in_air_ + course_.period;
-  one_in_air_ = touches_[0] && touches_[1] ? 0.0 : one_in_air_ + course_.period;
+  contact_ = told_(observation, ground_velocity_);
+  in_air_ = contact_[0] || contact_[1] ? 0.0 : in_air_ + course_.period;
+  one_in_air_ = contact_[0] && contact_[1] ? 0.0 : one_in_air_ + course_.period;
   update_ground_velocity(observation);
   update_softness();
   models::Action action;

@@ -37,7 +37,7 @@ class SoftLander : public Policy {
   SideView robot_;
   WheelContact told_;
 
-  std::array<bool, models::wheel_count> touches_ = {true, true};
+  std::array<bool, models::wheel_count> contact_ = {true, true};
   double held_velocity_ = 0.0;    ///< of the ground, as last felt (m/s)
   double integral_ = 0.0;         ///< m/s
   double ground_velocity_ = 0.0;  ///< what is asked of the wheels (m/s)

@@ -22,7 +22,8 @@ void describe(Fields& fields, PolicyConfig& policy) {
   fields.choose("law", {"balancer", "soft_landing"}, policy.law);
   fields.choose("contact", {"upkie_observer", "always", "free_fall", "support_force", "truth"},
                 policy.contact);
-  fields("late", policy.late, 0.0, 1.0);
+  fields.renamed("late", "delay");
+  fields("delay", policy.delay, 0.0, 1.0);
 }
 
 }  // namespace touchdown::policies

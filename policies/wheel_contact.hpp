@@ -29,7 +29,7 @@ struct PolicyConfig {
   Law law = Law::balancer;
   /// An estimator that needs no fit; `always`; or `truth`: an oracle, which no robot has.
   std::string contact = "upkie_observer";
-  double late = 0.0;  ///< what is told reaches the law so much later (s)
+  double delay = 0.0;  ///< what is told reaches the law so much later (s)
 
   bool operator==(const PolicyConfig&) const = default;
 };

@@ -76,10 +76,10 @@ WheelBalancerConfig with_lqr_gains(WheelBalancerConfig config, const WheeledPend
   system.b(2, 0) = 1.0;
   system.b(3, 0) = -pendulum.coupling / (pendulum.wheel_radius * pendulum.inertia);
   const Eigen::Vector4d largest_state(1.0, 0.1, 1.0, 1.0);  // m, rad, m/s, rad/s
-  const Eigen::Matrix<double, 1, 1> largest_input(1.5);     // m/s²
+  const Eigen::Matrix<double, 1, 1> saturation(1.5);     // m/s²
   constexpr double period = 1e-3;                           // s
   const Eigen::MatrixXd k =
-      lqr(sampled(system, period), bryson(largest_state), bryson(largest_input));
+      lqr(sampled(system, period), bryson(largest_state), bryson(saturation));
   config.position_stiffness = -k(0, 0);
   config.pitch_stiffness = -k(0, 1);
   config.position_damping = -k(0, 2);

@@ -70,7 +70,7 @@ std::vector<Belief> beliefs_of(const py::object& said, std::size_t steps, const 
     for (std::size_t w = 0; w < models::wheel_count; ++w) {
       belief.wheel[w].p_contact = probability(p, k, w, who);
     }
-    conclude(belief, 0.5);
+    apply_threshold(belief, 0.5);
     for (std::size_t w = 0; w < models::wheel_count && decisions; ++w) {
       belief.wheel[w].contact = (*decisions)(k, w) != 0.0;
     }

@@ -122,7 +122,7 @@ class Estimator {
     {
       const py::gil_scoped_release unlocked;
       for (std::size_t k = 0; k < beliefs.size(); ++k) {
-        if (signals.is_heard(k)) {
+        if (signals.has_record(k)) {
           beliefs[k] = made_->update(signals.at(k));
         } else if (k > 0) {
           beliefs[k] = beliefs[k - 1];

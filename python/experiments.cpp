@@ -10,7 +10,7 @@
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_experiment.hpp"
-#include "python/guests.hpp"
+#include "python/external_estimators.hpp"
 #include "python/long_call.hpp"
 
 namespace touchdown::python {
@@ -58,8 +58,8 @@ struct Finished {
 };
 
 py::dict run(const Asked& asked, const fs::path& out, bool overwrite, const std::string& command,
-             const py::list& guests) {
-  const experiments::GuestEstimators present(guests_of(guests));
+             const py::list& external_estimators) {
+  const experiments::ExternalEstimators present(external_estimators_of(external_estimators));
   const Finished finished = long_call([&](const std::atomic<bool>& stop) {
     const YamlDocument document = document_of(asked);
     const experiments::Experiment experiment = experiments::experiment_from_yaml(document);
@@ -91,8 +91,8 @@ void add_experiments(py::module_& module) {
       "run",
       [](const fs::path& experiment, const std::optional<std::string>& text,
          const std::vector<std::string>& assignments, const fs::path& out, bool overwrite,
-         const std::string& command, const py::list& guests) {
-        return run({experiment, text, assignments}, out, overwrite, command, guests);
+         const std::string& command, const py::list& external_estimators) {
+        return run({experiment, text, assignments}, out, overwrite, command, external_estimators);
       },
       "experiment"_a, "text"_a, "assignments"_a, "out"_a, "overwrite"_a, "command"_a, "guests"_a);
 }

@@ -38,9 +38,9 @@ py::tuple simulate(const fs::path& scenario, const std::string& simulator, std::
     YamlDocument document = YamlDocument::load(find_resource(scenario));
     for (const std::string& assignment : assignments) document.override_value(assignment);
     experiments::require_yaml_kind(document, experiments::YamlKind::scenario);
-    scenarios::Scenario played = scenarios::complete_scenario(document);
-    if (run) played = scenarios::perturbed(played, seed, *run);
-    return scenarios::play(played, simulator, seed, run.value_or(0),
+    scenarios::Scenario rollout = scenarios::complete_scenario(document);
+    if (run) rollout = scenarios::perturbed(rollout, seed, *run);
+    return scenarios::play(rollout, simulator, seed, run.value_or(0),
                            [&](double /*time*/) { return !stop; });
   }));
 }

@@ -17,7 +17,7 @@ class SignalArrays {
   explicit SignalArrays(const py::object& arrays);
 
   std::size_t steps() const { return map_.steps(); }
-  bool is_heard(std::size_t step) const { return !heard_ || (*heard_)(step) != 0.0; }
+  bool has_record(std::size_t step) const { return !heard_ || (*heard_)(step) != 0.0; }
   Signals at(std::size_t step) const;
   /// Between steps (s), the median of the first thousand; nothing for less than two steps.
   std::optional<double> period() const;

@@ -23,9 +23,9 @@ bool tipped_over(const models::GroundTruth& truth, double limit) {
 }
 
 /// Watches a run for its end.
-class Referee {
+class TerminationCheck {
  public:
-  explicit Referee(const End& end) : end_(end) {}
+  explicit TerminationCheck(const End& end) : end_(end) {}
 
   /// The outcome once there is one.
   std::optional<recordings::Outcome> judge(const simulators::Simulator& simulator) {
@@ -96,7 +96,7 @@ std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenar
 }
 
 recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
-                           std::uint64_t seed, std::int64_t run, const PlayProgress& progress,
+                           std::uint64_t seed, std::int64_t run, const ContinueSimulation& progress,
                            policies::WheelContact told) {
   recordings::Recording recording;
   recording.info = {.scenario = scenario.name,
@@ -116,7 +116,7 @@ recordings::Recording play(const Scenario& scenario, simulators::Simulator& simu
   const std::unique_ptr<policies::Policy> policy =
       make_policy(scenario, simulator, std::move(told));
   policy->reset(simulator.observation());
-  Referee referee(scenario.end);
+  TerminationCheck referee(scenario.end);
   for (std::size_t step = 0;; ++step) {
     recording.observation.push_back(simulator.observation());
     recording.action.push_back(policy->act(simulator.observation()));
@@ -132,7 +132,7 @@ recordings::Recording play(const Scenario& scenario, simulators::Simulator& simu
 }
 
 recordings::Recording play(const Scenario& scenario, std::string_view simulator, std::uint64_t seed,
-                           std::int64_t run, const PlayProgress& progress) {
+                           std::int64_t run, const ContinueSimulation& progress) {
   return play(scenario, *make_simulator(scenario, simulator), seed, run, progress);
 }
 

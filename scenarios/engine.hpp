@@ -13,7 +13,7 @@
 namespace touchdown::scenarios {
 
 /// Called now and then with the simulated time (s); returning false stops the run early.
-using PlayProgress = std::function<bool(double time)>;
+using ContinueSimulation = std::function<bool(double time)>;
 
 /// The scene of `scenario`, robot and terrain, in the engine called `name` ("mujoco", "bullet").
 /// Errors: `InputError` for an unknown engine or a robot that breaks the naming contract.
@@ -37,11 +37,11 @@ std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenar
 /// if it is given, tells the policy about contact instead of whom the scenario names, as late.
 recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
                            std::uint64_t seed = 0, std::int64_t run = 0,
-                           const PlayProgress& progress = {}, policies::WheelContact told = {});
+                           const ContinueSimulation& progress = {}, policies::WheelContact told = {});
 
 /// As above, in a simulator of its own.
 recordings::Recording play(const Scenario& scenario, std::string_view simulator,
                            std::uint64_t seed = 0, std::int64_t run = 0,
-                           const PlayProgress& progress = {});
+                           const ContinueSimulation& progress = {});
 
 }  // namespace touchdown::scenarios

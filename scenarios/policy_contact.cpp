@@ -21,7 +21,7 @@ namespace {
 using Touches = std::array<bool, models::wheel_count>;
 
 /// An estimator in the loop: what it hears is what is recorded for it.
-policies::WheelContact told_by(std::shared_ptr<ContactEstimator> estimator) {
+policies::WheelContact contact_sources_of(std::shared_ptr<ContactEstimator> estimator) {
   estimator->reset();
   return
       [estimator = std::move(estimator)](const models::Observation& observation, double command) {
@@ -39,7 +39,7 @@ policies::WheelContact told_by_truth(const simulators::Simulator& simulator) {
   };
 }
 
-policies::WheelContact told_late(policies::WheelContact contact, std::size_t steps) {
+policies::WheelContact reported_late(policies::WheelContact contact, std::size_t steps) {
   if (steps == 0) return contact;
   return [contact = std::move(contact), waiting = std::deque<Touches>(steps, {true, true})](
              const models::Observation& observation, double command) mutable {
@@ -58,11 +58,11 @@ policies::WheelContact source(const Scenario& scenario, const simulators::Simula
     return [](const models::Observation&, double) { return Touches{true, true}; };
   }
   if (name == "free_fall") {
-    return told_by(std::make_shared<FreeFall>(FreeFallConfig{.sample_rate = 1.0 / period}));
+    return contact_sources_of(std::make_shared<FreeFall>(FreeFallConfig{.sample_rate = 1.0 / period}));
   }
   if (name == "support_force") {
     const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
-    return told_by(std::make_shared<SupportForce>(
+    return contact_sources_of(std::make_shared<SupportForce>(
         SupportForceConfig{.sample_rate = 1.0 / period, .geometry = leg_geometry(robot)}));
   }
   if (name == "truth") return told_by_truth(simulator);
@@ -75,8 +75,8 @@ policies::WheelContact policy_contact(const Scenario& scenario,
                                       const simulators::Simulator& simulator,
                                       policies::WheelContact told) {
   if (!told) told = source(scenario, simulator);
-  const auto late = std::llround(scenario.policy.late / simulator.control_period());
-  return told_late(std::move(told), static_cast<std::size_t>(late));
+  const auto delay = std::llround(scenario.policy.delay / simulator.control_period());
+  return reported_late(std::move(told), static_cast<std::size_t>(delay));
 }
 
 }  // namespace touchdown::scenarios

@@ -44,8 +44,10 @@ ContactSequence combined(const std::array<ContactSequence, models::wheel_count>&
 
 void describe(Fields& fields, Annotator& annotator) {
   fields("frame", annotator.frame, 0.0, 1.0);
-  fields("takeoffs_late", annotator.takeoffs_late, -1.0, 1.0);
-  fields("landings_late", annotator.landings_late, -1.0, 1.0);
+  fields.renamed("takeoffs_late", "takeoff_delay");
+  fields("takeoff_delay", annotator.takeoff_delay, -1.0, 1.0);
+  fields.renamed("landings_late", "landing_delay");
+  fields("landing_delay", annotator.landing_delay, -1.0, 1.0);
 }
 
 void describe(Fields& fields, LabelConfig& labels) {
@@ -88,8 +90,8 @@ ContactSequence annotated(const ContactSequence& contact, double period,
   };
   ContactSequence seen(contact.size(), 1);
   for (const Flight& flight : flights(contact)) {
-    const std::ptrdiff_t takeoff = marked(flight.takeoff, annotator.takeoffs_late);
-    const std::ptrdiff_t landing = marked(flight.landing, annotator.landings_late);
+    const std::ptrdiff_t takeoff = marked(flight.takeoff, annotator.takeoff_delay);
+    const std::ptrdiff_t landing = marked(flight.landing, annotator.landing_delay);
     if (takeoff < landing) std::fill(seen.begin() + takeoff, seen.begin() + landing, 0);
   }
   if (!(annotator.frame > 0.0)) return seen;
@@ -146,7 +148,7 @@ ContactSequence both_wheels(const std::array<ContactSequence, models::wheel_coun
   return combined(wheels, std::logical_and<>{});
 }
 
-std::vector<std::size_t> drop_pieces(const ContactSequence& both_wheels_in_contact,
+std::vector<std::size_t> drop_segments(const ContactSequence& both_wheels_in_contact,
                                      std::size_t hold_off) {
   std::vector<Flight> drops;
   for (const Flight& flight : flights(both_wheels_in_contact)) {
@@ -173,19 +175,19 @@ LabelStream::LabelStream(double period, const LabelConfig& config, Sink sink)
 
 void LabelStream::add(double normal_force) {
   const std::uint8_t contact{normal_force > threshold_};
-  stretch_ = !pending_.empty() && pending_.back() == contact ? stretch_ + 1 : 1;
-  if (stretch_ > steps_) {  // nothing is pending, and this changes nothing
+  duration_ = !pending_.empty() && pending_.back() == contact ? duration_ + 1 : 1;
+  if (duration_ > steps_) {  // nothing is pending, and this changes nothing
     sink_(contact);
     return;
   }
   pending_.push_back(contact);
-  if (stretch_ >= steps_ || pending_.size() > longest_chatter_) settle();
+  if (duration_ >= steps_ || pending_.size() > longest_chatter_) settle();
 }
 
 void LabelStream::finish() {
   settle();
   pending_.clear();
-  labelled_ = stretch_ = 0;
+  labelled_ = duration_ = 0;
 }
 
 void LabelStream::settle() {

@@ -23,8 +23,8 @@ using ContactSequence = std::vector<std::uint8_t>;
 /// A person who labels a film by hand.
 struct Annotator {
   double frame = 1.0 / 30.0;  ///< time from one picture to the next; 0: a film without pictures (s)
-  double takeoffs_late = 0.0;  ///< takeoffs are marked this much after they were, or before (s)
-  double landings_late = 0.0;  ///< landings, likewise (s)
+  double takeoff_delay = 0.0;  ///< takeoffs are marked this much after they were, or before (s)
+  double landing_delay = 0.0;  ///< landings, likewise (s)
 };
 
 /// When a wheel counts as being in contact.
@@ -75,7 +75,7 @@ ContactSequence both_wheels(const std::array<ContactSequence, models::wheel_coun
 /// stretch in which a wheel is off the ground, together with the ones that follow within `hold_off`
 /// steps (bounces); the cuts lie midway between drops. Returns the first step of every piece,
 /// beginning with 0.
-std::vector<std::size_t> drop_pieces(const ContactSequence& both_wheels_in_contact,
+std::vector<std::size_t> drop_segments(const ContactSequence& both_wheels_in_contact,
                                      std::size_t hold_off);
 
 /// `contact_labels` of one wheel for forces that come one by one: the same labels, each as soon as
@@ -104,7 +104,7 @@ class LabelStream {
   Sink sink_;
   ContactSequence pending_;   ///< first what is labelled and still decides about the rest
   std::size_t labelled_ = 0;  ///< at the beginning of `pending_`
-  std::size_t stretch_ = 0;   ///< steps that the last state has lasted
+  std::size_t duration_ = 0;   ///< steps that the last state has lasted
 };
 
 }  // namespace touchdown::scoring

@@ -32,11 +32,11 @@ const std::vector<Metric>& metrics() {
   static const std::vector<Metric> all = {
       // Steps told right: (N_CC + N_FF) / (N_CC + N_CF + N_FC + N_FF).
       {"success", [](const Score& s) { return s.points.success(); }},
-      // Told contact that is contact: N_CC / (N_CC + N_FC).
+      // ContactTrace contact that is contact: N_CC / (N_CC + N_FC).
       {"contact_precision", [](const Score& s) { return s.points.contact_precision(); }},
       // Contact that is told: N_CC / (N_CC + N_CF).
       {"contact_recall", [](const Score& s) { return s.points.contact_recall(); }},
-      // Told flight that is flight: N_FF / (N_FF + N_CF).
+      // ContactTrace flight that is flight: N_FF / (N_FF + N_CF).
       {"no_contact_precision", [](const Score& s) { return s.points.no_contact_precision(); }},
       // Flight that is told: N_FF / (N_FF + N_FC).
       {"no_contact_recall", [](const Score& s) { return s.points.no_contact_recall(); }},

@@ -38,16 +38,16 @@ struct Score {
 /// The first step that is scored.
 std::size_t first_scored_step(std::int64_t period_us, const ScoringConfig& config);
 
-/// Compares a track with the truth. `pieces` holds the first step of each piece the run is cut into
-/// (`{0}` for the whole run, `drop_pieces` for one per drop); the result has one score per piece. A
+/// Compares a track with the truth. `segments` holds the first step of each piece the run is cut into
+/// (`{0}` for the whole run, `drop_segments` for one per drop); the result has one score per piece. A
 /// point belongs to the piece it lies in, a transition to the piece of its true event.
 std::vector<Score> score(const ContactSequence& truth, const Track& track,
-                         const std::vector<std::size_t>& pieces, std::int64_t period_us,
+                         const std::vector<std::size_t>& segments, std::int64_t period_us,
                          const ScoringConfig& config);
 
 /// The point-wise part alone, from decisions.
 std::vector<Classification> classify(const ContactSequence& truth, const ContactSequence& predicted,
-                                     const std::vector<std::size_t>& pieces, std::int64_t period_us,
+                                     const std::vector<std::size_t>& segments, std::int64_t period_us,
                                      const ScoringConfig& config);
 
 /// The things of which contact is scored.
@@ -87,7 +87,7 @@ struct RobotScore {
 
 /// Scores every view of a run, one result per piece.
 std::vector<RobotScore> score(const std::array<ContactSequence, models::wheel_count>& truth,
-                              const Prediction& prediction, const std::vector<std::size_t>& pieces,
+                              const Prediction& prediction, const std::vector<std::size_t>& segments,
                               std::int64_t period_us, const ScoringConfig& config);
 
 }  // namespace touchdown::scoring

@@ -15,7 +15,7 @@
 #include "core/fingerprint.hpp"
 #include "core/progress.hpp"
 #include "experiments/run_directory/directory.hpp"
-#include "experiments/run_directory/occupant.hpp"
+#include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "recordings/models/neural_network.hpp"
 #include "training/blas.hpp"

@@ -8,7 +8,7 @@
 
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
-#include "experiments/lanes/bayes.hpp"
+#include "experiments/batch/bayes.hpp"
 #include "tests/estimator/named_config.hpp"
 #include "time_updates.hpp"
 
@@ -16,7 +16,7 @@ namespace touchdown {
 namespace {
 
 /// The yardstick: one real transform of 128 samples.
-void yardstick_fft_128(benchmark::State& state) {
+void reference_fft_128(benchmark::State& state) {
   Eigen::FFT<double> fft;
   fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
   std::vector<double> window(128);
@@ -31,7 +31,7 @@ void yardstick_fft_128(benchmark::State& state) {
     benchmark::ClobberMemory();
   }
 }
-BENCHMARK(yardstick_fft_128);
+BENCHMARK(reference_fft_128);
 
 std::unique_ptr<ContactEstimator> estimator(const char* name) {
   if (std::string(name) == "measurement_only") {
@@ -58,9 +58,9 @@ BENCHMARK_CAPTURE(latency, reference, "reference")->Iterations(250);
 
 /// A sweep over `torques` × `accelerations` noise levels; the time per item is that of one lane's
 /// update, which covers both wheels.
-void lanes_update(benchmark::State& state, const char* name, int torques, int accelerations) {
+void batch_update(benchmark::State& state, const char* name, int torques, int accelerations) {
   const BayesFilterConfig config = test::named(name);
-  std::vector<experiments::LaneNoise> levels;
+  std::vector<experiments::BatchNoise> levels;
   for (int i = 0; i < torques; ++i) {
     for (int j = 0; j < accelerations; ++j) {
       levels.push_back({0.5 * i, 0.5 * i, 2.0 * j});
@@ -71,7 +71,7 @@ void lanes_update(benchmark::State& state, const char* name, int torques, int ac
       levels.push_back({0.1 * i, 0.1 * i, 0.3 * i});
     }
   }
-  experiments::BayesFilterLanes lanes(bench::model(config), config, levels);
+  experiments::BatchedBayesFilter lanes(bench::model(config), config, levels);
   const std::vector<Signals> stream = bench::signals(bench::stream_length);
   const std::vector<Signals> noise = bench::signals(bench::stream_length + 7);
   std::size_t i = 0;
@@ -86,15 +86,15 @@ void lanes_update(benchmark::State& state, const char* name, int torques, int ac
     benchmark::ClobberMemory();
     i = (i + 1) % bench::stream_length;
   }
-  state.counters["per_lane_update"] = benchmark::Counter(
+  state.counters["per_level_update"] = benchmark::Counter(
       static_cast<double>(levels.size()),
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK_CAPTURE(lanes_update, robust_grid_6x6, "robust", 6, 6);
-BENCHMARK_CAPTURE(lanes_update, robust_36_distinct, "robust", 36, 0);
-BENCHMARK_CAPTURE(lanes_update, paper_grid_6x6, "paper", 6, 6);
-BENCHMARK_CAPTURE(lanes_update, reference_grid_6x6, "reference", 6, 6);
-BENCHMARK_CAPTURE(lanes_update, reference_36_distinct, "reference", 36, 0);
+BENCHMARK_CAPTURE(batch_update, robust_grid_6x6, "robust", 6, 6);
+BENCHMARK_CAPTURE(batch_update, robust_36_distinct, "robust", 36, 0);
+BENCHMARK_CAPTURE(batch_update, paper_grid_6x6, "paper", 6, 6);
+BENCHMARK_CAPTURE(batch_update, reference_grid_6x6, "reference", 6, 6);
+BENCHMARK_CAPTURE(batch_update, reference_36_distinct, "reference", 36, 0);
 
 }  // namespace
 }  // namespace touchdown

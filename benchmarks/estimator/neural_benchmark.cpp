@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "estimator/neural/estimator.hpp"
-#include "experiments/lanes/neural.hpp"
+#include "experiments/batch/neural.hpp"
 #include "time_updates.hpp"
 
 namespace touchdown {
@@ -55,10 +55,10 @@ void neural_update(benchmark::State& state) {
 BENCHMARK(neural_update);
 
 /// Many noise levels side by side; the time per item is that of one lane's update at 1 kHz.
-void neural_lanes_update(benchmark::State& state) {
+void neural_batch_update(benchmark::State& state) {
   std::vector<double> sigmas;
   for (std::int64_t i = 0; i < state.range(0); ++i) sigmas.push_back(0.3 * static_cast<double>(i));
-  experiments::NeuralLanes lanes(network(), {}, sigmas);
+  experiments::BatchedNeuralNetwork lanes(network(), {}, sigmas);
   const std::vector<Signals> stream = bench::signals(bench::stream_length);
   std::size_t i = 0;
   for (auto _ : state) {
@@ -68,7 +68,7 @@ void neural_lanes_update(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
-BENCHMARK(neural_lanes_update)->Arg(1)->Arg(6)->Arg(36)->Arg(128);
+BENCHMARK(neural_batch_update)->Arg(1)->Arg(6)->Arg(36)->Arg(128);
 
 }  // namespace
 }  // namespace touchdown

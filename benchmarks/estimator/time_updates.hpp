@@ -14,7 +14,7 @@ namespace touchdown::bench {
 
 inline constexpr std::size_t stream_length = 4096;
 
-/// One `update` for both wheels. Compare with `yardstick_fft_128` of the same run.
+/// One `update` for both wheels. Compare with `reference_fft_128` of the same run.
 inline void time_updates(benchmark::State& state, ContactEstimator& estimator) {
   std::vector<Signals> stream = signals(stream_length);
   std::size_t i = 0;

@@ -7,7 +7,7 @@
 
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/listening/sweep_run.hpp"
+#include "experiments/evaluation/sweep_run.hpp"
 #include "experiments/plan/condition.hpp"
 #include "noise/grid.hpp"
 #include "tests/experiments/synthetic_runs.hpp"

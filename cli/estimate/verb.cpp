@@ -10,7 +10,7 @@
 #include "core/progress.hpp"
 #include "experiments/logs/belief_csv.hpp"
 #include "experiments/logs/estimator.hpp"
-#include "experiments/logs/listener.hpp"
+#include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/log_score.hpp"
 #include "experiments/logs/summary.hpp"
 #include "recordings/log/annotator.hpp"
@@ -34,7 +34,7 @@ struct EstimateFlags {
   std::string estimator;
   std::string robot;
   bool transfer = false;
-  std::vector<std::string> constants;
+  std::vector<std::string> hyperparameters;
   std::vector<std::string> outputs;
   std::string figure;
   DrawnPart drawn;
@@ -51,13 +51,13 @@ class Listeners {
   }
 
   /// Before the first step, once the log's rate is known.
-  void begin(const experiments::LogListener& log, bool labelled) {
+  void begin(const experiments::LogSteps& log, bool labelled) {
     summary_.emplace(log.period(), scoring::ScoringConfig{});
     score_.emplace(log.period_us(), labels_, scoring::ScoringConfig{}, labelled);
   }
 
   /// One step, and what was made of it. `reader` is where it comes from.
-  void listen(const recordings::LogReader& reader, const experiments::LogStep& step,
+  void evaluate(const recordings::LogReader& reader, const experiments::LogStep& step,
               const ContactEstimator& estimator, const Belief& belief) {
     const double time = step.signals.time;
     summary_->add(time, belief);
@@ -115,7 +115,7 @@ std::string model_line(const experiments::LogEstimator& chosen) {
   return text.empty() ? "" : fmt::format("{:<12} {}\n", "model", text);
 }
 
-std::string gravity_line(const experiments::LogListener& log) {
+std::string gravity_line(const experiments::LogSteps& log) {
   if (log.upside_down() == 0) return {};
   return fmt::format(
       "{:<12} at {} steps the IMU's orientation contradicts gravity: is it upside down, or a "
@@ -124,14 +124,14 @@ std::string gravity_line(const experiments::LogListener& log) {
 }
 
 /// Runs over the log and returns the summary.
-std::string listen(recordings::LogReader& reader, const experiments::LogEstimator& chosen,
+std::string evaluate(recordings::LogReader& reader, const experiments::LogEstimator& chosen,
                    const recordings::ContactIntervals* labels, Listeners& listeners) {
-  experiments::LogListener log(reader, labels);
+  experiments::LogSteps log(reader, labels);
   const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), reader.info());
   listeners.begin(log, labels != nullptr);
   try {
     while (const experiments::LogStep* step = log.next()) {
-      listeners.listen(reader, *step, *estimator, estimator->update(step->signals));
+      listeners.evaluate(reader, *step, *estimator, estimator->update(step->signals));
     }
   } catch (const InputError&) {
     listeners.flush();  // what a live stream said before it broke
@@ -168,7 +168,7 @@ void estimate_log(const std::string& path, const recordings::ContactIntervals* l
           return bytes(buffer);
         };
     recordings::LogReader reader(source, live ? "standard input" : path);
-    summary = listen(reader, estimator, labels, listeners);
+    summary = evaluate(reader, estimator, labels, listeners);
     if (*session.stop && !live) throw Stopped("stopped; nothing was written");
     for (const std::string& warning : reader.warnings()) {
       tell(fmt::format("touchdown: {}\n", warning));
@@ -193,7 +193,7 @@ void estimate_log(const std::string& path, const recordings::ContactIntervals* l
 void estimate(const EstimateFlags& flags, const CliSession& session) {
   const experiments::LogEstimator estimator = experiments::log_estimator(
       {flags.estimator, flags.model, experiments::robot_called(flags.robot), flags.transfer,
-       experiments::constants_of(flags.constants)});
+       experiments::hyperparameters_of(flags.hyperparameters)});
   const std::vector<EstimateOutputs> outputs =
       estimate_outputs(flags.logs, flags.model, flags.labels, flags.outputs, flags.figure);
   const std::vector<recordings::ContactIntervals> labels =
@@ -228,7 +228,7 @@ void add_estimate(CLI::App& program, const CliSession& session) {
           "Whose logs they are (default: as a simulated log says): not the model's is an error.\n"
           "Its file tells estimators that compute loads about its legs (default: the model's)")
       .value_name("NAME|FILE");
-  verb.option("--set", &flags->constants,
+  verb.option("--set", &flags->hyperparameters,
               "Run the estimator with another constant than its model says, for example\n"
               "leave_below=0.25")
       .value_name("NAME=NUMBER")

@@ -85,10 +85,10 @@ void export_model(const ExportFlags& flags) {
   if (std::filesystem::path(flags.output).extension() != ".npz") {
     return export_header(model, flags);
   }
-  const ModelPassport passport = recordings::copy_model(model, flags.output, use_of(flags));
+  const ModelMetadata metadata = recordings::copy_model(model, flags.output, use_of(flags));
   fmt::print("model     {}, for '{}' at {:.6g} Hz on {}, fingerprint {}\n", flags.output,
-             passport.estimator, passport.sample_rate, experiments::robot_text(passport.robot),
-             passport.fingerprint);
+             metadata.estimator, metadata.sample_rate, experiments::robot_text(metadata.robot),
+             metadata.fingerprint);
   fmt::print("next      touchdown estimate LOG --model {}\n", flags.output);
 }
 
@@ -144,7 +144,7 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
 void add_export(CLI::App& program, const CliSession& session) {
   Verb verb(
       program, "export",
-      "touchdown export --benchmark signals experiments/benchmark.yaml\n"
+      "touchdown export --benchmark signals experiments/studies/benchmark.yaml\n"
       "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
       "touchdown export model.npz -o model.hpp\n"
       "touchdown export models/touchdown.npz --robot my_robot.xml -o mine.npz\n"

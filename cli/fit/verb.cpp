@@ -22,7 +22,7 @@ struct FitFlags {
   std::vector<std::string> labels;
   std::string output;
   std::string estimator = "robust";
-  std::vector<std::string> constants;
+  std::vector<std::string> hyperparameters;
   experiments::LogFitConfig config;
   std::string robot;
   std::vector<int> grid;
@@ -109,7 +109,7 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
       .value_name("FILE.csv");
   verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
   verb.option("--estimator", &flags.estimator, fitted_estimators()).shows_default();
-  verb.option("--set", &flags.constants,
+  verb.option("--set", &flags.hyperparameters,
               "Run and fit the estimator with another constant than its default, for example\n"
               "leave_below=0.25")
       .value_name("NAME=NUMBER")
@@ -167,7 +167,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   shape_densities(entry, flags);
   experiments::LogFitConfig config = flags.config;
   config.stop = session.stop;
-  config.constants = experiments::constants_of(flags.constants);
+  config.hyperparameters = experiments::hyperparameters_of(flags.hyperparameters);
   config.robot = experiments::robot_called(flags.robot);
   std::vector<InputFile> inputs;
   for (const experiments::FitLog& log : logs) inputs.push_back({log.path, "log"});

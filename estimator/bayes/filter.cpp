@@ -43,7 +43,7 @@ void BayesFilter::reset() noexcept {
   measurement_ = {};
   bel_ = {};
   belief_ = Belief{};
-  conclude(belief_, config_.threshold);
+  apply_threshold(belief_, config_.threshold);
 }
 
 const Belief& BayesFilter::update(const Signals& signals) noexcept {
@@ -81,7 +81,7 @@ const Belief& BayesFilter::update(const Signals& signals) noexcept {
     }
     belief_.wheel[side].p_contact = bel.contact;
   }
-  conclude(belief_, config_.threshold);
+  apply_threshold(belief_, config_.threshold);
   return belief_;
 }
 

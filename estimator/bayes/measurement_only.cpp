@@ -27,7 +27,7 @@ void MeasurementOnly::reset() noexcept {
   for (TorqueChannel& torque : torque_) torque.reset();
   measurement_ = {};
   belief_ = Belief{};
-  conclude(belief_, config_.threshold);
+  apply_threshold(belief_, config_.threshold);
 }
 
 const Belief& MeasurementOnly::update(const Signals& signals) noexcept {
@@ -49,7 +49,7 @@ const Belief& MeasurementOnly::update(const Signals& signals) noexcept {
     m.likelihood.no_contact += config_.measurement.no_contact_floor;
     wheel.p_contact = m.p_measurement();  // Eq. (14)
   }
-  conclude(belief_, config_.threshold);
+  apply_threshold(belief_, config_.threshold);
   return belief_;
 }
 

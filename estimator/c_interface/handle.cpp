@@ -18,19 +18,19 @@ Eigen::Vector3d vector(const double (&values)[3]) noexcept {  // NOLINT: C's arr
   return {values[0], values[1], values[2]};
 }
 
-std::string described(const ModelPassport& passport) {
-  return passport.estimator + ", " + text_of(passport.sample_rate) + " Hz, robot " +
-         (passport.robot.empty() ? "unknown" : passport.robot) + ", fingerprint " +
-         (passport.fingerprint.empty() ? "unknown" : passport.fingerprint);
+std::string described(const ModelMetadata& metadata) {
+  return metadata.estimator + ", " + text_of(metadata.sample_rate) + " Hz, robot " +
+         (metadata.robot.empty() ? "unknown" : metadata.robot) + ", fingerprint " +
+         (metadata.fingerprint.empty() ? "unknown" : metadata.fingerprint);
 }
 
 }  // namespace
 
 touchdown_estimator* new_handle(const ModelArrays& arrays, const ModelUse& use) {
-  const ModelPassport passport = passport_for(arrays, use);
-  const double rate = use.sample_rate > 0.0 ? use.sample_rate : passport.sample_rate;
+  const ModelMetadata metadata = metadata_for(arrays, use);
+  const double rate = use.sample_rate > 0.0 ? use.sample_rate : metadata.sample_rate;
   auto handle = std::make_unique<touchdown_estimator>(touchdown_estimator{
-      described(passport), make_estimator(arrays, use), SignalAssembler({.sample_rate = rate})});
+      described(metadata), make_estimator(arrays, use), SignalAssembler({.sample_rate = rate})});
   return handle.release();
 }
 

@@ -20,12 +20,12 @@ void check_decision_fit_config(const DecisionFitConfig& config) {
     throw InputError(
         "decision network: steps_of_slow must be positive, share_slow between 0 and 1");
   }
-  if (!(config.share_forgetful >= 0.0 && config.share_forgetful <= 1.0 &&
-        std::isfinite(config.forget_after) && config.forget_after > 0.0 &&
-        is_level(config.forget_after_noise))) {
+  if (!(config.share_with_resets >= 0.0 && config.share_with_resets <= 1.0 &&
+        std::isfinite(config.reset_after) && config.reset_after > 0.0 &&
+        is_level(config.reset_after_noise))) {
     throw InputError(
-        "decision: share_forgetful must be between 0 and 1, forget_after (s) positive, "
-        "forget_after_noise (s per N·m) not negative");
+        "decision: share_with_resets must be between 0 and 1, reset_after (s) positive, "
+        "reset_after_noise (s per N·m) not negative");
   }
   if (!(std::isfinite(config.learning_rate) && config.learning_rate > 0.0 &&
         is_level(config.decay) && std::isfinite(config.class_exponent))) {
@@ -33,7 +33,7 @@ void check_decision_fit_config(const DecisionFitConfig& config) {
         "decision: learning_rate must be positive, decay not negative, class_exponent "
         "finite");
   }
-  check_disturbance_config(config.disturbance);
+  check_augmentation_config(config.disturbance);
 }
 
 void check_decision_config(const DecisionConfig& config) {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "estimator/decision/disturbance.hpp"
+#include "estimator/decision/augmentation.hpp"
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/signal_guard.hpp"
 
@@ -20,16 +20,16 @@ struct DecisionFitConfig {
   /// In a share of the hearings the low-passes begin anew from time to time, so that what is plain
   /// now counts at once, whatever was before: after so long on average (s), and so much longer for
   /// each N·m of noise, through which nothing is plain.
-  double share_forgetful = 0.25;
-  double forget_after = 0.1;
-  double forget_after_noise = 0.4;
+  double share_with_resets = 0.25;
+  double reset_after = 0.1;
+  double reset_after_noise = 0.4;
   std::size_t batch = 512;      ///< rows of one step of the descent
   std::size_t epochs = 14;      ///< how often each row is learned from, on average
   double learning_rate = 3e-3;  ///< of the first step; falls to nothing along a cosine
   double decay = 0.6;           ///< of the weights, relative to the learning rate
   /// A class weighs as the power of its count: 0 every step alike, −1 both classes alike.
   double class_exponent = -0.5;
-  DisturbanceConfig disturbance = {};  ///< what runs are heard through
+  AugmentationConfig disturbance = {};  ///< what runs are heard through
 
   bool operator==(const DecisionFitConfig&) const = default;
 };

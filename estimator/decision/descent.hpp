@@ -15,7 +15,7 @@
 
 namespace touchdown {
 
-/// What those learn from that hear `DecisionSenses`: a column of inputs for each row, whether it is
+/// What those learn from that hear `FeatureExtractor`: a column of inputs for each row, whether it is
 /// contact, and how much it weighs.
 struct DecisionRows {
   Eigen::Matrix<float, static_cast<int>(decision_inputs), Eigen::Dynamic> inputs;

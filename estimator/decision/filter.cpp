@@ -8,9 +8,9 @@ DecisionNetwork::DecisionNetwork(const DecisionModel& model, const DecisionConfi
 }
 
 const Belief& DecisionNetwork::update(const Signals& signals) noexcept {
-  const std::array<bool, 2>& is_heard = decision_.hear(signals);
+  const std::array<bool, 2>& is_valid = decision_.update(signals);
   std::array<float, 2> logits{};
-  if (is_heard[0] || is_heard[1]) logits = network_.logits(decision_.pair_inputs());
+  if (is_valid[0] || is_valid[1]) logits = network_.logits(decision_.pair_inputs());
   return decision_.decide({logits[0], logits[1]});
 }
 

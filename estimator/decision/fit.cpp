@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "estimator/decision/disturbance.hpp"
+#include "estimator/decision/augmentation.hpp"
 #include "estimator/decision/draws.hpp"
-#include "estimator/decision/senses.hpp"
+#include "estimator/decision/feature_extractor.hpp"
 
 namespace touchdown {
 
@@ -18,10 +18,10 @@ std::size_t steps_of(const LabelledRun& run) {
   return run.signals.size() - std::min(run.signals.size(), run.skip);
 }
 
-double share_of_steps_that_forget(const DecisionFitConfig& fit, const Disturbance& disturbance,
+double share_of_steps_that_reset(const DecisionFitConfig& fit, const Augmentation& disturbance,
                                   double sample_rate, Draws& draws) {
-  if (!(fit.share_forgetful > 0.0 && draws.uniform() < fit.share_forgetful)) return 0.0;
-  const double after = fit.forget_after + fit.forget_after_noise * disturbance.torque_noise();
+  if (!(fit.share_with_resets > 0.0 && draws.uniform() < fit.share_with_resets)) return 0.0;
+  const double after = fit.reset_after + fit.reset_after_noise * disturbance.torque_noise();
   return 1.0 / (after * sample_rate);
 }
 
@@ -54,18 +54,18 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
       const std::size_t apart = draws.uniform() < fit.share_slow ? fit.steps_of_slow : 1;
       DecisionConfig own = config;
       own.sample_rate = run.sample_rate / static_cast<double>(apart);
-      DecisionSenses senses(own);
-      Disturbance disturbed(fit.disturbance, draws);
-      const double forgets = share_of_steps_that_forget(fit, disturbed, own.sample_rate, draws);
+      FeatureExtractor senses(own);
+      Augmentation disturbed(fit.disturbance, draws);
+      const double forgets = share_of_steps_that_reset(fit, disturbed, own.sample_rate, draws);
       std::size_t next = run.skip + draws.below(stride);
       for (std::size_t k = 0; k < run.signals.size(); k += apart) {
-        if (forgets > 0.0 && draws.uniform() < forgets) senses.forget();
-        const DecisionSenses::Step step = senses.update(disturbed(run.signals[k]));
+        if (forgets > 0.0 && draws.uniform() < forgets) senses.reset_features();
+        const FeatureExtractor::Step step = senses.update(disturbed(run.signals[k]));
         if (k < next) continue;
         next += stride;
         senses.arrange();
         for (std::size_t side = 0; side < 2; ++side) {
-          if (!step.is_heard[side]) continue;
+          if (!step.is_valid[side]) continue;
           inputs.push_back(senses.inputs(side));
           is_contact.push_back(run.contact[side][k] != 0 ? 1.0F : 0.0F);
         }

@@ -9,7 +9,7 @@
 
 namespace touchdown {
 
-/// What those learn from that hear `DecisionSenses`: steps of both wheels of all runs at which they
+/// What those learn from that hear `FeatureExtractor`: steps of both wheels of all runs at which they
 /// would hear them, each run heard several times through other noise, biases and scales. Throws
 /// InputError for labels that are not one per step, and where one class is missing.
 [[nodiscard]] DecisionRows decision_rows(std::span<const LabelledRun> runs,

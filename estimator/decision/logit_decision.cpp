@@ -6,32 +6,32 @@
 
 namespace touchdown {
 
-LogitDecision::LogitDecision(const DecisionConfig& config) : config_(config), senses_(config) {
+LogitDecision::LogitDecision(const DecisionConfig& config) : config_(config), features_(config) {
   reset();
 }
 
 void LogitDecision::reset() noexcept {
-  senses_.reset();
+  features_.reset();
   is_started_ = {};
   belief_ = Belief{};
   for (WheelBelief& wheel : belief_.wheel) wheel.contact = true;
 }
 
-const std::array<bool, 2>& LogitDecision::hear(const Signals& signals) noexcept {
-  step_ = senses_.update(signals);
+const std::array<bool, 2>& LogitDecision::update(const Signals& signals) noexcept {
+  step_ = features_.update(signals);
   belief_.status = step_.status;
   if (step_.restart) is_started_ = {};
-  if (step_.is_heard[0] || step_.is_heard[1]) senses_.arrange();
-  return step_.is_heard;
+  if (step_.is_valid[0] || step_.is_valid[1]) features_.arrange();
+  return step_.is_valid;
 }
 
 const Belief& LogitDecision::decide(const std::array<double, 2>& logit) noexcept {
   constexpr double surest = 30.0;
-  const double steps = config_.smoothing * senses_.torque_noise() * config_.sample_rate;
+  const double steps = config_.smoothing * features_.torque_noise() * config_.sample_rate;
   const double gain = 1.0 / (1.0 + steps);
   for (std::size_t side = 0; side < 2; ++side) {
     WheelBelief& wheel = belief_.wheel[side];
-    if (step_.is_heard[side]) {
+    if (step_.is_valid[side]) {
       const double now = std::clamp(logit[side], -surest, surest);
       logit_[side] = is_started_[side] ? logit_[side] + gain * (now - logit_[side]) : now;
       is_started_[side] = true;
@@ -39,7 +39,7 @@ const Belief& LogitDecision::decide(const std::array<double, 2>& logit) noexcept
       wheel.contact = wheel.contact ? wheel.p_contact >= config_.leave_below
                                     : wheel.p_contact > config_.return_above;
     } else {  // the last decision stands
-      wheel.p_contact = senses_.relaxed(wheel.p_contact, step_.elapsed);
+      wheel.p_contact = features_.relaxed(wheel.p_contact, step_.elapsed);
       is_started_[side] = false;
     }
   }

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "estimator/decision/network.hpp"
-#include "estimator/decision/senses.hpp"
+#include "estimator/decision/feature_extractor.hpp"
 
 namespace touchdown {
 
 /// Every curve is linear between so many evenly spaced knots over all that a compressed input can
 /// be, and constant beyond them, where only the logarithms of noise levels come.
 inline constexpr std::size_t evidence_knots = 33;
-inline constexpr float evidence_reach = largest_input;
+inline constexpr float evidence_reach = saturation;
 /// A pair's table is bilinear between every second knot of both.
 inline constexpr std::size_t evidence_pair_knots = (evidence_knots + 1) / 2;
 

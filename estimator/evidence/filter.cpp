@@ -15,9 +15,9 @@ EvidenceCurves::EvidenceCurves(const EvidenceModel& model, const DecisionConfig&
     : evidence_(checked(model)), decision_(config) {}
 
 const Belief& EvidenceCurves::update(const Signals& signals) noexcept {
-  const std::array<bool, 2>& is_heard = decision_.hear(signals);
+  const std::array<bool, 2>& is_valid = decision_.update(signals);
   std::array<float, 2> logits{};
-  if (is_heard[0] || is_heard[1]) logits = evidence_.logits(decision_.left_inputs());
+  if (is_valid[0] || is_valid[1]) logits = evidence_.logits(decision_.left_inputs());
   return decision_.decide({logits[0], logits[1]});
 }
 

@@ -16,9 +16,9 @@ TouchdownEstimator::TouchdownEstimator(const TouchdownModel& model, const Decisi
     : evidence_(checked(model).evidence), network_(model.network), decision_(config) {}
 
 const Belief& TouchdownEstimator::update(const Signals& signals) noexcept {
-  const std::array<bool, 2>& is_heard = decision_.hear(signals);
+  const std::array<bool, 2>& is_valid = decision_.update(signals);
   std::array<double, 2> logit{};
-  if (is_heard[0] || is_heard[1]) {
+  if (is_valid[0] || is_valid[1]) {
     const std::array<float, 2> of_curves = evidence_.logits(decision_.left_inputs());
     const std::array<float, 2> of_network = network_.logits(decision_.pair_inputs());
     for (std::size_t side = 0; side < 2; ++side) {

@@ -29,7 +29,7 @@ WheelLoads::Step WheelLoads::update(const Signals& signals) noexcept {
   if (verdict.restart) is_started_ = {};
   for (std::size_t side = 0; side < 2; ++side) {
     const LegSignals& leg = signals.leg[side];
-    const bool usable = tells_of_load(leg, config_.guard);
+    const bool usable = has_load(leg, config_.guard);
     if (!usable && verdict.status == SignalStatus::good) step.status = SignalStatus::invalid;
     if (!usable || !verdict.acceleration_good) continue;
     const double measured =

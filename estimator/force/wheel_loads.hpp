@@ -21,7 +21,7 @@ struct WheelLoadsConfig {
 };
 
 /// Whether all that a load is computed from can be used.
-[[nodiscard]] inline bool tells_of_load(const LegSignals& leg,
+[[nodiscard]] inline bool has_load(const LegSignals& leg,
                                         const SignalGuardConfig& guard) noexcept {
   return is_torque(leg.hip.torque, guard) && is_torque(leg.knee.torque, guard) &&
          std::isfinite(leg.hip.position) && std::isfinite(leg.knee.position);

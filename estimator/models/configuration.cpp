@@ -70,7 +70,7 @@ class MemberReader {
   /// Errors: `InputError` for a key that nobody took.
   void finish() const {
     if (left_.empty()) return;
-    throw InputError("passport: configuration." + left_.begin()->first +
+    throw InputError("metadata: configuration." + left_.begin()->first +
                      ": is not known: was it written by a newer version?");
   }
 
@@ -80,7 +80,7 @@ class MemberReader {
     const auto found = left_.find(key);
     if (found == left_.end()) return;
     if (!read(found->second)) {
-      throw InputError("passport: configuration." + key + ": '" + found->second +
+      throw InputError("metadata: configuration." + key + ": '" + found->second +
                        "' is no value for it");
     }
     left_.erase(found);

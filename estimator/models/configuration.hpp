@@ -4,7 +4,7 @@
 #include "estimator/decision/config.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/load_logistic.hpp"
-#include "estimator/models/passport.hpp"
+#include "estimator/models/metadata.hpp"
 #include "estimator/neural/estimator.hpp"
 #include "estimator/phase/config.hpp"
 

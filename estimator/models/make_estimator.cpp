@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "estimator/bayes/filter.hpp"
-#include "estimator/bayes/ladder.hpp"
+#include "estimator/bayes/ablation.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
 #include "estimator/evidence/filter.hpp"
@@ -122,7 +122,7 @@ const std::vector<Recipe>& recipes() {
         of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_curves"),
         of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_pairs"),
         of_parameters<TouchdownEstimator, DecisionConfig, touchdown_model_of>("touchdown")};
-    for (const BayesRung& rung : rungs_from_paper_to_robust()) {
+    for (const AblationStep& rung : steps_from_paper_to_robust()) {
       const bool hears_as_robust = rung.config.measurement == robust.measurement;
       recipes.push_back(
           of_torques<BayesFilter>(rung.name, hears_as_robust ? "robust" : rung.name, rung.config));
@@ -152,19 +152,19 @@ const Recipe& recipe(std::string_view name) {
 }
 
 /// What a model without a passport tells by its arrays.
-ModelPassport passport_by_arrays(const ModelArrays& arrays) {
-  ModelPassport passport;
+ModelMetadata metadata_from_arrays(const ModelArrays& arrays) {
+  ModelMetadata metadata;
   const auto has = [&](std::string_view name) { return arrays.contains(std::string(name)); };
   if (has(estimator_array)) {
     const std::string name(estimator_array);
-    passport.estimator = text_of_array(arrays.at(name), name);
+    metadata.estimator = text_of_array(arrays.at(name), name);
   } else if (has("transition")) {
-    passport.estimator = "phase";
-    passport.sample_rate = phase_model_of(arrays).sample_rate;
+    metadata.estimator = "phase";
+    metadata.sample_rate = phase_model_of(arrays).sample_rate;
   } else if (has("gru_input_weight")) {
-    passport.estimator = "nmn";
+    metadata.estimator = "nmn";
   }
-  return passport;
+  return metadata;
 }
 
 std::string no_such_member(const std::string& estimator, const std::string& key,
@@ -174,12 +174,12 @@ std::string no_such_member(const std::string& estimator, const std::string& key,
 }
 
 /// The model's own, for the estimator that it was fitted for, but for what is replaced.
-ConfigurationText configuration_for(const ModelPassport& passport, const std::string& estimator,
+ConfigurationText configuration_for(const ModelMetadata& metadata, const std::string& estimator,
                                     const ConfigurationText& replaced) {
   ConfigurationText configuration;
-  if (estimator == passport.estimator) configuration = passport.configuration;
+  if (estimator == metadata.estimator) configuration = metadata.configuration;
   if (replaced.empty()) return configuration;
-  const ConfigurationText usual = recipe(estimator).configuration(passport.sample_rate, {});
+  const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate, {});
   if (configuration.empty()) configuration = usual;
   for (const auto& [key, value] : replaced) {
     if (!usual.contains(key)) throw InputError(no_such_member(estimator, key, usual));
@@ -201,32 +201,32 @@ bool share_fit(std::string_view estimator, std::string_view other) {
   return estimator == other || recipe(estimator).fit == recipe(other).fit;
 }
 
-ModelPassport passport_for(const ModelArrays& arrays, const ModelUse& use) {
-  const std::optional<ModelPassport> written = passport_of(arrays);
-  ModelPassport passport = written ? *written : passport_by_arrays(arrays);
-  if (passport.estimator.empty()) passport.estimator = use.estimator;
-  if (passport.sample_rate == 0.0) passport.sample_rate = use.sample_rate;
-  if (passport.estimator.empty() || !(passport.sample_rate > 0.0)) {
-    const char* const what = !passport.estimator.empty() ? "its sample_rate (Hz)"
-                             : passport.sample_rate > 0.0
+ModelMetadata metadata_for(const ModelArrays& arrays, const ModelUse& use) {
+  const std::optional<ModelMetadata> written = metadata_of(arrays);
+  ModelMetadata metadata = written ? *written : metadata_from_arrays(arrays);
+  if (metadata.estimator.empty()) metadata.estimator = use.estimator;
+  if (metadata.sample_rate == 0.0) metadata.sample_rate = use.sample_rate;
+  if (metadata.estimator.empty() || !(metadata.sample_rate > 0.0)) {
+    const char* const what = !metadata.estimator.empty() ? "its sample_rate (Hz)"
+                             : metadata.sample_rate > 0.0
                                  ? "the estimator that it was fitted for"
                                  : "the estimator that it was fitted for, and its sample_rate (Hz)";
     throw InputError(std::string("has no passport, being older or from elsewhere: name ") + what);
   }
-  if (!use.estimator.empty() && !share_fit(passport.estimator, use.estimator)) {
-    throw InputError("was fitted for '" + passport.estimator + "', which '" + use.estimator +
+  if (!use.estimator.empty() && !share_fit(metadata.estimator, use.estimator)) {
+    throw InputError("was fitted for '" + metadata.estimator + "', which '" + use.estimator +
                      "' cannot use");
   }
-  check_use(passport, use);
-  return passport;
+  check_use(metadata, use);
+  return metadata;
 }
 
 std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays, const ModelUse& use) {
-  const ModelPassport passport = passport_for(arrays, use);
-  const std::string& name = use.estimator.empty() ? passport.estimator : use.estimator;
+  const ModelMetadata metadata = metadata_for(arrays, use);
+  const std::string& name = use.estimator.empty() ? metadata.estimator : use.estimator;
   return recipe(name).make(
-      arrays, {configuration_for(passport, name, use.configuration), passport.sample_rate,
-               use.sample_rate > 0.0 ? use.sample_rate : passport.sample_rate, use.geometry});
+      arrays, {configuration_for(metadata, name, use.configuration), metadata.sample_rate,
+               use.sample_rate > 0.0 ? use.sample_rate : metadata.sample_rate, use.geometry});
 }
 
 }  // namespace touchdown

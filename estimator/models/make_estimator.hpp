@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "estimator/contact_estimator.hpp"
-#include "estimator/models/passport.hpp"
+#include "estimator/models/metadata.hpp"
 
 namespace touchdown {
 
@@ -17,7 +17,7 @@ std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays,
                                                  const ModelUse& use = {});
 
 /// The passport that `make_estimator` goes by. Errors: those of it that are about the passport.
-ModelPassport passport_for(const ModelArrays& arrays, const ModelUse& use = {});
+ModelMetadata metadata_for(const ModelArrays& arrays, const ModelUse& use = {});
 
 /// What an estimator is run with at this rate (Hz), on a robot with these legs, unless somebody
 /// says otherwise. Errors: `InputError` for a name that no model is fitted for.

@@ -1,7 +1,7 @@
 #include "estimator/models/measurement.hpp"
 
 #include "core/error.hpp"
-#include "estimator/models/passport.hpp"
+#include "estimator/models/metadata.hpp"
 
 namespace touchdown {
 

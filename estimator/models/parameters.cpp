@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "estimator/evidence/channels.hpp"
 #include "estimator/evidence/pairs.hpp"
-#include "estimator/models/passport.hpp"
+#include "estimator/models/metadata.hpp"
 
 namespace touchdown {
 
@@ -65,14 +65,14 @@ void take(const double* from, std::span<float> to) {
 }
 
 void add_senses(Parameters& parameters) {
-  parameters["senses"] = {static_cast<double>(decision_senses)};
+  parameters["senses"] = {static_cast<double>(feature_set_version)};
 }
 
 /// Errors: `InputError` for what was fitted to other senses than today's.
 void check_senses(const Parameters& parameters) {
-  if (parameters.contains("senses") && parameter(parameters, "senses") == decision_senses) return;
+  if (parameters.contains("senses") && parameter(parameters, "senses") == feature_set_version) return;
   throw InputError(
-      "senses: expected " + std::to_string(decision_senses) +
+      "senses: expected " + std::to_string(feature_set_version) +
       ", what this version hears of loads: this model was fitted to what another one hears of "
       "them, fit it again");
 }
@@ -83,7 +83,7 @@ std::string seen_name(const char* channel) { return std::string("seen_") + chann
 }  // namespace
 
 bool is_text_array(std::string_view name) {
-  return name == estimator_array || name == provenance_array || name == passport_array;
+  return name == estimator_array || name == provenance_array || name == metadata_array;
 }
 
 Parameters parameters_of(const ModelArrays& arrays) {

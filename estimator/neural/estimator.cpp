@@ -53,7 +53,7 @@ void NeuralEstimator::reset() noexcept {
   forward_.reset();
   velocity_.setZero();
   belief_ = Belief{};
-  conclude(0.5);
+  apply_threshold(0.5);
 }
 
 const Belief& NeuralEstimator::update(const Signals& signals) noexcept {
@@ -69,7 +69,7 @@ const Belief& NeuralEstimator::update(const Signals& signals) noexcept {
     belief_.status = SignalStatus::invalid;
   }
   if (verdict.restart || !usable) {
-    conclude(guard_.relaxed(belief_.wheel[0].p_contact, verdict.elapsed));
+    apply_threshold(guard_.relaxed(belief_.wheel[0].p_contact, verdict.elapsed));
   }
   if (!usable) {
     sampler_.skip();
@@ -83,10 +83,10 @@ void NeuralEstimator::step() noexcept {
   input_ = sampler_.input();
   const auto& output = forward_.step(input_);
   velocity_ = output.tail<3>().cast<double>();
-  conclude(1.0 / (1.0 + std::exp(-static_cast<double>(output[0]))));
+  apply_threshold(1.0 / (1.0 + std::exp(-static_cast<double>(output[0]))));
 }
 
-void NeuralEstimator::conclude(double p_contact) noexcept {
+void NeuralEstimator::apply_threshold(double p_contact) noexcept {
   for (WheelBelief& wheel : belief_.wheel) wheel = {p_contact, p_contact >= config_.threshold};
   belief_.p_any_wheel = p_contact;
   belief_.p_both_wheels = p_contact;

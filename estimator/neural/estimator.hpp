@@ -46,7 +46,7 @@ class NeuralEstimator : public ContactEstimator {
 
  private:
   void step() noexcept;
-  void conclude(double p_contact) noexcept;
+  void apply_threshold(double p_contact) noexcept;
 
   NeuralEstimatorConfig config_;
   SignalGuard guard_;

@@ -61,11 +61,11 @@ class NoiseEstimate {
   void reset() noexcept {
     rung_ = 0;
     updates_ = 0.0;
-    forget_signals();
+    reset_signals();
   }
 
   /// The next samples do not follow the last ones; the estimate stays.
-  void forget_signals() noexcept {
+  void reset_signals() noexcept {
     for (SecondDifference& channel : difference_) channel.reset();
   }
 

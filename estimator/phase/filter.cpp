@@ -6,20 +6,20 @@
 namespace touchdown {
 
 PhaseFilter::PhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config)
-    : config_(config), senses_(model, config), guard_(config.guard, config.sample_rate) {
+    : config_(config), prepared_(model, config), guard_(config.guard, config.sample_rate) {
   reset();
 }
 
 void PhaseFilter::reset() noexcept {
   guard_.reset();
-  senses_.knee_noise.reset();
-  senses_.wheel_noise.reset();
-  senses_.acceleration_noise.reset();
+  prepared_.knee_noise.reset();
+  prepared_.wheel_noise.reset();
+  prepared_.acceleration_noise.reset();
   alpha_ = {};
   std::copy(PhaseRecursion::prior.begin(), PhaseRecursion::prior.end(), alpha_.begin());
   belief_ = Belief{};
   for (WheelBelief& wheel : belief_.wheel) wheel.contact = true;
-  conclude();
+  apply_threshold();
 }
 
 PhaseProbabilities PhaseFilter::phases() const noexcept {
@@ -29,8 +29,8 @@ PhaseProbabilities PhaseFilter::phases() const noexcept {
 }
 
 PhaseNoise PhaseFilter::noise() const noexcept {
-  return config_.noise.value_or(PhaseNoise{senses_.knee_noise.sigma(), senses_.wheel_noise.sigma(),
-                                           senses_.acceleration_noise.sigma()});
+  return config_.noise.value_or(PhaseNoise{prepared_.knee_noise.sigma(), prepared_.wheel_noise.sigma(),
+                                           prepared_.acceleration_noise.sigma()});
 }
 
 const Belief& PhaseFilter::update(const Signals& signals) noexcept {
@@ -44,41 +44,41 @@ const Belief& PhaseFilter::update(const Signals& signals) noexcept {
   }
   const bool usable = verdict.acceleration_good && (torques_good[0] || torques_good[1]);
   if (verdict.restart) {
-    senses_.knee_noise.forget_signals();
-    senses_.wheel_noise.forget_signals();
-    senses_.acceleration_noise.forget_signals();
+    prepared_.knee_noise.reset_signals();
+    prepared_.wheel_noise.reset_signals();
+    prepared_.acceleration_noise.reset_signals();
   }
-  if (verdict.restart || !usable) forget(verdict.elapsed);
+  if (verdict.restart || !usable) reset_memory(verdict.elapsed);
   if (!usable) {
-    conclude();
+    apply_threshold();
     return belief_;
   }
   if (!config_.noise) estimate_noise(signals, verdict.acceleration_good);
 
   const PhaseNoiseLevel knee_level =
-      senses_.knee_levels[config_.noise ? 0 : senses_.knee_noise.rung()];
+      prepared_.knee_levels[config_.noise ? 0 : prepared_.knee_noise.rung()];
   const PhaseNoiseLevel wheel_level =
-      senses_.wheel_levels[config_.noise ? 0 : senses_.wheel_noise.rung()];
+      prepared_.wheel_levels[config_.noise ? 0 : prepared_.wheel_noise.rung()];
   const PhaseNoiseLevel acceleration_level =
-      senses_.acceleration_levels[config_.noise ? 0 : senses_.acceleration_noise.rung()];
+      prepared_.acceleration_levels[config_.noise ? 0 : prepared_.acceleration_noise.rung()];
   const auto evidence = [&](std::size_t side) {
     const LegSignals& leg = signals.leg[side];
     const double mirror = side == 0 ? 1.0 : -1.0;
-    return torques_good[side] ? senses_.torque(mirror * leg.knee.torque, mirror * leg.wheel.torque,
+    return torques_good[side] ? prepared_.torque(mirror * leg.knee.torque, mirror * leg.wheel.torque,
                                                knee_level, wheel_level)
                               : PhaseRow{};
   };
   const PhaseRow left = evidence(0);
   const PhaseRow right = evidence(1);
-  const PhaseRow vertical = senses_.acceleration(signals.vertical_acceleration, acceleration_level);
+  const PhaseRow vertical = prepared_.acceleration(signals.vertical_acceleration, acceleration_level);
 
-  senses_.recursion.predict_and_correct(alpha_, PhaseRecursion::evidence(left, right, vertical));
-  conclude();
+  prepared_.recursion.predict_and_correct(alpha_, PhaseRecursion::evidence(left, right, vertical));
+  apply_threshold();
   return belief_;
 }
 
 /// The belief after `elapsed` seconds without news.
-void PhaseFilter::forget(double elapsed) noexcept {
+void PhaseFilter::reset_memory(double elapsed) noexcept {
   const double kept = std::exp(-elapsed / config_.guard.relaxation);
   for (std::size_t k = 0; k < phase_count; ++k) {
     alpha_[k] = kept * alpha_[k] + (1.0 - kept) * PhaseRecursion::prior[k];
@@ -86,12 +86,12 @@ void PhaseFilter::forget(double elapsed) noexcept {
 }
 
 void PhaseFilter::estimate_noise(const Signals& s, bool acceleration_good) noexcept {
-  senses_.knee_noise.update({s.leg[0].knee.torque, s.leg[1].knee.torque});
-  senses_.wheel_noise.update({s.leg[0].wheel.torque, s.leg[1].wheel.torque});
-  if (acceleration_good) senses_.acceleration_noise.update({s.vertical_acceleration});
+  prepared_.knee_noise.update({s.leg[0].knee.torque, s.leg[1].knee.torque});
+  prepared_.wheel_noise.update({s.leg[0].wheel.torque, s.leg[1].wheel.torque});
+  if (acceleration_good) prepared_.acceleration_noise.update({s.vertical_acceleration});
 }
 
-void PhaseFilter::conclude() noexcept {
+void PhaseFilter::apply_threshold() noexcept {
   const double left_only = alpha_[index(Phase::left_only)];
   const double right_only = alpha_[index(Phase::right_only)];
   const double none = alpha_[index(Phase::flight)] + alpha_[index(Phase::held)];

@@ -3,7 +3,7 @@
 #include "estimator/contact_estimator.hpp"
 #include "estimator/phase/config.hpp"
 #include "estimator/phase/model.hpp"
-#include "estimator/phase/senses.hpp"
+#include "estimator/phase/prepared_model.hpp"
 #include "estimator/signal_guard.hpp"
 
 namespace touchdown {
@@ -34,12 +34,12 @@ class PhaseFilter : public ContactEstimator {
   [[nodiscard]] PhaseNoise noise() const noexcept;
 
  private:
-  void forget(double elapsed) noexcept;
+  void reset_memory(double elapsed) noexcept;
   void estimate_noise(const Signals& signals, bool acceleration_good) noexcept;
-  void conclude() noexcept;
+  void apply_threshold() noexcept;
 
   PhaseFilterConfig config_;
-  PhaseSenses senses_;
+  PreparedPhaseModel prepared_;
   SignalGuard guard_;
   alignas(64) PhaseRecursion::Lanes alpha_{};
   Belief belief_;

@@ -128,7 +128,7 @@ class Collector {
     seconds_[index(phase)] += 1.0 / sample_rate_;
     samples_.acceleration[std::min(index(phase), acceleration_density_count - 1)].push_back(
         signals.vertical_acceleration);
-    const bool touches[2] = {left_touches(phase), right_touches(phase)};
+    const bool touches[2] = {left_in_contact(phase), right_in_contact(phase)};
     for (std::size_t side = 0; side < 2; ++side) {
       const double mirror = side == 0 ? 1.0 : -1.0;
       const LegSignals& leg = signals.leg[side];

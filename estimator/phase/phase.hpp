@@ -42,11 +42,11 @@ inline constexpr std::array<std::string_view, phase_count> phase_names = {
     "rolling",  "unloading_1", "unloading_2", "unloading_3", "flight",    "impact_1",
     "impact_2", "impact_3",    "held",        "carried",     "left_only", "right_only"};
 
-constexpr bool left_touches(Phase phase) noexcept {
+constexpr bool left_in_contact(Phase phase) noexcept {
   return phase != Phase::flight && phase != Phase::held && phase != Phase::right_only;
 }
 
-constexpr bool right_touches(Phase phase) noexcept {
+constexpr bool right_in_contact(Phase phase) noexcept {
   return phase != Phase::flight && phase != Phase::held && phase != Phase::left_only;
 }
 

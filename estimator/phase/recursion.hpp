@@ -13,7 +13,7 @@ namespace touchdown {
 /// α'_j ∝ e_j · Σ_i α_i A_ij. Arrays are padded to whole vector registers; the padding is zero.
 class PhaseRecursion {
  public:
-  using Lanes = std::array<double, phase_lanes>;
+  using Lanes = std::array<double, phase_simd_width>;
 
   /// P(contact) = 0.5 for each wheel, for any and for both; half of no contact is flight.
   static constexpr PhaseProbabilities prior = [] {
@@ -33,7 +33,7 @@ class PhaseRecursion {
     /// The padding's log likelihood: e^−700 of the largest.
     constexpr double impossible = -1e9;
     Lanes log_likelihood;
-    for (std::size_t k = 0; k < phase_lanes; ++k) {
+    for (std::size_t k = 0; k < phase_simd_width; ++k) {
       log_likelihood[k] = static_cast<double>(left[k] + right[k] + vertical[k]);
     }
     const float single = vertical[acceleration_density_count - 1];
@@ -41,24 +41,24 @@ class PhaseRecursion {
         static_cast<double>(left[supporting_leg] + right[airborne_leg] + single);
     log_likelihood[index(Phase::right_only)] =
         static_cast<double>(left[airborne_leg] + right[supporting_leg] + single);
-    for (std::size_t k = phase_count; k < phase_lanes; ++k) log_likelihood[k] = impossible;
+    for (std::size_t k = phase_count; k < phase_simd_width; ++k) log_likelihood[k] = impossible;
     return log_likelihood;
   }
 
   void predict_and_correct(Lanes& alpha, const Lanes& log_likelihood) const noexcept {
     Lanes predicted{};
     for (std::size_t i = 0; i < phase_count; ++i) {
-      for (std::size_t j = 0; j < phase_lanes; ++j) predicted[j] += alpha[i] * transition_[i][j];
+      for (std::size_t j = 0; j < phase_simd_width; ++j) predicted[j] += alpha[i] * transition_[i][j];
     }
     double largest = log_likelihood[0];
-    for (std::size_t k = 1; k < phase_lanes; ++k) largest = std::max(largest, log_likelihood[k]);
+    for (std::size_t k = 1; k < phase_simd_width; ++k) largest = std::max(largest, log_likelihood[k]);
     double sum = 0.0;
-    for (std::size_t k = 0; k < phase_lanes; ++k) {
+    for (std::size_t k = 0; k < phase_simd_width; ++k) {
       predicted[k] *= exponential(log_likelihood[k] - largest);
       sum += predicted[k];
     }
     const double scale = 1.0 / sum;
-    for (std::size_t k = 0; k < phase_lanes; ++k) alpha[k] = predicted[k] * scale;
+    for (std::size_t k = 0; k < phase_simd_width; ++k) alpha[k] = predicted[k] * scale;
   }
 
   /// P(left wheel touches), P(right wheel touches).

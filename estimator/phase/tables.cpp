@@ -7,13 +7,13 @@
 namespace touchdown {
 namespace {
 
-/// `values` per cell → `phase_lanes` per cell, times the exponent.
+/// `values` per cell → `phase_simd_width` per cell, times the exponent.
 std::vector<float> padded(std::span<const float> log_density, std::size_t values, double exponent) {
   const std::size_t cells = log_density.size() / values;
-  std::vector<float> result(cells * phase_lanes, 0.0F);
+  std::vector<float> result(cells * phase_simd_width, 0.0F);
   for (std::size_t cell = 0; cell < cells; ++cell) {
     for (std::size_t k = 0; k < values; ++k) {
-      result[cell * phase_lanes + k] =
+      result[cell * phase_simd_width + k] =
           static_cast<float>(exponent * static_cast<double>(log_density[cell * values + k]));
     }
   }
@@ -21,17 +21,17 @@ std::vector<float> padded(std::span<const float> log_density, std::size_t values
 }
 
 void add(PhaseRow& sum, float weight, const float* cell) noexcept {
-  for (std::size_t k = 0; k < phase_lanes; ++k) sum[k] += weight * cell[k];
+  for (std::size_t k = 0; k < phase_simd_width; ++k) sum[k] += weight * cell[k];
 }
 
-PhaseNoiseLadder ladder_of(std::vector<double> bandwidths, double first_noise) {
+PhaseNoiseLevels ladder_of(std::vector<double> bandwidths, double first_noise) {
   const double h = bandwidths.front();
   return {std::move(bandwidths), std::sqrt(std::max(0.0, h * h - first_noise * first_noise))};
 }
 
 }  // namespace
 
-PhaseNoiseLevel PhaseNoiseLadder::place(double sigma) const {
+PhaseNoiseLevel PhaseNoiseLevels::place(double sigma) const {
   const double bandwidth = std::hypot(sigma, kernel_width);
   if (bandwidths.size() < 2 || !(bandwidth > bandwidths.front())) return {0, 0.0F};
   if (bandwidth >= bandwidths.back()) return {bandwidths.size() - 2, 1.0F};
@@ -50,7 +50,7 @@ PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densiti
   ladder_ = ladder_of(std::move(bandwidths), densities.front().noise.wheel);
   for (const PhaseTorqueDensity& density : densities) {
     tables_.push_back({AxisLookup(density.knee), AxisLookup(density.wheel),
-                       phase_lanes * static_cast<std::size_t>(density.knee.count),
+                       phase_simd_width * static_cast<std::size_t>(density.knee.count),
                        padded(density.log_density, torque_density_count, exponent)});
   }
 }
@@ -62,15 +62,15 @@ PhaseRow PhaseTorqueTables::operator()(double knee, double wheel, const PhaseNoi
     const AxisPosition k = table.knee.place(knee);
     const AxisPosition w = table.wheel.place(wheel);
     const float* const low = table.cells.data() + static_cast<std::size_t>(w.index) * table.row +
-                             static_cast<std::size_t>(k.index) * phase_lanes;
+                             static_cast<std::size_t>(k.index) * phase_simd_width;
     const float* const high = low + table.row;
     const auto knee_weight = static_cast<float>(k.weight);
     const float high_weight = weight * static_cast<float>(w.weight);
     const float low_weight = weight - high_weight;
     add(sum, low_weight * (1.0F - knee_weight), low);
-    add(sum, low_weight * knee_weight, low + phase_lanes);
+    add(sum, low_weight * knee_weight, low + phase_simd_width);
     add(sum, high_weight * (1.0F - knee_weight), high);
-    add(sum, high_weight * knee_weight, high + phase_lanes);
+    add(sum, high_weight * knee_weight, high + phase_simd_width);
   };
   const std::size_t levels = ladder_.bandwidths.size();
   const Table* const corner = tables_.data() + knee_noise.level * levels + wheel_noise.level;
@@ -99,10 +99,10 @@ PhaseRow PhaseAccelerationTables::operator()(double acceleration,
   PhaseRow sum{};
   const auto add_level = [&](const Table& table, float weight) {
     const AxisPosition a = table.axis.place(acceleration);
-    const float* const low = table.cells.data() + static_cast<std::size_t>(a.index) * phase_lanes;
+    const float* const low = table.cells.data() + static_cast<std::size_t>(a.index) * phase_simd_width;
     const float high_weight = weight * static_cast<float>(a.weight);
     add(sum, weight - high_weight, low);
-    add(sum, high_weight, low + phase_lanes);
+    add(sum, high_weight, low + phase_simd_width);
   };
   add_level(tables_[noise.level], 1.0F - noise.weight);
   if (noise.weight > 0.0F) add_level(tables_[noise.level + 1], noise.weight);

@@ -10,10 +10,10 @@
 namespace touchdown {
 
 /// Values per cell of the lookup tables: one per phase, padded to whole vector registers.
-inline constexpr std::size_t phase_lanes = 12;
+inline constexpr std::size_t phase_simd_width = 12;
 
 /// Log likelihoods by phase; the padding is zero.
-using PhaseRow = std::array<float, phase_lanes>;
+using PhaseRow = std::array<float, phase_simd_width>;
 
 /// Between which two prepared noise levels a noise lies: `weight` in [0, 1] of the way from `level`
 /// to the next one.
@@ -23,7 +23,7 @@ struct PhaseNoiseLevel {
 };
 
 /// The noise levels that densities were prepared for.
-struct PhaseNoiseLadder {
+struct PhaseNoiseLevels {
   std::vector<double> bandwidths;  ///< of the kernels, noise included; they increase
   double kernel_width = 0.0;       ///< h, without noise
 
@@ -44,7 +44,7 @@ class PhaseTorqueTables {
                                     const PhaseNoiseLevel& wheel_noise) const noexcept;
 
   /// Of noise at the knee or at the wheel: their levels are the same.
-  [[nodiscard]] const PhaseNoiseLadder& ladder() const noexcept { return ladder_; }
+  [[nodiscard]] const PhaseNoiseLevels& ladder() const noexcept { return ladder_; }
 
  private:
   struct Table {
@@ -54,7 +54,7 @@ class PhaseTorqueTables {
     std::vector<float> cells;
   };
   std::vector<Table> tables_;
-  PhaseNoiseLadder ladder_;
+  PhaseNoiseLevels ladder_;
 };
 
 /// The acceleration densities, likewise.
@@ -65,7 +65,7 @@ class PhaseAccelerationTables {
   [[nodiscard]] PhaseRow operator()(double acceleration,
                                     const PhaseNoiseLevel& noise) const noexcept;
 
-  [[nodiscard]] const PhaseNoiseLadder& ladder() const noexcept { return ladder_; }
+  [[nodiscard]] const PhaseNoiseLevels& ladder() const noexcept { return ladder_; }
 
  private:
   struct Table {
@@ -73,7 +73,7 @@ class PhaseAccelerationTables {
     std::vector<float> cells;
   };
   std::vector<Table> tables_;
-  PhaseNoiseLadder ladder_;
+  PhaseNoiseLevels ladder_;
 };
 
 }  // namespace touchdown

@@ -17,13 +17,13 @@ using ConstSpectrumRowMap = Eigen::Map<const SpectrumRow>;
 
 /// Sums over whole lanes: before[i] is the sum of the lanes 0 … i − 1, the last one that of all
 /// bins below the Nyquist frequency.
-struct LaneSums {
+struct SimdSums {
   static constexpr int lanes = SlidingDft::lanes;
 
   double before[lanes + 1];
 
   /// From the sum of each lane. By a tree: a chain of additions would wait for each other.
-  static LaneSums of(const SpectrumRow& lane) noexcept {
+  static SimdSums of(const SpectrumRow& lane) noexcept {
     static_assert(lanes == 8);
     const double s01 = lane[0] + lane[1];
     const double s23 = lane[2] + lane[3];
@@ -77,7 +77,7 @@ int count_below(double bound, Count count, const Sum& sum) noexcept {
 /// All bins whose cumulative sum is below half are counted. To leave a loop at the median would be
 /// less work and take longer: where the median is, no processor can predict.
 template <typename Rows>
-double median_bin(const LaneSums& sums, double nyquist, int nyquist_bin, Rows rows,
+double median_bin(const SimdSums& sums, double nyquist, int nyquist_bin, Rows rows,
                   const double* within) noexcept {
   constexpr int lanes = SlidingDft::lanes;
   const double half = 0.5 * (sums.total() + nyquist);

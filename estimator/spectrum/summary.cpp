@@ -24,18 +24,18 @@ SpectrumSummary::SpectrumSummary(const SlidingDft& dft, SpectrumKind kind, bool 
       magnitude_(kind == SpectrumKind::magnitude),
       nyquist_counts_(nyquist),
       magnitudes_(dft.reals().size()),
-      within_lane_(dft.reals().size() + SlidingDft::lanes) {}
+      within_simd_width_(dft.reals().size() + SlidingDft::lanes) {}
 
 template <typename Rows>
 SpectrumValues SpectrumSummary::of_power(Rows rows, const SlidingDft& dft) noexcept {
   const double nyquist = dft.nyquist();
-  double* const within = within_lane_.data();
+  double* const within = within_simd_width_.data();
   const SpectrumRow sum = cumulate(rows, squared_magnitudes(dft), within);
   SpectrumValues values;
   values.mean_square = mean_square(sum.sum(), dft.reals()[0], nyquist, window_);
   if (values.mean_square > negligible_mean_square) {
     const double last = nyquist_counts_ ? nyquist * nyquist : 0.0;
-    values.median_bin = median_bin(LaneSums::of(sum), last, window_ / 2, rows, within);
+    values.median_bin = median_bin(SimdSums::of(sum), last, window_ / 2, rows, within);
   }
   return values;
 }
@@ -46,7 +46,7 @@ SpectrumValues SpectrumSummary::of_magnitude(Rows rows, const SlidingDft& dft) n
   const double* const real = dft.reals().data();
   const double* const imaginary = dft.imaginaries().data();
   double* const magnitude = magnitudes_.data();
-  double* const within = within_lane_.data();
+  double* const within = within_simd_width_.data();
   square_roots(
       rows * lanes, [=](int i) { return real[i] * real[i] + imaginary[i] * imaginary[i]; },
       [=](int i, double root) { magnitude[i] = root; });
@@ -59,7 +59,7 @@ SpectrumValues SpectrumSummary::of_magnitude(Rows rows, const SlidingDft& dft) n
     const double last = nyquist_counts_ ? std::abs(nyquist) : 0.0;
     const auto row_of = [=](int row) { return ConstSpectrumRowMap(magnitude + row * lanes); };
     const SpectrumRow sum = cumulate(rows, row_of, within);
-    values.median_bin = median_bin(LaneSums::of(sum), last, window_ / 2, rows, within);
+    values.median_bin = median_bin(SimdSums::of(sum), last, window_ / 2, rows, within);
   }
   return values;
 }

@@ -54,7 +54,7 @@ class SpectrumSummary {
   bool nyquist_counts_;
   std::vector<double> magnitudes_;
   /// Row r: the sums of each lane's first r bins.
-  std::vector<double> within_lane_;
+  std::vector<double> within_simd_width_;
 };
 
 }  // namespace touchdown

@@ -22,7 +22,7 @@ const Belief& BoostedTreesEstimator::update(const Signals& signals) noexcept {
   belief_.status = step.status;
   for (std::size_t side = 0; side < 2; ++side) {
     WheelBelief& wheel = belief_.wheel[side];
-    if (step.is_heard) {
+    if (step.is_valid) {
       const auto logit = static_cast<double>(trees_.logit(window_.features(side)));
       wheel.p_contact = 1.0 / (1.0 + std::exp(-logit));
       wheel.contact = wheel.contact ? wheel.p_contact >= config_.leave_below

@@ -119,13 +119,13 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
   for (std::size_t pass = 0; pass < config.passes; ++pass) {
     for (const LabelledRun& run : runs) {
       SignalWindow window(run.sample_rate);
-      Disturbance disturbed(config.disturbance, draws);
+      Augmentation disturbed(config.disturbance, draws);
       std::size_t next = run.skip + draws.below(stride);
       for (std::size_t k = 0; k < run.signals.size(); ++k) {
         const SignalWindow::Step step = window.update(disturbed(run.signals[k]));
         if (k < next) continue;
         next += stride;
-        if (!step.is_heard) continue;
+        if (!step.is_valid) continue;
         for (std::size_t side = 0; side < 2; ++side) {
           const WindowFeatures features = window.features(side);
           rows.features.insert(rows.features.end(), features.begin(), features.end());

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "estimator/decision/disturbance.hpp"
+#include "estimator/decision/augmentation.hpp"
 #include "estimator/labelled_run.hpp"
 #include "experiments/boosting/trees.hpp"
 
@@ -23,7 +23,7 @@ struct BoostingConfig {
   /// weights add to the logit is taken off again: it means the probability in runs like these.
   double class_exponent = -0.5;
   double least_weight = 20.0;  ///< of a leaf: Σ p (1 − p) of its rows
-  DisturbanceConfig disturbance = {};
+  AugmentationConfig disturbance = {};
 };
 
 /// What trees learn from: one row after the other, and whether it is one in contact.

@@ -63,7 +63,7 @@ void SignalWindow::reset() noexcept {
 
 SignalWindow::Step SignalWindow::update(const Signals& signals) noexcept {
   const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
-  Step step{.status = verdict.status, .elapsed = verdict.elapsed, .is_heard = true};
+  Step step{.status = verdict.status, .elapsed = verdict.elapsed, .is_valid = true};
   if (verdict.restart) {
     for (ChannelWindow& channel : channels_) channel.reset();
     missing_for_.fill(std::numeric_limits<double>::infinity());
@@ -86,7 +86,7 @@ SignalWindow::Step SignalWindow::update(const Signals& signals) noexcept {
       channels_[i].update(last_[i]);
     } else {
       channels_[i].reset();
-      step.is_heard = false;
+      step.is_valid = false;
     }
   }
   return step;

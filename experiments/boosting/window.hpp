@@ -57,7 +57,7 @@ class SignalWindow {
   struct Step {
     SignalStatus status = SignalStatus::good;
     double elapsed = 0.0;   ///< since the previous step (s)
-    bool is_heard = false;  ///< whether there are features of this step
+    bool is_valid = false;  ///< whether there are features of this step
   };
 
   /// Throws InputError for a rate that is not positive.

@@ -69,12 +69,13 @@ static void describe(Fields& fields, RunsConfig& runs) {
   fields("perturbed", runs.perturbed);
 }
 
-static void describe(Fields& fields, FitPieces& pieces) {
-  fields.require("scenario", pieces.scenario);
-  fields("runs", pieces.runs, 1, 100'000);
-  fields("after", pieces.after, 0.0, 1e4);
-  fields("length", pieces.length, 0.01, 1e4);
-  fields("places", pieces.places, 1, 1000);
+static void describe(Fields& fields, TrainingSegments& segments) {
+  fields.require("scenario", segments.scenario);
+  fields("runs", segments.runs, 1, 100'000);
+  fields("after", segments.after, 0.0, 1e4);
+  fields("length", segments.length, 0.01, 1e4);
+  fields.renamed("places", "offsets");
+  fields("offsets", segments.offsets, 1, 1000);
 }
 
 /// A run that is not drawn is the same run however often it is played.
@@ -194,11 +195,12 @@ static void describe(Fields& fields, BenchmarkConfig& benchmark) {
 }
 
 static void describe(Fields& fields, OdometryStudyConfig& odometry) {
-  fields.in_line("late", odometry.late);
-  for (auto late = odometry.late.begin(); late != odometry.late.end(); ++late) {
-    fields.check(*late > 0.0 && *late <= 1.0, "late", "expected times between 0 and 1 s");
-    fields.check(std::find(odometry.late.begin(), late, *late) == late, "late",
-                 fmt::format("{} stands there twice", *late));
+  fields.renamed("late", "delay");
+  fields.in_line("delay", odometry.delay);
+  for (auto delay = odometry.delay.begin(); delay != odometry.delay.end(); ++delay) {
+    fields.check(*delay > 0.0 && *delay <= 1.0, "delay", "expected times between 0 and 1 s");
+    fields.check(std::find(odometry.delay.begin(), delay, *delay) == delay, "delay",
+                 fmt::format("{} stands there twice", *delay));
   }
 }
 
@@ -217,7 +219,7 @@ static void describe(Fields& fields, OperatingPointsConfig& config) {
                "expected one that is no lower than one of leave_below");
 }
 
-static void describe(Fields& fields, LoopScene& scene, const Experiment& experiment) {
+static void describe(Fields& fields, ClosedLoopScene& scene, const Experiment& experiment) {
   fields.require("scenario", scene.scenario);
   fields.know("key");
   fields.know("values");
@@ -231,17 +233,18 @@ static void describe(Fields& fields, LoopScene& scene, const Experiment& experim
   if (fields.present("noise", true)) fields.list("noise", scene.noise);
   fields.check(!scene.noise.empty(), "noise", "expected at least one noise setting");
   for (noise::NoiseCell& cell : scene.noise) cell = noise::as_on_grid(cell, experiment.noise);
-  fields.in_line("late", scene.late);
-  fields.check(!scene.late.empty() && scene.late.front() >= 0.0 && scene.late.back() <= 1.0 &&
-                   std::is_sorted(scene.late.begin(), scene.late.end(), std::less_equal<>()),
-               "late", "expected times from 0 to 1 s that grow");
+  fields.renamed("late", "delay");
+  fields.in_line("delay", scene.delay);
+  fields.check(!scene.delay.empty() && scene.delay.front() >= 0.0 && scene.delay.back() <= 1.0 &&
+                   std::is_sorted(scene.delay.begin(), scene.delay.end(), std::less_equal<>()),
+               "delay", "expected times from 0 to 1 s that grow");
   const int varied = (scene.values.size() > 1 ? 1 : 0) + (scene.noise.size() > 1 ? 1 : 0) +
-                     (scene.late.size() > 1 ? 1 : 0);
+                     (scene.delay.size() > 1 ? 1 : 0);
   fields.check(varied <= 1, "scenario",
-               "expected one thing that is varied: values of a key, noise, or late");
+               "expected one thing that is varied: values of a key, noise, or delay");
 }
 
-static void describe(Fields& fields, LoopFilm& film, const ClosedLoopConfig& config) {
+static void describe(Fields& fields, ClosedLoopFilm& film, const ClosedLoopConfig& config) {
   fields("scene", film.scene, 0, static_cast<int>(config.scenes.size()) - 1);
   const std::size_t points = points_of(config.scenes[static_cast<std::size_t>(film.scene)]);
   fields("point", film.point, 0, static_cast<int>(points) - 1);
@@ -259,10 +262,10 @@ static void describe(Fields& fields, LoopFilm& film, const ClosedLoopConfig& con
 
 static void describe(Fields& fields, ClosedLoopConfig& config, const Experiment& experiment) {
   fields.names("laws", {"balancer", "soft_landing"}, config.laws);
-  std::vector<std::string> tellers = {"truth", "always"};
-  tellers.insert(tellers.end(), experiment.estimators.begin(), experiment.estimators.end());
-  if (fields.reading()) config.contact = tellers;
-  fields.names("contact", tellers, config.contact);
+  std::vector<std::string> contact_sources = {"truth", "always"};
+  contact_sources.insert(contact_sources.end(), experiment.estimators.begin(), experiment.estimators.end());
+  if (fields.reading()) config.contact = contact_sources;
+  fields.names("contact", contact_sources, config.contact);
   fields.require("scenes");
   fields.list("scenes", config.scenes, experiment);
   fields.check(!config.scenes.empty(), "scenes", "expected at least one scene");
@@ -275,19 +278,20 @@ static void describe(Fields& fields, ClosedLoopConfig& config, const Experiment&
 
 /// By estimator, then name, as tuning would choose them.
 static void describe_constants(Fields& fields, Experiment& experiment) {
-  constexpr const char* key = "constants";
+  constexpr const char* key = "hyperparameters";
+  fields.renamed("constants", key);
   fields.know(key);
-  if (!fields.present(key, !experiment.constants.empty())) return;
+  if (!fields.present(key, !experiment.hyperparameters.empty())) return;
   fields.within(key, [&](Fields& all) {
     for (const std::string& name : experiment.estimators) {
       all.know(name);
-      if (!all.present(name, experiment.constants.contains(name))) continue;
-      Constants& constants = experiment.constants[name];
+      if (!all.present(name, experiment.hyperparameters.contains(name))) continue;
+      HyperparameterValues& hyperparameters = experiment.hyperparameters[name];
       all.within(name, [&](Fields& own) {
-        for (const Choice& choice : estimator_entry(name).choices) {
+        for (const Hyperparameter& choice : estimator_entry(name).hyperparameters) {
           own.know(choice.name);
-          if (!own.present(choice.name, constants.contains(choice.name))) continue;
-          own(choice.name, constants[choice.name]);
+          if (!own.present(choice.name, hyperparameters.contains(choice.name))) continue;
+          own(choice.name, hyperparameters[choice.name]);
         }
       });
     }
@@ -334,7 +338,8 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.require("test");
   fields.within("fit", [&](Fields& fit) {
     describe(fit, experiment.fit);
-    fit.list_if_any("pieces", experiment.fit_pieces);
+    fit.renamed("pieces", "segments");
+    fit.list_if_any("segments", experiment.training_segments);
     fit.know("tuning");
     if (fit.present("tuning", experiment.tuning.has_value())) {
       if (fit.reading()) experiment.tuning.emplace();
@@ -401,7 +406,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   if (fields.present("moments", experiment.moments)) fields("moments", experiment.moments);
   if (fields.present("phase_study", experiment.phase_study)) {
     fields("phase_study", experiment.phase_study);
-    fields.check(!experiment.phase_study || !experiment.fit_pieces.empty(), "phase_study",
+    fields.check(!experiment.phase_study || !experiment.training_segments.empty(), "phase_study",
                  "expected fit.pieces, which the learning curve varies");
   }
 }
@@ -416,8 +421,8 @@ std::vector<scoring::Hysteresis> points_of(const OperatingPointsConfig& config) 
   return points;
 }
 
-std::size_t points_of(const LoopScene& scene) {
-  return std::max<std::size_t>(1, scene.values.size()) * scene.noise.size() * scene.late.size();
+std::size_t points_of(const ClosedLoopScene& scene) {
+  return std::max<std::size_t>(1, scene.values.size()) * scene.noise.size() * scene.delay.size();
 }
 
 Experiment experiment_from_yaml(const YamlDocument& document) {

@@ -26,14 +26,14 @@ struct RunsConfig {
 
 /// Pieces of fitted runs of one scene: perturbed ones, played at the control period of the test
 /// runs.
-struct FitPieces {
+struct TrainingSegments {
   std::string scenario;  ///< scenario file
   int runs = 1;
   double after = 0.3;   ///< a piece begins no earlier than this (s)
   double length = 5.0;  ///< s, less where the run ends before
   /// Pieces begin so many places apart, run by run in turn, the last one so that it ends with the
   /// run.
-  int places = 1;
+  int offsets = 1;
 };
 
 /// The section `fit.tuning`: every estimator that has something to choose gets as many trials,
@@ -153,7 +153,7 @@ struct BenchmarkConfig {
 /// The section `odometry`: every test run is heard by odometry that is told about contact by every
 /// estimator, by the truth, and by the truth so late (docs/odometry.md).
 struct OdometryStudyConfig {
-  std::vector<double> late;  ///< s
+  std::vector<double> delay;  ///< s
 };
 
 /// The section `operating_points`: what every estimator is worth where its decision is made by
@@ -169,16 +169,16 @@ std::vector<scoring::Hysteresis> points_of(const OperatingPointsConfig& config);
 
 /// A scene in which beliefs steer, with at most one thing that is varied: a number of the scenario,
 /// the noise of the sensors, or how late the law is told.
-struct LoopScene {
+struct ClosedLoopScene {
   std::string scenario;  ///< scenario file
   std::string key = {};  ///< of the scenario, dotted: `terrain.pieces.1.stairs.rise`; empty: none
   std::vector<double> values;                  ///< in the key's own unit
   std::vector<noise::NoiseCell> noise = {{}};  ///< on top of what the sensors do
-  std::vector<double> late = {0.0};            ///< s
+  std::vector<double> delay = {0.0};            ///< s
 };
 
 /// The run that is filmed with all who tell it beside each other.
-struct LoopFilm {
+struct ClosedLoopFilm {
   int scene = 0;                     ///< which of the scenes, from 0
   int point = 0;                     ///< which of what is varied there, from 0
   int run = 0;                       ///< index of the run
@@ -191,13 +191,13 @@ struct LoopFilm {
 struct ClosedLoopConfig {
   std::vector<std::string> laws = {"soft_landing"};  ///< of policies
   std::vector<std::string> contact;  ///< `truth`, `always`, estimators of the experiment
-  std::vector<LoopScene> scenes;
+  std::vector<ClosedLoopScene> scenes;
   int runs = 8;  ///< of every scene and value, started alike whoever tells
-  std::optional<LoopFilm> film = {};
+  std::optional<ClosedLoopFilm> film = {};
 };
 
 /// How many points a scene's survival curve has.
-std::size_t points_of(const LoopScene& scene);
+std::size_t points_of(const ClosedLoopScene& scene);
 
 /// An experiment file, seen whole: what is simulated, who listens through which noise, what counts.
 struct Experiment {
@@ -205,10 +205,10 @@ struct Experiment {
   std::uint64_t seed = 1;
   std::vector<std::string> simulators = {"mujoco", "bullet"};
   std::vector<std::string> estimators = {"robust"};
-  std::map<std::string, Constants> constants = {};  ///< of these, instead of their defaults
+  std::map<std::string, HyperparameterValues> hyperparameters = {};  ///< of these, instead of their defaults
   RunsConfig fit;  ///< noiseless runs that the measurement models are fitted to
   /// What filters with a phase model are fitted to instead, if anything is named.
-  std::vector<FitPieces> fit_pieces;
+  std::vector<TrainingSegments> training_segments;
   std::optional<std::uint64_t> fit_seed;  ///< that these are drawn with, if not `seed`
   std::optional<TuningConfig> tuning;     ///< of estimators' constants on these runs
   RunsConfig test;      ///< runs that estimators are scored on; none of them is ever fitted to

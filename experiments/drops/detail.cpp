@@ -81,7 +81,7 @@ std::vector<double> trace_torque_evidence(const Experiment& experiment, const Co
   const std::unique_ptr<ContactEstimator> filter = make_estimator(shown, models, run);
   std::vector<double> trace;
   for (std::size_t k = 0; k < window.end; ++k) {
-    if (is_heard(heard[k])) filter->update(heard[k]);
+    if (has_record(heard[k])) filter->update(heard[k]);
     if (k < window.begin) continue;
     const Evidence::Measurement said = filter->evidence().wheel[left];
     trace.push_back(std::log(said.contact_likelihood / said.no_contact_likelihood));
@@ -128,8 +128,8 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
                    trace_spectrum(transition, rate, window, heard),
                    {}};
     for (const std::string& name : config.estimators) {
-      Listener listener = listener_of({detail.simulator, detail.simulator, name}, models, run);
-      const scoring::Prediction prediction = predict(listener, run, noise, levels);
+      EstimatorRunner runner = runner_of({detail.simulator, detail.simulator, name}, models, run);
+      const scoring::Prediction prediction = predict(runner, run, noise, levels);
       drop.beliefs.push_back(
           {name, estimator_entry(name).title, inside(prediction[left].p_contact, window)});
     }

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "estimator/phase/labels.hpp"
-#include "estimator/phase/senses.hpp"
+#include "estimator/phase/prepared_model.hpp"
 #include "experiments/estimators/filters.hpp"
 #include "experiments/estimators/phase_fitting.hpp"
 #include "experiments/fitting/make_estimator.hpp"
@@ -35,7 +35,7 @@ PhaseProbabilities by_phase(const PhaseRow& left_leg, const PhaseRow& right_leg,
 
 /// What the filter's last step was told by its own densities at the noise that it assumed; what was
 /// not finite told nothing.
-PhaseEvidence evidence_of(const PhaseSenses& senses, const PhaseNoise& noise,
+PhaseEvidence evidence_of(const PreparedPhaseModel& senses, const PhaseNoise& noise,
                           const Signals& heard) {
   const auto leg = [&](std::size_t side) {
     const double mirror = side == 0 ? 1.0 : -1.0;
@@ -53,10 +53,10 @@ PhaseEvidence evidence_of(const PhaseSenses& senses, const PhaseNoise& noise,
   return {by_phase(leg(0), {}, {}), by_phase({}, leg(1), {}), by_phase({}, {}, vertical)};
 }
 
-Misled misled_by(const PhaseEvidence& evidence, const PhaseProbabilities& believed, Phase truth) {
+LogLikelihoodError error_by(const PhaseEvidence& evidence, const PhaseProbabilities& believed, Phase truth) {
   const auto first = std::max_element(believed.begin(), believed.end());
   const auto phase = static_cast<Phase>(first - believed.begin());
-  if (left_touches(phase) == left_touches(truth) && right_touches(phase) == right_touches(truth)) {
+  if (left_in_contact(phase) == left_in_contact(truth) && right_in_contact(phase) == right_in_contact(truth)) {
     return {};
   }
   const auto preference = [&](const PhaseProbabilities& of) {
@@ -64,10 +64,10 @@ Misled misled_by(const PhaseEvidence& evidence, const PhaseProbabilities& believ
   };
   const double least = std::numeric_limits<double>::min();
   const double whole = std::log(*first / std::max(least, believed[index(truth)]));
-  Misled misled{preference(evidence.left), preference(evidence.right),
+  LogLikelihoodError log_likelihood_error{preference(evidence.left), preference(evidence.right),
                 preference(evidence.acceleration)};
-  misled.memory = whole - misled.left - misled.right - misled.acceleration;
-  return misled;
+  log_likelihood_error.memory = whole - log_likelihood_error.left - log_likelihood_error.right - log_likelihood_error.acceleration;
+  return log_likelihood_error;
 }
 
 }  // namespace
@@ -86,14 +86,14 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
   const EstimatorEntry entry = entry_of(condition, models);
   const EstimatorSetup setup = setup_of(condition, models, run);
   PhaseFilter filter = phase_filter(entry, setup);
-  const PhaseSenses senses(setup.model->phase->model, filter.config());
+  const PreparedPhaseModel senses(setup.model->phase->model, filter.config());
   const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));
   const noise::SensorNoise levels = config.noise.levels();
   const std::vector<Phase> truth = true_phases(run, entry.phase->fit.labels);
   Belief belief;
   PhaseEvidence evidence;
   for (std::size_t k = 0; k < window.end; ++k) {
-    if (is_heard(run.signals[k])) {
+    if (has_record(run.signals[k])) {
       const Signals heard = noisy(run, noise, levels, k);
       belief = filter.update(heard);
       if (k >= window.begin) evidence = evidence_of(senses, filter.noise(), heard);
@@ -102,7 +102,7 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
     posterior.truth.push_back(truth[k]);
     posterior.evidence.push_back(evidence);
     posterior.phases.push_back(filter.phases());
-    posterior.misled.push_back(misled_by(evidence, filter.phases(), truth[k]));
+    posterior.log_likelihood_error.push_back(error_by(evidence, filter.phases(), truth[k]));
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       posterior.contact[wheel].push_back(run.contact[wheel][k]);
       posterior.p_contact[wheel].push_back(belief.wheel[wheel].p_contact);

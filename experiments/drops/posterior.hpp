@@ -29,7 +29,7 @@ struct PhaseEvidence {
 /// Where the most probable phase is wrong about a wheel: by how much each ingredient prefers it to
 /// the true one. Logarithms of ratios, which add up to that of the two probabilities; all zero
 /// where it is right about both wheels.
-struct Misled {
+struct LogLikelihoodError {
   double left = 0.0;
   double right = 0.0;
   double acceleration = 0.0;
@@ -47,7 +47,7 @@ struct DropPosterior {
   std::vector<Phase> truth;                ///< the phase by the labels
   std::vector<PhaseEvidence> evidence;     ///< of the step alone
   std::vector<PhaseProbabilities> phases;  ///< P(phase | heard so far)
-  std::vector<Misled> misled;              ///< why they are wrong, where they are
+  std::vector<LogLikelihoodError> log_likelihood_error;              ///< why they are wrong, where they are
   std::array<std::vector<double>, models::wheel_count>
       p_contact;  ///< what these add up to, by wheel
 };

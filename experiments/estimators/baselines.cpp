@@ -77,7 +77,7 @@ EstimatorEntry free_fall_entry() {
           .title = "Free fall",
           .summary = "a threshold on the vertical acceleration: what falls is in the air",
           .sensors = {.acceleration = true},
-          .choices = {between("half_way", FreeFallConfig{}.half_way, -9.0, -1.0),
+          .hyperparameters = {between("half_way", FreeFallConfig{}.half_way, -9.0, -1.0),
                       around("low_pass", FreeFallConfig{}.low_pass, 5.0)},
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<FreeFall>(FreeFallConfig{.sample_rate = setup.sample_rate,
@@ -92,7 +92,7 @@ EstimatorEntry upkie_observer_entry() {
           .title = "Upkie's observer",
           .summary = "what Upkie runs today: the apparent inertia of each wheel",
           .sensors = {.wheel_torque = true, .joint_velocity = true},
-          .choices = {around("liftoff_inertia", WheelContactConfig{}.liftoff_inertia, 3.0),
+          .hyperparameters = {around("liftoff_inertia", WheelContactConfig{}.liftoff_inertia, 3.0),
                       around("touchdown_ratio", 4.0, 3.5),
                       around("cutoff", WheelContactConfig{}.cutoff, 10.0)},
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {

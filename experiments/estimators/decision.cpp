@@ -49,12 +49,12 @@ Made make_fitted(const EstimatorEntry& entry, const EstimatorSetup& setup) {
       configured(DecisionConfig{.sample_rate = setup.sample_rate}, entry, setup));
 }
 
-Choice decay() { return fitted_with(around("decay", DecisionFitConfig{}.decay, 10.0)); }
-Choice smoothness() {
+Hyperparameter decay() { return fitted_with(around("decay", DecisionFitConfig{}.decay, 10.0)); }
+Hyperparameter smoothness() {
   return fitted_with(around("smoothness", EvidenceFitConfig{}.smoothness, 10.0));
 }
 /// What the fit chooses, then the thresholds of the decision.
-std::vector<Choice> and_thresholds(std::vector<Choice> of_fit) {
+std::vector<Hyperparameter> and_thresholds(std::vector<Hyperparameter> of_fit) {
   of_fit.push_back(between("leave_below", DecisionConfig{}.leave_below, 0.25, 0.8));
   of_fit.push_back(between("return_above", DecisionConfig{}.return_above, 0.8, 0.97));
   return of_fit;
@@ -75,8 +75,8 @@ EstimatorEntry decision_network_entry() {
                       .joint_position = true,
                       .joint_velocity = true},
           .fit = fit_network,
-          .learns_from_pieces = true,
-          .choices = and_thresholds({decay()}),
+          .learns_from_segments = true,
+          .hyperparameters = and_thresholds({decay()}),
           .make = make_fitted<DecisionNetwork, decision_model_of>};
 }
 
@@ -87,7 +87,7 @@ EstimatorEntry evidence_curves_entry() {
   entry.summary =
       "the decision network's transparent twin: a curve of evidence for each of its inputs, added";
   entry.fit = fit_evidence<false>;
-  entry.choices = and_thresholds({smoothness()});
+  entry.hyperparameters = and_thresholds({smoothness()});
   entry.make = make_fitted<EvidenceCurves, evidence_model_of>;
   return entry;
 }
@@ -107,7 +107,7 @@ EstimatorEntry touchdown_entry() {
   entry.title = "Touchdown";
   entry.summary = "evidence curves and the decision network, whose logits are averaged";
   entry.fit = fit_touchdown;
-  entry.choices = and_thresholds({decay(), smoothness()});
+  entry.hyperparameters = and_thresholds({decay(), smoothness()});
   entry.make = make_fitted<TouchdownEstimator, touchdown_model_of>;
   return entry;
 }
@@ -118,9 +118,9 @@ EstimatorEntry shipped_touchdown_entry() {
   entry.title = "Touchdown, shipped";
   entry.summary = "the same, fitted to Upkie on bent and on straight legs once and for all";
   entry.fit = nullptr;
-  entry.learns_from_pieces = false;
+  entry.learns_from_segments = false;
   entry.trained_by = "scripts/fit_shipped_model.sh";
-  entry.choices = {};
+  entry.hyperparameters = {};
   entry.make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
     const auto file = recordings::read_parameter_model(find_resource("models/touchdown.npz"));
     return std::make_unique<TouchdownEstimator>(

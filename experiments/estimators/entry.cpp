@@ -11,44 +11,44 @@
 
 namespace touchdown::experiments {
 
-Choice between(std::string name, double value, double lowest, double highest) {
-  return {std::move(name), value, lowest, highest, Choice::Scale::even};
+Hyperparameter between(std::string name, double value, double lowest, double highest) {
+  return {std::move(name), value, lowest, highest, Hyperparameter::Scale::even};
 }
 
-Choice around(std::string name, double value, double factor) {
-  return {std::move(name), value, value / factor, value * factor, Choice::Scale::by_ratio};
+Hyperparameter around(std::string name, double value, double factor) {
+  return {std::move(name), value, value / factor, value * factor, Hyperparameter::Scale::by_ratio};
 }
 
-Choice whole_between(std::string name, double value, double lowest, double highest) {
-  return {std::move(name), value, lowest, highest, Choice::Scale::whole};
+Hyperparameter whole_between(std::string name, double value, double lowest, double highest) {
+  return {std::move(name), value, lowest, highest, Hyperparameter::Scale::whole};
 }
 
-Choice fitted_with(Choice choice) {
+Hyperparameter fitted_with(Hyperparameter choice) {
   choice.is_fitted_with = true;
   return choice;
 }
 
 double EstimatorEntry::chosen(std::string_view choice) const {
-  const auto found = std::find_if(choices.begin(), choices.end(),
-                                  [&](const Choice& one) { return one.name == choice; });
-  if (found == choices.end()) throw Error(fmt::format("'{}' has no choice '{}'", name, choice));
+  const auto found = std::find_if(hyperparameters.begin(), hyperparameters.end(),
+                                  [&](const Hyperparameter& one) { return one.name == choice; });
+  if (found == hyperparameters.end()) throw Error(fmt::format("'{}' has no choice '{}'", name, choice));
   return found->value;
 }
 
-EstimatorEntry with_constants(EstimatorEntry entry, const Constants& constants) {
-  if (constants.empty()) return entry;
-  for (Choice& choice : entry.choices) {
-    const auto chosen = constants.find(choice.name);
-    if (chosen != constants.end()) choice.value = chosen->second;
+EstimatorEntry with_hyperparameters(EstimatorEntry entry, const HyperparameterValues& hyperparameters) {
+  if (hyperparameters.empty()) return entry;
+  for (Hyperparameter& choice : entry.hyperparameters) {
+    const auto chosen = hyperparameters.find(choice.name);
+    if (chosen != hyperparameters.end()) choice.value = chosen->second;
   }
-  if (entry.settle != nullptr) entry.settle(entry);
+  if (entry.apply != nullptr) entry.apply(entry);
   return entry;
 }
 
-void check_names(const Constants& constants, const EstimatorEntry& entry) {
+void check_names(const HyperparameterValues& hyperparameters, const EstimatorEntry& entry) {
   std::vector<std::string> known;
-  for (const Choice& choice : entry.choices) known.push_back(choice.name);
-  for (const auto& [name, value] : constants) {
+  for (const Hyperparameter& choice : entry.hyperparameters) known.push_back(choice.name);
+  for (const auto& [name, value] : hyperparameters) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     throw InputError(known.empty() ? fmt::format("'{}' has no constants", entry.name)
                                    : fmt::format("'{}' has no constant '{}'{}: expected one of {}",
@@ -66,8 +66,8 @@ noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& le
           .hip_torque = sensors.hip_torque ? levels.hip_torque : 0.0};
 }
 
-Listener listener_of(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return entry.at_once ? Listener(entry.at_once(setup)) : Listener(entry.make(entry, setup));
+EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return entry.whole_run ? EstimatorRunner(entry.whole_run(setup)) : EstimatorRunner(entry.make(entry, setup));
 }
 
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other) {

@@ -15,8 +15,8 @@
 #include "estimator/phase/config.hpp"
 #include "experiments/estimators/fit_runs.hpp"
 #include "experiments/estimators/fitted_model.hpp"
-#include "experiments/lanes/noise_level.hpp"
-#include "experiments/signals/listener.hpp"
+#include "experiments/batch/noise_level.hpp"
+#include "experiments/signals/estimator_runner.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scoring/labels.hpp"
 
@@ -46,8 +46,8 @@ struct Sensors {
 /// to be listened to only once.
 noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& levels);
 
-/// An estimator under many noise levels side by side (experiments/lanes), without a signal guard.
-struct EstimatorLanes {
+/// An estimator under many noise levels side by side (experiments/batch), without a signal guard.
+struct BatchedEstimator {
   std::function<void(const Signals& clean, const NoiseStep& draws)> update;
   /// Per level, in contact where it reaches the threshold.
   std::function<std::span<const double>(Side side)> p_contact;
@@ -55,7 +55,7 @@ struct EstimatorLanes {
 };
 
 /// A constant of an estimator that tuning may choose.
-struct Choice {
+struct Hyperparameter {
   enum class Scale : int { even, by_ratio, whole };
 
   std::string name;    ///< as in the passports of its models, if it is there
@@ -68,11 +68,11 @@ struct Choice {
 
 /// Choices in one line: from `lowest` to `highest`; up to so many times more or less than the
 /// default; whole numbers.
-Choice between(std::string name, double value, double lowest, double highest);
-Choice around(std::string name, double value, double factor);
-Choice whole_between(std::string name, double value, double lowest, double highest);
+Hyperparameter between(std::string name, double value, double lowest, double highest);
+Hyperparameter around(std::string name, double value, double factor);
+Hyperparameter whole_between(std::string name, double value, double lowest, double highest);
 /// One that decides about the model, too.
-Choice fitted_with(Choice choice);
+Hyperparameter fitted_with(Hyperparameter choice);
 
 /// All that an experiment has to know about an estimator. Most have only some of it.
 struct EstimatorEntry {
@@ -81,7 +81,7 @@ struct EstimatorEntry {
   std::string summary;  ///< one line: what it does
   Sensors sensors;
   /// Whether it stands for what there is to be had, and not for what one would take.
-  bool is_ceiling = false;
+  bool is_upper_bound = false;
   /// The configuration whose measurement model it needs, if it needs one.
   std::optional<BayesFilterConfig> config = {};
   /// The configuration whose phase model it needs, if it needs one.
@@ -90,22 +90,22 @@ struct EstimatorEntry {
   /// experiments/estimators/parameter_fitting.hpp makes a model of.
   FittedModel (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
   /// Whether it is fitted to an experiment's pieces, too, if there are any.
-  bool learns_from_pieces = false;
+  bool learns_from_segments = false;
   /// What made its model, if that is no part of an experiment.
   std::string trained_by = {};
   /// It is told the labels of the runs it listens to: nothing for logs without.
   bool needs_truth = false;
   /// What tuning may choose; empty: nothing.
-  std::vector<Choice> choices = {};
+  std::vector<Hyperparameter> hyperparameters = {};
   /// Puts the choices' values into `config` and `phase`, where they have their place there.
-  void (*settle)(EstimatorEntry& entry) = nullptr;
+  void (*apply)(EstimatorEntry& entry) = nullptr;
   std::unique_ptr<ContactEstimator> (*make)(const EstimatorEntry& entry,
                                             const EstimatorSetup& setup) = nullptr;
   /// Null for an estimator without lanes; nothing where its lanes do not know noise of that kind.
-  std::optional<EstimatorLanes> (*lanes)(const EstimatorEntry& entry, const EstimatorSetup& setup,
+  std::optional<BatchedEstimator> (*lanes)(const EstimatorEntry& entry, const EstimatorSetup& setup,
                                          std::span<const noise::SensorNoise> levels) = nullptr;
   /// Instead of `make`, for one that hears a whole run at once.
-  std::function<BelieveRun(const EstimatorSetup& setup)> at_once = {};
+  std::function<WholeRunEstimator(const EstimatorSetup& setup)> whole_run = {};
   /// What decides about its numbers and is no part of the program: saved under another one they do
   /// not count.
   std::string revision = {};
@@ -122,13 +122,13 @@ struct EstimatorEntry {
 
 /// The same estimator with constants that were chosen. Names that are none of its choices do not
 /// count.
-EstimatorEntry with_constants(EstimatorEntry entry, const Constants& constants);
+EstimatorEntry with_hyperparameters(EstimatorEntry entry, const HyperparameterValues& hyperparameters);
 
 /// Errors: `InputError`, one line with the nearest name, for one that is none of its choices.
-void check_names(const Constants& constants, const EstimatorEntry& entry);
+void check_names(const HyperparameterValues& hyperparameters, const EstimatorEntry& entry);
 
 /// The estimator, however it listens, made for this.
-Listener listener_of(const EstimatorEntry& entry, const EstimatorSetup& setup);
+EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& setup);
 
 /// Whether one fit serves both.
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other);

@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include "estimator/bayes/ladder.hpp"
+#include "estimator/bayes/ablation.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "experiments/estimators/measurement_fitting.hpp"
 #include "experiments/estimators/phase_fitting.hpp"
-#include "experiments/lanes/bayes.hpp"
-#include "experiments/lanes/neural.hpp"
-#include "experiments/lanes/phase.hpp"
+#include "experiments/batch/bayes.hpp"
+#include "experiments/batch/neural.hpp"
+#include "experiments/batch/phase.hpp"
 #include "recordings/models/neural_network.hpp"
 
 namespace touchdown::experiments {
@@ -27,8 +27,8 @@ Config at_rate(Config config, double sample_rate) {
   return config;
 }
 
-std::vector<LaneNoise> lane_noise(Levels levels) {
-  std::vector<LaneNoise> lanes;
+std::vector<BatchNoise> batch_noise(Levels levels) {
+  std::vector<BatchNoise> lanes;
   for (const noise::SensorNoise& level : levels) {
     lanes.push_back({level.knee_torque, level.wheel_torque, level.acceleration});
   }
@@ -36,18 +36,18 @@ std::vector<LaneNoise> lane_noise(Levels levels) {
 }
 
 /// With the bandwidths' floor, where there is one: without it the paper is to the letter.
-std::vector<Choice> bayes_choices(const BayesFilterConfig& config) {
+std::vector<Hyperparameter> bayes_choices(const BayesFilterConfig& config) {
   const Sigmoid& switching = config.transition.switch_sigmoid;
-  std::vector<Choice> choices = {between("threshold", config.threshold, 0.2, 0.95),
+  std::vector<Hyperparameter> hyperparameters = {between("threshold", config.threshold, 0.2, 0.95),
                                  around("transition.switch.offset", switching.offset, 4.0),
                                  around("transition.switch.slope", switching.slope, 4.0)};
   const double floor = config.measurement.fit.bandwidth_floor.knee;
-  if (floor > 0.0) choices.push_back(fitted_with(around("bandwidth_floor", floor, 4.0)));
-  return choices;
+  if (floor > 0.0) hyperparameters.push_back(fitted_with(around("bandwidth_floor", floor, 4.0)));
+  return hyperparameters;
 }
 
-void settle_bayes(EstimatorEntry& entry) {
-  for (const Choice& choice : entry.choices) {
+void apply_bayes(EstimatorEntry& entry) {
+  for (const Hyperparameter& choice : entry.hyperparameters) {
     Sigmoid& switching = entry.config->transition.switch_sigmoid;
     if (choice.name == "threshold") entry.config->threshold = choice.value;
     if (choice.name == "transition.switch.offset") switching.offset = choice.value;
@@ -58,7 +58,7 @@ void settle_bayes(EstimatorEntry& entry) {
   }
 }
 
-void settle_phase(EstimatorEntry& entry) {
+void apply_phase(EstimatorEntry& entry) {
   PhaseFilterConfig& phase = *entry.phase;
   phase.fit.torque_bandwidth = entry.chosen("torque_bandwidth");
   phase.fit.acceleration_bandwidth = entry.chosen("acceleration_bandwidth");
@@ -67,10 +67,10 @@ void settle_phase(EstimatorEntry& entry) {
 }
 
 template <typename Lanes>
-std::shared_ptr<Lanes> measurement_lanes(const EstimatorEntry& entry, const EstimatorSetup& setup,
+std::shared_ptr<Lanes> measurement_batch(const EstimatorEntry& entry, const EstimatorSetup& setup,
                                          Levels levels) {
   return std::make_shared<Lanes>(*setup.model->measurement,
-                                 at_rate(*entry.config, setup.sample_rate), lane_noise(levels));
+                                 at_rate(*entry.config, setup.sample_rate), batch_noise(levels));
 }
 
 template <typename Lanes>
@@ -78,26 +78,26 @@ auto update_of(const std::shared_ptr<Lanes>& lanes) {
   return [lanes](const Signals& clean, const NoiseStep& draws) { lanes->update(clean, draws); };
 }
 
-std::optional<EstimatorLanes> bayes_lanes(const EstimatorEntry& entry, const EstimatorSetup& setup,
+std::optional<BatchedEstimator> bayes_batch(const EstimatorEntry& entry, const EstimatorSetup& setup,
                                           Levels levels) {
-  const auto all = measurement_lanes<BayesFilterLanes>(entry, setup, levels);
-  return EstimatorLanes{update_of(all), [all](Side side) { return all->p_contact(side); },
+  const auto all = measurement_batch<BatchedBayesFilter>(entry, setup, levels);
+  return BatchedEstimator{update_of(all), [all](Side side) { return all->p_contact(side); },
                         entry.config->threshold};
 }
 
-std::optional<EstimatorLanes> measurement_only_lanes(const EstimatorEntry& entry,
+std::optional<BatchedEstimator> measurement_only_batch(const EstimatorEntry& entry,
                                                      const EstimatorSetup& setup, Levels levels) {
-  const auto all = measurement_lanes<MeasurementLanes>(entry, setup, levels);
-  return EstimatorLanes{update_of(all), [all](Side side) { return all->p_measurement(side); },
+  const auto all = measurement_batch<BatchedMeasurement>(entry, setup, levels);
+  return BatchedEstimator{update_of(all), [all](Side side) { return all->p_measurement(side); },
                         entry.config->threshold};
 }
 
-std::optional<EstimatorLanes> phase_lanes(const EstimatorEntry& entry, const EstimatorSetup& setup,
+std::optional<BatchedEstimator> phase_simd_width(const EstimatorEntry& entry, const EstimatorSetup& setup,
                                           Levels levels) {
-  const auto all = std::make_shared<PhaseLanes>(
-      setup.model->phase->model, at_rate(*entry.phase, setup.sample_rate), lane_noise(levels));
+  const auto all = std::make_shared<BatchedPhaseFilter>(
+      setup.model->phase->model, at_rate(*entry.phase, setup.sample_rate), batch_noise(levels));
   // Decided by two thresholds already: 0 or 1.
-  return EstimatorLanes{update_of(all), [all](Side side) { return all->contact(side); }, 0.5};
+  return BatchedEstimator{update_of(all), [all](Side side) { return all->contact(side); }, 0.5};
 }
 
 FittedModel fit_measurement(const EstimatorEntry& entry, const FitRuns& runs) {
@@ -108,9 +108,9 @@ FittedModel fit_measurement(const EstimatorEntry& entry, const FitRuns& runs) {
 FittedModel fit_phase(const EstimatorEntry& entry, const FitRuns& runs) {
   const PhaseFitConfig& config = entry.phase->fit;
   return {.phase = std::make_shared<const recordings::PhaseModelFile>(
-              runs.pieces.empty()
+              runs.segments.empty()
                   ? fit_phases(runs.whole, config, runs.scoring.skip, runs.before_density)
-                  : fit_phases(runs.pieces, config, 0.0, runs.before_density))};
+                  : fit_phases(runs.segments, config, 0.0, runs.before_density))};
 }
 
 std::shared_ptr<const NeuralNetwork> network(const EstimatorEntry& entry) {
@@ -122,7 +122,7 @@ NeuralEstimatorConfig neural_config(const EstimatorEntry& entry, const Estimator
 }
 
 /// Lanes share what the encoders say, so they know no noise on them.
-std::optional<EstimatorLanes> neural_lanes(const EstimatorEntry& entry, const EstimatorSetup& setup,
+std::optional<BatchedEstimator> neural_batch(const EstimatorEntry& entry, const EstimatorSetup& setup,
                                            Levels levels) {
   std::vector<double> sigmas;
   for (const noise::SensorNoise& level : levels) {
@@ -130,8 +130,8 @@ std::optional<EstimatorLanes> neural_lanes(const EstimatorEntry& entry, const Es
     sigmas.push_back(level.acceleration);
   }
   const NeuralEstimatorConfig config = neural_config(entry, setup);
-  const auto all = std::make_shared<NeuralLanes>(network(entry), config, sigmas);
-  return EstimatorLanes{[all](const Signals& clean, const NoiseStep& draws) {
+  const auto all = std::make_shared<BatchedNeuralNetwork>(network(entry), config, sigmas);
+  return BatchedEstimator{[all](const Signals& clean, const NoiseStep& draws) {
                           const auto& [x, y, z] = draws.linear_acceleration;
                           all->update(clean, {x, y, z});
                         },
@@ -148,19 +148,19 @@ EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
           .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
           .config = config,
           .fit = fit_measurement,
-          .choices = bayes_choices(config),
-          .settle = settle_bayes,
+          .hyperparameters = bayes_choices(config),
+          .apply = apply_bayes,
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<BayesFilter>(*setup.model->measurement,
                                                  at_rate(*entry.config, setup.sample_rate));
           },
-          .lanes = bayes_lanes};
+          .lanes = bayes_batch};
 }
 
 std::vector<EstimatorEntry> entries_from_paper_to_robust() {
   std::vector<EstimatorEntry> entries;
   std::string before = "paper";
-  for (const BayesRung& rung : rungs_from_paper_to_robust()) {
+  for (const AblationStep& rung : steps_from_paper_to_robust()) {
     entries.push_back(
         bayes_entry(rung.name, fmt::format("from paper to robust: {}, and {}", before, rung.change),
                     rung.config));
@@ -176,14 +176,14 @@ EstimatorEntry measurement_only_entry() {
           .sensors = {.knee_torque = true, .wheel_torque = true},
           .config = BayesFilterConfig::robust(),
           .fit = fit_measurement,
-          .choices = {between("threshold", BayesFilterConfig::robust().threshold, 0.2, 0.95),
+          .hyperparameters = {between("threshold", BayesFilterConfig::robust().threshold, 0.2, 0.95),
                       fitted_with(around("bandwidth_floor", 0.1, 4.0))},
-          .settle = settle_bayes,
+          .apply = apply_bayes,
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<MeasurementOnly>(*setup.model->measurement,
                                                      at_rate(*entry.config, setup.sample_rate));
           },
-          .lanes = measurement_only_lanes};
+          .lanes = measurement_only_batch};
 }
 
 EstimatorEntry phase_entry() {
@@ -194,17 +194,17 @@ EstimatorEntry phase_entry() {
           .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
           .phase = config,
           .fit = fit_phase,
-          .learns_from_pieces = true,
-          .choices = {fitted_with(around("torque_bandwidth", config.fit.torque_bandwidth, 4.0)),
+          .learns_from_segments = true,
+          .hyperparameters = {fitted_with(around("torque_bandwidth", config.fit.torque_bandwidth, 4.0)),
                       fitted_with(
                           around("acceleration_bandwidth", config.fit.acceleration_bandwidth, 4.0)),
                       between("leave_below", config.leave_below, 0.05, 0.5),
                       between("return_above", config.return_above, 0.5, 0.95)},
-          .settle = settle_phase,
+          .apply = apply_phase,
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<PhaseFilter>(phase_filter(entry, setup));
           },
-          .lanes = phase_lanes};
+          .lanes = phase_simd_width};
 }
 
 EstimatorEntry hmm_entry() {
@@ -237,11 +237,11 @@ EstimatorEntry neural_entry() {
           .summary = "the paper's neural measurement network: IMU, joints and command, no torques",
           .sensors = {.acceleration = true, .joint_position = true, .joint_velocity = true},
           .trained_by = "touchdown train",
-          .choices = {between("threshold", NeuralEstimatorConfig{}.threshold, 0.2, 0.95)},
+          .hyperparameters = {between("threshold", NeuralEstimatorConfig{}.threshold, 0.2, 0.95)},
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
             return std::make_unique<NeuralEstimator>(network(entry), neural_config(entry, setup));
           },
-          .lanes = neural_lanes};
+          .lanes = neural_batch};
 }
 
 EstimatorEntry retrained_neural_entry() {

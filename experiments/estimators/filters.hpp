@@ -13,7 +13,7 @@ EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
                            const BayesFilterConfig& config);
 
 /// The rungs between the configurations `paper` and `robust`, in their order
-/// (estimator/bayes/ladder.hpp).
+/// (estimator/bayes/ablation.hpp).
 std::vector<EstimatorEntry> entries_from_paper_to_robust();
 
 /// The paper's ablation: the robust measurement model without transitions.

@@ -16,13 +16,13 @@ namespace touchdown::experiments {
 
 FitRuns FitRuns::together() const {
   FitRuns all = *this;
-  all.whole.insert(all.whole.end(), pieces.begin(), pieces.end());
-  all.pieces.clear();
+  all.whole.insert(all.whole.end(), segments.begin(), segments.end());
+  all.segments.clear();
   return all;
 }
 
 LegGeometry legs_of(const FitRuns& runs) {
-  for (const auto* group : {&runs.whole, &runs.pieces}) {
+  for (const auto* group : {&runs.whole, &runs.segments}) {
     if (!group->empty()) return group->front()->legs;
   }
   return {};

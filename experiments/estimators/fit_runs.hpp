@@ -21,7 +21,7 @@ struct RunSignals;
 struct FitRuns {
   std::vector<const RunSignals*> whole;
   /// Cut from other runs, for those that learn from pieces; there may be none.
-  std::vector<const RunSignals*> pieces = {};
+  std::vector<const RunSignals*> segments = {};
   scoring::ScoringConfig scoring = {};  ///< how much of the beginning of a whole run is not used
   /// Called before whatever takes long: what it throws ends the fit.
   std::function<void()> before_density = {};

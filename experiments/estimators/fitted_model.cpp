@@ -14,7 +14,7 @@
 
 namespace touchdown::experiments {
 
-ModelPassport new_passport(const std::string& estimator, const FittedTo& fitted_to) {
+ModelMetadata new_metadata(const std::string& estimator, const FittedTo& fitted_to) {
   return {
       .estimator = estimator,
       .sample_rate = fitted_to.sample_rate,
@@ -25,24 +25,24 @@ ModelPassport new_passport(const std::string& estimator, const FittedTo& fitted_
       .fingerprint = {}};
 }
 
-Constants constants_of(const std::vector<std::string>& assignments) {
-  Constants constants;
+HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignments) {
+  HyperparameterValues hyperparameters;
   for (const std::string& one : assignments) {
     const std::size_t equals = std::min(one.find('='), one.size());
     const std::optional<double> value =
         equals < one.size() ? number_of(one.substr(equals + 1)) : std::nullopt;
     if (equals == 0 || !value)
       throw InputError(fmt::format("{}: expected name=number, as in leave_below=0.25", one));
-    constants[one.substr(0, equals)] = *value;
+    hyperparameters[one.substr(0, equals)] = *value;
   }
-  return constants;
+  return hyperparameters;
 }
 
-void put_into(ModelPassport& passport, const Constants& constants) {
-  for (const auto& [name, value] : constants) {
+void put_into(ModelMetadata& metadata, const HyperparameterValues& hyperparameters) {
+  for (const auto& [name, value] : hyperparameters) {
     const bool is_known =
-        passport.configuration.contains(name) || !makes_estimator(passport.estimator);
-    if (is_known) passport.configuration[name] = text_of(value);
+        metadata.configuration.contains(name) || !makes_estimator(metadata.estimator);
+    if (is_known) metadata.configuration[name] = text_of(value);
   }
 }
 
@@ -59,15 +59,15 @@ FittedModel read_fitted_model(ModelKind kind, const std::filesystem::path& path)
   FittedModel model;
   switch (kind) {
     case ModelKind::measurement:
-      model.measurement = recordings::read_measurement_model(path, &model.passport);
+      model.measurement = recordings::read_measurement_model(path, &model.metadata);
       break;
     case ModelKind::phase:
       model.phase = std::make_shared<const recordings::PhaseModelFile>(
-          recordings::read_phase_model(path, &model.passport));
+          recordings::read_phase_model(path, &model.metadata));
       break;
     case ModelKind::parameters:
       model.parameters = std::make_shared<const recordings::ParameterModelFile>(
-          recordings::read_parameter_model(path, &model.passport));
+          recordings::read_parameter_model(path, &model.metadata));
       break;
   }
   return model;
@@ -75,10 +75,10 @@ FittedModel read_fitted_model(ModelKind kind, const std::filesystem::path& path)
 
 void write_fitted_model(const FittedModel& model, const std::filesystem::path& path) {
   if (model.measurement) {
-    recordings::write_measurement_model(*model.measurement, path, model.passport);
+    recordings::write_measurement_model(*model.measurement, path, model.metadata);
   }
-  if (model.phase) recordings::write_phase_model(*model.phase, path, model.passport);
-  if (model.parameters) recordings::write_parameter_model(*model.parameters, path, model.passport);
+  if (model.phase) recordings::write_phase_model(*model.phase, path, model.metadata);
+  if (model.parameters) recordings::write_parameter_model(*model.parameters, path, model.metadata);
 }
 
 }  // namespace touchdown::experiments

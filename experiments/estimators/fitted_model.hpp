@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "estimator/bayes/measurement_model.hpp"
-#include "estimator/models/passport.hpp"
+#include "estimator/models/metadata.hpp"
 #include "experiments/estimators/fit_runs.hpp"
 #include "recordings/models/parameter_model.hpp"
 #include "recordings/models/phase_model.hpp"
 
 namespace touchdown::experiments {
 
-/// Constants of an estimator that are not its defaults, by name.
-using Constants = std::map<std::string, double>;
+/// HyperparameterValues of an estimator that are not its defaults, by name.
+using HyperparameterValues = std::map<std::string, double>;
 
 /// What an estimator was fitted with: one of the three, and what it says about itself; files that
 /// are older than passports, or come from elsewhere, say nothing.
@@ -24,21 +24,21 @@ struct FittedModel {
   std::optional<MeasurementModel> measurement = {};
   std::shared_ptr<const recordings::PhaseModelFile> phase = {};
   std::shared_ptr<const recordings::ParameterModelFile> parameters = {};
-  std::optional<ModelPassport> passport = {};
+  std::optional<ModelMetadata> metadata = {};
   /// That the estimator was fitted, and is run, with; empty: its defaults. All that there is for
   /// one that is tuned and not fitted. No part of a file.
-  Constants constants = {};
+  HyperparameterValues hyperparameters = {};
 };
 
 /// The passport of a model that is fitted now.
-ModelPassport new_passport(const std::string& estimator, const FittedTo& fitted_to);
+ModelMetadata new_metadata(const std::string& estimator, const FittedTo& fitted_to);
 
 /// Of "name=number" each. Errors: `InputError` for anything else.
-Constants constants_of(const std::vector<std::string>& assignments);
+HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignments);
 
 /// Puts constants where the passport's configuration has them; of an estimator that the library
 /// does not make, all of them.
-void put_into(ModelPassport& passport, const Constants& constants);
+void put_into(ModelMetadata& metadata, const HyperparameterValues& hyperparameters);
 
 /// Models by engine that was fitted on, then by estimator. Estimators that need the same model
 /// share it.

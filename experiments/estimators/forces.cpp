@@ -49,7 +49,7 @@ EstimatorEntry support_force_entry() {
           .title = "Support force",
           .summary = "a threshold on each wheel's load, from its leg's torques and geometry",
           .sensors = of_a_load,
-          .choices = {around("contact", SupportForceConfig{}.contact, 4.0),
+          .hyperparameters = {around("contact", SupportForceConfig{}.contact, 4.0),
                       between("release_share", 0.5, 0.2, 0.95),
                       around("low_pass", SupportForceConfig{}.low_pass, 5.0)},
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
@@ -69,7 +69,7 @@ EstimatorEntry load_logistic_entry() {
           .summary = "each wheel's load through a logistic curve (Camurri et al. 2017, on wheels)",
           .sensors = of_a_load,
           .fit = fit_logistic_curve,
-          .choices = {between("threshold", LoadLogisticConfig{}.threshold, 0.1, 0.95),
+          .hyperparameters = {between("threshold", LoadLogisticConfig{}.threshold, 0.1, 0.95),
                       fitted_with(around("low_pass", LoadLogisticConfig{}.low_pass, 5.0))},
           .make = make_load_logistic};
 }
@@ -85,7 +85,7 @@ EstimatorEntry force_kinematics_entry() {
           "on wheels)",
       .sensors = sensors,
       .fit = fit_wheel_states,
-      .choices = {between("threshold", ForceKinematicsConfig{}.threshold, 0.1, 0.95),
+      .hyperparameters = {between("threshold", ForceKinematicsConfig{}.threshold, 0.1, 0.95),
                   fitted_with(around("low_pass", ForceKinematicsConfig{}.low_pass, 5.0)),
                   fitted_with(around("leak", ForceKinematicsConfig{}.leak, 4.0))},
       .make = make_force_kinematics};

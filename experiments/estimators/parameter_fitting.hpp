@@ -22,8 +22,8 @@ FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs,
 /// listened to, where they are known.
 template <typename Config>
 Config configured(Config config, const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  const std::optional<ModelPassport>& passport = setup.model->passport;
-  if (passport && passport->estimator == entry.name) configure(config, passport->configuration);
+  const std::optional<ModelMetadata>& metadata = setup.model->metadata;
+  if (metadata && metadata->estimator == entry.name) configure(config, metadata->configuration);
   if (setup.legs) config.geometry = *setup.legs;
   return config;
 }

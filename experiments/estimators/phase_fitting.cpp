@@ -55,7 +55,7 @@ recordings::PhaseModelFile fit_phases(std::span<const RunSignals* const> runs,
                                       const PhaseFitConfig& config, double skip,
                                       const std::function<void()>& before_density) {
   if (runs.empty()) throw InputError("phase filter: there is no run to fit to");
-  std::vector<PhaseFitRun> pieces;
+  std::vector<PhaseFitRun> segments;
   std::list<std::vector<Signals>> mended;
   for (const RunSignals* run : runs) {
     check_may_be_fitted(run->info);
@@ -64,13 +64,13 @@ recordings::PhaseModelFile fit_phases(std::span<const RunSignals* const> runs,
     }
     const bool needs_mending = !std::all_of(run->signals.begin(), run->signals.end(), is_whole);
     if (needs_mending) mended.push_back(without_gaps(run->signals));
-    pieces.push_back({needs_mending ? mended.back() : run->signals,
+    segments.push_back({needs_mending ? mended.back() : run->signals,
                       {WheelContact(run->contact[0]), WheelContact(run->contact[1])},
                       may_be_held(run->info),
                       {run->normal_force[0], run->normal_force[1]},
                       skipped_steps(*run, skip)});
   }
-  return {fit_phase_model(pieces, 1.0 / period_of(*runs.front()), config, before_density),
+  return {fit_phase_model(segments, 1.0 / period_of(*runs.front()), config, before_density),
           provenance_of("phase", runs, skip)};
 }
 

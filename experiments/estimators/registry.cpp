@@ -19,13 +19,13 @@ namespace touchdown::experiments {
 namespace {
 
 /// Who is there, and whether somebody lets them in.
-struct GuestBook {
+struct ExternalEstimatorTable {
   std::mutex mutex;
-  std::optional<std::vector<EstimatorEntry>> guests;
+  std::optional<std::vector<EstimatorEntry>> external_estimators;
 };
 
-GuestBook& guest_book() {
-  static GuestBook book;
+ExternalEstimatorTable& external_estimator_table() {
+  static ExternalEstimatorTable book;
   return book;
 }
 
@@ -76,18 +76,18 @@ std::span<const EstimatorEntry> estimator_entries() {
 std::vector<std::string> estimator_names() {
   std::vector<std::string> names;
   for (const EstimatorEntry& entry : estimator_entries()) names.push_back(entry.name);
-  const std::scoped_lock lock(guest_book().mutex);
-  if (!guest_book().guests) return names;
-  for (const EstimatorEntry& guest : *guest_book().guests) names.push_back(guest.name);
+  const std::scoped_lock lock(external_estimator_table().mutex);
+  if (!external_estimator_table().external_estimators) return names;
+  for (const EstimatorEntry& guest : *external_estimator_table().external_estimators) names.push_back(guest.name);
   return names;
 }
 
 const EstimatorEntry& estimator_entry(std::string_view name) {
   if (const EstimatorEntry* own = find(estimator_entries(), name)) return *own;
   {
-    const std::scoped_lock lock(guest_book().mutex);
-    const auto& guests = guest_book().guests;
-    if (const EstimatorEntry* guest = guests ? find(*guests, name) : nullptr) return *guest;
+    const std::scoped_lock lock(external_estimator_table().mutex);
+    const auto& external_estimators = external_estimator_table().external_estimators;
+    if (const EstimatorEntry* guest = external_estimators ? find(*external_estimators, name) : nullptr) return *guest;
   }
   const std::string near = nearest(name, estimator_names());
   throw InputError(fmt::format("unknown estimator '{}': expected one of {}{}", name,
@@ -95,29 +95,29 @@ const EstimatorEntry& estimator_entry(std::string_view name) {
                                near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
 }
 
-bool is_ceiling(std::string_view estimator) {
+bool is_upper_bound(std::string_view estimator) {
   const std::span<const EstimatorEntry> entries = estimator_entries();
   return std::any_of(entries.begin(), entries.end(), [&](const EstimatorEntry& entry) {
-    return entry.is_ceiling && entry.name == estimator;
+    return entry.is_upper_bound && entry.name == estimator;
   });
 }
 
-GuestEstimators::GuestEstimators(std::vector<EstimatorEntry> guests) {
-  for (const EstimatorEntry& guest : guests) {
+ExternalEstimators::ExternalEstimators(std::vector<EstimatorEntry> external_estimators) {
+  for (const EstimatorEntry& guest : external_estimators) {
     if (find(estimator_entries(), guest.name) == nullptr) continue;
     throw InputError(
         fmt::format("the name '{}' is taken by one of touchdown's own estimators", guest.name));
   }
-  const std::scoped_lock lock(guest_book().mutex);
-  if (guest_book().guests) {
+  const std::scoped_lock lock(external_estimator_table().mutex);
+  if (external_estimator_table().external_estimators) {
     throw InputError("an experiment with estimators of its caller runs already");
   }
-  guest_book().guests = std::move(guests);
+  external_estimator_table().external_estimators = std::move(external_estimators);
 }
 
-GuestEstimators::~GuestEstimators() {
-  const std::scoped_lock lock(guest_book().mutex);
-  guest_book().guests.reset();
+ExternalEstimators::~ExternalEstimators() {
+  const std::scoped_lock lock(external_estimator_table().mutex);
+  external_estimator_table().external_estimators.reset();
 }
 
 }  // namespace touchdown::experiments

@@ -19,16 +19,16 @@ std::vector<std::string> estimator_names();
 const EstimatorEntry& estimator_entry(std::string_view name);
 
 /// False for names that are not in the table.
-bool is_ceiling(std::string_view estimator);
+bool is_upper_bound(std::string_view estimator);
 
 /// Estimators that whoever runs an experiment brings along: it can name them while this lives. One
 /// host at a time. Errors: `InputError` while there is another, and for a name that is ours.
-class GuestEstimators {
+class ExternalEstimators {
  public:
-  explicit GuestEstimators(std::vector<EstimatorEntry> guests);
-  ~GuestEstimators();
-  GuestEstimators(const GuestEstimators&) = delete;
-  GuestEstimators& operator=(const GuestEstimators&) = delete;
+  explicit ExternalEstimators(std::vector<EstimatorEntry> external_estimators);
+  ~ExternalEstimators();
+  ExternalEstimators(const ExternalEstimators&) = delete;
+  ExternalEstimators& operator=(const ExternalEstimators&) = delete;
 };
 
 /// What the names of estimators begin with that are written in Python: `python:module.Class`.

@@ -22,21 +22,21 @@ struct Job {
   FittedModel model;
 };
 
-const Constants& constants_of(const ChosenConstants& chosen, const std::string& simulator,
+const HyperparameterValues& hyperparameters_of(const TunedHyperparameters& chosen, const std::string& simulator,
                               const std::string& estimator) {
-  static const Constants defaults;
+  static const HyperparameterValues defaults;
   const auto engine = chosen.find(simulator);
   if (engine == chosen.end()) return defaults;
   const auto found = engine->second.find(estimator);
   return found == engine->second.end() ? defaults : found->second;
 }
 
-std::vector<Job> jobs_of(const Experiment& experiment, const ChosenConstants& chosen) {
+std::vector<Job> jobs_of(const Experiment& experiment, const TunedHyperparameters& chosen) {
   std::vector<Job> jobs;
   for (const std::string& simulator : experiment.simulators) {
     for (const std::string& name : experiment.estimators) {
       EstimatorEntry entry =
-          with_constants(estimator_entry(name), constants_of(chosen, simulator, name));
+          with_hyperparameters(estimator_entry(name), hyperparameters_of(chosen, simulator, name));
       if (!entry.fits()) continue;
       const auto same = std::find_if(jobs.begin(), jobs.end(), [&](const Job& job) {
         return job.simulator == simulator && share_model(job.entry, entry);
@@ -53,10 +53,10 @@ std::vector<Job> jobs_of(const Experiment& experiment, const ChosenConstants& ch
 
 }  // namespace
 
-ChosenConstants or_given(ChosenConstants chosen, const Experiment& experiment) {
+TunedHyperparameters or_given(TunedHyperparameters chosen, const Experiment& experiment) {
   for (const std::string& simulator : experiment.simulators) {
-    for (const auto& [name, constants] : experiment.constants) {
-      chosen[simulator].try_emplace(name, constants);
+    for (const auto& [name, hyperparameters] : experiment.hyperparameters) {
+      chosen[simulator].try_emplace(name, hyperparameters);
     }
   }
   return chosen;
@@ -72,34 +72,34 @@ std::vector<const RunSignals*> of_engine(const std::vector<RunSignals>& runs,
 }
 
 FittedModel fit_model(const EstimatorEntry& entry, const FitRuns& runs) {
-  for (const auto* group : {&runs.whole, &runs.pieces}) {
+  for (const auto* group : {&runs.whole, &runs.segments}) {
     for (const RunSignals* run : *group) check_may_be_fitted(run->info);
   }
   return entry.fit(entry, runs);
 }
 
-ModelPassport new_passport(const std::string& estimator, const FitRuns& runs,
-                           const Constants& constants) {
+ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,
+                           const HyperparameterValues& hyperparameters) {
   FittedTo fitted_to;
   fitted_to.legs = legs_of(runs);
-  for (const auto* group : {&runs.whole, &runs.pieces}) {
+  for (const auto* group : {&runs.whole, &runs.segments}) {
     for (const RunSignals* run : *group) fitted_to.add(run->info);
   }
-  ModelPassport passport = new_passport(estimator, fitted_to);
-  put_into(passport, constants);
-  return passport;
+  ModelMetadata metadata = new_metadata(estimator, fitted_to);
+  put_into(metadata, hyperparameters);
+  return metadata;
 }
 
 FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
-                        const std::vector<RunSignals>& pieces,
-                        const std::function<bool()>& going_on, const ChosenConstants& of_tuning) {
-  const ChosenConstants chosen = or_given(of_tuning, experiment);
+                        const std::vector<RunSignals>& segments,
+                        const std::function<bool()>& should_continue, const TunedHyperparameters& of_tuning) {
+  const TunedHyperparameters chosen = or_given(of_tuning, experiment);
   std::vector<Job> jobs = jobs_of(experiment, chosen);
   const auto or_stop = [&] {
-    if (going_on && !going_on()) throw Stopped();
+    if (should_continue && !should_continue()) throw Stopped();
   };
   const auto runs_of = [&](const std::string& simulator) {
-    return FitRuns{of_engine(fit_runs, simulator), of_engine(pieces, simulator), experiment.scoring,
+    return FitRuns{of_engine(fit_runs, simulator), of_engine(segments, simulator), experiment.scoring,
                    or_stop};
   };
   Progress progress("fitting", "models", static_cast<std::int64_t>(jobs.size()));
@@ -115,14 +115,14 @@ FittedModels fit_models(const Experiment& experiment, const std::vector<RunSigna
   });
   FittedModels models;
   for (const auto& [simulator, by_estimator] : chosen) {
-    for (const auto& [name, constants] : by_estimator)
-      models[simulator][name].constants = constants;
+    for (const auto& [name, hyperparameters] : by_estimator)
+      models[simulator][name].hyperparameters = hyperparameters;
   }
   for (Job& job : jobs) {
     const FitRuns runs = runs_of(job.simulator);
     for (const std::string& name : job.estimators) {
-      job.model.constants = constants_of(chosen, job.simulator, name);
-      job.model.passport = new_passport(name, runs, job.model.constants);
+      job.model.hyperparameters = hyperparameters_of(chosen, job.simulator, name);
+      job.model.metadata = new_metadata(name, runs, job.model.hyperparameters);
       models[job.simulator].insert_or_assign(name, job.model);
     }
   }

@@ -9,11 +9,11 @@ namespace touchdown::experiments {
 
 EstimatorEntry entry_of(const Condition& condition, const FittedModels& models) {
   const EstimatorEntry& entry = estimator_entry(condition.estimator);
-  if (entry.choices.empty()) return entry;
+  if (entry.hyperparameters.empty()) return entry;
   const auto fit = models.find(model_key(condition.fit_simulator, condition.fit, condition.refit));
   if (fit == models.end()) return entry;
   const auto model = fit->second.find(condition.estimator);
-  return model == fit->second.end() ? entry : with_constants(entry, model->second.constants);
+  return model == fit->second.end() ? entry : with_hyperparameters(entry, model->second.hyperparameters);
 }
 
 EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,
@@ -36,9 +36,9 @@ std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
   return entry.make(entry, setup_of(condition, models, run));
 }
 
-Listener listener_of(const Condition& condition, const FittedModels& models,
+EstimatorRunner runner_of(const Condition& condition, const FittedModels& models,
                      const RunSignals& run) {
-  return listener_of(entry_of(condition, models), setup_of(condition, models, run));
+  return runner_of(entry_of(condition, models), setup_of(condition, models, run));
 }
 
 }  // namespace touchdown::experiments

@@ -22,6 +22,6 @@ std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
                                                  const FittedModels& models, const RunSignals& run);
 
 /// Likewise, however it listens.
-Listener listener_of(const Condition& condition, const FittedModels& models, const RunSignals& run);
+EstimatorRunner runner_of(const Condition& condition, const FittedModels& models, const RunSignals& run);
 
 }  // namespace touchdown::experiments

@@ -17,7 +17,7 @@ namespace {
 /// The estimator that such a model is usually for: whom it was fitted for, or else the first that
 /// is fitted with one.
 const EstimatorEntry& usual_estimator(ModelKind kind, const FittedModel& model) {
-  if (model.passport) return estimator_entry(model.passport->estimator);
+  if (model.metadata) return estimator_entry(model.metadata->estimator);
   if (model.parameters) return estimator_entry(model.parameters->estimator);
   const std::span<const EstimatorEntry> all = estimator_entries();
   return *std::find_if(all.begin(), all.end(),
@@ -27,7 +27,7 @@ const EstimatorEntry& usual_estimator(ModelKind kind, const FittedModel& model) 
 std::string described(ModelKind kind, const FittedModel& model, const EstimatorEntry& usual,
                       const EstimatorEntry& entry) {
   if (kind == ModelKind::parameters) return fmt::format("a model of '{}'", usual.name);
-  if (kind == entry.fits() && model.passport) return fmt::format("a model of '{}'", usual.name);
+  if (kind == entry.fits() && model.metadata) return fmt::format("a model of '{}'", usual.name);
   if (kind == ModelKind::phase) return "a phase model";
   return entry.fits() == ModelKind::phase ? "no phase model" : "a model of torques' densities";
 }
@@ -46,7 +46,7 @@ void check_parameters(const EstimatorEntry& entry, const FittedModel& model,
 void check_fit(const EstimatorEntry& entry, ModelKind kind, const FittedModel& model,
                const std::filesystem::path& path) {
   const EstimatorEntry& usual = usual_estimator(kind, model);
-  const bool is_told = kind == ModelKind::parameters || model.passport;
+  const bool is_told = kind == ModelKind::parameters || model.metadata;
   if (is_told ? share_model(entry, usual) : kind == entry.fits()) return;
   throw InputError(fmt::format("{}: is {}, which '{}' cannot use (did you mean --estimator {}?)",
                                path.string(), described(kind, model, usual, entry), entry.name,
@@ -72,16 +72,16 @@ void check_needs(const EstimatorEntry& entry, const std::filesystem::path& model
 /// The entry as its own model's passport says it is run.
 EstimatorEntry configured(EstimatorEntry entry, const FittedModel& model,
                           const std::filesystem::path& path) {
-  if (!model.passport || model.passport->estimator != entry.name) return entry;
+  if (!model.metadata || model.metadata->estimator != entry.name) return entry;
   try {
     if (entry.config) {
-      entry.config->sample_rate = model.passport->sample_rate;
-      configure(*entry.config, model.passport->configuration);
+      entry.config->sample_rate = model.metadata->sample_rate;
+      configure(*entry.config, model.metadata->configuration);
     }
-    if (entry.phase) configure(*entry.phase, model.passport->configuration);
-    for (Choice& choice : entry.choices) {
-      const auto said = model.passport->configuration.find(choice.name);
-      if (said == model.passport->configuration.end()) continue;
+    if (entry.phase) configure(*entry.phase, model.metadata->configuration);
+    for (Hyperparameter& choice : entry.hyperparameters) {
+      const auto said = model.metadata->configuration.find(choice.name);
+      if (said == model.metadata->configuration.end()) continue;
       choice.value = number_of(said->second).value_or(choice.value);
     }
   } catch (const InputError& error) {
@@ -94,9 +94,9 @@ EstimatorEntry configured(EstimatorEntry entry, const FittedModel& model,
 
 std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
                                                      const recordings::RecordingInfo& log) const {
-  if (model.passport && !request.transfer) {
+  if (model.metadata && !request.transfer) {
     try {
-      check_use(*model.passport,
+      check_use(*model.metadata,
                 {.sample_rate = sample_rate,
                  .robot = request.robot.name.empty() ? robot_of(log) : request.robot.name});
     } catch (const InputError& error) {
@@ -111,14 +111,14 @@ std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
 
 std::string LogEstimator::model_text() const {
   if (request.model.empty()) return {};
-  if (!model.passport) {
+  if (!model.metadata) {
     return fmt::format("{}: has no passport, being older or from elsewhere: taken for '{}'",
                        request.model.string(), entry.name);
   }
-  const ModelPassport& passport = *model.passport;
+  const ModelMetadata& metadata = *model.metadata;
   return fmt::format("{}: fitted for '{}' at {:.6g} Hz to {}, fingerprint {}",
-                     request.model.string(), passport.estimator, passport.sample_rate,
-                     robot_text(passport.robot), passport.fingerprint);
+                     request.model.string(), metadata.estimator, metadata.sample_rate,
+                     robot_text(metadata.robot), metadata.fingerprint);
 }
 
 LogEstimator log_estimator(LogEstimatorRequest request) {
@@ -129,8 +129,8 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
                                       ? usual_estimator(ModelKind::measurement, none)
                                       : estimator_entry(request.name);
     check_needs(entry, request.model);
-    check_names(request.constants, entry);
-    return {with_constants(entry, request.constants), none, request};
+    check_names(request.hyperparameters, entry);
+    return {with_hyperparameters(entry, request.hyperparameters), none, request};
   }
   request.model = find_resource(request.model);
   const ModelKind kind = kind_of_model_file(request.model);
@@ -139,15 +139,15 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
       request.name.empty() ? usual_estimator(kind, model) : estimator_entry(request.name);
   check_fit(entry, kind, model, request.model);
   if (kind == ModelKind::parameters) check_parameters(entry, model, request.model);
-  check_names(request.constants, entry);
-  for (const Choice& choice : entry.choices) {
-    if (!choice.is_fitted_with || !request.constants.contains(choice.name)) continue;
+  check_names(request.hyperparameters, entry);
+  for (const Hyperparameter& choice : entry.hyperparameters) {
+    if (!choice.is_fitted_with || !request.hyperparameters.contains(choice.name)) continue;
     throw InputError(fmt::format("'{0}' is decided by the fit: touchdown fit --set {0}={1}",
-                                 choice.name, text_of(request.constants.at(choice.name))));
+                                 choice.name, text_of(request.hyperparameters.at(choice.name))));
   }
   EstimatorEntry own = configured(entry, model, request.model);
-  if (model.passport) put_into(*model.passport, request.constants);
-  return {with_constants(std::move(own), request.constants), std::move(model), std::move(request)};
+  if (model.metadata) put_into(*model.metadata, request.hyperparameters);
+  return {with_hyperparameters(std::move(own), request.hyperparameters), std::move(model), std::move(request)};
 }
 
 }  // namespace touchdown::experiments

@@ -18,7 +18,7 @@ struct LogEstimatorRequest {
   LogRobot robot = {};               ///< whose logs they are; its legs before the model's
   /// At other rates and on other robots than it was fitted for, too.
   bool transfer = false;
-  Constants constants = {};  ///< instead of the model's; of those that its fit did not need
+  HyperparameterValues hyperparameters = {};  ///< instead of the model's; of those that its fit did not need
 };
 
 /// An estimator for logs: which one, and what it was fitted with.

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "estimator/bayes/measurement_fit.hpp"
 #include "estimator/signal_guard.hpp"
-#include "experiments/logs/listener.hpp"
+#include "experiments/logs/log_steps.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "scoring/labels.hpp"
@@ -34,8 +34,8 @@ void note_end(const recordings::LogReader& reader, const LogFitConfig& config,
 }
 
 /// At which rate the log is heard, and whose it is.
-void note_rate(const LogListener& listener, recordings::RecordingInfo info, LogFitReport& report) {
-  info.control_period_us = listener.period_us();
+void note_rate(const LogSteps& runner, recordings::RecordingInfo info, LogFitReport& report) {
+  info.control_period_us = runner.period_us();
   report.fitted_to.add(info);
 }
 
@@ -44,7 +44,7 @@ using Sink = std::function<void(bool contact, const TorqueSample& sample)>;
 /// Samples of one leg on their way to the fit: they wait for their labels.
 class Leg {
  public:
-  Leg(const TorqueConfig& config, Side side, const LogListener& log,
+  Leg(const TorqueConfig& config, Side side, const LogSteps& log,
       const scoring::LabelConfig& labels, Sink sink)
       : channel_(config, side, log.sample_rate()),
         sink_(std::move(sink)),
@@ -140,19 +140,19 @@ void check_truth(const FitLog& log, const LogStep& step) {
 void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitConfig& config,
               const Sink& sink, LogFitReport& report) {
   recordings::LogReader reader = reader_of(log, config);
-  LogListener listener(reader, log.labels.get());
+  LogSteps runner(reader, log.labels.get());
   check_may_be_fitted(reader.info());
-  note_rate(listener, reader.info(), report);
+  note_rate(runner, reader.info(), report);
   const TorqueConfig& torque = filter.measurement.torque;
   std::array<Leg, models::wheel_count> legs = {
-      Leg(torque, Side::left, listener, config.labels, sink),
-      Leg(torque, Side::right, listener, config.labels, sink)};
-  const auto skipped = std::llround(config.skip / listener.period());
+      Leg(torque, Side::left, runner, config.labels, sink),
+      Leg(torque, Side::right, runner, config.labels, sink)};
+  const auto skipped = std::llround(config.skip / runner.period());
   double before = NAN;
   std::int64_t k = 0;
   std::int64_t used = 0;
   Declared declared(log, config);
-  for (; const LogStep* step = listener.next(); ++k) {
+  for (; const LogStep* step = runner.next(); ++k) {
     check_truth(log, *step);
     declared.add(*step);
     const bool is_used = k >= skipped && (!log.labels || step->normal_force);
@@ -171,7 +171,7 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
   declared.check();
   check_labelled(log, used, before);
   for (Leg& leg : legs) leg.finish();
-  report.seconds += static_cast<double>(used) * listener.period();
+  report.seconds += static_cast<double>(used) * runner.period();
 }
 
 /// How many samples there are without contact, and in contact.
@@ -280,10 +280,10 @@ class HeardRun {
 void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep check,
                      LogFitReport& report, std::vector<RunSignals>& runs) {
   recordings::LogReader reader = reader_of(log, config);
-  LogListener listener(reader, log.labels.get());
+  LogSteps runner(reader, log.labels.get());
   recordings::RecordingInfo info = reader.info();
-  info.control_period_us = listener.period_us();
-  note_rate(listener, info, report);
+  info.control_period_us = runner.period_us();
+  note_rate(runner, info, report);
   Declared declared(log, config);
   std::optional<HeardRun> run;
   const auto finish = [&] {
@@ -292,7 +292,7 @@ void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep ch
   };
   std::int64_t used = 0;
   double last_time = 0.0;
-  while (const LogStep* step = listener.next()) {
+  while (const LogStep* step = runner.next()) {
     last_time = step->signals.time;
     if (log.labels && !step->normal_force) {
       finish();
@@ -381,12 +381,12 @@ FittedModel fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
 
 FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                         const LogFitConfig& config, LogFitReport& report) {
-  check_names(config.constants, entry);
-  FittedModel model = fit_model(with_constants(entry, config.constants), logs, config, report);
+  check_names(config.hyperparameters, entry);
+  FittedModel model = fit_model(with_hyperparameters(entry, config.hyperparameters), logs, config, report);
   if (!config.robot.name.empty()) report.fitted_to.robots = {config.robot.name};
   report.fitted_to.legs = config.robot.legs.value_or(LegGeometry{});
-  model.passport = new_passport(entry.name, report.fitted_to);
-  put_into(*model.passport, config.constants);
+  model.metadata = new_metadata(entry.name, report.fitted_to);
+  put_into(*model.metadata, config.hyperparameters);
   return model;
 }
 

@@ -32,7 +32,7 @@ struct LogFitConfig {
   scoring::LabelConfig labels;  ///< of logs with ground truth
   double skip = 0.3;            ///< not used at the beginning of each log (s)
   LogRobot robot = {};          ///< whose logs they are; without legs: Upkie's
-  Constants constants = {};     ///< of the estimator, instead of its defaults
+  HyperparameterValues hyperparameters = {};     ///< of the estimator, instead of its defaults
   /// Stops with `Stopped` once true; may be null.
   const std::atomic<bool>* stop = nullptr;
 };

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "experiments/logs/listener.hpp"
+#include "experiments/logs/log_steps.hpp"
 #include "scoring/score_stream.hpp"
 
 namespace touchdown::experiments {
@@ -12,9 +12,9 @@ namespace touchdown::experiments {
 /// it: each of those is scored as a run, without what `scoring.skip` leaves out of the log.
 class LogScore {
  public:
-  /// `of_stretches`: the truth may be known of a part of the log; otherwise of all or nothing.
+  /// `segment_counts`: the truth may be known of a part of the log; otherwise of all or nothing.
   LogScore(std::int64_t period_us, const scoring::LabelConfig& labels,
-           const scoring::ScoringConfig& scoring, bool of_stretches);
+           const scoring::ScoringConfig& scoring, bool segment_counts);
 
   void add(const LogStep& step, const Belief& belief);
 
@@ -22,15 +22,15 @@ class LogScore {
   std::optional<scoring::RobotScore> finish();
 
  private:
-  void end_stretch();
+  void end_segment();
 
   std::int64_t period_us_;
   scoring::LabelConfig labels_;
   scoring::ScoringConfig scoring_;
-  bool of_stretches_;
+  bool segment_counts_;
   bool is_scored_ = true;
   std::int64_t steps_ = 0;
-  std::optional<scoring::ScoreStream> stretch_;
+  std::optional<scoring::ScoreStream> duration_;
   std::optional<scoring::RobotScore> total_;
 };
 

@@ -26,15 +26,15 @@ ContactTrack labels_late(const RunSignals& run, std::size_t steps) {
 
 std::vector<std::string> oracle_names(const OdometryStudyConfig& config) {
   std::vector<std::string> names = {"truth"};
-  for (const double late : config.late) names.push_back(fmt::format("truth_{}ms_late", 1e3 * late));
+  for (const double delay : config.delay) names.push_back(fmt::format("truth_{}ms_late", 1e3 * delay));
   return names;
 }
 
 std::vector<ContactTrack> oracle_tracks(const OdometryStudyConfig& config, const RunSignals& run) {
   const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
   std::vector<ContactTrack> tracks = {labels_late(run, 0)};
-  for (const double late : config.late) {
-    tracks.push_back(labels_late(run, static_cast<std::size_t>(std::llround(late / period))));
+  for (const double delay : config.delay) {
+    tracks.push_back(labels_late(run, static_cast<std::size_t>(std::llround(delay / period))));
   }
   return tracks;
 }

@@ -19,7 +19,7 @@ scoring::Trajectory dead_reckoned(const RunSignals& run, const NoiseRun& noise,
   scoring::Trajectory way;
   way.reserve(run.steps());
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (is_heard(run.signals[k])) {
+    if (has_record(run.signals[k])) {
       const Signals heard = noisy(run, noise, levels, k);
       filter.update({.time = heard.time,
                      .angular_velocity = heard.angular_velocity,

@@ -19,11 +19,11 @@ struct Condition {
   int refit = 0;         ///< 0: to all of its runs; else to the so-manieth draw from them
 
   /// Whether it was fitted where it is tested, with the fit that is at home there.
-  bool is_fitted_here(std::string_view own_fit = {}) const {
-    return refit == 0 && is_fit_of_home(own_fit);
+  bool is_fitted_in_domain(std::string_view own_fit = {}) const {
+    return refit == 0 && is_in_domain(own_fit);
   }
   /// Likewise, or to a draw from the runs of that fit.
-  bool is_fit_of_home(std::string_view own_fit) const {
+  bool is_in_domain(std::string_view own_fit) const {
     return fit_simulator == test_simulator && fit == own_fit;
   }
   friend bool operator==(const Condition&, const Condition&) = default;

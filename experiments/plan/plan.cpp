@@ -15,7 +15,7 @@ namespace {
 
 /// The scenario with the setting's robot; its recordings are named after both.
 scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
-                             const Setting& setting) {
+                             const RobotAndSensors& setting) {
   scenarios::Scenario scene = scenario_of(request, file, setting.robot).scenario;
   if (setting.robot.empty()) return scene;
   scene.name =
@@ -23,8 +23,8 @@ scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
   return scene;
 }
 
-bool learns_from_pieces(const std::string& estimator) {
-  return estimator_entry(estimator).learns_from_pieces;
+bool learns_from_segments(const std::string& estimator) {
+  return estimator_entry(estimator).learns_from_segments;
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::vector<std::size_t> Plan::runs_in(std::size_t group) const {
   return indices;
 }
 
-void plan_runs(const RunRequest& request, RunRole role, const Setting& setting, std::size_t group,
+void plan_runs(const RunRequest& request, RunRole role, const RobotAndSensors& setting, std::size_t group,
                Plan& plan) {
   const Experiment& experiment = request.experiment;
   const bool is_fit = role == RunRole::fit;
@@ -77,11 +77,11 @@ void plan_runs(const RunRequest& request, RunRole role, const Setting& setting, 
   }
 }
 
-void plan_piece_runs(const RunRequest& request, const Setting& setting, std::size_t entry,
+void plan_segment_runs(const RunRequest& request, const RobotAndSensors& setting, std::size_t entry,
                      int first, int end, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const std::uint64_t seed = seed_of_fit(experiment);
-  scenarios::Scenario scene = scene_of(request, experiment.fit_pieces[entry].scenario, setting);
+  scenarios::Scenario scene = scene_of(request, experiment.training_segments[entry].scenario, setting);
   // Models are fitted at the rate at which they listen.
   scene.simulation.steps.control_us =
       scenario_of(request, experiment.test.scenarios.front()).scenario.simulation.steps.control_us;
@@ -95,19 +95,19 @@ void plan_piece_runs(const RunRequest& request, const Setting& setting, std::siz
                            .run = run,
                            .file = recording_name(simulator, scene.name, role, i),
                            .seed = seed,
-                           .group = piece_group(entry),
+                           .group = segment_group(entry),
                            .sensors = setting.sensors,
                            .fit = setting.fit});
     }
   }
 }
 
-void plan_pieces(const RunRequest& request, const Setting& setting, Plan& plan) {
+void plan_segments(const RunRequest& request, const RobotAndSensors& setting, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const auto& names = experiment.estimators;
-  if (std::none_of(names.begin(), names.end(), learns_from_pieces)) return;
-  for (std::size_t entry = 0; entry < experiment.fit_pieces.size(); ++entry) {
-    plan_piece_runs(request, setting, entry, 0, experiment.fit_pieces[entry].runs, plan);
+  if (std::none_of(names.begin(), names.end(), learns_from_segments)) return;
+  for (std::size_t entry = 0; entry < experiment.training_segments.size(); ++entry) {
+    plan_segment_runs(request, setting, entry, 0, experiment.training_segments[entry].runs, plan);
   }
 }
 
@@ -116,7 +116,7 @@ Plan plan_of(const RunRequest& request) {
   Plan plan;
   plan.sensors.front().profile = profile_of(request.sensors, experiment.sensors);
   plan_runs(request, RunRole::fit, {}, 0, plan);
-  plan_pieces(request, {}, plan);
+  plan_segments(request, {}, plan);
   plan_runs(request, RunRole::test, {}, 0, plan);
   plan.groups.push_back({"", own_engine_conditions(experiment),
                          noise::noise_cells(experiment.noise), experiment.highlights});

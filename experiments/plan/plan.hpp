@@ -21,7 +21,7 @@ enum class RunRole : int { fit, test };
 std::string_view to_text(RunRole role);
 
 /// A robot and its sensors, to which estimators are fitted.
-struct Setting {
+struct RobotAndSensors {
   std::string fit = {};     ///< the name of that fit; empty: the experiment's own
   std::string robot = {};   ///< file; empty: each scenario's own
   std::size_t sensors = 0;  ///< index in the plan's
@@ -36,7 +36,7 @@ struct PlannedRun {
   std::string file;              ///< name of its recording
   std::uint64_t seed = 1;        ///< that its perturbations are drawn with
   /// Of test runs: index in the plan's groups. Of fitted ones: 0 for those that are fitted whole,
-  /// `piece_group` for those that are fitted in pieces.
+  /// `segment_group` for those that are fitted in pieces.
   std::size_t group = 0;
   std::size_t sensors = 0;  ///< that it is heard through: index in the plan's
   std::string fit = {};     ///< of fitted runs: the name of the fit that they are for
@@ -57,9 +57,9 @@ struct RunGroup {
   std::vector<noise::NoiseCell> counted;      ///< settings in which every condition is counted
   std::vector<noise::NoiseCell> scored;       ///< settings that are scored in full
   std::vector<DisturbedCell> disturbed = {};  ///< settings that are counted besides
-  bool is_looked_at_closely = false;          ///< whether scored settings get a `CloseScore` too
+  bool has_extended_scores = false;          ///< whether scored settings get a `ExtendedScore` too
   std::string fit = {};  ///< the name of the fit that is at home here; empty: the experiment's own
-  bool scores_guests = false;  ///< whether conditions that were fitted elsewhere are scored as well
+  bool scores_transfer = false;  ///< whether conditions that were fitted elsewhere are scored as well
   /// Whether those at home tell odometry about contact, in the first scored setting.
   std::optional<OdometryStudyConfig> odometry = {};
 
@@ -67,13 +67,13 @@ struct RunGroup {
   std::optional<OperatingPointsConfig> operating_points = {};
 
   bool scores(const Condition& condition) const {
-    return scores_guests || condition.is_fit_of_home(fit);
+    return scores_transfer || condition.is_in_domain(fit);
   }
-  bool tells_odometry(const Condition& condition) const {
-    return odometry && condition.is_fitted_here(fit);
+  bool feeds_odometry(const Condition& condition) const {
+    return odometry && condition.is_fitted_in_domain(fit);
   }
   bool tries_points(const Condition& condition) const {
-    return operating_points && condition.is_fitted_here(fit);
+    return operating_points && condition.is_fitted_in_domain(fit);
   }
   /// A refit is scored alone.
   bool counts(const Condition& condition) const { return !counted.empty() && condition.refit == 0; }
@@ -117,7 +117,7 @@ struct Plan {
 };
 
 /// The group of the fitted runs of one entry of `fit.pieces`.
-constexpr std::size_t piece_group(std::size_t entry) { return 1 + entry; }
+constexpr std::size_t segment_group(std::size_t entry) { return 1 + entry; }
 
 /// Which of the experiment's test scenarios a test run plays.
 std::size_t scene_of(const PlannedRun& run, const Experiment& experiment);
@@ -129,14 +129,14 @@ std::uint64_t seed_of_fit(const Experiment& experiment);
 Plan plan_of(const RunRequest& request);
 
 /// Adds the runs of one role in one setting, in every engine; of test runs, to a group.
-void plan_runs(const RunRequest& request, RunRole role, const Setting& setting, std::size_t group,
+void plan_runs(const RunRequest& request, RunRole role, const RobotAndSensors& setting, std::size_t group,
                Plan& plan);
 
 /// Adds the runs whose pieces are fitted in one setting, where an estimator asks for pieces.
-void plan_pieces(const RunRequest& request, const Setting& setting, Plan& plan);
+void plan_segments(const RunRequest& request, const RobotAndSensors& setting, Plan& plan);
 
 /// Adds the fitted runs `first` to `end` of one entry of `fit.pieces`, in every engine.
-void plan_piece_runs(const RunRequest& request, const Setting& setting, std::size_t entry,
+void plan_segment_runs(const RunRequest& request, const RobotAndSensors& setting, std::size_t entry,
                      int first, int end, Plan& plan);
 
 /// The runs that these tasks listen to, and those that their estimators are fitted to.

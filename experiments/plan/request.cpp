@@ -11,7 +11,7 @@
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/run_directory/occupant.hpp"
+#include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "scenarios/scenario_file.hpp"
 
@@ -57,9 +57,9 @@ std::vector<NamedScenario> scenarios_of(const Experiment& experiment, const Read
   std::vector<NamedScenario> scenarios;
   std::vector<std::string> files = experiment.fit.scenarios;
   files.insert(files.end(), experiment.test.scenarios.begin(), experiment.test.scenarios.end());
-  for (const FitPieces& pieces : experiment.fit_pieces) files.push_back(pieces.scenario);
+  for (const TrainingSegments& segments : experiment.training_segments) files.push_back(segments.scenario);
   if (experiment.closed_loop) {
-    for (const LoopScene& scene : experiment.closed_loop->scenes) files.push_back(scene.scenario);
+    for (const ClosedLoopScene& scene : experiment.closed_loop->scenes) files.push_back(scene.scenario);
   }
   std::vector<std::string> robots = {""};
   if (experiment.benchmark) {
@@ -102,29 +102,29 @@ const NamedScenario& scenario_of(const RunRequest& request, const std::string& f
 std::string state_key(const RunRequest& request) { return key_of(request.id, build_fingerprint()); }
 
 void require_place(const RunRequest& request, const fs::path& directory, bool overwrite) {
-  std::optional<Occupant> occupant = occupant_of(directory);
-  if (!occupant) {
-    require_no_strangers(directory);
-    occupant = occupant_of(directory);  // somebody may have taken it meanwhile
+  std::optional<RunDirectoryOwner> owner = owner_of(directory);
+  if (!owner) {
+    require_no_untracked_files(directory);
+    owner = owner_of(directory);  // somebody may have taken it meanwhile
   }
-  if (!occupant || occupant->request == request.id || overwrite) return;
+  if (!owner || owner->request == request.id || overwrite) return;
   throw InputError(fmt::format(
       "{}: holds experiment '{}' (request {}), and this is '{}' (request {}): choose another --out "
       "or replace it with --overwrite",
-      directory.string(), occupant->name, occupant->request, request.experiment.name, request.id));
+      directory.string(), owner->name, owner->request, request.experiment.name, request.id));
 }
 
 bool is_written(const RunRequest& request, const fs::path& directory) {
-  const std::optional<Occupant> occupant = occupant_of(directory);
+  const std::optional<RunDirectoryOwner> owner = owner_of(directory);
   std::error_code ignored;
-  return occupant && occupant->key == state_key(request) &&
+  return owner && owner->key == state_key(request) &&
          fs::exists(directory / "config.yaml", ignored);
 }
 
 void write_request(const RunRequest& request, const RunDirectory& directory, bool overwrite) {
   require_place(request, directory.path(), overwrite);
-  const std::optional<Occupant> occupant = occupant_of(directory.path());
-  if (occupant && occupant->key != state_key(request)) remove_own_files(directory.path());
+  const std::optional<RunDirectoryOwner> owner = owner_of(directory.path());
+  if (owner && owner->key != state_key(request)) remove_own_files(directory.path());
   // The key is the first: what follows it, half written, is not taken for a stranger's.
   write_atomically(key_file(directory.path()), state_key(request) + "\n");
   for (std::size_t i = 0; i < request.scenarios.size(); ++i) {
@@ -136,11 +136,11 @@ void write_request(const RunRequest& request, const RunDirectory& directory, boo
 }
 
 RunRequest read_request(const fs::path& directory) {
-  const std::optional<Occupant> occupant = occupant_of(directory);
-  if (!occupant || occupant->key.empty()) {
+  const std::optional<RunDirectoryOwner> owner = owner_of(directory);
+  if (!owner || owner->key.empty()) {
     throw InputError(fmt::format("{}: holds no part of an experiment", directory.string()));
   }
-  if (occupant->key != key_of(occupant->request, build_fingerprint())) {
+  if (owner->key != key_of(owner->request, build_fingerprint())) {
     throw InputError(
         fmt::format("{}: was computed by another build of touchdown: run it again with this one",
                     directory.string()));
@@ -158,12 +158,12 @@ RunRequest read_request(const fs::path& directory) {
         return scenario;
       });
   request.id = digest.text();
-  if (request.id != occupant->request) {
+  if (request.id != owner->request) {
     throw InputError(fmt::format(
         "{}: config.yaml, a scenario{} in state or the robot was changed since: they make request "
         "{}, expected {}; undo the change, or run the changed experiment elsewhere",
         directory.string(), request.sensors.empty() ? "" : ", the sensors", request.id,
-        occupant->request));
+        owner->request));
   }
   return request;
 }

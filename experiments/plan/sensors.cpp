@@ -80,7 +80,7 @@ void report_through_sensors(const noise::SensorProfile& profile, const Experimen
   noise::report_through(profile, sensor_key(experiment, run), period, observations);
 }
 
-std::string equipment_text(const Experiment& experiment) {
+std::string setup_caption(const Experiment& experiment) {
   std::string text;
   if (!experiment.robot.empty()) text += "; robot as in " + experiment.robot;
   if (!experiment.sensors.empty()) text += "; sensors as in " + experiment.sensors;

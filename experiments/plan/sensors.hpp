@@ -45,6 +45,6 @@ void report_through_sensors(const noise::SensorProfile& profile, const Experimen
 
 /// What captions say of robot and sensors: "; sensors as in sensors/upkie.yaml"; nothing of ideal
 /// sensors, nor where each scenario has its own robot.
-std::string equipment_text(const Experiment& experiment);
+std::string setup_caption(const Experiment& experiment);
 
 }  // namespace touchdown::experiments

@@ -12,7 +12,7 @@
 #include "core/yaml.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/lock.hpp"
-#include "experiments/run_directory/occupant.hpp"
+#include "experiments/run_directory/owner.hpp"
 
 namespace touchdown::experiments {
 
@@ -29,7 +29,7 @@ struct FixedNames {
 };
 constexpr std::array fixed_names = {
     FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml)"},
-    FixedNames{"state/listening", R"(.+_seed_\d{4,})"},
+    FixedNames{"state/evaluation", R"(.+_seed_\d{4,})"},
     FixedNames{"state/shards", R"(\d+_of_\d+)"},
     FixedNames{"state/tuning", R"(.+_fold_\d+)"},
     FixedNames{"state/foreign", R"([^.].*)"},
@@ -51,7 +51,7 @@ constexpr std::array fixed_names = {
     FixedNames{"checkpoints", R"(\d{4,}\.pt)"}};
 
 /// Every folder that a run makes, the inner ones first.
-constexpr std::array all_folders = {"state/listening", "state/recordings",  "state/shards",
+constexpr std::array all_folders = {"state/evaluation", "state/recordings",  "state/shards",
                                     "state/foreign",   "state/closed_loop", "state/tuning",
                                     "state",           "recordings",        "models",
                                     "tables",          "figures",           "videos",
@@ -192,7 +192,7 @@ void remove_own_files(const fs::path& directory) {
   remove_empty_folders(directory);
 }
 
-Strangers remove_run(const fs::path& directory) {
+UntrackedFiles remove_run(const fs::path& directory) {
   remove_partial_files(directory);
   remove_own_files(directory);
   for (const std::string& file : files_in(directory / "logs")) {
@@ -200,7 +200,7 @@ Strangers remove_run(const fs::path& directory) {
     if (is_log) remove_file(directory / "logs" / file);
   }
   if (is_file(key_file(directory))) remove_file(key_file(directory));
-  Strangers left;
+  UntrackedFiles left;
   for (const auto& entry : fs::recursive_directory_iterator(directory)) {
     const fs::file_type type = entry.symlink_status().type();
     if (type == fs::file_type::directory || entry.path() == lock_file(directory)) continue;

@@ -16,14 +16,14 @@ std::vector<std::filesystem::path> own_files(const std::filesystem::path& direct
 void remove_own_files(const std::filesystem::path& directory);
 
 /// What lies in a run directory and was made by no run.
-struct Strangers {
+struct UntrackedFiles {
   std::size_t files = 0;
   std::uintmax_t bytes = 0;
 };
 
-/// Removes a whole run directory with key, lock and the logs of a cluster. Strangers stay, and then
+/// Removes a whole run directory with key, lock and the logs of a cluster. UntrackedFiles stay, and then
 /// the directory does.
-Strangers remove_run(const std::filesystem::path& directory);
+UntrackedFiles remove_run(const std::filesystem::path& directory);
 
 /// Removes what processes that were killed left half written where a run writes: files and folders
 /// with the names that such have, and nothing of anybody who is still writing: to be called by who

@@ -52,12 +52,12 @@ Shard shard_from(std::string_view text) {
 
 std::string to_text(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 
-void note_shard(const fs::path& run_directory, const Shard& shard) {
+void mark_shard_started(const fs::path& run_directory, const Shard& shard) {
   write_atomically(notes(run_directory) / fmt::format("{}_of_{}", shard.index, shard.count),
                    to_text(shard) + "\n");
 }
 
-int noted_shards(const fs::path& run_directory) {
+int started_shards(const fs::path& run_directory) {
   int count = 1;
   auto newest = fs::file_time_type::min();
   std::error_code ignored;
@@ -70,7 +70,7 @@ int noted_shards(const fs::path& run_directory) {
   return count;
 }
 
-void remove_shard_notes(const fs::path& run_directory) {
+void remove_shard_marks(const fs::path& run_directory) {
   std::error_code ignored;
   for (const auto& [path, shard] : notes_in(run_directory)) fs::remove(path, ignored);
   fs::remove(notes(run_directory), ignored);

@@ -18,9 +18,9 @@ RunSignals signals_of(const recordings::Recording& recording, const scoring::Lab
       run.normal_force[wheel].push_back(truth.wheel_normal_force[wheel]);
     }
   }
-  run.pieces = {0};
+  run.segments = {0};
   if (unit == scoring::SampleUnit::drop) {
-    run.pieces = scoring::drop_pieces(
+    run.segments = scoring::drop_segments(
         scoring::both_wheels(run.contact),
         static_cast<std::size_t>(std::llround(scoring.hold_off / recording.period())));
   }
@@ -103,10 +103,10 @@ NoiseRun with_heavy_tails(NoiseRun noise, const noise::NoiseKey& key) {
 Signals disturbed(const RunSignals& run, const NoiseRun& noise, const noise::SensorNoise& levels,
                   std::size_t step, const noise::Disturbance& disturbance) {
   Signals signals = noisy(run, noise, levels, step);
-  const Signals late = noisy(run, noise, levels, step - std::min(step, disturbance.imu_delay));
-  signals.vertical_acceleration = late.vertical_acceleration;
-  signals.linear_acceleration = late.linear_acceleration;
-  signals.angular_velocity = late.angular_velocity;
+  const Signals delay = noisy(run, noise, levels, step - std::min(step, disturbance.imu_delay));
+  signals.vertical_acceleration = delay.vertical_acceleration;
+  signals.linear_acceleration = delay.linear_acceleration;
+  signals.angular_velocity = delay.angular_velocity;
   for (LegSignals& leg : signals.leg) {
     leg.knee.torque = disturbance.torque_gain * leg.knee.torque + disturbance.torque_bias;
     leg.wheel.torque = disturbance.torque_gain * leg.wheel.torque + 0.25 * disturbance.torque_bias;

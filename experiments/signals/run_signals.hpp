@@ -21,7 +21,7 @@
 namespace touchdown::experiments {
 
 /// Whether an estimator hears of a step at all: there is a record of it.
-inline bool is_heard(const Signals& signals) { return !std::isnan(signals.time); }
+inline bool has_record(const Signals& signals) { return !std::isnan(signals.time); }
 
 /// What a study keeps of a recording: the signals at every step, and what is true.
 struct RunSignals {
@@ -30,7 +30,7 @@ struct RunSignals {
   std::vector<Eigen::Vector3d> up_in_imu;  ///< the world's vertical in the IMU frame
   std::array<scoring::ContactSequence, models::wheel_count> contact;  ///< labels
   std::array<std::vector<double>, models::wheel_count> normal_force;  ///< truth, per wheel (N)
-  std::vector<std::size_t> pieces;               ///< first steps of the statistical samples
+  std::vector<std::size_t> segments;               ///< first steps of the statistical samples
   LegGeometry legs = {};                         ///< of the robot, as its file has it
   std::shared_ptr<const RunMotion> motion = {};  ///< of tested runs, where odometry is studied
 

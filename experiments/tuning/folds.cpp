@@ -8,7 +8,7 @@
 namespace touchdown::experiments {
 
 std::vector<Fold> folds_of(std::span<const RunSignals* const> whole,
-                           std::span<const RunSignals* const> pieces, std::size_t folds,
+                           std::span<const RunSignals* const> segments, std::size_t folds,
                            bool drawn) {
   std::map<std::pair<std::string, std::int64_t>, std::size_t> fold_of_draw;
   const auto fold_of = [&](const RunSignals& run, bool is_drawn) {
@@ -22,10 +22,10 @@ std::vector<Fold> folds_of(std::span<const RunSignals* const> whole,
       (fold == own ? all[fold].judged : all[fold].fitted).push_back(run);
     }
   }
-  for (const RunSignals* piece : pieces) {
-    const std::size_t own = fold_of(*piece, true);
+  for (const RunSignals* segment : segments) {
+    const std::size_t own = fold_of(*segment, true);
     for (std::size_t fold = 0; fold < folds; ++fold) {
-      if (fold != own) all[fold].pieces.push_back(piece);
+      if (fold != own) all[fold].segments.push_back(segment);
     }
   }
   return all;

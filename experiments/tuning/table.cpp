@@ -15,17 +15,17 @@ namespace touchdown::experiments {
 namespace {
 
 /// "contact=12 low_pass=0.01".
-std::string text_of(const Constants& constants) {
+std::string text_of(const HyperparameterValues& hyperparameters) {
   std::vector<std::string> all;
-  for (const auto& [name, value] : constants) {
+  for (const auto& [name, value] : hyperparameters) {
     all.push_back(fmt::format("{}={}", name, exact(value)));
   }
   return fmt::format("{}", fmt::join(all, " "));
 }
 
-Constants constants_in(const std::string& text) {
+HyperparameterValues constants_in(const std::string& text) {
   std::istringstream words(text);
-  return constants_of(std::vector<std::string>(std::istream_iterator<std::string>(words), {}));
+  return hyperparameters_of(std::vector<std::string>(std::istream_iterator<std::string>(words), {}));
 }
 
 /// Fits are called "_robot_sensors"; a column needs no line at its beginning.
@@ -35,24 +35,24 @@ std::string fit_text(const std::string& fit) { return fit.starts_with('_') ? fit
 
 void write_table(const std::vector<Trial>& trials, const RunDirectory& directory) {
   Table table{
-      {"simulator", "fit", "estimator", "trial", "constants", "balanced_accuracy", "chosen"}, {}};
+      {"simulator", "fit", "estimator", "trial", "hyperparameters", "balanced_accuracy", "chosen"}, {}};
   for (const Trial& trial : trials) {
     table.rows.push_back({trial.simulator, fit_text(trial.fit), trial.estimator,
-                          std::to_string(trial.number), text_of(trial.constants),
+                          std::to_string(trial.number), text_of(trial.hyperparameters),
                           metric(trial.score), trial.is_chosen ? "1" : "0"});
   }
   directory.write_table("tuning.csv", table);
 }
 
-ChosenConstants read_chosen(const std::filesystem::path& run_directory) {
+TunedHyperparameters read_chosen(const std::filesystem::path& run_directory) {
   const std::filesystem::path file = run_directory / "tables" / "tuning.csv";
   if (!std::filesystem::exists(file)) return {};
   const Table table = from_csv(read_file(file));
-  ChosenConstants chosen;
+  TunedHyperparameters chosen;
   for (const std::vector<std::string>& row : table.rows) {
     if (cell(table, row, "chosen") != "1" || !cell(table, row, "fit").empty()) continue;
     chosen[cell(table, row, "simulator")][cell(table, row, "estimator")] =
-        constants_in(cell(table, row, "constants"));
+        constants_in(cell(table, row, "hyperparameters"));
   }
   return chosen;
 }
@@ -66,7 +66,7 @@ std::string tuning_text(const std::vector<Trial>& trials, const Experiment& expe
     table.rows.push_back({estimator_entry(trial.estimator).title, trial.simulator + trial.fit,
                           fmt::format("{:.3f}", defaults->score),
                           fmt::format("{:.3f}", trial.score),
-                          trial.number == 0 ? "its defaults" : text_of(trial.constants)});
+                          trial.number == 0 ? "its defaults" : text_of(trial.hyperparameters)});
   }
   return fmt::format(
       "Tuning: balanced accuracy, mean over scenes, of fitted runs in {} folds, each heard by fits "

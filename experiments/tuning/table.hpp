@@ -14,7 +14,7 @@ void write_table(const std::vector<Trial>& trials, const RunDirectory& directory
 
 /// What was chosen for the experiment's own fit, as a run directory's `tuning.csv` says; nothing
 /// where there is no such file.
-ChosenConstants read_chosen(const std::filesystem::path& run_directory);
+TunedHyperparameters read_chosen(const std::filesystem::path& run_directory);
 
 /// For people: what the defaults scored, and what was chosen.
 std::string tuning_text(const std::vector<Trial>& trials, const Experiment& experiment);

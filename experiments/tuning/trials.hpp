@@ -11,6 +11,6 @@ namespace touchdown::experiments {
 /// choices, which depend on the seed of fitted runs, the estimator's name and their number alone.
 /// Drawn numbers have three digits, so that a table has them whole. None for an estimator without
 /// choices.
-std::vector<Constants> trial_constants(const EstimatorEntry& entry, std::uint64_t seed, int trials);
+std::vector<HyperparameterValues> trial_hyperparameters(const EstimatorEntry& entry, std::uint64_t seed, int trials);
 
 }  // namespace touchdown::experiments

@@ -11,7 +11,7 @@
 #include "core/random.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/plan/plan.hpp"
-#include "experiments/signals/listener.hpp"
+#include "experiments/signals/estimator_runner.hpp"
 #include "experiments/tuning/folds.hpp"
 #include "experiments/tuning/trials.hpp"
 
@@ -20,7 +20,7 @@ namespace touchdown::experiments {
 namespace {
 
 /// All trials of one estimator in one fold: they share what they can of its fits.
-struct Sitting {
+struct FoldJob {
   std::string simulator;
   const EstimatorEntry* entry;
   std::size_t fold;             ///< index in the engine's
@@ -36,11 +36,11 @@ NoiseRun noise_of(const RunSignals& run, const Experiment& experiment) {
                          .run = static_cast<std::uint64_t>(run.info.run)});
 }
 
-void count(Listener& listener, const RunSignals& run, const NoiseRun& noise,
+void count(EstimatorRunner& runner, const RunSignals& run, const NoiseRun& noise,
            const noise::SensorNoise& levels, const scoring::ScoringConfig& scoring,
            scoring::Classification& sum) {
   const std::size_t skip = scoring::first_scored_step(run.info.control_period_us, scoring);
-  listener.listen_to(
+  runner.run_estimator(
       run, [&](std::size_t k) { return noisy(run, noise, levels, k); },
       [&](std::size_t k, const Belief& belief) {
         for (std::size_t w = 0; w < models::wheel_count && k >= skip; ++w) {
@@ -50,37 +50,37 @@ void count(Listener& listener, const RunSignals& run, const NoiseRun& noise,
 }
 
 /// Those that decide about the model.
-Constants fit_constants(const EstimatorEntry& entry, const Constants& constants) {
-  Constants those;
-  for (const Choice& choice : entry.choices) {
-    if (choice.is_fitted_with) those[choice.name] = constants.at(choice.name);
+HyperparameterValues fit_constants(const EstimatorEntry& entry, const HyperparameterValues& hyperparameters) {
+  HyperparameterValues those;
+  for (const Hyperparameter& choice : entry.hyperparameters) {
+    if (choice.is_fitted_with) those[choice.name] = hyperparameters.at(choice.name);
   }
   return those;
 }
 
-void sit(Sitting& sitting, const Fold& fold, std::span<const Trial> trials,
+void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
          const Experiment& experiment, const std::function<void()>& or_stop) {
-  const FitRuns runs{fold.fitted, fold.pieces, experiment.scoring, or_stop};
+  const FitRuns runs{fold.fitted, fold.segments, experiment.scoring, or_stop};
   std::vector<NoiseRun> noise;
   for (const RunSignals* run : fold.judged) noise.push_back(noise_of(*run, experiment));
-  std::map<Constants, FittedModel> models;
+  std::map<HyperparameterValues, FittedModel> models;
   for (const Trial& trial : trials) {
-    const EstimatorEntry entry = with_constants(*sitting.entry, trial.constants);
+    const EstimatorEntry entry = with_hyperparameters(*job.entry, trial.hyperparameters);
     FittedModel model;
     if (entry.fits()) {
-      const Constants key = fit_constants(entry, trial.constants);
+      const HyperparameterValues key = fit_constants(entry, trial.hyperparameters);
       if (!models.contains(key)) models[key] = fit_model(entry, runs);
       model = models[key];
-      model.passport = new_passport(entry.name, runs, trial.constants);
+      model.metadata = new_metadata(entry.name, runs, trial.hyperparameters);
     }
-    PlaceCounts& counts = sitting.of.emplace_back();
+    PlaceCounts& counts = job.of.emplace_back();
     for (std::size_t i = 0; i < fold.judged.size(); ++i) {
       const RunSignals& run = *fold.judged[i];
-      Listener listener =
-          listener_of(entry, {1.0 / period_of(run), &model, run.legs, &run.contact});
+      EstimatorRunner runner =
+          runner_of(entry, {1.0 / period_of(run), &model, run.legs, &run.contact});
       for (std::size_t cell = 0; cell < experiment.tuning->noise.size(); ++cell) {
         or_stop();
-        count(listener, run, noise[i], experiment.tuning->noise[cell].levels(), experiment.scoring,
+        count(runner, run, noise[i], experiment.tuning->noise[cell].levels(), experiment.scoring,
               counts[fmt::format("{} {}", cell, run.info.scenario)]);
       }
     }
@@ -103,60 +103,60 @@ double mean_over_places(const PlaceCounts& counts) {
 
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                         const std::vector<RunSignals>& fit_runs,
-                        const std::vector<RunSignals>& pieces,
-                        const std::function<bool()>& going_on, const SavedTrials& saved) {
+                        const std::vector<RunSignals>& segments,
+                        const std::function<bool()>& should_continue, const SavedTrials& saved) {
   const auto or_stop = [&] {
-    if (going_on && !going_on()) throw Stopped();
+    if (should_continue && !should_continue()) throw Stopped();
   };
   std::map<std::string, std::vector<Fold>> folds;
   std::vector<Trial> trials;
-  std::vector<Sitting> sittings;
+  std::vector<FoldJob> jobs;
   for (const std::string& simulator : experiment.simulators) {
     folds[simulator] =
-        folds_of(of_engine(fit_runs, simulator), of_engine(pieces, simulator),
+        folds_of(of_engine(fit_runs, simulator), of_engine(segments, simulator),
                  static_cast<std::size_t>(experiment.tuning->folds), experiment.fit.perturbed);
     for (const std::string& name : experiment.estimators) {
       const EstimatorEntry& entry = estimator_entry(name);
-      const std::vector<Constants> tried =
-          trial_constants(entry, seed_of_fit(experiment), experiment.tuning->trials);
+      const std::vector<HyperparameterValues> tried =
+          trial_hyperparameters(entry, seed_of_fit(experiment), experiment.tuning->trials);
       for (std::size_t fold = 0; fold < folds[simulator].size() && !tried.empty(); ++fold) {
         // A run that fell is not there: nothing is judged by a fold that lacks all of its runs.
         if (folds[simulator][fold].judged.empty()) continue;
-        sittings.push_back({simulator, &entry, fold, trials.size(), {}});
+        jobs.push_back({simulator, &entry, fold, trials.size(), {}});
       }
-      for (const Constants& constants : tried) {
-        const auto number = static_cast<int>(&constants - tried.data());
-        trials.push_back({simulator, fit, name, number, constants, 0.0, false});
+      for (const HyperparameterValues& hyperparameters : tried) {
+        const auto number = static_cast<int>(&hyperparameters - tried.data());
+        trials.push_back({simulator, fit, name, number, hyperparameters, 0.0, false});
       }
     }
   }
   const auto number = static_cast<std::size_t>(experiment.tuning->trials);
-  Progress progress("tuning", "folds", static_cast<std::int64_t>(sittings.size()));
-  tbb::parallel_for(std::size_t{0}, sittings.size(), [&](std::size_t i) {
+  Progress progress("tuning", "folds", static_cast<std::int64_t>(jobs.size()));
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
     or_stop();
-    Sitting& sitting = sittings[i];
-    const std::string name = fmt::format("{}{}_{}_fold_{}", sitting.simulator, fit,
-                                         sitting.entry->name, sitting.fold + 1);
+    FoldJob& job = jobs[i];
+    const std::string name = fmt::format("{}{}_{}_fold_{}", job.simulator, fit,
+                                         job.entry->name, job.fold + 1);
     if (auto known = saved.read(name)) {
-      sitting.of = std::move(*known);
+      job.of = std::move(*known);
       return progress.skip();
     }
     try {
-      sit(sitting, folds.at(sitting.simulator)[sitting.fold],
-          std::span(trials).subspan(sitting.first, number), experiment, or_stop);
+      run_fold(job, folds.at(job.simulator)[job.fold],
+          std::span(trials).subspan(job.first, number), experiment, or_stop);
     } catch (const InputError& error) {
       throw InputError(fmt::format("fit.tuning: {} on {}, without fold {} of {}: {}",
-                                   sitting.entry->name, sitting.simulator, sitting.fold + 1,
+                                   job.entry->name, job.simulator, job.fold + 1,
                                    experiment.tuning->folds, error.what()));
     }
-    saved.write(name, sitting.of);
+    saved.write(name, job.of);
     progress.advance();
   });
   std::vector<PlaceCounts> counts(trials.size());
-  for (const Sitting& sitting : sittings) {
+  for (const FoldJob& job : jobs) {
     for (std::size_t trial = 0; trial < number; ++trial) {
-      for (const auto& [place, points] : sitting.of[trial]) {
-        counts[sitting.first + trial][place] += points;
+      for (const auto& [place, points] : job.of[trial]) {
+        counts[job.first + trial][place] += points;
       }
     }
   }
@@ -171,10 +171,10 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
   return trials;
 }
 
-ChosenConstants chosen_in(const std::vector<Trial>& trials) {
-  ChosenConstants chosen;
+TunedHyperparameters chosen_in(const std::vector<Trial>& trials) {
+  TunedHyperparameters chosen;
   for (const Trial& trial : trials) {
-    if (trial.is_chosen) chosen[trial.simulator][trial.estimator] = trial.constants;
+    if (trial.is_chosen) chosen[trial.simulator][trial.estimator] = trial.hyperparameters;
   }
   return chosen;
 }

@@ -17,7 +17,7 @@ struct Trial {
   std::string fit;  ///< the name of the fit; empty: the experiment's own
   std::string estimator;
   int number = 0;  ///< 0: its defaults
-  Constants constants;
+  HyperparameterValues hyperparameters;
   /// Mean over scenes and noise settings of the balanced accuracy, both wheels and all runs of a
   /// scene added, each run heard by an estimator that was fitted to runs of other folds.
   double score = 0.0;
@@ -30,10 +30,10 @@ struct Trial {
 /// not tried again. Errors: `InputError` where too few are left to fit to, `Stopped`.
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                         const std::vector<RunSignals>& fit_runs,
-                        const std::vector<RunSignals>& pieces,
-                        const std::function<bool()>& going_on, const SavedTrials& saved = {});
+                        const std::vector<RunSignals>& segments,
+                        const std::function<bool()>& should_continue, const SavedTrials& saved = {});
 
 /// What was chosen, of the trials of one fit.
-ChosenConstants chosen_in(const std::vector<Trial>& trials);
+TunedHyperparameters chosen_in(const std::vector<Trial>& trials);
 
 }  // namespace touchdown::experiments

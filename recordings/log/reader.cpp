@@ -84,7 +84,7 @@ void LogReader::read_entry(Entry& entry) {
     const bool lacks_keys = parser_.is_missing_any();
     if (lacks_keys) {
       ++skipped_count_;
-      note_malformed();
+      count_malformed();
     } else {
       entry.row = to_row(parser_.values(), parser_.present());
     }
@@ -116,7 +116,7 @@ bool LogReader::is_without_time(const LogRow& row) {
   return true;
 }
 
-void LogReader::note_malformed() {
+void LogReader::count_malformed() {
   const std::vector<std::string> malformed = parser_.malformed();
   if (malformed.empty() || ++malformed_count_ > 1) return;
   first_malformed_ = fmt::format("byte {}: record {} has {}", offset_ - record_size_, record_count_,
@@ -183,11 +183,11 @@ void LogReader::finish() {
 }
 
 void LogReader::complain_about_garbage(std::size_t offset) const {
-  const bool is_foreign = name_.ends_with(".csv") || name_.ends_with(".npz");
+  const bool is_submission = name_.ends_with(".csv") || name_.ends_with(".npz");
   const bool is_scenario = name_.ends_with(".yaml") || name_.ends_with(".yml");
   throw InputError(fmt::format(
       "{}: byte {}: expected a MessagePack map, one per control step{}", name_, offset_ + offset,
-      is_foreign    ? ": `touchdown export --mapping` makes such a log"
+      is_submission    ? ": `touchdown export --mapping` makes such a log"
       : is_scenario ? ": `touchdown simulate` makes such a log of a scenario"
                     : ""));
 }

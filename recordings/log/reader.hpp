@@ -62,7 +62,7 @@ class LogReader {
   bool refill();
   void look_ahead(std::size_t rows);
   bool is_without_time(const LogRow& row);
-  void note_malformed();
+  void count_malformed();
   [[noreturn]] void complain_about_garbage(std::size_t offset) const;
   [[noreturn]] void complain_about_missing_keys() const;
   void finish();

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "estimator/assembly/record.hpp"
 #include "recordings/log/writer.hpp"
-#include "recordings/mapping/foreign_log.hpp"
+#include "recordings/mapping/source_log.hpp"
 
 namespace touchdown::recordings {
 
@@ -105,7 +105,7 @@ class Stretches {
   Stretches(const LogMapping& mapping, ContactIntervals& said) : mapping_(mapping), said_(said) {}
 
   /// `time` counts from the log's first.
-  void add(double time, std::span<const double> row, const ForeignPlace& place) {
+  void add(double time, std::span<const double> row, const SourceLocation& place) {
     if (!mapping_.contact || !std::isfinite(time)) return;
     if (time < last_) {
       throw InputError(
@@ -159,14 +159,14 @@ class Converter {
   Converter(const std::filesystem::path& mapping, std::ostream& stream)
       : path_(mapping), stream_(stream) {}
 
-  std::vector<ForeignColumn> begin(const ForeignNames& names) {
+  std::vector<SourceColumn> begin(const SourceNames& names) {
     mapping_ = read_log_mapping(path_, names);
     writer_.emplace(stream_, log_presence(mapping_));
     stretches_.emplace(mapping_, converted_.contact);
     return mapping_.columns;
   }
 
-  void add(std::span<const double> row, const ForeignPlace& place) {
+  void add(std::span<const double> row, const SourceLocation& place) {
     const LogValues values = log_values(mapping_, converted_.rows++, row);
     writer_->write(values);
     const bool is_whole =
@@ -217,10 +217,10 @@ class Converter {
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
                          std::ostream& stream, const std::function<void()>& check_stop) {
   Converter converter(mapping, stream);
-  read_foreign_log(log,
-                   {.wanted = [&](const ForeignNames& names) { return converter.begin(names); },
+  read_source_log(log,
+                   {.wanted = [&](const SourceNames& names) { return converter.begin(names); },
                     .row =
-                        [&](std::span<const double> row, const ForeignPlace& place) {
+                        [&](std::span<const double> row, const SourceLocation& place) {
                           if (check_stop) check_stop();
                           converter.add(row, place);
                         }});

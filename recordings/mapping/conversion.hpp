@@ -23,7 +23,7 @@ struct ConvertedLog {
 /// Writes somebody else's log, CSV or NumPy's arrays, as a robot's log in Upkie's layout, as the
 /// mapping file says: a record for each row, with what was measured and nothing else. What is
 /// missing is NaN there. `check_stop` is called now and then, and may throw. Errors: `InputError`
-/// as `read_log_mapping` and `read_foreign_log`, for a log without rows or times, and for labels of
+/// as `read_log_mapping` and `read_source_log`, for a log without rows or times, and for labels of
 /// contact whose time goes back; `Error` when the stream fails.
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
                          std::ostream& stream, const std::function<void()>& check_stop = {});

@@ -89,7 +89,7 @@ std::string some_of(const std::vector<std::string>& names) {
 /// Reads signals and notes which columns they need.
 class MappingReader {
  public:
-  MappingReader(const ForeignNames& names, LogMapping& mapping)
+  MappingReader(const SourceNames& names, LogMapping& mapping)
       : names_(names), mapping_(mapping) {}
 
   void require(Fields& fields, std::string_view key, const SignalKind& kind, MappedSignal& signal) {
@@ -134,7 +134,7 @@ class MappingReader {
     if (!kind.units.empty()) fields.know("unit");
     expect_keys(fields, {"from", "sign"});
     fields.require("from");
-    const std::vector<ForeignColumn> columns = columns_of(fields, kind);
+    const std::vector<SourceColumn> columns = columns_of(fields, kind);
     const std::vector<double> sign = number_for_each(fields, "sign", kind.count);
     for (const double one : sign) fields.check(std::abs(one) == 1.0, "sign", "expected 1 or -1");
     std::vector<double> zero;
@@ -147,20 +147,20 @@ class MappingReader {
     }
   }
 
-  std::vector<ForeignColumn> columns_of(Fields& fields, const SignalKind& kind) const {
+  std::vector<SourceColumn> columns_of(Fields& fields, const SignalKind& kind) const {
     const std::vector<std::string> from = one_or_more<std::string>(fields, "from");
     for (const std::string& name : from) check_is_there(fields, name);
     if (names_.are_arrays) return columns_of_arrays(fields, kind, from);
     fields.check(from.size() == kind.count, "from",
                  fmt::format("expected {} of the names of columns: {}", kind.count, kind.what));
-    std::vector<ForeignColumn> columns;
+    std::vector<SourceColumn> columns;
     for (const std::string& name : from) columns.push_back({name});
     return columns;
   }
 
   /// Several numbers are columns of one array, the first ones unless `index` says which, or come
   /// from an array each.
-  static std::vector<ForeignColumn> columns_of_arrays(Fields& fields, const SignalKind& kind,
+  static std::vector<SourceColumn> columns_of_arrays(Fields& fields, const SignalKind& kind,
                                                       const std::vector<std::string>& from) {
     const bool is_of_one = from.size() == 1;
     fields.check(
@@ -178,9 +178,9 @@ class MappingReader {
       index.resize(kind.count);
       std::iota(index.begin(), index.end(), 0);
     }
-    std::vector<ForeignColumn> columns;
+    std::vector<SourceColumn> columns;
     for (std::size_t i = 0; i < kind.count; ++i) {
-      ForeignColumn& column = columns.emplace_back(ForeignColumn{from[is_of_one ? 0 : i]});
+      SourceColumn& column = columns.emplace_back(SourceColumn{from[is_of_one ? 0 : i]});
       if (!index.empty()) column.index = static_cast<std::size_t>(index[i]);
     }
     return columns;
@@ -198,8 +198,8 @@ class MappingReader {
   }
 
   /// The column's place among those that are needed.
-  std::size_t take(const Fields& fields, const ForeignColumn& column) {
-    std::vector<ForeignColumn>& columns = mapping_.columns;
+  std::size_t take(const Fields& fields, const SourceColumn& column) {
+    std::vector<SourceColumn>& columns = mapping_.columns;
     const bool is_new = std::find(columns.begin(), columns.end(), column) == columns.end();
     fields.check(is_new, "from",
                  fmt::format("'{}'{} is mapped already", column.name,
@@ -208,7 +208,7 @@ class MappingReader {
     return columns.size() - 1;
   }
 
-  const ForeignNames& names_;
+  const SourceNames& names_;
   LogMapping& mapping_;
 };
 
@@ -271,7 +271,7 @@ void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
 
 }  // namespace
 
-LogMapping read_log_mapping(const std::filesystem::path& path, const ForeignNames& names) {
+LogMapping read_log_mapping(const std::filesystem::path& path, const SourceNames& names) {
   require_file(path);
   const YamlDocument document = YamlDocument::load(path);
   LogMapping mapping;

@@ -15,15 +15,15 @@ namespace touchdown::recordings {
 
 /// One column of numbers of a foreign log: of a CSV file by its name, of a `.npz` file a whole
 /// array with one axis, or one column of an array with two.
-struct ForeignColumn {
+struct SourceColumn {
   std::string name;
   std::optional<std::size_t> index = {};
 
-  bool operator==(const ForeignColumn&) const = default;
+  bool operator==(const SourceColumn&) const = default;
 };
 
 /// What a foreign log calls its columns or arrays.
-struct ForeignNames {
+struct SourceNames {
   std::string file;
   bool are_arrays = false;
   std::vector<std::string> names;
@@ -55,7 +55,7 @@ inline constexpr double longest_period = 0.5;
 /// wheel.
 struct LogMapping {
   /// All that are needed, each once.
-  std::vector<ForeignColumn> columns;
+  std::vector<SourceColumn> columns;
 
   std::optional<MappedSignal> time;  ///< s; without it a row comes every …
   double period = 0.0;               ///< … s
@@ -83,6 +83,6 @@ struct LogMapping {
 /// Reads a mapping file for the log that has these names. Errors: `InputError` with
 /// file:line:column for a key that is unknown or missing, a name that the log has not, a column
 /// that is used twice, a number of names, signs or units that does not fit.
-LogMapping read_log_mapping(const std::filesystem::path& path, const ForeignNames& names);
+LogMapping read_log_mapping(const std::filesystem::path& path, const SourceNames& names);
 
 }  // namespace touchdown::recordings

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "estimator/models/model_for.hpp"
+#include "estimator/models/model_for_robot.hpp"
 #include "estimator/models/parameters.hpp"
 #include "onboard/model_needs.hpp"
 #include "recordings/models/model_file.hpp"
@@ -52,7 +52,7 @@ void put_text(std::string& text, const std::string& value) {
 }
 
 std::string header_of(const NpzArrays& arrays, const std::string& source, const std::string& name) {
-  const ModelPassport passport = *passport_of(arrays);
+  const ModelMetadata metadata = *metadata_of(arrays);
   std::string text = fmt::format(
       "#pragma once\n\n"
       "// {}, written by `touchdown export`: for '{}' at {:.6g} Hz on the robot '{}',\n"
@@ -60,8 +60,8 @@ std::string header_of(const NpzArrays& arrays, const std::string& source, const 
       "estimator.\n\n"
       "// clang-format off\n"
       "#include <touchdown/estimator.hpp>\n\nnamespace touchdown::compiled {{\n\n",
-      source, passport.estimator, passport.sample_rate,
-      passport.robot.empty() ? "unknown" : passport.robot, passport.fingerprint, name);
+      source, metadata.estimator, metadata.sample_rate,
+      metadata.robot.empty() ? "unknown" : metadata.robot, metadata.fingerprint, name);
   std::string table = fmt::format("inline constexpr CompiledArray {}[] = {{\n", name);
   for (const auto& [key, array] : arrays) {
     const std::string own = fmt::format("{}_{}", name, key);

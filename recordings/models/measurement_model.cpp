@@ -10,7 +10,7 @@ namespace {
 std::size_t needed(std::string_view name) {
   constexpr std::size_t most_points = 20'000;
   constexpr std::size_t most_cells = std::size_t{1} << 25U;
-  if (name == passport_array) return most_text;
+  if (name == metadata_array) return most_text;
   if (name == "wheel_torque" || name == "knee_torque") return most_points;
   return name == "contact_likelihood" || name == "no_contact_likelihood" ? most_cells : 0;
 }
@@ -18,13 +18,13 @@ std::size_t needed(std::string_view name) {
 }  // namespace
 
 MeasurementModel read_measurement_model(const std::filesystem::path& path,
-                                        std::optional<ModelPassport>* passport) {
-  return read_model(path, needed, passport, measurement_model_of);
+                                        std::optional<ModelMetadata>* metadata) {
+  return read_model(path, needed, metadata, measurement_model_of);
 }
 
 void write_measurement_model(const MeasurementModel& model, const std::filesystem::path& path,
-                             const std::optional<ModelPassport>& passport) {
-  write_model(arrays_of(model), path, passport);
+                             const std::optional<ModelMetadata>& metadata) {
+  write_model(arrays_of(model), path, metadata);
 }
 
 }  // namespace touchdown::recordings

@@ -4,23 +4,23 @@
 #include <optional>
 
 #include "estimator/models/measurement.hpp"
-#include "estimator/models/passport.hpp"
+#include "estimator/models/metadata.hpp"
 
 namespace touchdown::recordings {
 
 /// Reads a measurement model from the `.npz` layout of the paper's authors: the axes `wheel_torque`
 /// and `knee_torque` (N·m), and `contact_likelihood` and `no_contact_likelihood` with one row per
 /// wheel torque. `P_contact` may be there, but follows from the others and is not read. What the
-/// file says about itself, if it does, is put into `passport` if given.
+/// file says about itself, if it does, is put into `metadata` if given.
 /// Errors: `InputError`, one line: unreadable file, missing arrays (all of them), wrong shapes,
 /// irregular axes, values that are no likelihoods, a passport of another model.
 MeasurementModel read_measurement_model(const std::filesystem::path& path,
-                                        std::optional<ModelPassport>* passport = nullptr);
+                                        std::optional<ModelMetadata>* metadata = nullptr);
 
 /// Writes the same layout, `P_contact` (contact over the sum of both; ½ where both are zero)
 /// included, so that grids travel to the robot's code; with its passport, if it has one. Errors:
 /// `Error` when it cannot be written.
 void write_measurement_model(const MeasurementModel& model, const std::filesystem::path& path,
-                             const std::optional<ModelPassport>& passport = {});
+                             const std::optional<ModelMetadata>& metadata = {});
 
 }  // namespace touchdown::recordings

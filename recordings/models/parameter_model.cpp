@@ -27,7 +27,7 @@ ParameterModelFile file_from(const NpzArrays& arrays) {
 }  // namespace
 
 void write_parameter_model(const ParameterModelFile& file, const std::filesystem::path& path,
-                           const std::optional<ModelPassport>& passport) {
+                           const std::optional<ModelMetadata>& metadata) {
   NpzArrays arrays;
   for (const auto& [name, values] : file.parameters) {
     if (is_text_array(name)) {
@@ -37,12 +37,12 @@ void write_parameter_model(const ParameterModelFile& file, const std::filesystem
   }
   arrays[std::string(estimator_array)] = array_of_text(file.estimator);
   arrays[std::string(provenance_array)] = array_of(file.provenance);
-  write_model(std::move(arrays), path, passport);
+  write_model(std::move(arrays), path, metadata);
 }
 
 ParameterModelFile read_parameter_model(const std::filesystem::path& path,
-                                        std::optional<ModelPassport>* passport) {
-  return read_model(path, most_parameters, passport, file_from);
+                                        std::optional<ModelMetadata>* metadata) {
+  return read_model(path, most_parameters, metadata, file_from);
 }
 
 }  // namespace touchdown::recordings

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "estimator/models/passport.hpp"
+#include "estimator/models/metadata.hpp"
 #include "estimator/phase/model.hpp"
 #include "recordings/models/provenance.hpp"
 
@@ -19,11 +19,11 @@ struct PhaseModelFile {
 /// `bytes(npz["provenance"].astype("u1")).decode()`; the passport likewise, if there is one.
 /// Errors: `Error`.
 void write_phase_model(const PhaseModelFile& file, const std::filesystem::path& path,
-                       const std::optional<ModelPassport>& passport = {});
+                       const std::optional<ModelMetadata>& metadata = {});
 
 /// The inverse: densities to single precision, all else to the bit. Errors: `InputError` that names
-/// the file and what is wrong with it. What it says about itself goes to `passport` if given.
+/// the file and what is wrong with it. What it says about itself goes to `metadata` if given.
 PhaseModelFile read_phase_model(const std::filesystem::path& path,
-                                std::optional<ModelPassport>* passport = nullptr);
+                                std::optional<ModelMetadata>* metadata = nullptr);
 
 }  // namespace touchdown::recordings

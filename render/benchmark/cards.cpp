@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiments/estimators/registry.hpp"
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/report/html.hpp"
 #include "simulators/registry.hpp"
 
@@ -50,11 +50,11 @@ std::string card(const BenchmarkScores& scores, const std::string& estimator,
   for (const Standing& place : scores.standings) {
     if (place.estimator != estimator) continue;
     ++settings;
-    if (left.empty() && !std::isnan(place.bits_left) && !experiments::is_ceiling(estimator)) {
+    if (left.empty() && !std::isnan(place.bits_left) && !experiments::is_upper_bound(estimator)) {
       left = fmt::format(" It leaves {:.3f} bits a step to the learned ceiling ({}, {}).",
                          place.bits_left, place.setting, place.noise);
     }
-    level += place.is_level_with_first ? 1U : 0U;
+    level += place.is_not_significantly_worse ? 1U : 0U;
     if (best == nullptr || place.mean.estimate > best->mean.estimate) best = &place;
     if (worst == nullptr || place.mean.estimate < worst->mean.estimate) worst = &place;
   }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/benchmark/cards.hpp"
 #include "render/benchmark/scene_tables.hpp"
 #include "render/benchmark/standings_figure.hpp"

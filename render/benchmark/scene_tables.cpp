@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/report/html.hpp"
 #include "simulators/registry.hpp"
 

@@ -64,7 +64,7 @@ BenchmarkScores benchmark_scores(const std::filesystem::path& run_directory) {
         {places.setting(), places.text("robot"), places.text("sensors"), places.noise(),
          places.text("estimator"), places.interval("mean_balanced_accuracy"),
          places.value("worst_balanced_accuracy"), places.text("worst_scene"),
-         places.text("worst_simulator"), places.text("is_level_with_first") == "1",
+         places.text("worst_simulator"), places.text("is_not_significantly_worse") == "1",
          places.value("bits_left")});
   });
   Rows pairs(tables / "benchmark_differences.csv");

@@ -37,7 +37,7 @@ struct Standing {
   double worst = 0.0;
   std::string worst_scene;
   std::string worst_simulator;
-  bool is_level_with_first = false;
+  bool is_not_significantly_worse = false;
   double bits_left = 0.0;  ///< above the learned ceiling's log loss, per wheel and step
 };
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiments/estimators/registry.hpp"
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
 #include "simulators/registry.hpp"
@@ -118,7 +118,7 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
     if (place.setting != setting) continue;
     if (panels.empty() || noise != place.noise) panels.emplace_back();
     noise = place.noise;
-    if (experiments::is_ceiling(place.estimator)) {
+    if (experiments::is_upper_bound(place.estimator)) {
       panels.back().ceiling = place.mean.estimate;
       continue;
     }

@@ -26,7 +26,7 @@ enum Row : std::size_t {
 /// Spectra are drawn over octaves, log2 of the frequency in Hz: what tells takeoffs from landings
 /// is below 30 Hz.
 constexpr double lowest_octave = 1.0, highest_octave = 9.0, rows_per_octave = 8.0;
-constexpr double quietest = -20.0, loudest = 50.0;  ///< of the colours (dB)
+constexpr double smallest_magnitude = -20.0, largest_magnitude = 50.0;  ///< of the colours (dB)
 
 struct Axis {
   double low, high;
@@ -171,7 +171,7 @@ struct DetailColumn {
     text += fmt::format(
         "set yrange [{}:{}]\nset ytics ('2' 1, '8' 3, '32' 5, '128' 7, '512' 9)\n"
         "set cbrange [{}:{}]\nset y2range [0.1:1e5]\nset logscale y2\n{}",
-        lowest_octave, highest_octave, quietest, loudest,
+        lowest_octave, highest_octave, smallest_magnitude, largest_magnitude,
         number == 0 ? "" : "set ytics ('' 1, '' 3, '' 5, '' 7, '' 9)\n");
     if (last()) {
       text += "set y2tics ('1' 1, '100' 100, '10⁴' 1e4) font ',11' textcolor rgb '#b04a10'\n";

@@ -55,7 +55,7 @@ std::array<double, 2> evidence_ends(const EvidenceModel& model, const EvidencePa
   // A channel that never moved still has a width.
   if (!(ends[1] - ends[0] > 0.01)) ends = {ends[0] - 0.5, ends[1] + 0.5};
   if (panel.bend > 0.0) {  // the very end is infinitely far
-    constexpr double furthest = 0.995 * static_cast<double>(largest_input);
+    constexpr double furthest = 0.995 * static_cast<double>(saturation);
     ends = {std::max(ends[0], -furthest), std::min(ends[1], furthest)};
   }
   return ends;
@@ -83,7 +83,7 @@ std::string evidence_block(const EvidenceModel& model, const EvidencePanel& pane
 }
 
 /// The loudest that anything says where it was seen (nats).
-double loudest_evidence(const EvidenceModel& model, const EvidencePanel& panel) {
+double largest_contribution(const EvidenceModel& model, const EvidencePanel& panel) {
   double most = 0.0;
   for (std::size_t i = panel.first; i < panel.first + panel.count; ++i) {
     const float step = (model.seen[i][1] - model.seen[i][0]) / 240.0F;
@@ -142,7 +142,7 @@ std::string evidence_described(const EvidenceFigure& figure,
       "each, in nats:";
   for (const EvidencePanel& panel : all) {
     fmt::format_to(std::back_inserter(text), " {} {:.2f},", panel.title,
-                   loudest_evidence(figure.model, panel));
+                   largest_contribution(figure.model, panel));
   }
   text.back() = '.';
   return text;
@@ -187,7 +187,7 @@ Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem:
       evidence_top + rows * evidence_height + (rows - 1.0) * evidence_gap_y + 56.0);
   double height = 0.1;
   for (const EvidencePanel& panel : all) {
-    height = std::max(height, loudest_evidence(figure.model, panel));
+    height = std::max(height, largest_contribution(figure.model, panel));
   }
   height *= 1.05;
   const std::string file = gnuplot_text(stem.filename().string() + ".dat");

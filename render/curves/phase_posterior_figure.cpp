@@ -18,7 +18,7 @@ enum PosteriorRow : std::size_t {
   wheel_row,
   label_row,
   likelihood_row,
-  misled_row,
+  error_row,
   posterior_row,
   belief_row
 };
@@ -59,15 +59,15 @@ PlotColumns columns_of(const experiments::DropPosterior& drop) {
   std::vector<double> truth;
   for (const Phase phase : drop.truth) truth.push_back(static_cast<double>(index(phase)));
   columns.add("true_phase", std::move(truth));
-  const auto add_misled = [&](const char* name, double experiments::Misled::*part) {
+  const auto add_log_likelihood_error = [&](const char* name, double experiments::LogLikelihoodError::*part) {
     std::vector<double> values;
-    for (const experiments::Misled& misled : drop.misled) values.push_back(misled.*part);
+    for (const experiments::LogLikelihoodError& log_likelihood_error : drop.log_likelihood_error) values.push_back(log_likelihood_error.*part);
     columns.add(name, std::move(values));
   };
-  add_misled("misled_by_left_leg", &experiments::Misled::left);
-  add_misled("misled_by_right_leg", &experiments::Misled::right);
-  add_misled("misled_by_acceleration", &experiments::Misled::acceleration);
-  add_misled("misled_by_memory", &experiments::Misled::memory);
+  add_log_likelihood_error("error_by_left_leg", &experiments::LogLikelihoodError::left);
+  add_log_likelihood_error("error_by_right_leg", &experiments::LogLikelihoodError::right);
+  add_log_likelihood_error("error_by_acceleration", &experiments::LogLikelihoodError::acceleration);
+  add_log_likelihood_error("error_by_memory", &experiments::LogLikelihoodError::memory);
   columns.add("p_left_wheel", drop.p_contact[0]);
   columns.add("p_right_wheel", drop.p_contact[1]);
   return columns;
@@ -123,8 +123,8 @@ std::string likelihood_text(const experiments::DropPosterior& drop) {
 /// Wide enough for the strongest word of any ingredient.
 double strongest(const experiments::DropPosterior& drop) {
   double most = 1.0;
-  for (const experiments::Misled& misled : drop.misled) {
-    for (const double value : {misled.left, misled.right, misled.acceleration, misled.memory}) {
+  for (const experiments::LogLikelihoodError& log_likelihood_error : drop.log_likelihood_error) {
+    for (const double value : {log_likelihood_error.left, log_likelihood_error.right, log_likelihood_error.acceleration, log_likelihood_error.memory}) {
       most = std::max(most, std::abs(value));
     }
   }
@@ -139,7 +139,7 @@ std::string boxes(const std::string& file, int block) {
 }
 
 std::string column_commands(const experiments::DropPosterior& drop, const PanelGrid& grid,
-                            std::size_t column, bool last, double most_misled,
+                            std::size_t column, bool last, double largest_error,
                             const PlotColumns& columns, const std::string& name) {
   const std::string data = fmt::format("{}_{}.dat", name, column + 1);
   const std::string truth = fmt::format("{}_truth_{}.dat", name, column + 1);
@@ -175,19 +175,19 @@ std::string column_commands(const experiments::DropPosterior& drop, const PanelG
       "plot '{}_likelihood_{}.dat' matrix using ({}+{}*$1):2:3 with image notitle, "
       "'{}' using 1:{} with steps lc rgb 'black' lw 2 dt 1 notitle\n",
       name, column + 1, 1e3 * drop.time.front(), step, data, columns.number_of("true_phase"));
-  text += panel(misled_row, "what misleads\n(nats)");
+  text += panel(error_row, "what misleads\n(nats)");
   text += fmt::format(
       "set yrange [-{0}:{0}]\nset ytics autofreq scale 0.5 norangelimit font ',13'\n"
       "set grid\nplot 0 with lines lc rgb '#8a9299' lw 1 dt 1 notitle",
-      1.05 * most_misled);
-  const auto misled = [&](const char* key, const char* style, const char* title) {
+      1.05 * largest_error);
+  const auto log_likelihood_error = [&](const char* key, const char* style, const char* title) {
     text += fmt::format(", '{}' using 1:{} with lines {} dt 1 title {}", data,
                         columns.number_of(key), style, gnuplot_text(title));
   };
-  misled("misled_by_left_leg", "lt 6 lw 2", "left leg's torques");
-  misled("misled_by_right_leg", "lt 2 lw 2", "right leg's torques");
-  misled("misled_by_acceleration", "lt 3 lw 2", "acceleration");
-  misled("misled_by_memory", "lc rgb '#101418' lw 2", "memory");
+  log_likelihood_error("error_by_left_leg", "lt 6 lw 2", "left leg's torques");
+  log_likelihood_error("error_by_right_leg", "lt 2 lw 2", "right leg's torques");
+  log_likelihood_error("error_by_acceleration", "lt 3 lw 2", "acceleration");
+  log_likelihood_error("error_by_memory", "lc rgb '#101418' lw 2", "memory");
   text += "\n" + panel(posterior_row, "P(phase)");
   text += "set yrange [0:1]\nset ytics 0,0.5,1 scale 0.5\nset grid\nplot ";
   // From the whole downwards, each painted over the ones above: no seams between neighbours.
@@ -215,12 +215,12 @@ Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops
   layout.columns.clear();
   layout.at = drops.front().at;
   layout.row_heights = {52.0, 26.0, 216.0, 120.0, 250.0, 120.0};
-  double from = 0.0, to = 0.0, most_misled = 0.0;
+  double from = 0.0, to = 0.0, largest_error = 0.0;
   for (const experiments::DropPosterior& drop : drops) {
     layout.columns.push_back(simulators::simulator_title(drop.simulator));
     from = std::min(from, 1e3 * drop.time.front());
     to = std::max(to, 1e3 * drop.time.back());
-    most_misled = std::max(most_misled, strongest(drop));
+    largest_error = std::max(largest_error, strongest(drop));
   }
   const PanelGrid grid(layout, text);
   std::vector<PlotData> data;
@@ -228,7 +228,7 @@ Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops
   for (std::size_t i = 0; i < drops.size(); ++i) {
     const PlotColumns columns = columns_of(drops[i]);
     commands +=
-        column_commands(drops[i], grid, i, i + 1 == drops.size(), most_misled, columns, name);
+        column_commands(drops[i], grid, i, i + 1 == drops.size(), largest_error, columns, name);
     data.push_back({fmt::format("{}_{}.dat", name, i + 1), columns.text()});
     data.push_back({fmt::format("{}_truth_{}.dat", name, i + 1), truth_text(drops[i])});
     data.push_back({fmt::format("{}_likelihood_{}.dat", name, i + 1), likelihood_text(drops[i])});

@@ -18,9 +18,9 @@ Place place_of(const Point& point) {
 }
 
 /// Pieces that nobody has used yet, by their ends.
-class LoosePieces {
+class LooseSegments {
  public:
-  explicit LoosePieces(const std::vector<IsoPiece>& pieces) : pieces_(pieces) {
+  explicit LooseSegments(const std::vector<IsoPiece>& pieces) : pieces_(pieces) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       for (const Point& end : pieces[i]) at_[place_of(end)].push_back(i);
     }
@@ -47,7 +47,7 @@ class LoosePieces {
 }  // namespace
 
 std::vector<IsoLine> joined(const std::vector<IsoPiece>& pieces) {
-  LoosePieces loose(pieces);
+  LooseSegments loose(pieces);
   std::vector<IsoLine> lines;
   const auto follow_from = [&](const Point& start) {
     IsoLine line = {start};

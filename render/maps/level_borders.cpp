@@ -18,7 +18,7 @@ std::vector<double> between(double a, double b, const std::vector<double>& level
   return crossed;
 }
 
-std::size_t pieces_of(const LevelBorder& border) { return border.line.size() - 1; }
+std::size_t training_segments_of(const LevelBorder& border) { return border.line.size() - 1; }
 
 /// Labels that are nearer to each other than this would touch (px).
 constexpr double label_distance = 36.0;
@@ -27,7 +27,7 @@ constexpr double label_distance = 36.0;
 void place_labels(std::vector<LevelBorder>& borders, const CellSize& cell) {
   std::vector<LabelPlace> taken;
   for (LevelBorder& border : borders) {
-    const std::size_t pieces = pieces_of(border);
+    const std::size_t pieces = training_segments_of(border);
     for (std::size_t i = 0; i < pieces; ++i) {
       // From the middle outwards: 0, 1, −1, 2, −2, …
       const std::size_t away = (i + 1) / 2, middle = pieces / 2;
@@ -70,7 +70,7 @@ std::vector<LevelBorder> level_borders(const std::vector<std::vector<double>>& r
     for (IsoLine& line : joined(edges)) borders.push_back({crossed, std::move(line)});
   }
   std::stable_sort(borders.begin(), borders.end(), [](const LevelBorder& a, const LevelBorder& b) {
-    return pieces_of(a) > pieces_of(b);
+    return training_segments_of(a) > training_segments_of(b);
   });
   place_labels(borders, cell);
   return borders;

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
 #include "render/report/tables.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/closed_loop/play.hpp"
+#include "experiments/studies/closed_loop/rollout.hpp"
 #include "experiments/odometry/contact_sources.hpp"
 #include "render/film/video.hpp"
 #include "render/pictures/filmed_run.hpp"
@@ -22,22 +22,22 @@ namespace fs = std::filesystem;
 std::string loop_film_stem(const std::string& simulator) { return "closed_loop_" + simulator; }
 
 /// The cell of the film's point that is told by `contact`.
-experiments::LoopCell filmed_cell(const experiments::Experiment& experiment,
+experiments::ClosedLoopCell filmed_cell(const experiments::Experiment& experiment,
                                   const std::string& simulator, const std::string& contact) {
-  const experiments::LoopFilm& film = *experiment.closed_loop->film;
-  const std::vector<experiments::LoopCell> cells = experiments::loop_cells(experiment);
-  return *std::find_if(cells.begin(), cells.end(), [&](const experiments::LoopCell& cell) {
+  const experiments::ClosedLoopFilm& film = *experiment.closed_loop->film;
+  const std::vector<experiments::ClosedLoopCell> cells = experiments::closed_loop_cells(experiment);
+  return *std::find_if(cells.begin(), cells.end(), [&](const experiments::ClosedLoopCell& cell) {
     return cell.simulator == simulator && cell.law == film.law && cell.contact == contact &&
            cell.scene == static_cast<std::size_t>(film.scene) &&
            cell.point == static_cast<std::size_t>(film.point);
   });
 }
 
-FilmedRun played(const experiments::RunRequest& request, const experiments::LoopCell& cell,
+FilmedRun rollout(const experiments::RunRequest& request, const experiments::ClosedLoopCell& cell,
                  const experiments::FittedModels& models, scenarios::CompiledScenes& scenes,
                  const std::atomic<bool>* stop) {
-  experiments::LoopRun run =
-      experiments::play_loop(request, cell, request.experiment.closed_loop->film->run, models,
+  experiments::ClosedLoopRun run =
+      experiments::run_closed_loop(request, cell, request.experiment.closed_loop->film->run, models,
                              scenes, [stop] { return stop == nullptr || !*stop; });
   BeliefTrack told;
   told.name = experiments::contact_title(cell.contact);
@@ -67,7 +67,7 @@ void film_closed_loop(const experiments::ExperimentResult& result, const std::at
     std::list<FilmedRun> runs;
     std::vector<VideoSource> sources;
     for (const std::string& contact : experiment.closed_loop->film->contact) {
-      runs.push_back(played(request, filmed_cell(experiment, simulator, contact), result.models,
+      runs.push_back(rollout(request, filmed_cell(experiment, simulator, contact), result.models,
                             scenes, stop));
       sources.push_back(runs.back().source());
       sources.back().label = experiments::contact_title(contact);

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <string>
 
-#include "experiments/tables/result.hpp"
+#include "experiments/results/result.hpp"
 #include "render/report/subject.hpp"
 
 namespace touchdown::render {

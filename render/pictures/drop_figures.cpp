@@ -9,7 +9,7 @@
 #include "core/progress.hpp"
 #include "experiments/drops/detail.hpp"
 #include "experiments/drops/posterior.hpp"
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "render/curves/drop_detail_figure.hpp"
 #include "render/curves/drop_overlay.hpp"
@@ -21,9 +21,9 @@ namespace touchdown::render {
 namespace {
 
 /// The chosen run in one engine. Errors: `InputError` when it is not scored.
-const experiments::PlayedRun& chosen_run(const experiments::ExperimentResult& result,
+const experiments::Rollout& chosen_run(const experiments::ExperimentResult& result,
                                          const std::string& simulator, int run, const char* key) {
-  const experiments::PlayedRun* found = experiments::test_run(result.runs, simulator, run);
+  const experiments::Rollout* found = experiments::test_run(result.runs, simulator, run);
   if (found == nullptr || experiments::is_failure(found->report.outcome)) {
     throw InputError(fmt::format("{}.run: run {} in {} is not scored", key, run, simulator));
   }
@@ -37,7 +37,7 @@ std::string which_drop(const experiments::Experiment& experiment,
                                                    experiments::to_text(choice.wheels));
   return fmt::format("Test run {}, {}, experiment seed {}, noise seed {}; {}{}.", choice.run, when,
                      experiment.seed, choice.seed, experiments::labels_text(experiment),
-                     experiments::equipment_text(experiment));
+                     experiments::setup_caption(experiment));
 }
 
 /// "Not shown: NMN, Free fall."; nothing where all of the experiment's estimators are.
@@ -54,7 +54,7 @@ std::string left_out_text(const experiments::Experiment& experiment,
 Figure draw_detail(const experiments::ExperimentResult& result, const std::string& simulator) {
   const experiments::Experiment& experiment = result.experiment;
   const experiments::DetailConfig& config = *experiment.detail;
-  const experiments::PlayedRun& run = chosen_run(result, simulator, config.choice.run, "detail");
+  const experiments::Rollout& run = chosen_run(result, simulator, config.choice.run, "detail");
   const recordings::Recording recording =
       recordings::read_recording(result.directory.file("recordings", run.plan.file));
   const experiments::DropDetail detail =
@@ -121,7 +121,7 @@ Figure draw_overlay(const experiments::ExperimentResult& result) {
                              overlay.run, overlay.drop, experiment.seed,
                              experiments::labels_text(experiment))};
   const auto recording = [&](const std::string& simulator) {
-    const experiments::PlayedRun& run = chosen_run(result, simulator, overlay.run, "overlay");
+    const experiments::Rollout& run = chosen_run(result, simulator, overlay.run, "overlay");
     return recordings::read_recording(result.directory.file("recordings", run.plan.file));
   };
   return draw_drop_overlay(recording(experiment.simulators[0]), recording(experiment.simulators[1]),
@@ -144,7 +144,7 @@ std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& resul
   std::vector<experiments::DropPosterior> drops;
   for (const std::string& simulator : experiment.simulators) {
     or_say_why_not([&] {
-      const experiments::PlayedRun& run =
+      const experiments::Rollout& run =
           chosen_run(result, simulator, config.choice.run, "posterior");
       drops.push_back(experiments::drop_posterior(experiment, config, run.signals, result.models));
     });

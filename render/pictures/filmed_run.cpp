@@ -55,7 +55,7 @@ BeliefTrack believe(const experiments::Condition& condition,
   track.name = experiments::estimator_entry(condition.estimator).title;
   Belief belief;
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (experiments::is_heard(run.signals[k])) {
+    if (experiments::has_record(run.signals[k])) {
       belief = estimator->update(experiments::noisy(run, noise, levels, k));
     }
     const Evidence::Transition transition = estimator->evidence().transition;
@@ -72,7 +72,7 @@ BeliefTrack believe(const experiments::Condition& condition,
 }  // namespace
 
 FilmedRun filmed(recordings::Recording recording, const experiments::Experiment& experiment,
-                 const noise::SensorProfile& profile, const FilmedListeners& listeners) {
+                 const noise::SensorProfile& profile, const FilmedEstimators& filmed_estimators) {
   const std::int64_t run = recording.info.run;
   const noise::NoiseKey key = experiments::noise_key(experiment, 0, run);
   recordings::Recording reported = recording;
@@ -83,9 +83,9 @@ FilmedRun filmed(recordings::Recording recording, const experiments::Experiment&
   const experiments::NoiseRun drawn = experiments::noise_run(heard, key);
   const std::string& simulator = recording.info.simulator;
   std::vector<BeliefTrack> beliefs;
-  for (const std::string& estimator : listeners.estimators) {
-    beliefs.push_back(believe({simulator, simulator, estimator}, listeners.models, heard, drawn,
-                              listeners.noise));
+  for (const std::string& estimator : filmed_estimators.estimators) {
+    beliefs.push_back(believe({simulator, simulator, estimator}, filmed_estimators.models, heard, drawn,
+                              filmed_estimators.noise));
   }
   models::RobotModel robot = robot_of(recording);
   // What the sensors report; the ground truth stays, and so does the pose.
@@ -94,7 +94,7 @@ FilmedRun filmed(recordings::Recording recording, const experiments::Experiment&
       const double torque = reported.observation[k].servo[servo].torque;
       if (std::isfinite(torque)) recording.observation[k].servo[servo].torque = torque;
     }
-    recording.observation[k] = noise::with_noise(recording.observation[k], key, k, listeners.noise);
+    recording.observation[k] = noise::with_noise(recording.observation[k], key, k, filmed_estimators.noise);
   }
   return {std::move(robot), std::move(recording), std::move(beliefs), experiment.labels};
 }
@@ -106,7 +106,7 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
   const experiments::VideoConfig& video = experiment.video;
   const noise::SensorNoise levels =
       noise::as_on_grid({video.torque_noise, video.accelerometer_noise}, experiment.noise).levels();
-  experiments::ChosenConstants chosen =
+  experiments::TunedHyperparameters chosen =
       experiments::or_given(experiments::read_chosen(subject.directory), experiment);
   std::vector<FilmedRun> all;
   for (const experiments::RunSummary& run : subject.summary.runs) {
@@ -117,7 +117,7 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
     for (const std::string& estimator : video.estimators) {
       experiments::FittedModel& model = models[run.simulator][estimator];
       model = model_of(subject.directory, run.simulator, estimator);
-      model.constants = chosen[run.simulator][estimator];
+      model.hyperparameters = chosen[run.simulator][estimator];
     }
     all.push_back(filmed(recordings::read_recording(log), experiment, profile,
                          {video.estimators, models, levels}));

@@ -27,7 +27,7 @@ struct FilmedRun {
 };
 
 /// Who listens to a filmed run, through which noise.
-struct FilmedListeners {
+struct FilmedEstimators {
   std::vector<std::string> estimators;
   const experiments::FittedModels& models;
   noise::SensorNoise noise;
@@ -36,7 +36,7 @@ struct FilmedListeners {
 /// A run of an experiment as its sensors report it, with the noise of its first realisation, and
 /// what estimators that were fitted in its engine make of it.
 FilmedRun filmed(recordings::Recording recording, const experiments::Experiment& experiment,
-                 const noise::SensorProfile& profile, const FilmedListeners& listeners);
+                 const noise::SensorProfile& profile, const FilmedEstimators& filmed_estimators);
 
 /// The run that an experiment films, for each of its engines: the recording with the noise that the
 /// experiment asks for, and what the estimators made of it. An engine without that recording is

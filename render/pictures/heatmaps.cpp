@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiments/estimators/registry.hpp"
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/maps/heatmap_figure.hpp"
 #include "simulators/registry.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "experiments/tables/result.hpp"
+#include "experiments/results/result.hpp"
 #include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {

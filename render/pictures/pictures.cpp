@@ -16,7 +16,7 @@
 #include "render/pictures/drop_figures.hpp"
 #include "render/pictures/heatmaps.hpp"
 #include "render/pictures/score_figures.hpp"
-#include "render/pictures/worst_moments.hpp"
+#include "render/pictures/worst_segments.hpp"
 
 namespace touchdown::render {
 
@@ -74,7 +74,7 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     film_closed_loop(result, stop);
   }
   if (result.experiment.benchmark && result.experiment.benchmark->clips) {
-    film_worst_moments(result, stop);
+    film_worst_segments(result, stop);
   }
   for (const FilmedRun& run : filmed) film(result, run, stop);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

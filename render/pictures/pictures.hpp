@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/tables/result.hpp"
+#include "experiments/results/result.hpp"
 #include "render/pictures/filmed_run.hpp"
 
 namespace touchdown::render {

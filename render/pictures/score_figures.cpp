@@ -7,7 +7,7 @@
 
 #include "experiments/estimators/decision.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/curves/evidence_figure.hpp"
 #include "render/curves/score_figure.hpp"
 #include "render/maps/density_figure.hpp"
@@ -47,7 +47,7 @@ std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result
 /// How many runs an engine's models were fitted to, pieces left aside.
 std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator) {
   std::size_t runs = 0;
-  for (const experiments::PlayedRun& run : result.runs) {
+  for (const experiments::Rollout& run : result.runs) {
     runs += run.plan.role == experiments::RunRole::fit && run.plan.simulator == simulator ? 1U : 0U;
   }
   return runs;
@@ -80,7 +80,7 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
       "and 99 % of a density; on the right they are P = 0.5 and the decision, 0.8. Axes end where "
       "97 % of both densities lie.",
       experiments::plural(fitted_runs(result, simulator), "run"), experiment.seed,
-      experiments::labels_text(experiment), experiments::equipment_text(experiment));
+      experiments::labels_text(experiment), experiments::setup_caption(experiment));
   return figure;
 }
 
@@ -111,8 +111,8 @@ std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
                 "from, and drawn where all but two in a thousand of its rows lie. Axes are "
                 "compressed as the estimator hears them, those of noise levels by logarithms.",
                 experiments::plural(fitted_runs(result, simulator), "run"),
-                experiment.fit_pieces.empty() ? "" : " and pieces of others", experiment.seed,
-                experiments::labels_text(experiment), experiments::equipment_text(experiment),
+                experiment.training_segments.empty() ? "" : " and pieces of others", experiment.seed,
+                experiments::labels_text(experiment), experiments::setup_caption(experiment),
                 has_pairs     ? ", and what pairs of them say besides"
                 : has_network ? ", and averaged with what the network says"
                               : "")});

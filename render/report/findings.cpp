@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "experiments/estimators/registry.hpp"
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/maps/error_scale.hpp"
 #include "simulators/registry.hpp"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "experiments/estimators/registry.hpp"
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/maps/error_scale.hpp"
 #include "render/maps/level_borders.hpp"
 #include "simulators/registry.hpp"

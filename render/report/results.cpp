@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/report/findings.hpp"
 #include "render/report/tables.hpp"
 #include "simulators/registry.hpp"
@@ -85,7 +85,7 @@ ReportSection results_section(const ReportSubject& subject) {
             "Share of steps that are judged rightly, with torque noise of {} N·m and "
             "accelerometer noise of {} m/s², and takeoffs per minute and wheel that "
             "were announced and were none. “Always contact” is what a constant answer earns{}.",
-            cell.torque, cell.accelerometer, experiments::equipment_text(experiment)),
+            cell.torque, cell.accelerometer, experiments::setup_caption(experiment)),
         fmt::format("success rates at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
         {{"estimator"}, {}}};
     for (const std::string& engine : engines_of(experiment)) {
@@ -121,7 +121,7 @@ ReportSection paper_section(const ReportSubject& subject) {
     const std::string how = fmt::format(
         "Torque noise {} N·m, accelerometer noise {} m/s², {}{}.", cell.torque, cell.accelerometer,
         experiments::plural(static_cast<std::size_t>(subject.experiment.noise.seeds), "noise seed"),
-        experiments::equipment_text(subject.experiment));
+        experiments::setup_caption(subject.experiment));
     std::string tables;
     for (const experiments::CaptionedTable& table : experiments::paper_tables(scores, how)) {
       tables += with_engine_titles(table);

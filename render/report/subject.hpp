@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
-#include "experiments/tables/summary_file.hpp"
+#include "experiments/results/summary_file.hpp"
 
 namespace touchdown::render {
 

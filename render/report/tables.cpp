@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "experiments/tables/captions.hpp"
+#include "experiments/results/captions.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "experiments/tables/paper.hpp"
+#include "experiments/results/paper.hpp"
 #include "render/report/html.hpp"
 #include "render/report/subject.hpp"
 

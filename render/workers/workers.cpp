@@ -83,9 +83,9 @@ struct Lane {
 
 /// Memory that this process and the ones forked from it share; it has no name, so that nothing is
 /// left of it when they are gone.
-class SharedLanes {
+class SharedBatch {
  public:
-  SharedLanes(std::size_t count, std::size_t frame_bytes)
+  SharedBatch(std::size_t count, std::size_t frame_bytes)
       : count_(count), frame_bytes_((frame_bytes + 63) / 64 * 64) {
     size_ = header() + count * frame_slots * frame_bytes_;
     void* const memory =
@@ -100,9 +100,9 @@ class SharedLanes {
       ::sem_init(&fresh->ready, 1, 0);
     }
   }
-  ~SharedLanes() { ::munmap(memory_, size_); }
-  SharedLanes(const SharedLanes&) = delete;
-  SharedLanes& operator=(const SharedLanes&) = delete;
+  ~SharedBatch() { ::munmap(memory_, size_); }
+  SharedBatch(const SharedBatch&) = delete;
+  SharedBatch& operator=(const SharedBatch&) = delete;
 
   Lane& lane(std::size_t worker) {
     return *std::launder(reinterpret_cast<Lane*>(memory_ + worker * sizeof(Lane)));
@@ -121,7 +121,7 @@ class SharedLanes {
 };
 
 /// A worker's life: never returns.
-[[noreturn]] void work(std::size_t worker, int frames, SharedLanes& lanes,
+[[noreturn]] void work(std::size_t worker, int frames, SharedBatch& lanes,
                        const std::function<PaintFrame()>& prepare) {
   Lane& lane = lanes.lane(worker);
   try {
@@ -171,7 +171,7 @@ void paint_in_order(int frames, std::size_t frame_bytes, int workers,
   if (frames <= 0) return;
   if (workers <= 0) workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const auto wanted = static_cast<std::size_t>(std::min(workers, frames));
-  SharedLanes lanes(wanted, frame_bytes);
+  SharedBatch lanes(wanted, frame_bytes);
 
   Workers processes;
   for (std::size_t i = 0; i < wanted; ++i) {

@@ -13,7 +13,7 @@
 #include "estimator/bayes/filter.hpp"
 #include "experiments/estimators/measurement_fitting.hpp"
 #include "experiments/logs/summary.hpp"
-#include "experiments/signals/listener.hpp"
+#include "experiments/signals/estimator_runner.hpp"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "recordings/models/measurement_model.hpp"

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 std::vector<fs::path> saved_parts(const fs::path& run_directory) {
   std::vector<fs::path> parts;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(run_directory / "state" / "listening", ignored)) {
+  for (const auto& entry : fs::directory_iterator(run_directory / "state" / "evaluation", ignored)) {
     if (entry.path().filename().string().rfind('.', 0) != 0) parts.push_back(entry.path());
   }
   std::sort(parts.begin(), parts.end());

@@ -50,7 +50,7 @@ std::vector<std::string> files_below(const fs::path& folder) {
 }
 
 /// Those of them that no run made.
-std::vector<std::string> strangers_in(const fs::path& directory) {
+std::vector<std::string> untracked_files_in(const fs::path& directory) {
   std::vector<std::string> names = files_below(directory);
   std::erase(names, "state/key");
   std::erase(names, "state/lock");
@@ -146,7 +146,7 @@ TEST(RunDirectory, HoldsNoFileThatItsRunsDoNotKnowAgain) {
   succeed(folder, run + " --out a");
   EXPECT_TRUE(fs::exists(folder / "a/figures/detail_bullet_spectrum_1.dat"));
   EXPECT_TRUE(fs::exists(folder / "a/videos/report.mp4"));
-  EXPECT_THAT(strangers_in(folder / "a"), IsEmpty());
+  EXPECT_THAT(untracked_files_in(folder / "a"), IsEmpty());
 }
 
 TEST(RunDirectory, OfAKilledStartIsGoneOnWith) {
@@ -304,7 +304,7 @@ TEST(Merge, RefusesPartsOfOtherTasksByName) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) + " --out ";
   succeed(folder, run + "a --shard 1/1");
-  const fs::path parts = folder / "a/state/listening";
+  const fs::path parts = folder / "a/state/evaluation";
   const std::string one = "mujoco_step_test_000_seed_0000";
   const std::string other = "mujoco_step_test_001_seed_0001";
   fs::rename(parts / one, parts / "kept");
@@ -312,7 +312,7 @@ TEST(Merge, RefusesPartsOfOtherTasksByName) {
   fs::rename(parts / "kept", parts / other);
   EXPECT_THAT(
       refusal(folder, "merge a --no-pictures"),
-      AllOf(HasSubstr("a/state/listening/" + one + ": holds '"),
+      AllOf(HasSubstr("a/state/evaluation/" + one + ": holds '"),
             HasSubstr(" part " + other + "', expected '"), HasSubstr(" part " + one + "'")));
   EXPECT_FALSE(fs::exists(folder / "a/tables"));
   // The run itself knows what to do.

@@ -34,7 +34,7 @@ TEST(RequiredResources, ThatAreThereOrNotAskedForAreNoComplaint) {
   EXPECT_EQ(missing_in("fit: {scenarios: [scenarios/stairs.yaml, scenarios/roam.yaml]}\n"
                        "robot: models/upkie_actuated.yaml\n"),
             "");
-  EXPECT_EQ(missing_in("fits: {scenarios: [nowhere.yaml]}\nfit: {pieces: []}\n"), "");
+  EXPECT_EQ(missing_in("fits: {scenarios: [nowhere.yaml]}\nfit: {segments: []}\n"), "");
 }
 
 TEST(RequiredResources, ThatAreMissingAreNamedWhereTheyStand) {
@@ -42,7 +42,7 @@ TEST(RequiredResources, ThatAreMissingAreNamedWhereTheyStand) {
               AllOf(StartsWith("x.yaml:2:36: fit.scenarios.1: scenarios/stiars.yaml: no such file"),
                     EndsWith("(did you mean 'scenarios/stairs.yaml'?)")));
   EXPECT_THAT(
-      missing_in("fit:\n  pieces:\n    - {runs: 1}\n    - {scenario: scenarios/hnag.yaml}\n"),
+      missing_in("fit:\n  segments:\n    - {runs: 1}\n    - {scenario: scenarios/hnag.yaml}\n"),
       StartsWith("x.yaml:4:18: fit.pieces.1.scenario: scenarios/hnag.yaml: no such file"));
 }
 

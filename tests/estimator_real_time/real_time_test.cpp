@@ -21,7 +21,7 @@
 #include "estimator/free_fall.hpp"
 #include "estimator/phase/filter.hpp"
 #include "estimator/upkie_observer.hpp"
-#include "experiments/lanes/bayes.hpp"
+#include "experiments/batch/bayes.hpp"
 #include "odometry/filter.hpp"
 #include "tests/estimator/decision/random_model.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
@@ -172,9 +172,9 @@ TEST_F(RealTime, LanesAllocateNothing) {
   for (const char* name : {"paper", "reference", "robust"}) {
     const BayesFilterConfig config = test::named(name);
     const auto samples = test::labelled(test::drops(3000), config.measurement.torque);
-    const std::vector<experiments::LaneNoise> levels{
+    const std::vector<experiments::BatchNoise> levels{
         {0.0, 0.0, 0.0}, {1.0, 1.0, 5.0}, {3.0, 3.0, 10.0}};
-    experiments::BayesFilterLanes lanes(
+    experiments::BatchedBayesFilter lanes(
         fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit), config,
         levels);
     EXPECT_EQ(allocations_of([&] {

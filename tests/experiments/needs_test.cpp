@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "experiments/running_experiment.hpp"
+#include "experiments/experiment_context.hpp"
 
 namespace touchdown::experiments {
 namespace {

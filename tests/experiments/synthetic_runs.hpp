@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "experiments/config/experiment.hpp"
-#include "experiments/listening/sweep_run.hpp"
+#include "experiments/evaluation/sweep_run.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "noise/gaussian.hpp"
 
@@ -18,7 +18,7 @@ inline RunSignals synthetic_run(std::int64_t number, std::size_t steps = 4000) {
   run.info.simulator = "mujoco";
   run.info.seed = 1;
   run.info.run = number;
-  run.pieces = {0, steps / 2 + 100};
+  run.segments = {0, steps / 2 + 100};
   const noise::NoiseKey key{.seed = 99, .run = static_cast<std::uint64_t>(number)};
   for (std::size_t k = 0; k < steps; ++k) {
     const double phase = std::fmod(0.001 * static_cast<double>(k), 1.0);
@@ -67,13 +67,13 @@ inline Experiment synthetic_experiment(const std::vector<std::string>& estimator
 inline std::vector<scoring::Classification> sweep_run_one_by_one(
     std::span<const Condition> conditions, std::span<const noise::NoiseCell> cells,
     const RunSignals& run, const NoiseRun& noise, const FittedModels& models,
-    const scoring::ScoringConfig& scoring, const GoingOn& going_on) {
+    const scoring::ScoringConfig& scoring, const ShouldContinue& should_continue) {
   std::vector<noise::SensorNoise> levels;
   for (const noise::NoiseCell& cell : cells) levels.push_back(cell.levels());
   std::vector<scoring::Classification> counts;
   for (const Condition& condition : conditions) {
     const auto estimator = make_estimator(condition, models, run);
-    const auto by_level = sweep_levels(*estimator, levels, run, noise, scoring, going_on);
+    const auto by_level = sweep_levels(*estimator, levels, run, noise, scoring, should_continue);
     counts.insert(counts.end(), by_level.begin(), by_level.end());
   }
   return counts;

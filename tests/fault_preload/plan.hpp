@@ -36,7 +36,7 @@ struct Plan {
   bool kills = false;                ///< the program is killed instead, by SIGKILL
   int error = 0;                     ///< errno of what fails
   std::int64_t disk = -1;            ///< bytes that fit onto it; less than 0 is no limit
-  std::uint64_t smallest_piece = 0;  ///< allocations below it are neither counted nor refused
+  std::uint64_t shortest_segment = 0;  ///< allocations below it are neither counted nor refused
 
   std::atomic<std::uint64_t> seen{0};
   std::array<std::atomic<std::uint64_t>, kinds> of_kind{};

@@ -147,7 +147,7 @@ std::int64_t room_for(std::int64_t size, long descriptor) {
 }
 
 /// The first bytes of several pieces, as many as fit.
-long write_pieces(greg_t* registers, const char* path) {
+long write_segments(greg_t* registers, const char* path) {
   const auto* given = reinterpret_cast<const iovec*>(registers[REG_RSI]);  // NOLINT
   std::array<iovec, 16> pieces{};
   const std::size_t count = std::min(static_cast<std::size_t>(registers[REG_RDX]), pieces.size());
@@ -168,7 +168,7 @@ long write_pieces(greg_t* registers, const char* path) {
 
 long write_what_fits(greg_t* registers, const char* path) {
   const long number = registers[REG_RAX];
-  if (number == SYS_writev || number == SYS_pwritev) return write_pieces(registers, path);
+  if (number == SYS_writev || number == SYS_pwritev) return write_segments(registers, path);
   if (number == SYS_write || number == SYS_pwrite64) {
     const long size = registers[REG_RDX];
     registers[REG_RDX] = room_for(size, registers[REG_RDI]);
@@ -283,7 +283,7 @@ int begun(int count, char** arguments, char** environment) {
 }
 
 [[maybe_unused]] bool is_refused(std::size_t size) {
-  return has_begun && plan != nullptr && size >= plan->smallest_piece &&
+  return has_begun && plan != nullptr && size >= plan->shortest_segment &&
          falls(Kind::allocation, "memory");
 }
 

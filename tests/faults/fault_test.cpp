@@ -23,7 +23,7 @@ cli::Ended ended(const std::string& command, const ScratchFolder& folder,
 }
 
 /// Smaller ones are of names and lines, and too many to refuse each.
-constexpr std::uint64_t smallest_piece = 2048;
+constexpr std::uint64_t shortest_segment = 2048;
 
 /// Writes what it needs and returns it.
 using Command = std::function<std::string(const ScratchFolder&)>;
@@ -34,7 +34,7 @@ struct Case {
     const ScratchFolder folder;
     const Injection injection(folder.path());
     injection->counted = counted;
-    injection->smallest_piece = smallest_piece;
+    injection->shortest_segment = shortest_segment;
     const cli::Ended end = ended(command(folder), folder, injection.environment());
     EXPECT_EQ(end.exit_code, 0) << end.errors;
     expected = files_of(folder / "a");
@@ -78,7 +78,7 @@ void expect_nothing_wrong(const Case& one, const std::vector<Kind>& refused, std
     for (std::uint64_t n = 1 + step / 2; n <= calls; n += step) {
       const std::vector<std::string> wrong = one.wrong([&](Plan& plan) {
         plan.counted = bit(kind);
-        plan.smallest_piece = smallest_piece;
+        plan.shortest_segment = shortest_segment;
         plan.nth = n;
         plan.error = kind == Kind::allocation ? ENOMEM : n % 2 == 0 ? EIO : ENOSPC;
       });

@@ -60,17 +60,17 @@ class Kills {
     watch(injection);
     const std::uint64_t any = std::uniform_int_distribution<std::uint64_t>(1, calls_)(random);
     const double wait = std::uniform_real_distribution<double>(0.0, stage_.longest_wait)(random);
-    const bool at_once = stage_.from == From::any_call && random() % 2 == 0;
+    const bool whole_run = stage_.from == From::any_call && random() % 2 == 0;
     const std::uint64_t at = stage_.from == From::any_call ? any
                              : stage_.from == From::start  ? 0
                                                            : calls_;
-    if (at_once) {
+    if (whole_run) {
       injection->nth = at;
       injection->kills = true;
     }
     cli::StartedProgram program(command, folder.path(), injection.environment());
     while (program.is_running() && injection->seen < at) program.let_run(0.0005);
-    if (!at_once) {
+    if (!whole_run) {
       program.let_run(wait);
       program.send(SIGKILL);
     }
@@ -90,7 +90,7 @@ class Kills {
       wrong.push_back(one);
     }
     EXPECT_THAT(wrong, IsEmpty()) << stage_.name << " killed at " << at << " of " << calls_
-                                  << (at_once ? "" : fmt::format(" and {:.4f} s", wait));
+                                  << (whole_run ? "" : fmt::format(" and {:.4f} s", wait));
     wrong_ += wrong.size();
   }
 
@@ -115,7 +115,7 @@ class Kills {
   std::size_t wrong_ = 0;
 };
 
-void expect_going_on(const Stage& stage, int some, int all) {
+void expect_should_continue(const Stage& stage, int some, int all) {
   std::mt19937 random(20261122);
   Kills kills(stage);
   const int count = all_of_them() ? all : some;
@@ -136,38 +136,38 @@ std::string merge(const ScratchFolder& folder) {
 }
 
 TEST(Kills, WhileItSimulates) {
-  expect_going_on({"simulating", small_run_without_pictures, "/recordings/", 0.02}, 3, 30);
+  expect_should_continue({"simulating", small_run_without_pictures, "/recordings/", 0.02}, 3, 30);
 }
 
 TEST(Kills, WhileItListens) {
-  expect_going_on({"listening", small_run_without_pictures, "/listening/", 0.01}, 1, 15);
+  expect_should_continue({"listening", small_run_without_pictures, "/listening/", 0.01}, 1, 15);
 }
 
 TEST(Kills, WhileItWritesModels) {
-  expect_going_on({"models", small_run_without_pictures, "/models/", 0.01}, 1, 10);
+  expect_should_continue({"models", small_run_without_pictures, "/models/", 0.01}, 1, 10);
 }
 
 TEST(Kills, WhileItWritesTables) {
-  expect_going_on({"tables", small_run_without_pictures, "/tables/", 0.01}, 1, 15);
+  expect_should_continue({"tables", small_run_without_pictures, "/tables/", 0.01}, 1, 15);
 }
 
-TEST(Kills, WhileItDraws) { expect_going_on({"drawing", small_run, "/figures/", 0.1}, 1, 20); }
+TEST(Kills, WhileItDraws) { expect_should_continue({"drawing", small_run, "/figures/", 0.1}, 1, 20); }
 
 TEST(Kills, WhileItFilms) {
-  expect_going_on({"filming", small_film, "", 1.0, From::start, false, true}, 1, 10);
+  expect_should_continue({"filming", small_film, "", 1.0, From::start, false, true}, 1, 10);
   if (!all_of_them()) return;
-  expect_going_on({"filming a run", small_run_with_film, "/figures/", 2.0, From::last_call}, 0, 10);
+  expect_should_continue({"filming a run", small_run_with_film, "/figures/", 2.0, From::last_call}, 0, 10);
 }
 
 TEST(Kills, WhileBeliefsSteer) {
-  expect_going_on({"closed loop", small_closed_loop, "/closed_loop/", 0.02}, 1, 15);
+  expect_should_continue({"closed loop", small_closed_loop, "/closed_loop/", 0.02}, 1, 15);
 }
 
-TEST(Kills, WhileItMerges) { expect_going_on({"merging", merge, "", 0.02}, 1, 15); }
+TEST(Kills, WhileItMerges) { expect_should_continue({"merging", merge, "", 0.02}, 1, 15); }
 
 #ifdef TOUCHDOWN_HAS_TRAINER
 TEST(Kills, WhileItTrains) {
-  expect_going_on({"training", small_training, "", 0.2, From::any_call, true}, 1, 20);
+  expect_should_continue({"training", small_training, "", 0.2, From::any_call, true}, 1, 20);
 }
 #endif
 

@@ -39,7 +39,7 @@ std::string small_closed_loop(const ScratchFolder& folder) {
   std::ofstream(folder / "small.yaml", std::ios::app) << R"(closed_loop:
   contact: [truth, measurement_only, always]
   runs: 3
-  scenes: [{scenario: fall.yaml}, {scenario: fall.yaml, late: [0.0, 0.1]}]
+  scenes: [{scenario: fall.yaml}, {scenario: fall.yaml, delay: [0.0, 0.1]}]
 )";
   return run;
 }

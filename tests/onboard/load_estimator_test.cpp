@@ -81,10 +81,10 @@ TEST_F(LoadEstimator, LeavesAloneWhatSomebodyKeepsBesideAGrid) {
 }
 
 TEST_F(LoadEstimator, KnowsWhoseAModelIs) {
-  const ModelPassport passport = load_passport(file("m.npz", test::fitted_model("phase", "tall")));
-  EXPECT_EQ(passport.estimator, "phase");
-  EXPECT_EQ(passport.robot, "tall");
-  EXPECT_EQ(passport.configuration, default_configuration("phase", 1000.0));
+  const ModelMetadata metadata = load_metadata(file("m.npz", test::fitted_model("phase", "tall")));
+  EXPECT_EQ(metadata.estimator, "phase");
+  EXPECT_EQ(metadata.robot, "tall");
+  EXPECT_EQ(metadata.configuration, default_configuration("phase", 1000.0));
 }
 
 TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveAPassport) {

@@ -75,10 +75,10 @@ class SoftLanding : public ::testing::Test {
 
   models::Observation seen_;
   bool touches_ = true;
-  bool right_touches_too_ = true;
+  bool right_in_contact_too_ = true;
   SoftLander policy_{WheelBalancerConfig{}, Course{{}, {}, 0.05, 1e-3}, side_view(upkie_model()),
                      [this](const models::Observation&, double) {
-                       return std::array<bool, 2>{touches_, touches_ && right_touches_too_};
+                       return std::array<bool, 2>{touches_, touches_ && right_in_contact_too_};
                      }};
 };
 
@@ -151,12 +151,12 @@ TEST_F(SoftLanding, SoftensInFlightAndStiffensAfterLanding) {
 
 TEST_F(SoftLanding, SinksOverOneWheelThatHangsButNotOverABump) {
   steps(50, true);
-  right_touches_too_ = false;
+  right_in_contact_too_ = false;
   steps(95, true);
   EXPECT_EQ(policy_.softness(), 0.0);
-  right_touches_too_ = true;
+  right_in_contact_too_ = true;
   steps(5, true);
-  right_touches_too_ = false;
+  right_in_contact_too_ = false;
   steps(150, true);
   EXPECT_NEAR(policy_.softness(), 0.5, 1e-9);
   const models::Action sinking = steps(100, true);

@@ -87,15 +87,15 @@ class Run(InFolder):
     def test_is_the_updates_one_after_the_other(self):
         run = hop()
         estimator = touchdown.Estimator(model=touchdown.fit(run))
-        at_once = estimator.run(run)
+        whole_run = estimator.run(run)
         estimator.reset()
         for k, step in enumerate(steps_of(run)):
             belief = estimator.update(step)
-            self.assertEqual(belief.p_contact, tuple(at_once["p_contact"][k]))
-            self.assertEqual(belief.contact, tuple(at_once["contact"][k]))
+            self.assertEqual(belief.p_contact, tuple(whole_run["p_contact"][k]))
+            self.assertEqual(belief.contact, tuple(whole_run["contact"][k]))
         self.assertEqual(belief.status, "good")
         # From the beginning each time.
-        np.testing.assert_array_equal(estimator.run(run)["p_contact"], at_once["p_contact"])
+        np.testing.assert_array_equal(estimator.run(run)["p_contact"], whole_run["p_contact"])
 
     def test_hears_what_was_written_into_arrays_of_any_layout(self):
         run = hop()
@@ -153,12 +153,12 @@ class Spine(unittest.TestCase):
     def test_is_heard_as_the_recording_is(self):
         run = hop()
         estimator = touchdown.Estimator(model=touchdown.fit(run))
-        at_once = estimator.run(run)["p_contact"]
+        whole_run = estimator.run(run)["p_contact"]
         estimator.reset()
         beliefs = [estimator.update_from_spine(spine_observation(run, k), run["ground_velocity_command"][k])
                    for k in range(run.steps)]
         # Times differ in the last digits: here they are counted.
-        np.testing.assert_allclose([belief.p_contact for belief in beliefs], at_once, atol=1e-12)
+        np.testing.assert_allclose([belief.p_contact for belief in beliefs], whole_run, atol=1e-12)
 
     def test_without_torques_is_a_leg_that_failed(self):
         run = hop()

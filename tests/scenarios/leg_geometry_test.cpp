@@ -11,7 +11,7 @@
 
 #include "core/files.hpp"
 #include "core/resources.hpp"
-#include "estimator/decision/channels.hpp"
+#include "estimator/decision/leg_features.hpp"
 #include "recordings/signals_from.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/simulators/upkie.hpp"
@@ -98,7 +98,7 @@ TEST(LegGeometry, LeavesNoReactionOfTheGroundToWheelsThatSpinFreely) {
       const simulators::RobotState start = simulators::at_height(5.0);
       simulator->reset(start);
       const LegGeometry geometry = leg_geometry(*robot);
-      LegListener listener({.geometry = geometry}, false);
+      LegFeatureExtractor listener({.geometry = geometry}, false);
       models::Action action = simulators::stiff_legs(start);
       double largest_torque = 0.0;
       double largest_reaction = 0.0;

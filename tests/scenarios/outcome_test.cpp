@@ -23,9 +23,9 @@ TEST_P(OutcomeOf, ARobotThatCannotBalanceFalls) {
 }
 
 TEST_P(OutcomeOf, NotArrivingInTimeIsATimeout) {
-  Scenario late = standing(1.0);
-  late.end.x = 5.0;
-  const recordings::Recording recording = play(late, GetParam());
+  Scenario delay = standing(1.0);
+  delay.end.x = 5.0;
+  const recordings::Recording recording = play(delay, GetParam());
   EXPECT_EQ(recording.info.outcome, recordings::Outcome::timed_out);
   EXPECT_NEAR(recording.observation.back().time, 1.0, 1e-9);
   EXPECT_EQ(recording.steps(), 1001U);

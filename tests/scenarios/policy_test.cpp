@@ -10,8 +10,8 @@ using recordings::Outcome;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-PolicyConfig soft(const std::string& contact, double late = 0.0) {
-  return {PolicyConfig::Law::soft_landing, contact, late};
+PolicyConfig soft(const std::string& contact, double delay = 0.0) {
+  return {PolicyConfig::Law::soft_landing, contact, delay};
 }
 
 Scenario high_steps(double rise) {
@@ -61,19 +61,19 @@ TEST(PolicyContact, OfTheTruthComesLateByWhatTheFileSays) {
   const auto simulator = make_simulator(scenario, "mujoco");
   simulator->reset(start_pose(simulator->model(), scenario.terrain, scenario.start));
   scenario.policy = soft("truth");
-  const policies::WheelContact at_once = policy_contact(scenario, *simulator);
-  scenario.policy.late = 0.01;
-  const policies::WheelContact late = policy_contact(scenario, *simulator);
-  std::vector<bool> told, told_late;
+  const policies::WheelContact whole_run = policy_contact(scenario, *simulator);
+  scenario.policy.delay = 0.01;
+  const policies::WheelContact delay = policy_contact(scenario, *simulator);
+  std::vector<bool> told, reported_late;
   for (int k = 0; k < 450; ++k) {
-    told.push_back(at_once(simulator->observation(), 0.0)[0]);
-    told_late.push_back(late(simulator->observation(), 0.0)[0]);
+    told.push_back(whole_run(simulator->observation(), 0.0)[0]);
+    reported_late.push_back(delay(simulator->observation(), 0.0)[0]);
     EXPECT_EQ(told[static_cast<std::size_t>(k)],
               k == 0 || in_contact(simulator->ground_truth(), 0));
     simulator->step(models::Action{});
   }
   EXPECT_FALSE(told[100]);
-  for (std::size_t k = 10; k < told.size(); ++k) EXPECT_EQ(told_late[k], told[k - 10]);
+  for (std::size_t k = 10; k < told.size(); ++k) EXPECT_EQ(reported_late[k], told[k - 10]);
 }
 
 TEST(PolicyFile, IsReadBackAndNotWrittenWhereItIsTheBalancer) {

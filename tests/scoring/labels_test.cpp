@@ -57,23 +57,23 @@ TEST(Annotator, MissesAFlightBetweenTwoPictures) {
 TEST(Annotator, IsLateOrEarlyByAsMuchAsItSays) {
   const ContactSequence contact = sequence({{1, 15}, {0, 20}, {1, 15}});
   EXPECT_EQ(
-      annotated(contact, 1e-3, {.frame = 0.0, .takeoffs_late = -0.007, .landings_late = 0.003}),
+      annotated(contact, 1e-3, {.frame = 0.0, .takeoff_delay = -0.007, .landing_delay = 0.003}),
       sequence({{1, 8}, {0, 30}, {1, 12}}));
-  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.0, .takeoffs_late = 0.02, .landings_late = 0.0}),
+  EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.0, .takeoff_delay = 0.02, .landing_delay = 0.0}),
             sequence({{1, 50}}));
 }
 
 TEST(Annotator, KnowsThatEndsOfARunAreNoEvents) {
   const ContactSequence contact = sequence({{0, 10}, {1, 30}, {0, 10}});
   EXPECT_EQ(
-      annotated(contact, 1e-3, {.frame = 0.0, .takeoffs_late = 0.004, .landings_late = 0.004}),
+      annotated(contact, 1e-3, {.frame = 0.0, .takeoff_delay = 0.004, .landing_delay = 0.004}),
       sequence({{0, 14}, {1, 30}, {0, 6}}));
 }
 
 TEST(Annotator, SeesFlightsThatRunIntoEachOtherAsOne) {
   const ContactSequence contact = sequence({{1, 10}, {0, 10}, {1, 5}, {0, 10}, {1, 15}});
   EXPECT_EQ(
-      annotated(contact, 1e-3, {.frame = 0.0, .takeoffs_late = -0.003, .landings_late = 0.003}),
+      annotated(contact, 1e-3, {.frame = 0.0, .takeoff_delay = -0.003, .landing_delay = 0.003}),
       sequence({{1, 7}, {0, 31}, {1, 12}}));
 }
 
@@ -110,13 +110,13 @@ TEST(Flights, IncludeThoseAtTheEnds) {
   EXPECT_TRUE(flights(sequence({{1, 3}})).empty());
 }
 
-TEST(DropPieces, CutMidwayBetweenDropsAndKeepBouncesTogether) {
+TEST(DropSegments, CutMidwayBetweenDropsAndKeepBouncesTogether) {
   // Drops at [100, 200) with a bounce at [210, 220), and at [1220, 1300).
   const ContactSequence contact =
       sequence({{1, 100}, {0, 100}, {1, 10}, {0, 10}, {1, 1000}, {0, 80}, {1, 100}});
-  EXPECT_EQ(drop_pieces(contact, 250), (std::vector<std::size_t>{0, 720}));
-  EXPECT_EQ(drop_pieces(contact, 5).size(), 3U);
-  EXPECT_EQ(drop_pieces({1, 1}, 5), std::vector<std::size_t>{0});
+  EXPECT_EQ(drop_segments(contact, 250), (std::vector<std::size_t>{0, 720}));
+  EXPECT_EQ(drop_segments(contact, 5).size(), 3U);
+  EXPECT_EQ(drop_segments({1, 1}, 5), std::vector<std::size_t>{0});
 }
 
 TEST(WheelCombinations, AreOrAndAnd) {

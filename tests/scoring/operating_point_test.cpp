@@ -29,7 +29,7 @@ BothWheels contact_but(const std::vector<Flight>& flights) {
 }
 
 TEST(OperatingPoint, CountsWhatIsToldBesidesTheFlights) {
-  // Told 4 ms late, interrupted for 3 ms, and once where there is none.
+  // ContactTrace 4 ms late, interrupted for 3 ms, and once where there is none.
   const OperatingScore score =
       operating_score(contact_but({{1000, 1200}}),
                       contact_but({{1004, 1100}, {1103, 1200}, {2000, 2010}}), 1000, {});

@@ -89,13 +89,13 @@ TEST(Score, CountsPointsAfterTheSkippedBeginning) {
 TEST(Score, OfThePiecesAddsUpToTheWhole) {
   const ContactSequence truth = random_truth(3);
   const Track track = delayed(truth, 30);
-  const std::vector<std::size_t> pieces = drop_pieces(truth, 250);
-  ASSERT_EQ(pieces.size(), 12U);
+  const std::vector<std::size_t> segments = drop_segments(truth, 250);
+  ASSERT_EQ(segments.size(), 12U);
   Score sum;
-  for (const Score& piece : score(truth, track, pieces, period_us, {})) {
-    EXPECT_EQ(piece.takeoff.events, 1);
-    EXPECT_EQ(piece.landing.events, 1);
-    sum += piece;
+  for (const Score& segment : score(truth, track, segments, period_us, {})) {
+    EXPECT_EQ(segment.takeoff.events, 1);
+    EXPECT_EQ(segment.landing.events, 1);
+    sum += segment;
   }
   const Score all = whole(truth, track);
   EXPECT_EQ(sum.points, all.points);

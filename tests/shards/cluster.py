@@ -47,7 +47,7 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
 
 # Nothing here uses control groups, but slurmd looks for a file system of them and refuses to start
-# where there is none, as in a bare chroot. Told which version, it does not look.
+# where there is none, as in a bare chroot. ContactTrace which version, it does not look.
 CGROUPS = 'CgroupPlugin=cgroup/v1\n'
 
 

@@ -60,7 +60,7 @@ class Array:
 
     def parts(self, shard):
         """How many of a shard's parts are saved."""
-        done = {path.name for path in (self.results / 'state' / 'listening').glob('[!.]*')}
+        done = {path.name for path in (self.results / 'state' / 'evaluation').glob('[!.]*')}
         every = [f'{engine}_step_test_{run:03}_seed_{seed:04}'
                  for engine in ('mujoco', 'bullet') for run in range(3) for seed in range(40)]
         return len(done.intersection(every[PARTS * (shard - 1):PARTS * shard]))

@@ -121,7 +121,7 @@ def shared(**changes):
 def stop_in_the_middle(hosts):
     """As by Ctrl-C: nothing goes on over there."""
     loop = hosts.begin(shared())
-    listening = hosts.work / 'out' / 'state' / 'listening'
+    listening = hosts.work / 'out' / 'state' / 'evaluation'
     hosts.wait_for('some work to be done', lambda: len(list(listening.glob('[!.]*'))) > 3)
     recipes.interrupt(loop)
     hosts.wait_for('the shards to stop', lambda: not recipes.processes_in(hosts.work), 20)
@@ -159,7 +159,7 @@ def test(hosts, touchdown):
         hosts='(node1 node2 node3)', there='shards'))
     for shard, host in enumerate(HOSTS, 1):
         state = hosts.folder / f'home_{host}' / 'shards' / 'out' / 'state'
-        parts = len(list((state / 'listening').glob('[!.]*')))
+        parts = len(list((state / 'evaluation').glob('[!.]*')))
         check(parts == PARTS, f'{host} has {parts} parts, not those of shard {shard} alone')
     work.compare_with_local_run(alone / 'out', touchdown, hosts.work)
 

@@ -185,8 +185,8 @@ class Roller {
     const RobotState& state = simulator_->state();
     const Eigen::Vector3d arm = state.orientation * point;
     const Eigen::Vector3d velocity = state.linear_velocity + state.angular_velocity.cross(arm);
-    const double late = speed * simulator_->observation().time - state.position.x() - arm.x();
-    return {{400.0 * late + 80.0 * (speed - velocity.x()), 0.0, 0.0}, point};
+    const double delay = speed * simulator_->observation().time - state.position.x() - arm.x();
+    return {{400.0 * delay + 80.0 * (speed - velocity.x()), 0.0, 0.0}, point};
   }
 
   std::unique_ptr<Simulator> simulator_;

@@ -109,7 +109,7 @@ TEST(SignalAssembler, FindsNothingWrongWithARobotThatStandsFallsAndLands) {
   }
 }
 
-/// Told at the end of half a second that begins upright.
+/// ContactTrace at the end of half a second that begins upright.
 RecordFaults after_half_a_second_of(const std::array<double, 4>& orientation, bool chip_reports) {
   SignalAssembler assembler;
   Robot robot;

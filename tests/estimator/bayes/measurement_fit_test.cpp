@@ -41,13 +41,13 @@ TEST(MeasurementFit, IsTheFitOfAllSamplesAtOnce) {
     fit.knee_count = 61;
     fit.wheel_count = 47;
     const auto samples = test::labelled(test::drops(3001), config.measurement.torque);
-    const LikelihoodGrids at_once =
+    const LikelihoodGrids whole_run =
         fit_measurement_model(samples.contact, samples.no_contact, fit).grids();
     const LikelihoodGrids one_by_one = fitted_one_by_one(samples, fit).grids();
-    EXPECT_NEAR(at_once.knee.upper, one_by_one.knee.upper, 1e-12);
-    EXPECT_NEAR(at_once.wheel.lower, one_by_one.wheel.lower, 1e-12);
-    expect_near(at_once.contact, one_by_one.contact);
-    expect_near(at_once.no_contact, one_by_one.no_contact);
+    EXPECT_NEAR(whole_run.knee.upper, one_by_one.knee.upper, 1e-12);
+    EXPECT_NEAR(whole_run.wheel.lower, one_by_one.wheel.lower, 1e-12);
+    expect_near(whole_run.contact, one_by_one.contact);
+    expect_near(whole_run.no_contact, one_by_one.no_contact);
   }
 }
 

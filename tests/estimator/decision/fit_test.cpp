@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "estimator/decision/senses.hpp"
+#include "estimator/decision/feature_extractor.hpp"
 #include "tests/estimator/decision/lifted_run.hpp"
 
 namespace touchdown {
@@ -14,7 +14,7 @@ namespace {
 
 /// Every step that is heard, as it is.
 DecisionFitConfig undisturbed() {
-  DecisionFitConfig fit{.passes = 1, .rows = 1'000'000, .share_forgetful = 0.0};
+  DecisionFitConfig fit{.passes = 1, .rows = 1'000'000, .share_with_resets = 0.0};
   fit.disturbance = {.largest_torque_noise = 0.0,
                      .largest_acceleration_noise = 0.0,
                      .torque_bias = 0.0,
@@ -30,7 +30,7 @@ TEST(DecisionRows, OfSlowHearingsAreWhatARobotHearsThatIsAsSlow) {
     fit.steps_of_slow = 5;
     fit.share_slow = apart == 5 ? 1.0 : 0.0;
     const DecisionRows rows = decision_rows(std::vector<LabelledRun>{run.view()}, {}, fit);
-    DecisionSenses senses({.sample_rate = 1000.0 / static_cast<double>(apart)});
+    FeatureExtractor senses({.sample_rate = 1000.0 / static_cast<double>(apart)});
     Eigen::Index row = 0;
     for (std::size_t k = 0; k < run.signals.size(); k += apart) {
       senses.update(run.signals[k]);
@@ -56,8 +56,8 @@ TEST(DecisionRows, OfForgetfulHearingsAreOfLowPassesThatBeganAnewFromTimeToTime)
   }
   DecisionFitConfig fit = undisturbed();
   fit.share_slow = 0.0;
-  fit.share_forgetful = 1.0;
-  fit.forget_after = 0.05;
+  fit.share_with_resets = 1.0;
+  fit.reset_after = 0.05;
   const DecisionRows rows = decision_rows(std::vector<LabelledRun>{run.view()}, {}, fit);
   ASSERT_EQ(rows.inputs.cols(), 2 * 20'000);
   int begun = 0;
@@ -74,12 +74,12 @@ TEST(DecisionFitConfig, OfHearingsThatCannotBeIsRefused) {
   }
   EXPECT_THROW(check_decision_fit_config({.steps_of_slow = 0}), InputError);
   for (const double share : {-0.1, 1.1, std::nan("")}) {
-    EXPECT_THROW(check_decision_fit_config({.share_forgetful = share}), InputError) << share;
+    EXPECT_THROW(check_decision_fit_config({.share_with_resets = share}), InputError) << share;
   }
   for (const double after : {0.0, -1.0, std::nan("")}) {
-    EXPECT_THROW(check_decision_fit_config({.forget_after = after}), InputError) << after;
+    EXPECT_THROW(check_decision_fit_config({.reset_after = after}), InputError) << after;
   }
-  EXPECT_THROW(check_decision_fit_config({.forget_after_noise = -0.1}), InputError);
+  EXPECT_THROW(check_decision_fit_config({.reset_after_noise = -0.1}), InputError);
 }
 
 }  // namespace

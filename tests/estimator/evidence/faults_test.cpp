@@ -223,17 +223,17 @@ TEST_F(Faults, AreNotBlowsThatAnAccelerometerCutsOff) {
       s.vertical_acceleration = std::min(s.vertical_acceleration, range);
       told.push_back(cut_off.update(s));
     }
-    std::array<int, 2> late = {};  // ms
+    std::array<int, 2> delay = {};  // ms
     for (std::size_t k = 0; k < told.size(); ++k) {
       ASSERT_EQ(told[k].status, SignalStatus::good);
       for (std::size_t w = 0; w < 2; ++w) {
-        if (told[k].wheel[w].contact != expected[k].wheel[w].contact) ++late[w];
+        if (told[k].wheel[w].contact != expected[k].wheel[w].contact) ++delay[w];
         if (k >= begin + recovered) {
           ASSERT_TRUE(is_as_undisturbed(told[k].wheel[w], expected, k, w)) << k;
         }
       }
     }
-    for (const int steps : late) EXPECT_LE(steps, 3) << begin;
+    for (const int steps : delay) EXPECT_LE(steps, 3) << begin;
   }
 }
 

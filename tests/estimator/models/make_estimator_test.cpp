@@ -56,7 +56,7 @@ TEST(MakeEstimator, RunsItAsThePassportSays) {
   config.threshold = 0.6;
   config.transition.switch_sigmoid = {20.0, 3.0};
   config.transition.power = PowerMeasure::energy;
-  add_passport(arrays, {"robust", 1000.0, "", text_of(config), ""});
+  add_metadata(arrays, {"robust", 1000.0, "", text_of(config), ""});
   BayesFilter expected(measurement_model_of(arrays), config);
   EXPECT_EQ(told(*make_estimator(arrays)), told(expected));
 }
@@ -105,23 +105,23 @@ TEST(MakeEstimator, RefusesNumbersThatAreNotTheFitted) {
 TEST(MakeEstimator, RefusesPassportsThatItDoesNotUnderstand) {
   const auto with = [](const std::string& from, const std::string& to) {
     ModelArrays arrays = test::fitted_model("load_logistic");
-    const std::string name(passport_array);
+    const std::string name(metadata_array);
     std::string text = text_of_array(arrays.at(name), name);
     text.replace(text.find(from), from.size(), to);
     arrays[name] = array_of_text(text);
     return complaint_about(arrays);
   };
-  EXPECT_EQ(with("format: 1", "format: 2"), "passport: format 2: expected 1");
-  EXPECT_EQ(with("units: SI", "units: kgf"), "passport: units kgf: expected SI");
+  EXPECT_EQ(with("format: 1", "format: 2"), "metadata: format 2: expected 1");
+  EXPECT_EQ(with("units: SI", "units: kgf"), "metadata: units kgf: expected SI");
   EXPECT_THAT(with("robot: upkie", "rabbit: upkie"),
               HasSubstr("'rabbit: upkie' is not understood"));
   EXPECT_THAT(with("sample_rate: 1000", "sample_rate: fast"), HasSubstr("is not understood"));
   EXPECT_THAT(with("sample_rate: 1000", "sample_rate: -1"), HasSubstr("positive sample_rate"));
   EXPECT_THAT(with("robot: upkie", "robot: other"), HasSubstr("fingerprint"));
   ModelArrays arrays = test::fitted_arrays("load_logistic");
-  add_passport(arrays, {"load_logistic", 1000.0, "", {{"speed", "1"}}, ""});
+  add_metadata(arrays, {"load_logistic", 1000.0, "", {{"speed", "1"}}, ""});
   EXPECT_THAT(complaint_about(arrays), HasSubstr("configuration.speed: is not known"));
-  add_passport(arrays, {"load_logistic", 1000.0, "", {{"threshold", "high"}}, ""});
+  add_metadata(arrays, {"load_logistic", 1000.0, "", {{"threshold", "high"}}, ""});
   EXPECT_THAT(complaint_about(arrays),
               HasSubstr("configuration.threshold: 'high' is no value for it"));
 }
@@ -133,7 +133,7 @@ TEST(MakeEstimator, TakesNoRobotWhoseNameIsSeveralLines) {
 
 TEST(MakeEstimator, GivesTheSameFitTheSameFingerprint) {
   const auto fingerprint = [](const ModelArrays& arrays) {
-    return passport_of(arrays)->fingerprint;
+    return metadata_of(arrays)->fingerprint;
   };
   const std::string robust = fingerprint(test::fitted_model("robust"));
   EXPECT_EQ(robust.size(), 16U);
@@ -218,7 +218,7 @@ TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
   EXPECT_EQ(at_rate(BayesFilterConfig::robust(), 200.0).transition.window, 26);
   EXPECT_EQ(default_configuration("robust", 500.0).at("transition.window"), "64");
   ModelArrays arrays = test::fitted_arrays("robust");
-  add_passport(arrays, {"robust", 500.0, "", default_configuration("robust", 500.0), ""});
+  add_metadata(arrays, {"robust", 500.0, "", default_configuration("robust", 500.0), ""});
   BayesFilter expected(measurement_model_of(arrays), at_rate(BayesFilterConfig::robust(), 500.0));
   EXPECT_EQ(told(*make_estimator(arrays)), told(expected));
 }
@@ -237,7 +237,7 @@ TEST(CompiledModel, BelievesTheSameToTheBit) {
       CompiledArray entry{
           key.c_str(),       array.rows(), array.shape.size() < 2 ? 0 : array.columns(),
           array.data.data(), nullptr,      nullptr};
-      if (key == passport_array || key == estimator_array) {
+      if (key == metadata_array || key == estimator_array) {
         texts.push_back(text_of_array(array, key));
         entry.doubles = nullptr;
         entry.text = texts.back().c_str();

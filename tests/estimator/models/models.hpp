@@ -49,7 +49,7 @@ inline ModelArrays fitted_arrays(const std::string& name) {
 /// As above, with the passport of a fit at 1 kHz.
 inline ModelArrays fitted_model(const std::string& name, const std::string& robot = "upkie") {
   ModelArrays arrays = fitted_arrays(name);
-  add_passport(arrays, {.estimator = name,
+  add_metadata(arrays, {.estimator = name,
                         .sample_rate = 1000.0,
                         .robot = robot,
                         .configuration = default_configuration(name, 1000.0),

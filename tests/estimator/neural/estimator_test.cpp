@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "experiments/lanes/neural.hpp"
+#include "experiments/batch/neural.hpp"
 #include "tests/estimator/neural/sample.hpp"
 
 namespace touchdown {
@@ -180,13 +180,13 @@ TEST(NeuralEstimator, RefusesWhatItCannotRun) {
       ThrowsMessage<InputError>(HasSubstr("threshold")));
 }
 
-TEST(NeuralLanes, EqualEstimatorsThatAreFedEachNoiseLevel) {
+TEST(BatchedNeuralNetwork, EqualEstimatorsThatAreFedEachNoiseLevel) {
   const auto net = network();
   const std::vector<double> sigmas = {0.0, 0.23, 5.0, 10.0};
   std::vector<NeuralEstimator> estimators(sigmas.size(), NeuralEstimator(net));
   test::Normal normal(9);
   for (const bool again : {false, true}) {
-    experiments::NeuralLanes lanes(net, {}, sigmas);
+    experiments::BatchedNeuralNetwork lanes(net, {}, sigmas);
     for (auto& estimator : estimators) {
       if (again) estimator.reset();
     }
@@ -202,9 +202,9 @@ TEST(NeuralLanes, EqualEstimatorsThatAreFedEachNoiseLevel) {
   }
 }
 
-TEST(NeuralLanes, SkipWhatIsNotFiniteAndRefuseBadLevels) {
+TEST(BatchedNeuralNetwork, SkipWhatIsNotFiniteAndRefuseBadLevels) {
   const auto net = network();
-  experiments::NeuralLanes lanes(net, {}, std::vector{1.0});
+  experiments::BatchedNeuralNetwork lanes(net, {}, std::vector{1.0});
   const auto stream = moving_robot(20);
   for (const Signals& s : stream) lanes.update(s, Eigen::Vector3d::Zero());
   const double before = lanes.p_contact()[0];
@@ -212,9 +212,9 @@ TEST(NeuralLanes, SkipWhatIsNotFiniteAndRefuseBadLevels) {
   bad.angular_velocity.y() = std::nan("");
   for (int k = 0; k < 20; ++k) lanes.update(bad, Eigen::Vector3d::Zero());
   EXPECT_EQ(lanes.p_contact()[0], before);
-  EXPECT_THROW(experiments::NeuralLanes(net, {}, std::vector<double>{}), InputError);
-  EXPECT_THROW(experiments::NeuralLanes(net, {}, std::vector{-1.0}), InputError);
-  EXPECT_THROW(experiments::NeuralLanes(net, {}, std::vector{std::nan("")}), InputError);
+  EXPECT_THROW(experiments::BatchedNeuralNetwork(net, {}, std::vector<double>{}), InputError);
+  EXPECT_THROW(experiments::BatchedNeuralNetwork(net, {}, std::vector{-1.0}), InputError);
+  EXPECT_THROW(experiments::BatchedNeuralNetwork(net, {}, std::vector{std::nan("")}), InputError);
 }
 
 }  // namespace

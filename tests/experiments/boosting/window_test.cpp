@@ -75,13 +75,13 @@ TEST(SignalWindow, RepeatsWhatIsMissingForAsLongAsAGap) {
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 50; k < 69; ++k) {
     const SignalWindow::Step heard = window.update(step(k, missing, 1.0, 0.1));
-    EXPECT_TRUE(heard.is_heard);
+    EXPECT_TRUE(heard.is_valid);
     EXPECT_EQ(heard.status, SignalStatus::invalid);
   }
   EXPECT_EQ(window.features(0), before);
   for (std::size_t k = 69; k < 75; ++k) window.update(step(k, missing, 1.0, 0.1));
-  EXPECT_FALSE(window.update(step(75, missing, 1.0, 0.1)).is_heard);
-  EXPECT_TRUE(window.update(step(76, 1.5, 1.0, 0.1)).is_heard);
+  EXPECT_FALSE(window.update(step(75, missing, 1.0, 0.1)).is_valid);
+  EXPECT_TRUE(window.update(step(76, 1.5, 1.0, 0.1)).is_valid);
 }
 
 TEST(SignalWindow, ForgetsWhatIsNoLongerBeforeIt) {
@@ -96,7 +96,7 @@ TEST(SignalWindow, ForgetsWhatIsNoLongerBeforeIt) {
 TEST(SignalWindow, HearsNothingBeforeItsFirstTorques) {
   SignalWindow window(1000.0);
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(window.update(step(0, missing, 1.0, 0.1)).is_heard);
+  EXPECT_FALSE(window.update(step(0, missing, 1.0, 0.1)).is_valid);
 }
 
 }  // namespace

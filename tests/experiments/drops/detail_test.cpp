@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/phase/config.hpp"
-#include "experiments/listening/sweep_run.hpp"
+#include "experiments/evaluation/sweep_run.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {
@@ -89,7 +89,7 @@ TEST(DropDetail, ShowsTheBeliefsThatTheStudyCounts) {
   const NoiseRun noise = noise_run(run, noise_key(study.experiment, 1, 3));
   const auto count = [&](const scoring::ContactSequence& truth,
                          const scoring::ContactSequence& said) {
-    return scoring::classify(truth, said, run.pieces, run.info.control_period_us,
+    return scoring::classify(truth, said, run.segments, run.info.control_period_us,
                              study.experiment.scoring);
   };
   for (const NoisyDrop& drop : detail.noisy) {

@@ -42,8 +42,8 @@ TEST(DropPosterior, AddsUpToOneAndToWhatTheStudyHears) {
     double left = 0.0, right = 0.0;
     for (std::size_t phase = 0; phase < phase_count; ++phase) {
       EXPECT_GE(p[phase], 0.0);
-      left += left_touches(static_cast<Phase>(phase)) ? p[phase] : 0.0;
-      right += right_touches(static_cast<Phase>(phase)) ? p[phase] : 0.0;
+      left += left_in_contact(static_cast<Phase>(phase)) ? p[phase] : 0.0;
+      right += right_in_contact(static_cast<Phase>(phase)) ? p[phase] : 0.0;
     }
     EXPECT_NEAR(posterior.p_contact[0][row], left, 1e-9);
     EXPECT_NEAR(posterior.p_contact[1][row], right, 1e-9);
@@ -99,10 +99,10 @@ TEST(DropPosterior, WhatMisleadsAddsUpToWhatItMadeOfTheBelief) {
     const PhaseProbabilities& p = posterior.phases[k];
     const auto first = static_cast<Phase>(std::max_element(p.begin(), p.end()) - p.begin());
     const Phase truth = posterior.truth[k];
-    const Misled& misled = posterior.misled[k];
-    const double sum = misled.left + misled.right + misled.acceleration + misled.memory;
+    const LogLikelihoodError& log_likelihood_error = posterior.log_likelihood_error[k];
+    const double sum = log_likelihood_error.left + log_likelihood_error.right + log_likelihood_error.acceleration + log_likelihood_error.memory;
     const bool is_right =
-        left_touches(first) == left_touches(truth) && right_touches(first) == right_touches(truth);
+        left_in_contact(first) == left_in_contact(truth) && right_in_contact(first) == right_in_contact(truth);
     if (is_right) {
       EXPECT_EQ(sum, 0.0);
     } else {

@@ -7,7 +7,7 @@
 #include "estimator/force/support_force.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/listening/sweep_run.hpp"
+#include "experiments/evaluation/sweep_run.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/scenario_file.hpp"
@@ -33,7 +33,7 @@ TEST(Oracle, ScoresPerfectlyByNameWhateverTheNoise) {
   const auto estimator = make_estimator(conditions[0], {}, run);
   const auto scores =
       scoring::score(run.contact, predict(*estimator, run, noise, {.acceleration = 8.0}),
-                     run.pieces, 1000, experiment.scoring);
+                     run.segments, 1000, experiment.scoring);
   std::int64_t detected = 0;
   for (const scoring::RobotScore& robot : scores) {
     for (const scoring::Score& view : robot.view) {

@@ -13,7 +13,7 @@ namespace {
 TEST(GradientBoostingEntry, KeepsItsTreesToTheBitInAFile) {
   const ScratchFolder folder;
   const EstimatorEntry entry = gradient_boosting_entry();
-  EXPECT_TRUE(entry.is_ceiling);
+  EXPECT_TRUE(entry.is_upper_bound);
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const FittedModel fitted = entry.fit(entry, {.whole = {&run}});
   write_fitted_model(fitted, folder.path() / "m.npz");

@@ -30,10 +30,10 @@ TEST(DecisionNetworkEntry, KeepsItsWeightsToTheBitInAFile) {
 TEST(DecisionNetworkEntry, LearnsFromPiecesToo) {
   const EstimatorEntry entry = decision_network_entry();
   RunSignals standing = synthetic_run(1'000'000, 600);
-  RunSignals piece = synthetic_run(1'000'001, 1500);
-  piece.info.scenario = "piece";
+  RunSignals segment = synthetic_run(1'000'001, 1500);
+  segment.info.scenario = "piece";
   EXPECT_THROW(entry.fit(entry, {.whole = {&standing}}), InputError);  // nothing but contact
-  const FittedModel fitted = entry.fit(entry, {.whole = {&standing}, .pieces = {&piece}});
+  const FittedModel fitted = entry.fit(entry, {.whole = {&standing}, .segments = {&segment}});
   EXPECT_NE(fitted.parameters->provenance.at("scenarios").find("piece"), std::string::npos);
 }
 

@@ -40,7 +40,7 @@ TEST(EvidenceEntries, StopWhenTheyAreAskedTo) {
 TEST(EvidenceEntries, AreFittedWithTheSmoothnessThatIsChosen) {
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const EstimatorEntry entry = evidence_curves_entry();
-  const EstimatorEntry other = with_constants(entry, {{"smoothness", 1e-3}});
+  const EstimatorEntry other = with_hyperparameters(entry, {{"smoothness", 1e-3}});
   EXPECT_NE(evidence_in(entry.fit(entry, {.whole = {&run}})),
             evidence_in(other.fit(other, {.whole = {&run}})));
 }
@@ -71,7 +71,7 @@ TEST(EvidenceEntries, DecideByTheThresholdsThatTheirPassportsSay) {
   const RunSignals other = synthetic_run(3, 3000);
   FittedModel model = entry.fit(entry, {.whole = {&run}});
   const auto told = [&](const char* key, const char* value) {
-    model.passport = ModelPassport{.estimator = entry.name,
+    model.metadata = ModelMetadata{.estimator = entry.name,
                                    .sample_rate = 1000.0,
                                    .robot = {},
                                    .configuration = {{key, value}},

@@ -10,7 +10,7 @@
 #include "estimator/models/make_estimator.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/foreign/sha256.hpp"
+#include "experiments/submissions/sha256.hpp"
 #include "onboard/load_estimator.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
@@ -22,7 +22,7 @@ namespace {
 std::vector<std::string> installed_estimators() {
   std::vector<std::string> names;
   for (const EstimatorEntry& entry : estimator_entries()) {
-    if (entry.fits() && !entry.is_ceiling) names.push_back(entry.name);
+    if (entry.fits() && !entry.is_upper_bound) names.push_back(entry.name);
   }
   return names;
 }
@@ -44,9 +44,9 @@ TEST(LoadedEstimator, BelievesToTheBitWhatItsEntryDoes) {
     const FittedModel read = read_fitted_model(*entry.fits(), file);
     EXPECT_EQ(told(*load_estimator(file), run), told(*entry.make(entry, {.model = &read}), run))
         << name;
-    EXPECT_EQ(load_passport(file).estimator, name);
-    EXPECT_EQ(load_passport(file).sample_rate, 1000.0);
-    EXPECT_EQ(read.passport->fingerprint.size(), 16U);
+    EXPECT_EQ(load_metadata(file).estimator, name);
+    EXPECT_EQ(load_metadata(file).sample_rate, 1000.0);
+    EXPECT_EQ(read.metadata->fingerprint.size(), 16U);
   }
 }
 
@@ -68,8 +68,8 @@ TEST(LoadedEstimator, OfTheShippedModelIsItsEntry) {
   const RunSignals run = synthetic_run(3, 1000);
   const EstimatorEntry& entry = estimator_entry("touchdown_shipped");
   EXPECT_EQ(told(*load_estimator(file), run), told(*entry.make(entry, {}), run));
-  EXPECT_EQ(load_passport(file).estimator, "touchdown");
-  EXPECT_EQ(load_passport(file).robot, "upkie");
+  EXPECT_EQ(load_metadata(file).estimator, "touchdown");
+  EXPECT_EQ(load_metadata(file).robot, "upkie");
 }
 
 TEST(ShippedModel, IsTheOneThatItsManifestNames) {

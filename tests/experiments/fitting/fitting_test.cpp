@@ -11,9 +11,9 @@ namespace {
 TEST(FitModels, FitsPhasesToPiecesWhereThereAreAnyAndAllElseToWholeRuns) {
   const Experiment experiment = synthetic_experiment({"robust", "phase"});
   const std::vector<RunSignals> whole = {synthetic_run(first_fit_run)};
-  const std::vector<RunSignals> pieces = {synthetic_run(first_fit_run + 7, 2000)};
+  const std::vector<RunSignals> segments = {synthetic_run(first_fit_run + 7, 2000)};
   const FittedModels without = fit_models(experiment, whole);
-  const FittedModels with = fit_models(experiment, whole, pieces);
+  const FittedModels with = fit_models(experiment, whole, segments);
   const auto provenance = [](const FittedModels& models) {
     return models.at("mujoco").at("phase").phase->provenance;
   };

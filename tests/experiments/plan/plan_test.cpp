@@ -57,12 +57,12 @@ Experiment experiment_with_pieces() {
   experiment.estimators = {"robust", "phase"};
   experiment.fit = {{"scenarios/stairs.yaml"}, 2, true};
   experiment.test = {{"scenarios/stairs.yaml"}, 1, true};
-  experiment.fit_pieces = {{.scenario = "scenarios/stairs.yaml", .runs = 3},
+  experiment.training_segments = {{.scenario = "scenarios/stairs.yaml", .runs = 3},
                            {.scenario = "scenarios/lift.yaml", .runs = 1}};
   return experiment;
 }
 
-TEST(FitPieces, ArePerturbedRunsOfTheirOwnAtTheControlPeriodOfTheTestRuns) {
+TEST(TrainingSegments, ArePerturbedRunsOfTheirOwnAtTheControlPeriodOfTheTestRuns) {
   const Experiment experiment = experiment_with_pieces();
   const Plan plan = plan_of(request_of(experiment));
   std::set<std::string> files;
@@ -72,7 +72,7 @@ TEST(FitPieces, ArePerturbedRunsOfTheirOwnAtTheControlPeriodOfTheTestRuns) {
     EXPECT_EQ(run.scenario.simulation.steps.control_us, 1000);
     if (run.role == RunRole::test) {
       EXPECT_LT(run.run, first_fit_run);
-    } else if (run.group == piece_group(0) && run.simulator == "bullet") {
+    } else if (run.group == segment_group(0) && run.simulator == "bullet") {
       stairs.push_back(run.run - first_fit_run);
       EXPECT_EQ(run.seed, 5U);
     }
@@ -82,13 +82,13 @@ TEST(FitPieces, ArePerturbedRunsOfTheirOwnAtTheControlPeriodOfTheTestRuns) {
   EXPECT_EQ(plan.runs.size(), 2U * (2U + 3U + 1U + 1U));
 }
 
-TEST(FitPieces, AreNotPlayedForEstimatorsThatTakeNone) {
+TEST(TrainingSegments, AreNotPlayedForEstimatorsThatTakeNone) {
   Experiment experiment = experiment_with_pieces();
   experiment.estimators = {"robust"};
   EXPECT_EQ(plan_of(request_of(experiment)).runs.size(), 2U * (2U + 1U));
 }
 
-TEST(FitPieces, ArePlayedWhoeverElseListens) {
+TEST(TrainingSegments, ArePlayedWhoeverElseListens) {
   Experiment experiment = experiment_with_pieces();
   for (const char* name :
        {"hmm", "decision_network", "evidence_curves", "touchdown", "gradient_boosting"}) {

@@ -23,7 +23,7 @@ TEST(RequestedSensors, ThatAreIdealAreTheRequestOfNone) {
   const RunRequest ideal = request_with("sensors/ideal.yaml");
   EXPECT_EQ(none.id, ideal.id);
   EXPECT_EQ(to_yaml(none.experiment), to_yaml(ideal.experiment));
-  EXPECT_EQ(equipment_text(ideal.experiment), "");
+  EXPECT_EQ(setup_caption(ideal.experiment), "");
 }
 
 TEST(RequestedSensors, CountByTheirNameAndByWhatTheirFileSays) {
@@ -60,9 +60,9 @@ TEST(RequestedSensors, ReportARunInBothEnginesAlike) {
   EXPECT_EQ(first[7].servo[1].torque, again[7].servo[1].torque);
   EXPECT_NE(first[7].servo[1].torque, other[7].servo[1].torque);
   EXPECT_NE(first[7].servo[1].torque, 0.0);
-  EXPECT_EQ(equipment_text(request.experiment), "; sensors as in sensors/harsh.yaml");
+  EXPECT_EQ(setup_caption(request.experiment), "; sensors as in sensors/harsh.yaml");
   request.experiment.robot = "models/upkie_heavy.yaml";
-  EXPECT_EQ(equipment_text(request.experiment),
+  EXPECT_EQ(setup_caption(request.experiment),
             "; robot as in models/upkie_heavy.yaml; sensors as in sensors/harsh.yaml");
 }
 

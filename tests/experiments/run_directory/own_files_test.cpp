@@ -59,7 +59,7 @@ struct OwnFiles : ::testing::Test {
                  "plot 'success_mujoco.dat', 'success_mujoco_2.dat'\n");
     for (const char* file :
          {"state/recordings/mujoco_step_test_000.mpack.sum",
-          "recordings/mujoco_step_test_000.mpack", "state/listening/mujoco_step_test_000_seed_0000",
+          "recordings/mujoco_step_test_000.mpack", "state/evaluation/mujoco_step_test_000_seed_0000",
           "state/shards/1_of_2", "state/foreign/mine", "models/mujoco_robust.npz",
           "tables/success.csv", "tables/summary.json", "figures/success_mujoco.png",
           "figures/success_mujoco.dat", "figures/success_mujoco_2.dat", "figures/style.gp",
@@ -98,7 +98,7 @@ TEST_F(OwnFiles, AloneAreRemoved) {
   std::vector<std::string> expected = theirs;
   expected.insert(expected.end(), {"state/key", "state/lock"});
   EXPECT_THAT(left(), UnorderedElementsAreArray(expected));
-  EXPECT_FALSE(fs::exists(folder / "state/listening"));
+  EXPECT_FALSE(fs::exists(folder / "state/evaluation"));
 }
 
 TEST_F(OwnFiles, EndWithTheExperimentThatNamesTheOthers) {
@@ -118,7 +118,7 @@ TEST_F(OwnFiles, AreNotSearchedForThroughLinks) {
 }
 
 TEST_F(OwnFiles, OfAWholeRunGoWithItsFolderUnlessSomebodysOwnStay) {
-  const Strangers left_over = remove_run(folder.path());
+  const UntrackedFiles left_over = remove_run(folder.path());
   EXPECT_EQ(left_over.files, theirs.size());
   EXPECT_EQ(left_over.bytes, theirs.size() * std::string("precious").size());
   for (const std::string& file : theirs) fs::remove(folder / file);

@@ -38,12 +38,12 @@ TEST(Shard, RefusesWhatIsNone) {
 
 TEST(ShardLog, TellsHowManyShardsWereStarted) {
   const ScratchFolder folder;
-  EXPECT_EQ(noted_shards(folder.path()), 1);
-  note_shard(folder.path(), {2, 5});
-  note_shard(folder.path(), {4, 5});
-  EXPECT_EQ(noted_shards(folder.path()), 5);
-  remove_shard_notes(folder.path());
-  EXPECT_EQ(noted_shards(folder.path()), 1);
+  EXPECT_EQ(started_shards(folder.path()), 1);
+  mark_shard_started(folder.path(), {2, 5});
+  mark_shard_started(folder.path(), {4, 5});
+  EXPECT_EQ(started_shards(folder.path()), 5);
+  remove_shard_marks(folder.path());
+  EXPECT_EQ(started_shards(folder.path()), 1);
 }
 
 }  // namespace

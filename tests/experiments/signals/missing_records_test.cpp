@@ -5,7 +5,7 @@
 #include "experiments/estimators/measurement_fitting.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/fitting/make_estimator.hpp"
-#include "experiments/listening/sweep_lanes.hpp"
+#include "experiments/evaluation/sweep_batch.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {

@@ -66,9 +66,9 @@ TEST_F(TunedExperiment, TestRunsChangeNoChoice) {
   // The same is read from the table that was chosen: films listen with it.
   const Table table = from_csv(chosen);
   EXPECT_EQ(table.rows.size(), 2U * 6);
-  const ChosenConstants read = read_chosen(folder_ / "one");
+  const TunedHyperparameters read = read_chosen(folder_ / "one");
   for (const char* estimator : {"load_logistic", "support_force"}) {
-    EXPECT_EQ(read.at("mujoco").at(estimator), result.models.at("mujoco").at(estimator).constants);
+    EXPECT_EQ(read.at("mujoco").at(estimator), result.models.at("mujoco").at(estimator).hyperparameters);
     EXPECT_FALSE(read.at("mujoco").at(estimator).empty());
   }
   EXPECT_THAT(result.studies, Contains(HasSubstr("the best of 6 trials")));
@@ -98,10 +98,10 @@ TEST_F(TunedExperiment, OtherSensorsHaveTheOwnOnesConstantsUnlessTheyAreTunedThe
   const ExperimentResult once = run("once", tuned_study(folder_, ", tuning: {trials: 6}", harsh));
   EXPECT_EQ(fits_in("once"), 1U);
   ASSERT_EQ(once.models.size(), 2U);
-  const Constants& own = once.models.at("mujoco").at("support_force").constants;
+  const HyperparameterValues& own = once.models.at("mujoco").at("support_force").hyperparameters;
   EXPECT_FALSE(own.empty());
   for (const auto& [fit, models] : once.models) {
-    EXPECT_EQ(models.at("support_force").constants, own) << fit;
+    EXPECT_EQ(models.at("support_force").hyperparameters, own) << fit;
     EXPECT_TRUE(models.contains("load_logistic")) << fit;
   }
   run("everywhere", tuned_study(folder_, ", tuning: {trials: 6, everywhere: true}", harsh));

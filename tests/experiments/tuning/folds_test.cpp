@@ -30,26 +30,26 @@ TEST(Folds, JudgeEveryWholeRunOnceByWhatWasNeitherFittedNorCutFromIt) {
   const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
                                          run_of("kerb", 2), run_of("kerb", 3)};
   // The second and the third are cut from draws that are there whole.
-  const std::vector<RunSignals> pieces = {run_of("stairs", 7), run_of("stairs", 1),
+  const std::vector<RunSignals> segments = {run_of("stairs", 7), run_of("stairs", 1),
                                           run_of("kerb", 2), run_of("kerb", 0)};
   for (const std::size_t count : {2U, 3U, 4U}) {
-    const std::vector<Fold> folds = folds_of(pointers(whole), pointers(pieces), count, true);
+    const std::vector<Fold> folds = folds_of(pointers(whole), pointers(segments), count, true);
     ASSERT_EQ(folds.size(), count);
     std::size_t judged = 0;
-    std::size_t fitted_pieces = 0;
+    std::size_t fitted_segments = 0;
     for (const Fold& fold : folds) {
       judged += fold.judged.size();
-      fitted_pieces += fold.pieces.size();
+      fitted_segments += fold.segments.size();
       EXPECT_FALSE(fold.judged.empty());
       EXPECT_EQ(fold.judged.size() + fold.fitted.size(), whole.size());
       for (const RunSignals* run : fold.judged) {
         EXPECT_FALSE(holds(fold.fitted, *run));
-        EXPECT_FALSE(holds(fold.pieces, *run));
+        EXPECT_FALSE(holds(fold.segments, *run));
       }
     }
     EXPECT_EQ(judged, whole.size());
     // Each piece is fitted in all folds but its own.
-    EXPECT_EQ(fitted_pieces, pieces.size() * (count - 1));
+    EXPECT_EQ(fitted_segments, segments.size() * (count - 1));
   }
 }
 

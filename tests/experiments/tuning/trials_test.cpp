@@ -15,27 +15,27 @@ namespace {
 
 TEST(Trials, BeginWithTheDefaultsAndStayInTheRangesThatWereDeclared) {
   for (const EstimatorEntry& entry : estimator_entries()) {
-    const std::vector<Constants> all = trial_constants(entry, 1, 200);
-    ASSERT_EQ(all.size(), entry.choices.empty() ? 0U : 200U) << entry.name;
-    for (const Choice& choice : entry.choices) {
+    const std::vector<HyperparameterValues> all = trial_hyperparameters(entry, 1, 200);
+    ASSERT_EQ(all.size(), entry.hyperparameters.empty() ? 0U : 200U) << entry.name;
+    for (const Hyperparameter& choice : entry.hyperparameters) {
       EXPECT_EQ(all.front().at(choice.name), choice.value) << entry.name;
       EXPECT_LT(choice.lowest, choice.value) << entry.name << " " << choice.name;
       EXPECT_GT(choice.highest, choice.value) << entry.name << " " << choice.name;
       double least = choice.highest;
       double most = choice.lowest;
-      for (const Constants& constants : all) {
-        const double value = constants.at(choice.name);
+      for (const HyperparameterValues& hyperparameters : all) {
+        const double value = hyperparameters.at(choice.name);
         // Three digits of a number may lie beyond the end by half of the last.
         EXPECT_GE(value, choice.lowest - 0.005 * std::abs(choice.lowest)) << choice.name;
         EXPECT_LE(value, choice.highest + 0.005 * std::abs(choice.highest)) << choice.name;
-        if (choice.scale == Choice::Scale::whole) {
+        if (choice.scale == Hyperparameter::Scale::whole) {
           EXPECT_EQ(value, std::round(value));
         }
         least = std::min(least, value);
         most = std::max(most, value);
       }
       // 200 draws come close to both ends.
-      const bool by_ratio = choice.scale == Choice::Scale::by_ratio;
+      const bool by_ratio = choice.scale == Hyperparameter::Scale::by_ratio;
       const auto place = [&](double x) { return by_ratio ? std::log(x) : x; };
       const double span = place(choice.highest) - place(choice.lowest);
       EXPECT_LT(place(least), place(choice.lowest) + 0.1 * span) << entry.name << choice.name;
@@ -46,31 +46,31 @@ TEST(Trials, BeginWithTheDefaultsAndStayInTheRangesThatWereDeclared) {
 
 TEST(Trials, DependOnTheSeedTheNameAndTheirNumberAlone) {
   const EstimatorEntry& entry = estimator_entry("support_force");
-  const std::vector<Constants> few = trial_constants(entry, 1, 3);
-  const std::vector<Constants> more = trial_constants(entry, 1, 30);
-  EXPECT_EQ(few, std::vector<Constants>(more.begin(), more.begin() + 3));
-  EXPECT_NE(few[1], trial_constants(entry, 2, 3)[1]);
+  const std::vector<HyperparameterValues> few = trial_hyperparameters(entry, 1, 3);
+  const std::vector<HyperparameterValues> more = trial_hyperparameters(entry, 1, 30);
+  EXPECT_EQ(few, std::vector<HyperparameterValues>(more.begin(), more.begin() + 3));
+  EXPECT_NE(few[1], trial_hyperparameters(entry, 2, 3)[1]);
   EstimatorEntry renamed = entry;
   renamed.name = "another";
-  EXPECT_NE(few[1], trial_constants(renamed, 1, 3)[1]);
-  EXPECT_EQ(few[0], trial_constants(renamed, 1, 3)[0]);
+  EXPECT_NE(few[1], trial_hyperparameters(renamed, 1, 3)[1]);
+  EXPECT_EQ(few[0], trial_hyperparameters(renamed, 1, 3)[0]);
 }
 
 /// What a run is taken for with these constants: all beliefs.
-std::vector<double> beliefs(const EstimatorEntry& plain, const Constants& constants,
+std::vector<double> beliefs(const EstimatorEntry& plain, const HyperparameterValues& hyperparameters,
                             const RunSignals& fitted, const RunSignals& heard) {
-  const EstimatorEntry entry = with_constants(plain, constants);
+  const EstimatorEntry entry = with_hyperparameters(plain, hyperparameters);
   const FitRuns runs{{&fitted}};
   FittedModel model;
   if (entry.fits()) {
     model = fit_model(entry, runs);
-    model.passport = new_passport(entry.name, runs, constants);
+    model.metadata = new_metadata(entry.name, runs, hyperparameters);
   }
-  Listener listener = listener_of(entry, {1000.0, &model, heard.legs, &heard.contact});
+  EstimatorRunner runner = runner_of(entry, {1000.0, &model, heard.legs, &heard.contact});
   const NoiseRun noise = noise_run(heard, {.seed = 3, .run = 1});
   std::vector<double> all;
   for (const double level : {0.1, 0.7, 2.0}) {
-    const scoring::Prediction prediction = predict(listener, heard, noise,
+    const scoring::Prediction prediction = predict(runner, heard, noise,
                                                    {.knee_torque = level,
                                                     .wheel_torque = 0.2 * level,
                                                     .acceleration = 5.0 * level,
@@ -91,21 +91,21 @@ TEST(Trials, EveryChoiceChangesWhatItsEstimatorBelieves) {
   for (const EstimatorEntry& entry : estimator_entries()) {
     const bool is_slow = entry.name == "decision_network" || entry.name == "gradient_boosting";
     if (is_slow) continue;
-    const std::vector<Constants> trials = trial_constants(entry, 1, 8);
-    for (const Choice& choice : entry.choices) {
+    const std::vector<HyperparameterValues> trials = trial_hyperparameters(entry, 1, 8);
+    for (const Hyperparameter& choice : entry.hyperparameters) {
       // With some of the others, where it counts.
-      const bool counts = std::any_of(trials.begin(), trials.end(), [&](Constants constants) {
-        constants[choice.name] = choice.lowest;
-        const std::vector<double> least = beliefs(entry, constants, fitted, heard);
-        constants[choice.name] = choice.highest;
-        return least != beliefs(entry, constants, fitted, heard);
+      const bool counts = std::any_of(trials.begin(), trials.end(), [&](HyperparameterValues hyperparameters) {
+        hyperparameters[choice.name] = choice.lowest;
+        const std::vector<double> least = beliefs(entry, hyperparameters, fitted, heard);
+        hyperparameters[choice.name] = choice.highest;
+        return least != beliefs(entry, hyperparameters, fitted, heard);
       });
       EXPECT_TRUE(counts) << entry.name << " " << choice.name;
     }
     EXPECT_EQ(beliefs(entry, {}, fitted, heard),
-              beliefs(entry, trials.empty() ? Constants{} : trials.front(), fitted, heard))
+              beliefs(entry, trials.empty() ? HyperparameterValues{} : trials.front(), fitted, heard))
         << entry.name << ": the first trial is the estimator as it is";
-    if (entry.choices.empty()) {
+    if (entry.hyperparameters.empty()) {
       EXPECT_THROW((void)entry.chosen("threshold"), Error);
     }
   }

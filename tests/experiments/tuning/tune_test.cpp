@@ -35,7 +35,7 @@ Experiment tuned_experiment(const std::vector<std::string>& estimators, int tria
 EstimatorEntry rigged() {
   EstimatorEntry entry = support_force_entry();
   entry.name = "rigged";
-  for (Choice& choice : entry.choices) {
+  for (Hyperparameter& choice : entry.hyperparameters) {
     if (choice.name == "contact") choice = around("contact", 400.0, 200.0);
   }
   return entry;
@@ -46,30 +46,30 @@ const Trial& chosen_of(const std::vector<Trial>& trials) {
 }
 
 TEST(Tune, MendsADefaultThatIsFarOff) {
-  const GuestEstimators present({rigged()});
+  const ExternalEstimators present({rigged()});
   const std::vector<RunSignals> runs = fitted_runs(4);
   const Experiment experiment = tuned_experiment({"rigged"}, 16);
   const std::vector<Trial> trials = tune(experiment, "", runs, {}, {});
   ASSERT_EQ(trials.size(), 16U);
-  EXPECT_EQ(trials.front().constants.at("contact"), 400.0);
+  EXPECT_EQ(trials.front().hyperparameters.at("contact"), 400.0);
   EXPECT_NEAR(trials.front().score, 0.5, 0.01);  // never in contact
   const Trial& best = chosen_of(trials);
   EXPECT_GT(best.score, 0.9);
-  EXPECT_LT(best.constants.at("contact"), 60.0);
+  EXPECT_LT(best.hyperparameters.at("contact"), 60.0);
   // It is not fitted, and listens with what was chosen all the same.
   const FittedModels models = fit_models(experiment, runs, {}, {}, chosen_in(trials));
   const RunSignals test = synthetic_run(0);
   const Condition condition{"mujoco", "mujoco", "rigged"};
-  EXPECT_EQ(entry_of(condition, models).chosen("contact"), best.constants.at("contact"));
+  EXPECT_EQ(entry_of(condition, models).chosen("contact"), best.hyperparameters.at("contact"));
   scoring::Classification with, without;
   const std::vector<noise::NoiseCell> cells = {{}};
   const NoiseRun noise = noise_run(test, {.seed = 1, .run = 0});
   const FittedModels none;
   for (const auto& [found, counts] : {std::pair(&models, &with), std::pair(&none, &without)}) {
-    for (const scoring::Classification& piece :
+    for (const scoring::Classification& segment :
          sweep_run(std::vector{condition}, cells, test, noise, *found, experiment.scoring,
                    [] { return true; })) {
-      *counts += piece;
+      *counts += segment;
     }
   }
   EXPECT_GT(with.balanced_accuracy(), 0.9);
@@ -123,7 +123,7 @@ TEST(Tune, HearsTheNoiseThatTheTuningDeclares) {
     EXPECT_LT(much[i].score, none[i].score) << i;
     EXPECT_NEAR(both[i].score, 0.5 * (none[i].score + much[i].score), 1e-12) << i;
   }
-  EXPECT_GT(chosen_of(much).constants.at("low_pass"), chosen_of(none).constants.at("low_pass"));
+  EXPECT_GT(chosen_of(much).hyperparameters.at("low_pass"), chosen_of(none).hyperparameters.at("low_pass"));
 }
 
 TEST(Tune, WhatIsSavedIsNotTriedAgain) {
@@ -173,26 +173,26 @@ TEST(Tune, SaysInWhichFoldTooLittleIsLeftToFitTo) {
 TEST(Tune, WhatWasChosenIsInTheModelsPassport) {
   const std::vector<RunSignals> runs = fitted_runs(2);
   const Experiment experiment = tuned_experiment({"load_logistic", "phase", "paper"}, 1);
-  const auto passport = [&](const std::string& estimator, const Constants& constants) {
-    const ChosenConstants chosen = {{"mujoco", {{estimator, constants}}}};
-    return fit_models(experiment, runs, {}, {}, chosen).at("mujoco").at(estimator).passport;
+  const auto metadata = [&](const std::string& estimator, const HyperparameterValues& hyperparameters) {
+    const TunedHyperparameters chosen = {{"mujoco", {{estimator, hyperparameters}}}};
+    return fit_models(experiment, runs, {}, {}, chosen).at("mujoco").at(estimator).metadata;
   };
   const auto usual = fit_models(experiment, runs).at("mujoco");
-  const auto tuned = passport("load_logistic", {{"threshold", 0.25}});
+  const auto tuned = metadata("load_logistic", {{"threshold", 0.25}});
   EXPECT_EQ(tuned->configuration.at("threshold"), "0.25");
-  EXPECT_EQ(usual.at("load_logistic").passport->configuration.at("threshold"), "0.5");
-  EXPECT_EQ(passport("paper", {{"transition.switch.offset", 3.5}})
+  EXPECT_EQ(usual.at("load_logistic").metadata->configuration.at("threshold"), "0.5");
+  EXPECT_EQ(metadata("paper", {{"transition.switch.offset", 3.5}})
                 ->configuration.at("transition.switch.offset"),
             "3.5");
   // The model has what the fit alone knows; a reader of passports would not.
-  const auto phase = passport("phase", {{"leave_below", 0.125}, {"torque_bandwidth", 0.3}});
+  const auto phase = metadata("phase", {{"leave_below", 0.125}, {"torque_bandwidth", 0.3}});
   EXPECT_EQ(phase->configuration.at("leave_below"), "0.125");
   EXPECT_FALSE(phase->configuration.contains("torque_bandwidth"));
 }
 
 TEST(Tune, WhoHearsLogsHearsThemWithWhatWasChosen) {
   const ScratchFolder folder;
-  const ChosenConstants chosen = {{"mujoco", {{"load_logistic", {{"threshold", 0.25}}}}}};
+  const TunedHyperparameters chosen = {{"mujoco", {{"load_logistic", {{"threshold", 0.25}}}}}};
   const FittedModels models =
       fit_models(tuned_experiment({"load_logistic"}, 1), fitted_runs(2), {}, {}, chosen);
   const std::filesystem::path file = folder / "model.npz";

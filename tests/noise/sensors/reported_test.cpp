@@ -238,15 +238,15 @@ TEST(Reported, LegsRunsAndSeedsHaveDrawsOfTheirOwn) {
 TEST(Reported, IsTheSameInWhateverOrderAndInHoweverManyThreadsRunsAreReported) {
   const SensorProfile profile = profile_of(all_sensors);
   const Steps run = tumbling(300);
-  std::vector<Steps> in_turn, at_once(8);
+  std::vector<Steps> in_turn, whole_run(8);
   for (std::uint64_t i = 0; i < 8; ++i) in_turn.push_back(reported(profile, run, {1, i}));
   std::vector<std::thread> threads;
   for (std::uint64_t i = 8; i-- > 0;) {
-    threads.emplace_back([&, i] { at_once[i] = reported(profile, run, {1, i}); });
+    threads.emplace_back([&, i] { whole_run[i] = reported(profile, run, {1, i}); });
   }
   for (std::thread& thread : threads) thread.join();
   for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_THAT(different(in_turn[i], at_once[i]), IsEmpty());
+    EXPECT_THAT(different(in_turn[i], whole_run[i]), IsEmpty());
     EXPECT_THAT(different(in_turn[i], in_turn[(i + 1) % 8]), ::testing::Not(IsEmpty()));
   }
 }

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "experiments/tables/summary_file.hpp"
+#include "experiments/results/summary_file.hpp"
 #include "render/benchmark/standings_figure.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -49,7 +49,7 @@ class BenchmarkPage : public ::testing::Test {
     folder_.write("tables/benchmark_standings.csv",
                   "robot,sensors,torque_noise_nm,accelerometer_noise_mps2,estimator,"
                   "mean_balanced_accuracy,mean_balanced_accuracy_low,mean_balanced_accuracy_high,"
-                  "worst_balanced_accuracy,worst_scene,worst_simulator,is_level_with_first,"
+                  "worst_balanced_accuracy,worst_scene,worst_simulator,is_not_significantly_worse,"
                   "log_loss_bits,bits_left\n"
                   "upkie,harsh,0,0,gradient_boosting,0.91,0.9,0.92,0.8,<i>hop,mujoco,0,0.1,0\n"
                   "upkie,harsh,0,0,robust,0.845,0.83,0.85,0.7,<i>hop,mujoco,1,0.125,0.025\n"

@@ -87,7 +87,7 @@ experiments::DropPosterior staged_posterior(const std::string& simulator) {
     experiments::PhaseEvidence evidence;
     evidence.left[index(Phase::held)] = 3.0;
     posterior.evidence.push_back(evidence);
-    posterior.misled.push_back({.left = 3.0, .memory = -1.0});
+    posterior.log_likelihood_error.push_back({.left = 3.0, .memory = -1.0});
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       posterior.contact[wheel].push_back(air ? 0 : 1);
       posterior.p_contact[wheel].push_back(p[index(Phase::rolling)]);

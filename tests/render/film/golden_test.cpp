@@ -83,8 +83,8 @@ ScoreFigure latencies() {
     for (std::size_t row = 0; row < 2; ++row) {
       ScoreRow& told = figure.panels[0].rows[row];
       const auto spread = static_cast<std::int64_t>(i % 10 + i % 7 - 8);
-      const auto late = static_cast<std::int64_t>(20 * (1 + row)) + 2 * spread;
-      told.takeoff.add({scoring::EventKind::takeoff, scoring::Judgement::detected, 0, late}, 1000);
+      const auto delay = static_cast<std::int64_t>(20 * (1 + row)) + 2 * spread;
+      told.takeoff.add({scoring::EventKind::takeoff, scoring::Judgement::detected, 0, delay}, 1000);
       told.landing.add({scoring::EventKind::landing, scoring::Judgement::detected, 0, spread},
                        1000);
     }

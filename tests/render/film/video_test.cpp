@@ -168,10 +168,10 @@ TEST_F(Video, WrongRequestsAreNamed) {
   VideoOptions backwards = small_;
   backwards.speed = -1.0;
   EXPECT_THAT(complaint(backwards), ThrowsMessage<InputError>(HasSubstr("speed")));
-  VideoOptions late = small_;
-  late.from = 100.0;
-  late.to = 101.0;
-  EXPECT_THAT(complaint(late), ThrowsMessage<InputError>(HasSubstr("3.000 s")));
+  VideoOptions delay = small_;
+  delay.from = 100.0;
+  delay.to = 101.0;
+  EXPECT_THAT(complaint(delay), ThrowsMessage<InputError>(HasSubstr("3.000 s")));
   std::vector<BeliefTrack> mismatched = beliefs_;
   mismatched[0].p_contact[0].pop_back();
   EXPECT_THAT(

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/tables/summary_file.hpp"
+#include "experiments/results/summary_file.hpp"
 #include "render/maps/error_scale.hpp"
 #include "render/report/html.hpp"
 #include "tests/scratch_folder.hpp"

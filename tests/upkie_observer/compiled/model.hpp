@@ -13,7 +13,7 @@ inline constexpr char model_estimator[] =
 "load_logistic";
 inline constexpr double model_intercept[] = {
 -4.0038664058454465,};
-inline constexpr char model_passport[] =
+inline constexpr char model_metadata[] =
 "format: 1\n"
 "estimator: load_logistic\n"
 "sample_rate: 1000\n"
@@ -49,7 +49,7 @@ inline constexpr double model_slope[] = {
 inline constexpr CompiledArray model[] = {
     {"estimator", 13, 0, nullptr, nullptr, model_estimator},
     {"intercept", 1, 0, model_intercept, nullptr, nullptr},
-    {"passport", 699, 0, nullptr, nullptr, model_passport},
+    {"metadata", 699, 0, nullptr, nullptr, model_metadata},
     {"provenance", 92, 0, nullptr, nullptr, model_provenance},
     {"slope", 1, 0, model_slope, nullptr, nullptr},
 };

@@ -1,0 +1,224 @@
+#include "estimator/decision/feature_extractor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "estimator/low_pass.hpp"
+
+namespace touchdown {
+
+namespace {
+
+const DecisionConfig& checked(const DecisionConfig& config) {
+  check_decision_config(config);
+  return config;
+}
+
+constexpr double shortest_scale = 1e-3;  // s
+constexpr double warm_up = 0.1;          // s, of the noise estimates
+constexpr double noise_gain = 0.01;
+constexpr double reference_rate = 1000.0;  // Hz
+
+}  // namespace
+
+LowPassBank::LowPassBank(double sample_rate) noexcept {
+  for (std::size_t i = 0; i < decision_scales; ++i) {
+    gains_[i] = static_cast<float>(
+        exact_low_pass_gain(std::ldexp(shortest_scale, static_cast<int>(i)), sample_rate));
+  }
+}
+
+void LowPassBank::fast_forward(double input, double seconds) noexcept {
+  if (!is_started_) return;
+  const auto x = static_cast<float>(input);
+  for (std::size_t i = 0; i < decision_scales; ++i) {
+    const double time_constant = std::ldexp(shortest_scale, static_cast<int>(i));
+    values_[i] += static_cast<float>(-std::expm1(-seconds / time_constant)) * (x - values_[i]);
+  }
+}
+
+FeatureExtractor::FeatureExtractor(const DecisionConfig& config)
+    : config_(checked(config).guard),
+      geometry_(config.geometry),
+      mass_ratio_(mass_ratio(config.geometry)),
+      guard_(config.guard, config.sample_rate),
+      leg_repetition_{Repetition<9>(config.guard, config.sample_rate),
+                      Repetition<9>(config.guard, config.sample_rate)},
+      gyro_repetition_(config.guard, config.sample_rate),
+      listener_{LegFeatureExtractor(config, false), LegFeatureExtractor(config, true)},
+      leg_{LegFilters{LowPassBank(config.sample_rate), LowPassBank(config.sample_rate),
+                     LowPassBank(config.sample_rate), LowPassBank(config.sample_rate)},
+           LegFilters{LowPassBank(config.sample_rate), LowPassBank(config.sample_rate),
+                     LowPassBank(config.sample_rate), LowPassBank(config.sample_rate)}},
+      acceleration_(config.sample_rate),
+      roll_rate_(config.sample_rate),
+      density_(std::sqrt(reference_rate / config.sample_rate)),
+      log_density_(std::log(density_)),
+      torque_noise_(0.01, 10.0, noise_gain, warm_up * config.sample_rate),
+      acceleration_noise_(0.05, 30.0, noise_gain, warm_up * config.sample_rate) {}
+
+void FeatureExtractor::reset() noexcept {
+  guard_.reset();
+  for (Repetition<9>& leg : leg_repetition_) leg.reset();
+  gyro_repetition_.reset();
+  torque_noise_.reset();
+  acceleration_noise_.reset();
+  for (LegFeatureExtractor& listener : listener_) listener.reset();
+  reset_features();
+  leg_age_ = {};
+  acceleration_age_ = roll_rate_age_ = 0.0;
+}
+
+void FeatureExtractor::reset_features() noexcept {
+  for (LegFilters& leg : leg_) {
+    for (LowPassBank& channel : leg) channel.reset();
+  }
+  acceleration_.reset();
+  roll_rate_.reset();
+}
+
+/// Nothing was heard for so many seconds.
+void FeatureExtractor::dropout(double seconds) noexcept {
+  for (double& age : leg_age_) age += seconds;
+  acceleration_age_ += seconds;
+  roll_rate_age_ += seconds;
+  torque_noise_.reset_signals();
+  acceleration_noise_.reset_signals();
+}
+
+// The next ones are inline since a compiler of position-independent code calls all others.
+
+/// A leg's bus that hangs: one servo alone may rest.
+inline bool FeatureExtractor::is_frozen(const LegSignals& leg, std::size_t side) noexcept {
+  return leg_repetition_[side].update({leg.hip.position, leg.hip.velocity, leg.hip.torque,
+                                       leg.knee.position, leg.knee.velocity, leg.knee.torque,
+                                       leg.wheel.position, leg.wheel.velocity, leg.wheel.torque});
+}
+
+/// What was silent for longer than a gap is taken to have been as it is now all the while.
+inline void FeatureExtractor::update(LowPassBank& channel, double input, double age) const noexcept {
+  if (age > config_.maximum_gap) channel.fast_forward(input, age);
+  channel.update(input);
+}
+
+inline void FeatureExtractor::update_legs(const Signals& signals, const std::array<bool, 2>& is_valid,
+                                      bool has_acceleration, double elapsed) noexcept {
+  const std::array<FootJacobian, 2> foot = foot_jacobians(geometry_, signals.leg);
+  const double noise = torque_noise();
+  for (std::size_t side = 0; side < 2; ++side) {
+    double& age = leg_age_[side];
+    if (!is_valid[side]) {
+      age += elapsed;
+      continue;
+    }
+    if (age > config_.maximum_gap) listener_[side].reset();
+    const LegFeatures heard =
+        listener_[side].update(signals.leg[side], foot[side], signals.vertical_acceleration, noise);
+    update(leg_[side][1], heard.reaction, age);
+    update(leg_[side][2], heard.axle_velocity, age);
+    if (has_acceleration) {  // the others cannot do without
+      const double longer = std::max(age, acceleration_age_);
+      update(leg_[side][0], heard.load, longer);
+      update(leg_[side][3], heard.axle_acceleration, longer);
+    }
+    age = 0.0;
+  }
+  // A leg that says nothing is taken to fare like the other one.
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (is_valid[side] || !is_valid[1 - side]) continue;
+    leg_[side] = leg_[1 - side];
+    leg_age_[side] = 0.0;
+    listener_[side].reset();
+  }
+}
+
+/// Every channel goes on for as long as its own sensor does, so that it need not begin anew when
+/// another one comes back.
+FeatureExtractor::Step FeatureExtractor::update(const Signals& signals) noexcept {
+  const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
+  Step step{verdict.status, verdict.elapsed, verdict.elapsed > config_.maximum_gap, {}};
+  if (!std::isfinite(signals.time)) return step;  // no record: the next one's time tells its length
+  if (step.restart) dropout(step.elapsed);
+  const auto say = [&](SignalStatus status) {
+    if (step.status == SignalStatus::good) step.status = status;
+  };
+  std::array<bool, 2> has_leg{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const LegSignals& leg = signals.leg[side];
+    const bool frozen = is_frozen(leg, side);
+    const bool usable = is_usable(leg, config_);
+    has_leg[side] = usable && !frozen;
+    if (!usable) say(SignalStatus::invalid);
+    if (frozen) say(SignalStatus::frozen);
+  }
+  const Eigen::Vector3d& turn = signals.angular_velocity;
+  const bool is_gyro_frozen = gyro_repetition_.update({turn.x(), turn.y(), turn.z()});
+  const bool has_roll_rate = std::isfinite(turn.x()) && !is_gyro_frozen;
+  if (is_gyro_frozen) say(SignalStatus::frozen);
+  if (!std::isfinite(turn.x())) step.status = SignalStatus::invalid;
+  for (std::size_t side = 0; side < 2; ++side) {
+    step.is_valid[side] = has_leg[side] && verdict.acceleration_good && has_roll_rate;
+  }
+
+  const double elapsed = step.restart ? 0.0 : step.elapsed;  // a gap's is counted already
+  update_legs(signals, has_leg, verdict.acceleration_good, elapsed);
+  if (verdict.acceleration_good) {
+    update(acceleration_, signals.vertical_acceleration, acceleration_age_);
+    acceleration_age_ = 0.0;
+  } else {
+    acceleration_age_ += elapsed;
+  }
+  if (has_roll_rate) {
+    constexpr double fastest_roll = 1e4;  // rad/s
+    update(roll_rate_, std::clamp(turn.x(), -fastest_roll, fastest_roll), roll_rate_age_);
+    roll_rate_age_ = 0.0;
+  } else {
+    roll_rate_age_ += elapsed;
+  }
+  const auto noisy = [&](std::size_t side) {
+    return has_leg[side] ? mass_ratio_ * signals.leg[side].knee.torque : std::nan("");
+  };
+  torque_noise_.update({noisy(0), noisy(1)});
+  acceleration_noise_.update(
+      {verdict.acceleration_good ? signals.vertical_acceleration : std::nan("")});
+  return step;
+}
+
+/// Compresses every channel: what is large differs less than what is small. Inputs of one wheel and
+/// of both are made together: reading again what has just been written takes longer.
+void FeatureExtractor::arrange() noexcept {
+  constexpr auto scales = static_cast<int>(decision_scales);
+  constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
+  using Scales = Eigen::Array<float, scales, 1>;
+  const auto bent = [](const LowPassBank& channel, float bend) -> Scales {
+    const Scales y = Eigen::Map<const Scales>(channel.values().data()) * (1.0F / bend);
+    return y / (1.0F + y.abs() / saturation);
+  };
+  const auto at = [](auto& inputs, std::size_t begin) {
+    return Eigen::Map<Scales>(inputs.data() + begin);
+  };
+  for (std::size_t i = 0; i < decision_leg_channels; ++i) {
+    const std::size_t begin = i * decision_scales;
+    const Scales left = bent(leg_[0][i], leg_softsign_scales[i]);
+    const Scales right = bent(leg_[1][i], leg_softsign_scales[i]);
+    at(heard_, begin) = left;
+    at(heard_, of_legs + begin) = right;
+    at(pair_.common, begin) = left + right;
+    at(pair_.difference, begin) = left - right;
+  }
+  const Scales acceleration = bent(acceleration_, acceleration_softsign_scale);
+  at(heard_, 2 * of_legs) = acceleration;
+  at(pair_.common, of_legs) = acceleration;
+  const Scales roll_rate = bent(roll_rate_, roll_rate_softsign_scale);
+  at(heard_, 2 * of_legs + decision_scales) = roll_rate;
+  at(pair_.difference, of_legs) = roll_rate;
+  const std::array<float, 2> noise = {
+      static_cast<float>(torque_noise_.log_sigma() + log_density_),
+      static_cast<float>(acceleration_noise_.log_sigma() + log_density_)};
+  std::copy(noise.begin(), noise.end(), heard_.end() - 2);
+  std::copy(noise.begin(), noise.end(), pair_.common.end() - 2);
+}
+
+}  // namespace touchdown

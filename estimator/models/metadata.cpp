@@ -1,0 +1,146 @@
+#include "estimator/models/metadata.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "core/error.hpp"
+#include "core/fingerprint.hpp"
+#include "estimator/numerics/number_text.hpp"
+
+namespace touchdown {
+
+namespace {
+
+constexpr std::string_view format = "1";
+constexpr std::string_view units = "SI";
+constexpr std::string_view configuration_prefix = "configuration.";
+constexpr std::string_view fingerprint_key = "fingerprint";
+
+std::string hexadecimal(std::uint64_t number) {
+  std::string digits(16, '0');
+  for (std::size_t i = digits.size(); i-- > 0; number >>= 4U) {
+    digits[i] = "0123456789abcdef"[number & 0xfU];
+  }
+  return digits;
+}
+
+/// As lines, without the fingerprint.
+std::string lines_of(const ModelMetadata& metadata) {
+  std::string lines;
+  const auto line = [&](std::string_view key, std::string_view value) {
+    lines.append(key).append(": ").append(value).append("\n");
+  };
+  line("format", format);
+  line("estimator", metadata.estimator);
+  line("sample_rate", text_of(metadata.sample_rate));
+  line("robot", metadata.robot);
+  line("units", units);
+  for (const auto& [key, value] : metadata.configuration) {
+    line(std::string(configuration_prefix) + key, value);
+  }
+  return lines;
+}
+
+std::string fingerprint_of(const ModelArrays& arrays, const std::string& lines) {
+  Fingerprint fingerprint;
+  fingerprint.add(lines);
+  for (const auto& [name, array] : arrays) {
+    if (name == metadata_array || name == derived_array) continue;
+    fingerprint.add(name);
+    for (const std::size_t axis : array.shape) fingerprint.add(std::to_string(axis));
+    fingerprint.add({reinterpret_cast<const char*>(array.data.data()),  // NOLINT
+                     array.data.size() * sizeof(double)});
+  }
+  return hexadecimal(fingerprint.value());
+}
+
+static_assert(std::endian::native == std::endian::little, "numbers are hashed as they are");
+
+[[noreturn]] void refuse(const std::string& line) {
+  throw InputError("metadata: '" + line +
+                   "' is not understood: was it written by a newer version?");
+}
+
+/// Errors: `InputError` if the line says something else than this version's files.
+void expect(std::string_view key, std::string_view found, std::string_view expected) {
+  if (found == expected) return;
+  throw InputError("metadata: " + std::string(key) + " " + std::string(found) + ": expected " +
+                   std::string(expected));
+}
+
+void take_line(const std::string& line, ModelMetadata& metadata) {
+  const std::size_t colon = line.find(": ");
+  if (colon == std::string::npos) refuse(line);
+  const std::string key = line.substr(0, colon);
+  const std::string value = line.substr(colon + 2);
+  if (key == "format") {
+    expect(key, value, format);
+  } else if (key == "units") {
+    expect(key, value, units);
+  } else if (key == "estimator") {
+    metadata.estimator = value;
+  } else if (key == "sample_rate") {
+    const std::optional<double> number = number_of(value);
+    if (!number) refuse(line);
+    metadata.sample_rate = *number;
+  } else if (key == "robot") {
+    metadata.robot = value;
+  } else if (key == fingerprint_key) {
+    metadata.fingerprint = value;
+  } else if (key.starts_with(configuration_prefix)) {
+    metadata.configuration[key.substr(configuration_prefix.size())] = value;
+  } else {
+    refuse(line);
+  }
+}
+
+}  // namespace
+
+std::string add_metadata(ModelArrays& arrays, const ModelMetadata& metadata) {
+  for (const std::string& text : {metadata.estimator, metadata.robot}) {
+    if (text.find('\n') == std::string::npos) continue;
+    throw InputError("metadata: expected a name of one line, found '" + text + "'");
+  }
+  const std::string lines = lines_of(metadata);
+  std::string fingerprint = fingerprint_of(arrays, lines);
+  arrays[std::string(metadata_array)] =
+      array_of_text(lines + std::string(fingerprint_key) + ": " + fingerprint + "\n");
+  return fingerprint;
+}
+
+std::optional<ModelMetadata> metadata_of(const ModelArrays& arrays) {
+  const auto found = arrays.find(std::string(metadata_array));
+  if (found == arrays.end()) return {};
+  const std::string text = text_of_array(found->second, found->first);
+  ModelMetadata metadata;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    take_line(text.substr(begin, end - begin), metadata);
+    begin = end + 1;
+  }
+  if (!(std::isfinite(metadata.sample_rate) && metadata.sample_rate > 0.0)) {
+    throw InputError("metadata: expected a positive sample_rate (Hz)");
+  }
+  if (metadata.fingerprint != fingerprint_of(arrays, lines_of(metadata))) {
+    throw InputError("its numbers are not those that were fitted (fingerprint " +
+                     metadata.fingerprint + "): was the file changed?");
+  }
+  return metadata;
+}
+
+void check_use(const ModelMetadata& metadata, const ModelUse& use) {
+  constexpr double tolerance = 1e-6;
+  if (use.sample_rate > 0.0 &&
+      !(std::abs(use.sample_rate - metadata.sample_rate) <= tolerance * metadata.sample_rate)) {
+    throw InputError("was fitted at " + text_of(metadata.sample_rate) + " Hz, not at " +
+                     text_of(use.sample_rate) + " Hz");
+  }
+  if (!use.robot.empty() && !metadata.robot.empty() && use.robot != metadata.robot) {
+    throw InputError("was fitted to the robot '" + metadata.robot + "', not to '" + use.robot +
+                     "'");
+  }
+}
+
+}  // namespace touchdown

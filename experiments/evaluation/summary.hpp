@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/evaluation/tasks.hpp"
+#include "experiments/plan/condition.hpp"
+#include "scoring/bootstrap.hpp"
+#include "scoring/metrics.hpp"
+
+namespace touchdown::experiments {
+
+/// Everything about one condition, noise cell and view, with intervals over runs or drops.
+struct ScoreSummary {
+  Condition condition;
+  noise::NoiseCell cell;
+  std::string view;
+  scoring::Score total;
+  std::vector<Interval> metric;             ///< in the order of `metrics()`
+  std::vector<Interval> contact_frequency;  ///< by bin of `total.calibration`
+
+  const Interval& operator[](std::string_view name) const {
+    return metric[scoring::metric_index(name)];
+  }
+};
+
+/// By cell, then condition, then view; these are the cells that the scores have samples of.
+std::vector<ScoreSummary> summarise(const std::vector<ConditionScores>& scores,
+                                    std::span<const noise::NoiseCell> cells,
+                                    const scoring::BootstrapConfig& bootstrap);
+
+/// "first − second" in one metric, both wheels pooled, resampled on the same runs or drops.
+struct Difference {
+  std::string simulator;
+  noise::NoiseCell cell;
+  std::string first;
+  std::string second;
+  std::vector<Interval> metric;  ///< in the order of `metrics()`
+};
+
+/// By cell, the first estimator of each engine against each of the others.
+std::vector<Difference> differences(const std::vector<ConditionScores>& scores,
+                                    std::span<const noise::NoiseCell> cells,
+                                    const scoring::BootstrapConfig& bootstrap);
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,137 @@
+#include "experiments/evaluation/sweep_batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "estimator/neural/input.hpp"
+#include "estimator/signal_guard.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// Counts how often the lanes of a sweep say contact, while they walk through a run: nothing is
+/// kept of the single steps, so that memory does not grow with the number of lanes times steps.
+/// Sums are doubles because those are vector code; they are exact below 2^53.
+class BatchCounts {
+ public:
+  BatchCounts(const RunSignals& run, std::size_t lanes, const scoring::ScoringConfig& scoring)
+      : run_(run),
+        lanes_(lanes),
+        first_scored_(scoring::first_scored_step(run.info.control_period_us, scoring)),
+        pieces_(run.segments.size()) {
+    for (Piece& segment : pieces_) {
+      segment.said_in_contact.assign(lanes, 0.0);
+      segment.said_in_flight.assign(lanes, 0.0);
+    }
+  }
+
+  /// What the lanes say about one wheel at a step: contact where `values` reach the threshold.
+  /// Steps must come in order.
+  void add(std::size_t wheel, std::size_t step, std::span<const double> values, double threshold) {
+    if (step < first_scored_) return;
+    while (piece_ + 1 < run_.segments.size() && step >= run_.segments[piece_ + 1]) ++piece_;
+    const bool truth = run_.contact[wheel][step] != 0;
+    Piece& segment = pieces_[piece_];
+    ++(truth ? segment.contact : segment.flight);
+    double* const sum = (truth ? segment.said_in_contact : segment.said_in_flight).data();
+    const double* const value = values.data();
+    const std::size_t lanes = values.size();
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC ivdep
+#endif
+    for (std::size_t i = 0; i < lanes; ++i) sum[i] += value[i] >= threshold ? 1.0 : 0.0;
+  }
+
+  /// By lane, then piece.
+  std::vector<scoring::Classification> result() const {
+    std::vector<scoring::Classification> counts;
+    counts.reserve(lanes_ * pieces_.size());
+    for (std::size_t lane = 0; lane < lanes_; ++lane) {
+      for (const Piece& segment : pieces_) {
+        const auto in_contact = static_cast<std::int64_t>(segment.said_in_contact[lane]);
+        const auto in_flight = static_cast<std::int64_t>(segment.said_in_flight[lane]);
+        counts.push_back({.contact_as_contact = in_contact,
+                          .contact_as_flight = segment.contact - in_contact,
+                          .flight_as_contact = in_flight,
+                          .flight_as_flight = segment.flight - in_flight});
+      }
+    }
+    return counts;
+  }
+
+ private:
+  struct Piece {
+    std::int64_t contact = 0;
+    std::int64_t flight = 0;
+    std::vector<double> said_in_contact;  ///< by lane, how often contact was said in contact
+    std::vector<double> said_in_flight;   ///< likewise in flight
+  };
+
+  const RunSignals& run_;
+  std::size_t lanes_;
+  std::size_t first_scored_;
+  std::size_t piece_ = 0;
+  std::vector<Piece> pieces_;
+};
+
+NoiseStep draws_at(const NoiseRun& noise, std::size_t step) {
+  NoiseStep draws;
+  for (std::size_t side = 0; side < models::wheel_count; ++side) {
+    draws.torque[side] = {noise.knee_torque[side][step], noise.wheel_torque[side][step]};
+  }
+  draws.acceleration = noise.vertical_acceleration[step];
+  draws.linear_acceleration = {noise.acceleration[0][step], noise.acceleration[1][step],
+                               noise.acceleration[2][step]};
+  return draws;
+}
+
+}  // namespace
+
+bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> levels) {
+  const SignalGuardConfig config;
+  double noise = 0.0;
+  double torque_noise = 0.0;
+  for (const noise::SensorNoise& level : levels) {
+    noise = std::max(noise, level.acceleration);
+    torque_noise = std::max({torque_noise, level.knee_torque, level.wheel_torque});
+  }
+  // No draw is as far out as twenty standard deviations.
+  if (!(20.0 * noise < 0.5 * config.largest_acceleration)) return false;
+  if (!(20.0 * torque_noise < 0.5 * config.largest_torque)) return false;
+  SignalGuard guard(config, 1e6 / static_cast<double>(run.info.control_period_us));
+  for (const Signals& signals : run.signals) {
+    const bool torques_good =
+        std::all_of(signals.leg.begin(), signals.leg.end(), [&](const LegSignals& leg) {
+          return std::abs(leg.knee.torque) < 0.5 * config.largest_torque &&
+                 std::abs(leg.wheel.torque) < 0.5 * config.largest_torque;
+        });
+    if (!torques_good || !neural_input(signals).allFinite()) return false;
+    if (!(std::abs(signals.vertical_acceleration) < 0.5 * config.largest_acceleration)) {
+      return false;
+    }
+    if (guard.check(signals.time, signals.vertical_acceleration).status != SignalStatus::good) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<scoring::Classification> count_in_batch(const BatchedEstimator& lanes, std::size_t count,
+                                                    const RunSignals& run, const NoiseRun& noise,
+                                                    const scoring::ScoringConfig& scoring,
+                                                    const std::function<bool()>& should_continue) {
+  constexpr std::size_t steps_between_questions = 256;
+  BatchCounts counts(run, count, scoring);
+  for (std::size_t k = 0; k < run.steps(); ++k) {
+    if (k % steps_between_questions == 0 && !should_continue()) throw Stopped();
+    lanes.update(run.signals[k], draws_at(noise, k));
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      counts.add(wheel, k, lanes.p_contact(static_cast<Side>(wheel)), lanes.threshold);
+    }
+  }
+  return counts.result();
+}
+
+}  // namespace touchdown::experiments

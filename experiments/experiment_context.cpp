@@ -1,0 +1,169 @@
+#include "experiments/experiment_context.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/studies/benchmark/plan.hpp"
+#include "experiments/studies/cross_simulator/variations.hpp"
+#include "experiments/needs.hpp"
+#include "experiments/studies/odometry/plan.hpp"
+#include "experiments/studies/phase_study/plan.hpp"
+#include "experiments/run_directory/free_space.hpp"
+#include "experiments/run_directory/shard.hpp"
+#include "experiments/studies/sensor_sweep/plan.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+int threads_of(const Experiment& experiment) {
+  if (experiment.workers > 0) return experiment.workers;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+/// Tasks that nobody has finished, by their indices.
+std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
+  const Plan& plan = context.plan;
+  std::set<std::size_t> missing_runs;
+  bool fit_is_missing = false;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    if (is_recorded(plan.runs[i], context.directory)) continue;
+    missing_runs.insert(i);
+    fit_is_missing = fit_is_missing || plan.runs[i].role == RunRole::fit;
+  }
+  std::vector<std::size_t> missing;
+  for (std::size_t t = 0; t < plan.tasks.size(); ++t) {
+    if (fit_is_missing || missing_runs.contains(plan.tasks[t].run) ||
+        !context.saved.read(plan, plan.tasks[t])) {
+      missing.push_back(t);
+    }
+  }
+  return missing;
+}
+
+/// Whether runs in which beliefs steer are missing that belong to one of the parts from `first` to
+/// `end`.
+bool lacks_loops(const ExperimentContext& context, std::size_t first, std::size_t end) {
+  const TaskRange loops =
+      closed_loop_runs_of(context.request.experiment, {first, end}, context.plan.tasks.size());
+  for (std::size_t run = loops.begin; run < loops.end; ++run) {
+    if (!context.saved_closed_loops.read(run)) return true;
+  }
+  return false;
+}
+
+/// How many parts are saved, whoever computed them.
+std::size_t saved_parts(const RunDirectory& directory) {
+  std::error_code ignored;
+  const std::filesystem::directory_iterator parts(directory.path() / "state/evaluation", ignored);
+  return static_cast<std::size_t>(std::distance(begin(parts), end(parts)));
+}
+
+/// The most that the run may still write: a step of a recording takes about 1.05 kB.
+DiskNeeds disk_needs(const Plan& plan, const RunDirectory& directory) {
+  constexpr double recorded_step_bytes = 1100.0;
+  DiskNeeds needs;
+  for (const PlannedRun& run : plan.runs) {
+    if (!run.kept || has_stamp(run, directory)) continue;
+    needs.recordings += recorded_step_bytes * run.scenario.end.duration /
+                        (1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us));
+  }
+  const std::size_t parts = plan.tasks.size();
+  const std::size_t missing = parts - std::min(parts, saved_parts(directory));
+  if (missing > 0) {
+    needs.parts = bytes_of_parts(plan) * static_cast<double>(missing) / static_cast<double>(parts);
+  }
+  return needs;
+}
+
+/// Errors: `InputError` when what is saved for a task is another task's, or of another request.
+void require_own(const ExperimentContext& context, const Task& task) {
+  const std::optional<WrongPart> wrong = context.saved.wrong_part(context.plan, task);
+  if (!wrong) return;
+  throw InputError(fmt::format("{}: holds '{}', expected '{}'", wrong->file.string(), wrong->found,
+                               wrong->expected));
+}
+
+}  // namespace
+
+Plan whole_plan(const RunRequest& request) {
+  require_memory(request, 0.0);
+  Plan plan = plan_of(request);
+  if (request.experiment.cross_simulator) add_cross_simulator(request, plan);
+  if (request.experiment.phase_study) add_phase_study(request, plan);
+  add_sensor_sweep(request, plan);
+  if (request.experiment.benchmark) add_benchmark(request, plan);
+  if (request.experiment.odometry) add_odometry_study(request, plan);
+  require_closed_loop(request);
+  keep_recordings(request.experiment, plan);
+  return plan;
+}
+
+ExperimentContext start(RunRequest request, RunDirectory directory, const RunOptions& options) {
+  const int threads = threads_of(request.experiment);
+  Plan plan = whole_plan(request);
+  const DiskNeeds needs = disk_needs(plan, directory);
+  require_free_space(
+      directory.path(), static_cast<std::uintmax_t>(needs.all()),
+      fmt::format("{:.1f} GB for recordings, {:.1f} GB for {} parts of the listening, "
+                  "by test.runs={} and noise.seeds={}",
+                  1e-9 * needs.recordings, 1e-9 * needs.parts, plan.tasks.size(),
+                  request.experiment.test.runs, request.experiment.noise.seeds));
+  SavedCounts saved(directory.path() / "state" / "evaluation", state_key(request));
+  SavedClosedLoops saved_closed_loops(directory.path() / "state" / "closed_loop", state_key(request));
+  return {std::move(request),
+          std::move(directory),
+          std::move(plan),
+          std::move(saved),
+          std::move(saved_closed_loops),
+          [stop = options.stop] { return stop == nullptr || !*stop; },
+          {options.command, threads, {}},
+          tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                              static_cast<std::size_t>(threads))};
+}
+
+std::string what_is_saved(const ExperimentContext& context) {
+  const std::vector<PlannedRun>& runs = context.plan.runs;
+  const auto kept =
+      std::count_if(runs.begin(), runs.end(), [](const PlannedRun& run) { return run.kept; });
+  const auto recordings = std::count_if(runs.begin(), runs.end(), [&](const PlannedRun& run) {
+    return run.kept && has_stamp(run, context.directory);
+  });
+  const auto parts =
+      std::count_if(context.plan.tasks.begin(), context.plan.tasks.end(),
+                    [&](const Task& task) { return context.saved.read(context.plan, task); });
+  return fmt::format(
+      "stopped; {} of {} recordings and {} of {} parts of the listening are saved in {}; the "
+      "same command goes on from there",
+      recordings, kept, parts, context.plan.tasks.size(), context.directory.path().string());
+}
+
+void require_all_shards(const ExperimentContext& context) {
+  const std::vector<std::size_t> missing = missing_tasks(context);
+  const std::size_t tasks = context.plan.tasks.size();
+  if (missing.empty() && !lacks_loops(context, 0, tasks)) return;
+  for (const std::size_t task : missing) require_own(context, context.plan.tasks[task]);
+  const std::filesystem::path& directory = context.directory.path();
+  const int count = started_shards(directory);
+  std::vector<std::string> shards;
+  for (int index = 1; index <= count; ++index) {
+    const Shard shard{index, count};
+    const auto first = std::lower_bound(missing.begin(), missing.end(), shard.begin(tasks));
+    const bool is_listened = first == missing.end() || *first >= shard.end(tasks);
+    if (is_listened && !lacks_loops(context, shard.begin(tasks), shard.end(tasks))) continue;
+    shards.push_back(to_text(shard));
+  }
+  throw InputError(fmt::format(
+      "{}: {} of {} parts are missing: finish shard{} {} first, by 'touchdown run {} --out {} "
+      "--shard {}'",
+      directory.string(), missing.size(), tasks, shards.size() == 1 ? "" : "s",
+      fmt::join(shards, ", "), (directory / "config.yaml").string(), directory.string(),
+      shards.front()));
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,94 @@
+#include "experiments/results/captions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiments/estimators/registry.hpp"
+#include "experiments/results/result.hpp"
+
+namespace touchdown::experiments {
+
+std::string plural(std::size_t count, const std::string& thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+std::string labels_text(const Experiment& experiment) {
+  const scoring::LabelConfig& labels = experiment.labels;
+  std::string text = fmt::format("contact: normal force > {} N, states under {} ms merged",
+                                 labels.force_threshold, 1e3 * labels.debounce);
+  if (labels.annotator) {
+    text += fmt::format(
+        ", as annotated from pictures {:.3g} ms apart, takeoffs {:.3g} and landings {:.3g} ms late",
+        1e3 * labels.annotator->frame, 1e3 * labels.annotator->takeoff_delay,
+        1e3 * labels.annotator->landing_delay);
+  }
+  return text;
+}
+
+std::string sample_text(const Experiment& experiment) {
+  return scoring::to_text(experiment.intervals.over);
+}
+
+std::string intervals_text(const Experiment& experiment) {
+  return fmt::format("{:.0f} % bootstrap intervals over {}s",
+                     100.0 * experiment.intervals.bootstrap.level, sample_text(experiment));
+}
+
+std::string tuning_text(const Experiment& experiment) {
+  std::string given;
+  for (const auto& [estimator, hyperparameters] : experiment.hyperparameters) {
+    for (const auto& [name, value] : hyperparameters) {
+      given += fmt::format("{}{} of {}: {}", given.empty() ? " Given: " : ", ", name,
+                           estimator_title(estimator), exact(value));
+    }
+  }
+  if (!given.empty()) return given + '.';
+  if (!experiment.tuning) return {};
+  return fmt::format(
+      " Each estimator that has constants to choose had {}, its defaults first, judged on {} folds "
+      "of the fitted runs alone (tables/tuning.csv).",
+      plural(static_cast<std::size_t>(experiment.tuning->trials), "trial"),
+      experiment.tuning->folds);
+}
+
+std::string conditions_text(const Experiment& experiment) {
+  return fmt::format("Both wheels; {}{}; first {} ms not scored; {}.{}", labels_text(experiment),
+                     setup_caption(experiment), 1e3 * experiment.scoring.skip,
+                     intervals_text(experiment), tuning_text(experiment));
+}
+
+std::string noise_text(const noise::NoiseCell& cell) {
+  return fmt::format("torque noise {} N·m, accelerometer noise {} m/s²", cell.torque,
+                     cell.accelerometer);
+}
+
+std::string estimator_title(const std::string& estimator) {
+  for (const EstimatorEntry& entry : estimator_entries()) {
+    if (entry.name == estimator) return entry.title;
+  }
+  return estimator;
+}
+
+std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
+                                const CellSummary& summary) {
+  const auto score = std::find_if(scores.begin(), scores.end(), [&](const ScoreSummary& s) {
+    return s.condition == summary.condition && s.cell == summary.cell && s.view == "wheels";
+  });
+  if (score == scores.end()) return "–";
+  const double per_minute = (*score)["false_takeoffs_per_minute"].estimate;
+  return std::isnan(per_minute) ? "–" : fmt::format("{:.1f}", per_minute);
+}
+
+std::string scored_text(const ExperimentResult& result, const std::string& simulator) {
+  const auto runs = scored_runs(result.runs);
+  const auto scored = std::count_if(runs.begin(), runs.end(), [&](const RunSignals* run) {
+    return run->info.simulator == simulator;
+  });
+  return fmt::format("{} × {}; {}{}", plural(static_cast<std::size_t>(scored), "test run"),
+                     plural(static_cast<std::size_t>(result.experiment.noise.seeds), "noise seed"),
+                     labels_text(result.experiment), setup_caption(result.experiment));
+}
+
+}  // namespace touchdown::experiments

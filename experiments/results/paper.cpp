@@ -1,0 +1,185 @@
+#include "experiments/results/paper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "experiments/estimators/registry.hpp"
+#include "experiments/results/captions.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// The paper's Tables I to III: real robot, 10 drops, no intervals.
+struct PaperRow {
+  std::string classification;
+  std::string transitions;
+  std::string latency;
+};
+
+const PaperRow* paper_row(const std::string& estimator) {
+  static const PaperRow bayes = {"1.0 / 1.0 / 0.55 / 0.37", "0.91 / 1.0 / 0.71 / 1.0",
+                                 "77.1 ± 31.8 / 17.9 ± 9.1"};
+  static const PaperRow measurement = {"1.0 / 1.0 / 0.53 / 0.40", "0.59 / 1.0 / 0.55 / 1.0",
+                                       "83.1 ± 31.9 / 10.1 ± 7.4"};
+  static const PaperRow neural = {"0.99 / 1.0 / 0.28 / 0.15", "0.53 / 0.90 / 0.56 / 0.90",
+                                  "125.0 ± 59.6 / 22.4 ± 7.4"};
+  static const std::map<std::string, const PaperRow*> rows = {{"robust", &bayes},
+                                                              {"reference", &bayes},
+                                                              {"paper", &bayes},
+                                                              {"measurement_only", &measurement},
+                                                              {"nmn", &neural}};
+  const auto found = rows.find(estimator);
+  return found == rows.end() ? nullptr : found->second;
+}
+
+std::string latency_cell(const ScoreSummary& summary, const std::string& event) {
+  const Interval& mean = summary[event + "_latency_ms"];
+  const Interval& deviation = summary[event + "_latency_deviation_ms"];
+  if (std::isnan(mean.estimate)) return "–";
+  return fmt::format("{:.1f} ± {:.1f} [{:.1f}, {:.1f}]", mean.estimate, deviation.estimate,
+                     mean.low, mean.high);
+}
+
+std::string metric_cell(const ScoreSummary& summary, const std::string& metric) {
+  return with_interval(summary[metric]);
+}
+
+/// One column per name, filled by `cell`, and the paper's last.
+Table table_of(const std::vector<ScoreSummary>& summaries, const std::vector<std::string>& names,
+               std::string (*cell)(const ScoreSummary&, const std::string&),
+               std::string PaperRow::*reference) {
+  Table table{{"simulator", "estimator"}, {}};
+  for (std::string name : names) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    table.header.push_back(name);
+  }
+  table.header.emplace_back("paper, real robot");
+  for (const ScoreSummary& summary : summaries) {
+    if (summary.view != "wheels") continue;
+    std::vector<std::string> row = {summary.condition.test_simulator,
+                                    estimator_entry(summary.condition.estimator).title};
+    for (const std::string& name : names) row.push_back(cell(summary, name));
+    const PaperRow* paper = paper_row(summary.condition.estimator);
+    row.push_back(paper == nullptr ? "–" : paper->*reference);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string joined(const std::vector<std::string>& cells, const std::string& between) {
+  return fmt::format("{}", fmt::join(cells, between));
+}
+
+/// What LaTeX would take for markup.
+std::string latex_text(const std::string& text) {
+  static const std::vector<std::pair<std::string, std::string>> replacements = {
+      {"±", "$\\pm$"},    {"–", "--"},  {"−", "$-$"}, {"²", "$^2$"}, {"·", "$\\cdot$"},
+      {"×", "$\\times$"}, {"%", "\\%"}, {"_", "\\_"}, {"&", "\\&"},  {">", "$>$"}};
+  std::string result = text;
+  for (const auto& [from, to] : replacements) {
+    for (std::size_t at = result.find(from); at != std::string::npos;
+         at = result.find(from, at + to.size())) {
+      result.replace(at, from.size(), to);
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> latex_cells(const std::vector<std::string>& cells) {
+  std::vector<std::string> result;
+  for (const std::string& cell : cells) result.push_back(latex_text(cell));
+  return result;
+}
+
+/// What the numbers of one cell are, in words.
+std::string how_scored(const Experiment& experiment, const noise::NoiseCell& cell) {
+  return fmt::format("Both wheels; {}, {} noise seeds{}; {}; {}.", noise_text(cell),
+                     experiment.noise.seeds, setup_caption(experiment), labels_text(experiment),
+                     intervals_text(experiment));
+}
+
+template <typename Row>
+std::vector<Row> in_cell(std::vector<Row> rows, const noise::NoiseCell& cell) {
+  std::erase_if(rows, [&](const Row& row) { return !(row.cell == cell); });
+  return rows;
+}
+
+}  // namespace
+
+std::vector<CaptionedTable> paper_tables(const std::vector<ScoreSummary>& summaries,
+                                         const std::string& how) {
+  return {
+      {"Table I. Point-wise classification. " + how, "classification",
+       table_of(
+           summaries,
+           {"contact_precision", "contact_recall", "no_contact_precision", "no_contact_recall"},
+           metric_cell, &PaperRow::classification)},
+      {"Table II. Transitions. " + how, "transitions",
+       table_of(summaries,
+                {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall"},
+                metric_cell, &PaperRow::transitions)},
+      {"Table III. Latency of detected transitions (ms): mean ± standard deviation [interval of "
+       "the mean]. " +
+           how,
+       "latency", table_of(summaries, {"takeoff", "landing"}, latency_cell, &PaperRow::latency)},
+  };
+}
+
+CaptionedTable difference_text_table(const std::vector<Difference>& differences) {
+  const auto value = [](const Difference& difference, const char* name, int decimals) {
+    return with_interval(difference.metric[scoring::metric_index(name)], decimals);
+  };
+  CaptionedTable result{"Paired differences",
+                        "differences",
+                        {{"simulator", "difference", "success rate", "no contact recall",
+                          "takeoff precision", "takeoff latency (ms)", "landing latency (ms)"},
+                         {}}};
+  for (const Difference& d : differences) {
+    result.table.rows.push_back(
+        {d.simulator, estimator_entry(d.first).title + " − " + estimator_entry(d.second).title,
+         value(d, "success", 3), value(d, "no_contact_recall", 3), value(d, "takeoff_precision", 3),
+         value(d, "takeoff_latency_ms", 1), value(d, "landing_latency_ms", 1)});
+  }
+  return result;
+}
+
+std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
+  std::vector<CaptionedTable> tables;
+  for (const noise::NoiseCell& cell : result.experiment.highlights) {
+    for (CaptionedTable& table :
+         paper_tables(in_cell(result.scores, cell), how_scored(result.experiment, cell))) {
+      tables.push_back(std::move(table));
+    }
+    tables.push_back(difference_text_table(in_cell(result.differences, cell)));
+    tables.back().caption += setup_caption(result.experiment);
+  }
+  return tables;
+}
+
+std::string to_text(const CaptionedTable& table) {
+  return table.caption + "\n\n" + to_text(table.table, 2);
+}
+
+std::string to_markdown(const CaptionedTable& table) {
+  std::string text = table.caption + "\n\n| " + joined(table.table.header, " | ") + " |\n|";
+  for (std::size_t i = 0; i < table.table.header.size(); ++i) text += i < 2 ? "---|" : "---:|";
+  text += "\n";
+  for (const auto& row : table.table.rows) text += "| " + joined(row, " | ") + " |\n";
+  return text;
+}
+
+std::string to_latex(const CaptionedTable& table) {
+  const std::string columns(table.table.header.size() - 2, 'r');
+  std::string text = "\\begin{table}\n\\centering\n\\begin{tabular}{ll" + columns +
+                     "}\n\\toprule\n" + joined(latex_cells(table.table.header), " & ") +
+                     " \\\\\n\\midrule\n";
+  for (const auto& row : table.table.rows) text += joined(latex_cells(row), " & ") + " \\\\\n";
+  return text + "\\bottomrule\n\\end{tabular}\n\\caption{" + latex_text(table.caption) +
+         "}\n\\label{table:" + table.label + "}\n\\end{table}\n";
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/table.hpp"
+#include "experiments/results/result.hpp"
+
+namespace touchdown::experiments {
+
+/// A table with what stands above it.
+struct CaptionedTable {
+  std::string caption;
+  std::string label;  ///< a word, for LaTeX references
+  Table table;
+};
+
+/// Tables I to III of the paper (point-wise classification, transitions, latency), one row per
+/// engine and estimator, with the paper's numbers from the real robot as the last column. They are
+/// a reference, not a mark to pass: another robot, other drops, hand labels.
+std::vector<CaptionedTable> paper_tables(const std::vector<ScoreSummary>& summaries,
+                                         const std::string& how);
+
+/// The same for every highlighted cell of a result, one below the other, each with its differences.
+std::vector<CaptionedTable> paper_tables(const ExperimentResult& result);
+
+/// The first estimator's advantage over the others, with intervals.
+CaptionedTable difference_text_table(const std::vector<Difference>& differences);
+
+std::string to_text(const CaptionedTable& table);
+std::string to_markdown(const CaptionedTable& table);
+/// A `table` environment that needs the package booktabs.
+std::string to_latex(const CaptionedTable& table);
+
+}  // namespace touchdown::experiments

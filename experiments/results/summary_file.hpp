@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/evaluation/summary.hpp"
+#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/results/scores.hpp"
+
+namespace touchdown::experiments {
+
+struct ExperimentResult;
+
+/// How one run of an experiment went.
+struct RunSummary {
+  RunRole role = RunRole::test;
+  std::string simulator;
+  std::int64_t run = 0;   ///< its index, different for every run of one engine
+  std::string recording;  ///< its file's name
+  recordings::Outcome outcome = recordings::Outcome::finished;
+  int flights = 0;
+};
+
+/// What an experiment found out, for programs that come later: its run directory's
+/// `tables/summary.json`. Numbers are rounded as in the CSV tables; metrics are in the order of
+/// `metrics()`.
+struct Summary {
+  std::vector<RunSummary> runs;
+  std::vector<CellSummary> cells;    ///< without their encoder noise
+  std::vector<ScoreSummary> scores;  ///< without their totals and reliability curves
+  std::vector<Difference> differences;
+};
+
+Summary summary_of(const ExperimentResult& result);
+
+void write_summary(const Summary& summary, const std::filesystem::path& run_directory);
+
+/// Errors: `InputError` when the file is broken, or not there as in the run directories of older
+/// programs.
+Summary read_summary(const std::filesystem::path& run_directory);
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,205 @@
+#include "experiments/rollouts/rollouts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <optional>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for_each.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/fingerprint.hpp"
+#include "core/progress.hpp"
+#include "experiments/plan/sensors.hpp"
+#include "experiments/run_directory/saved_state.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "scenarios/compiled_scenes.hpp"
+#include "scenarios/engine.hpp"
+#include "scenarios/leg_geometry.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// What a recording is made from, and by which build. The robot counts by its content: where its
+/// file is found depends on where one stands.
+std::string key_of(const PlannedRun& run) {
+  scenarios::Scenario scenario = run.scenario;
+  scenario.robot.clear();
+  return Fingerprint()
+      .add(build_fingerprint())
+      .add(scenarios::to_yaml(scenario))
+      .add(scenarios::robot_text(run.scenario))
+      .add(run.simulator)
+      .add(fmt::format("{} {}", run.seed, run.run))
+      .text();
+}
+
+/// The two files that say whether a recording can be used: its checksum, or why there is none.
+std::filesystem::path stamp_of(const PlannedRun& run, const RunDirectory& directory) {
+  return directory.file("state/recordings", run.file + ".sum");
+}
+std::filesystem::path failure_of(const PlannedRun& run, const RunDirectory& directory) {
+  return directory.file("state/recordings", run.file + ".failed");
+}
+
+bool is_whole(const PlannedRun& run, const RunDirectory& directory, const std::string& key) {
+  const std::optional<std::string> stamp = read_state(stamp_of(run, directory), key);
+  if (!stamp) return false;
+  const auto sum = file_checksum(directory.file("recordings", run.file));
+  return sum && *stamp == fmt::format("{:016x}", *sum);
+}
+
+/// A run that could not be simulated.
+Rollout failed(const PlannedRun& plan, const std::string& why) {
+  Rollout run{plan, {.outcome = recordings::Outcome::diverged, .error = why}, {}};
+  run.signals.info.simulator = plan.simulator;
+  run.signals.info.run = plan.run;
+  return run;
+}
+
+Rollout rollout(const PlannedRun& run, recordings::Recording recording,
+                 const noise::SensorProfile& sensors, const Experiment& experiment,
+                 scenarios::CompiledScenes& scenes) {
+  report_through_sensors(sensors, experiment, run.run, recording.period(), recording.observation);
+  RunSignals signals =
+      signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
+  const std::shared_ptr<const models::RobotModel> robot = scenes.as_described(run.scenario);
+  signals.legs = scenarios::leg_geometry(*robot);
+  if (experiment.odometry && run.role == RunRole::test) {
+    signals.motion = std::make_shared<RunMotion>(motion_of(recording, *robot));
+  }
+  const auto shortest = static_cast<std::size_t>(
+      std::llround(experiment.scoring.minimum_flight / recording.period()));
+  std::vector<scoring::Flight> flights = scoring::flights(scoring::any_wheel(signals.contact));
+  std::erase_if(flights, [&](const scoring::Flight& flight) {
+    return flight.landing - flight.takeoff < shortest;
+  });
+  return {run,
+          {recording.info.outcome.value_or(recordings::Outcome::finished),
+           static_cast<double>(recording.steps()) * recording.period(),
+           static_cast<int>(flights.size())},
+          std::move(signals)};
+}
+
+recordings::Recording simulate(const PlannedRun& run, scenarios::CompiledScenes& scenes,
+                               const ShouldContinue& should_continue) {
+  const auto simulator =
+      scenarios::make_simulator(run.scenario, run.simulator, scenes.of(run.scenario));
+  return scenarios::play(run.scenario, *simulator, run.seed, run.run,
+                         [&](double /*time*/) { return should_continue(); });
+}
+
+/// What is recorded of a run, or why nothing is.
+struct Recorded {
+  std::optional<recordings::Recording> recording;
+  std::string error;
+};
+
+Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
+                          const RunDirectory& directory, MissingRun missing,
+                          scenarios::CompiledScenes& scenes, const ShouldContinue& should_continue) {
+  const auto file = directory.file("recordings", run.file);
+  if (is_whole(run, directory, key)) return {recordings::read_recording(file), {}};
+  if (missing == MissingRun::refuse) {
+    if (const auto why = read_state(failure_of(run, directory), key)) return {{}, *why};
+    if (run.kept) throw Error(fmt::format("{}: is missing or not whole", file.string()));
+  }
+  recordings::Recording recording;
+  try {
+    recording = simulate(run, scenes, should_continue);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // says nothing about the run
+  } catch (const std::exception& error) {
+    write_state(failure_of(run, directory), key, error.what());
+    return {{}, error.what()};
+  }
+  if (!should_continue()) throw Stopped();
+  if (run.kept) {
+    recordings::write_recording(recording, file);
+    const std::optional<std::uint64_t> sum = file_checksum(file);
+    if (!sum) throw Error(fmt::format("{}: cannot be read again", file.string()));
+    write_state(stamp_of(run, directory), key, fmt::format("{:016x}", *sum));
+  }
+  return {std::move(recording), {}};
+}
+
+}  // namespace
+
+std::vector<const RunSignals*> scored_runs(const std::vector<Rollout>& runs) {
+  std::vector<const RunSignals*> scored;
+  for (const Rollout& run : runs) {
+    if (run.plan.role == RunRole::test && !run.failed()) scored.push_back(&run.signals);
+  }
+  return scored;
+}
+
+const Rollout* test_run(const std::vector<Rollout>& runs, const std::string& simulator,
+                          std::int64_t index) {
+  const auto found = std::find_if(runs.begin(), runs.end(), [&](const Rollout& run) {
+    return run.plan.role == RunRole::test && run.plan.simulator == simulator &&
+           run.plan.run == index;
+  });
+  return found == runs.end() ? nullptr : &*found;
+}
+
+void for_each_rollout(const Experiment& experiment, const Plan& plan,
+                     const std::set<std::size_t>& needed, const RunDirectory& directory,
+                     MissingRun missing, const ShouldContinue& should_continue, const UseRollout& use) {
+  // Runs that differ only in who hears them are one simulation.
+  struct Simulation {
+    std::string key;
+    std::vector<std::size_t> hearers;  // in the plan
+  };
+  std::vector<Simulation> simulations;
+  std::map<std::string, std::size_t> number;
+  for (const std::size_t index : needed) {
+    const auto [known, is_new] = number.emplace(key_of(plan.runs[index]), simulations.size());
+    if (is_new) simulations.push_back({known->first, {}});
+    simulations[known->second].hearers.push_back(index);
+  }
+  scenarios::CompiledScenes scenes;
+  Progress progress("simulating", "runs", static_cast<std::int64_t>(simulations.size()));
+  tbb::parallel_for_each(simulations, [&](const Simulation& simulation) {
+    Recorded recorded = simulate_or_read(plan.runs[simulation.hearers.front()], simulation.key,
+                                         directory, missing, scenes, should_continue);
+    for (const std::size_t index : simulation.hearers) {
+      const PlannedRun& run = plan.runs[index];
+      if (!recorded.recording) {
+        use(index, failed(run, recorded.error));
+        continue;
+      }
+      const bool is_last = index == simulation.hearers.back();
+      use(index, rollout(run, is_last ? std::move(*recorded.recording) : *recorded.recording,
+                        plan.sensors[run.sensors].profile, experiment, scenes));
+    }
+    progress.advance();
+    if (!should_continue()) throw Stopped();
+  });
+}
+
+Rollouts run_rollouts(const Experiment& experiment, const Plan& plan,
+                     const std::set<std::size_t>& needed, const RunDirectory& directory,
+                     MissingRun missing, const ShouldContinue& should_continue) {
+  Rollouts runs;
+  for (const std::size_t index : needed) runs.emplace(index, Rollout{plan.runs[index], {}, {}});
+  for_each_rollout(experiment, plan, needed, directory, missing, should_continue,
+                  [&](std::size_t index, Rollout run) { runs.at(index) = std::move(run); });
+  return runs;
+}
+
+bool is_recorded(const PlannedRun& run, const RunDirectory& directory) {
+  if (!run.kept) return true;
+  const std::string key = key_of(run);
+  return is_whole(run, directory, key) || read_state(failure_of(run, directory), key).has_value();
+}
+
+bool has_stamp(const PlannedRun& run, const RunDirectory& directory) {
+  return read_state(stamp_of(run, directory), key_of(run)).has_value();
+}
+
+}  // namespace touchdown::experiments

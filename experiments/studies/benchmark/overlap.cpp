@@ -1,0 +1,72 @@
+#include "experiments/studies/benchmark/overlap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "experiments/studies/benchmark/plan.hpp"
+#include "experiments/estimators/registry.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// What two fitted densities have in common, ∫ min(p, q), over the first one's grid: in contact or
+/// in the air. Each is taken to be one on its own grid: kernels reach below a torque of zero.
+double common_part(const MeasurementModel& first, const MeasurementModel& second,
+                   double Likelihoods::*density, std::vector<double> LikelihoodGrids::*grid) {
+  const auto share = [&](const LikelihoodGrids& grids) {
+    const std::vector<double>& values = grids.*grid;
+    return 1.0 / std::accumulate(values.begin(), values.end(), 0.0);
+  };
+  const LikelihoodGrids grids = first.grids();
+  const LikelihoodGrids others = second.grids();
+  const double area = grids.knee.step() * grids.wheel.step();
+  const double other_area = others.knee.step() * others.wheel.step();
+  const double one = share(grids);
+  const double other = share(others) * area / other_area;
+  double sum = 0.0;
+  std::size_t i = 0;
+  for (int wheel = 0; wheel < grids.wheel.count; ++wheel) {
+    for (int knee = 0; knee < grids.knee.count; ++knee, ++i) {
+      const Likelihoods there = second({grids.knee[knee], grids.wheel[wheel]});
+      sum += std::fmin(one * (grids.*grid)[i], other * there.*density);
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+void write_overlap(const FittedModels& models, const Evaluation& evaluation,
+                   const RunDirectory& directory) {
+  Table table{{"simulator", "estimator", "robot", "sensors", "other_robot", "other_sensors",
+               "no_contact_overlap", "contact_overlap"},
+              {}};
+  const Experiment& experiment = evaluation.request.experiment;
+  const auto estimator = std::find_if(
+      experiment.estimators.begin(), experiment.estimators.end(), [](const std::string& name) {
+        return estimator_entry(name).fits() == ModelKind::measurement;
+      });
+  if (estimator == experiment.estimators.end()) return;
+  const auto setups = benchmark_settings(evaluation.request, evaluation.plan);
+  for (const std::string& simulator : experiment.simulators) {
+    const auto model = [&](const BenchmarkSetup& setting) -> const MeasurementModel& {
+      return *models.at(simulator + setting.setting.fit).at(*estimator).measurement;
+    };
+    for (const BenchmarkSetup& first : setups) {
+      for (const BenchmarkSetup& second : setups) {
+        const auto common = [&](auto density, auto grid) {
+          return metric(common_part(model(first), model(second), density, grid));
+        };
+        table.rows.push_back({simulator, *estimator, first.robot, first.sensors, second.robot,
+                              second.sensors,
+                              common(&Likelihoods::no_contact, &LikelihoodGrids::no_contact),
+                              common(&Likelihoods::contact, &LikelihoodGrids::contact)});
+      }
+    }
+  }
+  directory.write_table("density_overlap.csv", table);
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,139 @@
+#include "experiments/studies/benchmark/plan.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/estimators/registry.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// "sensors/harsh.yaml" → "harsh"; no file: ideal ones.
+std::string short_name(const std::string& file) {
+  return file.empty() ? "ideal" : std::filesystem::path(file).stem().string();
+}
+
+std::vector<std::string> and_own(std::string own, const std::vector<std::string>& others) {
+  std::vector<std::string> all = {std::move(own)};
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+/// Tables tell them apart by these names.
+void require_different(const std::vector<std::string>& files, const char* key) {
+  for (auto file = files.begin(); file != files.end(); ++file) {
+    const auto same = std::find_if(files.begin(), file, [&](const std::string& other) {
+      return short_name(other) == short_name(*file);
+    });
+    if (same == file) continue;
+    throw InputError(fmt::format("benchmark.{}: '{}' is there already{}", key, short_name(*file),
+                                 same == files.begin() ? ": the experiment's own" : ""));
+  }
+}
+
+template <typename Items, typename Is>
+std::size_t index_of(const Items& items, const Is& is) {
+  return static_cast<std::size_t>(std::find_if(items.begin(), items.end(), is) - items.begin());
+}
+
+/// Estimators that were fitted in one of these settings, or in the other engine, as guests.
+void add_guests(const Experiment& experiment, const std::vector<BenchmarkSetup>& setups,
+                RunGroup& group) {
+  for (const Condition& own : own_engine_conditions(experiment)) {
+    if (!estimator_entry(own.estimator).fits()) continue;
+    for (const BenchmarkSetup& other : setups) {
+      if (other.setting.fit == group.fit) continue;
+      group.conditions.push_back(
+          {own.fit_simulator, own.test_simulator, own.estimator, other.setting.fit});
+    }
+    for (const std::string& engine : experiment.simulators) {
+      const Condition guest{engine, own.test_simulator, own.estimator, group.fit};
+      const auto& all = group.conditions;
+      if (std::find(all.begin(), all.end(), guest) == all.end()) group.conditions.push_back(guest);
+    }
+  }
+  group.scores_transfer = true;
+}
+
+/// The refits of those that are at home in a group, after all others.
+void add_refits(const BenchmarkConfig& benchmark, RunGroup& group) {
+  const std::vector<Condition> all = group.conditions;
+  for (const Condition& condition : all) {
+    if (!condition.is_fitted_in_domain(group.fit)) continue;
+    if (!estimator_entry(condition.estimator).fits()) continue;
+    for (int refit = 1; refit <= refits_of(benchmark, group.fit); ++refit) {
+      group.conditions.push_back(condition);
+      group.conditions.back().refit = refit;
+    }
+  }
+}
+
+}  // namespace
+
+int refits_of(const BenchmarkConfig& benchmark, const std::string& fit) {
+  return fit.empty() || benchmark.refits_everywhere ? benchmark.refits : 0;
+}
+
+std::vector<BenchmarkSetup> benchmark_settings(const RunRequest& request, const Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  const std::string own_robot =
+      scenario_of(request, experiment.test.scenarios.front()).scenario.robot;
+  const auto robots = and_own(own_robot, experiment.benchmark->robots);
+  const auto sensors = and_own(experiment.sensors, experiment.benchmark->sensors);
+  require_different(robots, "robots");
+  require_different(sensors, "sensors");
+  std::vector<BenchmarkSetup> all;
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    for (std::size_t s = 0; s < sensors.size(); ++s) {
+      BenchmarkSetup setting{short_name(robots[r]), short_name(sensors[s]), {}, 0};
+      if (r > 0) setting.setting.robot = robots[r];
+      if (!all.empty()) setting.setting.fit = fmt::format("_{}_{}", setting.robot, setting.sensors);
+      if (s > 0) {
+        setting.setting.sensors = index_of(plan.sensors, [&](const PlannedSensors& heard) {
+          return heard.name == setting.sensors;
+        });
+      }
+      setting.group = index_of(
+          plan.groups, [&](const RunGroup& group) { return group.fit == setting.setting.fit; });
+      all.push_back(std::move(setting));
+    }
+  }
+  return all;
+}
+
+void add_benchmark(const RunRequest& request, Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  for (const std::string& file : experiment.benchmark->sensors) {
+    plan.sensors.push_back({short_name(file), profile_of(request.sensors, file)});
+  }
+  const std::vector<BenchmarkSetup> setups = benchmark_settings(request, plan);
+  const std::size_t first = plan.runs.size();
+  for (const BenchmarkSetup& setting : setups) {
+    const RobotAndSensors& where = setting.setting;
+    if (where.fit.empty()) {
+      plan.groups.front().has_extended_scores = true;
+      if (experiment.benchmark->transfer) add_guests(experiment, setups, plan.groups.front());
+      add_refits(*experiment.benchmark, plan.groups.front());
+      continue;
+    }
+    RunGroup group{fmt::format("{} {}", setting.robot, setting.sensors),
+                   own_engine_conditions(experiment),
+                   {},
+                   experiment.highlights};
+    for (Condition& condition : group.conditions) condition.fit = where.fit;
+    group.has_extended_scores = true;
+    group.fit = where.fit;
+    if (experiment.benchmark->transfer) add_guests(experiment, setups, group);
+    add_refits(*experiment.benchmark, group);
+    plan_runs(request, RunRole::fit, where, 0, plan);
+    plan_segments(request, where, plan);
+    plan_runs(request, RunRole::test, where, plan.groups.size(), plan);
+    plan.groups.push_back(std::move(group));
+  }
+  plan_tasks(experiment, first, plan);
+}
+
+}  // namespace touchdown::experiments

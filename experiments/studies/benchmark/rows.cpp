@@ -1,0 +1,115 @@
+#include "experiments/studies/benchmark/rows.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace touchdown::experiments {
+
+namespace {
+
+bool is_fitted_scene(const Experiment& experiment, const std::string& file) {
+  const std::vector<std::string>& fitted = experiment.fit.scenarios;
+  return std::find(fitted.begin(), fitted.end(), file) != fitted.end() ||
+         std::any_of(experiment.training_segments.begin(), experiment.training_segments.end(),
+                     [&](const TrainingSegments& segments) { return segments.scenario == file; });
+}
+
+/// The runs of a group in one of the experiment's scenes.
+std::vector<std::size_t> runs_in_scene(const Plan& plan, const Experiment& experiment,
+                                       std::size_t group, std::size_t scene) {
+  std::vector<std::size_t> runs = plan.runs_in(group);
+  std::erase_if(runs,
+                [&](std::size_t run) { return scene_of(plan.runs[run], experiment) != scene; });
+  return runs;
+}
+
+std::string fitted_on(const Condition& condition, const BenchmarkSetup& here,
+                      const std::vector<BenchmarkSetup>& setups) {
+  if (condition.is_fitted_in_domain(here.setting.fit)) return "own";
+  if (condition.fit_simulator != condition.test_simulator) return condition.fit_simulator;
+  const auto there = std::find_if(
+      setups.begin(), setups.end(),
+      [&](const BenchmarkSetup& setting) { return setting.setting.fit == condition.fit; });
+  return fmt::format("{} {}", there->robot, there->sensors);
+}
+
+std::vector<scoring::Classification> points_of(const std::vector<scoring::RobotScore>& runs) {
+  std::vector<scoring::Classification> points;
+  for (const scoring::RobotScore& run : runs) points.push_back(run.wheels().points);
+  return points;
+}
+
+/// What an estimator's refits have in one cell, each in the same runs as the estimator itself.
+std::vector<std::vector<scoring::Classification>> points_of_refits(const CollectedCounts& counts,
+                                                                   const Condition& fitted,
+                                                                   std::size_t cell) {
+  std::vector<std::vector<scoring::Classification>> all;
+  Condition refit = fitted;
+  for (const ConditionScores& other : counts.scored) {
+    refit.refit = static_cast<int>(all.size()) + 1;
+    if (other.condition == refit) all.push_back(points_of(other.samples[cell]));
+  }
+  return all;
+}
+
+/// A number of its own for every scene and engine.
+std::uint64_t place_of(std::size_t scene, const std::string& simulator,
+                       const Experiment& experiment) {
+  const std::vector<std::string>& engines = experiment.simulators;
+  const auto engine = std::find(engines.begin(), engines.end(), simulator) - engines.begin();
+  return scene * engines.size() + static_cast<std::size_t>(engine);
+}
+
+}  // namespace
+
+std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation) {
+  const Experiment& experiment = evaluation.request.experiment;
+  const std::vector<std::string>& scenes = experiment.test.scenarios;
+  const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
+  std::vector<BenchmarkRow> rows;
+  const auto setups = benchmark_settings(evaluation.request, evaluation.plan);
+  for (const BenchmarkSetup& setting : setups) {
+    for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+      const auto runs = runs_in_scene(evaluation.plan, experiment, setting.group, scene);
+      const CollectedCounts counts = collect(evaluation.plan, runs, evaluation.saved);
+      for (std::size_t c = 0; c < counts.scored.size(); ++c) {
+        const ConditionScores& scored = counts.scored[c];
+        if (scored.condition.refit > 0) continue;
+        const std::string& simulator = scored.condition.test_simulator;
+        BenchmarkRow row{simulator,
+                         setting.robot,
+                         setting.sensors,
+                         scenario_of(evaluation.request, scenes[scene]).scenario.name,
+                         is_fitted_scene(experiment, scenes[scene]) ? "test" : "unseen",
+                         {},
+                         scored.condition.estimator,
+                         fitted_on(scored.condition, setting, setups),
+                         {},
+                         {},
+                         {}};
+        for (const std::size_t index : runs) {
+          const Rollout& run = evaluation.runs.at(index);
+          if (run.plan.simulator != simulator) continue;
+          ++row.runs;
+          row.failed += run.failed() ? 1 : 0;
+        }
+        for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {
+          if (scored.samples[cell].empty()) continue;
+          row.noise = experiment.highlights[cell];
+          const FitsAndRuns fits{points_of(scored.samples[cell]),
+                                 points_of_refits(counts, scored.condition, cell)};
+          row.refits = fits.of_refit.size();
+          row.balanced_accuracy =
+              balanced_accuracy(fits, place_of(scene, simulator, experiment), bootstrap);
+          row.score = scoring::sum(scored.samples[cell]).wheels();
+          row.close = scoring::sum(counts.close[c].samples[cell]);
+          rows.push_back(row);
+        }
+      }
+    }
+  }
+  return rows;
+}
+
+}  // namespace touchdown::experiments

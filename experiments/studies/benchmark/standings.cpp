@@ -1,0 +1,205 @@
+#include "experiments/studies/benchmark/standings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include "experiments/estimators/registry.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+using Rows = std::vector<const BenchmarkRow*>;
+
+template <typename Key>
+std::vector<Rows> grouped(const Rows& rows, const Key& key) {
+  std::vector<Rows> groups;
+  for (const BenchmarkRow* row : rows) {
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Rows& known) { return key(*known.front()) == key(*row); });
+    if (group == groups.end()) group = groups.insert(groups.end(), Rows());
+    group->push_back(row);
+  }
+  return groups;
+}
+
+std::string estimator_of(const BenchmarkRow& row) { return row.estimator; }
+
+Resampled mean_of(const Rows& rows) {
+  std::vector<const Resampled*> all;
+  for (const BenchmarkRow* row : rows) all.push_back(&row->balanced_accuracy);
+  return mean(all);
+}
+
+struct Named {
+  std::string name;
+  Resampled value;
+};
+
+std::vector<Named> means_by_estimator(const Rows& rows) {
+  std::vector<Named> means;
+  for (const Rows& own : grouped(rows, estimator_of)) {
+    means.push_back({own.front()->estimator, mean_of(own)});
+  }
+  return means;
+}
+
+Resampled operator-(const Resampled& first, const Resampled& second) {
+  Resampled difference{first.estimate - second.estimate};
+  for (std::size_t r = 0; r < std::min(first.values.size(), second.values.size()); ++r) {
+    difference.values.push_back(first.values[r] - second.values[r]);
+  }
+  return difference;
+}
+
+double standard_error(const Resampled& resampled) {
+  const auto count = static_cast<double>(resampled.values.size());
+  double squares = 0.0;
+  for (const double value : resampled.values) {
+    squares += (value - resampled.estimate) * (value - resampled.estimate);
+  }
+  return std::sqrt(squares / count);
+}
+
+/// Bands that hold together with this probability.
+std::vector<Interval> simultaneous(const std::vector<Resampled>& all, double level) {
+  std::vector<double> errors;
+  std::vector<double> largest;
+  for (const Resampled& one : all) {
+    errors.push_back(standard_error(one));
+    largest.resize(one.values.size());
+    for (std::size_t r = 0; r < one.values.size() && errors.back() > 0.0; ++r) {
+      largest[r] = std::fmax(largest[r], std::abs(one.values[r] - one.estimate) / errors.back());
+    }
+  }
+  double reach = std::numeric_limits<double>::quiet_NaN();
+  if (!largest.empty()) {
+    const auto last = static_cast<double>(largest.size() - 1);
+    const auto place = largest.begin() + static_cast<std::ptrdiff_t>(std::ceil(level * last));
+    std::nth_element(largest.begin(), place, largest.end());
+    reach = *place;
+  }
+  std::vector<Interval> bands;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double half = reach * errors[i];
+    bands.push_back({all[i].estimate, all[i].estimate - half, all[i].estimate + half});
+  }
+  return bands;
+}
+
+/// Without those who were not scored in every run in which somebody was: who is compared has to
+/// have heard the same.
+Rows complete_ones(const Rows& rows) {
+  std::map<std::string, int> runs;
+  int most = 0;
+  for (const BenchmarkRow* row : rows) {
+    most = std::max(most, runs[row->estimator] += row->runs - row->failed);
+  }
+  Rows complete = rows;
+  std::erase_if(complete, [&](const BenchmarkRow* row) { return runs.at(row->estimator) < most; });
+  return complete;
+}
+
+std::vector<Standings::Difference> all_pairs(const std::string& scene,
+                                             const std::vector<Named>& estimators, double level) {
+  std::vector<Standings::Difference> pairs;
+  std::vector<Resampled> values;
+  for (std::size_t i = 0; i < estimators.size(); ++i) {
+    for (std::size_t j = i + 1; j < estimators.size(); ++j) {
+      pairs.push_back({scene, estimators[i].name, estimators[j].name, {}});
+      values.push_back(estimators[i].value - estimators[j].value);
+    }
+  }
+  const std::vector<Interval> bands = simultaneous(values, level);
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].value = bands[i];
+  return pairs;
+}
+
+bool is_upper_bound_place(const Standings::Place& place) { return is_upper_bound(place.estimator); }
+
+double bits_of(const BenchmarkRow& row) {
+  return row.close.log_loss / static_cast<double>(row.close.steps) / std::numbers::ln2;
+}
+
+std::vector<Standings::Place> places_of(const Rows& rows, const std::vector<Named>& means,
+                                        double level) {
+  std::vector<Standings::Place> places;
+  for (const Named& mean : means) {
+    Standings::Place place;
+    place.estimator = mean.name;
+    place.mean = interval_of(mean.value, level);
+    place.worst = 1.0;
+    double scored = 0.0;
+    for (const BenchmarkRow* row : rows) {
+      if (row->estimator == mean.name) {
+        place.log_loss += bits_of(*row);
+        scored += 1.0;
+      }
+      const double value = row->balanced_accuracy.estimate;
+      if (row->estimator != mean.name || value > place.worst) continue;
+      place.worst = value;
+      place.worst_scene = row->scene;
+      place.worst_simulator = row->simulator;
+    }
+    place.log_loss /= scored;
+    places.push_back(std::move(place));
+  }
+  const auto ceiling = std::find_if(places.begin(), places.end(), is_upper_bound_place);
+  for (Standings::Place& place : places) {
+    place.bits_left = ceiling == places.end() ? std::numeric_limits<double>::quiet_NaN()
+                                              : place.log_loss - ceiling->log_loss;
+  }
+  std::stable_sort(places.begin(), places.end(), [](const auto& one, const auto& other) {
+    return one.mean.estimate > other.mean.estimate;
+  });
+  return places;
+}
+
+/// Those who are not told apart from the first.
+void mark_level_ones(std::vector<Standings::Place>& places,
+                     const std::vector<Standings::Difference>& means) {
+  const auto first = std::find_if_not(places.begin(), places.end(), is_upper_bound_place);
+  if (first == places.end()) return;
+  const std::string& best = first->estimator;
+  for (Standings::Place& place : places) {
+    place.is_not_significantly_worse =
+        place.estimator == best || std::any_of(means.begin(), means.end(), [&](const auto& pair) {
+          const bool is_theirs = (pair.first == best && pair.second == place.estimator) ||
+                                 (pair.second == best && pair.first == place.estimator);
+          return is_theirs && pair.value.low <= 0.0 && pair.value.high >= 0.0;
+        });
+  }
+}
+
+}  // namespace
+
+std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double level) {
+  Rows own;
+  for (const BenchmarkRow& row : rows) {
+    if (row.fitted_on == "own") own.push_back(&row);
+  }
+  std::vector<Standings> all;
+  const auto setting = [](const BenchmarkRow& row) {
+    return std::tuple(row.robot, row.sensors, row.noise.knee, row.noise.wheel,
+                      row.noise.accelerometer);
+  };
+  for (const Rows& scored : grouped(own, setting)) {
+    const Rows alike = complete_ones(scored);
+    const std::vector<Named> means = means_by_estimator(alike);
+    Standings standings{alike.front()->robot, alike.front()->sensors, alike.front()->noise,
+                        places_of(alike, means, level), all_pairs("", means, level)};
+    mark_level_ones(standings.places, standings.differences);
+    for (const Rows& scene : grouped(alike, [](const auto& row) { return row.scene; })) {
+      const auto pairs = all_pairs(scene.front()->scene, means_by_estimator(scene), level);
+      standings.differences.insert(standings.differences.end(), pairs.begin(), pairs.end());
+    }
+    all.push_back(std::move(standings));
+  }
+  return all;
+}
+
+}  // namespace touchdown::experiments

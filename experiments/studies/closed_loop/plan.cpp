@@ -1,0 +1,118 @@
+#include "experiments/studies/closed_loop/plan.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "scenarios/varied.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// The points of a scene: one of three has more than one value.
+std::vector<ClosedLoopCell> points(const ClosedLoopScene& scene, ClosedLoopCell cell) {
+  std::vector<double> values = scene.values;
+  if (values.empty()) values = {std::numeric_limits<double>::quiet_NaN()};
+  std::vector<ClosedLoopCell> cells;
+  for (const double value : values) {
+    for (const noise::NoiseCell& noise : scene.noise) {
+      for (const double delay : scene.delay) {
+        cell.point = cells.size();
+        cell.value = value;
+        cell.noise = noise;
+        cell.delay = delay;
+        cells.push_back(cell);
+      }
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+std::vector<ClosedLoopCell> closed_loop_cells(const Experiment& experiment) {
+  std::vector<ClosedLoopCell> cells;
+  if (!experiment.closed_loop) return cells;
+  const ClosedLoopConfig& config = *experiment.closed_loop;
+  for (std::size_t scene = 0; scene < config.scenes.size(); ++scene) {
+    for (const std::string& simulator : experiment.simulators) {
+      for (const std::string& law : config.laws) {
+        for (const std::string& contact : config.contact) {
+          const std::vector<ClosedLoopCell> of_curve =
+              points(config.scenes[scene],
+                     {.simulator = simulator, .law = law, .contact = contact, .scene = scene});
+          cells.insert(cells.end(), of_curve.begin(), of_curve.end());
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+std::size_t closed_loop_runs(const Experiment& experiment) {
+  if (!experiment.closed_loop) return 0;
+  return closed_loop_cells(experiment).size() * static_cast<std::size_t>(experiment.closed_loop->runs);
+}
+
+TaskRange closed_loop_runs_of(const Experiment& experiment, const TaskRange& tasks,
+                       std::size_t all_tasks) {
+  const std::size_t runs = closed_loop_runs(experiment);
+  return {runs * tasks.begin / all_tasks, runs * tasks.end / all_tasks};
+}
+
+scenarios::Scenario scenario_of(const RunRequest& request, const ClosedLoopCell& cell) {
+  const ClosedLoopScene& scene = request.experiment.closed_loop->scenes[cell.scene];
+  const NamedScenario& named = scenario_of(request, scene.scenario);
+  scenarios::Scenario scenario = named.scenario;
+  try {
+    if (!scene.key.empty()) {
+      if (std::isnan(scenarios::number_at(scenario, scene.key))) {
+        throw InputError(fmt::format("{} has no number there", named.file));
+      }
+      scenario = scenarios::varied(scenario, scene.key, cell.value, named.file);
+    }
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("closed_loop.scenes.{}: {}={}: {}", cell.scene, scene.key,
+                                 exact(cell.value), error.what()));
+  }
+  using Law = policies::PolicyConfig::Law;
+  scenario.policy = {.law = cell.law == "balancer" ? Law::balancer : Law::soft_landing,
+                     .contact = cell.contact,
+                     .delay = cell.delay};
+  return scenario;
+}
+
+void require_closed_loop(const RunRequest& request) {
+  const Experiment& experiment = request.experiment;
+  if (!experiment.closed_loop) return;
+  const std::int64_t period =
+      scenario_of(request, experiment.test.scenarios.front()).scenario.simulation.steps.control_us;
+  for (const ClosedLoopCell& cell : closed_loop_cells(experiment)) {
+    const ClosedLoopScene& scene = experiment.closed_loop->scenes[cell.scene];
+    if (scenario_of(request, cell).simulation.steps.control_us != period) {
+      throw InputError(fmt::format(
+          "closed_loop.scenes.{}: {} is controlled at another period than the test runs, at which "
+          "estimators are fitted",
+          cell.scene, scene.scenario));
+    }
+    const bool is_ours = !cell.is_oracle() && cell.contact != "always";
+    if (is_ours && estimator_entry(cell.contact).make == nullptr) {
+      throw InputError(fmt::format(
+          "closed_loop.contact: '{}' hears whole runs, and a policy is told step by step",
+          cell.contact));
+    }
+  }
+}
+
+std::string varied_quantity(const ClosedLoopScene& scene) {
+  if (scene.values.size() > 1) return scene.key.substr(scene.key.rfind('.') + 1);
+  if (scene.delay.size() > 1) return "delay";
+  return scene.noise.size() > 1 ? "noise" : "";
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,148 @@
+#include "experiments/studies/operating_points/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "experiments/estimators/registry.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+using Scores = std::vector<scoring::OperatingScore>;
+
+/// What a scene has in one engine, as its tasks have them; empty without any run to score.
+Scores scores_of(const Evaluation& evaluation, std::size_t scene, const std::string& simulator) {
+  Scores sums;
+  for (const std::size_t index : evaluation.plan.runs_in(0)) {
+    const PlannedRun& run = evaluation.plan.runs[index];
+    const bool is_its_own =
+        run.simulator == simulator && scene_of(run, evaluation.request.experiment) == scene;
+    if (!is_its_own) continue;
+    for (const TaskCounts& found : findings_of(index, evaluation.plan, evaluation.saved)) {
+      sums.resize(std::max(sums.size(), found.operating.size()));
+      for (std::size_t i = 0; i < found.operating.size(); ++i) sums[i] += found.operating[i];
+    }
+  }
+  return sums;
+}
+
+/// Likewise: whose scores they are. "Always contact" has no thresholds worth a look.
+void add_rows(const RunGroup& group, const OperatingRow& of_scene, const Scores& scores,
+              std::vector<OperatingRow>& rows) {
+  const std::vector<scoring::Hysteresis> points = points_of(*group.operating_points);
+  auto score = scores.begin();
+  for (const Condition& condition : tested_on(group.conditions, of_scene.simulator)) {
+    if (!group.tries_points(condition)) continue;
+    for (const noise::NoiseCell& cell : group.scored) {
+      OperatingRow row = of_scene;
+      row.noise = cell;
+      row.estimator = condition.estimator;
+      for (std::size_t i = 0; i <= points.size(); ++i) {
+        if (i > 0) row.thresholds = points[i - 1];
+        row.score = *score++;
+        if (row.estimator != always_contact_name) rows.push_back(row);
+      }
+    }
+  }
+}
+
+/// A mean of what is defined; NaN where nothing is.
+class MeanOfDefined {
+ public:
+  void add(double value) {
+    if (std::isnan(value)) return;
+    sum_ += value;
+    count_ += 1.0;
+  }
+  double value() const {
+    return count_ > 0.0 ? sum_ / count_ : std::numeric_limits<double>::quiet_NaN();
+  }
+
+ private:
+  double sum_ = 0.0;
+  double count_ = 0.0;
+};
+
+/// Of one estimator in one noise setting.
+OperatingMean mean_of(const std::vector<const OperatingRow*>& rows) {
+  MeanOfDefined balanced_accuracy;
+  MeanOfDefined extra_switches;
+  MeanOfDefined false_takeoffs;
+  MeanOfDefined takeoff_error;
+  scoring::OperatingScore all;
+  for (const OperatingRow* row : rows) {
+    balanced_accuracy.add(row->score.points.balanced_accuracy());
+    extra_switches.add(row->score.extra_switches_per_minute());
+    false_takeoffs.add(row->score.false_takeoffs_per_minute());
+    takeoff_error.add(row->score.takeoff_error());
+    all += row->score;
+  }
+  return {rows.front()->noise,       rows.front()->estimator,        rows.front()->thresholds,
+          balanced_accuracy.value(), extra_switches.value(),         false_takeoffs.value(),
+          takeoff_error.value(),     all.extra_switches_per_flight()};
+}
+
+/// Marks those of one estimator in one noise setting that no other does better than.
+void mark_front(const std::vector<OperatingMean*>& means) {
+  const auto beats = [](const OperatingMean& one, const OperatingMean& other) {
+    const bool is_no_worse = one.balanced_accuracy >= other.balanced_accuracy &&
+                             one.extra_switches_per_minute <= other.extra_switches_per_minute;
+    return is_no_worse && (one.balanced_accuracy > other.balanced_accuracy ||
+                           one.extra_switches_per_minute < other.extra_switches_per_minute);
+  };
+  for (OperatingMean* mean : means) {
+    mean->is_on_front = std::none_of(means.begin(), means.end(), [&](const OperatingMean* other) {
+      return beats(*other, *mean);
+    });
+  }
+}
+
+bool are_of_one(const auto& one, const auto& other) {
+  return one.estimator == other.estimator && one.noise == other.noise;
+}
+
+}  // namespace
+
+std::vector<OperatingRow> operating_rows(const Evaluation& evaluation) {
+  const Experiment& experiment = evaluation.request.experiment;
+  std::vector<OperatingRow> rows;
+  for (std::size_t scene = 0; scene < experiment.test.scenarios.size(); ++scene) {
+    const std::string& file = experiment.test.scenarios[scene];
+    for (const std::string& simulator : experiment.simulators) {
+      const Scores scores = scores_of(evaluation, scene, simulator);
+      if (scores.empty()) continue;
+      const std::string& name = scenario_of(evaluation.request, file).scenario.name;
+      add_rows(evaluation.plan.groups.front(), {simulator, name, {}, {}}, scores, rows);
+    }
+  }
+  return rows;
+}
+
+std::vector<OperatingMean> operating_means(const std::vector<OperatingRow>& rows) {
+  std::vector<std::vector<const OperatingRow*>> alike;
+  for (const OperatingRow& row : rows) {
+    const auto place = std::find_if(alike.begin(), alike.end(), [&](const auto& some) {
+      return are_of_one(*some.front(), row) && some.front()->thresholds == row.thresholds;
+    });
+    (place == alike.end() ? alike.emplace_back() : *place).push_back(&row);
+  }
+  std::vector<OperatingMean> means;
+  for (const auto& some : alike) means.push_back(mean_of(some));
+  std::stable_sort(means.begin(), means.end(), [](const auto& one, const auto& other) {
+    return std::pair(one.noise.torque, one.noise.accelerometer) <
+           std::pair(other.noise.torque, other.noise.accelerometer);
+  });
+  for (const OperatingMean& own : means) {
+    if (own.thresholds) continue;
+    std::vector<OperatingMean*> others;
+    for (OperatingMean& mean : means) {
+      if (mean.thresholds && are_of_one(mean, own)) others.push_back(&mean);
+    }
+    mark_front(others);
+  }
+  return means;
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,176 @@
+#include "experiments/submissions/export.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "experiments/submissions/exported_arrays.hpp"
+#include "experiments/submissions/readme.hpp"
+#include "experiments/submissions/sha256.hpp"
+#include "experiments/run_directory/free_space.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder for the export: a new one is gone again unless all of it was written.
+class ExportFolder {
+ public:
+  explicit ExportFolder(const fs::path& folder) : path_(fs::absolute(folder)) {
+    std::error_code ignored;
+    is_new_ = !fs::exists(path_, ignored);
+    if (!is_new_ && !fs::is_directory(path_, ignored)) {
+      throw InputError(
+          fmt::format("{}: is no folder: name a new or an empty one", folder.string()));
+    }
+    const fs::directory_iterator held(path_, ignored);
+    if (held != fs::directory_iterator()) {
+      throw InputError(fmt::format("{}: holds '{}': name a new or an empty folder", folder.string(),
+                                   held->path().filename().string()));
+    }
+  }
+  ~ExportFolder() {
+    std::error_code not_empty;
+    if (is_new_) fs::remove(path_, not_empty);
+  }
+  ExportFolder(const ExportFolder&) = delete;
+  ExportFolder& operator=(const ExportFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+  /// Moves everything out of `made` to its place; sums are the last.
+  void take(const fs::path& made) const {
+    std::vector<fs::path> names;
+    for (const auto& entry : fs::directory_iterator(made)) names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    std::stable_partition(names.begin(), names.end(),
+                          [](const fs::path& name) { return name != "SHA256SUMS"; });
+    for (const fs::path& name : names) fs::rename(made / name, path_ / name);
+  }
+
+ private:
+  fs::path path_;
+  bool is_new_ = false;
+};
+
+/// What is known of a file once it is written.
+struct Written {
+  std::string sha256;
+  std::uintmax_t bytes = 0;
+  std::size_t steps = 0;  ///< none: the run failed
+};
+
+Written write_file(const fs::path& path, const std::string& content) {
+  write_atomically(path, content);
+  return {sha256(content), content.size()};
+}
+
+Written write_heard(const HeardRun& heard, const RunRequest& request, const Plan& plan,
+                    const RunSignals& run, const fs::path& folder) {
+  recordings::NpzArrays arrays;
+  if (heard.task) {
+    const NoiseRun noise = noise_run(run, plan.tasks[*heard.task].noise);
+    arrays = exported_arrays(run, noise, request.experiment.highlights[heard.cell].levels());
+  } else {
+    arrays = exported_arrays(run);
+  }
+  const fs::path path = folder / (heard.name + ".npz");
+  Written written =
+      write_file(path, recordings::to_npz(arrays, path.string(), recordings::Deflated::all));
+  written.steps = run.steps();
+  return written;
+}
+
+Table index_of(const std::vector<HeardRun>& runs, const std::vector<Written>& written,
+               const RunRequest& request, const Plan& plan) {
+  Table table{{"file", "robot", "sensors", "simulator", "role", "scene", "run", "noise", "seed",
+               "torque_noise_nm", "accelerometer_noise_mps2", "steps", "control_period_s"},
+              {}};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (written[i].steps == 0) continue;
+    const HeardRun& heard = runs[i];
+    const PlannedRun& run = plan.runs[heard.run];
+    const noise::NoiseCell cell =
+        heard.task ? request.experiment.highlights[heard.cell] : noise::NoiseCell();
+    const std::int64_t number = run.role == RunRole::fit ? run.run - first_fit_run : run.run;
+    table.rows.push_back(
+        {heard.name + ".npz", heard.robot, heard.sensors, run.simulator,
+         std::string(to_text(run.role)), heard.scene, std::to_string(number),
+         heard.task ? std::to_string(heard.cell) : "",
+         heard.task ? std::to_string(plan.tasks[*heard.task].seed) : "", exact(cell.torque),
+         exact(cell.accelerometer), std::to_string(written[i].steps),
+         exact(1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us))});
+  }
+  return table;
+}
+
+}  // namespace
+
+double bytes_at_most(std::span<const HeardRun> runs, const Plan& plan) {
+  double bytes = 0.0;
+  for (const HeardRun& heard : runs) {
+    const scenarios::Scenario& scenario = plan.runs[heard.run].scenario;
+    bytes += bytes_of_exported(scenario.end.duration /
+                            (1e-6 * static_cast<double>(scenario.simulation.steps.control_us)));
+  }
+  return bytes;
+}
+
+ExportReport export_runs(const RunRequest& request, const Plan& plan,
+                         const std::vector<HeardRun>& runs, const RunDirectory& directory,
+                         const fs::path& folder, const ShouldContinue& should_continue) {
+  const ExportFolder place(folder);
+  const PartFolder part(place.path() / "export");
+  require_free_space(part.path(), static_cast<std::uintmax_t>(bytes_at_most(runs, plan)),
+                     fmt::format("{} files", runs.size()),
+                     {"export",
+                      "free some, choose a part (--robot, --sensors, --simulator; "
+                      "--dry-run says how large each is), or name another folder"});
+  std::map<std::size_t, std::vector<std::size_t>> heard_by_run;
+  std::set<std::size_t> needed;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    heard_by_run[runs[i].run].push_back(i);
+    needed.insert(runs[i].run);
+  }
+  std::vector<Written> written(runs.size());  // each by one thread
+  std::mutex mutex;
+  std::set<std::string> failed;
+  for_each_rollout(request.experiment, plan, needed, directory, MissingRun::refuse, should_continue,
+                  [&](std::size_t index, const Rollout& run) {
+                    if (run.failed()) {
+                      const std::scoped_lock lock(mutex);
+                      failed.insert(run.plan.file);
+                      return;
+                    }
+                    for (const std::size_t i : heard_by_run.at(index)) {
+                      if (!should_continue()) throw Stopped();
+                      written[i] = write_heard(runs[i], request, plan, run.signals, part.path());
+                    }
+                  });
+  ExportReport report{0, 0, {failed.begin(), failed.end()}};
+  std::map<std::string, std::string> sums;  // by file
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (written[i].steps == 0) continue;
+    sums[runs[i].name + ".npz"] = written[i].sha256;
+    ++report.files;
+    report.bytes += written[i].bytes;
+  }
+  if (report.files == 0) throw Error("no run stayed upright: there is nothing to hand out");
+  const std::string index = to_csv(index_of(runs, written, request, plan));
+  sums["index.csv"] = write_file(part.path() / "index.csv", index).sha256;
+  sums["README.md"] = write_file(part.path() / "README.md", readme_of(request)).sha256;
+  std::string lines;
+  for (const auto& [file, sum] : sums) lines += fmt::format("{}  {}\n", sum, file);
+  write_atomically(part.path() / "SHA256SUMS", lines);
+  if (!should_continue()) throw Stopped();
+  place.take(part.path());
+  return report;
+}
+
+}  // namespace touchdown::experiments

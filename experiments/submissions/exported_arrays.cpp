@@ -1,0 +1,86 @@
+#include "experiments/submissions/exported_arrays.hpp"
+
+#include <functional>
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// `columns` numbers of every step, as `put` gives them.
+template <typename Put>
+recordings::NpyArray array_of(const std::vector<Signals>& steps, std::size_t columns,
+                              const Put& put) {
+  recordings::NpyArray array{{steps.size()}, {}};
+  if (columns > 1) array.shape.push_back(columns);
+  array.data.reserve(steps.size() * columns);
+  for (const Signals& signals : steps) put(signals, array.data);
+  return array;
+}
+
+recordings::NpyArray joints(const std::vector<Signals>& steps, double JointSignals::*member) {
+  return array_of(steps, 6, [&](const Signals& signals, std::vector<double>& data) {
+    for (const LegSignals& leg : signals.leg) {
+      data.insert(data.end(), {leg.hip.*member, leg.knee.*member, leg.wheel.*member});
+    }
+  });
+}
+
+recordings::NpyArray vectors(const std::vector<Signals>& steps, Eigen::Vector3d Signals::*member) {
+  return array_of(steps, 3, [&](const Signals& signals, std::vector<double>& data) {
+    data.insert(data.end(), (signals.*member).begin(), (signals.*member).end());
+  });
+}
+
+recordings::NpyArray numbers(const std::vector<Signals>& steps, double Signals::*member) {
+  return array_of(steps, 1, [&](const Signals& signals, std::vector<double>& data) {
+    data.push_back(signals.*member);
+  });
+}
+
+recordings::NpzArrays arrays_of(const RunSignals& run,
+                                const std::function<Signals(std::size_t step)>& signals_at) {
+  std::vector<Signals> steps;
+  steps.reserve(run.steps());
+  recordings::NpyArray heard{{run.steps()}, {}};
+  recordings::NpyArray contact{{run.steps(), models::wheel_count}, {}};
+  for (std::size_t k = 0; k < run.steps(); ++k) {
+    steps.push_back(signals_at(k));
+    heard.data.push_back(has_record(steps.back()) ? 1.0 : 0.0);
+    if (!has_record(steps.back())) {
+      steps.back().time =
+          1e-6 * static_cast<double>(run.info.control_period_us) * static_cast<double>(k);
+    }
+    for (const scoring::ContactSequence& label : run.contact) {
+      contact.data.push_back(label[k] != 0 ? 1.0 : 0.0);
+    }
+  }
+  return {{"time", numbers(steps, &Signals::time)},
+          {"heard", std::move(heard)},
+          {"position", joints(steps, &JointSignals::position)},
+          {"velocity", joints(steps, &JointSignals::velocity)},
+          {"torque", joints(steps, &JointSignals::torque)},
+          {"linear_acceleration", vectors(steps, &Signals::linear_acceleration)},
+          {"angular_velocity", vectors(steps, &Signals::angular_velocity)},
+          {"vertical_acceleration", numbers(steps, &Signals::vertical_acceleration)},
+          {"ground_velocity_command", numbers(steps, &Signals::ground_velocity_command)},
+          {"contact", std::move(contact)}};
+}
+
+}  // namespace
+
+recordings::NpzArrays exported_arrays(const RunSignals& run) {
+  return arrays_of(run, [&](std::size_t step) { return run.signals[step]; });
+}
+
+recordings::NpzArrays exported_arrays(const RunSignals& run, const NoiseRun& noise,
+                                   const noise::SensorNoise& levels) {
+  return arrays_of(run, [&](std::size_t step) { return noisy(run, noise, levels, step); });
+}
+
+double bytes_of_exported(double steps) {
+  constexpr double numbers = 1 + 1 + 3 * 6 + 2 * 3 + 1 + 1 + 2;
+  constexpr double heads = 10 * 300.0;
+  return heads + numbers * sizeof(double) * steps;
+}
+
+}  // namespace touchdown::experiments

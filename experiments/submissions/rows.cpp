@@ -1,0 +1,61 @@
+#include "experiments/submissions/rows.hpp"
+
+#include "experiments/submissions/saved_scores.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// A plan in which one estimator alone is scored, at one noise setting.
+Plan plan_for(const std::string& estimator, const noise::NoiseCell& cell,
+              const Evaluation& evaluation) {
+  Plan plan = evaluation.plan;
+  for (const BenchmarkSetup& setting : benchmark_settings(evaluation.request, plan)) {
+    RunGroup& group = plan.groups[setting.group];
+    group.conditions.clear();
+    for (const std::string& simulator : evaluation.request.experiment.simulators) {
+      group.conditions.push_back({simulator, simulator, estimator, group.fit});
+    }
+    group.counted.clear();
+    group.disturbed.clear();
+    group.scored = {cell};
+  }
+  return plan;
+}
+
+void add_submission_rows(const Evaluation& evaluation, const RunDirectory& directory,
+                      std::vector<BenchmarkRow>& rows) {
+  for (const SubmissionScores& scores : saved_submissions(evaluation.request, directory)) {
+    for (std::size_t cell = 0; cell < scores.by_cell.size(); ++cell) {
+      RunRequest request = evaluation.request;
+      request.experiment.highlights = {evaluation.request.experiment.highlights[cell]};
+      Plan plan = plan_for(scores.name, request.experiment.highlights.front(), evaluation);
+      std::map<std::string, TaskCounts> counts = scores.by_cell[cell];
+      constexpr std::size_t nobody = std::size_t{0} - 1;
+      for (const Task& task : plan.tasks) {
+        const std::string name = task_name(plan, task);
+        if (evaluation.runs.at(task.run).failed()) {
+          counts.emplace(name, TaskCounts{});
+        } else if (!counts.contains(name)) {
+          plan.runs[task.run].group = nobody;
+        }
+      }
+      const SavedCounts at_hand(std::move(counts));
+      const Evaluation alone{request, plan, evaluation.runs, at_hand, evaluation.own};
+      for (BenchmarkRow& row : benchmark(alone)) rows.push_back(std::move(row));
+    }
+  }
+}
+
+}  // namespace
+
+BenchmarkResult write_benchmark(const Evaluation& evaluation, const RunDirectory& directory) {
+  std::vector<BenchmarkRow> rows = benchmark(evaluation);
+  add_submission_rows(evaluation, directory, rows);
+  const double level = evaluation.request.experiment.intervals.bootstrap.level;
+  BenchmarkResult result = with_standings(std::move(rows), level);
+  write_tables(result, level, directory);
+  return result;
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,161 @@
+#include "scoring/extended_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+
+namespace touchdown::scoring {
+
+namespace {
+
+std::vector<bool> near_events(const ContactSequence& truth, std::int64_t period_us) {
+  std::vector<bool> near(truth.size());
+  const auto mark = [&](std::size_t event, std::int64_t margin_us) {
+    const auto margin = static_cast<std::size_t>(margin_us / period_us);
+    const std::size_t begin = event > margin ? event - margin : 0;
+    for (std::size_t k = begin; k < std::min(event + margin, near.size()); ++k) near[k] = true;
+  };
+  for (const Flight& flight : flights(truth)) {
+    mark(flight.takeoff, 20'000);
+    mark(flight.landing, 5'000);
+  }
+  return near;
+}
+
+/// Stretches that are told to be flights, from step `first` on.
+std::vector<Flight> told_flights(const ContactSequence& predicted, std::size_t first) {
+  std::vector<Flight> told = flights(predicted);
+  std::erase_if(told, [&](const Flight& flight) { return flight.landing <= first; });
+  for (Flight& flight : told) flight.takeoff = std::max(flight.takeoff, first);
+  return told;
+}
+
+std::size_t common_steps(const Flight& a, const Flight& b) {
+  const std::size_t begin = std::max(a.takeoff, b.takeoff);
+  return std::max(begin, std::min(a.landing, b.landing)) - begin;
+}
+
+std::size_t length(const Flight& flight) { return flight.landing - flight.takeoff; }
+
+FlightCounts match_flights(const ContactSequence& truth, const ContactSequence& predicted,
+                           std::size_t first, std::size_t shortest) {
+  FlightCounts counts;
+  std::vector<Flight> real = told_flights(truth, first);
+  std::vector<Flight> told = told_flights(predicted, first);
+  // What is told of a flight that need not be found is neither right nor wrong.
+  const auto is_short = [&](const Flight& flight) { return length(flight) < shortest; };
+  std::erase_if(told, [&](const Flight& one) {
+    return std::any_of(real.begin(), real.end(), [&](const Flight& flight) {
+      return is_short(flight) && common_steps(flight, one) > 0;
+    });
+  });
+  std::erase_if(real, is_short);
+  counts.truth = static_cast<std::int64_t>(real.size());
+  counts.told = static_cast<std::int64_t>(told.size());
+  for (const Flight& flight : real) {
+    counts.matched += std::count_if(told.begin(), told.end(), [&](const Flight& one) {
+      const std::size_t common = common_steps(flight, one);
+      return 2 * common > length(flight) + length(one) - common;
+    });
+  }
+  return counts;
+}
+
+}  // namespace
+
+void Latencies::add(std::int64_t latency_us) {
+  const std::int64_t bin = latency_us / 1000 - first_ms;
+  events[static_cast<std::size_t>(
+      std::clamp<std::int64_t>(bin, 0, static_cast<std::int64_t>(count) - 1))] += 1;
+}
+
+Latencies& Latencies::operator+=(const Latencies& other) {
+  for (std::size_t i = 0; i < count; ++i) events[i] += other.events[i];
+  return *this;
+}
+
+std::int64_t Latencies::total() const {
+  return std::accumulate(events.begin(), events.end(), std::int64_t{0});
+}
+
+double Latencies::percentile(double share) const {
+  const std::int64_t all = total();
+  const auto wanted = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(all)));
+  std::int64_t passed = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    passed += events[i];
+    if (all > 0 && passed >= wanted) return static_cast<double>(first_ms + static_cast<int>(i));
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+double Latencies::absolute_percentile(double share) const {
+  Latencies absolute;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto ms = std::abs(first_ms + static_cast<std::int64_t>(i));
+    absolute.events[static_cast<std::size_t>(ms - first_ms)] += events[i];
+  }
+  return absolute.percentile(share);
+}
+
+double Latencies::early_share() const {
+  const auto on_time = events.begin() - first_ms;
+  return ratio(std::accumulate(events.begin(), on_time, std::int64_t{0}), total());
+}
+
+FlightCounts& FlightCounts::operator+=(const FlightCounts& other) {
+  truth += other.truth;
+  told += other.told;
+  matched += other.matched;
+  return *this;
+}
+
+ExtendedScore& ExtendedScore::operator+=(const ExtendedScore& other) {
+  away_from_events += other.away_from_events;
+  loaded += other.loaded;
+  takeoff += other.takeoff;
+  landing += other.landing;
+  flights += other.flights;
+  extra_switches += other.extra_switches;
+  log_loss += other.log_loss;
+  steps += other.steps;
+  return *this;
+}
+
+ExtendedScore extended_score(const std::array<ContactSequence, models::wheel_count>& truth,
+                       const std::array<std::vector<double>, models::wheel_count>& normal_force,
+                       const Prediction& prediction, std::int64_t period_us,
+                       const ScoringConfig& config) {
+  constexpr double light = 10.0;  // N
+  constexpr double least_probability = 1e-6;
+  ExtendedScore result;
+  const std::size_t first = first_scored_step(period_us, config);
+  const double period = 1e-6 * static_cast<double>(period_us);
+  for (std::size_t w = 0; w < models::wheel_count; ++w) {
+    const ContactSequence& predicted = prediction[w].contact;
+    const std::vector<bool> near = near_events(truth[w], period_us);
+    for (std::size_t k = first; k < truth[w].size(); ++k) {
+      const bool touches = truth[w][k] != 0;
+      if (!near[k]) result.away_from_events.add(touches, predicted[k] != 0);
+      if (!touches || normal_force[w][k] >= light) result.loaded.add(touches, predicted[k] != 0);
+      const double p_contact = prediction[w].p_contact[k];
+      result.log_loss -=
+          std::log(std::clamp(touches ? p_contact : 1.0 - p_contact, least_probability, 1.0));
+      result.steps += 1;
+    }
+    for (const JudgedTransition& judged : judge_transitions(truth[w], predicted, period, config)) {
+      if (judged.verdict != Judgement::detected) continue;
+      const bool is_takeoff = judged.kind == EventKind::takeoff;
+      (is_takeoff ? result.takeoff : result.landing).add(judged.latency * period_us);
+    }
+    result.extra_switches += extra_switches(truth[w], predicted, period, config);
+    result.flights +=
+        match_flights(truth[w], predicted, first,
+                      static_cast<std::size_t>(std::llround(config.minimum_flight / period)));
+  }
+  return result;
+}
+
+}  // namespace touchdown::scoring

@@ -1,0 +1,103 @@
+#include "estimator/models/model_for_robot.hpp"
+
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "models.hpp"
+
+namespace touchdown {
+namespace {
+
+using ::testing::HasSubstr;
+
+const LegGeometry long_legs = {.upper_length = 0.25, .lower_mass = 0.5, .robot_mass = 7.0};
+
+/// P(contact) of both wheels at every step of a run with flights, on bent legs.
+std::vector<double> told(const ModelArrays& arrays, const ModelUse& use = {}) {
+  const auto estimator = make_estimator(arrays, use);
+  std::vector<double> all;
+  for (Signals s : test::drops(800)) {
+    for (LegSignals& leg : s.leg) {
+      const double sign = &leg == &s.leg[0] ? 1.0 : -1.0;
+      leg.hip = {sign * 0.4, 0.0, sign * 0.5};
+      leg.knee.position = -sign * 0.8;
+    }
+    const Belief& belief = estimator->update(s);
+    all.insert(all.end(), {belief.wheel[0].p_contact, belief.wheel[1].p_contact});
+  }
+  return all;
+}
+
+std::string complaint(const ModelArrays& arrays, const ModelUse& use) {
+  try {
+    model_for(arrays, use);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ModelFor, AnotherRobotBelievesWhatItDoesWhereItsLegsAreToldAtEachLoading) {
+  for (const char* name : {"touchdown", "decision_network", "evidence_curves", "load_logistic"}) {
+    SCOPED_TRACE(name);
+    const ModelArrays upkies = test::fitted_model(name);
+    const ModelArrays own = model_for(upkies, {.robot = "stilts", .geometry = long_legs});
+    EXPECT_EQ(told(own), told(upkies, {.geometry = long_legs}));
+    EXPECT_NE(told(own), told(upkies));
+    EXPECT_EQ(told(own, {.robot = "stilts"}), told(own));
+    EXPECT_THROW(make_estimator(own, {.robot = "upkie"}), InputError);
+    EXPECT_NE(metadata_of(own)->fingerprint, metadata_of(upkies)->fingerprint);
+    EXPECT_EQ(told(model_for(own, {.robot = "upkie", .geometry = LegGeometry{}})), told(upkies));
+  }
+}
+
+TEST(ModelFor, AnotherDecisionHasItsThresholdsAndItsRobotsName) {
+  const ModelArrays usual = test::fitted_model("touchdown");
+  const ModelUse use = {.configuration = {{"leave_below", "0.25"}}};
+  const ModelArrays quiet = model_for(usual, use);
+  const ModelMetadata metadata = *metadata_of(quiet);
+  EXPECT_EQ(metadata.configuration.at("leave_below"), "0.25");
+  EXPECT_EQ(metadata.configuration.at("return_above"),
+            metadata_of(usual)->configuration.at("return_above"));
+  EXPECT_EQ(metadata.robot, "upkie");
+  EXPECT_EQ(told(quiet), told(usual, use));
+}
+
+TEST(ModelFor, NobodyInParticularIsTheModel) {
+  const ModelArrays arrays = test::fitted_model("phase");
+  EXPECT_EQ(metadata_of(model_for(arrays, {})), metadata_of(arrays));
+  EXPECT_EQ(metadata_of(model_for(arrays, {"phase", 1000.0, "upkie"})), metadata_of(arrays));
+}
+
+TEST(ModelFor, WhoeverSaysWhatItDoesNotIsAPassport) {
+  const ModelArrays grid = test::fitted_arrays("robust");
+  const ModelMetadata metadata =
+      *metadata_of(model_for(grid, {.estimator = "robust", .sample_rate = 500.0, .robot = "tall"}));
+  EXPECT_EQ(metadata.estimator, "robust");
+  EXPECT_EQ(metadata.sample_rate, 500.0);
+  EXPECT_EQ(metadata.robot, "tall");
+  EXPECT_EQ(metadata.configuration, default_configuration("robust", 500.0));
+}
+
+TEST(ModelFor, WhomItCannotServeIsAnError) {
+  const ModelArrays network = test::fitted_model("touchdown");
+  EXPECT_THAT(complaint(test::fitted_model("phase"), {.robot = "stilts", .geometry = long_legs}),
+              HasSubstr("'phase' uses no kinematics"));
+  EXPECT_THAT(complaint(network, {.robot = "stilts"}), HasSubstr("not to 'stilts'"))
+      << "of which nobody knows the legs";
+  EXPECT_THAT(complaint(network, {.sample_rate = 200.0}), HasSubstr("was fitted at 1000 Hz"));
+  EXPECT_THAT(complaint(network, {.configuration = {{"leave_bellow", "0.25"}}}),
+              HasSubstr("has no 'leave_bellow': expected one of"));
+  EXPECT_THAT(complaint(network, {.configuration = {{"leave_below", "often"}}}),
+              HasSubstr("leave_below: 'often' is no value"));
+  EXPECT_THAT(complaint(network, {.geometry = LegGeometry{.robot_mass = 0.0}}),
+              HasSubstr("robot_mass"));
+  EXPECT_THAT(complaint(network, {.robot = "two\nlines", .geometry = long_legs}),
+              HasSubstr("expected a name of one line"));
+}
+
+}  // namespace
+}  // namespace touchdown

@@ -1,0 +1,131 @@
+#include "experiments/batch/bayes.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/bayes/measurement_only.hpp"
+#include "tests/estimator/named_config.hpp"
+#include "tests/estimator/synthetic.hpp"
+#include "tests/experiments/batch/noise.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using test::drops;
+using test::labelled;
+using test::Normal;
+
+MeasurementModel fitted(const BayesFilterConfig& config) {
+  const auto samples = labelled(drops(8000), config.measurement.torque);
+  return fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit);
+}
+
+/// A grid of levels and a few that stand alone.
+std::vector<BatchNoise> bayes_levels() {
+  std::vector<BatchNoise> levels;
+  for (const double torque : {0.0, 0.25, 1.0, 3.0}) {
+    for (const double acceleration : {0.0, 1.0, 5.0, 7.0, 10.0}) {
+      levels.push_back({torque, torque, acceleration});
+    }
+  }
+  levels.push_back({0.5, 0.0, 3.0});
+  levels.push_back({0.0, 0.5, 0.01});
+  return levels;
+}
+
+class NamedBatch : public testing::TestWithParam<const char*> {};
+
+TEST_P(NamedBatch, EqualTheScalarFilterInEveryLane) {
+  BayesFilterConfig config = test::named(GetParam());
+  config.guard.frozen_after = 0.0;
+  const MeasurementModel model = fitted(config);
+  const std::vector<BatchNoise> grid = bayes_levels();
+  BatchedBayesFilter lanes(model, config, grid);
+  ASSERT_EQ(lanes.lanes(), grid.size());
+  BatchedMeasurement measurements(model, config, grid);
+  std::vector<BayesFilter> filters(grid.size(), BayesFilter(model, config));
+  std::vector<MeasurementOnly> ablations(grid.size(), MeasurementOnly(model, config));
+  Normal normal(17);
+  double worst = 0.0;
+  for (const Signals& clean : drops(20'000, 1000.0, 31)) {
+    const NoiseStep draws = draw(normal);
+    lanes.update(clean, draws);
+    measurements.update(clean, draws);
+    for (std::size_t lane = 0; lane < grid.size(); ++lane) {
+      const Signals s = noisy(clean, draws, grid[lane]);
+      const Belief& belief = filters[lane].update(s);
+      const Belief& measured = ablations[lane].update(s);
+      for (const Side side : {Side::left, Side::right}) {
+        const auto i = static_cast<std::size_t>(side);
+        worst = std::max(worst, std::abs(belief.wheel[i].p_contact - lanes.p_contact(side)[lane]));
+        ASSERT_NEAR(belief.wheel[i].p_contact, lanes.p_contact(side)[lane], 1e-12)
+            << lane << " at " << clean.time;
+        ASSERT_NEAR(measured.wheel[i].p_contact, measurements.p_measurement(side)[lane], 1e-12);
+      }
+    }
+  }
+  std::printf("largest difference: %.2g\n", worst);
+}
+
+INSTANTIATE_TEST_SUITE_P(Configurations, NamedBatch,
+                         testing::Values("paper", "paper_rms", "reference", "robust"));
+
+TEST(BatchedBayesFilter, EqualTheScalarFilterForAnyWindow) {
+  for (const char* name : {"reference", "robust"}) {
+    for (const int window : {2, 37, 100, 130, 256}) {
+      BayesFilterConfig config = test::named(name);
+      config.guard.frozen_after = 0.0;
+      config.transition.window = window;
+      const MeasurementModel model = fitted(config);
+      const std::vector<BatchNoise> grid = bayes_levels();
+      BatchedBayesFilter lanes(model, config, grid);
+      std::vector<BayesFilter> filters(grid.size(), BayesFilter(model, config));
+      Normal normal(17);
+      for (const Signals& clean : drops(1500, 1000.0, 31)) {
+        const NoiseStep draws = draw(normal);
+        lanes.update(clean, draws);
+        for (std::size_t lane = 0; lane < grid.size(); ++lane) {
+          const Belief& belief = filters[lane].update(noisy(clean, draws, grid[lane]));
+          ASSERT_NEAR(belief.wheel[0].p_contact, lanes.p_contact(Side::left)[lane], 1e-12)
+              << name << " window " << window << " lane " << lane << " at " << clean.time;
+        }
+      }
+    }
+  }
+}
+
+TEST(BatchedBayesFilter, SkipStepsThatAreNotFinite) {
+  const BayesFilterConfig config = BayesFilterConfig::robust();
+  const std::vector<BatchNoise> one{{0.1, 0.1, 1.0}};
+  BatchedBayesFilter lanes(fitted(config), config, one);
+  Normal normal(3);
+  for (const Signals& clean : drops(700)) {
+    lanes.update(clean, draw(normal));
+  }
+  const double before = lanes.p_contact(Side::left)[0];
+  Signals bad;
+  bad.vertical_acceleration = std::nan("");
+  lanes.update(bad, NoiseStep{});
+  bad.vertical_acceleration = 0.0;
+  bad.leg[1].wheel.torque = HUGE_VAL;
+  lanes.update(bad, NoiseStep{});
+  EXPECT_EQ(lanes.p_contact(Side::left)[0], before);
+}
+
+TEST(BatchedBayesFilter, RefuseLevelsThatAreNone) {
+  const BayesFilterConfig config = BayesFilterConfig::robust();
+  const MeasurementModel model = fitted(config);
+  const std::vector<BatchNoise> none;
+  const std::vector<BatchNoise> negative{{0.1, -0.1, 0.0}};
+  const std::vector<BatchNoise> bad{{0.1, 0.1, std::nan("")}};
+  EXPECT_THROW(BatchedBayesFilter(model, config, none), InputError);
+  EXPECT_THROW(BatchedBayesFilter(model, config, negative), InputError);
+  EXPECT_THROW(BatchedBayesFilter(model, config, bad), InputError);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

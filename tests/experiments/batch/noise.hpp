@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+
+#include "estimator/signals.hpp"
+#include "experiments/batch/noise_level.hpp"
+#include "tests/estimator/synthetic.hpp"
+
+namespace touchdown::experiments {
+
+/// Unit noise on everything that lanes hear.
+inline NoiseStep draw(test::Normal& normal) {
+  NoiseStep draws;
+  draws.acceleration = normal();
+  for (TorqueSample& torque : draws.torque) torque = {normal(), normal()};
+  return draws;
+}
+
+/// What one lane hears, for an estimator alone.
+inline Signals noisy(Signals s, const NoiseStep& draws, const BatchNoise& level) {
+  s.vertical_acceleration += level.acceleration * draws.acceleration;
+  for (std::size_t side = 0; side < 2; ++side) {
+    s.leg[side].knee.torque += level.knee_torque * draws.torque[side].knee;
+    s.leg[side].wheel.torque += level.wheel_torque * draws.torque[side].wheel;
+  }
+  return s;
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,82 @@
+#include "experiments/batch/phase.hpp"
+
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/phase/filter.hpp"
+#include "tests/estimator/phase/synthetic.hpp"
+#include "tests/experiments/batch/noise.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+/// A grid, and torque noise on knees and wheels apart.
+std::vector<BatchNoise> phase_levels() {
+  std::vector<BatchNoise> levels;
+  for (const double torque : {0.0, 0.5, 3.0}) {
+    for (const double acceleration : {0.0, 1.0, 9.0}) {
+      levels.push_back({torque, torque, acceleration});
+    }
+  }
+  levels.push_back({2.0, 0.0, 1.0});
+  levels.push_back({0.0, 2.0, 0.5});
+  return levels;
+}
+
+PhaseFilterConfig small_config() {
+  PhaseFilterConfig config;
+  config.fit = test::small_phase_fit();
+  config.guard.frozen_after = 0.0;
+  return config;
+}
+
+void expect_equal_to_scalar_filters(const PhaseFilterConfig& config) {
+  const PhaseModel model = test::small_phase_model();
+  const std::vector<BatchNoise> grid = phase_levels();
+  BatchedPhaseFilter lanes(model, config, grid);
+  ASSERT_EQ(lanes.lanes(), grid.size());
+  std::vector<PhaseFilter> filters(grid.size(), PhaseFilter(model, config));
+  test::Normal normal(17);
+  std::size_t flights = 0;
+  for (const Signals& clean : test::phase_run(6, 31, 4).signals) {
+    const NoiseStep draws = draw(normal);
+    lanes.update(clean, draws);
+    for (std::size_t lane = 0; lane < grid.size(); ++lane) {
+      const Belief& belief = filters[lane].update(noisy(clean, draws, grid[lane]));
+      for (std::size_t side = 0; side < 2; ++side) {
+        ASSERT_NEAR(belief.wheel[side].p_contact, lanes.p_contact(static_cast<Side>(side))[lane],
+                    1e-12)
+            << lane << " at " << clean.time;
+        ASSERT_EQ(belief.wheel[side].contact, lanes.contact(static_cast<Side>(side))[lane] > 0.5);
+        flights += belief.wheel[side].contact ? 0U : 1U;
+      }
+    }
+  }
+  EXPECT_GT(flights, 1000U);
+}
+
+TEST(BatchedPhaseFilter, EqualTheScalarFilterInEveryLane) {
+  expect_equal_to_scalar_filters(small_config());
+}
+
+TEST(BatchedPhaseFilter, EqualTheScalarFilterThatIsToldTheNoise) {
+  PhaseFilterConfig config = small_config();
+  config.noise = PhaseNoise{0.5, 0.2, 1.0};
+  expect_equal_to_scalar_filters(config);
+}
+
+TEST(BatchedPhaseFilter, RefuseBadLevels) {
+  const PhaseModel model = test::small_phase_model();
+  const auto with = [&](const std::vector<BatchNoise>& bad) {
+    BatchedPhaseFilter(model, small_config(), bad);
+  };
+  EXPECT_THROW(with({}), InputError);
+  EXPECT_THROW(with({{-1.0, 0.0, 0.0}}), InputError);
+  EXPECT_THROW(with({{0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}}), InputError);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,67 @@
+#include "estimator/bayes/ablation.hpp"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/estimators/registry.hpp"
+#include "experiments/run_experiment.hpp"
+#include "tests/experiments/small_step_scene.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+std::vector<std::string> from_paper_to_robust() {
+  std::vector<std::string> names = {"paper"};
+  for (const AblationStep& rung : steps_from_paper_to_robust()) names.emplace_back(rung.name);
+  names.emplace_back("robust");
+  return names;
+}
+
+std::array<std::vector<double>, 2> told(const EstimatorEntry& entry, const FittedModel& model,
+                                        const RunSignals& run, const noise::SensorNoise& levels) {
+  const auto estimator = entry.make(entry, {.model = &model});
+  const NoiseRun noise = noise_run(run, {.seed = 5, .run = 1});
+  const scoring::Prediction prediction = predict(*estimator, run, noise, levels);
+  return {prediction[0].p_contact, prediction[1].p_contact};
+}
+
+TEST(BayesAblation, IsClimbedByItsExperimentFromPaperToRobust) {
+  const std::vector<std::string> climbed =
+      experiment_from_yaml(YamlDocument::load(std::filesystem::path(TOUCHDOWN_SOURCE_DIR) /
+                                              "experiments/ablation.yaml"))
+          .estimators;
+  const std::vector<std::string> rungs = from_paper_to_robust();
+  EXPECT_NE(std::search(climbed.begin(), climbed.end(), rungs.begin(), rungs.end()), climbed.end());
+}
+
+TEST(BayesAblation, EndsInRobustToTheBitOnARunThatWasPlayed) {
+  const ScratchFolder folder;
+  const std::string scene = folder.write("small_step.yaml", small_step_scene).string();
+  Experiment experiment;
+  experiment.name = "climbed";
+  experiment.simulators = {"mujoco"};
+  experiment.estimators = from_paper_to_robust();
+  experiment.fit = {.scenarios = {scene}, .runs = 2};
+  experiment.test = {.scenarios = {scene}, .runs = 1};
+  experiment.highlights = {{}};
+  experiment.video.enabled = false;
+  RunOptions options;
+  options.out = folder / "run";
+  const ExperimentResult result = run_experiment(experiment, options);
+  const std::vector<const RunSignals*> runs = scored_runs(result.runs);
+  ASSERT_EQ(runs.size(), 1U);
+  const auto& models = result.models.at("mujoco");
+
+  EstimatorEntry last = estimator_entry(steps_from_paper_to_robust().back().name);
+  const noise::SensorNoise noise{0.5, 0.5, 3.0};
+  const auto robust = told(estimator_entry("robust"), models.at("robust"), *runs[0], noise);
+  EXPECT_NE(told(last, models.at(last.name), *runs[0], noise), robust);
+  last.config->transition.row_stochastic = true;
+  EXPECT_EQ(told(last, models.at(last.name), *runs[0], noise), robust);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

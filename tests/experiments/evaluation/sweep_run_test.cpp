@@ -1,0 +1,160 @@
+#include "experiments/evaluation/sweep_run.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/evaluation/sweep_batch.hpp"
+#include "experiments/evaluation/tasks.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+bool always() { return true; }
+
+std::vector<noise::SensorNoise> levels_of(const std::vector<noise::NoiseCell>& cells) {
+  std::vector<noise::SensorNoise> levels;
+  for (const noise::NoiseCell& cell : cells) levels.push_back(cell.levels());
+  return levels;
+}
+
+/// Both ways to count, condition by condition. The network's lanes equal it to 1e-5 in probability
+/// only: a step whose probability is that close to the threshold may be decided otherwise, and the
+/// network decides for five steps and two wheels at once.
+void expect_batch_equals_one_by_one(const RunSignals& run, bool batch_apply) {
+  const Experiment experiment = synthetic_experiment(estimator_names());
+  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const std::vector<noise::NoiseCell> cells = noise::noise_cells(experiment.noise);
+  ASSERT_EQ(needs_no_guard(run, levels_of(cells)), batch_apply);
+  const NoiseRun noise = noise_run(run, noise_key(experiment, 1, run.info.run));
+  for (const Condition& condition : own_engine_conditions(experiment)) {
+    const std::vector<Condition> one = {condition};
+    const auto fast = sweep_run(one, cells, run, noise, models, experiment.scoring, always);
+    const auto slow =
+        sweep_run_one_by_one(one, cells, run, noise, models, experiment.scoring, always);
+    ASSERT_EQ(fast.size(), cells.size() * run.segments.size());
+    ASSERT_EQ(slow.size(), fast.size());
+    const std::int64_t tolerance = condition.estimator == "nmn" ? 10 : 0;
+    for (std::size_t i = 0; i < fast.size(); ++i) {
+      const auto& name = condition.estimator;
+      EXPECT_EQ(fast[i].contact(), slow[i].contact()) << name << " " << i;
+      EXPECT_EQ(fast[i].flight(), slow[i].flight()) << name << " " << i;
+      EXPECT_LE(std::abs(fast[i].contact_as_contact - slow[i].contact_as_contact), tolerance)
+          << name << " " << i;
+      EXPECT_LE(std::abs(fast[i].flight_as_flight - slow[i].flight_as_flight), tolerance)
+          << name << " " << i;
+    }
+  }
+}
+
+TEST(SweepRun, CountsInLanesWhatItCountsOneByOne) {
+  expect_batch_equals_one_by_one(synthetic_run(3), true);
+}
+
+TEST(SweepRun, ListensOneByOneWhereASignalGuardWouldStepIn) {
+  RunSignals frozen = synthetic_run(4);
+  for (std::size_t k = 1000; k < 1580; ++k) frozen.signals[k].vertical_acceleration = 0.25;
+  expect_batch_equals_one_by_one(frozen, false);
+  RunSignals gap = synthetic_run(5);
+  for (std::size_t k = 2000; k < gap.steps(); ++k) gap.signals[k].time += 0.1;
+  expect_batch_equals_one_by_one(gap, false);
+  RunSignals broken = synthetic_run(6);
+  broken.signals[700].leg[1].knee.torque = std::nan("");
+  expect_batch_equals_one_by_one(broken, false);
+}
+
+TEST(SweepRun, StopsWhenAsked) {
+  const Experiment experiment = synthetic_experiment({"robust"});
+  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const RunSignals run = synthetic_run(3);
+  const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
+  EXPECT_THROW(sweep_run(own_engine_conditions(experiment), noise::noise_cells(experiment.noise),
+                         run, noise, models, experiment.scoring, [] { return false; }),
+               Stopped);
+}
+
+TEST(NoiseCells, NameEveryCellOnceAndTellKneesFromWheels) {
+  const auto cells = noise::noise_cells(synthetic_experiment({"robust"}).noise);
+  ASSERT_EQ(cells.size(), 3U * 3U + 2U * 2U);
+  EXPECT_TRUE(std::isnan(cells.back().torque) || cells.back().knee == cells.back().wheel);
+  EXPECT_EQ(cells.back().knee, 1.0);
+  EXPECT_EQ(cells.back().wheel, 0.5);
+  EXPECT_EQ(cells.back().accelerometer, 1.5);
+  noise::NoiseGridConfig same;
+  same.torque = {0.0, 1.0};
+  same.accelerometer = {2.0};
+  same.knee_wheel = {{0.0, 1.0}, {0.0, 1.0}, 2.0};
+  EXPECT_EQ(noise::noise_cells(same).size(), 4U);
+}
+
+TEST(Listening, AddsUpToWhatEveryConditionConcludesByItself) {
+  const ScratchFolder folder;
+  Experiment experiment = synthetic_experiment({"robust", "measurement_only"});
+  experiment.highlights = {{0.5, 3.0}};
+  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const std::vector<noise::NoiseCell> cells = noise::noise_cells(experiment.noise);
+  const std::vector<Condition> conditions = own_engine_conditions(experiment);
+  Plan plan;
+  plan.groups.push_back({"", conditions, cells, experiment.highlights});
+  Rollouts runs;
+  for (const std::int64_t number : {0, 1}) {
+    plan.runs.push_back(
+        {RunRole::test, "mujoco", {}, number, "mujoco_test_" + std::to_string(number) + ".mpack"});
+    Rollout& rollout = runs[plan.runs.size() - 1];
+    rollout.plan = plan.runs.back();
+    rollout.signals = synthetic_run(number);
+  }
+  plan_tasks(experiment, 0, plan);
+  ASSERT_EQ(plan.tasks.size(), 4U);
+  const SavedCounts saved(folder.path(), "key");
+  const std::vector<std::size_t> both = plan.runs_in(0);
+  EXPECT_THROW(collect(plan, both, saved), Error);
+  // In whatever order they come; what is there already is not computed again.
+  for (const TaskRange part : {TaskRange{2, 4}, TaskRange{0, 1}}) {
+    EXPECT_EQ(evaluate(plan, part, runs, experiment.scoring, models, saved, always), part.size());
+  }
+  EXPECT_EQ(evaluate(plan, plan.all_tasks(), runs, experiment.scoring, models, saved, always), 1U);
+  EXPECT_FALSE(
+      SavedCounts(folder.path(), "other build").read(plan, plan.tasks.front()).has_value());
+  const CollectedCounts all = collect(plan, both, saved);
+
+  ASSERT_EQ(all.counted.size(), conditions.size());
+  ASSERT_EQ(all.scored.size(), conditions.size());
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    for (std::size_t r = 0; r < both.size(); ++r) {
+      const RunSignals& run = runs.at(r).signals;
+      std::vector<scoring::Classification> counts(cells.size() * run.segments.size());
+      std::vector<scoring::Score> scores(run.segments.size());
+      for (int seed = 0; seed < experiment.noise.seeds; ++seed) {
+        const NoiseRun noise = noise_run(run, noise_key(experiment, seed, run.info.run));
+        const auto alone = sweep_run_one_by_one({&conditions[c], 1}, cells, run, noise, models,
+                                                experiment.scoring, always);
+        for (std::size_t i = 0; i < alone.size(); ++i) counts[i] += alone[i];
+        const auto judged =
+            scoring::score(run.contact,
+                           predict(*make_estimator(conditions[c], models, run), run, noise,
+                                   experiment.highlights[0].levels()),
+                           run.segments, run.info.control_period_us, experiment.scoring);
+        for (std::size_t i = 0; i < scores.size(); ++i) scores[i] += judged[i].wheels();
+      }
+      for (std::size_t segment = 0; segment < run.segments.size(); ++segment) {
+        const std::size_t sample = r * run.segments.size() + segment;
+        for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+          EXPECT_EQ(all.counted[c].samples[cell][sample], counts[cell * run.segments.size() + segment]);
+        }
+        const scoring::Score collected = all.scored[c].samples[0][sample].wheels();
+        EXPECT_EQ(collected.points, scores[segment].points);
+        EXPECT_EQ(collected.takeoff, scores[segment].takeoff);
+        EXPECT_DOUBLE_EQ(collected.calibration.squared_error,
+                         scores[segment].calibration.squared_error);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

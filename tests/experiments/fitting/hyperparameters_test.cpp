@@ -1,0 +1,77 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "experiments/fitting/fitting.hpp"
+#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/results/captions.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Experiment with(const std::string& more, const std::string& fit = "") {
+  return experiment_from_yaml(YamlDocument::parse(
+      "name: study\nsimulators: [mujoco]\nestimators: [phase, free_fall]\nfit: {scenarios: "
+      "[scenarios/stairs.yaml]" +
+          fit + "}\ntest: {scenarios: [scenarios/stairs.yaml]}\n" + more,
+      "study.yaml"));
+}
+
+const char* const given = "hyperparameters: {phase: {leave_below: 0.125}, free_fall: {half_way: -3}}\n";
+
+TEST(GivenConstants, AreWhatEstimatorsAreRunAndFittedWith) {
+  Experiment experiment = synthetic_experiment({"phase", "free_fall"});
+  experiment.hyperparameters = with(given).hyperparameters;
+  const std::vector<RunSignals> runs = {synthetic_run(first_fit_run)};
+  const FittedModels models = fit_models(experiment, runs);
+  const FittedModel& phase = models.at("mujoco").at("phase");
+  EXPECT_EQ(phase.metadata->configuration.at("leave_below"), "0.125");
+  const auto entry_for = [&](const char* estimator) {
+    return entry_of({"mujoco", "mujoco", estimator}, models);
+  };
+  EXPECT_EQ(entry_for("phase").phase->leave_below, 0.125);
+  EXPECT_EQ(entry_for("free_fall").chosen("half_way"), -3.0);
+}
+
+TEST(GivenConstants, StandBackBehindWhatWasChosen) {
+  const Experiment experiment = with(given);
+  const TunedHyperparameters all =
+      or_given({{"mujoco", {{"phase", {{"leave_below", 0.3}}}}}}, experiment);
+  EXPECT_EQ(all.at("mujoco").at("phase").at("leave_below"), 0.3);
+  EXPECT_EQ(all.at("mujoco").at("free_fall").at("half_way"), -3.0);
+}
+
+TEST(GivenConstants, AreWrittenReadAndTold) {
+  EXPECT_THAT(to_yaml(with("")), Not(HasSubstr("hyperparameters")));
+  const std::string text = to_yaml(with(given));
+  EXPECT_EQ(text, to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))));
+  EXPECT_THAT(tuning_text(with(given)), AllOf(HasSubstr("leave_below of Phase filter: 0.125"),
+                                              HasSubstr("half_way of Free fall: -3")));
+}
+
+TEST(GivenConstants, ComplainOnTheLine) {
+  const auto complaint = [&](const std::string& text, const std::string& fit = "") -> std::string {
+    try {
+      (void)with(text, fit);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  };
+  EXPECT_THAT(complaint("hyperparameters: {phase: {leave_bellow: 0.5}}\n"),
+              AllOf(HasSubstr("study.yaml:6:"), HasSubstr("did you mean 'leave_below'")));
+  EXPECT_THAT(complaint("hyperparameters: {fase: {leave_below: 0.5}}\n"),
+              HasSubstr("did you mean 'phase'"));
+  EXPECT_THAT(complaint("hyperparameters: {phase: {leave_below: much}}\n"),
+              HasSubstr("hyperparameters.phase.leave_below"));
+  EXPECT_THAT(complaint(given, ", tuning: {trials: 2}, runs: 2, perturbed: true"),
+              HasSubstr("expected no fit.tuning beside it"));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,48 @@
+#include "experiments/results/evidence.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "estimator/evidence/curves.hpp"
+#include "tests/estimator/evidence/random_curves.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+FittedModel model_of(const EvidenceModel& model) {
+  return {.parameters = std::make_shared<recordings::ParameterModelFile>(
+              recordings::ParameterModelFile{"evidence_curves", parameters_of(model), {}})};
+}
+
+TEST(EvidenceTable, HasWhatEveryCurveSaysWhereItsRowsWere) {
+  EvidenceModel model = test::random_curves(1, false);
+  model.seen[3] = {-0.1F, 2.0F};
+  const Table table = evidence_table({{"mujoco", {{"evidence_curves", model_of(model)}}}});
+  std::size_t rows = 0;
+  for (const auto& row : table.rows) {
+    if (cell(table, row, "channel") != "load" || cell(table, row, "scale_ms") != "8") continue;
+    ++rows;
+    EXPECT_EQ(cell(table, row, "unit"), "N");
+    const double load = std::stod(cell(table, row, "value"));
+    EXPECT_GE(load, -0.513);
+    EXPECT_LE(load, 20.001);
+    DecisionInputs inputs{};
+    inputs[3] = static_cast<float>(load / 5.0 / (1.0 + std::abs(load) / 20.0));
+    EvidenceModel alone;
+    alone.curve[3] = model.curve[3];
+    EXPECT_NEAR(std::stod(cell(table, row, "evidence_nats")),
+                static_cast<double>(evidence_logit(alone, inputs)), 1e-4);
+  }
+  EXPECT_EQ(rows, 10U);  // 0, 0.25, … 2 and the lower end
+  EXPECT_EQ(cell(table, table.rows.back(), "channel"), "acceleration_noise");
+  EXPECT_NEAR(std::stod(cell(table, table.rows.back(), "value")), std::exp(2.5), 1e-3);
+}
+
+TEST(EvidenceTable, IsEmptyWithoutCurves) {
+  EXPECT_TRUE(evidence_table({}).rows.empty());
+  EXPECT_TRUE(evidence_table({{"mujoco", {{"hmm", {}}}}}).rows.empty());
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

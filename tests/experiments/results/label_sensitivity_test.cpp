@@ -1,0 +1,80 @@
+#include "experiments/results/label_sensitivity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "experiments/run_experiment.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "tests/experiments/small_step_scene.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+class LabelSensitivity : public ::testing::Test {
+ protected:
+  ExperimentResult run() {
+    Experiment experiment;
+    experiment.name = "labels";
+    experiment.simulators = {"mujoco"};
+    experiment.estimators = {"oracle"};
+    const std::string file = folder_.write("small_step.yaml", small_step_scene).string();
+    experiment.fit.scenarios = {file};
+    experiment.test.scenarios = {file};
+    experiment.test.runs = 2;
+    experiment.noise.torque = {0.5};
+    experiment.noise.accelerometer = {1.0};
+    experiment.noise.seeds = 1;
+    experiment.highlights = {{0.5, 1.0}};
+    experiment.video.enabled = false;
+    experiment.recordings = KeptRecordings::all;
+    return run_experiment(experiment, {folder_ / "out", "", nullptr});
+  }
+
+  /// Share of steps with more than `threshold` on the wheel, after the first 300 ms.
+  static double contact_share(const ExperimentResult& result, double threshold) {
+    double touching = 0.0;
+    double all = 0.0;
+    for (const Rollout& rollout : result.runs) {
+      if (rollout.plan.role != RunRole::test) continue;
+      const recordings::Recording recording =
+          recordings::read_recording(result.directory.file("recordings", rollout.plan.file));
+      for (std::size_t k = 300; k < recording.steps(); ++k) {
+        for (const double force : recording.truth[k].wheel_normal_force) {
+          touching += force > threshold ? 1.0 : 0.0;
+          all += 1.0;
+        }
+      }
+    }
+    return touching / all;
+  }
+
+  const ScratchFolder folder_;
+};
+
+TEST_F(LabelSensitivity, CountsTheSameDecisionsAgainstEveryDefinitionOfTheTruth) {
+  const ExperimentResult result = run();
+  const Table table = label_sensitivity_table(result);
+  ASSERT_EQ(table.header[4], "success");
+  std::map<std::string, double> success;  // by estimator, threshold, debounce
+  for (const auto& row : table.rows) {
+    success[row[1] + " " + row[2] + " " + row[3]] = std::stod(row[4]);
+  }
+  ASSERT_EQ(success.size(), 2U * 16U);
+  // Whoever always says contact is right as often as there is contact.
+  for (const std::string threshold : {"0.1", "1", "5", "10"}) {
+    EXPECT_NEAR(success.at("always_contact " + threshold + " 0"),
+                contact_share(result, std::stod(threshold)), 5e-5)
+        << threshold;
+  }
+  EXPECT_LT(success.at("always_contact 10 0"), success.at("always_contact 0.1 0"));
+  // The oracle was told the experiment's own definition, and that is one of the sixteen.
+  EXPECT_DOUBLE_EQ(success.at("oracle 1 0.005"), 1.0);
+  EXPECT_LT(success.at("oracle 10 0"), 1.0);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

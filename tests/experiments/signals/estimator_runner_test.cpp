@@ -1,0 +1,123 @@
+#include "experiments/signals/estimator_runner.hpp"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "estimator/free_fall.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/plan/request.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::Each;
+using ::testing::HasSubstr;
+
+WholeRunEstimator free_fall_at_once() {
+  return [](std::span<const Signals> heard) {
+    FreeFall estimator{FreeFallConfig{}};
+    std::vector<Belief> beliefs;
+    for (const Signals& signals : heard) beliefs.push_back(estimator.update(signals));
+    return beliefs;
+  };
+}
+
+EstimatorEntry guest(const std::string& name) {
+  return {.name = name,
+          .title = "Guest",
+          .summary = "free fall, heard at once",
+          .sensors = {.acceleration = true},
+          .whole_run = [](const EstimatorSetup& /*setup*/) { return free_fall_at_once(); }};
+}
+
+TEST(EstimatorRunner, HearsAtOnceWhatItHearsStepByStep) {
+  RunSignals run = synthetic_run(0);
+  for (std::size_t k = 650; k < 700; ++k) {
+    run.signals[k].time = std::numeric_limits<double>::quiet_NaN();  // no record of it
+  }
+  const NoiseRun noise = noise_run(run, {.seed = 5});
+  const noise::SensorNoise levels{.acceleration = 4.0};
+  EstimatorRunner by_step(std::make_unique<FreeFall>(FreeFallConfig{}));
+  EstimatorRunner whole_run(free_fall_at_once());
+  EXPECT_EQ(decide(whole_run, run, noise, levels), decide(by_step, run, noise, levels));
+  const scoring::Prediction expected = predict(by_step, run, noise, levels);
+  const scoring::Prediction said = predict(whole_run, run, noise, levels);
+  for (std::size_t view = 0; view < scoring::view_count; ++view) {
+    EXPECT_EQ(said[view].p_contact, expected[view].p_contact);
+    EXPECT_EQ(said[view].contact, expected[view].contact);
+  }
+  const auto& p = said[0].p_contact;
+  EXPECT_THAT(std::vector<double>(p.begin() + 650, p.begin() + 700), Each(p[649]));
+}
+
+TEST(Guests, AreListenedToLikeOurs) {
+  const ExternalEstimators present({guest("python:test.Guest")});
+  const Experiment experiment = synthetic_experiment({"free_fall"});
+  const RunSignals run = synthetic_run(0);
+  const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 0));
+  const auto cells = noise::noise_cells(experiment.noise);
+  const auto counts_of = [&](const std::string& name) {
+    const Condition condition{"mujoco", "mujoco", name};
+    return sweep_run({&condition, 1}, cells, run, noise, {}, experiment.scoring,
+                     [] { return true; });
+  };
+  EXPECT_EQ(counts_of("python:test.Guest"), counts_of("free_fall"));
+  EXPECT_THROW(make_estimator({"mujoco", "mujoco", "python:test.Guest"}, {}, run), InputError);
+}
+
+TEST(Guests, AreKnownWhileTheirHostIsThere) {
+  const std::size_t ours = estimator_names().size();
+  EXPECT_THROW(estimator_entry("python:test.Guest"), InputError);
+  {
+    const ExternalEstimators present({guest("python:test.Guest")});
+    EXPECT_EQ(estimator_entry("python:test.Guest").title, "Guest");
+    EXPECT_EQ(estimator_names().size(), ours + 1);
+    EXPECT_EQ(estimator_entries().size(), ours);
+    EXPECT_THROW(ExternalEstimators({guest("python:test.Other")}), InputError);
+  }
+  EXPECT_THROW(estimator_entry("python:test.Guest"), InputError);
+  EXPECT_THROW(ExternalEstimators({guest("robust")}), InputError);
+  EXPECT_EQ(estimator_names().size(), ours);
+}
+
+constexpr const char* experiment_with_guest =
+    "name: guests\nsimulators: [mujoco]\nestimators: [free_fall, python:test.Guest]\n"
+    "fit: {scenarios: [scenarios/flat.yaml]}\ntest: {scenarios: [scenarios/flat.yaml]}\n"
+    "video: {enabled: false}\n";
+
+TEST(Guests, AreRefusedWithTheWayToRunThemWhereNobodyBringsThem) {
+  const YamlDocument document = YamlDocument::parse(experiment_with_guest, "guests.yaml");
+  try {
+    experiment_from_yaml(document);
+    FAIL() << "was taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("guests.yaml:3:"));
+    EXPECT_THAT(error.what(), HasSubstr("'python:test.Guest' is written in Python: run the "
+                                        "experiment from there, by 'python3 -m touchdown run'"));
+  }
+}
+
+TEST(Guests, OfAnotherRevisionMakeAnotherRequest) {
+  const auto id_of = [](const std::string& revision) {
+    EstimatorEntry entry = guest("python:test.Guest");
+    entry.revision = revision;
+    const ExternalEstimators present({entry});
+    const YamlDocument document = YamlDocument::parse(experiment_with_guest, "guests.yaml");
+    const Experiment experiment = experiment_from_yaml(document);
+    // Written out, it reads back.
+    EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(to_yaml(experiment), "again"))),
+              to_yaml(experiment));
+    return request_of(experiment).id;
+  };
+  EXPECT_EQ(id_of("one"), id_of("one"));
+  EXPECT_NE(id_of("one"), id_of("two"));
+  EXPECT_NE(id_of("one"), id_of(""));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

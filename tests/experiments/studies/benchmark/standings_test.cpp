@@ -1,0 +1,160 @@
+#include "experiments/studies/benchmark/standings.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/random.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr double level = 0.95;
+constexpr std::size_t resamples = 20'000;
+
+/// Normal values around the estimate, a stream of their own for each key.
+Resampled normal(double estimate, double error, std::uint64_t key) {
+  Resampled all{estimate, {}};
+  for (std::size_t r = 0; r < resamples; ++r) {
+    const double radius = std::sqrt(-2.0 * std::log(uniform01(key, 0, r)));
+    const double angle = 2.0 * std::numbers::pi * uniform01(key, 1, r);
+    all.values.push_back(estimate + error * radius * std::cos(angle));
+  }
+  return all;
+}
+
+BenchmarkRow row(const std::string& scene, const std::string& estimator, Resampled accuracy,
+                 const std::string& simulator = "mujoco") {
+  BenchmarkRow row;
+  row.simulator = simulator;
+  row.robot = "upkie";
+  row.sensors = "ideal";
+  row.scene = scene;
+  row.estimator = estimator;
+  row.fitted_on = "own";
+  row.balanced_accuracy = std::move(accuracy);
+  return row;
+}
+
+TEST(Standings, PutTheBestMeanFirstAndNameTheWorstScene) {
+  const auto all = standings({row("stairs", "a", {0.9}), row("kerb", "a", {0.5}, "bullet"),
+                              row("stairs", "b", {0.7}), row("kerb", "b", {0.8}, "bullet")},
+                             level);
+  ASSERT_EQ(all.size(), 1U);
+  ASSERT_EQ(all[0].places.size(), 2U);
+  EXPECT_EQ(all[0].places[0].estimator, "b");
+  EXPECT_DOUBLE_EQ(all[0].places[0].mean.estimate, 0.75);
+  EXPECT_EQ(all[0].places[1].worst, 0.5);
+  EXPECT_EQ(all[0].places[1].worst_scene, "kerb");
+  EXPECT_EQ(all[0].places[1].worst_simulator, "bullet");
+}
+
+TEST(Standings, MeasureLogLossFromTheLearnedCeiling) {
+  const auto told = [](const std::string& scene, const std::string& estimator, double accuracy,
+                       double bits) {
+    BenchmarkRow one = row(scene, estimator, {accuracy});
+    one.close.steps = 1000;
+    one.close.log_loss = 1000.0 * bits * std::numbers::ln2;
+    return one;
+  };
+  std::vector<BenchmarkRow> rows = {
+      told("stairs", "phase", 0.9, 0.25), told("kerb", "phase", 0.9, 0.75),
+      told("stairs", "free_fall", 0.8, 2.0), told("kerb", "free_fall", 0.8, 4.0)};
+  const std::vector<Standings> without = standings(rows, level);
+  for (const Standings::Place& place : without[0].places) {
+    EXPECT_TRUE(std::isnan(place.bits_left));
+  }
+  rows.push_back(told("stairs", "gradient_boosting", 0.99, 0.125));
+  rows.push_back(told("kerb", "gradient_boosting", 0.99, 0.375));
+  const auto places = standings(rows, level)[0].places;
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_EQ(places[0].estimator, "gradient_boosting");
+  EXPECT_EQ(places[0].bits_left, 0.0);
+  EXPECT_NEAR(places[1].log_loss, 0.5, 1e-12);
+  EXPECT_NEAR(places[1].bits_left, 0.25, 1e-12);
+  EXPECT_TRUE(places[1].is_not_significantly_worse);  // of those that one would take
+  EXPECT_NEAR(places[2].bits_left, 2.75, 1e-12);
+}
+
+TEST(Standings, AreApartForEverySettingAndOfThoseAtHomeAlone) {
+  std::vector<BenchmarkRow> rows = {row("stairs", "a", {0.9}), row("stairs", "b", {0.8})};
+  BenchmarkRow harsh = row("stairs", "a", {0.6});
+  harsh.sensors = "harsh";
+  BenchmarkRow noisy = row("stairs", "a", {0.7});
+  noisy.noise = {1.0, 5.0};
+  BenchmarkRow guest = row("stairs", "a", {0.1});
+  guest.fitted_on = "bullet";
+  rows.insert(rows.end(), {harsh, noisy, guest});
+  const auto all = standings(rows, level);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].places[0].mean.estimate, 0.9);
+  EXPECT_EQ(all[1].sensors, "harsh");
+  EXPECT_EQ(all[2].noise.torque, 1.0);
+}
+
+TEST(Standings, LeaveOutWhoDidNotHearWhatOthersHeard) {
+  BenchmarkRow stairs = row("stairs", "ours", {0.9});
+  BenchmarkRow kerb = row("kerb", "ours", {0.5});
+  BenchmarkRow partly = row("stairs", "theirs", {1.0});
+  for (BenchmarkRow* one : {&stairs, &kerb, &partly}) one->runs = 4;
+  const auto some_scenes = standings({stairs, kerb, partly}, level);
+  ASSERT_EQ(some_scenes.at(0).places.size(), 1U);
+  EXPECT_EQ(some_scenes[0].places[0].estimator, "ours");
+  BenchmarkRow few = row("kerb", "theirs", {1.0});
+  few.runs = 3;
+  EXPECT_EQ(standings({stairs, kerb, partly, few}, level).at(0).places.size(), 1U);
+}
+
+TEST(Standings, BandOfOnePairIsTheNormalOne) {
+  const auto all = standings(
+      {row("stairs", "a", normal(0.9, 0.03, 1)), row("stairs", "b", normal(0.8, 0.04, 2))}, level);
+  ASSERT_EQ(all[0].differences.size(), 2U);  // the mean, and the only scene
+  const Interval& band = all[0].differences[0].value;
+  EXPECT_NEAR(band.estimate, 0.1, 1e-12);
+  EXPECT_NEAR(band.high - band.estimate, 1.96 * 0.05, 0.003);
+  EXPECT_NEAR(band.estimate - band.low, 1.96 * 0.05, 0.003);
+}
+
+TEST(Standings, BandsOfManyPairsHoldTogether) {
+  // Twelve estimators as good as each other, whose values are independent: 66 differences, of
+  // which the largest is the range of twelve normal values. The studentised range of twelve has
+  // 4.62 as its upper five per cent (tables of Tukey's test, infinitely many degrees of freedom).
+  std::vector<BenchmarkRow> rows;
+  for (int i = 0; i < 12; ++i) {
+    rows.push_back(row("stairs", std::string(1, static_cast<char>('a' + i)),
+                       normal(0.9, 0.01, static_cast<std::uint64_t>(100 + i))));
+  }
+  const auto all = standings(rows, level);
+  for (const Standings::Difference& pair : all[0].differences) {
+    EXPECT_NEAR(pair.value.high - pair.value.estimate, 4.62 * 0.01, 0.0015);
+  }
+}
+
+TEST(Standings, LevelIsWhoCannotBeToldFromTheFirst) {
+  const auto all = standings({row("stairs", "best", normal(0.95, 0.005, 1)),
+                              row("stairs", "near", normal(0.945, 0.005, 2)),
+                              row("stairs", "far", normal(0.85, 0.005, 3))},
+                             level);
+  std::vector<bool> are_level;
+  for (const Standings::Place& place : all[0].places)
+    are_level.push_back(place.is_not_significantly_worse);
+  EXPECT_THAT(are_level, ElementsAre(true, true, false));
+}
+
+TEST(Standings, PairedDifferencesAreSurerThanTheirParts) {
+  // Both are as good as the run is easy: they differ by the same in every resample.
+  const Resampled one = normal(0.9, 0.05, 1);
+  Resampled other = one;
+  other.estimate -= 0.01;
+  for (double& value : other.values) value -= 0.01;
+  const auto all = standings({row("stairs", "a", one), row("stairs", "b", other)}, level);
+  EXPECT_FALSE(all[0].places[1].is_not_significantly_worse);
+  EXPECT_GT(all[0].places[0].mean.high, all[0].places[0].mean.low + 0.1);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

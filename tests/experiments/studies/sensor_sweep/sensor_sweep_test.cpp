@@ -1,0 +1,83 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "experiments/run_experiment.hpp"
+#include "experiments/studies/sensor_sweep/plan.hpp"
+#include "tests/experiments/small_step_scene.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// Two runs over a small step, heard by a filter through sensors with these faults.
+Experiment swept(const ScratchFolder& folder, const std::string& sweep) {
+  const std::string scene = folder.write("small_step.yaml", small_step_scene).string();
+  return experiment_from_yaml(YamlDocument::parse(
+      "name: swept\n"
+      "simulators: [mujoco]\n"
+      "estimators: [measurement_only]\n"
+      "fit: {scenarios: [" +
+          scene + "], runs: 2, perturbed: true}\ntest: {scenarios: [" + scene +
+          "], runs: 2}\nrecordings: none\nvideo: {enabled: false}\nsweep: " + sweep + "\n",
+      "swept.yaml"));
+}
+
+TEST(ASensorSweep, HearsTheExperimentsOwnRunsThroughEveryValue) {
+  const ScratchFolder folder;
+  const Experiment experiment = swept(folder, "{torque.white: [0, 2], dropout: [0]}");
+  RunOptions options;
+  options.out = folder / "run";
+  const ExperimentResult result = run_experiment(experiment, options);
+  const Table table = from_csv(read_file(folder / "run/tables/sensor_sweep.csv"));
+  EXPECT_THAT(table.header, ::testing::IsSupersetOf({"simulator", "disturbance", "value",
+                                                     "estimator", "success", "success_low"}));
+  ASSERT_EQ(table.rows.size(), 6U);  // three values, the filter and who always says contact
+  const auto success = [&](std::size_t row) { return std::stod(table.rows[row][4]); };
+  const auto own =
+      std::find_if(result.scores.begin(), result.scores.end(), [](const ScoreSummary& score) {
+        return score.view == "wheels" && score.condition.estimator == "measurement_only";
+      });
+  EXPECT_EQ(table.rows[0][4], metric((*own)["success"].estimate));  // a value that is no fault
+  EXPECT_EQ(table.rows[4][4], table.rows[0][4]);
+  EXPECT_LT(success(2), success(0) - 0.05);
+  EXPECT_EQ(success(3), success(1));  // who does not listen does not mind
+  EXPECT_THAT(result.studies.back(), HasSubstr("torque.white, mujoco"));
+}
+
+TEST(ASensorSweep, SimulatesNothingTwice) {
+  const ScratchFolder folder;
+  const RunRequest request = request_of(swept(folder, "{delay: [0.001, 0.002]}"));
+  Plan plan = plan_of(request);
+  const std::size_t own = plan.tasks.size();
+  add_sensor_sweep(request, plan);
+  EXPECT_EQ(plan.tasks.size(), 3 * own);
+  for (const SensorVariation& variation : sensor_variations(request.experiment)) {
+    const auto runs = plan.runs_in(group_of(variation, plan));
+    ASSERT_EQ(runs.size(), 2U);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      EXPECT_EQ(plan.runs[runs[i]].file, plan.runs[plan.runs_in(0)[i]].file);
+    }
+    EXPECT_EQ(plan.sensors[plan.runs[runs[0]].sensors].profile.torque[1].delay, variation.value);
+  }
+}
+
+TEST(ASensorSweep, OfWhatThereIsNotIsRefusedWhereItStands) {
+  const ScratchFolder folder;
+  EXPECT_THAT([&] { swept(folder, "{dropot: [0.1]}"); },
+              ThrowsMessage<InputError>(HasSubstr("swept.yaml:8:17: sweep.dropot: 'dropot' is not "
+                                                  "one of scale, low_pass, rate, delay, dropout "
+                                                  "(did you mean 'dropout'?)")));
+  EXPECT_THAT([&] { swept(folder, "{dropout: [2]}"); },
+              ThrowsMessage<InputError>(HasSubstr("expected a number from 0 to 1")));
+  EXPECT_THAT([&] { swept(folder, "{dropout: []}"); },
+              ThrowsMessage<InputError>(HasSubstr("expected at least one number")));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
