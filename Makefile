@@ -1,4 +1,4 @@
-# Thin: the build is CMake's, the packages are apt's, the rest is in scripts/.
+# A thin front end: CMake builds, apt installs the packages, scripts/ does the rest.
 JOBS ?= $(shell nproc)
 BUILD := build/release
 
@@ -23,9 +23,9 @@ fuzz-packages:
 test-packages:
 	@scripts/install_packages.sh program trainer python tests $(if $(wildcard /run/systemd/system),,servers)
 
-# Configured once; from then on ninja itself notices when a CMakeLists.txt changes. Each target is a
-# file that only a configuration which succeeded writes: of the program, with the trainer, with Python,
-# with the tests.
+# Configured once; afterwards ninja itself notices changes of a CMakeLists.txt. Each target is a file
+# that only a successful configuration writes: of the program, with the trainer, with Python, with the
+# tests.
 $(BUILD)/build.ninja: | program-packages
 	cmake --preset program
 $(BUILD)/training/cmake_install.cmake: | trainer-packages
@@ -52,7 +52,7 @@ build: $(BUILD)/build.ninja ## Build the program alone: build/release/touchdown
 	@NINJA_STATUS="compiling %f of %t, %e s: " cmake --build --preset program --parallel $(JOBS) --target touchdown
 
 run: build ## Build the program, then run the first experiment
-	@echo "== the first experiment: simulate, fit, listen, score, draw, film: a minute or two on two cores"
+	@echo "== the first experiment: simulate, fit, evaluate, score, draw, film: a minute or two on two cores"
 	$(BUILD)/touchdown run experiments/stairs.yaml
 
 trainer: $(BUILD)/training/cmake_install.cmake ## Build the program and the trainer of the neural network
@@ -67,12 +67,12 @@ everything: $(BUILD)/CTestTestfile.cmake ## Build the program, the trainer, the 
 test: everything ## Build everything and run every test
 	ctest --preset release --parallel $(JOBS)
 
-faults: $(BUILD)/CTestTestfile.cmake ## Refuse the program each call, fill its disk, kill it in every stage
+faults: $(BUILD)/CTestTestfile.cmake ## Let each system call fail, fill the disk, kill the program in every stage
 	cmake --build --preset release --parallel $(JOBS) --target test_faults
 	@scripts/faults.sh $(BUILD)/test_faults $(JOBS)
 
 lint: setup $(BUILD)/CTestTestfile.cmake ## Check formatting, clang-tidy and the shell scripts
-	@cmake --build --preset release --target build.ninja >/dev/null # up to date with the lists
+	@cmake --build --preset release --target build.ninja >/dev/null # brings compile_commands.json up to date
 	@JOBS=$(JOBS) scripts/lint.sh $(BUILD)
 
 format: ## Format every source file
@@ -90,7 +90,7 @@ tsan: build/tsan/build.ninja ## Build and test what runs in threads with ThreadS
 	cmake --build --preset tsan --parallel $(JOBS)
 	ctest --preset tsan --parallel $(JOBS)
 
-fuzz: build/fuzz/build.ninja ## Fuzz whatever reads a file, MINUTES (1) each
+fuzz: build/fuzz/build.ninja ## Fuzz every reader of files, MINUTES (1) each
 	cmake --build --preset fuzz --parallel $(JOBS)
 	@scripts/fuzz.sh build/fuzz $(or $(MINUTES),1)
 

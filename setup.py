@@ -1,4 +1,4 @@
-"""The part of `pip install .` that compiles: CMake builds the module and says what belongs to the package."""
+"""The part of `pip install .` that compiles: CMake builds the module and lists the files of the package."""
 import os
 import pathlib
 import re
@@ -14,7 +14,7 @@ SOURCE = pathlib.Path(__file__).resolve().parent
 
 
 class BuildByCMake(build_ext):
-    """In a build folder of its own, or in the one that TOUCHDOWN_BUILD names, which is configured already."""
+    """Builds in its own folder, or in the configured folder that TOUCHDOWN_BUILD names."""
 
     def build_extension(self, ext):
         given = os.environ.get("TOUCHDOWN_BUILD")
@@ -23,7 +23,7 @@ class BuildByCMake(build_ext):
             subprocess.run(["cmake", "--preset", "program", "-S", SOURCE, "-B", build, "-DTOUCHDOWN_PYTHON=ON",
                             f"-DPython_EXECUTABLE={sys.executable}"], cwd=SOURCE, check=True)
         subprocess.run(["cmake", "--build", build, "--target", "touchdown_python"], check=True)
-        # Where a package's files belong, and from where one that is installed in place is imported.
+        # The folder of the package's files; a package that is installed in place is imported from it.
         package = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parent
         with tempfile.TemporaryDirectory() as stage:
             subprocess.run(["cmake", "--install", build, "--component", "python", "--prefix", stage, "--strip"],

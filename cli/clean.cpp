@@ -19,8 +19,8 @@ struct CleanFlags {
   bool dry_run = false;
 };
 
-/// Removes a run, says so and returns how many bytes that were. A run that somebody is working on
-/// stays, and so does what no run made.
+/// Removes a run, prints its size and returns the removed bytes. A run that is in use remains, and
+/// so do untracked files.
 std::uintmax_t remove(const experiments::OldRun& run, const CliSession& session) {
   std::optional<experiments::DirectoryLock> lock;
   try {
@@ -31,7 +31,7 @@ std::uintmax_t remove(const experiments::OldRun& run, const CliSession& session)
   }
   const experiments::UntrackedFiles left = experiments::remove_run(run.directory);
   if (left.files > 0) {
-    fmt::print("{}  {} files stay that no run made\n", run.directory.string(), left.files);
+    fmt::print("{}  {} untracked files remain\n", run.directory.string(), left.files);
   }
   return run.bytes - std::min(run.bytes, left.bytes);
 }
@@ -54,10 +54,10 @@ void clean(const CleanFlags& flags, const CliSession& session) {
 void add_clean(CLI::App& program, const CliSession& session) {
   Verb verb(program, "clean",
             "touchdown clean --dry-run\n\n"
-            "Removes all runs but the latest of each experiment.");
+            "Removes all runs except the latest of each experiment.");
   const auto flags = std::make_shared<CleanFlags>();
-  verb.option("runs", &flags->runs, "Folder of runs").value_name("DIR").shows_default();
-  verb.flag("--dry-run", &flags->dry_run, "Only show what would go");
+  verb.option("runs", &flags->runs, "Folder of the runs").value_name("DIR").shows_default();
+  verb.flag("--dry-run", &flags->dry_run, "Only show what would be removed");
   verb.action([flags, &session] { clean(*flags, session); });
 }
 

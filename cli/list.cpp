@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <sstream>
+
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
@@ -11,23 +14,27 @@ namespace touchdown::cli {
 
 namespace {
 
-/// A YAML file's first comment line, which says what it is for.
-std::string first_comment(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
-  if (text.rfind("# ", 0) != 0) return "";
-  return text.substr(2, text.find('\n') - 2);
+/// The first sentence of the comment at a YAML file's beginning, which describes the file.
+std::string first_sentence(const std::filesystem::path& path) {
+  std::string comment;
+  std::istringstream lines(read_file(path));
+  for (std::string line; std::getline(lines, line) && line.starts_with("# ");) {
+    comment += (comment.empty() ? "" : " ") + line.substr(2);
+  }
+  const std::size_t end = std::min(comment.find(". "), comment.find("? "));
+  return end == std::string::npos ? comment : comment.substr(0, end + 1);
 }
 
 void print_files(const char* title, const char* folder) {
   fmt::print("{}\n", title);
   Table table{{}, {}};
   for (const std::filesystem::path& path : resources_in(folder, ".yaml")) {
-    table.rows.push_back({path.string(), first_comment(find_resource(path))});
+    table.rows.push_back({path.string(), first_sentence(find_resource(path))});
   }
   fmt::print("{}\n", to_text(table, 2));
 }
 
-/// What a registry says about each of its entries.
+/// Name, title and summary of each entry of a registry.
 template <typename Entries>
 std::string entries_text(const Entries& entries) {
   Table table{{}, {}};
@@ -40,7 +47,7 @@ std::string entries_text(const Entries& entries) {
 void list() {
   print_files("experiments", "experiments");
   print_files("scenarios", "scenarios");
-  print_files("robots, beside every MJCF", "models");
+  print_files("robots (every MJCF file is a robot, too)", "models");
   print_files("sensors", "sensors");
   fmt::print("simulators\n{}\n", entries_text(simulators::simulator_entries()));
   fmt::print("estimators\n{}", entries_text(experiments::estimator_entries()));
@@ -49,9 +56,10 @@ void list() {
 }  // namespace
 
 void add_list(CLI::App& program, const CliSession& /*session*/) {
-  Verb verb(program, "list",
-            "touchdown list\n\nShows the experiments, scenarios, robots, sensors, simulators and "
-            "estimators at hand.");
+  Verb verb(
+      program, "list",
+      "touchdown list\n\n"
+      "Lists the available experiments, scenarios, robots, sensors, simulators and estimators.");
   verb.action(list);
 }
 

@@ -16,8 +16,8 @@
 namespace touchdown::cli {
 namespace {
 
-/// What was typed, as text: a byte that is no UTF-8 becomes a question mark, because manifests hold
-/// nothing else.
+/// The command line as text. A byte that is not valid UTF-8 becomes a question mark, because
+/// manifests hold only UTF-8.
 std::string joined(int argc, char** argv) {
   std::string line = "touchdown";
   for (int i = 1; i < argc; ++i) line += fmt::format(" {}", argv[i]);
@@ -38,7 +38,7 @@ std::vector<std::string> verbs(const CLI::App& program) {
   return names;
 }
 
-/// Of each option the long name first.
+/// The names of a verb's options, the long name of each option first.
 std::vector<std::string> flags(const CLI::App& verb) {
   std::vector<std::string> names;
   for (const DescribedOption& option : described(verb).options) {
@@ -47,7 +47,7 @@ std::vector<std::string> flags(const CLI::App& verb) {
   return names;
 }
 
-/// One line about what is wrong with a command line, with the nearest verb or flag that exists.
+/// A one-line message about a wrong command line that suggests the nearest existing verb or flag.
 std::string complaint(const CLI::App& program, int argc, char** argv,
                       const CLI::ParseError& error) {
   const std::vector<std::string> known = verbs(program);
@@ -72,8 +72,8 @@ int run_command_line(int argc, char** argv) {
                            &stop_on_interrupt()};
   CLI::App program(
       "touchdown run experiments/stairs.yaml\n\n"
-      "Simulates wheeled bipeds in two physics engines, injects sensor noise, and\n"
-      "scores what contact estimators make of it.",
+      "Simulates wheeled bipeds in two physics engines, adds sensor noise and scores contact\n"
+      "estimators.",
       "touchdown");
   program.set_version_flag("--version", "touchdown " TOUCHDOWN_VERSION);
   program.require_subcommand(1);
@@ -97,7 +97,7 @@ int run_command_line(int argc, char** argv) {
     return wrong_request;
   }
   try {
-    program.parse(argc, argv);  // and does what the verb is for
+    program.parse(argc, argv);  // and runs the verb
     return good;
   } catch (const CLI::Success& asked) {  // --help, --version
     return program.exit(asked);

@@ -25,12 +25,12 @@ void merge(const MergeFlags& flags, const CliSession& session) {
 void add_merge(CLI::App& program, const CliSession& session) {
   Verb verb(program, "merge",
             "touchdown merge runs/stairs/latest\n\n"
-            "Puts together what the shards of an experiment left in its run directory.");
+            "Merges the results of an experiment's shards in its run directory.");
   const auto flags = std::make_shared<MergeFlags>();
-  verb.option("directory", &flags->directory, "Run directory of all shards")
+  verb.option("directory", &flags->directory, "Run directory that the shards share")
       .required()
       .value_name("DIR");
-  verb.flag("--no-pictures", &flags->no_pictures, "Tables only: no figures, no videos");
+  verb.flag("--no-pictures", &flags->no_pictures, "Write tables only, without figures and videos");
   verb.action([flags, &session] { merge(*flags, session); });
 }
 

@@ -26,7 +26,7 @@ struct RenderFlags {
   bool scene = false;
 };
 
-/// The recordings, and of run directories what films are made of.
+/// The recordings, and the input files of films in run directories.
 std::vector<InputFile> files_of(const std::vector<std::string>& inputs) {
   std::vector<InputFile> files;
   std::error_code ignored;
@@ -43,7 +43,7 @@ std::vector<InputFile> files_of(const std::vector<std::string>& inputs) {
   return files;
 }
 
-/// What is to be seen: one run, or two beside each other.
+/// The runs to show: one, or two side by side.
 std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSession& session) {
   std::vector<render::FilmedRun> runs;
   std::vector<std::string> warnings;
@@ -63,7 +63,8 @@ std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSessio
       runs.push_back(std::move(filmed[i]));
     }
   }
-  for (const std::string& warning : warnings) tell(fmt::format("touchdown: {}\n", warning));
+  for (const std::string& warning : warnings)
+    print_message(fmt::format("touchdown: {}\n", warning));
   const std::size_t wanted = flags.layout == "side-by-side" || flags.inputs.size() > 1 ? 2 : 1;
   if (runs.size() != wanted || (flags.layout == "single" && wanted != 1)) {
     throw InputError(fmt::format("render: layout '{}' shows {}, not {}",
@@ -108,34 +109,38 @@ void add_render(CLI::App& program, const CliSession& session) {
   Verb verb(
       program, "render",
       "touchdown render stairs.mpack -o stairs.mp4\n\n"
-      "Films a simulated run: the robot on its terrain, contact and torques below it. A run\n"
-      "directory stands for the run that its experiment films, with what the estimators believed.");
+      "Renders a video of a simulated run: the robot on its terrain, contact and torques below.\n"
+      "For a run directory it renders the run that the experiment films, with the beliefs of\n"
+      "its estimators.");
   const auto flags = std::make_shared<RenderFlags>();
-  verb.option("input", &flags->inputs,
-              "Recording of a simulated run, or an experiment's run directory; two of them "
-              "are shown side by side")
+  verb.option(
+          "input", &flags->inputs,
+          "Recording of a simulated run, or an experiment's run directory. Two inputs are shown "
+          "side by side")
       .required()
       .takes(1, 2);
-  verb.option("-o,--output", &flags->output, "Video to write; a picture with --poster")
+  verb.option("-o,--output", &flags->output, "Video to write, or picture with --poster or --scene")
       .value_name("FILE.mp4")
       .required();
   verb.option("--layout", &flags->layout,
-              "single, or side-by-side: two runs, or both engines of a run directory")
+              "single, or side-by-side for two runs or both engines of a run directory")
       .one_of({"single", "side-by-side"});
-  verb.option("--from", &flags->video.from, "Begin at this time of the run (s)");
-  verb.option("--to", &flags->video.to, "End at this time of the run (s)");
-  verb.option("--speed", &flags->video.speed, "0.1 is ten times slower than life").shows_default();
+  verb.option("--from", &flags->video.from, "Start time within the run (s)");
+  verb.option("--to", &flags->video.to, "End time within the run (s)");
+  verb.option("--speed", &flags->video.speed,
+              "Playback speed: 0.1 is ten times slower than real time")
+      .shows_default();
   verb.option("--fps", &flags->video.fps, "Frames per second").shows_default();
-  verb.option("--width", &flags->video.width, "Pixels").shows_default();
-  verb.option("--height", &flags->video.height, "Pixels").shows_default();
-  verb.option("--quality", &flags->quality, "draft, or page: anti-aliased and slower")
+  verb.option("--width", &flags->video.width, "Width (pixels)").shows_default();
+  verb.option("--height", &flags->video.height, "Height (pixels)").shows_default();
+  verb.option("--quality", &flags->quality, "draft, or page, which is anti-aliased and slower")
       .one_of({"draft", "page"})
       .shows_default();
   verb.flag("--poster", &flags->poster,
-            "One picture (PNG, or JPEG by its name) at --from, or else in the first flight");
-  verb.flag("--scene", &flags->scene,
-            "The same of one run without labels and plots: the robot on its terrain");
-  verb.option("--workers", &flags->video.workers, "Processes that draw; 0: one per core");
+            "One picture (.png or .jpg) at --from, or in the first flight without --from");
+  verb.flag("--scene", &flags->scene, "Like --poster for one run, but without labels and plots");
+  verb.option("--workers", &flags->video.workers,
+              "Number of rendering processes; 0 means one per core");
   verb.action([flags, &session] { render(*flags, session); });
 }
 

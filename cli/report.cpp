@@ -24,11 +24,11 @@ void add_report(CLI::App& program, const CliSession& session) {
   Verb verb(
       program, "report",
       "touchdown report runs/stairs/latest\n\n"
-      "Writes report.html into an experiment's run directory, again if it is there: one page that\n"
-      "opens without a network.");
+      "Writes report.html into an experiment's run directory and replaces an existing one. The\n"
+      "report is one page that opens without a network connection.");
   const auto flags = std::make_shared<ReportFlags>();
   verb.option("directory", &flags->directory, "Run directory").required();
-  verb.flag("--no-film", &flags->no_film, "Without the video inside");
+  verb.flag("--no-film", &flags->no_film, "Leave out the video");
   verb.action([flags, &session] {
     std::optional<experiments::DirectoryLock> lock;
     if (experiments::owner_of(flags->directory)) {

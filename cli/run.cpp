@@ -20,7 +20,7 @@ struct RunFlags {
   std::string experiment;
   std::string out;
   std::vector<std::string> overrides;
-  std::vector<std::string> shard;  ///< one, if it is given
+  std::vector<std::string> shard;  ///< empty, or one text such as "1/3"
   bool overwrite = false;
   bool dry_run = false;
   bool no_pictures = false;
@@ -72,27 +72,29 @@ void run(const RunFlags& flags, const CliSession& session) {
 }  // namespace
 
 void add_run(CLI::App& program, const CliSession& session) {
-  Verb verb(program, "run",
-            "touchdown run experiments/stairs.yaml\n\n"
-            "Runs an experiment: simulates, fits, listens through noise, scores, draws.");
+  Verb verb(
+      program, "run",
+      "touchdown run experiments/stairs.yaml\n\n"
+      "Runs an experiment: simulates, fits and runs estimators on noisy signals, scores them and\n"
+      "draws figures.");
   const auto flags = std::make_shared<RunFlags>();
   verb.option("experiment", &flags->experiment, "Experiment file").required();
   verb.option("--out", &flags->out, "Run directory (default: runs/<experiment>/<id>)")
       .value_name("DIR");
   verb.option("--set", &flags->overrides,
-              "Change a value of the experiment, for example noise.seeds=3")
+              "Override a value of the experiment, for example noise.seeds=3")
       .value_name("KEY=VALUE")
       .one_at_a_time();
   verb.option("--shard", &flags->shard,
-              "Compute one part of n into the run directory, for `touchdown merge`")
+              "Compute shard K of N into the run directory, for `touchdown merge`")
       .value_name("K/N")
       .takes(1);
   verb.flag("--overwrite", &flags->overwrite,
-            "Replace another experiment that is in the run directory; files that no run made stay");
+            "Replace another experiment in the run directory; untracked files remain");
   verb.flag("--dry-run", &flags->dry_run,
-            "Only check the experiment, and say where its results go and in how many parts\n"
-            "it can be computed");
-  verb.flag("--no-pictures", &flags->no_pictures, "Tables only: no figures, no videos");
+            "Only check the experiment, and print its run directory and the number of parts in\n"
+            "which it can be computed");
+  verb.flag("--no-pictures", &flags->no_pictures, "Write tables only, without figures and videos");
   verb.action([flags, &session] { run(*flags, session); });
 }
 

@@ -25,7 +25,7 @@ void draw(experiments::ExperimentResult& result, const CliSession& session) {
   render::make_report(render::read_subject(result.directory.path()), filmed, session.stop);
 }
 
-/// The last screen: the result in one table, where everything is, and what to do next.
+/// The last lines of output: a table of results, the paths of all outputs and the next commands.
 std::string last_screen(const experiments::ExperimentResult& result, const CliSession& session) {
   const std::filesystem::path& directory = result.directory.path();
   std::string text =

@@ -5,7 +5,8 @@
 
 namespace touchdown::cli {
 
-/// Prints an experiment's result and where it is, and draws its pictures unless told not to.
+/// Prints an experiment's result and its paths, and draws its figures and videos unless
+/// `no_pictures`. Errors: `Error` if a demanded verdict fails.
 void show(experiments::ExperimentResult& result, const CliSession& session, bool no_pictures);
 
 }  // namespace touchdown::cli

@@ -64,7 +64,7 @@ void simulate(const SimulateFlags& flags, const CliSession& session) {
 void add_simulate(CLI::App& program, const CliSession& session) {
   Verb verb(program, "simulate",
             "touchdown simulate scenarios/stairs.yaml --simulator bullet -o stairs.mpack\n\n"
-            "Plays one run of a scenario and records it as Upkie logs.");
+            "Simulates one run of a scenario and records it as an Upkie log.");
   const auto flags = std::make_shared<SimulateFlags>();
   verb.option("scenario", &flags->scenario, "Scenario file").required();
   verb.option("--simulator", &flags->simulator, "Physics engine").shows_default();
@@ -72,11 +72,11 @@ void add_simulate(CLI::App& program, const CliSession& session) {
       .value_name("FILE.mpack")
       .required();
   verb.option("--run", &flags->run,
-              "Draw the perturbations of this run from the seed (default: none)")
+              "Index of the run: draws its perturbations from the seed (default: no perturbations)")
       .not_negative();
-  verb.option("--seed", &flags->seed, "Seed of the draws").shows_default();
+  verb.option("--seed", &flags->seed, "Random seed").shows_default();
   verb.option("--set", &flags->overrides,
-              "Change a value of the scenario, for example end.duration=5")
+              "Override a value of the scenario, for example end.duration=5")
       .value_name("KEY=VALUE")
       .one_at_a_time();
   verb.action([flags, &session] { simulate(*flags, session); });

@@ -12,14 +12,14 @@ namespace touchdown::cli {
 
 namespace {
 
-/// Becomes the program that trains: libtorch is slow to load and brings another OpenGL with it, so
-/// it stays out of this one.
-[[noreturn]] void become_trainer(const std::vector<std::string>& given) {
+/// Replaces this process by `touchdown-train`. libtorch is slow to load and brings another OpenGL
+/// with it, so this program does not link it. Errors: `Error` if the trainer is not installed.
+[[noreturn]] void execute_trainer(const std::vector<std::string>& given) {
   std::error_code ignored;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", ignored);
   std::string program = (self.parent_path() / "touchdown-train").string();
-  // Threads that wait busily take the processor from those that they wait for once anything else
-  // runs on the machine; sleeping costs nothing here, since parallel regions are long.
+  // On a busy machine, threads that spin take the processor from the threads they wait for.
+  // Sleeping costs nothing here, because parallel regions are long.
   ::setenv("OMP_WAIT_POLICY", "passive", 0);
   std::vector<std::string> words = given;
   std::vector<char*> arguments = {program.data()};
@@ -36,8 +36,8 @@ namespace {
 void add_train(CLI::App& program, const CliSession& /*session*/) {
   Verb verb(program, "train",
             "touchdown train experiments/nmn.yaml\n\n"
-            "Trains the neural measurement network on simulated data (needs libtorch).");
-  verb.action_on_words(become_trainer);  // the trainer has its own --help
+            "Trains the neural measurement network on simulated data. It needs libtorch.");
+  verb.action_on_words(execute_trainer);  // the trainer has its own --help
 }
 
 }  // namespace touchdown::cli

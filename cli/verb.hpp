@@ -6,7 +6,8 @@
 #include <variant>
 #include <vector>
 
-// CLI11 takes seconds to compile wherever it is used; verbs declare themselves without seeing it.
+// CLI11 takes seconds to compile wherever it is included, so verbs are declared without its
+// headers.
 namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's name
 class App;
 class Option;
@@ -14,45 +15,46 @@ class Option;
 
 namespace touchdown::cli {
 
-/// Where the value of an option goes. What stands there before is its default.
+/// The variable that receives an option's value. Its initial value is the default.
 using OptionValue =
     std::variant<int*, std::int64_t*, std::uint64_t*, double*, std::string*, std::vector<int>*,
                  std::vector<double>*, std::vector<std::string>*>;
 
-/// One option of a verb while it is declared. Each function says one more thing about it.
+/// One option of a verb during its declaration. Each function sets one property.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
   Option& required();
-  Option& value_name(const std::string& name);  ///< in the help: "DIR"
+  Option& value_name(const std::string& name);  ///< the value's name in the help: "DIR"
   Option& shows_default();
   Option& one_of(const std::vector<std::string>& values);
   Option& not_negative();
   Option& between(int lowest, int highest);
-  Option& takes(int least, int most);  ///< so many values
+  Option& takes(int least, int most);  ///< the number of values
   Option& takes(int count) { return takes(count, count); }
-  Option& one_at_a_time();  ///< takes several values, but is typed again for each
+  Option& one_at_a_time();  ///< several values, each with the option's name before it
 
  private:
   CLI::Option* option_;
 };
 
-/// One verb of the program, to be declared. The program keeps it; this is a handle.
+/// Declares one verb of the program. The program owns the verb; this is a handle.
 class Verb {
  public:
-  /// `help` is example command lines, an empty line, and what the verb does.
+  /// `help` consists of example command lines, an empty line and a description of the verb.
   Verb(CLI::App& program, const std::string& name, const std::string& help);
 
-  /// `names` as in "-o,--output"; without a dash the option is a positional argument. The value
-  /// must outlive the verb, here and in `flag`.
+  /// `names` as in "-o,--output". Without a dash the option is a positional argument. `value` must
+  /// outlive the verb.
   Option option(const std::string& names, OptionValue value, const std::string& help);
-  /// An option without a value: true if it is given.
+  /// An option without a value. It sets `*given`, which must outlive the verb, to true.
   void flag(const std::string& names, bool* given, const std::string& help);
 
-  /// What the verb does at the end of parsing.
+  /// Sets the function that runs the verb at the end of parsing.
   void action(std::function<void()> action);
-  /// The same with all words behind the verb as they are, even `--help`: it has no options.
+  /// The same for a verb without options: `action` receives all words after the verb, even
+  /// `--help`.
   void action_on_words(std::function<void(const std::vector<std::string>& words)> action);
 
  private:

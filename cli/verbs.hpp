@@ -7,14 +7,14 @@
 
 namespace touchdown::cli {
 
-/// What all verbs share.
+/// The state that all verbs share.
 struct CliSession {
-  std::string command;                      ///< what was typed
-  std::string program;                      ///< its first word, as it was typed
+  std::string command;                      ///< the command line
+  std::string program;                      ///< the first word of the command line
   const std::atomic<bool>* stop = nullptr;  ///< becomes true on Ctrl-C
 };
 
-/// Each adds its verb and flags to the program. The verb does its work at the end of parsing.
+/// Each function adds one verb and its flags to the program. The verb runs at the end of parsing.
 void add_run(CLI::App& program, const CliSession& session);
 void add_merge(CLI::App& program, const CliSession& session);
 void add_simulate(CLI::App& program, const CliSession& session);

@@ -1,9 +1,9 @@
 # cmake -DSOURCE=<folder> -DFILE=<file> -P RecordCommit.cmake
-# writes what `git describe` calls the commit of the sources into a file, if it is not there already.
+# writes the commit of the sources, as `git describe` names it, into a file, if the file differs.
 set(commit "unknown: built from sources without their git history")
 find_program(GIT git)
 if(GIT)
-  # A source archive may have been unpacked inside of somebody else's checkout.
+  # A source archive may have been unpacked inside another project's checkout.
   execute_process(COMMAND ${GIT} -C ${SOURCE} rev-parse --show-cdup
                   OUTPUT_VARIABLE above ERROR_QUIET RESULT_VARIABLE failed OUTPUT_STRIP_TRAILING_WHITESPACE)
   if(failed EQUAL 0 AND above STREQUAL "")

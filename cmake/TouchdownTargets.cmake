@@ -1,4 +1,4 @@
-# How every folder of the project becomes a target: the same standard, warnings and include root.
+# Makes a target of every folder of the project, with the same standard, warnings and include root.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -15,7 +15,7 @@ endif()
 if(NOT DEFINED CCACHE)
   find_program(CCACHE ccache)
 endif()
-# What ccache has to be told before it keeps objects that were compiled with a precompiled header.
+# ccache needs this setting before it keeps objects that were compiled with a precompiled header.
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
       CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
@@ -26,9 +26,9 @@ if(NOT DEFINED CMAKE_COMPILE_WARNING_AS_ERROR)
   set(CMAKE_COMPILE_WARNING_AS_ERROR ON)
 endif()
 
-# g++ 12 asks the processor for the whole level; a compiler that cannot ask, or another
+# g++ 12 asks the processor for the whole level. A compiler that cannot ask, or another
 # architecture, fails to compile this and gets the portable code.
-# (Debian 12's CMake crashes when it is to run something that was compiled for another processor.)
+# (Debian 12's CMake crashes when it runs a program that was compiled for another processor.)
 if(CMAKE_CROSSCOMPILING)
   set(TOUCHDOWN_HOST_IS_X86_64_V3 OFF)
 else()
@@ -38,7 +38,7 @@ else()
     TOUCHDOWN_HOST_IS_X86_64_V3)
 endif()
 
-# Flags of all our own code; they stay in this build tree and are never installed.
+# Flags of all the project's code. They stay in this build tree and are never installed.
 # `-fno-math-errno` lets square roots vectorise.
 add_library(touchdown_flags INTERFACE)
 target_compile_options(touchdown_flags INTERFACE
@@ -46,12 +46,12 @@ target_compile_options(touchdown_flags INTERFACE
   $<$<AND:$<BOOL:${TOUCHDOWN_NATIVE}>,$<BOOL:${TOUCHDOWN_HOST_IS_X86_64_V3}>>:-march=x86-64-v3>)
 target_include_directories(touchdown_flags INTERFACE ${PROJECT_SOURCE_DIR})
 
-# Reading headers takes most of a source's compile time; these, which most sources include, are read
-# once for all of them. A source still includes what it uses.
-# touchdown_precompile(<target>): the headers below.
-# touchdown_precompile(<target> <target> [<header>...]): reads them, and these too, for itself: because
-# it has options of its own, or because all its sources include the same large library.
-# touchdown_precompile(<target> <owner>): what that owner read.
+# Reading headers takes most of a source's compile time. The headers below, which most sources include,
+# are precompiled once for all of them. A source still includes what it uses.
+# touchdown_precompile(<target>): uses the headers below.
+# touchdown_precompile(<target> <target> [<header>...]): precompiles the headers below and the given ones
+# for this target: it has its own options, or all its sources include the same large library.
+# touchdown_precompile(<target> <owner>): uses the headers that <owner> precompiled.
 set(TOUCHDOWN_PRECOMPILED
   <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <list> <map>
   <memory> <mutex> <numeric> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
@@ -60,7 +60,7 @@ function(touchdown_precompile target)
   if(TOUCHDOWN_ESTIMATOR_ONLY)
     return()
   endif()
-  # Programs, too, are compiled as position-independent as the libraries that share the headers.
+  # Programs are compiled position-independent, as the libraries that share the headers.
   target_compile_options(${target} PRIVATE -fpch-preprocess -fPIC)
   set(owner touchdown_precompiled)
   if(ARGN)
@@ -72,18 +72,18 @@ function(touchdown_precompile target)
     target_precompile_headers(${target} REUSE_FROM ${owner})
   endif()
   if(owner MATCHES "_precompiled$")
-    # Definitions that the headers were read with must be the same wherever they are reused.
+    # Every target that reuses the headers needs the definitions they were compiled with.
     target_compile_definitions(${target} PRIVATE
       $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
   endif()
 endfunction()
 
-# A third of a source's compile time goes into making it fast, which pays in the rooms whose numbers
-# are computed for every step. The others spend their time there and in libraries: -O1, with the
-# rounding of -O3. (Not tests: with -O1 g++ 12 sees memory overrun where strings of known length are
-# put together.)
-# touchdown_arranges(<target>)
-function(touchdown_arranges target)
+# Optimization takes a third of a source's compile time. It pays in the folders that compute numbers for
+# every step. The others spend their run time there and in libraries: they get -O1, with the rounding of
+# -O3. (Not tests: with -O1 g++ 12 reports false memory overruns where strings of known length are
+# concatenated.)
+# touchdown_optimize_less(<target>)
+function(touchdown_optimize_less target)
   target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1;-fexpensive-optimizations>)
 endfunction()
 
@@ -96,31 +96,31 @@ if(NOT TOUCHDOWN_ESTIMATOR_ONLY)
     target_link_libraries(${owner} PRIVATE touchdown_flags Eigen3::Eigen fmt::fmt)
     touchdown_precompile(${owner} ${owner} <fmt/format.h> <yaml-cpp/yaml.h>)
   endforeach()
-  touchdown_arranges(touchdown_precompiled)
+  touchdown_optimize_less(touchdown_precompiled)
 endif()
 
-# Most of what is left of a source's compile time is spent on the same headers and templates as its
-# neighbour's; so the sources of a room are compiled up to nine at a time, as one that includes them. Who
-# works in one of them compiles its neighbours too: -DTOUCHDOWN_UNITY=OFF is for that.
+# Sources of one folder mostly compile the same headers and templates. Up to nine of them are therefore
+# compiled together, as one source that includes them. A change to one recompiles all nine;
+# -DTOUCHDOWN_UNITY=OFF avoids that.
 # touchdown_unity(<target> <source>...)
-option(TOUCHDOWN_UNITY "Compile the sources of a room a few at a time" ON)
+option(TOUCHDOWN_UNITY "Compile the sources of a folder a few at a time" ON)
 function(touchdown_unity target)
   if(NOT TOUCHDOWN_UNITY OR TOUCHDOWN_ESTIMATOR_ONLY)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   foreach(source ${ARGN})
-    cmake_path(GET source PARENT_PATH room)
-    list(APPEND rooms ${room})
-    string(MAKE_C_IDENTIFIER ${room} id)
+    cmake_path(GET source PARENT_PATH folder)
+    list(APPEND folders ${folder})
+    string(MAKE_C_IDENTIFIER ${folder} id)
     list(APPEND in_${id} ${source})
   endforeach()
-  list(REMOVE_DUPLICATES rooms)
-  foreach(room ${rooms})
-    string(MAKE_C_IDENTIFIER ${room} id)
+  list(REMOVE_DUPLICATES folders)
+  foreach(folder ${folders})
+    string(MAKE_C_IDENTIFIER ${folder} id)
     list(LENGTH in_${id} count)
     math(EXPR parts "(${count} + 8) / 9")
-    cmake_path(RELATIVE_PATH room BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE name)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE name)
     string(MAKE_C_IDENTIFIER ${name} name)
     set(i 0)
     foreach(source ${in_${id}})
@@ -133,46 +133,46 @@ function(touchdown_unity target)
   endforeach()
 endfunction()
 
-# touchdown_library(<name> ROOMS <folder>... DEPENDS <target>...)
-# makes the static library touchdown_<name>, known as touchdown::<name>, of every .cpp that stands in
-# the rooms, folders below this one; without ROOMS, of those that stand here. PRECOMPILED: the owner
-# of its precompiled headers. ONE_BY_ONE: its sources are not compiled together. COMPUTES: it is
-# compiled to be fast.
+# touchdown_library(<name> FOLDERS <folder>... DEPENDS <target>...)
+# makes the static library touchdown_<name>, with the alias touchdown::<name>, of every .cpp in the given
+# folders below this one; without FOLDERS, of every .cpp in this one. PRECOMPILED: the owner of its
+# precompiled headers. ONE_BY_ONE: its sources are not compiled together. COMPUTES: it is compiled with
+# the full -O3.
 function(touchdown_library name)
-  cmake_parse_arguments(ARG "ONE_BY_ONE;COMPUTES" "PRECOMPILED" "ROOMS;SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "ONE_BY_ONE;COMPUTES" "PRECOMPILED" "FOLDERS;SOURCES;DEPENDS" ${ARGN})
   if(ARG_COMPUTES AND NOT ARG_PRECOMPILED)
     set(ARG_PRECOMPILED touchdown_computing_precompiled)
   endif()
-  touchdown_sources(sources "${ARG_ROOMS}")
+  touchdown_sources(sources "${ARG_FOLDERS}")
   add_library(touchdown_${name} STATIC ${sources} ${ARG_SOURCES})
   add_library(touchdown::${name} ALIAS touchdown_${name})
   target_link_libraries(touchdown_${name} PUBLIC ${ARG_DEPENDS} PRIVATE $<BUILD_INTERFACE:touchdown_flags>)
   target_include_directories(touchdown_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   touchdown_precompile(touchdown_${name} ${ARG_PRECOMPILED})
   if(NOT ARG_COMPUTES)
-    touchdown_arranges(touchdown_${name})
+    touchdown_optimize_less(touchdown_${name})
   endif()
   if(NOT ARG_ONE_BY_ONE)
     touchdown_unity(touchdown_${name} ${sources})
   endif()
 endfunction()
 
-# Every .cpp of the rooms. Looked up again at each build, so that a new file needs no line anywhere.
-function(touchdown_sources result rooms)
-  if(NOT rooms)
-    set(rooms .)
+# Lists every .cpp of the folders. Each build lists them again, so a new file needs no line anywhere.
+function(touchdown_sources result folders)
+  if(NOT folders)
+    set(folders .)
   endif()
-  list(TRANSFORM rooms APPEND /*.cpp)
-  file(GLOB sources CONFIGURE_DEPENDS ${rooms})
+  list(TRANSFORM folders APPEND /*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${folders})
   set(${result} ${sources} PARENT_SCOPE)
 endfunction()
 
 set(TOUCHDOWN_REFERENCE_DATA ${PROJECT_SOURCE_DIR}/../shared/data CACHE PATH
-    "Where the paper's reference data is; tests that need it are skipped where it is not")
+    "Folder of the paper's reference data; tests that need it are skipped without it")
 
 # touchdown_test(<folder> DEPENDS <target>...)
-# makes the program test_<folder> of every .cpp below this folder; every TEST in it becomes one CTest
-# test. ONE_BY_ONE: as for a library.
+# makes the program test_<folder> of every .cpp below this folder. Every TEST in it is one CTest test.
+# ONE_BY_ONE: as for a library.
 function(touchdown_test folder)
   cmake_parse_arguments(ARG "ONE_BY_ONE" "" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
@@ -187,7 +187,7 @@ function(touchdown_test folder)
     TOUCHDOWN_REFERENCE_DATA="${TOUCHDOWN_REFERENCE_DATA}")
   gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 300
-                       # Read by the sanitizers of the asan preset, by nothing else.
+                       # For the sanitizers of the asan preset only.
                        ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0"
                        ENVIRONMENT_MODIFICATION "UBSAN_OPTIONS=set:print_stacktrace=1")
 endfunction()

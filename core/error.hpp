@@ -5,25 +5,24 @@
 
 namespace touchdown {
 
-/// Base of every exception that touchdown throws: something that was asked for could not be done.
+/// Base of every exception that touchdown throws: a request could not be fulfilled.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The request itself was wrong: a configuration, a model, a log, a flag. The command line answers
-/// with exit code 2; the message is one line, `file:line:column: what was expected`.
+/// The request itself was wrong: a configuration, a model, a log or a flag. The command line exits
+/// with code 2. The message is one line, `file:line:column: what was expected`.
 class InputError : public Error {
  public:
   using Error::Error;
 };
 
-/// The user asked to stop; what was computed so far is saved.
+/// The user asked to stop. Finished results are saved.
 class Stopped : public Error {
  public:
-  Stopped()
-      : Error("stopped; what is finished is saved, and the same command goes on from there") {}
-  /// `message` says what is saved and how to go on.
+  Stopped() : Error("stopped; finished work is saved, and the same command continues from there") {}
+  /// `message` states what is saved and how to continue.
   explicit Stopped(const std::string& message) : Error(message) {}
 };
 

@@ -49,7 +49,7 @@ void Fields::names(std::string_view key, const std::vector<std::string>& known,
                            did_you_mean(name, known)));
     const auto here = values.begin() + static_cast<std::ptrdiff_t>(i);
     check_item(std::find(values.begin(), here, name) == here, key, i,
-               fmt::format("'{}' stands there twice", name));
+               fmt::format("'{}' appears twice", name));
   }
 }
 

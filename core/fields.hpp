@@ -15,27 +15,28 @@
 
 namespace touchdown {
 
-/// The keys of a configuration struct, which the `describe` beside it names once each, with their
-/// members and ranges:
+/// Reads and writes the keys of a configuration struct. The `describe` function beside the struct
+/// names each key once, with its member and its range:
 ///
 ///     void describe(Fields& fields, LabelConfig& labels) {
 ///       fields("force_threshold", labels.force_threshold, 0.0, 1e4);
 ///       fields("debounce", labels.debounce, 0.0, 10.0);
 ///     }
 ///
-/// One description reads the struct and writes it, in the order of its lines. It reads strictly:
-/// every key that is there must be named, with the right type and within its range. Whatever a
-/// description changes while it writes is changed in a copy.
+/// The same description reads and writes the struct, in the order of its lines. Reading is strict:
+/// every key of the document must be described, with the right type and within its range. Writing
+/// works on a copy of the struct.
 class Fields {
  public:
-  Fields() = default;  ///< writes
+  Fields() = default;  ///< for writing
+  /// For reading.
   explicit Fields(const YamlDocument& document) : Fields(document.root(), document, "") {}
 
   bool reading() const { return reading_; }
-  /// What is read, or has been written.
+  /// The node that is read, or that has been written so far.
   const YAML::Node& node() const { return node_; }
 
-  /// Reading: keeps the value where the key is absent.
+  /// Reads or writes one value. When reading, an absent key leaves the value unchanged.
   template <typename T>
   void operator()(std::string_view key, T& value) {
     if (!reading()) {
@@ -50,7 +51,7 @@ class Fields {
     }
   }
 
-  /// As above; `low <= value <= high`.
+  /// The same with a range: `low <= value <= high`.
   template <typename T>
   void operator()(std::string_view key, T& value, std::type_identity_t<T> low,
                   std::type_identity_t<T> high) {
@@ -60,7 +61,7 @@ class Fields {
     }
   }
 
-  /// A key that must be there.
+  /// The same for a key that must be present.
   void require(std::string_view key);
   template <typename T, typename... Limits>
   void require(std::string_view key, T& value, Limits... limits) {
@@ -68,7 +69,7 @@ class Fields {
     (*this)(key, value, limits...);
   }
 
-  /// An enumerator, or a text, by its name. An enumerator's number is its place among the names.
+  /// An enumerator or a text, chosen from `names`. An enumerator's value is its index in `names`.
   void choose(std::string_view key, const std::vector<std::string>& names, std::string& value);
   void choose(std::string_view key, const std::vector<std::string>& names, std::size_t& index);
   template <typename Enum>
@@ -79,23 +80,23 @@ class Fields {
     value = static_cast<Enum>(index);
   }
 
-  /// At least one name, all different, each one of `known`.
+  /// A list of one or more different names, each from `known`.
   void names(std::string_view key, const std::vector<std::string>& known,
              std::vector<std::string>& values);
 
-  /// Numbers that are written in one line.
+  /// A list of numbers, written on one line.
   void in_line(std::string_view key, std::vector<double>& numbers);
 
-  /// A nested mapping, whose fields `describe_section` names.
+  /// A nested mapping with the fields that `describe_section` names.
   void within(std::string_view key, const std::function<void(Fields&)>& describe_section);
 
-  /// A nested struct; `context` is handed on to its `describe`.
+  /// A nested struct; its `describe` receives `context`.
   template <typename T, typename... Context>
   void section(std::string_view key, T& value, const Context&... context) {
     within(key, [&](Fields& inner) { describe(inner, value, context...); });
   }
 
-  /// Written, and read, only if it is there.
+  /// An optional nested struct: read if the key is present, written if it has a value.
   template <typename T>
   void section(std::string_view key, std::optional<T>& value) {
     if (!present(key, value.has_value())) return;
@@ -103,7 +104,7 @@ class Fields {
     section(key, *value);
   }
 
-  /// A list of structs. While one of them is read, it is the list's last.
+  /// A list of structs. The struct that is being read is the last of the list.
   template <typename T, typename... Context>
   void list(std::string_view key, std::vector<T>& values, const Context&... context) {
     if (present(key, false)) values.clear();
@@ -113,32 +114,32 @@ class Fields {
     });
   }
 
-  /// As `list`, but an empty one is not written.
+  /// Like `list`, but an empty list is not written.
   template <typename T, typename... Context>
   void list_if_any(std::string_view key, std::vector<T>& values, const Context&... context) {
     if (reading() || !values.empty()) list(key, values, context...);
   }
 
-  /// Reading: whether the key is there. Writing: `has_value`.
+  /// Reading: whether the key is present. Writing: `has_value`.
   bool present(std::string_view key, bool has_value) const;
-  /// Names a key that may be absent, for the suggestions that a misspelt one gets.
+  /// Declares an optional key, so that it is suggested for a misspelt one.
   void know(std::string_view key);
-  /// Reading: refuses a key of an earlier version and names the key that replaced it.
+  /// Reading: rejects a key of an earlier version and names the key that replaced it.
   void renamed(std::string_view old_key, std::string_view key) const;
-  /// How many keys there are.
+  /// The number of keys.
   std::size_t size() const;
 
-  /// Reading: complains about the first key that has not been named, and suggests the nearest that
-  /// has been. It happens at the end by itself; before a check that a misspelt key would fail, it
-  /// gives the better reason.
+  /// Reading: reports the first key that has not been described, and suggests the nearest one that
+  /// has. Called automatically at the end. Call it earlier, before a check that a misspelt key
+  /// would fail, for a clearer message.
   void finish() const;
 
-  /// Reading: complains about the key's value unless `holds`.
+  /// Reading: reports an error at the key's value unless `holds`.
   void check(bool holds, std::string_view key, const std::string& message) const;
-  /// The same at the place of one of the key's values, if it is a list.
+  /// The same at one item of the key's value, if it is a list.
   void check_item(bool holds, std::string_view key, std::size_t item,
                   const std::string& message) const;
-  /// Reading: an `InputError` of `action` is a complaint about the key's value.
+  /// Reading: reports an `InputError` of `action` as an error at the key's value.
   void check(std::string_view key, const std::function<void()>& action) const;
 
  private:
@@ -148,7 +149,7 @@ class Fields {
              const std::function<void(Fields&, std::size_t)>& describe_item);
 
   bool has(std::string_view key) const;
-  /// The node under `key`, which is known from now on; undefined if absent.
+  /// Returns the node under `key`, undefined if absent, and marks the key as known.
   YAML::Node take(std::string_view key);
   /// The dotted path from the document's root to `key`.
   std::string path_to(std::string_view key) const;
@@ -179,7 +180,8 @@ class Fields {
       return std::is_arithmetic_v<T> && !std::same_as<T, bool>;
     }
   }
-  /// Of a number between quotes, which is a text until somebody reads it as a number.
+  /// Rejects leading zeros in quoted numbers. YAML parses these as text, so earlier checks pass
+  /// them.
   void refuse_leading_zeros(const YAML::Node& given, std::string_view key) const;
 
   bool reading_ = false;
@@ -189,8 +191,8 @@ class Fields {
   std::vector<std::string> known_;
 };
 
-/// Reads a struct by its description; what `config` holds are the defaults. Errors: `InputError`
-/// with file:line:column.
+/// Reads a struct by its description. `config` holds the defaults. Errors: `InputError` with
+/// file:line:column.
 template <typename T>
 T from_yaml(const YamlDocument& document, T config = {}) {
   Fields fields(document);
@@ -199,7 +201,7 @@ T from_yaml(const YamlDocument& document, T config = {}) {
   return config;
 }
 
-/// The struct with every default written out, which `from_yaml` reads back to the same.
+/// The struct with all values, defaults included. `from_yaml` reads it back unchanged.
 template <typename T>
 YAML::Node to_node(T config) {
   Fields fields;

@@ -11,7 +11,8 @@ namespace touchdown {
 
 namespace {
 
-constexpr std::size_t longest_word = 100;  // names of files have 255, and more is put around it
+constexpr std::size_t longest_word =
+    100;  // file names may have 255, and the word is only a part of one
 
 bool is_control(unsigned char byte) { return byte < 0x20 || byte == 0x7f; }
 
@@ -25,7 +26,7 @@ bool has_high_control(std::string_view text) {
 }
 
 std::string part_name(const std::filesystem::path& name) {
-  // Processes on two machines that share a disk may have the same number.
+  // Two machines that share a disk may have processes with the same number.
   return fmt::format(".{}.{}.{:08x}.part", name.string(), ::getpid(), std::random_device{}());
 }
 
@@ -54,7 +55,7 @@ bool is_part_file_name(const std::filesystem::path& name) {
 }
 
 bool is_part_folder_name(const std::filesystem::path& name) {
-  // There was no chance in them once.
+  // Names of earlier versions have no random part.
   return has_shape(name.string(), R"(\..*\.\d+(\.[0-9a-f]{4,8})?\.part)");
 }
 

@@ -26,18 +26,18 @@ struct TemporaryFile {
   }
 };
 
-/// What the disk did not take after all is known here, and nowhere later.
+/// Flushes the file to disk. A delayed write error is reported here, and nowhere later.
 void flush_to_disk(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  // EINVAL: there is nothing to flush to, as in some file systems in memory.
+  // EINVAL: the file system has nothing to flush to, as some in memory do.
   const bool flushed = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);
   const std::error_code why(errno, std::generic_category());
   if (descriptor >= 0) ::close(descriptor);
   if (!flushed) throw std::filesystem::filesystem_error("fsync", path, why);
 }
 
-/// Makes a folder that was not there before and that nobody else can write to, beside `path`. What
-/// somebody put under its name, a link to elsewhere for one, is left alone.
+/// Makes a new folder beside `path` that only this user can access. An existing file, folder or
+/// link of the same name is left alone.
 std::filesystem::path new_part_folder(const std::filesystem::path& path) {
   for (;;) {
     std::filesystem::path folder = part_folder_path(path);
@@ -79,12 +79,12 @@ std::string read_file(const std::filesystem::path& path) {
     throw InputError(fmt::format("{}: no such file", path.string()));
   }
   std::string content;
-  std::array<char, 16384> piece;
+  std::array<char, 16384> block;
   do {
-    file.read(piece.data(), piece.size());
-    content.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+    file.read(block.data(), block.size());
+    content.append(block.data(), static_cast<std::size_t>(file.gcount()));
   } while (file);
-  // A stream that cannot read on looks like one at its end.
+  // A read error looks like the end of the file.
   if (file.bad()) throw Error(fmt::format("{}: cannot be read", path.string()));
   return content;
 }
@@ -94,7 +94,7 @@ void require_writable(const std::filesystem::path& path) {
   if (!absolute.has_filename() || std::filesystem::is_directory(absolute)) {
     throw Error(fmt::format("{}: cannot be written: it is a folder", path.string()));
   }
-  // The nearest folder that exists decides.
+  // The nearest existing folder must be writable.
   std::error_code ignored;
   std::filesystem::path folder = absolute.parent_path();
   while (!folder.empty() && folder != folder.root_path() &&

@@ -7,23 +7,23 @@
 
 namespace touchdown {
 
-/// Write a file whole or not at all: `write` fills a temporary file beside `path`, which is renamed
-/// over `path` only when `write` returned and the data is on the disk. Missing folders are made.
-/// Errors: `Error` when the file cannot be written; whatever `write` throws.
+/// Writes a file completely or not at all. `write` fills a temporary file beside `path`. The
+/// temporary file replaces `path` once `write` has returned and the data is on the disk. Creates
+/// missing folders. Errors: `Error` when the file cannot be written; any exception of `write`.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
-/// As above, with the whole content at hand.
+/// The same for content in memory.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
 /// The whole file. Errors: `InputError` when it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
-/// Throws `Error` if no file can be made at `path`: better before an hour of work than after.
+/// Throws `Error` if no file can be made at `path`. Called before long work, not after it.
 void require_writable(const std::filesystem::path& path);
 
-/// A hidden folder beside what is being made, gone afterwards with all that was not moved out of
-/// it. Errors: `Error` when it cannot be made.
+/// A hidden temporary folder beside the output `stem`. The destructor deletes it with everything
+/// that was not moved out of it. Errors: `Error` when it cannot be made.
 class PartFolder {
  public:
   explicit PartFolder(const std::filesystem::path& stem);

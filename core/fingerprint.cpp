@@ -16,7 +16,7 @@ std::filesystem::path own_binary() {
   void* map = nullptr;
   const bool found = ::dladdr1(reinterpret_cast<const void*>(&build_fingerprint), &info, &map,
                                RTLD_DL_LINKMAP) != 0;
-  // The program itself has an empty name there.
+  // The program itself has an empty name in the link map.
   const char* const library = found && map != nullptr ? static_cast<link_map*>(map)->l_name : "";
   return *library == '\0' ? "/proc/self/exe" : library;
 }
@@ -30,7 +30,7 @@ std::string build_commit(const std::filesystem::path& program) {
   std::error_code ignored;
   const std::filesystem::path folder =
       std::filesystem::weakly_canonical(program, ignored).parent_path();
-  // Where it was built, and where it was installed.
+  // Relative to the program where it was built, and where it is installed.
   for (const char* share : {"share", "../share"}) {
     const std::filesystem::path note = folder / share / "touchdown" / "commit";
     if (!std::filesystem::is_regular_file(note, ignored)) continue;
@@ -38,7 +38,7 @@ std::string build_commit(const std::filesystem::path& program) {
     while (commit.ends_with('\n')) commit.pop_back();
     return commit;
   }
-  return "unknown: the program lies without the files that are installed with it";
+  return "unknown: the files that are installed with the program are missing";
 }
 
 }  // namespace touchdown

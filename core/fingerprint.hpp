@@ -7,8 +7,8 @@
 
 namespace touchdown {
 
-/// A short name for content: equal content has an equal name on every machine. FNV-1a, 64 bit; the
-/// parts are told apart, so that moving text from one to the next changes the name.
+/// A hash of content, equal on every machine: FNV-1a, 64 bit. The boundaries between parts count:
+/// moving text from one part to the next changes the hash.
 class Fingerprint {
  public:
   Fingerprint& add(std::string_view part) {
@@ -27,15 +27,16 @@ class Fingerprint {
   std::uint64_t state_ = 0xcbf29ce484222325ULL;
 };
 
-/// The program that is running, or the shared library that holds this code inside of another one.
+/// The path of the running program, or of the shared library that contains this code.
 std::filesystem::path own_binary();
 
-/// A name for it: equal ones have equal names.
+/// The fingerprint of that file.
 std::string build_fingerprint();
 
-/// The commit of the sources that a program was built from, as `git describe` calls it; "-dirty" at
-/// its end where files had been changed since. The build notes it in a file beside the program, so
-/// that a commit alone makes no other program. Says so when there is no such note.
+/// The commit of the sources that a program was built from, as in `git describe`; it ends with
+/// "-dirty" if files had changed. The build writes it to a file beside the program, so that a
+/// commit alone does not change the program. Returns a text that begins with "unknown" without that
+/// file.
 std::string build_commit(const std::filesystem::path& program = own_binary());
 
 }  // namespace touchdown

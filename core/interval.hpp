@@ -2,7 +2,7 @@
 
 namespace touchdown {
 
-/// An estimate with its interval; NaN where it is not defined.
+/// An estimate with its interval; NaN if undefined.
 struct Interval {
   double estimate = 0.0;
   double low = 0.0;

@@ -27,8 +27,7 @@ std::string duration(double seconds) {
   return fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 
-/// While it lives, a pipe without a reader is an error of this thread's writes and no end of the
-/// program.
+/// Blocks SIGPIPE for this thread: a write to a broken pipe fails and does not end the program.
 class WithoutBrokenPipe {
  public:
   WithoutBrokenPipe() {
@@ -37,9 +36,9 @@ class WithoutBrokenPipe {
     ::pthread_sigmask(SIG_BLOCK, &broken_pipe_, &before_);
   }
   ~WithoutBrokenPipe() {
-    // What a write raised waits for this thread; it must be taken before the mask falls.
-    const timespec at_once{};
-    if (::sigismember(&before_, SIGPIPE) == 0) ::sigtimedwait(&broken_pipe_, nullptr, &at_once);
+    // A SIGPIPE of a write is pending for this thread. Consume it before the mask is restored.
+    const timespec no_wait{};
+    if (::sigismember(&before_, SIGPIPE) == 0) ::sigtimedwait(&broken_pipe_, nullptr, &no_wait);
     ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
   WithoutBrokenPipe(const WithoutBrokenPipe&) = delete;
@@ -52,8 +51,8 @@ class WithoutBrokenPipe {
 
 }  // namespace
 
-void tell(std::string_view text) {
-  const WithoutBrokenPipe no_end;
+void print_message(std::string_view text) {
+  const WithoutBrokenPipe guard;
   while (!text.empty()) {
     const ssize_t size = ::write(STDERR_FILENO, text.data(), text.size());
     if (size < 0 && errno == EINTR) continue;
@@ -98,16 +97,17 @@ void Progress::show(Clock::time_point now, bool last) {
   const double rate = elapsed > 0.0 ? static_cast<double>(done_ - skipped_) / elapsed : 0.0;
   std::string state = fmt::format("{}/{} {}", done_, total_, unit_);
   if (last) {
-    if (skipped_ > 0) state += fmt::format(" ({} of them were there)", skipped_);
+    if (skipped_ > 0) state += fmt::format(" ({} of them done before)", skipped_);
     state += fmt::format(" in {}", duration(elapsed));
   } else if (rate > 0.0) {
     state += fmt::format(", {:.3g}/s, {} left", rate,
                          duration(static_cast<double>(total_ - done_) / rate));
   }
   if (terminal_) {
-    tell(fmt::format("\r\x1b[K{:<14} {} {}{}", what_, bar(done_, total_), state, last ? "\n" : ""));
+    print_message(
+        fmt::format("\r\x1b[K{:<14} {} {}{}", what_, bar(done_, total_), state, last ? "\n" : ""));
   } else {
-    tell(fmt::format("{}: {}\n", what_, state));
+    print_message(fmt::format("{}: {}\n", what_, state));
   }
 }
 

@@ -8,24 +8,23 @@
 
 namespace touchdown {
 
-/// Says something on standard error: all of it or, where that is full, closed, or a pipe that
-/// nobody reads, less. It never fails and never stops anything.
-void tell(std::string_view text);
+/// Prints a message on standard error. If standard error is full, closed or a broken pipe, the rest
+/// of the message is dropped. It never throws and never ends the program.
+void print_message(std::string_view text);
 
-/// Tells somebody at the terminal how far a long computation is: a bar with rate and time left
-/// where standard error is a terminal, a plain line every few seconds elsewhere. Threads may share
-/// it.
+/// Shows the progress of a long computation on standard error. A terminal shows a bar with the rate
+/// and the remaining time; other streams get a plain line every few seconds. Thread-safe.
 class Progress {
  public:
-  /// `what` is counted in `unit`s, `total` of them.
+  /// `what` is the computation; its progress is counted in `unit`, `total` in all.
   Progress(std::string what, std::string unit, std::int64_t total);
-  /// Leaves a finished line behind, if there was anything to tell.
+  /// Prints a final line, unless no unit was done.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void advance(std::int64_t units = 1);
-  /// Units that were done before: they count, but say nothing about the rate.
+  /// Counts units that an earlier run finished. They do not count towards the rate.
   void skip(std::int64_t units = 1);
 
  private:

@@ -7,8 +7,8 @@
 
 namespace touchdown {
 
-/// Counter-based randomness: 128 random bits that depend on nothing but (key, counter), so that
-/// neither threads nor the order of calls can change a draw. Philox4x32-10 of Salmon et al. (2011).
+/// Counter-based randomness: 128 random bits that depend on (key, counter) alone. Neither threads
+/// nor the order of calls change a draw. Philox4x32-10 of Salmon et al. (2011).
 inline std::array<std::uint32_t, 4> philox(std::uint64_t key, std::uint64_t counter_high,
                                            std::uint64_t counter_low) {
   const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x); };

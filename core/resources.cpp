@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> roots() {
   return {".", TOUCHDOWN_SOURCE_DIR, TOUCHDOWN_SHARE_DIR, own.parent_path() / "share/touchdown"};
 }
 
-/// The names of the files of its kind that are in its folder.
+/// The names of the files in the same folder with the same extension.
 std::vector<std::string> neighbours_of(const std::filesystem::path& path) {
   std::vector<std::string> names;
   std::error_code ignored;
@@ -30,7 +30,7 @@ std::vector<std::string> neighbours_of(const std::filesystem::path& path) {
     const std::filesystem::path name = entry.path().filename();
     if (name.extension() == path.extension()) names.push_back(name.string());
   }
-  std::sort(names.begin(), names.end());  // a folder has no order
+  std::sort(names.begin(), names.end());  // directory iteration has no defined order
   return names;
 }
 
@@ -66,7 +66,7 @@ std::filesystem::path find_resource(const std::filesystem::path& path) {
     }
   }
   require_no_folder(path);
-  std::vector<std::string> neighbours;  // named as the request would have to name them
+  std::vector<std::string> neighbours;  // as a request would name them
   for (const auto& file : resources_in(path.parent_path(), path.extension().string())) {
     neighbours.push_back(file.string());
   }
@@ -84,7 +84,7 @@ void require_file(const std::filesystem::path& path) {
 
 namespace {
 
-/// The values at the end of a dotted key below `node`, of lists all items'.
+/// Checks the files at the end of a dotted key below `node`, in all items of a list.
 void require_below(const YamlDocument& document, const YAML::Node& node, const std::string& key,
                    std::string_view rest) {
   if (node.IsSequence()) {

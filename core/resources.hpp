@@ -8,24 +8,24 @@
 
 namespace touchdown {
 
-/// Where a file that an experiment, a scenario or a command names really is: `path` itself if it
-/// exists from here, otherwise the same path in the project's sources, in its installation, or in
-/// `share/touchdown` beside the program or library that asks.
-/// Errors: `InputError` naming the nearest existing file, or saying that it is a folder.
+/// Finds a file that an experiment, a scenario or a command names. Returns `path` itself if it
+/// exists. Otherwise looks for the same path in the project's sources, in its installation, and in
+/// `share/touchdown` beside the running program or library.
+/// Errors: `InputError` that suggests the nearest existing file, or if the path is a folder.
 std::filesystem::path find_resource(const std::filesystem::path& path);
 
-/// Errors: `InputError` when there is no such file, with the nearest name in its folder, or when it
-/// is a folder itself.
+/// Errors: `InputError` when the file does not exist, with the nearest name in its folder, or when
+/// it is a folder.
 void require_file(const std::filesystem::path& path);
 
-/// The files in `folder` with this extension, from here and from where the project's own ones are,
-/// as `find_resource` takes them; sorted.
+/// The files with this extension in `folder`, in all places where `find_resource` looks; sorted.
+/// The paths are as `find_resource` takes them.
 std::vector<std::filesystem::path> resources_in(const std::filesystem::path& folder,
                                                 const std::string& extension);
 
-/// Looks for every file that a document names under these dotted keys, of lists in all their items:
-/// "fit.pieces.scenario". Errors: `InputError` for the first that is not there, with the place that
-/// names it.
+/// Checks that every file exists that a document names under these dotted keys, for example
+/// "fit.segments.scenario". Keys apply to all items of a list. Errors: `InputError` for the first
+/// missing file, with the position of its name in the document.
 void require_resources(const YamlDocument& document, const std::vector<std::string>& keys);
 
 }  // namespace touchdown

@@ -8,8 +8,7 @@
 
 namespace touchdown {
 
-/// A table of texts: one header row, then rows of as many cells. What is written is decided by who
-/// fills it; how, by the writers below.
+/// A table of texts: a header, then rows with as many cells. The functions below format it.
 struct Table {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
@@ -18,28 +17,28 @@ struct Table {
 /// Comma-separated values (RFC 4180: cells with commas or quotes are quoted), one line per row.
 std::string to_csv(const Table& table);
 
-/// The inverse: quoted cells may hold commas, quotes and line ends; short rows are filled up with
-/// empty cells.
+/// Parses CSV, the inverse of `to_csv`. Quoted cells may contain commas, quotes and line ends.
+/// Short rows are padded with empty cells.
 Table from_csv(std::string_view text);
 
-/// A row's cell under the column of that name; "nan" where the table has none.
+/// The cell of a row in the named column; "nan" if the table has no such column.
 std::string cell(const Table& table, const std::vector<std::string>& row, std::string_view column);
 
-/// Aligned for a terminal, without a header if it is empty: the first `text_columns` columns to the
-/// left, the others to the right.
+/// Formats a table for a terminal. The first `text_columns` columns are aligned left, the others
+/// right. An empty header is left out.
 std::string to_text(const Table& table, std::size_t text_columns = 1);
 
-/// Number of characters as a terminal counts them, for UTF-8 text.
+/// Number of characters of a UTF-8 text, as a terminal counts them.
 std::size_t width(const std::string& text);
 
-/// Plain numbers for CSV files: the shortest text that reads back to the same number, and a metric
-/// with six decimals. `nan` for what is not defined.
+/// Numbers for CSV files: `exact` is the shortest text that reads back to the same number, `metric`
+/// has six decimals. Undefined values are `nan`.
 std::string exact(double value);
 std::string metric(double value);
 
-/// A table for programs whose rows are texts, then numbers with their intervals, then texts again.
-/// A number has the columns `name`, `name_low`, `name_high`; a unit (_ms, _nm) stays last:
-/// `name_low_ms`. Its cells are metrics.
+/// Header and rows of a table for programs: texts, then numbers with intervals, then texts again.
+/// Each number has the columns `name`, `name_low`, `name_high`. A unit (_ms, _nm) stays last, as in
+/// `name_low_ms`. The number cells are formatted by `metric`.
 std::vector<std::string> header_with_intervals(std::vector<std::string> first,
                                                const std::vector<std::string>& names,
                                                const std::vector<std::string>& last = {});
@@ -47,7 +46,7 @@ std::vector<std::string> row_with_intervals(std::vector<std::string> first,
                                             const std::vector<Interval>& intervals,
                                             const std::vector<std::string>& last = {});
 
-/// For people: `0.987 [0.981, 0.992]`; a dash for what is not defined.
+/// For people: `0.987 [0.981, 0.992]`; a dash for an undefined value.
 std::string with_interval(const Interval& interval, int decimals = 3);
 
 }  // namespace touchdown

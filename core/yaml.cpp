@@ -15,7 +15,7 @@ namespace touchdown {
 
 namespace {
 
-/// yaml-cpp silently keeps the first of two equal keys; whoever wrote the second would never know.
+/// Rejects duplicate keys: yaml-cpp silently keeps the first and ignores the second.
 void refuse_duplicate_keys(const YAML::Node& node, const std::string& name) {
   if (node.IsSequence()) {
     for (const auto& item : node) refuse_duplicate_keys(item, name);
@@ -25,7 +25,7 @@ void refuse_duplicate_keys(const YAML::Node& node, const std::string& name) {
   for (const auto& entry : node) {
     if (entry.first.IsScalar() && !seen.insert(entry.first.Scalar()).second) {
       const YAML::Mark mark = entry.first.Mark();
-      throw InputError(fmt::format("{}:{}:{}: {}: stands there twice", name, mark.line + 1,
+      throw InputError(fmt::format("{}:{}:{}: {}: appears twice", name, mark.line + 1,
                                    mark.column + 1, entry.first.Scalar()));
     }
     refuse_duplicate_keys(entry.second, name);
@@ -64,7 +64,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// The node at `key` below `parent`; list items are addressed by number.
+/// Returns the node at `key` below `parent`. List items are addressed by number.
 YAML::Node descend(YAML::Node parent, const std::string& key, std::string_view assignment) {
   if (!parent.IsSequence()) return parent[key];
   std::size_t item = 0;

@@ -11,23 +11,23 @@
 
 namespace touchdown {
 
-/// A YAML document with the name of the file it came from, so that every complaint can say
-/// `file:line:column`. Overrides (`--set a.b=c`) are applied before anything is read.
+/// A YAML document with the name of its file, so that every error names `file:line:column`.
+/// Overrides (`--set a.b=c`) are applied before any value is read.
 class YamlDocument {
  public:
   /// Errors: `InputError` when the file is missing or is not YAML.
   static YamlDocument load(const std::filesystem::path& path);
   static YamlDocument parse(const std::string& text, const std::string& name);
 
-  /// Replace the value at a dotted key (list items by number), for example `noise.seeds=3`.
-  /// Only keys that the document has, or could have, are caught later, by whoever reads them.
+  /// Replaces the value at a dotted key (list items by number), for example `noise.seeds=3`.
+  /// Does not check whether the key is valid: the code that reads the document does.
   void override_value(std::string_view assignment);
 
   const YAML::Node& root() const { return root_; }
   const std::string& name() const { return name_; }
 
-  /// Where a value comes from that stands under a dotted key: `file:line:column`, or the assignment
-  /// that put it there.
+  /// The origin of the value under a dotted key: `file:line:column`, or the assignment that set
+  /// it.
   std::string place_of(const YAML::Node& node, std::string_view key) const;
 
  private:
@@ -41,7 +41,7 @@ class YamlDocument {
   std::vector<Override> overrides_;
 };
 
-/// The entry of `candidates` that is fewest edits away from `word`, or empty if none is near.
+/// The entry of `candidates` with the smallest edit distance to `word`; empty if none is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// " (did you mean 'nearest'?)", or nothing if none is near.

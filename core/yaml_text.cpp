@@ -17,9 +17,9 @@ namespace {
 constexpr std::size_t most_levels = 64;
 constexpr std::size_t most_values = 1'000'000;
 
-using Place = std::function<std::string(const YAML::Mark&)>;
+using MarkFormatter = std::function<std::string(const YAML::Mark&)>;
 
-/// Bytes of the character that the text begins with; 0 if it is none (RFC 3629).
+/// Bytes of the first UTF-8 character of the text; 0 if it is invalid (RFC 3629).
 std::size_t character_size(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
@@ -33,8 +33,8 @@ std::size_t character_size(std::string_view text) {
   const unsigned first = byte(0);
   if (first < 0x80U) return 1;
   if (first >= 0xc2U && first <= 0xdfU) return follow(1);
-  if (first == 0xe0U && byte(1) < 0xa0U) return 0;   // longer than it has to be
-  if (first == 0xedU && byte(1) >= 0xa0U) return 0;  // half of a pair of UTF-16
+  if (first == 0xe0U && byte(1) < 0xa0U) return 0;   // overlong encoding
+  if (first == 0xedU && byte(1) >= 0xa0U) return 0;  // UTF-16 surrogate
   if (first >= 0xe0U && first <= 0xefU) return follow(2);
   if (first == 0xf0U && byte(1) < 0x90U) return 0;
   if (first == 0xf4U && byte(1) >= 0x90U) return 0;  // beyond Unicode
@@ -54,10 +54,10 @@ YAML::Mark mark_behind(std::string_view text) {
   return mark;
 }
 
-/// Counts what the parser comes by.
+/// Counts values and nesting levels during parsing and rejects what exceeds the limits.
 class Checker : public YAML::EventHandler {
  public:
-  explicit Checker(const Place& place) : place_(place) {}
+  explicit Checker(const MarkFormatter& place) : place_(place) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (has_document_) complain(mark, "expected the end: one file holds one YAML document");
@@ -72,7 +72,7 @@ class Checker : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     begin_value(mark, false);
     const auto size = sizes_.find(anchor);
-    if (size == sizes_.end()) complain(mark, "an alias stands inside of what it stands for");
+    if (size == sizes_.end()) complain(mark, "an alias is inside the value that it refers to");
     if (open_.size() + size->second.levels > most_levels) complain_about_levels(mark);
     end_value(mark, YAML::anchor_t{}, size->second);
   }
@@ -82,7 +82,7 @@ class Checker : public YAML::EventHandler {
     begin_value(mark, true);
     const bool is_quoted = tag == "!";
     if (!is_key && !is_quoted && has_leading_zero(value)) {
-      complain(mark, fmt::format("{0}: a number has no leading zero; a text stands in quotes: "
+      complain(mark, fmt::format("{0}: a number has no leading zero; a text needs quotes: "
                                  "\"{0}\"",
                                  value));
     }
@@ -100,7 +100,7 @@ class Checker : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  /// Of a value, with all that is in it.
+  /// Size of a value, including everything nested in it.
   struct Size {
     std::size_t values = 1;
     std::size_t levels = 1;
@@ -136,7 +136,7 @@ class Checker : public YAML::EventHandler {
     parent.size.values += size.values;
     parent.size.levels = std::max(parent.size.levels, size.levels + 1);
     if (parent.size.values > most_values) {
-      complain(mark, fmt::format("more than {} values, with what aliases stand for", most_values));
+      complain(mark, fmt::format("more than {} values, aliases expanded", most_values));
     }
   }
 
@@ -151,10 +151,10 @@ class Checker : public YAML::EventHandler {
     end_value(ended.mark, ended.anchor, ended.size);
   }
 
-  const Place& place_;
+  const MarkFormatter& place_;
   bool has_document_ = false;
   std::vector<Open> open_;
-  std::map<YAML::anchor_t, Size> sizes_;  ///< of what has an anchor
+  std::map<YAML::anchor_t, Size> sizes_;  ///< of the anchored values
 };
 
 }  // namespace
@@ -175,7 +175,7 @@ std::size_t utf8_size(std::string_view text) {
   return at;
 }
 
-void check_yaml_text(const std::string& text, const Place& place) {
+void check_yaml_text(const std::string& text, const MarkFormatter& place) {
   const std::size_t valid = utf8_size(text);
   if (valid < text.size()) {
     throw InputError(fmt::format("{}: not UTF-8: byte 0x{:02x}",

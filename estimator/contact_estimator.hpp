@@ -8,7 +8,7 @@
 
 namespace touchdown {
 
-/// What an estimator believes about one wheel.
+/// An estimator's belief about one wheel.
 struct WheelBelief {
   /// P(S_t = C | m_0:t).
   double p_contact = 0.5;
@@ -16,12 +16,12 @@ struct WheelBelief {
   bool contact = false;
 };
 
-/// Whether the last signals could be used as they were.
+/// Whether the last signals were usable and, if not, why.
 enum class SignalStatus : int {
-  good,     ///< the step was used as it came
+  good,     ///< the step was used unchanged
   invalid,  ///< NaN or infinite input: the belief relaxed towards the prior
-  gap,      ///< time jumped: the window was restarted and the belief relaxed
-  frozen,   ///< a sensor repeats itself to the bit: the belief relaxed
+  gap,      ///< time jumped: the window restarted and the belief relaxed
+  frozen,   ///< a sensor repeated itself to the bit: the belief relaxed
 };
 
 /// "good", "invalid", "gap", "frozen".
@@ -39,7 +39,7 @@ constexpr std::string_view to_text(SignalStatus status) noexcept {
   return "";
 }
 
-/// What an estimator believes about the robot after one step.
+/// An estimator's belief about the robot after one step.
 struct Belief {
   /// Left wheel, right wheel.
   std::array<WheelBelief, 2> wheel;
@@ -50,8 +50,8 @@ struct Belief {
   SignalStatus status = SignalStatus::good;
 };
 
-/// From the wheels' probabilities to the robot's, for an estimator whose wheels are independent of
-/// each other: then they multiply.
+/// Sets the robot's probabilities from the wheels'. The wheels are taken to be independent of each
+/// other, so their probabilities multiply.
 inline void multiply_wheels(Belief& belief) noexcept {
   const double left = belief.wheel[0].p_contact;
   const double right = belief.wheel[1].p_contact;
@@ -59,23 +59,23 @@ inline void multiply_wheels(Belief& belief) noexcept {
   belief.p_any_wheel = left + (1.0 - left) * right;
 }
 
-/// As above, and to the wheels' decisions.
+/// Decides each wheel's contact by the threshold, then does as `multiply_wheels`.
 inline void apply_threshold(Belief& belief, double threshold) noexcept {
   for (WheelBelief& wheel : belief.wheel) wheel.contact = wheel.p_contact >= threshold;
   multiply_wheels(belief);
 }
 
-/// What a belief was computed from; NaN for what an estimator does not compute.
+/// The quantities behind a belief. NaN: the estimator does not compute this one.
 struct Evidence {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  /// Of the last measurement of one wheel.
+  /// The last measurement of one wheel.
   struct Measurement {
     double contact_likelihood = unknown;     ///< P(m_t | S_t = C)
     double no_contact_likelihood = unknown;  ///< P(m_t | S_t = ¬C)
-    double p_contact = unknown;              ///< by these two alone
+    double p_contact = unknown;              ///< from these two likelihoods alone
   };
-  /// Of the last transition, common to both wheels.
+  /// The last transition, common to both wheels.
   struct Transition {
     double power = unknown;                      ///< m²/s⁴
     double median_frequency = unknown;           ///< Hz
@@ -90,19 +90,19 @@ struct Evidence {
   Transition transition;
 };
 
-/// The seam for contact estimators. One call of `update` per time step; neither call allocates,
-/// locks or throws, so that it can run in a robot's control loop.
+/// The seam for contact estimators. The caller calls `update` once per time step. Neither `reset`
+/// nor `update` allocates, locks or throws, so an estimator can run in a robot's control loop.
 class ContactEstimator {
  public:
   virtual ~ContactEstimator() = default;
 
-  /// Forget everything: the belief is the flat prior, P(S_0 = C) = 0.5.
+  /// Resets all state: the belief becomes the flat prior, P(S_0 = C) = 0.5.
   virtual void reset() noexcept = 0;
 
-  /// Take one step of signals and return the new belief.
+  /// Takes the signals of one step and returns the new belief.
   virtual const Belief& update(const Signals& signals) noexcept = 0;
 
-  /// What the last belief was computed from, for those who log or draw it.
+  /// What the last belief was computed from, for logs and plots.
   [[nodiscard]] virtual Evidence evidence() const noexcept { return {}; }
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// All that a robot needs: what it measures (`Signals`), what is believed of it (`Belief`), the
-/// estimators, and how those that learn are fitted.
+/// All that a robot needs: its measurements (`Signals`), the belief about its contacts (`Belief`),
+/// the estimators, and the fits of those that have a model.
 
 #include "estimator/assembly/record.hpp"
 #include "estimator/assembly/signal_assembler.hpp"

@@ -32,7 +32,7 @@ const Belief& FreeFall::update(const Signals& signals) noexcept {
   } else {
     p_contact_ = guard_.relaxed(p_contact_, verdict.elapsed);
   }
-  // One accelerometer, one answer: the wheels are not independent of each other here.
+  // Both wheels share one accelerometer, so they are not independent of each other.
   belief_.wheel.fill({p_contact_, p_contact_ >= 0.5});
   belief_.p_any_wheel = belief_.p_both_wheels = p_contact_;
   belief_.status = verdict.status;

@@ -10,20 +10,19 @@ struct FreeFallConfig {
   double sample_rate = 1000.0;
   /// Time constant of the low-pass of the vertical acceleration (s).
   double low_pass = 0.01;
-  /// P(contact) is 0.5 where the acceleration is this (m/s²): half way between standing and
-  /// falling.
+  /// P(contact) is 0.5 at this acceleration (m/s²), half way between standing and falling.
   double half_way = -4.9;
   /// P(contact) = 1 / (1 + exp(−(acceleration − half_way) / width)) (m/s²).
   double width = 1.0;
   SignalGuardConfig guard = {};
 };
 
-/// The baseline that anyone would try first: what falls freely accelerates downwards at g. One
-/// low-passed acceleration, one threshold, nothing to fit, no torques; both wheels get the same
-/// answer. Blind to everything but free fall: hanging, being lifted, one wheel over an edge.
+/// The simplest baseline: a robot in free fall accelerates downwards at g. It thresholds one
+/// low-passed acceleration, uses no torques and has nothing to fit. Both wheels get the same
+/// belief. It detects only free fall: not hanging, being lifted, or one wheel over an edge.
 ///
 /// `update` never throws, allocates or locks, and never returns NaN. While the acceleration is not
-/// usable the belief relaxes to the prior and the status says why.
+/// usable, the belief relaxes to the prior and the status gives the reason.
 class FreeFall : public ContactEstimator {
  public:
   /// Throws InputError for a rate or width that is not positive and a negative time constant.

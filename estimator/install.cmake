@@ -1,30 +1,30 @@
-# `cmake --install` of the estimator: what of touchdown goes to a robot. Afterwards
+# `cmake --install` of the estimator, the part of touchdown that goes to a robot. Afterwards
 # find_package(touchdown) gives touchdown::estimator; onboard/install.cmake adds touchdown::models.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Programs write <touchdown/estimator.hpp> or <touchdown/estimator/…>, the headers among themselves
-# "estimator/…".
+# Programs include <touchdown/estimator.hpp> or <touchdown/estimator/…>. The headers include each other
+# as "estimator/…".
 set(public
   assembly/record assembly/signal_assembler
   contact_estimator free_fall labelled_run signal_guard signals torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model c_interface/handle
-  decision/config decision/descent decision/disturbance decision/draws decision/filter decision/fit
+  decision/augmentation decision/config decision/descent decision/draws decision/filter decision/fit
   decision/network decision/training
   evidence/curves evidence/filter evidence/fit evidence/touchdown evidence/touchdown_fit
   evidence/training
   force/force_kinematics force/force_kinematics_fit force/leg_geometry force/load_logistic
   force/load_logistic_fit force/logistic_regression force/support_force
-  models/arrays models/compiled models/make_estimator models/passport
+  models/arrays models/compiled models/make_estimator models/metadata
   neural/estimator neural/input neural/network
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
-# What these hold by value. Not for programs, and not promised to stay.
+# The headers of types that these hold by value. They are not for programs and may change.
 set(detail
-  decision/channels decision/logit_decision decision/repetition decision/senses force/axle_motion
+  decision/feature_extractor decision/leg_features decision/logit_decision decision/repetition force/axle_motion
   force/wheel_loads neural/forward numerics/axis numerics/exponential numerics/noise_estimate
-  phase/recursion phase/senses phase/tables spectrum/sliding_dft spectrum/summary)
+  phase/prepared_model phase/recursion phase/tables spectrum/sliding_dft spectrum/summary)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 target_include_directories(touchdown_estimator PUBLIC
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
@@ -37,12 +37,12 @@ install(TARGETS touchdown_estimator EXPORT touchdownTargets
 install(FILES estimator.hpp c_interface/touchdown.h DESTINATION ${include_dir})
 install(FILES c_interface/touchdown.h DESTINATION ${include_dir}/estimator/c_interface)
 foreach(header ${public})
-  cmake_path(GET header PARENT_PATH room)
-  install(FILES ${header}.hpp DESTINATION ${include_dir}/estimator/${room})
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${header}.hpp DESTINATION ${include_dir}/estimator/${folder})
 endforeach()
 foreach(header ${detail})
-  cmake_path(GET header PARENT_PATH room)
-  install(FILES ${header}.hpp DESTINATION ${include_dir}/detail/estimator/${room})
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${header}.hpp DESTINATION ${include_dir}/detail/estimator/${folder})
 endforeach()
 install(FILES ${CMAKE_CURRENT_SOURCE_DIR}/../core/error.hpp
         DESTINATION ${include_dir}/core)

@@ -22,10 +22,10 @@ struct LegSignals {
   JointSignals wheel;
 };
 
-/// Everything that any contact estimator may listen to at one time step. Nothing in here is ground
-/// truth: it is what the robot measures and commands.
+/// All signals that a contact estimator may use at one time step. They contain no ground truth:
+/// the robot measures or commands each of them.
 struct Signals {
-  /// Time of the measurement (s). Only differences count.
+  /// Time of the measurement (s). Estimators use only differences.
   double time = 0.0;
   /// Left leg, right leg.
   std::array<LegSignals, 2> leg;

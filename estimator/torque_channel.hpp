@@ -6,7 +6,7 @@
 
 namespace touchdown {
 
-/// m_t of Eq. (4): the knee and wheel torque of one leg, as the measurement model sees them (N·m).
+/// m_t of Eq. (4): the knee and wheel torque of one leg, the measurement model's input (N·m).
 struct TorqueSample {
   double knee = 0.0;
   double wheel = 0.0;
@@ -14,10 +14,10 @@ struct TorqueSample {
   bool operator==(const TorqueSample&) const = default;
 };
 
-/// What a torque's sign means to the measurement model.
+/// How the measurement model treats a torque's sign.
 enum class TorqueSign : int {
   absolute,  ///< |τ|, as in the paper
-  mirrored,  ///< τ in the left leg's convention: the right leg's joints turn the other way round
+  mirrored,  ///< τ in the left leg's convention: the right leg's joints turn the other way
 };
 
 struct TorqueConfig {
@@ -28,15 +28,16 @@ struct TorqueConfig {
   bool operator==(const TorqueConfig&) const = default;
 };
 
-/// How far a first-order low-pass of the given time constant goes towards its input in one step:
-/// the forward difference dt/time_constant, as in Upkie's filters, limited to 1.
+/// The gain of a first-order low-pass, the share of the way to its input that it covers in one
+/// step: the forward difference dt/time_constant, as in Upkie's filters, limited to 1.
 inline double low_pass_gain(double time_constant, double time_step) noexcept {
   return time_constant > time_step ? time_step / time_constant : 1.0;
 }
 
-/// From what a leg's servos report to m_t: mirrors the right leg, filters the signed torques (so
-/// that zero-mean noise averages out before a sign is dropped), then takes absolute values if asked
-/// to. Starts at its first input. Used alike when fitting and when estimating.
+/// Computes m_t from the torques that a leg's servos report. It mirrors the right leg, low-passes
+/// the signed torques, then takes absolute values if configured. The low-pass comes first so that
+/// zero-mean noise averages out before a sign is dropped. It starts at its first input. Fits and
+/// estimators use the same channel.
 class TorqueChannel {
  public:
   TorqueChannel() = default;

@@ -26,7 +26,7 @@ bool WheelContactObserver::update(double torque, double velocity, double time_st
 
   constexpr double at_rest = 1e-9;
   if (abs_acceleration_ < at_rest) {
-    return contact_;  // a wheel that nothing moves has no apparent inertia
+    return contact_;  // a wheel at rest has no apparent inertia
   }
   inertia_ = abs_torque_ / abs_acceleration_;
   if (contact_) {

@@ -18,17 +18,17 @@ struct WheelContactConfig {
   double minimum_touchdown_torque = 0.015;
   /// Time constant of the low-pass of |torque| and |acceleration| (s).
   double cutoff = 0.2;
-  /// What holds until the wheel has told otherwise. A wheel that hangs in the air tells at once, a
-  /// wheel at rest on the ground never does.
+  /// The state until torque and motion of the wheel decide. They decide at once for a wheel that
+  /// hangs in the air, and never for a wheel at rest on the ground.
   bool initially_in_contact = true;
 
   bool operator==(const WheelContactConfig&) const = default;
 };
 
-/// The contact observer that Upkie's users run today: a wheel on the ground has to move the robot,
-/// a wheel in the air only itself, so the ratio of low-passed |torque| and |angular acceleration|,
-/// an apparent inertia, tells which; two thresholds make a hysteresis. Plain enough to be used by a
-/// policy. Never throws or allocates; an input that is not finite is skipped.
+/// The contact observer that Upkie's users run today. A wheel on the ground has to move the robot,
+/// a wheel in the air only itself. The ratio of low-passed |torque| to |angular acceleration| is an
+/// apparent inertia that distinguishes the two, by two thresholds with hysteresis. It is simple
+/// enough for a policy. It never throws or allocates, and skips inputs that are not finite.
 class WheelContactObserver {
  public:
   explicit WheelContactObserver(const WheelContactConfig& config = {}) noexcept;
@@ -61,15 +61,15 @@ struct UpkieObserverConfig {
   double time_step = 0.001;
   /// Time constant of the low-pass of the upper legs' torque (s).
   double upper_leg_cutoff = 0.01;
-  /// The robot touches the floor if the norm of its hip and knee torques exceeds this (N·m).
+  /// The robot is on the floor if the norm of its hip and knee torques exceeds this (N·m).
   double upper_leg_torque_threshold = 10.0;
 
   bool operator==(const UpkieObserverConfig&) const = default;
 };
 
-/// Upkie's floor-contact observer as a contact estimator: beliefs are 0 or 1. The robot touches the
-/// floor (p_any_wheel) if either wheel does or if the legs carry a load. Inputs that are not finite
-/// leave the last decision in place and are reported in the status.
+/// Upkie's floor-contact observer as a contact estimator: its probabilities are 0 or 1. The robot
+/// is on the floor (p_any_wheel) if either wheel is in contact or if the legs carry a load. Inputs
+/// that are not finite leave the last decision in place, and the status reports them.
 class UpkieObserver : public ContactEstimator {
  public:
   explicit UpkieObserver(const UpkieObserverConfig& config = {}) noexcept;

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "experiments/studies/benchmark/plan.hpp"
-#include "experiments/studies/cross_simulator/variations.hpp"
 #include "experiments/needs.hpp"
-#include "experiments/studies/odometry/plan.hpp"
-#include "experiments/studies/phase_study/plan.hpp"
 #include "experiments/run_directory/free_space.hpp"
 #include "experiments/run_directory/shard.hpp"
+#include "experiments/studies/benchmark/plan.hpp"
+#include "experiments/studies/cross_simulator/variations.hpp"
+#include "experiments/studies/odometry/plan.hpp"
+#include "experiments/studies/phase_study/plan.hpp"
 #include "experiments/studies/sensor_sweep/plan.hpp"
 
 namespace touchdown::experiments {
@@ -26,7 +26,7 @@ int threads_of(const Experiment& experiment) {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-/// Tasks that nobody has finished, by their indices.
+/// The indices of the tasks that are not finished.
 std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
   const Plan& plan = context.plan;
   std::set<std::size_t> missing_runs;
@@ -46,9 +46,8 @@ std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
   return missing;
 }
 
-/// Whether runs in which beliefs steer are missing that belong to one of the parts from `first` to
-/// `end`.
-bool lacks_loops(const ExperimentContext& context, std::size_t first, std::size_t end) {
+/// Whether a closed-loop run that belongs to one of the parts from `first` to `end` is missing.
+bool lacks_closed_loops(const ExperimentContext& context, std::size_t first, std::size_t end) {
   const TaskRange loops =
       closed_loop_runs_of(context.request.experiment, {first, end}, context.plan.tasks.size());
   for (std::size_t run = loops.begin; run < loops.end; ++run) {
@@ -57,14 +56,14 @@ bool lacks_loops(const ExperimentContext& context, std::size_t first, std::size_
   return false;
 }
 
-/// How many parts are saved, whoever computed them.
+/// The number of saved parts, whichever process computed them.
 std::size_t saved_parts(const RunDirectory& directory) {
   std::error_code ignored;
   const std::filesystem::directory_iterator parts(directory.path() / "state/evaluation", ignored);
   return static_cast<std::size_t>(std::distance(begin(parts), end(parts)));
 }
 
-/// The most that the run may still write: a step of a recording takes about 1.05 kB.
+/// An upper bound of what the run may still write: a step of a recording takes about 1.05 kB.
 DiskNeeds disk_needs(const Plan& plan, const RunDirectory& directory) {
   constexpr double recorded_step_bytes = 1100.0;
   DiskNeeds needs;
@@ -81,7 +80,7 @@ DiskNeeds disk_needs(const Plan& plan, const RunDirectory& directory) {
   return needs;
 }
 
-/// Errors: `InputError` when what is saved for a task is another task's, or of another request.
+/// Errors: `InputError` when the saved state of a task belongs to another task or request.
 void require_own(const ExperimentContext& context, const Task& task) {
   const std::optional<WrongPart> wrong = context.saved.wrong_part(context.plan, task);
   if (!wrong) return;
@@ -110,12 +109,13 @@ ExperimentContext start(RunRequest request, RunDirectory directory, const RunOpt
   const DiskNeeds needs = disk_needs(plan, directory);
   require_free_space(
       directory.path(), static_cast<std::uintmax_t>(needs.all()),
-      fmt::format("{:.1f} GB for recordings, {:.1f} GB for {} parts of the listening, "
+      fmt::format("{:.1f} GB for recordings, {:.1f} GB for {} parts of the evaluation, "
                   "by test.runs={} and noise.seeds={}",
                   1e-9 * needs.recordings, 1e-9 * needs.parts, plan.tasks.size(),
                   request.experiment.test.runs, request.experiment.noise.seeds));
   SavedCounts saved(directory.path() / "state" / "evaluation", state_key(request));
-  SavedClosedLoops saved_closed_loops(directory.path() / "state" / "closed_loop", state_key(request));
+  SavedClosedLoops saved_closed_loops(directory.path() / "state" / "closed_loop",
+                                      state_key(request));
   return {std::move(request),
           std::move(directory),
           std::move(plan),
@@ -138,15 +138,15 @@ std::string what_is_saved(const ExperimentContext& context) {
       std::count_if(context.plan.tasks.begin(), context.plan.tasks.end(),
                     [&](const Task& task) { return context.saved.read(context.plan, task); });
   return fmt::format(
-      "stopped; {} of {} recordings and {} of {} parts of the listening are saved in {}; the "
-      "same command goes on from there",
+      "stopped; {} of {} recordings and {} of {} parts of the evaluation are saved in {}; the "
+      "same command continues from there",
       recordings, kept, parts, context.plan.tasks.size(), context.directory.path().string());
 }
 
 void require_all_shards(const ExperimentContext& context) {
   const std::vector<std::size_t> missing = missing_tasks(context);
   const std::size_t tasks = context.plan.tasks.size();
-  if (missing.empty() && !lacks_loops(context, 0, tasks)) return;
+  if (missing.empty() && !lacks_closed_loops(context, 0, tasks)) return;
   for (const std::size_t task : missing) require_own(context, context.plan.tasks[task]);
   const std::filesystem::path& directory = context.directory.path();
   const int count = started_shards(directory);
@@ -154,8 +154,9 @@ void require_all_shards(const ExperimentContext& context) {
   for (int index = 1; index <= count; ++index) {
     const Shard shard{index, count};
     const auto first = std::lower_bound(missing.begin(), missing.end(), shard.begin(tasks));
-    const bool is_listened = first == missing.end() || *first >= shard.end(tasks);
-    if (is_listened && !lacks_loops(context, shard.begin(tasks), shard.end(tasks))) continue;
+    const bool is_evaluated = first == missing.end() || *first >= shard.end(tasks);
+    if (is_evaluated && !lacks_closed_loops(context, shard.begin(tasks), shard.end(tasks)))
+      continue;
     shards.push_back(to_text(shard));
   }
   throw InputError(fmt::format(

@@ -7,22 +7,22 @@
 
 #include <tbb/global_control.h>
 
-#include "experiments/studies/closed_loop/rollout.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/results/result.hpp"
+#include "experiments/studies/closed_loop/rollout.hpp"
 
 namespace touchdown::experiments {
 
-/// How an experiment is run; none of it changes a result.
+/// How an experiment is run. No option changes a result.
 struct RunOptions {
-  std::filesystem::path out;                ///< run directory; empty: by the experiment's content
-  std::string command;                      ///< what was typed, for the manifest
-  const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user asks to stop
-  bool overwrite = false;  ///< another experiment that is in the run directory is replaced
+  std::filesystem::path out;  ///< run directory; empty: named after the experiment's content
+  std::string command;        ///< the command line, for the manifest
+  const std::atomic<bool>* stop = nullptr;  ///< set to true when the user asks to stop
+  bool overwrite = false;                   ///< replaces another experiment in the run directory
 };
 
-/// What every step of an experiment works with. While it lives, it limits the number of threads to
-/// what the experiment asks for.
+/// The state that all steps of an experiment share. While it lives, it limits the number of threads
+/// to the experiment's `workers`.
 struct ExperimentContext {
   RunRequest request;
   RunDirectory directory;
@@ -34,12 +34,14 @@ struct ExperimentContext {
   tbb::global_control limit;
 };
 
-/// What the file's sections ask for, studies included.
+/// Plans everything that the experiment file asks for, its studies included.
 Plan whole_plan(const RunRequest& request);
 
+/// Plans the experiment and checks that the disk has room for it. Errors: `InputError` for a wrong
+/// request; `Error` for too little memory or disk space.
 ExperimentContext start(RunRequest request, RunDirectory directory, const RunOptions& options);
 
-/// Does one step and notes the time that it took.
+/// Runs one step and records its duration.
 template <typename Step>
 auto timed(ExperimentContext& context, const char* name, const Step& step) {
   const auto start = std::chrono::steady_clock::now();
@@ -49,10 +51,10 @@ auto timed(ExperimentContext& context, const char* name, const Step& step) {
   return result;
 }
 
-/// How much of it is saved, for people who stopped it.
+/// A message for the user who stopped the experiment: how much of it is saved.
 std::string what_is_saved(const ExperimentContext& context);
 
-/// Errors: `InputError` that names the shards whose tasks are not saved.
+/// Errors: `InputError` that names the shards with unsaved tasks.
 void require_all_shards(const ExperimentContext& context);
 
 }  // namespace touchdown::experiments

@@ -28,24 +28,26 @@ RunRequest request_in(const std::filesystem::path& source) {
 std::string export_outline(const ExportRequest& wanted) {
   const RunRequest request = request_in(wanted.source);
   const Plan plan = whole_plan(request);
-  const std::vector<HeardRun> runs = part_of(exported_runs(request, plan), wanted.part, plan);
-  std::map<std::array<std::string, 3>, std::vector<HeardRun>> parts;
-  for (const HeardRun& run : runs) {
+  const std::vector<ExportedRun> runs = part_of(exported_runs(request, plan), wanted.part, plan);
+  std::map<std::array<std::string, 3>, std::vector<ExportedRun>> parts;
+  for (const ExportedRun& run : runs) {
     parts[{run.robot, run.sensors, plan.runs[run.run].simulator}].push_back(run);
   }
-  const auto megabytes = [&](const std::vector<HeardRun>& of) {
-    return fmt::format("{:.0f}", 1e-6 * bytes_at_most(of, plan));
+  const auto megabytes = [&](const std::vector<ExportedRun>& part_runs) {
+    return fmt::format("{:.0f}", 1e-6 * bytes_at_most(part_runs, plan));
   };
-  const auto test_files = [](const std::vector<HeardRun>& of) {
-    return std::count_if(of.begin(), of.end(), [](const HeardRun& run) { return run.task; });
+  const auto test_files = [](const std::vector<ExportedRun>& part_runs) {
+    return std::count_if(part_runs.begin(), part_runs.end(),
+                         [](const ExportedRun& run) { return run.task; });
   };
   Table table{{"robot", "sensors", "simulator", "fit files", "test files", "MB at most"}, {}};
-  const auto add = [&](const std::array<std::string, 3>& name, const std::vector<HeardRun>& of) {
-    const auto test = static_cast<std::size_t>(test_files(of));
-    table.rows.push_back({name[0], name[1], name[2], std::to_string(of.size() - test),
-                          std::to_string(test), megabytes(of)});
+  const auto add = [&](const std::array<std::string, 3>& name,
+                       const std::vector<ExportedRun>& part_runs) {
+    const auto test = static_cast<std::size_t>(test_files(part_runs));
+    table.rows.push_back({name[0], name[1], name[2], std::to_string(part_runs.size() - test),
+                          std::to_string(test), megabytes(part_runs)});
   };
-  for (const auto& [name, of] : parts) add(name, of);
+  for (const auto& [name, part_runs] : parts) add(name, part_runs);
   add({"all", "", ""}, runs);
   return to_text(table, 3);
 }
@@ -55,10 +57,10 @@ ExportReport export_benchmark(const ExportRequest& wanted, const RunOptions& opt
   const auto write = [&](RunDirectory directory) {
     ExperimentContext context = start(std::move(request), std::move(directory), options);
     Plan& plan = context.plan;
-    const std::vector<HeardRun> runs =
+    const std::vector<ExportedRun> runs =
         part_of(exported_runs(context.request, plan), wanted.part, plan);
-    for (const HeardRun& heard : runs) {
-      PlannedRun& run = plan.runs[heard.run];
+    for (const ExportedRun& exported : runs) {
+      PlannedRun& run = plan.runs[exported.run];
       run.kept = run.kept && is_recorded(run, context.directory);
     }
     try {
@@ -75,10 +77,10 @@ ExportReport export_benchmark(const ExportRequest& wanted, const RunOptions& opt
     directory.keep(DirectoryLock::for_reading(wanted.source, options.command));
     return write(std::move(directory));
   }
-  // Somewhere has to be noted which runs could not be simulated.
+  // The export needs a directory for the state of runs that cannot be simulated.
   request.experiment.recordings = KeptRecordings::none;
-  const PartFolder notes(std::filesystem::temp_directory_path() / "touchdown_export");
-  return write(RunDirectory(name, id, notes.path()));
+  const PartFolder scratch(std::filesystem::temp_directory_path() / "touchdown_export");
+  return write(RunDirectory(name, id, scratch.path()));
 }
 
 }  // namespace touchdown::experiments

@@ -15,21 +15,21 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// What a planned run takes besides itself: its scenario's terrain and scripts.
+/// Memory of a planned run with its scenario's terrain and scripts.
 constexpr double planned_bytes = sizeof(PlannedRun) + 512.0;
-/// What a played run keeps of every step.
-constexpr double heard_step_bytes =
+/// Memory per step of a rollout.
+constexpr double signal_step_bytes =
     sizeof(Signals) + sizeof(Eigen::Vector3d) +
     static_cast<double>(models::wheel_count) * (sizeof(double) + 1.0);
 
-/// And what it keeps for odometry.
-constexpr double moved_step_bytes = sizeof(Eigen::Vector3d) + sizeof(scoring::TimedPose);
+/// Additional memory per step where odometry is studied.
+constexpr double motion_step_bytes = sizeof(Eigen::Vector3d) + sizeof(scoring::TimedPose);
 
-/// Adds runs of a scenario, each of them heard under so many noise seeds, and kept as so many
-/// different sensors hear it.
+/// Adds runs of a scenario. Each is evaluated with `seeds` noise seeds, and its signals are kept
+/// once for each of `sensors` sensor models.
 void add_runs(Needs& needs, const scenarios::Scenario& scenario, double runs, double seeds,
               double sensors = 1.0) {
-  // Runs that are over once they have come far enough take about half of the time they may.
+  // Runs that end at a position take about half of their longest duration.
   const double share = std::isfinite(scenario.end.x) ? 0.5 : 1.0;
   const double seconds = runs * share * scenario.end.duration;
   needs.runs += runs;
@@ -57,14 +57,14 @@ Needs needs_of(const RunRequest& request) {
     sensors += static_cast<double>(factor.values.size());
   }
   if (experiment.benchmark) {
-    // Every robot may run differently, and every combination has runs that are fitted.
+    // Each robot may run differently, and each combination of robot and sensors has fitted runs.
     const auto robots = 1.0 + static_cast<double>(experiment.benchmark->robots.size());
-    const auto heard = 1.0 + static_cast<double>(experiment.benchmark->sensors.size());
+    const auto profiles = 1.0 + static_cast<double>(experiment.benchmark->sensors.size());
     for (const std::string& file : experiment.fit.scenarios) {
       add_runs(needs, scenario_of(request, file).scenario,
-               (robots * heard - 1.0) * engines * experiment.fit.runs, 0.0);
+               (robots * profiles - 1.0) * engines * experiment.fit.runs, 0.0);
     }
-    sensors += robots * heard - 1.0;
+    sensors += robots * profiles - 1.0;
   }
   for (const std::string& file : experiment.test.scenarios) {
     add_runs(needs, scenario_of(request, file).scenario, engines * experiment.test.runs, seeds,
@@ -75,7 +75,7 @@ Needs needs_of(const RunRequest& request) {
   if (experiment.cross_simulator) {
     double variations = 0.0;
     for (const Factor& factor : experiment.cross_simulator->factors) {
-      // One of the values may be the nominal one, whose runs are there.
+      // One of the values may be the nominal one, which the experiment's own runs cover.
       variations += static_cast<double>((factor.values.size() - 1) * factor.simulators.size());
     }
     add_runs(needs, first, variations * experiment.cross_simulator->sensitivity_runs, seeds);
@@ -95,7 +95,7 @@ double memory_of_machine() {
 void require_memory(const RunRequest& request, double share_of_runs, double memory) {
   const Needs needs = needs_of(request);
   const double planned = needs.runs * planned_bytes + needs.parts * sizeof(Task);
-  const double step = heard_step_bytes + (request.experiment.odometry ? moved_step_bytes : 0.0);
+  const double step = signal_step_bytes + (request.experiment.odometry ? motion_step_bytes : 0.0);
   const double rollout = share_of_runs * needs.steps * step;
   if (planned + rollout <= memory) return;
   const Experiment& experiment = request.experiment;
@@ -114,20 +114,20 @@ double bytes_of_parts(const Plan& plan) {
   constexpr double head = 256.0;
   std::vector<double> of_group;
   for (const RunGroup& group : plan.groups) {
-    double most = 0.0;
+    double estimators = 0.0;
     for (const Condition& condition : group.conditions) {
-      const auto heard =
+      const auto tested =
           static_cast<double>(tested_on(group.conditions, condition.test_simulator).size());
-      most = std::max(most, heard);
+      estimators = std::max(estimators, tested);
     }
     const auto counted = static_cast<double>(group.counted.size() + group.disturbed.size());
-    const double told =
-        group.odometry ? most + 1.0 + static_cast<double>(group.odometry->delay.size()) : 0.0;
+    const double contact_sources =
+        group.odometry ? estimators + 1.0 + static_cast<double>(group.odometry->delay.size()) : 0.0;
     const std::size_t points =
         group.operating_points ? 1 + points_of(*group.operating_points).size() : 0;
     const double bytes =
-        head + told * sizeof(scoring::TrajectoryScore) +
-        most *
+        head + contact_sources * sizeof(scoring::TrajectoryScore) +
+        estimators *
             (static_cast<double>(group.scored.size() * points) * sizeof(scoring::OperatingScore) +
              counted * sizeof(scoring::Classification) +
              static_cast<double>(group.scored.size()) *

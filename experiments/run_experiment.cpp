@@ -11,28 +11,28 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
+#include "experiments/needs.hpp"
+#include "experiments/results/manifest.hpp"
+#include "experiments/results/result_files.hpp"
+#include "experiments/rollouts/training_segments.hpp"
+#include "experiments/run_directory/own_files.hpp"
+#include "experiments/run_directory/owner.hpp"
+#include "experiments/run_directory/test_seed_log.hpp"
+#include "experiments/signals/reserved_seeds.hpp"
 #include "experiments/studies/benchmark/overlap.hpp"
 #include "experiments/studies/benchmark/plan.hpp"
 #include "experiments/studies/benchmark/refits.hpp"
 #include "experiments/studies/benchmark/tables.hpp"
 #include "experiments/studies/closed_loop/tables.hpp"
 #include "experiments/studies/cross_simulator/tables.hpp"
-#include "experiments/submissions/rows.hpp"
 #include "experiments/studies/moments/tables.hpp"
-#include "experiments/needs.hpp"
 #include "experiments/studies/odometry/tables.hpp"
 #include "experiments/studies/odometry/trajectories.hpp"
 #include "experiments/studies/operating_points/tables.hpp"
 #include "experiments/studies/phase_study/fit.hpp"
 #include "experiments/studies/phase_study/tables.hpp"
-#include "experiments/rollouts/training_segments.hpp"
-#include "experiments/run_directory/owner.hpp"
-#include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/test_seed_log.hpp"
 #include "experiments/studies/sensor_sweep/tables.hpp"
-#include "experiments/signals/reserved_seeds.hpp"
-#include "experiments/results/manifest.hpp"
-#include "experiments/results/result_files.hpp"
+#include "experiments/submissions/rows.hpp"
 #include "experiments/tuning/table.hpp"
 
 namespace touchdown::experiments {
@@ -45,16 +45,17 @@ bool is_any_scored(const Rollouts& runs) {
   });
 }
 
-/// What was fitted, and the trials before it.
+/// The fitted models, and the tuning trials before the fit.
 struct Fitted {
   FittedModels models;
   std::vector<Trial> trials;
 };
 
-/// One of the experiment's fits, of every engine, with its refits; with these constants unless it
-/// is tuned itself.
+/// Runs one of the experiment's fits for every engine, with its refits. It uses the hyperparameters
+/// in `chosen` unless the fit has a tuning of its own.
 Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string& name,
-           const ShouldContinue& should_continue, const SavedTrials& saved, TunedHyperparameters chosen) {
+           const ShouldContinue& should_continue, const SavedTrials& saved,
+           TunedHyperparameters chosen) {
   std::vector<RunSignals> fitted;
   for (const auto& [index, run] : runs) {
     const PlannedRun& plan = run.plan;
@@ -63,7 +64,8 @@ Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string
   }
   std::vector<RunSignals> segments;
   for (const std::string& simulator : experiment.simulators) {
-    for (RunSignals& segment : training_segments_of(runs, simulator, experiment.training_segments, name)) {
+    for (RunSignals& segment :
+         training_segments_of(runs, simulator, experiment.training_segments, name)) {
       segments.push_back(std::move(segment));
     }
   }
@@ -86,29 +88,30 @@ Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string
   return all;
 }
 
-/// What the estimators need that listen to these runs; nothing when none can be scored.
+/// Fits the models that the evaluation of these runs needs; none if no run can be scored.
 Fitted fit(const ExperimentContext& context, const Rollouts& runs) {
   if (!is_any_scored(runs)) return {};
   Experiment experiment = context.request.experiment;
-  std::set<std::string> rollout;
+  std::set<std::string> engines;
   std::set<std::string> fits = {""};
   for (const auto& [index, run] : runs) {
-    rollout.insert(run.plan.simulator);
+    engines.insert(run.plan.simulator);
     if (run.plan.role == RunRole::fit) fits.insert(run.plan.fit);
   }
   // A shard may have runs of one engine only.
   std::erase_if(experiment.simulators,
-                [&](const std::string& simulator) { return !rollout.contains(simulator); });
+                [&](const std::string& simulator) { return !engines.contains(simulator); });
   const SavedTrials saved(context.directory.path() / "state" / "tuning",
                           state_key(context.request));
   Fitted all;
   for (const std::string& name : fits) {
-    // The own fit is the first: without `everywhere` the others have what was chosen for it.
+    // The experiment's own fit is the first. Without `everywhere` the others use its choice.
     Fitted one = fit(experiment, runs, name, context.should_continue, saved, chosen_in(all.trials));
     all.models.merge(one.models);
     std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
   }
-  if (experiment.phase_study) fit_learning_curve(experiment, runs, context.should_continue, all.models);
+  if (experiment.phase_study)
+    fit_learning_curve(experiment, runs, context.should_continue, all.models);
   if (!context.should_continue()) throw Stopped();
   return all;
 }
@@ -116,10 +119,10 @@ Fitted fit(const ExperimentContext& context, const Rollouts& runs) {
 struct Computed {
   Rollouts runs;
   Fitted fitted;
-  std::size_t tasks = 0;  ///< that were not saved already
+  std::size_t tasks = 0;  ///< tasks that were not saved already
 };
 
-/// The runs that these tasks need, and those that the estimators are fitted to that steer.
+/// The runs that these tasks need, and the fitted runs of the closed-loop estimators.
 std::set<std::size_t> runs_for(const ExperimentContext& context, const TaskRange& tasks,
                                const TaskRange& loops) {
   const Plan& plan = context.plan;
@@ -130,25 +133,26 @@ std::set<std::size_t> runs_for(const ExperimentContext& context, const TaskRange
   return runs;
 }
 
-/// The first half of the way: play → fit → listen, and steer. What is saved is read.
+/// The first half of an experiment: simulate → fit → evaluate → run closed loops. Saved results are
+/// read, not computed again.
 Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun missing) {
   const Experiment& experiment = context.request.experiment;
   const TaskRange loops = closed_loop_runs_of(experiment, tasks, context.plan.tasks.size());
   try {
     Computed done;
     done.runs = timed(context, "simulate", [&] {
-      return run_rollouts(experiment, context.plan, runs_for(context, tasks, loops), context.directory,
-                       missing, context.should_continue);
+      return run_rollouts(experiment, context.plan, runs_for(context, tasks, loops),
+                          context.directory, missing, context.should_continue);
     });
     done.fitted = timed(context, "fit", [&] { return fit(context, done.runs); });
-    done.tasks = timed(context, "listen", [&] {
+    done.tasks = timed(context, "evaluate", [&] {
       return evaluate(context.plan, tasks, done.runs, experiment.scoring, done.fitted.models,
-                    context.saved, context.should_continue);
+                      context.saved, context.should_continue);
     });
     if (loops.size() > 0) {
-      timed(context, "steer", [&] {
-        run_closed_loops(context.request, loops, done.fitted.models, context.saved_closed_loops, missing,
-                    context.should_continue);
+      timed(context, "run_closed_loops", [&] {
+        run_closed_loops(context.request, loops, done.fitted.models, context.saved_closed_loops,
+                         missing, context.should_continue);
         return 0;
       });
     }
@@ -158,7 +162,7 @@ Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun 
   }
 }
 
-/// The second half: score → tables. Listens to nothing.
+/// The second half of an experiment: score → tables. It evaluates no estimator.
 ExperimentResult summarize(ExperimentContext& context, Computed done) {
   const Experiment& experiment = context.request.experiment;
   const Plan& plan = context.plan;
@@ -214,7 +218,8 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
       result.studies.push_back(operating_points_text(means, experiment));
     }
     if (experiment.closed_loop) {
-      const std::vector<SurvivalRow> rows = survival_rows(context.request, context.saved_closed_loops);
+      const std::vector<SurvivalRow> rows =
+          survival_rows(context.request, context.saved_closed_loops);
       write_tables(rows, context.directory);
       result.studies.push_back(survival_text(rows, experiment));
     }
@@ -244,8 +249,9 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
   return result;
 }
 
-/// Where a request is computed, taken by this process; made the request's if it is not yet.
-RunDirectory place_for(const RunRequest& request, Access access, const RunOptions& options) {
+/// Locks the request's run directory for this process, and writes the request if it is not there.
+RunDirectory open_run_directory(const RunRequest& request, Access access,
+                                const RunOptions& options) {
   const std::string& name = request.experiment.name;
   require_place(request, run_path(name, request.id, options.out), options.overwrite);
   RunDirectory directory(name, request.id, options.out);
@@ -280,7 +286,7 @@ RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options) {
   RunRequest request = request_of(experiment);
   require_memory(request, 1.0);
-  RunDirectory directory = place_for(request, Access::alone, options);
+  RunDirectory directory = open_run_directory(request, Access::alone, options);
   remove_partial_files(directory.path());
   ExperimentContext context = start(std::move(request), std::move(directory), options);
   return summarize(context, compute(context, context.plan.all_tasks(), MissingRun::simulate));
@@ -289,7 +295,7 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& 
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
   RunRequest request = request_of(experiment);
   require_memory(request, 1.0 / shard.count);
-  RunDirectory directory = place_for(request, Access::shared, options);
+  RunDirectory directory = open_run_directory(request, Access::shared, options);
   mark_shard_started(directory.path(), shard);
   ExperimentContext context = start(std::move(request), std::move(directory), options);
   const std::size_t all = context.plan.tasks.size();
@@ -307,7 +313,7 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
 ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& options) {
   std::optional<DirectoryLock> lock;
   if (owner_of(path)) lock.emplace(path, Access::alone, options.command);
-  RunRequest request = read_request(path);  // complains of a directory that is nobody's
+  RunRequest request = read_request(path);  // throws if no run owns the directory
   require_memory(request, 1.0);
   RunDirectory directory(request.experiment.name, request.id, path);
   directory.keep(*lock);

@@ -4,44 +4,44 @@
 #include <string>
 #include <vector>
 
-#include "experiments/run_directory/shard.hpp"
 #include "experiments/experiment_context.hpp"
+#include "experiments/run_directory/shard.hpp"
 
 namespace touchdown::experiments {
 
-/// What running an experiment would amount to.
+/// What a run of an experiment would compute.
 struct RunOutline {
-  std::filesystem::path directory;  ///< where its results go
-  std::size_t tasks = 0;            ///< parts that can be computed apart from each other
+  std::filesystem::path directory;  ///< of its results
+  std::size_t tasks = 0;            ///< parts that can be computed independently
 };
 
-/// Checks an experiment and its scenarios; nothing is computed or written.
+/// Checks an experiment and its scenarios. Computes and writes nothing.
 /// Errors: `InputError` for a wrong request.
 RunOutline outline_of(const Experiment& experiment, const RunOptions& options);
 
-/// Simulates, fits, listens, scores and writes tables. What an earlier attempt of the same program,
-/// whole or in shards, left complete in the run directory is used and not computed again.
-/// Errors: `InputError` for a wrong request; `Stopped`, saying what is saved; `Error` when no run
-/// can be scored.
+/// Simulates, fits, evaluates, scores and writes tables. It reuses the complete results of an
+/// earlier attempt of the same program in the run directory, whole or in shards.
+/// Errors: `InputError` for a wrong request; `Stopped` with what is saved; `Error` when no run can
+/// be scored.
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options);
 
-/// What one shard did.
+/// What one shard computed.
 struct ShardReport {
   RunDirectory directory;
   std::size_t tasks = 0;     ///< of the shard
-  std::size_t computed = 0;  ///< of these; the others were there already
+  std::size_t computed = 0;  ///< of these; the others were saved before
   std::vector<Rollout> failed_runs;
 };
 
 /// Computes one shard of an experiment: the recordings that it needs and its share of the
-/// listening, as files in the run directory, which other shards may be writing to at the same time,
-/// also from other machines. Errors: as above.
+/// evaluation, as files in the run directory. Other shards may write there at the same time, also
+/// from other machines. Errors: as above.
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options);
 
-/// Puts together what shards left in a run directory: the result and the files are those of
-/// `run_experiment`, to the byte. Simulates and listens to nothing.
-/// Errors: `InputError` when there is no run, when it is another build's, or naming the shards that
-/// are not finished.
+/// Merges the shards in a run directory. The result and the files equal those of `run_experiment`
+/// to the byte. Simulates and evaluates nothing.
+/// Errors: `InputError` when there is no run, when another build computed it, or with the names of
+/// the unfinished shards.
 ExperimentResult merge_run(const std::filesystem::path& directory, const RunOptions& options);
 
 }  // namespace touchdown::experiments

@@ -9,13 +9,13 @@
 
 #include "core/error.hpp"
 #include "core/file_names.hpp"
-#include "experiments/studies/benchmark/tables.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/run_directory/owner.hpp"
+#include "experiments/studies/benchmark/tables.hpp"
 #include "experiments/submissions/belief_folder.hpp"
 #include "experiments/submissions/prediction.hpp"
 #include "experiments/submissions/rows.hpp"
 #include "experiments/submissions/saved_scores.hpp"
-#include "experiments/run_directory/owner.hpp"
 #include "recordings/beliefs/file.hpp"
 
 namespace touchdown::experiments {
@@ -41,7 +41,7 @@ std::string name_of(const BeliefRequest& wanted) {
   return name;
 }
 
-/// Every run as the parts that are saved tell of it: whether it can be scored, and nothing more.
+/// Every run with its outcome alone, from the saved parts: whether it can be scored.
 Rollouts runs_as_saved(const ExperimentContext& context) {
   const Plan& plan = context.plan;
   Rollouts runs;
@@ -59,36 +59,37 @@ Rollouts runs_as_saved(const ExperimentContext& context) {
   return runs;
 }
 
-/// Runs of which every noise realisation was handed in, at one noise setting, are scored; others
-/// are not, and what was not handed in for any that could be is named.
+/// The files to score: those of runs with a submitted file for every noise realisation of a noise
+/// setting. The report names the missing files of the other runs that could be scored.
 std::vector<BeliefFile> complete(const std::vector<BeliefFile>& files,
-                                 const std::vector<HeardRun>& heard, const Rollouts& runs,
+                                 const std::vector<ExportedRun>& exported, const Rollouts& runs,
                                  BeliefReport& report) {
   std::set<std::size_t> given;
-  for (const BeliefFile& file : files) given.insert(file.heard);
+  for (const BeliefFile& file : files) given.insert(file.run);
   std::set<std::pair<std::size_t, std::size_t>> incomplete;  // run, cell
-  for (std::size_t i = 0; i < heard.size(); ++i) {
-    if (!heard[i].task || given.contains(i) || runs.at(heard[i].run).failed()) continue;
-    report.without.push_back(heard[i].name);
-    incomplete.emplace(heard[i].run, heard[i].cell);
+  for (std::size_t i = 0; i < exported.size(); ++i) {
+    if (!exported[i].task || given.contains(i) || runs.at(exported[i].run).failed()) continue;
+    report.without.push_back(exported[i].name);
+    incomplete.emplace(exported[i].run, exported[i].cell);
   }
   std::vector<BeliefFile> scored;
-  std::set<std::pair<std::size_t, std::size_t>> complete_ones;
+  std::set<std::pair<std::size_t, std::size_t>> complete_runs;
   for (const BeliefFile& file : files) {
-    const HeardRun& run = heard[file.heard];
+    const ExportedRun& run = exported[file.run];
     if (runs.at(run.run).failed()) {
       ++report.about_failed;
     } else if (!incomplete.contains({run.run, run.cell})) {
       scored.push_back(file);
-      complete_ones.emplace(run.run, run.cell);
+      complete_runs.emplace(run.run, run.cell);
     }
   }
-  report.scored = complete_ones.size();
+  report.scored = complete_runs.size();
   return scored;
 }
 
-SubmissionScores scores_of(const std::vector<BeliefFile>& files, const std::vector<HeardRun>& heard,
-                        ExperimentContext& context, BeliefReport& report) {
+SubmissionScores scores_of(const std::vector<BeliefFile>& files,
+                           const std::vector<ExportedRun>& exported, ExperimentContext& context,
+                           BeliefReport& report) {
   Plan& plan = context.plan;
   const Experiment& experiment = context.request.experiment;
   SubmissionScores scores{report.name, {}};
@@ -96,48 +97,49 @@ SubmissionScores scores_of(const std::vector<BeliefFile>& files, const std::vect
   std::map<std::size_t, std::vector<const BeliefFile*>> by_run;
   std::set<std::size_t> needed;
   for (const BeliefFile& file : files) {
-    PlannedRun& run = plan.runs[heard[file.heard].run];
+    PlannedRun& run = plan.runs[exported[file.run].run];
     run.kept = run.kept && is_recorded(run, context.directory);
-    by_run[heard[file.heard].run].push_back(&file);
-    needed.insert(heard[file.heard].run);
+    by_run[exported[file.run].run].push_back(&file);
+    needed.insert(exported[file.run].run);
   }
   std::mutex mutex;
-  for_each_rollout(experiment, plan, needed, context.directory, MissingRun::refuse, context.should_continue,
-                  [&](std::size_t index, const Rollout& run) {
-                    for (const BeliefFile* file : by_run.at(index)) {
-                      if (!context.should_continue()) throw Stopped();
-                      const HeardRun& about = heard[file->heard];
-                      const SubmittedPrediction said =
-                          prediction_of(recordings::read_beliefs(file->path), run.signals);
-                      TaskCounts counts;
-                      add_scores(run.signals, said.prediction, experiment.scoring, true, counts);
-                      const std::scoped_lock lock(mutex);
-                      scores.by_cell[about.cell].emplace(task_name(plan, plan.tasks[*about.task]),
-                                                         std::move(counts));
-                      report.missing_steps += said.without;
-                      report.files_with_missing += said.without > 0 ? 1 : 0;
-                    }
-                  });
+  for_each_rollout(experiment, plan, needed, context.directory, MissingRun::refuse,
+                   context.should_continue, [&](std::size_t index, const Rollout& run) {
+                     for (const BeliefFile* file : by_run.at(index)) {
+                       if (!context.should_continue()) throw Stopped();
+                       const ExportedRun& about = exported[file->run];
+                       const SubmittedPrediction submitted =
+                           prediction_of(recordings::read_beliefs(file->path), run.signals);
+                       TaskCounts counts;
+                       add_scores(run.signals, submitted.prediction, experiment.scoring, true,
+                                  counts);
+                       const std::scoped_lock lock(mutex);
+                       scores.by_cell[about.cell].emplace(task_name(plan, plan.tasks[*about.task]),
+                                                          std::move(counts));
+                       report.missing_steps += submitted.without;
+                       report.files_with_missing += submitted.without > 0 ? 1 : 0;
+                     }
+                   });
   return scores;
 }
 
 BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
   BeliefReport report;
   report.name = name_of(wanted);
-  const std::vector<HeardRun> heard = exported_runs(context.request, context.plan);
+  const std::vector<ExportedRun> exported = exported_runs(context.request, context.plan);
   const Rollouts runs = runs_as_saved(context);
-  const Submission handed = handed_in(wanted.beliefs, heard);
-  require_sound(handed.files, context.should_continue);
-  report.about_fitted = handed.about_fitted;
-  const std::vector<BeliefFile> files = complete(handed.files, heard, runs, report);
+  const Submission submission = submission_in(wanted.beliefs, exported);
+  require_sound(submission.files, context.should_continue);
+  report.about_fitted = submission.about_fitted;
+  const std::vector<BeliefFile> files = complete(submission.files, exported, runs, report);
   if (files.empty()) {
     throw InputError(fmt::format(
         "{}: holds no beliefs about all noise seeds of a run that stayed upright: {} of its files "
         "are missing, such as {}.csv",
         wanted.beliefs.string(), report.without.size(),
-        report.without.empty() ? heard.back().name : report.without.front()));
+        report.without.empty() ? exported.back().name : report.without.front()));
   }
-  const SubmissionScores scores = scores_of(files, heard, context, report);
+  const SubmissionScores scores = scores_of(files, exported, context, report);
   if (!context.should_continue()) throw Stopped();
   save(scores, context.request, context.directory);
   const Plan& plan = context.plan;
@@ -153,7 +155,7 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
 BeliefReport score_beliefs(const BeliefRequest& wanted, const RunOptions& options) {
   std::optional<DirectoryLock> lock;
   if (owner_of(wanted.run)) lock.emplace(wanted.run, Access::alone, options.command);
-  RunRequest request = read_request(wanted.run);  // complains of a directory that is nobody's
+  RunRequest request = read_request(wanted.run);  // throws if no run owns the directory
   if (!fs::exists(wanted.run / "manifest.json")) {
     throw InputError(fmt::format("{}: is not finished: run the same experiment again first",
                                  wanted.run.string()));

@@ -8,16 +8,16 @@ class Fields;
 
 namespace touchdown::models {
 
-/// What stands between a servo's law and its joint. The default is the ideal actuator: the joint
-/// feels what the law says, at once, and the servo reports just that.
+/// Actuator model between a servo's control law and its joint. The default is the ideal actuator:
+/// the torque of the law acts on the joint without delay, and the servo reports it.
 ///
 ///     τ* = law(command of `command_delay` ago, q, q̇), within ± the smaller of the joint's limits
-///     τ_lag·dτ/dt = τ* − τ                        what the servo believes it does, and reports
-///     joint feels (1 + torque_error)·τ + ripple·sin(ripple_cycles·q) − friction(q) − viscous·q̇
+///     τ_lag·dτ/dt = τ* − τ                        the torque that the servo estimates and reports
+///     joint torque = (1 + torque_error)·τ + ripple·sin(ripple_cycles·q) − friction(q) − viscous·q̇
 ///
-/// friction(q) is Coulomb's with stiction: an elastic, critically damped presliding of
-/// `presliding_stiffness` that slides once it holds ± `friction`, so that a joint at rest stays
-/// where it is under any smaller torque, without creeping.
+/// friction(q) is Coulomb friction with stiction. Presliding is elastic and critically damped, with
+/// `presliding_stiffness`; the joint slides once it holds ± `friction`. A joint at rest does not
+/// creep under any smaller torque.
 struct Actuator {
   double friction = 0.0;              ///< Coulomb friction (N·m)
   double presliding_stiffness = 400;  ///< of the joint while it sticks (N·m/rad)
@@ -28,16 +28,16 @@ struct Actuator {
   double maximum_torque = std::numeric_limits<double>::infinity();  ///< saturation (N·m)
   double ripple = 0.0;                                              ///< amplitude (N·m)
   double ripple_cycles = 1.0;                                       ///< per radian of the joint
-  double torque_error = 0.0;  ///< relative error of the torque constant that the servo believes in
+  double torque_error = 0.0;  ///< relative error of the servo's torque constant
 
-  /// The joint feels what the servo's law says.
+  /// Whether the torque of the servo's law acts on the joint unchanged.
   bool is_ideal() const {
     return friction == 0.0 && viscous == 0.0 && torque_lag == 0.0 && command_delay == 0.0 &&
            ripple == 0.0 && torque_error == 0.0;
   }
 };
 
-/// Keys are the members' names.
+/// The keys are the names of the members.
 void describe(Fields& fields, Actuator& actuator);
 
 }  // namespace touchdown::models

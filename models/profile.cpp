@@ -10,13 +10,13 @@
 namespace touchdown::models {
 namespace {
 
-/// Heights that differ by less are the same height: sums of rises do not cancel exactly.
+/// Heights that differ by less count as equal (m): sums of rises do not cancel exactly.
 constexpr double level = 1e-9;
 
-/// Repetitions of repetitions grow fast; an engine would not carry more either.
+/// Nested repetitions grow fast, and the engines could not handle more.
 constexpr std::size_t most_segments = 10'000;
 
-/// Lays pieces end to end; heights are relative to the beginning.
+/// Lays terrain pieces end to end. Heights are relative to the beginning.
 struct Pen {
   double x, z;
   std::vector<Profile::Segment> segments;
@@ -24,7 +24,7 @@ struct Pen {
 
   void go(double length, double rise) {
     if (segments.size() == most_segments) {
-      throw InputError(fmt::format("more than {} stretches of ground", most_segments));
+      throw InputError(fmt::format("more than {} segments of ground", most_segments));
     }
     segments.push_back({x, z, x + length, z + rise});
     nosing_radii.push_back(0.0);
@@ -62,14 +62,14 @@ struct Pen {
 
 Profile::Edge rounded_edge(const Profile::Segment& segment, double bottom, double radius) {
   const double slope = segment.slope();
-  const double stretch = segment.stretch();
+  const double length_per_x = segment.length_per_x();
   return {.x = segment.x1,
           .top = segment.z1,
           .bottom = bottom,
           .radius = radius,
           .centre_x = segment.x1 - radius,
-          .centre_z = segment.z1 - radius * slope - radius * stretch,
-          .tangent_x = segment.x1 - radius - radius * slope / stretch,
+          .centre_z = segment.z1 - radius * slope - radius * length_per_x,
+          .tangent_x = segment.x1 - radius - radius * slope / length_per_x,
           .segment = 0};
 }
 

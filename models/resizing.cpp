@@ -18,13 +18,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// What lies at x in a body's frame goes to pivot + linear·(x − pivot).
+/// An affine map of a body's frame: a point x moves to pivot + linear·(x − pivot).
 struct Stretch {
   Vector3d pivot;
   Matrix3d linear;
 
   Vector3d operator()(const Vector3d& x) const { return pivot + linear * (x - pivot); }
-  /// How much longer a line along `direction` gets.
+  /// The factor by which a line along `direction` gets longer.
   double along(const Vector3d& direction) const { return (linear * direction).norm(); }
 };
 
@@ -35,16 +35,16 @@ Stretch across(const Vector3d& axis, double factor, const Vector3d& pivot) {
   return {pivot, factor * Matrix3d::Identity() - (factor - 1.0) * axis * axis.transpose()};
 }
 
-/// A row of one of MuJoCo's tables, to read and to write.
+/// A row of three numbers in one of MuJoCo's arrays, writable.
 Eigen::Map<Vector3d> row(mjtNum* table, int i) { return Eigen::Map<Vector3d>(table + 3 * i); }
 
-/// The axes of a frame whose quaternion is in a row of MuJoCo's tables.
+/// The axes of a frame, from its quaternion in a row of one of MuJoCo's arrays.
 Matrix3d axes_at(const mjtNum* table, int i) {
   const mjtNum* q = table + 4 * i;
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 
-/// The inertia of the same matter, stretched: with Σ = ∫ρxxᵀ, the inertia is tr(Σ)·1 − Σ.
+/// Stretches the matter of a body: with Σ = ∫ρxxᵀ, the inertia is tr(Σ)·1 − Σ.
 void stretch_inertia(mjModel& mj, int body, const Stretch& stretch) {
   const Matrix3d axes = axes_at(mj.body_iquat, body);
   const Vector3d inertia = row(mj.body_inertia, body);
@@ -76,8 +76,9 @@ double bounding_radius(int type, const Vector3d& size) {
   }
 }
 
-/// What is round stays round: a ball gets the middle one of the factors along its axes, which is
-/// the wheel's when a wheel grows and one when a leg does; a rod's radius the one nearer one.
+/// Round geoms stay round. A sphere is scaled by the median of the factors along its axes: the
+/// wheel's factor when a wheel grows, 1 when a leg does. The radius of a capsule or cylinder is
+/// scaled by the factor nearer 1.
 void stretch_size(mjModel& mj, int geom, const Stretch& stretch) {
   const int type = mj.geom_type[geom];
   if (type == mjGEOM_MESH || type == mjGEOM_HFIELD || type == mjGEOM_PLANE) return;
@@ -96,7 +97,7 @@ void stretch_size(mjModel& mj, int geom, const Stretch& stretch) {
   mj.geom_rbound[geom] = bounding_radius(type, size);
 }
 
-/// A body and all that is fixed to it.
+/// Stretches a body with the geoms and sites that are fixed to it.
 void stretch_body(mjModel& mj, int body, const Stretch& stretch) {
   row(mj.body_ipos, body) = stretch(row(mj.body_ipos, body));
   stretch_inertia(mj, body, stretch);
@@ -118,7 +119,7 @@ int joint_of(const mjModel& mj, std::size_t servo) {
   return mj_name2id(&mj, mjOBJ_JOINT, std::string(servo_names[servo]).c_str());
 }
 
-/// A link from the joint that moves it to the one that hangs on it.
+/// Scales a link between the joint that moves it and the next joint.
 void scale_link(mjModel& mj, std::size_t servo, double factor) {
   const int joint = joint_of(mj, servo);
   const int next = joint_of(mj, servo + 1);
@@ -174,7 +175,7 @@ void shift_mass(mjModel& mj, int body, const Eigen::Vector3d& offset) {
 void recompute(mjModel& mj) {
   const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(&mj), mj_deleteData);
   if (!data) throw Error("MuJoCo could not make its data: out of memory");
-  // Pictures are drawn by the scene's own size (models/scene_mjcf.hpp), not by one found anew.
+  // Rendering uses the scene's fixed size (models/scene_mjcf.hpp), not a recomputed one.
   const mjStatistic scene = mj.stat;
   mj_setConst(&mj, data.get());
   mj.stat.extent = scene.extent;

@@ -7,26 +7,26 @@
 
 namespace touchdown::models {
 
-// Robots of other sizes, made from a compiled one that keeps the naming contract: bodies, joints,
-// what collides and what is drawn change alike, so that engines and pictures follow. After the last
-// change, `recompute`.
+// Functions that resize a compiled robot that keeps the naming contract. Bodies, joints, collision
+// geoms and visual geoms change alike, so that engines and renderer agree. Call `recompute` after
+// the last change.
 
-/// Mass and inertia of every body: the robot keeps its shape.
+/// Scales the mass and the inertia of every body. The robot keeps its shape.
 void scale_mass(mjModel& mj, double factor);
 
-/// The wheels about their axles, across them: tyres, rims, inertia. Width and mass stay.
+/// Scales the radius of both wheels: tyres, rims and inertia. Width and mass stay.
 void scale_wheels(mjModel& mj, double factor);
 
-/// Both links of one leg (0 left, 1 right) along the line between their joints. Masses stay, for
-/// most of a link's mass is its motors', which move with its ends; inertias are those of the same
-/// matter stretched. What is round across the link stays round; meshes keep their size. Errors:
-/// `InputError` if the joints are not the links' of one chain.
+/// Scales both links of one leg (0 left, 1 right) along the line between their joints. Masses stay:
+/// most of a link's mass is in its motors, which move with its ends. Inertias are those of the
+/// stretched matter. Round cross-sections stay round; meshes keep their size. Errors: `InputError`
+/// if the joints do not form one chain.
 void scale_leg(mjModel& mj, std::size_t leg, double factor);
 
-/// Where a body's centre of mass is in its frame (m); its inertia about it stays.
+/// Moves a body's centre of mass by `offset` in the body's frame (m). The inertia about it stays.
 void shift_mass(mjModel& mj, int body, const Eigen::Vector3d& offset);
 
-/// What MuJoCo derives from masses and sizes, without what pictures are drawn by.
+/// Recomputes what MuJoCo derives from masses and sizes, except the scene size used for rendering.
 void recompute(mjModel& mj);
 
 }  // namespace touchdown::models

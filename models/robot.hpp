@@ -11,7 +11,7 @@
 
 namespace touchdown::models {
 
-/// The six servos of a wheeled biped, in the order that every array, file and column uses.
+/// The six servos of a wheeled biped, in the order of all arrays, files and columns.
 enum class Servo : int { left_hip, left_knee, left_wheel, right_hip, right_knee, right_wheel };
 
 inline constexpr int servo_count = 6;
@@ -27,7 +27,7 @@ constexpr std::size_t index(Servo servo) { return static_cast<std::size_t>(servo
 inline constexpr std::array<Servo, wheel_count> wheel_servos = {Servo::left_wheel,
                                                                 Servo::right_wheel};
 
-/// What one servo is told to do, as Upkie's spine understands it (rad, rad/s, N·m).
+/// Command to one servo, as in Upkie's spine (rad, rad/s, N·m).
 /// torque = clamp(feedforward + kd·kd_scale·(velocity − ω) + kp·kp_scale·(position − q)); a NaN
 /// position drops the position term.
 struct ServoCommand {
@@ -39,20 +39,20 @@ struct ServoCommand {
   double maximum_torque = std::numeric_limits<double>::infinity();
 };
 
-/// What a policy answers to an observation.
+/// The output of a policy for one observation.
 struct Action {
   std::array<ServoCommand, servo_count> servo;
 };
 
-/// What one servo measures (rad, rad/s, N·m). `torque` is what it believes, from its current, to
-/// have applied over the last step; with an ideal actuator it is what the joint felt.
+/// Measurement of one servo (rad, rad/s, N·m). `torque` is the servo's estimate from its current
+/// for the last step. With an ideal actuator it is the torque on the joint.
 struct ServoReading {
   double position = 0.0;
   double velocity = 0.0;
   double torque = 0.0;
 };
 
-/// What the IMU measures. Its frame on Upkie: x back, y left, z down.
+/// Measurement of the IMU. Its frame on Upkie: x back, y left, z down.
 struct ImuReading {
   /// From the IMU frame to the attitude reference system (x forward, y right, z down).
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
@@ -60,11 +60,11 @@ struct ImuReading {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
   /// In the IMU frame, gravity removed (m/s²): the IMU's velocity differenced over one step.
   Eigen::Vector3d linear_acceleration = Eigen::Vector3d::Zero();
-  /// Proper acceleration in the IMU frame (m/s²): what the accelerometer's chip reports.
+  /// Proper acceleration in the IMU frame (m/s²): the accelerometer's raw output.
   Eigen::Vector3d raw_linear_acceleration = Eigen::Vector3d::Zero();
 };
 
-/// Everything the robot knows at one control step. No ground truth in here.
+/// Everything that the robot measures at one control step. It contains no ground truth.
 struct Observation {
   /// Time since the reset (s): the step count times the control period.
   double time = 0.0;
@@ -78,7 +78,7 @@ struct Observation {
   double yaw_rate = 0.0;
 };
 
-/// What only the simulator knows. World frame: x forward, y left, z up, origin on the floor.
+/// State that only the simulator knows. World frame: x forward, y left, z up, origin on the floor.
 struct GroundTruth {
   /// Position of the base frame in the world (m).
   Eigen::Vector3d base_position = Eigen::Vector3d::Zero();
@@ -92,10 +92,10 @@ struct GroundTruth {
   Eigen::Vector3d imu_linear_velocity = Eigen::Vector3d::Zero();
   /// Normal force between each tyre and the terrain, averaged over the last step (N).
   std::array<double, wheel_count> wheel_normal_force = {0.0, 0.0};
-  /// Whether anything but a tyre touches the terrain: the robot has fallen.
+  /// Whether a part other than a tyre touches the terrain: the robot has fallen.
   bool body_touches_terrain = false;
-  /// What each joint feels of its actuator over the last physics step (N·m), where that is not what
-  /// the servo reports: friction and all (models/actuator.hpp). Ideal actuators report it.
+  /// Torque of each actuator on its joint over the last physics step (N·m), friction included
+  /// (models/actuator.hpp). Empty with ideal actuators, where the servo reports this torque.
   std::optional<std::array<double, servo_count>> joint_torque = {};
 };
 

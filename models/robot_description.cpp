@@ -66,7 +66,7 @@ RobotDescription robot_description(const std::filesystem::path& file) {
   const YamlDocument document = YamlDocument::load(file);
   auto robot = from_yaml<RobotDescription>(document);
   robot.mjcf = file.parent_path() / robot.mjcf;
-  // Not first where the model is compiled: that may be on behalf of the gains.
+  // Checked here, as the model may be compiled later, for the controller gains only.
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(robot.mjcf, ignored)) {
     std::vector<std::string> neighbours;

@@ -11,61 +11,61 @@
 
 namespace touchdown::models {
 
-/// The actuators of both legs' joints of one kind.
+/// Actuators of each kind of joint, the same in both legs.
 struct LegActuators {
   std::optional<Actuator> hip, knee, wheel;
 };
 
-/// How long legs are, as factors on both links of a leg. What one leg says comes on top of what
-/// both do: a difference between the legs as it was manufactured, the same in every run.
+/// Leg lengths, as factors on both links of a leg. The factor of one leg multiplies the factor of
+/// both. It models a manufacturing difference between the legs, the same in every run.
 struct LegLengths {
   double both = 1.0;
   std::array<double, 2> one = {1.0, 1.0};  ///< left, right
 };
 
-/// How bent the legs are when a scenario does not say (rad).
+/// Default joint angles of the legs, for scenarios that do not specify them (rad).
 struct Stance {
   double hip = 0.455;
   double knee = 0.791;
 };
 
-/// A robot as a file describes it: an MJCF alone, whose joints may say `frictionloss`, `damping`
-/// and `armature`, or a YAML file that says more about one:
+/// A robot as described by a file. The file is either an MJCF, with joints that may have
+/// `frictionloss`, `damping` and `armature`, or a YAML file that modifies an MJCF:
 ///
-///     # Upkie with a load, on large wheels and long legs, the left one by 3 % the longer.
+///     # Upkie with a load, large wheels and long legs, the left leg 3 % longer.
 ///     mjcf: upkie.xml            # beside this file
-///     mass: 1.5                  # a factor on every body's mass and inertia
+///     mass: 1.5                  # factor on every body's mass and inertia
 ///     wheel_radius: 0.075        # m
 ///     legs: {length: 1.3, left: {length: 1.015}, right: {length: 0.985}}  # factors on both links
-///     stance: {hip: 0.1, knee: 0.17}  # rad, where the scenario does not say its own
+///     stance: {hip: 0.1, knee: 0.17}  # rad, unless the scenario specifies it
 ///     actuators:                 # of both legs (models/actuator.hpp); others stay as in the MJCF
 ///       knee: {friction: 0.06, armature: 0.003}
-///     balancer: {gains: lqr}     # read by whoever balances (scenarios/scenario_file.hpp)
+///     balancer: {gains: lqr}     # read by the balancer (scenarios/scenario_file.hpp)
 ///     tyre: {law: spring_damper} # of both wheels (models/tyre.hpp)
 struct RobotDescription {
   std::filesystem::path mjcf;
   double mass = 1.0;
-  std::optional<double> wheel_radius;  ///< as in the MJCF if it is not there
+  std::optional<double> wheel_radius;  ///< as in the MJCF if absent
   LegLengths legs;
   Stance stance;
   LegActuators actuators;
   Tyre tyre;
 
-  /// What the file says of a servo's actuator, if anything.
+  /// The actuator of a servo, if the file specifies one.
   const std::optional<Actuator>& actuator(Servo servo) const;
 };
 
-/// All keys but those of `balancer`, which is known and left to who reads it.
+/// Describes all keys. The section `balancer` is accepted, but read elsewhere.
 void describe(Fields& fields, RobotDescription& robot);
 
-/// Whether a robot's file is YAML about an MJCF, and not an MJCF itself.
+/// Whether a robot's file is a YAML description, not an MJCF.
 bool is_about_an_mjcf(const std::filesystem::path& file);
 
 /// Errors: `InputError` with file:line:column.
 RobotDescription robot_description(const std::filesystem::path& file);
 
-/// All that the description depends on, for digests: the text of the file, and of the MJCF it
-/// names.
+/// The text of the file and of the MJCF that it names, for digests of everything that the robot
+/// depends on.
 std::string robot_text(const std::filesystem::path& file);
 
 }  // namespace touchdown::models

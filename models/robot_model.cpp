@@ -20,12 +20,13 @@
 namespace touchdown::models {
 namespace {
 
-/// Of MuJoCo's complaints.
+/// Whether an error message of MuJoCo is about memory.
 bool is_about_memory(std::string_view message) {
   return message.find("ould not allocate") != std::string_view::npos;
 }
 
-/// MuJoCo's own handlers wait for a key press, or write MUJOCO_LOG.TXT into the working directory.
+/// Replaces MuJoCo's own handlers, which wait for a key press or write MUJOCO_LOG.TXT into the
+/// working directory.
 void install_mujoco_handlers() {
   static std::once_flag once;
   std::call_once(once, [] {
@@ -37,8 +38,8 @@ void install_mujoco_handlers() {
   });
 }
 
-/// The robot's text with the scene and the terrain before its end: MuJoCo reads repeated sections
-/// as one, and the robot's lines keep their numbers for error messages.
+/// Inserts the scene and the terrain before the end of the robot's text. MuJoCo merges repeated
+/// sections, and the robot's lines keep their numbers for error messages.
 std::string compose(const std::filesystem::path& robot_mjcf, const Terrain& terrain) {
   const std::string text = read_file(robot_mjcf);
   tinyxml2::XMLDocument document;
@@ -60,7 +61,7 @@ std::string compose(const std::filesystem::path& robot_mjcf, const Terrain& terr
   return text.substr(0, end) + scene_mjcf + terrain_mjcf(terrain) + text.substr(end);
 }
 
-/// MuJoCo's complaint as one line that begins with file:line:column.
+/// Formats an error message of MuJoCo as one line that begins with file:line:column.
 std::string located(const std::filesystem::path& robot_mjcf, std::string message) {
   std::smatch match;
   std::string where = robot_mjcf.string();
@@ -75,7 +76,7 @@ std::string located(const std::filesystem::path& robot_mjcf, std::string message
 }
 
 MjModelPtr compile(const std::filesystem::path& robot_mjcf, const std::string& mjcf) {
-  // Named as if it stood beside the robot's file, so that meshes and includes are found there.
+  // The name is in the folder of the robot's file, so that meshes and includes are found there.
   const char* const file_name = "touchdown_composed.xml";
   const auto release = [](mjVFS* vfs) {
     mj_deleteVFS(vfs);
@@ -89,16 +90,16 @@ MjModelPtr compile(const std::filesystem::path& robot_mjcf, const std::string& m
   const int slot = mj_findFileVFS(vfs.get(), file_name);
   std::memcpy(vfs->filedata[slot], mjcf.data(), mjcf.size());
 
-  std::array<char, 1000> complaint = {};
+  std::array<char, 1000> message = {};
   const std::string beside = (robot_mjcf.parent_path() / file_name).string();
   MjModelPtr model(
-      mj_loadXML(beside.c_str(), vfs.get(), complaint.data(), static_cast<int>(complaint.size())));
-  if (!model && is_about_memory(complaint.data())) throw std::bad_alloc();
-  if (!model) throw InputError(located(robot_mjcf, complaint.data()));
+      mj_loadXML(beside.c_str(), vfs.get(), message.data(), static_cast<int>(message.size())));
+  if (!model && is_about_memory(message.data())) throw std::bad_alloc();
+  if (!model) throw InputError(located(robot_mjcf, message.data()));
   return model;
 }
 
-/// Looks names up and says what the contract wants when they are missing.
+/// Looks up the names of the naming contract and reports missing ones.
 class Contract {
  public:
   Contract(const std::filesystem::path& file, const mjModel& model) : file_(file), model_(model) {}
@@ -118,7 +119,7 @@ class Contract {
   const mjModel& model_;
 };
 
-/// The body that floats; everything of the robot hangs on it.
+/// Finds the floating base body, the root of the robot.
 int find_base(const mjModel& model, const Contract& contract) {
   int base = -1;
   for (int joint = 0; joint < model.njnt; ++joint) {
@@ -158,8 +159,8 @@ void find_servos(RobotModel& robot, const Contract& contract) {
   }
 }
 
-/// What the robot's file says about its actuators, in the model: MuJoCo knows rotor inertia itself,
-/// all else is the simulators' (simulators/actuators.hpp).
+/// Sets the actuators of the robot's file in the model. MuJoCo simulates the rotor inertia; the
+/// simulators add everything else (simulators/actuators.hpp).
 void set_actuators(RobotModel& robot, const RobotDescription& description) {
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (const auto& given = description.actuator(static_cast<Servo>(i))) robot.actuator[i] = *given;
@@ -175,7 +176,7 @@ void set_actuators(RobotModel& robot, const RobotDescription& description) {
   }
 }
 
-/// What the robot's file says about its size.
+/// Sets the size that the robot's file specifies.
 void set_size(RobotModel& robot, const RobotDescription& description, const Contract& contract) {
   const double wheels = description.wheel_radius.value_or(robot.wheel_radius) / robot.wheel_radius;
   bool changed = description.mass != 1.0 || wheels != 1.0;
@@ -223,8 +224,8 @@ void find_tyres(RobotModel& robot, const Contract& contract) {
   }
 }
 
-/// The MJCF with spheres beside those that are the tyres of the robot as it was compiled from it,
-/// in the tyres' own lines.
+/// Adds the spheres of the tyres' strips to the MJCF, on the lines of the tyre geoms, so that line
+/// numbers stay. `robot` is compiled from this MJCF.
 std::string with_strips(std::string mjcf, const RobotModel& robot,
                         const std::filesystem::path& file) {
   const mjModel& model = *robot.mj;
@@ -269,7 +270,7 @@ void find_strips(RobotModel& robot, const Contract& contract) {
   }
 }
 
-/// Compiles the MJCF, which is `description`'s with a terrain, and finds its way in it.
+/// Compiles the MJCF (that of `description` with a terrain) and looks up the robot's parts in it.
 RobotModel compile(const RobotDescription& description, const std::string& mjcf) {
   RobotModel robot;
   robot.mj = compile(description.mjcf, mjcf);
@@ -296,7 +297,7 @@ RobotModel compile_robot_model(const std::filesystem::path& robot_file, const Te
   std::string mjcf = compose(description.mjcf, terrain);
   const bool has_strips = description.tyre.strips().size() > 1;
   if (has_strips) {
-    // Strips are the MJCF's own size; what the description makes of it, it makes of them, too.
+    // Strips are added at the MJCF's original size; the description then scales them, too.
     RobotDescription as_drawn = description;
     as_drawn.wheel_radius.reset();
     as_drawn.legs = {};

@@ -2,8 +2,8 @@
 
 namespace touchdown::models {
 
-/// What every robot gets, whoever's it is: solver settings, light, sky, and how things are drawn.
-/// MJCF text to stand after the robot's own sections, which it overrides.
+/// The scene of every robot: solver settings, light, sky and materials. This MJCF text follows the
+/// robot's own sections and overrides them.
 inline constexpr const char* scene_mjcf = R"(
   <option gravity="0 0 -9.81" timestep="0.001" cone="elliptic" impratio="1" integrator="Euler"/>
   <size njmax="500" nconmax="100"/>

@@ -11,7 +11,7 @@ struct Flat {
 };
 
 /// A flight of stairs going down: `count` times a drop of `rise`, each followed by a tread of
-/// length `run` (m). The tread that one starts from is the piece before; the last drop's tread
+/// length `run` (m). The starting tread is the previous piece; the tread after the last drop
 /// belongs to the flight.
 struct StairFlight {
   int count = 7;
@@ -20,22 +20,22 @@ struct StairFlight {
   double nosing_radius = 0.025;  ///< of the rounded edge (m)
 };
 
-/// A slope of `incline` (degrees, positive), up by `rise` if that is positive, down if negative
+/// A slope of `incline` (degrees, positive) that goes up if `rise` is positive, down if negative
 /// (m).
 struct Ramp {
   double incline = 8.0;
   double rise = 0.15;
 };
 
-/// A block on the ground: a vertical front of `height`, a top of `length`, and a rounded edge from
-/// which one drops back to the level before it (m).
+/// A block on the ground (m): a vertical front of `height`, a top of `length`, and a rounded edge
+/// with a drop back to the previous level.
 struct Platform {
   double length = 1.0;
   double height = 0.25;
   double nosing_radius = 0.025;
 };
 
-/// One edge: the ground goes on lower by `drop` (m).
+/// One edge: the ground after it is lower by `drop` (m).
 struct Step {
   double drop = 0.12;
   double nosing_radius = 0.025;
@@ -45,14 +45,14 @@ struct Repetition;
 
 using TerrainPiece = std::variant<Flat, StairFlight, Ramp, Platform, Step, Repetition>;
 
-/// Pieces that are laid down `count` times.
+/// Pieces that are repeated `count` times.
 struct Repetition {
   int count = 2;
   std::vector<TerrainPiece> pieces = {};
 };
 
-/// Pieces laid end to end along +x from `start_x`, `width` wide about `y` (m). Their end is level
-/// with the floor; the height at which they begin follows.
+/// Pieces laid end to end along +x from `start_x`, `width` wide about `y` (m). They end at floor
+/// level, which determines the height of their beginning.
 struct Strip {
   std::vector<TerrainPiece> pieces;
   double start_x = 1.0;
@@ -60,19 +60,19 @@ struct Strip {
   double width = 0.9;
 };
 
-/// What the robot rolls over, as data: pieces laid end to end along +x from `start_x`. Their end is
-/// level with the floor, an infinite plane at z = 0 that lies everywhere else; the height at which
-/// they begin follows. No pieces: the floor alone.
+/// The ground as data: pieces laid end to end along +x from `start_x`. They end at floor level,
+/// which determines the height of their beginning. The floor is an infinite plane at z = 0 around
+/// them. Without pieces there is only the floor.
 struct Terrain {
   std::vector<TerrainPiece> pieces;
   double start_x = -2.0;           ///< where the first piece begins (m)
   double width = 3.0;              ///< extent in y, centred on y = 0 (m)
-  int repeat = 1;                  ///< the list of pieces is laid down this many times
+  int repeat = 1;                  ///< number of times that the list of pieces is repeated
   double friction = 1.0;           ///< sliding friction of every robot–terrain contact
-  std::vector<Strip> beside = {};  ///< under one wheel alone, say; the robot starts on the pieces
+  std::vector<Strip> beside = {};  ///< for example under one wheel; the robot starts on `pieces`
 };
 
-/// The pieces about y = 0 first, then those beside them.
+/// All strips: first the pieces about y = 0, then those beside them.
 std::vector<Strip> strips_of(const Terrain& terrain);
 
 }  // namespace touchdown::models

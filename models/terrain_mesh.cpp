@@ -6,12 +6,12 @@
 namespace touchdown::models {
 namespace {
 
-/// A point of the side view, with the surface normal there.
+/// A point of the side view with its surface normal.
 struct OutlinePoint {
   double x, z, nx, nz;
 };
 
-/// A stretch of surface between two points of the outline.
+/// The surface between two points of the outline.
 struct OutlineFace {
   OutlinePoint from, to;
 };
@@ -32,7 +32,7 @@ void add_segment(const Profile& profile, std::size_t i, std::vector<OutlineFace>
     const double begin = std::atan2(nz, nx);
     for (int k = 1; k <= nosing_faces; ++k) {
       const double angle = begin * (1.0 - static_cast<double>(k) / nosing_faces);
-      const bool end = k == nosing_faces;  // exactly on the face: other vertices must coincide
+      const bool end = k == nosing_faces;  // exactly on the face, so that vertices coincide
       const OutlinePoint next{end ? edge->x : edge->centre_x + edge->radius * std::cos(angle),
                               edge->centre_z + (end ? 0.0 : edge->radius * std::sin(angle)),
                               std::cos(angle), std::sin(angle)};
@@ -47,14 +47,14 @@ class MeshBuilder {
  public:
   explicit MeshBuilder(double width) : y_(0.5 * width) {}
 
-  /// The surface over `face`, across the whole width.
+  /// Adds the surface of `face` across the whole width.
   void add_strip(const OutlineFace& face) {
     const auto& [from, to] = face;
     add_quad({vertex(from, -y_), vertex(to, -y_), vertex(to, y_), vertex(from, y_)});
   }
 
-  /// Both side walls of a convex column of the side view, as fans about its middle. `polygon` runs
-  /// clockwise seen from −y, that is with the inside on its right.
+  /// Adds both side walls of a convex column of the side view, as triangle fans about its middle.
+  /// `polygon` runs clockwise seen from −y: its inside is on the right.
   void add_walls(const std::vector<std::array<double, 2>>& polygon) {
     double x = 0.0, z = 0.0;
     for (const auto& point : polygon) {
@@ -98,7 +98,7 @@ class MeshBuilder {
   Mesh mesh_;
 };
 
-/// Close the surface `outline` (left to right, beginning and ending on the floor) into a solid.
+/// Closes the surface `outline` (left to right, from floor to floor) into a solid.
 Mesh close(const std::vector<OutlineFace>& outline, double width) {
   MeshBuilder builder(width);
   for (std::size_t i = 0; i < outline.size(); ++i) {

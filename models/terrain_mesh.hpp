@@ -7,7 +7,7 @@
 
 namespace touchdown::models {
 
-/// A triangle mesh; a vertex that belongs to two faces across a hard edge is there twice.
+/// A triangle mesh. A vertex on a hard edge is stored once per face.
 struct Mesh {
   struct Vertex {
     double x, y, z;
@@ -17,8 +17,8 @@ struct Mesh {
   std::vector<std::array<int, 3>> faces;  ///< counter-clockwise seen from outside
 };
 
-/// One closed mesh per stretch of ground above the floor. Closed, and drawn instead of the
-/// collision geoms, because the renderer's shadow pass stripes any face that lies on another geom.
+/// One closed mesh per connected part of the ground above the floor. It is drawn instead of the
+/// collision geoms: the renderer's shadow pass draws stripes on any face that lies on another geom.
 std::vector<Mesh> visual_meshes(const Profile& profile, double width);
 
 }  // namespace touchdown::models

@@ -12,16 +12,16 @@
 namespace touchdown::models {
 namespace {
 
-/// A riser stands this far back from its nosing, so that a wheel meets the nosing alone.
+/// Distance of a riser behind its nosing (m), so that a wheel meets only the nosing.
 constexpr double riser_recess = 1e-3;
-/// How far an edge stripe floats above its tread: enough to win the depth test, too little to see.
+/// Height of an edge stripe above its tread (m): enough for the depth test, too small to see.
 constexpr double stripe_height = 3e-4;
 
 class Composer {
  public:
   explicit Composer(const Terrain& terrain) : strips_(strips_of(terrain)) {
-    // Everything is spelled out: the robot's defaults must not leak into the terrain. `solref` is
-    // how hard a tyre's contact is: a time constant (s) and a damping ratio. Peak landing
+    // Every attribute is set, so that the robot's defaults do not apply to the terrain. `solref` is
+    // the stiffness of a tyre's contact: a time constant (s) and a damping ratio. Peak landing
     // acceleration from 0.25 m: 334, 224, 135 m/s² at 0.005, 0.01, 0.02 s.
     contact_ = fmt::format(
         "contype=\"2\" conaffinity=\"1\" condim=\"3\" priority=\"10\" margin=\"0\" gap=\"0\" "
@@ -36,7 +36,7 @@ class Composer {
       if (profile.segments().empty()) continue;
       reach = std::max(reach, std::abs(profile.segments().back().x1));
     }
-    // The third size is the drawn grid's spacing; without it a plane is cut into 40,000 quads.
+    // The third size is the spacing of the drawn grid. Without it MuJoCo draws 40,000 quads.
     geoms_ += fmt::format(
         "    <geom name=\"touchdown_floor\" type=\"plane\" size=\"{0} {0} 20\" "
         "material=\"touchdown_floor\" group=\"1\" {1}/>\n",
@@ -73,14 +73,14 @@ class Composer {
       add_box(segment.x0, x1, segment.z0);
       return;
     }
-    // A slope is the top of a slab. Its upper end leans forward below the surface; it must not
-    // reach through the face of a drop.
+    // A slope is the top face of a slab. The upper end of the slab leans forward below the surface;
+    // it must not reach through the face of a drop.
     const double slope = segment.slope();
     double thickness = 0.05;
     if (edge && slope > 0.0) {
-      thickness = std::clamp((edge->x - x1) * segment.stretch() / slope, 0.01, thickness);
+      thickness = std::clamp((edge->x - x1) * segment.length_per_x() / slope, 0.01, thickness);
     }
-    const double length = (x1 - segment.x0) * segment.stretch();
+    const double length = (x1 - segment.x0) * segment.length_per_x();
     const double x = 0.5 * (segment.x0 + x1);
     const double nx = segment.nx();
     const double nz = segment.nz();
@@ -128,7 +128,7 @@ class Composer {
   }
 
   std::vector<Strip> strips_;
-  const Strip* strip_ = nullptr;  ///< the one that is being composed
+  const Strip* strip_ = nullptr;  ///< the current strip
   std::string contact_;
   std::string assets_;
   std::string geoms_;

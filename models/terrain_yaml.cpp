@@ -39,7 +39,7 @@ static void describe(Fields& fields, Repetition& repetition) {
   fields.list("pieces", repetition.pieces);
 }
 
-/// The piece, if it is of this kind.
+/// Describes the piece if it is of this kind.
 template <typename Kind>
 static void describe_kind(Fields& fields, std::string_view name, TerrainPiece& piece) {
   fields.know(name);

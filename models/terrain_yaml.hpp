@@ -8,7 +8,7 @@ class Fields;
 
 namespace touchdown::models {
 
-/// As YAML:
+/// The keys of a terrain, for example:
 ///
 ///     start_x: -2
 ///     width: 3
@@ -21,7 +21,7 @@ namespace touchdown::models {
 ///       - platform: {length: 1, height: 0.25, nosing_radius: 0.025}
 ///       - step: {drop: 0.12, nosing_radius: 0.025}
 ///
-/// Every key has the default of its struct.
+/// The defaults are those of the structs.
 void describe(Fields& fields, Terrain& terrain);
 
 }  // namespace touchdown::models

@@ -6,7 +6,7 @@ namespace touchdown::models {
 
 std::vector<double> Tyre::strips() const {
   if (width == 0.0) return {0.0};
-  // Three resist tilting by 8/9 of what a whole cylinder does.
+  // Three strips have 8/9 of the tilting stiffness of a whole cylinder.
   return {0.0, width / 3.0, -width / 3.0};
 }
 

@@ -7,9 +7,9 @@
 
 #include "core/random.hpp"
 
-// Nothing here calls the C library's logarithm or sine: they differ in their last bits from one
-// library to the next, and they do not vectorise. Additions, multiplications, divisions and square
-// roots are exact to the bit everywhere.
+// This file does not call the C library's logarithm or sine: their last bits differ between
+// libraries, and they do not vectorise. Additions, multiplications, divisions and square roots give
+// the same bits on every machine.
 
 namespace touchdown::noise {
 
@@ -53,9 +53,9 @@ inline double minus_log(double x) {
   return -(e * 0x1.62e42fefa39efp-1 + log_m);
 }
 
-/// Cosine and sine of a whole turn's fraction in [0, 1).
+/// Cosine and sine of an angle, given as a fraction of a turn in [0, 1).
 inline Pair cosine_and_sine(double turns) {
-  // Nearest quarter by the rounding of a large sum; its integer stands in the sum's last bits.
+  // Adding a large number rounds to the nearest quarter; the last bits of the sum hold the integer.
   constexpr double shift = 0x1.8p52;
   const double shifted = 4.0 * turns + shift;
   const std::uint64_t quarter = std::bit_cast<std::uint64_t>(shifted);
@@ -80,7 +80,7 @@ inline Pair cosine_and_sine(double turns) {
   cosine = cosine * z - 0.5;
   cosine = cosine * z + 1.0;
 
-  // Odd quarters swap the two; the signs go + + − − for the cosine one quarter ahead of the sine.
+  // Odd quarters swap the two. The signs are + + − −, the cosine's one quarter ahead of the sine's.
   const std::uint64_t swap = 0U - (quarter & 1U);
   const std::uint64_t c = std::bit_cast<std::uint64_t>(cosine);
   const std::uint64_t s = std::bit_cast<std::uint64_t>(sine);
@@ -101,7 +101,7 @@ struct Bits {
   std::uint64_t angle;
 };
 
-/// Channels start at 1 in the counter: zero is left to those who draw without a channel.
+/// Channels start at 1 in the counter. Zero is reserved for draws without a channel.
 inline Bits bits_of(const NoiseKey& key, NoiseChannel channel, std::uint64_t block) {
   const std::uint64_t counter = ((static_cast<std::uint64_t>(channel) + 1U) << 48U) | block;
   const auto words = philox(key.seed, key.run, counter);

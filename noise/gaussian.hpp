@@ -7,14 +7,14 @@
 
 namespace touchdown::noise {
 
-/// Which run of which experiment the noise belongs to.
+/// Identifies the experiment (seed) and the run that the noise belongs to.
 struct NoiseKey {
   std::uint64_t seed = 0;
   std::uint64_t run = 0;
 };
 
-/// The sensors that noise can be added to. The numbers are part of every draw: never change one,
-/// only add more.
+/// The sensors that noise can be added to. The numbers are part of every draw: never change one;
+/// only add new ones.
 enum class NoiseChannel : std::uint16_t {
   left_knee_torque = 0,
   left_wheel_torque = 1,
@@ -53,13 +53,13 @@ constexpr NoiseChannel velocity_channel(models::Servo servo) {
   return static_cast<NoiseChannel>(32 + static_cast<int>(servo));
 }
 
-/// A draw from the standard normal distribution that is a function of its arguments and of nothing
-/// else: neither the order of calls, nor threads, nor other channels, nor the machine change its
-/// bits. Philox4x32-10 keyed by the seed and counting (run, channel, step) gives 128 bits for every
-/// two steps, Box and Muller's transform makes two normals of them. Steps go up to 2^48.
+/// A draw from the standard normal distribution. It is a pure function of its arguments: the order
+/// of calls, threads, other channels and the machine do not change its bits. Philox4x32-10, with
+/// the seed as key and (run, channel, step) as counter, gives 128 bits for two steps. The
+/// Box-Muller transform turns these into two draws. Steps go up to 2^48.
 double standard_normal(const NoiseKey& key, NoiseChannel channel, std::uint64_t step);
 
-/// The same numbers for the steps from `first_step` on, several times faster.
+/// The same draws for consecutive steps from `first_step` on, several times faster.
 void fill_standard_normal(const NoiseKey& key, NoiseChannel channel, std::uint64_t first_step,
                           std::span<double> draws);
 

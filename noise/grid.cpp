@@ -11,7 +11,7 @@ namespace touchdown::noise {
 
 namespace {
 
-/// Sorted without repetition, so that a grid is a grid.
+/// Levels must increase strictly, so that they form a grid.
 void describe_levels(Fields& fields, std::string_view key, std::vector<double>& levels) {
   fields(key, levels);
   fields.check(!levels.empty(), key, "expected at least one number");
@@ -33,14 +33,14 @@ void describe_level_on(Fields& fields, std::string_view key, double& level,
 void describe(Fields& fields, NoiseGridConfig& noise) {
   describe_levels(fields, "torque", noise.torque);
   describe_levels(fields, "accelerometer", noise.accelerometer);
-  KneeWheelGridConfig& apart = noise.knee_wheel;
-  if (fields.present("knee_wheel", !apart.knee.empty())) {
+  KneeWheelGridConfig& knee_wheel = noise.knee_wheel;
+  if (fields.present("knee_wheel", !knee_wheel.knee.empty())) {
     fields.within("knee_wheel", [&](Fields& grid) {
       grid.require("knee");
       grid.require("wheel");
-      describe_levels(grid, "knee", apart.knee);
-      describe_levels(grid, "wheel", apart.wheel);
-      grid("accelerometer", apart.accelerometer, 0.0, 1e3);
+      describe_levels(grid, "knee", knee_wheel.knee);
+      describe_levels(grid, "wheel", knee_wheel.wheel);
+      grid("accelerometer", knee_wheel.accelerometer, 0.0, 1e3);
     });
   }
   fields.know("hips");

@@ -8,7 +8,7 @@
 
 namespace touchdown::noise {
 
-/// Standard deviations of the sensors' white Gaussian noise; zero is a perfect sensor.
+/// Standard deviations of the sensors' white Gaussian noise. Zero means no noise.
 struct SensorNoise {
   double knee_torque = 0.0;     ///< N·m, each knee
   double wheel_torque = 0.0;    ///< N·m, each wheel
@@ -20,7 +20,7 @@ struct SensorNoise {
   bool operator==(const SensorNoise&) const = default;
 };
 
-/// What may happen to signals between the sensors and an estimator besides white noise.
+/// Errors of the signals between sensors and estimator, in addition to white noise.
 struct Disturbance {
   double torque_bias = 0.0;  ///< N·m on every knee, a quarter of it on every wheel
   double torque_gain = 1.0;
@@ -28,8 +28,8 @@ struct Disturbance {
   std::size_t imu_delay = 0;  ///< steps, of accelerometer and gyroscope
 };
 
-/// What noisy sensors report at `step` of a run. The accelerometer's noise is in its own frame and
-/// the same with and without gravity. Attitude and gyroscope stay exact.
+/// Adds noise to the observation at `step` of a run. The accelerometer's noise is in the IMU frame
+/// and the same with and without gravity. Attitude and gyroscope stay exact.
 models::Observation with_noise(const models::Observation& observation, const NoiseKey& key,
                                std::uint64_t step, const SensorNoise& levels);
 

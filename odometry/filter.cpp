@@ -17,17 +17,17 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Covariance = OdometryState::Covariance;
 
-// Where each part of the error begins.
+// Index of the first element of each part of the error vector.
 constexpr int rotation = 0, velocity = 3, position = 6, gyroscope = 9, accelerometer = 12;
 
 const Vector3d up = Vector3d::UnitZ();
 
-/// Whether a sensor can have said this; NaN fails.
-bool is_heard(const Vector3d& value, double largest) noexcept {
+/// Whether a measurement is plausible: finite and at most `largest`.
+bool is_valid(const Vector3d& value, double largest) noexcept {
   return value.cwiseAbs().maxCoeff() <= largest && value.allFinite();
 }
 
-bool is_heard(const LegJoints& joints) noexcept {
+bool is_valid(const LegJoints& joints) noexcept {
   constexpr double largest = 1e5;  // rad, rad/s
   const auto is_sane = [](double x) { return std::abs(x) <= largest; };
   return std::all_of(joints.position.begin(), joints.position.end(), is_sane) &&
@@ -94,10 +94,10 @@ void ContactOdometry::update_imu(const OdometrySample& sample) noexcept {
   constexpr double fastest = 1e3;  // rad/s
   constexpr double hardest = 1e5;  // m/s²
   last_rate_ = rate_;
-  if (is_heard(sample.angular_velocity, fastest)) {
+  if (is_valid(sample.angular_velocity, fastest)) {
     rate_ = config_.robot.imu_in_base * sample.angular_velocity;
   }
-  if (is_heard(sample.specific_force, hardest)) {
+  if (is_valid(sample.specific_force, hardest)) {
     force_ = config_.robot.imu_in_base * sample.specific_force;
   }
 }
@@ -105,15 +105,16 @@ void ContactOdometry::update_imu(const OdometrySample& sample) noexcept {
 void ContactOdometry::level() noexcept {
   is_placed_ = true;
   if (!(force_.norm() > 0.0)) return;
-  // The world's axes as the base sees them, with a heading of zero; any, if it stands on its nose.
+  // The world's axes in the frame of the base, with a heading of zero. With x vertical, the heading
+  // is arbitrary.
   const Vector3d z = force_.normalized();
   const Vector3d sideways = z.cross(Vector3d::UnitX());
   const Vector3d y = sideways.norm() > 1e-6 ? Vector3d(sideways.normalized()) : Vector3d::UnitY();
   state_.pose.rotation << y.cross(z).transpose(), y.transpose(), z.transpose();
 }
 
-/// Of its white noise over a second, along its own axes: one in its stop, or one that was not heard
-/// of for a while, says little.
+/// Variance of the accelerometer's white noise over a second, along its own axes. It is large for a
+/// saturated axis and after a gap in the samples.
 Vector3d ContactOdometry::accelerometer_variance(double step) const noexcept {
   constexpr double longest = 0.005;  // s
   const double shaken = config_.accelerometer_share * (force_.norm() - config_.gravity);
@@ -121,9 +122,9 @@ Vector3d ContactOdometry::accelerometer_variance(double step) const noexcept {
   Vector3d variance;
   for (int axis = 0; axis < 3; ++axis) {
     const bool is_saturated = std::abs(reported[axis]) >= 0.98 * config_.accelerometer_range;
-    const double blind = is_saturated || step > longest ? config_.saturated_noise : 0.0;
-    variance[axis] =
-        config_.accelerometer_noise * config_.accelerometer_noise + shaken * shaken + blind * blind;
+    const double saturated = is_saturated || step > longest ? config_.saturated_noise : 0.0;
+    variance[axis] = config_.accelerometer_noise * config_.accelerometer_noise + shaken * shaken +
+                     saturated * saturated;
   }
   return variance;
 }
@@ -140,7 +141,7 @@ void ContactOdometry::propagate(double step) noexcept {
   pose.velocity += step * (pose.rotation * force + gravity);
   pose.position += 0.5 * step * (before + pose.velocity);
 
-  // Φ = 1 + A·T + ½ (A·T)² of dξ/dt = A ξ: without the biases it depends on nothing but gravity.
+  // Φ = 1 + A·T + ½ (A·T)² of dξ/dt = A ξ. Without the biases it depends on gravity alone.
   const Matrix3d fall = hat(gravity);
   const Matrix3d of_velocity = hat(before) * middle;
   const Matrix3d of_position = hat(pose.position) * middle;
@@ -162,7 +163,7 @@ void ContactOdometry::propagate(double step) noexcept {
   add_noise(step, middle, before);
 }
 
-/// White noise of both sensors enters as their biases do.
+/// The white noise of both sensors enters in the same way as their biases.
 void ContactOdometry::add_noise(double step, const Matrix3d& to_world,
                                 const Vector3d& before) noexcept {
   const Matrix3d imu_to_world = to_world * config_.robot.imu_in_base;
@@ -187,20 +188,20 @@ void ContactOdometry::add_noise(double step, const Matrix3d& to_world,
 void ContactOdometry::correct(const WheeledLeg& leg, const LegJoints& joints, double p_contact,
                               double step) noexcept {
   constexpr double least = 1e-6;
-  if (!(p_contact > least) || !is_heard(joints)) return;
+  if (!(p_contact > least) || !is_valid(joints)) return;
   const double p = std::min(p_contact, 1.0);
   const ExtendedPose& pose = state_.pose;
   const double radius = config_.robot.wheel_radius;
   const WheelMotion wheel = motion_of(leg, joints);
   const Vector3d rate = rate_ - state_.gyroscope_bias;
 
-  // What the IMU's velocity has to be for the point at the bottom of the wheel to stand still.
+  // The velocity of the IMU for which the lowest point of the wheel is at rest.
   const Vector3d spin = pose.rotation * (rate + wheel.spin * Vector3d::UnitY());
   const Vector3d rolling = radius * spin.cross(up);
   const Vector3d measured = rolling - pose.rotation * (rate.cross(wheel.centre) + wheel.velocity);
   const Vector3d innovation = measured - pose.velocity;
 
-  // innovation = H ξ + noise, where H knows of rotation, velocity and the gyroscope's bias alone.
+  // innovation = H ξ + noise. H depends on rotation, velocity and the gyroscope's bias only.
   const Matrix3d of_rotation = radius * hat(spin) * hat(up);
   const Vector3d point = wheel.centre - radius * (pose.rotation.transpose() * up);
   const Matrix3d of_bias = -pose.rotation * hat(point);

@@ -8,7 +8,7 @@ namespace touchdown::odometry {
 
 namespace {
 
-/// The coefficients of 1, hat(φ) and hat(φ)² in exp and in its left Jacobian, by the angle.
+/// Coefficients of hat(φ) and hat(φ)² in exp and its left Jacobian, as functions of the angle.
 struct Coefficients {
   double sine;          ///< sin θ / θ
   double cosine;        ///< (1 − cos θ) / θ²
@@ -17,7 +17,7 @@ struct Coefficients {
 
 Coefficients coefficients(double angle) noexcept {
   const double square = angle * angle;
-  constexpr double small = 0.05;  // below, the differences cancel; the series' next term is 1e-15
+  constexpr double small = 0.05;  // smaller: differences cancel; next series term: 1e-15
   if (angle < small) {
     return {1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)),
             0.5 - square / 24.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0)),
@@ -43,7 +43,7 @@ Eigen::Matrix3d exp_so3(const Eigen::Vector3d& angle) noexcept {
 }
 
 Eigen::Vector3d log_so3(const Eigen::Matrix3d& rotation) noexcept {
-  const Eigen::AngleAxisd turn(rotation);  // by the quaternion: good near half a turn too
+  const Eigen::AngleAxisd turn(rotation);  // via the quaternion: accurate near half a turn, too
   return turn.angle() * turn.axis();
 }
 

@@ -6,14 +6,14 @@ namespace touchdown::odometry {
 
 namespace {
 
-/// `v`, turned about y.
+/// Rotates `v` about y.
 Eigen::Vector3d turned(double angle, const Eigen::Vector3d& v) noexcept {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
   return {c * v.x() + s * v.z(), v.y(), c * v.z() - s * v.x()};
 }
 
-/// The velocity of `v` that turns about y.
+/// Velocity of the point `v` in a rotation about y.
 Eigen::Vector3d turning(double rate, const Eigen::Vector3d& v) noexcept {
   return {rate * v.z(), 0.0, -rate * v.x()};
 }

@@ -1,5 +1,5 @@
-# `cmake --install` of what reads model files: touchdown::models, in an export of its own, so that
-# the estimator alone needs nothing but Eigen.
+# `cmake --install` of touchdown::models, which reads model files. It has its own export, so that the
+# estimator alone needs nothing but Eigen.
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 set_target_properties(touchdown_onboard PROPERTIES EXPORT_NAME models OUTPUT_NAME touchdown_models)
 set_target_properties(touchdown_onboard PROPERTIES ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})

@@ -7,14 +7,14 @@
 
 namespace touchdown {
 
-/// The estimator that `touchdown fit` fitted, from its file, ready to listen. Files without a
-/// passport, older or from elsewhere, are taken as `make_estimator` says. Errors: `InputError`, one
-/// line that begins with the file: unreadable, changed since it was fitted, of another estimator,
-/// rate or robot than `use` says.
+/// Loads a model file that `touchdown fit` wrote and makes its estimator. For files without
+/// metadata see `make_estimator`. Errors: `InputError`, one line that begins with the file's name,
+/// if the file is unreadable, was changed since the fit, or has another estimator, rate or robot
+/// than `use`.
 std::unique_ptr<ContactEstimator> load_estimator(const std::filesystem::path& path,
                                                  const ModelUse& use = {});
 
-/// What the file says about itself, as far as that decides what `load_estimator` does.
+/// The metadata of the file that `load_estimator` uses.
 ModelMetadata load_metadata(const std::filesystem::path& path, const ModelUse& use = {});
 
 }  // namespace touchdown

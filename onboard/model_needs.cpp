@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "estimator/models/parameters.hpp"
 #include "estimator/models/metadata.hpp"
+#include "estimator/models/parameters.hpp"
 
 namespace touchdown {
 
@@ -33,7 +33,8 @@ NpzNeeds model_needs(const std::filesystem::path& path) {
     belongs = [](std::string_view /*name*/) { return true; };
   }
   return [belongs](std::string_view name) {
-    return name == metadata_array || belongs(name) ? any_array(name) : 0;
+    const bool is_metadata = name == metadata_array || name == former_metadata_array;
+    return is_metadata || belongs(name) ? any_array(name) : 0;
   };
 }
 

@@ -6,9 +6,9 @@
 
 namespace touchdown {
 
-/// What of a model's file belongs to the model: of parameters and of a network all there is, of a
-/// grid and of a phase model the arrays that they are made of, whatever else somebody keeps beside
-/// them. Errors: `InputError` for an unreadable file.
+/// Which arrays of a file belong to the model: all arrays of a parameter model or a network; of a
+/// grid or a phase model only its own, because the file may hold others. Errors: `InputError` for
+/// an unreadable file.
 NpzNeeds model_needs(const std::filesystem::path& path);
 
 }  // namespace touchdown

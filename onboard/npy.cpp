@@ -18,7 +18,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
 
-/// Far above any grid; a size beyond it is a broken header, and its product cannot overflow.
+/// Far above any grid. A larger size means a broken header; the product of two cannot overflow.
 constexpr std::size_t largest_axis = std::size_t{1} << 28U;
 
 struct Header {
@@ -35,14 +35,14 @@ std::string_view value_of(std::string_view text, std::string_view key) {
   return rest.substr(std::min(rest.size(), rest.find_first_not_of(' ')));
 }
 
-/// What stands between the marks, if the text begins with the first one.
+/// The text between the marks, if it begins with the first one.
 std::string_view between(std::string_view text, std::string_view open, std::string_view close) {
   const std::size_t end = text.find(close, open.size());
   if (!text.starts_with(open) || end == std::string_view::npos) return {};
   return text.substr(open.size(), end - open.size());
 }
 
-/// "2, 3" or "2,"; empty if it is anything else.
+/// Parses "2, 3" or "2,"; empty for anything else.
 std::vector<std::size_t> parse_shape(std::string_view text) {
   std::vector<std::size_t> shape;
   while (!text.empty()) {
@@ -57,7 +57,7 @@ std::vector<std::size_t> parse_shape(std::string_view text) {
   return shape;
 }
 
-/// Reads bytes in their order and complains if there are none left.
+/// Reads bytes in order. Errors: `InputError` if none are left.
 class Bytes {
  public:
   Bytes(const NpyBytes& source, std::size_t size, const std::string& name)
@@ -81,7 +81,7 @@ class Bytes {
 };
 
 Header read_header(Bytes& bytes, const std::string& name) {
-  // Shorter than any header, and enough to know how long it is.
+  // Shorter than any header, and long enough to contain its length.
   constexpr std::size_t known = 12;
   std::string head(known, '\0');
   if (bytes.left() >= known) bytes.fill(head);
@@ -128,7 +128,7 @@ std::vector<double> numbers(Bytes& bytes, std::size_t count) {
   return values;
 }
 
-/// What an array may be of, as its header calls it.
+/// A type of numbers, by its name in the header.
 struct NumberType {
   std::string_view name;
   std::size_t size;

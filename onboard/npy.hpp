@@ -10,11 +10,11 @@
 
 namespace touchdown {
 
-/// What a `.npy` file begins with.
+/// The first bytes of a `.npy` file.
 inline constexpr std::string_view npy_magic = "\x93NUMPY";
 
-/// Gives the bytes of a `.npy` file in their order: fills the span, as far as there are any, and
-/// returns how many.
+/// A source of the bytes of a `.npy` file, in order. It fills the span as far as bytes are left and
+/// returns their number.
 using NpyBytes = std::function<std::size_t(std::span<char>)>;
 
 /// Reads float64, float32, whole numbers (those beyond 2^53 rounded) and bool, C and Fortran order,
@@ -23,7 +23,7 @@ using NpyBytes = std::function<std::size_t(std::span<char>)>;
 ModelArray from_npy(std::string_view bytes, const std::string& name);
 
 /// As above, from a file of `size` bytes. Errors: also for an array of more than `most` numbers,
-/// before they are read.
+/// before reading them.
 ModelArray read_npy(const NpyBytes& bytes, std::size_t size, const std::string& name,
                     std::size_t most);
 

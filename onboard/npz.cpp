@@ -14,7 +14,7 @@ namespace touchdown {
 
 namespace {
 
-/// One GB of them: far more than any model has.
+/// 1 GB of numbers: far more than any model has.
 constexpr std::size_t most_numbers = std::size_t{1} << 27U;
 constexpr std::string_view extension = ".npy";
 
@@ -54,9 +54,9 @@ ModelArray read_member(zip_t& archive, zip_uint64_t index, const std::string& wh
     return static_cast<std::size_t>(size);
   };
   ModelArray array = read_npy(bytes, status.size, where, most);
-  // At the end of a member libzip compares the checksum.
+  // libzip compares the checksum at the end of a member.
   std::array<char, 1> rest{};
-  if (bytes(rest) != 0) throw InputError(where + ": is longer than it says");
+  if (bytes(rest) != 0) throw InputError(where + ": is longer than its header states");
   return array;
 }
 

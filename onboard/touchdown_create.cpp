@@ -1,4 +1,4 @@
-// The one function of estimator/c_interface/touchdown.h that reads a file.
+// The only function of estimator/c_interface/touchdown.h that reads a file.
 
 #include "estimator/c_interface/handle.hpp"
 #include "onboard/model_needs.hpp"

@@ -8,7 +8,7 @@ namespace touchdown::policies {
 
 namespace {
 
-/// `value` moved towards `target` by at most `most`.
+/// Moves `value` towards `target` by at most `most`.
 double slewed(double value, double target, double most) {
   return value + std::clamp(target - value, -most, most);
 }
@@ -51,11 +51,11 @@ static void follow_crouch(double time, Course& course) {
   if (command == nullptr) return;
   double& left_hip = course.posture[models::index(models::Servo::left_hip)];
   const double hip = slewed(left_hip, command->hip, command->rate * course.period);
-  const double bend = hip - left_hip;
+  const double change = hip - left_hip;
   left_hip = hip;
-  course.posture[models::index(models::Servo::left_knee)] -= knee_per_hip * bend;
-  course.posture[models::index(models::Servo::right_hip)] -= bend;
-  course.posture[models::index(models::Servo::right_knee)] += knee_per_hip * bend;
+  course.posture[models::index(models::Servo::left_knee)] -= knee_per_hip * change;
+  course.posture[models::index(models::Servo::right_hip)] -= change;
+  course.posture[models::index(models::Servo::right_knee)] += knee_per_hip * change;
 }
 
 void Course::follow(const models::Observation& observation, const WheelBalancerConfig& config) {
@@ -71,8 +71,9 @@ void Course::follow(const models::Observation& observation, const WheelBalancerC
 
 double Course::yaw_torque(const models::Observation& observation,
                           const WheelBalancerConfig& config) const {
-  const double beside = std::clamp(lateral, -config.max_lateral_error, config.max_lateral_error);
-  return config.yaw_stiffness * (heading - target_yaw + config.lateral_stiffness * beside) +
+  const double lateral_error =
+      std::clamp(lateral, -config.max_lateral_error, config.max_lateral_error);
+  return config.yaw_stiffness * (heading - target_yaw + config.lateral_stiffness * lateral_error) +
          config.yaw_damping * observation.yaw_rate;
 }
 

@@ -8,8 +8,8 @@
 
 namespace touchdown::policies {
 
-/// Where a robot is asked to be, how fast and how crouched, by its scripts, and where it thinks it
-/// is, by its wheels' odometry: what balancing laws have in common.
+/// The common part of the balancing laws: targets of position, speed and crouch from the scripts,
+/// and the robot's position from wheel odometry.
 struct Course {
   VelocityScript script;
   CrouchScript crouch;
@@ -22,23 +22,23 @@ struct Course {
   double target_yaw = 0.0;                               ///< rad
   double position = 0.0;                                 ///< along the ground, by odometry (m)
   double lateral = 0.0;  ///< to the left of the target heading, by odometry (m)
-  double heading = 0.0;  ///< yaw without its jumps by 2π (rad)
+  double heading = 0.0;  ///< unwrapped yaw (rad)
   double last_distance = 0.0;
   double last_yaw = 0.0;
 
-  /// Begins where the robot stands.
+  /// Starts at the robot's current pose.
   void begin(const models::Observation& observation, const WheelBalancerConfig& config);
-  /// One control step further.
+  /// Advances by one control step.
   void follow(const models::Observation& observation, const WheelBalancerConfig& config);
-  /// The torque on both wheels, raw, that turns the robot to its course (N·m).
+  /// The raw torque on both wheels that turns the robot towards its course (N·m).
   double yaw_torque(const models::Observation& observation,
                     const WheelBalancerConfig& config) const;
-  /// How far the wheels' encoders have gone along the ground (m), and how fast they go (m/s).
+  /// Distance along the ground (m) and speed (m/s) by the wheels' encoders.
   double rolled_distance(const models::Observation& observation) const;
   double rolling_speed(const models::Observation& observation) const;
 };
 
-/// What both laws tell the wheels: a ground velocity (m/s), and a raw torque on each (N·m).
+/// The wheel commands of both laws: a ground velocity (m/s), and a raw torque on each wheel (N·m).
 void command_wheels(double ground_velocity, const std::array<double, models::wheel_count>& torque,
                     double wheel_radius, const WheelBalancerConfig& config, models::Action& action);
 

@@ -14,7 +14,7 @@ static WheelBalancerConfig with_gains(const std::string& name, const WheelBalanc
                                       const LqrGains& lqr) {
   if (name == "touchdown") return with_touchdown_gains(config);
   if (name == "upkie") return with_upkie_gains(config);
-  // Of a robot out of all proportion they may be what nobody could write, or read again.
+  // Gains of an unusual robot may exceed the ranges: reading them back checks them.
   return from_yaml<WheelBalancerConfig>(
       YamlDocument::parse(YAML::Dump(to_node(lqr(config))), "lqr"));
 }

@@ -9,18 +9,17 @@ class Fields;
 
 namespace touchdown::policies {
 
-/// From `time` on, drive at these velocities.
+/// From `time` on, drives at these velocities.
 struct VelocityCommand {
   double time = 0.0;      ///< s
   double velocity = 0.0;  ///< along the ground, forward positive (m/s)
   double yaw_rate = 0.0;  ///< to the left positive (rad/s)
 };
 
-/// What a driver would do with the sticks: piecewise constant commands, sorted by time. Before the
-/// first one the robot stands.
+/// Piecewise constant driving commands, sorted by time. Before the first one the robot stands.
 using VelocityScript = std::vector<VelocityCommand>;
 
-/// The command in force at `time`.
+/// The command at `time`.
 VelocityCommand command_at(const VelocityScript& script, double time);
 
 /// Gains of the balancer. Errors are target − measurement.
@@ -30,33 +29,33 @@ struct WheelBalancerConfig {
   double position_stiffness = 1.5;  ///< integral on the position error (1/s²)
   double position_damping = 3.0;    ///< proportional on the position error (1/s)
   double max_velocity = 2.0;        ///< of the commanded ground velocity (m/s)
-  double max_integral = 10.0;       ///< of the accumulated part of that command (m/s)
+  double max_integral = 10.0;       ///< of the integral part of that command (m/s)
   double max_acceleration = 1.0;    ///< of the target velocity (m/s²)
   double max_position_error = 1.0;  ///< m
-  double air_decay_time = 1.0;      ///< of the integral while both wheels are in the air (s)
+  double air_decay_time = 1.0;      ///< of the integral, without contact (s)
   double wheel_kd_scale = 0.2;      ///< of the wheels' velocity servo
   double yaw_stiffness = 1.0;       ///< differential wheel torque (N·m/rad)
   double yaw_damping = 0.1;         ///< N·m·s/rad
-  double lateral_stiffness = 0.5;   ///< heading asked for per metre beside the course (rad/m)
+  double lateral_stiffness = 0.5;   ///< heading per metre of lateral error (rad/m)
   double max_lateral_error = 0.6;   ///< m
-  bool keep_heading = false;        ///< the course is the heading at the reset, not the world's +x
+  bool keep_heading = false;        ///< course: the heading at the reset, not the world's +x
   double leg_kp_scale = 2.0;        ///< of the hips and knees
   double leg_kd_scale = 2.0;        ///< of the hips and knees
 };
 
-/// Our own, found for Upkie with bent legs on stairs.
+/// The default gains, tuned for Upkie with bent legs on stairs.
 inline WheelBalancerConfig with_touchdown_gains(WheelBalancerConfig config) {
-  const WheelBalancerConfig ours;
-  config.pitch_stiffness = ours.pitch_stiffness;
-  config.pitch_damping = ours.pitch_damping;
-  config.position_stiffness = ours.position_stiffness;
-  config.position_damping = ours.position_damping;
+  const WheelBalancerConfig defaults;
+  config.pitch_stiffness = defaults.pitch_stiffness;
+  config.pitch_damping = defaults.pitch_damping;
+  config.position_stiffness = defaults.position_stiffness;
+  config.position_damping = defaults.position_damping;
   return config;
 }
 
 /// The gains that Upkie ships with (github.com/upkie/upkie, upkie/cpp/controllers/WheelBalancer.h,
-/// `WheelBalancer::Parameters`): a third of our pitch damping, less than a quarter of our position
-/// damping.
+/// `WheelBalancer::Parameters`): a third of the default pitch damping, less than a quarter of the
+/// default position damping.
 inline WheelBalancerConfig with_upkie_gains(WheelBalancerConfig config) {
   config.pitch_stiffness = 20.0;
   config.pitch_damping = 1.8;
@@ -65,14 +64,14 @@ inline WheelBalancerConfig with_upkie_gains(WheelBalancerConfig config) {
   return config;
 }
 
-/// The balancer with gains that follow from the robot (policies/wheeled_pendulum.hpp).
+/// Computes gains from the robot's physics (policies/wheeled_pendulum.hpp).
 using LqrGains = std::function<WheelBalancerConfig(const WheelBalancerConfig&)>;
 
-/// `gains: upkie` begins with `with_upkie_gains`, `gains: touchdown` with the defaults of the same
-/// four, `gains: lqr` with `lqr`, where somebody knows the robot; what is written are the numbers
-/// alone.
+/// The key `gains` selects initial values: `upkie` uses `with_upkie_gains`, `touchdown` uses
+/// `with_touchdown_gains`, and `lqr` uses the function `lqr`, if one is given. Only the numbers are
+/// written.
 void describe(Fields& fields, WheelBalancerConfig& config, const LqrGains& lqr = {});
-/// One command of a script; while it is read, the last one so far, which must be the latest.
+/// Describes one command of `script`. When reading, it is the last so far, and must be the latest.
 void describe(Fields& fields, VelocityCommand& command, const VelocityScript& script);
 
 }  // namespace touchdown::policies

@@ -13,15 +13,15 @@ class Fields;
 
 namespace touchdown::policies {
 
-/// A constant force on the robot's base for a while: a push, a lift.
+/// A constant force on the robot's base for a limited time, such as a push or a lift.
 struct TimedForce {
-  double time = 0.0;      ///< from here on (s)
-  double duration = 0.1;  ///< for so long (s)
+  double time = 0.0;      ///< start (s)
+  double duration = 0.1;  ///< s
   /// In the world frame (N).
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  /// Where it acts, in the base frame (m).
+  /// Point of action in the base frame (m).
   Eigen::Vector3d point_in_base = Eigen::Vector3d::Zero();
-  /// The force turns with the robot's heading: x ahead of it, y to its left.
+  /// Whether the force turns with the robot's heading: x ahead, y to the left.
   bool along_heading = false;
 
   bool acts_at(double t) const { return t >= time && t < time + duration; }
@@ -30,14 +30,14 @@ struct TimedForce {
 /// The forces of a run; they may overlap.
 using ForceScript = std::vector<TimedForce>;
 
-/// The force in the world frame (N) on a robot that heads for `yaw` (rad).
+/// The force in the world frame (N) on a robot with heading `yaw` (rad).
 Eigen::Vector3d force_in_world(const TimedForce& force, double yaw);
 
-/// A rope from a fixed point in the world to the robot's handle: a spring that only pulls, with
-/// damping along its length.
+/// A rope from a fixed point in the world to the robot's handle: a spring with damping along its
+/// length that only pulls.
 struct Tether {
   Eigen::Vector3d anchor = {0.0, 0.0, 2.0};          ///< in the world (m)
-  Eigen::Vector3d point_in_base = {0.0, 0.0, 0.06};  ///< where it holds the robot (m)
+  Eigen::Vector3d point_in_base = {0.0, 0.0, 0.06};  ///< attachment point (m)
   double length = 1.0;                               ///< slack below this (m)
   double stiffness = 2000.0;                         ///< N/m
   double damping = 100.0;                            ///< N·s/m
@@ -46,17 +46,17 @@ struct Tether {
 /// The force on the robot at `point_in_base`, in the world frame (N); zero when slack.
 Eigen::Vector3d tether_force(const Tether& tether, const models::GroundTruth& robot);
 
-/// A hand at the robot's handle that keeps it above one place without carrying anything: a level
-/// spring and damper.
+/// A horizontal spring and damper at the robot's handle. It keeps the robot above one place without
+/// carrying weight.
 struct Guide {
   double x = 0.0;                                    ///< in the world (m)
   double y = 0.0;                                    ///< in the world (m)
-  Eigen::Vector3d point_in_base = {0.0, 0.0, 0.06};  ///< where it holds the robot (m)
+  Eigen::Vector3d point_in_base = {0.0, 0.0, 0.06};  ///< attachment point (m)
   double stiffness = 100.0;                          ///< N/m
   double damping = 20.0;                             ///< N·s/m
 };
 
-/// The force on the robot at `point_in_base`, in the world frame (N): level.
+/// The force on the robot at `point_in_base`, in the world frame (N). It is horizontal.
 Eigen::Vector3d guide_force(const Guide& guide, const models::GroundTruth& robot);
 
 void describe(Fields& fields, TimedForce& force);

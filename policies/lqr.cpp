@@ -21,7 +21,7 @@ LinearSystem sampled(const LinearSystem& continuous, double period) {
 }
 
 MatrixXd lqr(const LinearSystem& system, const MatrixXd& q, const MatrixXd& r) {
-  // The structure-preserving doubling algorithm: step k has looked 2^k samples ahead.
+  // Structure-preserving doubling algorithm: step k covers 2^k samples.
   const MatrixXd identity = MatrixXd::Identity(q.rows(), q.cols());
   MatrixXd a = system.a;
   MatrixXd g = system.b * r.inverse() * system.b.transpose();

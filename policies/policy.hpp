@@ -4,8 +4,8 @@
 
 namespace touchdown::policies {
 
-/// The seam for controllers: from what the robot observes to what its servos should do. A policy
-/// never sees ground truth; contact, if it needs it, comes from an estimator fed by observations.
+/// The seam for controllers: maps observations to servo commands. A policy never receives ground
+/// truth. If it needs contact, it gets it from an estimator that uses observations.
 class Policy {
  public:
   virtual ~Policy() = default;

@@ -8,7 +8,8 @@
 
 namespace touchdown::policies {
 
-/// Commands that hold from their `time` on, sorted by it: the one in force, null before the first.
+/// The command at `time` of a script sorted by time; null before the first one. A command holds
+/// from its `time` on.
 template <typename Command>
 const Command* in_force(const std::vector<Command>& script, double time) {
   const auto later = std::upper_bound(script.begin(), script.end(), time,
@@ -16,7 +17,7 @@ const Command* in_force(const std::vector<Command>& script, double time) {
   return later == script.begin() ? nullptr : &*std::prev(later);
 }
 
-/// While a script is read, its last command must be the latest.
+/// Reading: checks that the last command of a script is the latest.
 template <typename Command>
 void check_order(Fields& fields, const Command& last, const std::vector<Command>& script) {
   fields.finish();

@@ -6,7 +6,7 @@ namespace touchdown::policies {
 
 namespace {
 
-/// Bent forward: what hangs down comes to the front.
+/// Rotates forward: a vector that points down moves to the front.
 Eigen::Vector2d bent(double angle, const Eigen::Vector2d& v) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);

@@ -8,23 +8,23 @@
 
 namespace touchdown::policies {
 
-/// A wheeled biped from the side, x forward and z up, its joints at zero and its legs as one: what
-/// a law needs to know of its masses and lengths. Both links hang straight down then.
+/// Masses and lengths of a wheeled biped from the side, x forward, z up, for control laws. Both
+/// legs count as one. All joints are at zero, where both links point straight down.
 struct SideView {
   double torso_mass = 0.0;       ///< kg
   double upper_mass = 0.0;       ///< of both legs (kg)
-  double lower_mass = 0.0;       ///< likewise
-  double mass = 0.0;             ///< of all, wheels too (kg)
-  Eigen::Vector2d torso_centre;  ///< of mass, from the hip (m)
-  Eigen::Vector2d upper_centre;  ///< likewise
-  Eigen::Vector2d lower_centre;  ///< from the knee (m)
+  double lower_mass = 0.0;       ///< of both legs (kg)
+  double mass = 0.0;             ///< of the whole robot, wheels included (kg)
+  Eigen::Vector2d torso_centre;  ///< centre of mass from the hip (m)
+  Eigen::Vector2d upper_centre;  ///< centre of mass from the hip (m)
+  Eigen::Vector2d lower_centre;  ///< centre of mass from the knee (m)
   double upper_length = 0.0;     ///< hip to knee (m)
   double lower_length = 0.0;     ///< knee to axle (m)
-  /// What turns a hip's or knee's angle into one that bends forward: left, right.
+  /// Sign that makes hip and knee angles positive forward: left, right.
   std::array<double, 2> forward = {1.0, -1.0};
 
-  /// From the axle to the centre of mass of what stands on it, with hips and knees bent forward by
-  /// these angles and the torso leaning forward (rad), in metres.
+  /// Vector (m) from the axle to the centre of mass of the robot without wheels. The angles of
+  /// hips, knees and torso are positive forward (rad).
   Eigen::Vector2d centre(double hip, double knee, double pitch) const;
 };
 

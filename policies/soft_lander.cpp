@@ -10,26 +10,26 @@ namespace {
 
 constexpr double long_ago = 1e3;  // s
 
-// What a servo's scales of one stand for (N·m/rad, N·m·s/rad), as Upkie's spine sets them.
+// Servo gains at a scale of one, as in Upkie's spine (N·m/rad, N·m·s/rad).
 constexpr double servo_kp = 20.0;
 constexpr double servo_kd = 1.0;
 
-constexpr double speed_low_pass = 0.02;   // s: of the ground's speed
-constexpr double dead_time = 0.06;        // s: a shorter flight is taken for a false alarm …
-constexpr double one_dead_time = 0.1;     // s: … and of one wheel alone for a bump …
-constexpr double softening_time = 0.1;    // s: … from there on the legs soften …
-constexpr double soft_time = 0.25;        // s: … stay soft after a landing …
-constexpr double stiffening_time = 0.4;   // s: … and stiffen again
-constexpr double load_ramp = 0.02;        // s: in which the soft knees take the weight
-constexpr double soft_stiffness = 500.0;  // N/m: of one soft leg along its line
+constexpr double speed_low_pass = 0.02;   // s: of the ground speed
+constexpr double dead_time = 0.06;        // s: a shorter flight counts as a false alarm
+constexpr double one_dead_time = 0.1;     // s: a shorter flight of one wheel counts as a bump
+constexpr double softening_time = 0.1;    // s: softening of the legs after the dead time
+constexpr double soft_time = 0.25;        // s: soft phase after a landing
+constexpr double stiffening_time = 0.4;   // s: stiffening afterwards
+constexpr double load_ramp = 0.02;        // s: load ramp of the soft knees
+constexpr double soft_stiffness = 500.0;  // N/m: of one soft leg from hip to axle
 constexpr double soft_damping = 140.0;    // N·s/m
 constexpr double gravity = 9.81;          // m/s²
 
-/// A leg from its knee, bent forward by `knee` from straight.
+/// The line from hip to axle of a leg with its knee bent forward.
 struct LegLine {
-  double lever;       ///< of a force along the line from hip to axle on the knee (m)
-  double angle;       ///< of that line from the upper link, forward (rad)
-  double angle_rate;  ///< and how it changes with the knee
+  double lever;       ///< lever arm at the knee of a force along the line (m)
+  double angle;       ///< of the line from the upper link, forward (rad)
+  double angle_rate;  ///< derivative of the angle by the knee angle
 };
 
 LegLine line_of(const SideView& robot, double knee) {
@@ -48,12 +48,12 @@ SoftLander::SoftLander(const WheelBalancerConfig& config, Course course, const S
     : config_(config),
       course_(std::move(course)),
       robot_(robot),
-      told_(std::move(contact)),
+      contact_source_(std::move(contact)),
       standing_(long_ago),
       on_ground_(long_ago) {}
 
 void SoftLander::reset(const models::Observation& observation) {
-  *this = SoftLander(config_, std::move(course_), robot_, std::move(told_));
+  *this = SoftLander(config_, std::move(course_), robot_, std::move(contact_source_));
   course_.begin(observation, config_);
 }
 
@@ -68,7 +68,7 @@ void SoftLander::update_ground_velocity(const models::Observation& observation) 
     const double gain = -std::expm1(-course_.period / speed_low_pass);
     held_velocity_ += gain * (course_.rolling_speed(observation) - held_velocity_);
   }
-  if (!flies()) {
+  if (!is_flying()) {
     const double position_error = course_.target_position - course_.position;
     integral_ =
         std::clamp(integral_ + course_.period * (config_.position_stiffness * position_error -
@@ -85,10 +85,10 @@ void SoftLander::update_ground_velocity(const models::Observation& observation) 
   ground_velocity_ = std::clamp(ground_velocity_, -config_.max_velocity, config_.max_velocity);
 }
 
-bool SoftLander::flies() const { return in_air_ > dead_time; }
+bool SoftLander::is_flying() const { return in_air_ > dead_time; }
 
 void SoftLander::update_softness() {
-  standing_ = flies() ? 0.0 : standing_ + course_.period;
+  standing_ = is_flying() ? 0.0 : standing_ + course_.period;
   const double sinking = std::max(in_air_ - dead_time, one_in_air_ - one_dead_time);
   if (sinking > 0.0) {
     on_ground_ = 0.0;
@@ -107,21 +107,21 @@ void SoftLander::command_leg(std::size_t side, const models::Observation& observ
   const std::size_t knee = hip + 1;
   const double forward = robot_.forward[side];
   const double stiff = 1.0 - softness_;
-  const double asked = forward * course_.posture[knee];
-  const double bend = forward * observation.servo[knee].position;
-  const LegLine line = line_of(robot_, bend);
+  const double target = forward * course_.posture[knee];
+  const double knee_angle = forward * observation.servo[knee].position;
+  const LegLine line = line_of(robot_, knee_angle);
   const double square = line.lever * line.lever;
-  const double load = !flies() ? softness_ * 0.5 * robot_.mass * gravity * line.lever *
-                                     std::min(1.0, standing_ / load_ramp)
-                               : 0.0;
+  const double load = !is_flying() ? softness_ * 0.5 * robot_.mass * gravity * line.lever *
+                                         std::min(1.0, standing_ / load_ramp)
+                                   : 0.0;
   action.servo[knee] = {
       .feedforward_torque = -forward * load,
       .position = course_.posture[knee],
       .kp_scale = stiff * config_.leg_kp_scale + softness_ * soft_stiffness * square / servo_kp,
       .kd_scale = stiff * config_.leg_kd_scale + softness_ * soft_damping * square / servo_kd};
-  // The hip turns against the leg's line, as far as the legs are soft: the leg folds along it.
-  const double folded = stiff * asked + softness_ * bend;
-  action.servo[hip] = {.position = course_.posture[hip] + forward * (line_of(robot_, asked).angle -
+  // The hip turns against the line, in proportion to the softness: the leg folds along its line.
+  const double folded = stiff * target + softness_ * knee_angle;
+  action.servo[hip] = {.position = course_.posture[hip] + forward * (line_of(robot_, target).angle -
                                                                      line_of(robot_, folded).angle),
                        .velocity = -softness_ * line.angle_rate * observation.servo[knee].velocity,
                        .kp_scale = config_.leg_kp_scale,
@@ -130,7 +130,7 @@ void SoftLander::command_leg(std::size_t side, const models::Observation& observ
 
 models::Action SoftLander::act(const models::Observation& observation) {
   course_.follow(observation, config_);
-  contact_ = told_(observation, ground_velocity_);
+  contact_ = contact_source_(observation, ground_velocity_);
   in_air_ = contact_[0] || contact_[1] ? 0.0 : in_air_ + course_.period;
   one_in_air_ = contact_[0] && contact_[1] ? 0.0 : one_in_air_ + course_.period;
   update_ground_velocity(observation);
@@ -139,8 +139,8 @@ models::Action SoftLander::act(const models::Observation& observation) {
   for (std::size_t side = 0; side < models::wheel_count; ++side) {
     command_leg(side, observation, action);
   }
-  // Wheels that are both free say nothing about where the robot heads, and turn nothing.
-  const double turn = !flies() ? course_.yaw_torque(observation, config_) : 0.0;
+  // With both wheels in the air, the wheels cannot turn the robot.
+  const double turn = !is_flying() ? course_.yaw_torque(observation, config_) : 0.0;
   command_wheels(ground_velocity_, {turn, turn}, course_.wheel_radius, config_, action);
   return action;
 }

@@ -7,12 +7,14 @@
 
 namespace touchdown::policies {
 
-/// A balancer that uses contact: it balances its centre of mass instead of its torso, keeps the
-/// ground's speed on its wheels while they are in the air, and yields with its knees when it lands,
-/// each leg along its own line, or when one wheel hangs over an edge: it sinks between its wheels
-/// instead of rolling over the one that stands. docs/policy.md has its equations and what each part
-/// brings. What both wheels do is the balancer's (policies/wheel_balancer.hpp), and so are its
-/// gains.
+/// A balancer that uses contact. It differs from `WheelBalancer` in three ways:
+/// - It balances the centre of mass, not the torso.
+/// - In the air it keeps the ground speed on its wheels.
+/// - It softens its knees for a landing, each leg along its own line. It also does so when one
+/// wheel
+///   hangs over an edge, and sinks instead of tipping over the other wheel.
+/// Wheel commands and gains are those of policies/wheel_balancer.hpp. Equations and the effect of
+/// each part: docs/policy.md.
 class SoftLander : public Policy {
  public:
   SoftLander(const WheelBalancerConfig& config, Course course, const SideView& robot,
@@ -21,12 +23,12 @@ class SoftLander : public Policy {
   void reset(const models::Observation& observation) override;
   models::Action act(const models::Observation& observation) override;
 
-  /// How much the legs yield: 0, as stiff as on the ground, to 1.
+  /// Softness of the legs: 0 is as stiff as on the ground, 1 is softest.
   double softness() const { return softness_; }
 
  private:
-  /// Whether both wheels have been told off the ground for longer than false alarms last.
-  bool flies() const;
+  /// Whether both wheels have been without contact for longer than a false alarm.
+  bool is_flying() const;
   void update_ground_velocity(const models::Observation& observation);
   void update_softness();
   void command_leg(std::size_t side, const models::Observation& observation,
@@ -35,16 +37,16 @@ class SoftLander : public Policy {
   WheelBalancerConfig config_;
   Course course_;
   SideView robot_;
-  WheelContact told_;
+  WheelContact contact_source_;
 
   std::array<bool, models::wheel_count> contact_ = {true, true};
-  double held_velocity_ = 0.0;    ///< of the ground, as last felt (m/s)
+  double held_velocity_ = 0.0;    ///< ground speed during the last contact (m/s)
   double integral_ = 0.0;         ///< m/s
-  double ground_velocity_ = 0.0;  ///< what is asked of the wheels (m/s)
-  double in_air_ = 0.0;           ///< since the last wheel left the ground (s)
-  double one_in_air_ = 0.0;       ///< since the first did (s)
-  double standing_ = 0.0;         ///< since one touched it again after a flight (s)
-  double on_ground_ = 0.0;        ///< since both did, but for bumps (s)
+  double ground_velocity_ = 0.0;  ///< commanded to the wheels (m/s)
+  double in_air_ = 0.0;           ///< time since both wheels lost contact (s)
+  double one_in_air_ = 0.0;       ///< time since either wheel lost contact (s)
+  double standing_ = 0.0;         ///< time since the first contact after a flight (s)
+  double on_ground_ = 0.0;        ///< time since both regained contact, bumps ignored (s)
   double softness_ = 0.0;
 };
 

@@ -10,26 +10,26 @@ WheelBalancer::WheelBalancer(const WheelBalancerConfig& config, VelocityScript s
                              WheelContact contact)
     : config_(config),
       course_{std::move(script), std::move(crouch), wheel_radius, period},
-      told_(std::move(contact)),
-      contact_(told_ ? told_ : upkie_contact(period)) {}
+      given_contact_source_(std::move(contact)),
+      contact_source_(given_contact_source_ ? given_contact_source_ : upkie_contact(period)) {}
 
 void WheelBalancer::reset(const models::Observation& observation) {
   *this = WheelBalancer(config_, std::move(course_.script), course_.wheel_radius, course_.period,
-                        std::move(course_.crouch), std::move(told_));
+                        std::move(course_.crouch), std::move(given_contact_source_));
   course_.begin(observation, config_);
 }
 
 bool WheelBalancer::in_the_air(const models::Observation& observation) {
-  const auto touches = contact_(observation, ground_velocity_);
-  return !touches[0] && !touches[1];
+  const auto in_contact = contact_source_(observation, ground_velocity_);
+  return !in_contact[0] && !in_contact[1];
 }
 
 void WheelBalancer::update_ground_velocity(const models::Observation& observation) {
   const double pitch_error = -observation.pitch;
   const double period = course_.period;
   if (in_the_air(observation)) {
-    // Wheels that spin in the air say nothing about place, and little about pitch: leak what was
-    // accumulated. The pitch still counts, so that a false alarm does not tip the robot over.
+    // Wheels in the air cannot control the position, and hardly the pitch: the integral decays. The
+    // pitch is still fed back, so that a false alarm does not tip the robot over.
     const double leak = period / config_.air_decay_time;
     integral_ -= leak * integral_;
     course_.target_position += leak * (course_.position - course_.target_position);
@@ -39,8 +39,8 @@ void WheelBalancer::update_ground_velocity(const models::Observation& observatio
   integral_ = std::clamp(integral_ + period * config_.pitch_stiffness * pitch_error,
                          -config_.max_integral, config_.max_integral);
   const double position_error = course_.target_position - course_.position;
-  // No feedforward of the target velocity: the wheels must first roll back for the robot to lean
-  // forward, and the position error does just that.
+  // No feedforward of the target velocity: the wheels must first roll back so that the robot leans
+  // forward. The position error has this effect.
   ground_velocity_ = std::clamp(
       -config_.pitch_damping * pitch_error - config_.position_damping * position_error - integral_,
       -config_.max_velocity, config_.max_velocity);

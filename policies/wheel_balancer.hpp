@@ -6,10 +6,10 @@
 
 namespace touchdown::policies {
 
-/// Keeps a wheeled biped upright on its wheels while it follows a velocity script, with its legs
-/// stiff in the posture they had at the reset, or that a crouch script bends them to: Upkie's PI
-/// law on pitch and position, plus feedback of the heading. It knows where it is by wheel odometry
-/// and whether it is in the air by Upkie's own wheel contact observer, unless told by another.
+/// Balances a wheeled biped while it follows a velocity script. It is Upkie's PI law on pitch and
+/// position, plus feedback of the heading. The legs are stiff, in the posture of the reset or of a
+/// crouch script. The position comes from wheel odometry. Contact comes from Upkie's wheel contact
+/// observer, unless another contact source is given.
 class WheelBalancer : public Policy {
  public:
   /// `wheel_radius` in m; `period` of the control loop in s.
@@ -19,7 +19,7 @@ class WheelBalancer : public Policy {
   void reset(const models::Observation& observation) override;
   models::Action act(const models::Observation& observation) override;
 
-  /// What the last action asked of the wheels (m/s).
+  /// The wheel velocity that the last action commanded (m/s).
   double ground_velocity_command() const { return ground_velocity_; }
 
  private:
@@ -28,8 +28,8 @@ class WheelBalancer : public Policy {
 
   WheelBalancerConfig config_;
   Course course_;
-  WheelContact told_;  ///< by somebody else than Upkie's observer
-  WheelContact contact_;
+  WheelContact given_contact_source_;  ///< empty: Upkie's observer
+  WheelContact contact_source_;
 
   double integral_ = 0.0;
   double ground_velocity_ = 0.0;

@@ -8,13 +8,13 @@ namespace touchdown::policies {
 WheelContact upkie_contact(double period) {
   return [period, observers = std::array<WheelContactObserver, models::wheel_count>()](
              const models::Observation& observation, double /*command*/) mutable {
-    std::array<bool, models::wheel_count> touches = {};
-    for (std::size_t wheel = 0; wheel < touches.size(); ++wheel) {
+    std::array<bool, models::wheel_count> in_contact = {};
+    for (std::size_t wheel = 0; wheel < in_contact.size(); ++wheel) {
       const models::ServoReading& servo =
           observation.servo[models::index(models::wheel_servos[wheel])];
-      touches[wheel] = observers[wheel].update(servo.torque, servo.velocity, period);
+      in_contact[wheel] = observers[wheel].update(servo.torque, servo.velocity, period);
     }
-    return touches;
+    return in_contact;
   };
 }
 

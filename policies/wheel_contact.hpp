@@ -12,24 +12,24 @@ class Fields;
 
 namespace touchdown::policies {
 
-/// Which wheels touch, as a policy is told once per control step; also given: the ground velocity
-/// that it asked for one step before (m/s).
+/// A contact source: returns which wheels are in contact, once per control step. Its second input
+/// is the ground velocity that the policy commanded one step before (m/s).
 using WheelContact = std::function<std::array<bool, models::wheel_count>(
     const models::Observation& observation, double ground_velocity_command)>;
 
-/// Upkie's own observer, a wheel each.
+/// Upkie's own observer, one per wheel. `period` of the control loop in s.
 WheelContact upkie_contact(double period);
 
-/// Which law drives the robot, and who tells it about contact.
+/// The control law of the robot and its contact source.
 struct PolicyConfig {
   enum class Law : int {
     balancer,     ///< policies/wheel_balancer.hpp
     soft_landing  ///< policies/soft_lander.hpp
   };
   Law law = Law::balancer;
-  /// An estimator that needs no fit; `always`; or `truth`: an oracle, which no robot has.
+  /// An estimator that needs no fit, `always`, or the oracle `truth`, which no robot has.
   std::string contact = "upkie_observer";
-  double delay = 0.0;  ///< what is told reaches the law so much later (s)
+  double delay = 0.0;  ///< of the contact signal (s)
 
   bool operator==(const PolicyConfig&) const = default;
 };

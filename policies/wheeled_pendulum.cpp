@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// M and the directions in which the robot leans and rolls, in mjData::qvel.
+/// The mass matrix, and the directions of leaning and rolling in mjData::qvel.
 struct Directions {
   Eigen::MatrixXd mass;
   Eigen::VectorXd leaning, rolling;
@@ -21,8 +21,8 @@ Directions directions(const models::RobotModel& robot, const mjData& data, const
   const mjModel& mj = *robot.mj;
   Directions d = {Eigen::MatrixXd(mj.nv, mj.nv), Eigen::VectorXd::Zero(mj.nv),
                   Eigen::VectorXd::Zero(mj.nv)};
-  mj_fullM(&mj, d.mass.data(), data.qM);  // symmetric: the order of its rows does not matter
-  // Leaning turns everything about the ground; rolling moves it on and turns the wheels.
+  mj_fullM(&mj, d.mass.data(), data.qM);  // symmetric, so row or column order does not matter
+  // Leaning rotates the robot about the contact line. Rolling moves it on and turns the wheels.
   const int base = robot.base_dof();
   const Vector3d base_from_ground = models::vector_at(data.xpos, robot.base_body) - ground;
   d.leaning.segment<3>(base) = Vector3d::UnitY().cross(base_from_ground);
@@ -66,35 +66,35 @@ WheeledPendulum wheeled_pendulum(const models::RobotModel& robot,
 
 WheelBalancerConfig with_lqr_gains(WheelBalancerConfig config, const WheeledPendulum& pendulum) {
   if (!(pendulum.gravity > 0.0)) {
-    throw InputError("lqr: expected a robot whose centre of mass is above its axle");
+    throw InputError("lqr: expected a robot with its centre of mass above its axle");
   }
-  // x = (s, θ, ṡ, θ̇), u = s̈: the wheels' servos do what the law's rate asks for, and the law is a
-  // state feedback of just that rate.
+  // x = (s, θ, ṡ, θ̇), u = s̈: the wheel servos track the acceleration that the law commands, and the
+  // law is a state feedback of this acceleration.
   LinearSystem system = {Eigen::MatrixXd::Zero(4, 4), Eigen::MatrixXd::Zero(4, 1)};
   system.a(0, 2) = system.a(1, 3) = 1.0;
   system.a(3, 1) = pendulum.gravity / pendulum.inertia;
   system.b(2, 0) = 1.0;
   system.b(3, 0) = -pendulum.coupling / (pendulum.wheel_radius * pendulum.inertia);
   const Eigen::Vector4d largest_state(1.0, 0.1, 1.0, 1.0);  // m, rad, m/s, rad/s
-  const Eigen::Matrix<double, 1, 1> saturation(1.5);     // m/s²
+  const Eigen::Matrix<double, 1, 1> largest_input(1.5);     // m/s²
   constexpr double period = 1e-3;                           // s
   const Eigen::MatrixXd k =
-      lqr(sampled(system, period), bryson(largest_state), bryson(saturation));
+      lqr(sampled(system, period), bryson(largest_state), bryson(largest_input));
   config.position_stiffness = -k(0, 0);
   config.pitch_stiffness = -k(0, 1);
   config.position_damping = -k(0, 2);
   config.pitch_damping = -k(0, 3);
 
-  // The rest in the pendulum's own units: g, and the time T in which it topples.
+  // The other parameters, in units of g and the pendulum's toppling time T.
   constexpr double g = 9.81;
   const double topple = std::sqrt(pendulum.inertia / pendulum.gravity);
   config.max_velocity = 0.95 * g * topple;
   config.max_integral = 4.75 * g * topple;
-  config.leg_kp_scale = 0.157 * pendulum.gravity;  // legs 3 times as stiff as gravity topples
+  config.leg_kp_scale = 0.157 * pendulum.gravity;  // legs 3 times as stiff as the pull of gravity
   config.leg_kd_scale = 0.73 * pendulum.gravity * topple;
   constexpr double spin_up = 0.873e-3;  // s: of a wheel in the air
   config.wheel_kd_scale = pendulum.wheel_inertia / spin_up;
-  // Turning is a matter of the wheels' servos: they resist it like a damper.
+  // The wheel servos resist turning like a damper.
   const double resistance = config.wheel_kd_scale * 0.5 * pendulum.track / pendulum.wheel_radius;
   config.yaw_damping = 0.164 * resistance;
   config.yaw_stiffness = 1.64 * resistance;

@@ -19,19 +19,19 @@ std::string shape_text(const py::array& array) {
 
 }  // namespace
 
-Column::Column(Array array)
+StepArray::StepArray(Array array)
     : array_(std::move(array)),
       data_(static_cast<const char*>(static_cast<const void*>(array_.data()))),
       steps_(static_cast<std::size_t>(array_.shape(0))),
       step_bytes_(static_cast<std::size_t>(array_.strides(0))),
       item_bytes_(array_.ndim() > 1 ? static_cast<std::size_t>(array_.strides(1)) : 0) {}
 
-Column ArrayMap::column(const char* name, std::size_t columns) {
+StepArray ArrayMap::column(const char* name, std::size_t columns) {
   if (!has(name)) {
     throw InputError(fmt::format("{}: '{}' is missing: expected an array of shape (steps{}", what_,
                                  name, columns > 0 ? fmt::format(", {})", columns) : ",)"));
   }
-  const auto array = Column::Array::ensure(arrays_[name]);
+  const auto array = StepArray::Array::ensure(arrays_[name]);
   if (!array) throw InputError(fmt::format("{}: '{}': expected an array of numbers", what_, name));
   const bool fits = array.ndim() == (columns > 0 ? 2 : 1) &&
                     (columns == 0 || array.shape(1) == static_cast<py::ssize_t>(columns)) &&
@@ -42,7 +42,7 @@ Column ArrayMap::column(const char* name, std::size_t columns) {
                                  shape_text(array), steps,
                                  columns > 0 ? fmt::format(" {})", columns) : ")"));
   }
-  Column column(array);
+  StepArray column(array);
   steps_ = column.steps();
   return column;
 }

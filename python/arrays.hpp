@@ -13,7 +13,7 @@ namespace touchdown::python {
 
 namespace py = pybind11;
 
-/// Rows that NumPy's arrays look at, without a copy: they live as long as the last of these.
+/// Rows that NumPy arrays view without a copy. They live as long as the last such array.
 template <typename Row>
 class SharedRows {
  public:
@@ -21,10 +21,10 @@ class SharedRows {
       : rows_(std::make_unique<std::vector<Row>>(std::move(rows)).release()),
         owner_(rows_, [](void* all) { delete static_cast<std::vector<Row>*>(all); }) {}
 
-  /// The first row, for who wants to point at something in it; a spare one if there is none.
+  /// The first row, to point at its members; a spare row if there are none.
   Row& front() { return rows_->empty() ? spare_ : rows_->front(); }
 
-  /// One value per row: that at which `first` points in the first row.
+  /// A view of one value per row. `first` points at that of the first row.
   template <typename T>
   py::array_t<T> view(const T* first) const {
     const std::vector<py::ssize_t> shape = {size()};
@@ -32,7 +32,7 @@ class SharedRows {
     return py::array_t<T>(shape, {bytes}, first, owner_);
   }
 
-  /// Several values per row, so many bytes from each other.
+  /// A view of several values per row, `apart` bytes from each other.
   template <typename T>
   py::array_t<T> view(const T* first, std::size_t columns, std::size_t apart = sizeof(T)) const {
     const std::vector<py::ssize_t> shape = {size(), static_cast<py::ssize_t>(columns)};
@@ -49,29 +49,29 @@ class SharedRows {
   Row spare_ = {};
 };
 
-/// An array of its own for values that stand in no rows.
+/// An array that owns the values.
 template <typename T>
 py::array_t<T> array_of(std::vector<T> values) {
   SharedRows<T> rows(std::move(values));
   return rows.view(&rows.front());
 }
 
-/// Numbers by step as somebody's array has them, whatever its strides. Reading needs no lock, the
-/// rest does.
-class Column {
+/// Numbers of a caller's array by step, with any strides. Reading needs no Python lock;
+/// construction and destruction do.
+class StepArray {
  public:
-  /// Of what can be turned into numbers, where a processor can read them.
+  /// Converts to numbers if needed, aligned for the processor.
   static constexpr int flags = static_cast<int>(py::array::forcecast) |
                                static_cast<int>(py::detail::npy_api::NPY_ARRAY_ALIGNED_);
   using Array = py::array_t<double, flags>;
 
-  explicit Column(Array array);
+  explicit StepArray(Array array);
 
   std::size_t steps() const { return steps_; }
   double operator()(std::size_t step, std::size_t item = 0) const {
     return *reinterpret_cast<const double*>(row(step) + item * item_bytes_);
   }
-  /// Where a step's numbers begin, and the bytes from one to the next.
+  /// Address of a step's numbers, and the distances (bytes) between its items and between steps.
   const char* row(std::size_t step) const { return data_ + step * step_bytes_; }
   std::size_t item_bytes() const { return item_bytes_; }
   std::size_t step_bytes() const { return step_bytes_; }
@@ -84,18 +84,18 @@ class Column {
   std::size_t item_bytes_;
 };
 
-/// A mapping of names to arrays: a dict, or what `numpy.load` gives.
+/// A mapping of names to arrays: a dict, or the result of `numpy.load`.
 class ArrayMap {
  public:
-  /// `what` it is, for complaints.
+  /// `what` names the mapping in error messages.
   ArrayMap(py::object arrays, std::string what)
       : arrays_(std::move(arrays)), what_(std::move(what)) {}
 
   bool has(const char* name) const { return arrays_.contains(name); }
 
-  /// One number per step, or `columns` of them. The first array says how many steps there are.
-  /// Errors: `InputError` for one that is missing or of another shape.
-  Column column(const char* name, std::size_t columns = 0);
+  /// An array of one number per step, or of `columns` numbers. The first array sets the number of
+  /// steps. Errors: `InputError` if it is missing or has another shape.
+  StepArray column(const char* name, std::size_t columns = 0);
 
   std::size_t steps() const { return steps_.value_or(0); }
 

@@ -8,14 +8,15 @@
 
 namespace touchdown::python {
 
-/// Beliefs by step, by views of them: `p_contact` and `contact` (left and right wheel),
+/// Arrays that view beliefs by step: `p_contact` and `contact` (left and right wheel),
 /// `p_any_wheel`, `p_both_wheels`, `status` (its number).
 py::dict arrays_of(std::vector<Belief> beliefs);
 
-/// The inverse, of what anybody says: such arrays, of which `p_contact` or `contact` is enough, or
-/// one array of probabilities or decisions, of both wheels or of the robot. Decisions are
-/// p ≥ 0.5 and wheels independent where nothing else is said. `who` says it, for complaints.
-/// Errors: `InputError` for other shapes, and for probabilities that are none.
-std::vector<Belief> beliefs_of(const py::object& said, std::size_t steps, const std::string& who);
+/// The inverse. `given` holds such arrays (`p_contact` or `contact` suffices), or is one array of
+/// probabilities or decisions, per wheel or for the robot. By default, contact is p ≥ 0.5 and the
+/// wheels are independent. `source` names the estimator in error messages.
+/// Errors: `InputError` for other shapes, and for numbers that are no probabilities.
+std::vector<Belief> beliefs_of(const py::object& given, std::size_t steps,
+                               const std::string& source);
 
 }  // namespace touchdown::python

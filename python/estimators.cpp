@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What an estimator was fitted with, and to what.
+/// A fitted model with its estimator, and a report of the fit.
 struct Model {
   experiments::LogEstimator estimator;
   experiments::LogFitReport report = {};
@@ -53,7 +53,7 @@ std::shared_ptr<const std::string> records_of(const py::object& recording) {
 
 using DeclaredRun = std::pair<py::object, std::optional<bool>>;
 
-/// Recordings at hand, or paths to logs.
+/// Fits to recordings in memory, or to logs by path.
 Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double skip,
           const scoring::LabelConfig& labels) {
   std::vector<experiments::FitLog> logs;
@@ -87,25 +87,25 @@ experiments::LogEstimator with_model(const std::string& name, const Model& model
   return {entry, model.estimator.model, {.name = name}};
 }
 
-/// An estimator that listens: to one thread at a time, since a whole run is heard without Python's
-/// lock. Errors: `InputError` when another one asks meanwhile.
+/// A running estimator. Only one thread at a time may use it, because `run` releases Python's lock.
+/// Errors: `InputError` if another thread uses it.
 class Estimator {
  public:
-  Estimator(experiments::LogEstimator which, double sample_rate)
-      : which_(std::move(which)), rate_(sample_rate), made_(which_.make(sample_rate)) {}
+  Estimator(experiments::LogEstimator source, double sample_rate)
+      : source_(std::move(source)), rate_(sample_rate), estimator_(source_.make(sample_rate)) {}
 
-  const std::string& name() const { return which_.entry.name; }
+  const std::string& name() const { return source_.entry.name; }
   double sample_rate() const { return rate_; }
 
   void reset() {
-    const Turn turn(busy_);
-    forget();
+    const ExclusiveUse use(busy_);
+    reset_state();
   }
 
   Belief update(const Signals& signals) {
-    const Turn turn(busy_);
+    const ExclusiveUse use(busy_);
     ++steps_;
-    return made_->update(signals);
+    return estimator_->update(signals);
   }
 
   Belief update_from_spine(const py::dict& spine, double ground_velocity_command) {
@@ -116,14 +116,14 @@ class Estimator {
   py::dict run(const py::object& arrays) {
     const SignalArrays signals(arrays);
     require_rate(signals);
-    const Turn turn(busy_);
+    const ExclusiveUse use(busy_);
     std::vector<Belief> beliefs(signals.steps());
-    forget();
+    reset_state();
     {
       const py::gil_scoped_release unlocked;
       for (std::size_t k = 0; k < beliefs.size(); ++k) {
         if (signals.has_record(k)) {
-          beliefs[k] = made_->update(signals.at(k));
+          beliefs[k] = estimator_->update(signals.at(k));
         } else if (k > 0) {
           beliefs[k] = beliefs[k - 1];
         }
@@ -134,25 +134,25 @@ class Estimator {
   }
 
  private:
-  class Turn {
+  class ExclusiveUse {
    public:
-    explicit Turn(std::atomic<bool>& busy) : busy_(busy) {
-      if (busy_.exchange(true)) throw InputError("this estimator listens in another thread");
+    explicit ExclusiveUse(std::atomic<bool>& busy) : busy_(busy) {
+      if (busy_.exchange(true)) throw InputError("this estimator is in use in another thread");
     }
-    ~Turn() { busy_ = false; }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
+    ~ExclusiveUse() { busy_ = false; }
+    ExclusiveUse(const ExclusiveUse&) = delete;
+    ExclusiveUse& operator=(const ExclusiveUse&) = delete;
 
    private:
     std::atomic<bool>& busy_;
   };
 
-  void forget() {
-    made_->reset();
+  void reset_state() {
+    estimator_->reset();
     steps_ = 0;
   }
 
-  /// Nobody means to hear a run at another rate; a clock may jitter.
+  /// Refuses runs at another sample rate. A clock may jitter.
   void require_rate(const SignalArrays& signals) const {
     const std::optional<double> period = signals.period();
     if (!period || (*period * rate_ > 0.8 && *period * rate_ < 1.25)) return;
@@ -162,9 +162,9 @@ class Estimator {
         1.0 / *period, rate_, 1.0 / *period));
   }
 
-  experiments::LogEstimator which_;
+  experiments::LogEstimator source_;
   double rate_;
-  std::unique_ptr<ContactEstimator> made_;
+  std::unique_ptr<ContactEstimator> estimator_;
   std::size_t steps_ = 0;
   std::atomic<bool> busy_ = false;
 };
@@ -176,9 +176,9 @@ py::tuple both(const Belief& belief, const auto& of) {
 void add_belief(py::module_& module) {
   py::class_<Belief>(
       module, "Belief",
-      "What an estimator believes after one step: `p_contact` and `contact` of the left "
-      "and the right wheel, `p_any_wheel`, `p_both_wheels`, and whether the signals "
-      "could be used, `status`: \"good\", \"invalid\", \"gap\" or \"frozen\".")
+      "An estimator's belief after one step: `p_contact` and `contact` of the left and the right "
+      "wheel, `p_any_wheel`, `p_both_wheels`. `status` reports whether the signals were usable: "
+      "\"good\", \"invalid\", \"gap\" or \"frozen\".")
       .def_property_readonly("p_contact",
                              [](const Belief& belief) {
                                return both(belief, [](auto& wheel) { return wheel.p_contact; });
@@ -200,14 +200,15 @@ void add_belief(py::module_& module) {
 
 void add_model(py::module_& module) {
   using namespace py::literals;  // NOLINT(google-build-using-namespace)
-  py::class_<Model>(module, "Model",
-                    "What an estimator was fitted with; `fit` makes one. `estimator`: whose it is; "
-                    "`seconds`: of all runs that it was fitted to; `warnings`: about these.")
-      .def_static(
-          "load", &Model::load, "path"_a, "estimator"_a = "",
-          "Read what `save` or `touchdown fit` wrote. Some models serve several estimators: name "
-          "one, or get the usual one.")
-      .def("save", &Model::save, "path"_a, "Write it as `touchdown fit` does (.npz).")
+  py::class_<Model>(
+      module, "Model",
+      "A fitted model, as returned by `fit`. `estimator`: the name of its estimator; "
+      "`seconds`: total duration of the fitted runs (s); `warnings`: about these runs.")
+      .def_static("load", &Model::load, "path"_a, "estimator"_a = "",
+                  "Read a model that `save` or `touchdown fit` wrote. Some models serve several "
+                  "estimators: "
+                  "name one, or get the default.")
+      .def("save", &Model::save, "path"_a, "Write the model as `touchdown fit` does (.npz).")
       .def_property_readonly("estimator",
                              [](const Model& model) { return model.estimator.entry.name; })
       .def_property_readonly("seconds", [](const Model& model) { return model.report.seconds; })
@@ -229,9 +230,9 @@ void add_estimator(py::module_& module) {
   py::class_<Estimator>(
       module, "Estimator",
       "An estimator by name (`estimators()` lists them), with its model if it is fitted.\n\n"
-      "name: without it, the one that the model is for\n"
-      "model: what `fit` gave, or a path to what `touchdown fit` wrote\n"
-      "sample_rate: steps per second that it will hear (Hz)")
+      "name: without it, the estimator of the model\n"
+      "model: a result of `fit`, or the path of a file that `touchdown fit` wrote\n"
+      "sample_rate: steps per second of its signals (Hz)")
       .def(py::init([](const std::string& name, const py::object& model, double sample_rate) {
              if (py::isinstance<Model>(model)) {
                return std::make_unique<Estimator>(with_model(name, model.cast<const Model&>()),
@@ -244,29 +245,31 @@ void add_estimator(py::module_& module) {
            "name"_a = "", "model"_a = py::none(), "sample_rate"_a = 1000.0)
       .def_property_readonly("name", &Estimator::name)
       .def_property_readonly("sample_rate", &Estimator::sample_rate)
-      .def("reset", &Estimator::reset, "Forget everything: P(contact) is 0.5.")
+      .def("reset", &Estimator::reset, "Return to the initial belief: P(contact) is 0.5.")
       .def(
           "update",
           [](Estimator& estimator, const py::object& signals) {
             return estimator.update(signals_of_step(signals));
           },
           "signals"_a,
-          "One step. signals: `time` (s), `position` (6, rad), `velocity` (6, rad/s), `torque` (6, "
+          "Update the belief by one step. signals: `time` (s), `position` (6, rad), `velocity` (6, "
+          "rad/s), `torque` (6, "
           "N·m) of the joints, left hip, knee, wheel, then right; `linear_acceleration` (3, m/s², "
           "without gravity) and `angular_velocity` (3, rad/s) in the IMU's frame; "
           "`vertical_acceleration` (m/s², upwards), `ground_velocity_command` (m/s, of the step "
-          "before). NaN where a sensor failed.")
-      .def(
-          "update_from_spine", &Estimator::update_from_spine, "observation"_a,
-          "ground_velocity_command"_a = 0.0,
-          "One step, as Upkie's spine describes it: `info[\"spine_observation\"]` of a gym "
-          "environment, or `observation` of a log's record. A torque or another number that is not "
-          "there, or None, is a sensor that failed; without `time`, steps are counted at the "
-          "sample rate. ground_velocity_command: of the step before (m/s).")
+          "before). NaN marks a failed sensor.")
+      .def("update_from_spine", &Estimator::update_from_spine, "observation"_a,
+           "ground_velocity_command"_a = 0.0,
+           "Update the belief by one observation of Upkie's spine: `info[\"spine_observation\"]` "
+           "of a "
+           "gym environment, or `observation` of a log's record. A missing number, or None, is a "
+           "failed sensor. Without `time`, steps are counted at the sample rate. "
+           "ground_velocity_command: of the step before (m/s).")
       .def("run", &Estimator::run, "signals"_a,
-           "Reset, then hear a whole run: the arrays of a `Recording`, or any others of the names "
-           "and "
-           "units of `update` with one row per step, and `heard` where some steps have no record. "
+           "Reset, then run on a whole run: the arrays of a `Recording`, or any others with the "
+           "names "
+           "and units of `update` and one row per step. The optional `has_record` is 0 at steps "
+           "without a record, where the last belief stays. "
            "Returns `p_contact` (steps, 2) and `contact` (steps, 2, bool) of the wheels, "
            "`p_any_wheel` and `p_both_wheels` (steps,), `status` (steps,): numbers of `STATUS`.")
       .def("__repr__", [](const Estimator& estimator) {

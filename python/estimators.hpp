@@ -4,7 +4,7 @@
 
 namespace touchdown::python {
 
-/// Estimators by name, step by step and over whole runs, and the models that they are fitted with.
+/// Adds estimators by name, step by step and over whole runs, and their fitted models.
 void add_estimators(pybind11::module_& module);
 
 }  // namespace touchdown::python

@@ -20,26 +20,26 @@ namespace {
 namespace py = pybind11;
 namespace fs = std::filesystem;
 
-/// An experiment as a caller has it: a file, or what would stand in one.
-struct Asked {
+/// An experiment as given by a caller: a file, or the text of one.
+struct ExperimentRequest {
   fs::path file;
   std::optional<std::string> text;
   std::vector<std::string> assignments;
 };
 
-YamlDocument document_of(const Asked& asked) {
-  YamlDocument document = asked.text ? YamlDocument::parse(*asked.text, asked.file)
-                                     : YamlDocument::load(find_resource(asked.file));
-  for (const std::string& assignment : asked.assignments) document.override_value(assignment);
+YamlDocument document_of(const ExperimentRequest& request) {
+  YamlDocument document = request.text ? YamlDocument::parse(*request.text, request.file)
+                                       : YamlDocument::load(find_resource(request.file));
+  for (const std::string& assignment : request.assignments) document.override_value(assignment);
   experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
   return document;
 }
 
-/// The estimators that an experiment asks for and that are written in Python, by name, each with
-/// the place that names it.
-std::vector<std::pair<std::string, std::string>> python_estimators(const Asked& asked) {
+/// Names of an experiment's estimators that are written in Python, each with its place in the file.
+std::vector<std::pair<std::string, std::string>> python_estimators(
+    const ExperimentRequest& request) {
   std::vector<std::pair<std::string, std::string>> names;
-  const YamlDocument document = document_of(asked);
+  const YamlDocument document = document_of(request);
   const YAML::Node given = document.root()["estimators"];
   if (!given || !given.IsSequence()) return names;
   for (const auto& item : given) {
@@ -57,11 +57,11 @@ struct Finished {
   std::vector<std::string> failed_demands;
 };
 
-py::dict run(const Asked& asked, const fs::path& out, bool overwrite, const std::string& command,
-             const py::list& external_estimators) {
+py::dict run(const ExperimentRequest& request, const fs::path& out, bool overwrite,
+             const std::string& command, const py::list& external_estimators) {
   const experiments::ExternalEstimators present(external_estimators_of(external_estimators));
   const Finished finished = long_call([&](const std::atomic<bool>& stop) {
-    const YamlDocument document = document_of(asked);
+    const YamlDocument document = document_of(request);
     const experiments::Experiment experiment = experiments::experiment_from_yaml(document);
     experiments::require_files(document);
     const experiments::ExperimentResult result = experiments::run_experiment(
@@ -94,7 +94,8 @@ void add_experiments(py::module_& module) {
          const std::string& command, const py::list& external_estimators) {
         return run({experiment, text, assignments}, out, overwrite, command, external_estimators);
       },
-      "experiment"_a, "text"_a, "assignments"_a, "out"_a, "overwrite"_a, "command"_a, "guests"_a);
+      "experiment"_a, "text"_a, "assignments"_a, "out"_a, "overwrite"_a, "command"_a,
+      "external_estimators"_a);
 }
 
 }  // namespace touchdown::python

@@ -4,7 +4,7 @@
 
 namespace touchdown::python {
 
-/// Running experiments.
+/// Adds functions that run experiments.
 void add_experiments(pybind11::module_& module);
 
 }  // namespace touchdown::python

@@ -7,9 +7,10 @@
 
 namespace touchdown::python {
 
-/// Estimators that are written in Python, for an experiment: of each a dict of its `name`, `title`,
-/// `summary`, the names of its `sensors`, its `revision`, and `make`, which makes one. An
-/// experiment calls its `run` from whatever thread, with the signals of a whole run.
+/// Entries of an experiment's estimators that are written in Python. Each is described by a dict of
+/// its `name`, `title`, `summary`, the names of its `sensors`, its `revision`, and `make`, which
+/// makes an instance. The experiment calls `run` of an instance from any thread, with the signals
+/// of a whole run.
 std::vector<experiments::EstimatorEntry> external_estimators_of(const pybind11::list& described);
 
 }  // namespace touchdown::python

@@ -10,9 +10,9 @@
 
 namespace touchdown::python {
 
-/// Does `work(stop)` in a thread of its own, without Python's lock, while this one looks after
-/// signals: Ctrl-C, or whatever else a handler raises, makes `stop` true and is raised here once
-/// the work has ended, with a note of what that said.
+/// Runs `work(stop)` in another thread, without Python's lock, while this thread handles signals.
+/// When a handler raises (Ctrl-C does), `stop` becomes true. The exception is raised here after the
+/// work has ended; the error of the work, if any, is added to it as a note.
 template <typename Work>
 auto long_call(const Work& work) {
   namespace py = pybind11;

@@ -1,4 +1,4 @@
-// The module `touchdown._touchdown`; what users see of it is in touchdown/__init__.py.
+// The module `touchdown._touchdown`; touchdown/__init__.py exports its public part.
 #include <pybind11/pybind11.h>
 
 #include "core/error.hpp"
@@ -8,7 +8,7 @@
 
 PYBIND11_MODULE(_touchdown, module) {
   namespace py = pybind11;
-  // The later one is asked first.
+  // Translators run in reverse order of registration, so the subclass comes last.
   const auto error = py::register_exception<touchdown::Error>(module, "Error", PyExc_RuntimeError);
   py::register_exception<touchdown::InputError>(
       module, "InputError", py::make_tuple(error, py::handle(PyExc_ValueError)));

@@ -14,8 +14,8 @@ namespace {
 using Quaternion = std::array<double, 4>;  ///< w x y z
 using PerServo = std::array<double, models::servo_count>;
 
-/// What stands in a row, by name: `visit` is called with the first number, how many there are and
-/// how many bytes they are from each other.
+/// Calls `visit` for each member of a row with its name, its first number, the count of numbers (0
+/// for a scalar) and their distance (bytes).
 template <typename Visit>
 void for_each_member(models::Observation& row, const Visit& visit) {
   models::ServoReading& servo = row.servo[0];
@@ -55,7 +55,7 @@ void for_each_member(models::GroundTruth& row, const Visit& visit) {
   visit("imu_linear_velocity", row.imu_linear_velocity.x(), 3, sizeof(double));
 }
 
-/// One row of numbers per step, which do not stand like that in memory.
+/// An array of one row of numbers per step, copied because they are not contiguous in memory.
 template <std::size_t columns, typename Row, typename Of>
 py::array_t<double> copied(const std::vector<Row>& rows, const Of& of) {
   std::vector<std::array<double, columns>> values;
@@ -75,7 +75,7 @@ void add_views(py::dict& arrays, SharedRows<Row>& rows) {
       });
 }
 
-/// What the truth has besides its numbers, and the labels by their usual definition.
+/// Adds the ground truth, and contact labels by their default definition.
 void add_truth(py::dict& arrays, recordings::Recording& recording) {
   arrays["base_orientation"] =
       copied<4>(recording.truth, [](const auto& row) { return in_order(row.base_orientation); });
@@ -96,8 +96,8 @@ void add_truth(py::dict& arrays, recordings::Recording& recording) {
   arrays["body_touches_terrain"] = rows.view(&rows.front().body_touches_terrain);
 }
 
-/// What estimators hear and no row holds as such.
-void add_heard(py::dict& arrays, const recordings::Recording& recording) {
+/// Adds the signals of estimators that are computed from the recording.
+void add_derived_signals(py::dict& arrays, const recordings::Recording& recording) {
   std::vector<double> vertical_acceleration;
   std::vector<double> command = {0.0};
   for (std::size_t k = 0; k < recording.steps(); ++k) {
@@ -105,14 +105,14 @@ void add_heard(py::dict& arrays, const recordings::Recording& recording) {
         recordings::signals_from(recording.observation[k], 0.0).vertical_acceleration);
     command.push_back(recordings::ground_velocity_command(recording.action[k]));
   }
-  command.pop_back();  // answers the last step
+  command.pop_back();  // the command after the last step
   arrays["vertical_acceleration"] = array_of(std::move(vertical_acceleration));
   arrays["ground_velocity_command"] = array_of(std::move(command));
 }
 
 template <typename Row>
 std::vector<Row> rows_from(ArrayMap& map) {
-  std::vector<Column> columns;
+  std::vector<StepArray> columns;
   Row example;
   for_each_member(
       example, [&](const char* name, double& /*first*/, std::size_t count, std::size_t /*apart*/) {
@@ -136,7 +136,7 @@ std::vector<Row> rows_from(ArrayMap& map) {
 template <typename Row, typename Member>
 void read_quaternions(ArrayMap& map, const char* name, std::vector<Row>& rows,
                       const Member& member) {
-  const Column q = map.column(name, 4);
+  const StepArray q = map.column(name, 4);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     member(rows[k]) = Eigen::Quaterniond(q(k, 0), q(k, 1), q(k, 2), q(k, 3));
   }
@@ -146,10 +146,11 @@ std::vector<models::GroundTruth> truth_from(ArrayMap& map) {
   std::vector<models::GroundTruth> rows = rows_from<models::GroundTruth>(map);
   read_quaternions(
       map, "base_orientation", rows, [](auto& row) -> auto& { return row.base_orientation; });
-  const Column touches = map.column("body_touches_terrain");
-  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].body_touches_terrain = touches(k) != 0.0;
+  const StepArray body_contact = map.column("body_touches_terrain");
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    rows[k].body_touches_terrain = body_contact(k) != 0.0;
   if (!map.has("joint_torque")) return rows;
-  const Column torque = map.column("joint_torque", models::servo_count);
+  const StepArray torque = map.column("joint_torque", models::servo_count);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     PerServo& joints = rows[k].joint_torque.emplace();
     for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = torque(k, i);
@@ -163,7 +164,7 @@ py::dict arrays_of(recordings::Recording recording) {
   py::dict derived;
   derived["orientation"] = copied<4>(recording.observation,
                                      [](const auto& row) { return in_order(row.imu.orientation); });
-  add_heard(derived, recording);
+  add_derived_signals(derived, recording);
   if (!recording.truth.empty()) add_truth(derived, recording);
   py::dict arrays;
   SharedRows<models::Observation> observation(std::move(recording.observation));

@@ -67,7 +67,7 @@ py::array_t<bool> labels_of(const py::object& normal_force, double period,
   py::dict arrays;
   arrays["normal_force"] = normal_force;
   ArrayMap map(arrays, "labels");
-  const Column force = map.column("normal_force", models::wheel_count);
+  const StepArray force = map.column("normal_force", models::wheel_count);
   std::vector<std::array<bool, models::wheel_count>> contact(force.steps());
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     std::vector<double> of_wheel(force.steps());
@@ -79,13 +79,13 @@ py::array_t<bool> labels_of(const py::object& normal_force, double period,
   return rows.view(rows.front().data(), models::wheel_count);
 }
 
-py::dict score(const py::object& said, const py::object& truth, double period,
+py::dict score(const py::object& given_beliefs, const py::object& truth, double period,
                const scoring::ScoringConfig& config) {
   py::dict arrays;
   arrays["contact"] = truth;
   ArrayMap map(arrays, "score");
-  const Column contact = map.column("contact", models::wheel_count);
-  const std::vector<Belief> beliefs = beliefs_of(said, contact.steps(), "score");
+  const StepArray contact = map.column("contact", models::wheel_count);
+  const std::vector<Belief> beliefs = beliefs_of(given_beliefs, contact.steps(), "score");
   Labels labels;
   scoring::Prediction prediction;
   for (const Belief& belief : beliefs) {

@@ -4,7 +4,7 @@
 
 namespace touchdown::python {
 
-/// Simulating, reading and writing runs; labels and scores.
+/// Adds functions that simulate, read and write runs, label contact and score beliefs.
 void add_runs(pybind11::module_& module);
 
 }  // namespace touchdown::python

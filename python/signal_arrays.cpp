@@ -26,10 +26,12 @@ void set_joints(Signals& signals, const Joint& joint) {
   }
 }
 
-/// Whether the three look at one row of joints, as in a recording: then a row is copied at once.
-bool lie_as_in_signals(const Column& position, const Column& velocity, const Column& torque) {
+/// Whether the three arrays view one row of joints with the layout of `Signals`, as those of a
+/// recording do. Such rows are copied at once.
+bool have_layout_of_signals(const StepArray& position, const StepArray& velocity,
+                            const StepArray& torque) {
   static_assert(sizeof(Signals::leg) == joint_count * sizeof(JointSignals));
-  const auto is_member = [&](const Column& column, std::size_t offset) {
+  const auto is_member = [&](const StepArray& column, std::size_t offset) {
     return column.row(0) == position.row(0) + offset &&
            column.item_bytes() == sizeof(JointSignals) &&
            column.step_bytes() == position.step_bytes();
@@ -39,18 +41,18 @@ bool lie_as_in_signals(const Column& position, const Column& velocity, const Col
          is_member(torque, offsetof(JointSignals, torque));
 }
 
-/// So many numbers of one step, by name.
-Column numbers_of(const py::object& step, const char* name, std::size_t count) {
+/// `count` numbers of one step, by name.
+StepArray numbers_of(const py::object& step, const char* name, std::size_t count) {
   if (!step.contains(name)) {
     throw InputError(fmt::format("signals: '{}' is missing: expected {}", name,
                                  count == 1 ? "a number" : fmt::format("{} numbers", count)));
   }
-  auto array = Column::Array::ensure(step[name]);
+  auto array = StepArray::Array::ensure(step[name]);
   if (!array || array.size() != static_cast<py::ssize_t>(count) || array.ndim() > 1) {
     throw InputError(fmt::format("signals: '{}': expected {}", name,
                                  count == 1 ? "a number" : fmt::format("{} numbers", count)));
   }
-  return Column(Column::Array(array.reshape({static_cast<py::ssize_t>(count)})));
+  return StepArray(StepArray::Array(array.reshape({static_cast<py::ssize_t>(count)})));
 }
 
 }  // namespace
@@ -65,14 +67,17 @@ SignalArrays::SignalArrays(const py::object& arrays)
       angular_velocity_(map_.column("angular_velocity", 3)),
       vertical_acceleration_(map_.column("vertical_acceleration")),
       ground_velocity_command_(map_.column("ground_velocity_command")) {
-  if (map_.has("heard")) heard_.emplace(map_.column("heard"));
-  joints_lie_as_in_signals_ = lie_as_in_signals(position_, velocity_, torque_);
+  if (map_.has("heard")) {
+    throw InputError("signals: 'heard' was renamed: expected 'has_record'");
+  }
+  if (map_.has("has_record")) has_record_.emplace(map_.column("has_record"));
+  has_layout_of_signals_ = have_layout_of_signals(position_, velocity_, torque_);
 }
 
 Signals SignalArrays::at(std::size_t step) const {
   Signals signals;
   signals.time = time_(step);
-  if (joints_lie_as_in_signals_) {
+  if (has_layout_of_signals_) {
     std::memcpy(signals.leg.data(), position_.row(step), sizeof signals.leg);
   } else {
     set_joints(signals, [&](std::size_t i) {
@@ -104,14 +109,14 @@ std::optional<double> SignalArrays::period() const {
 Signals signals_of_step(const py::object& step) {
   Signals signals;
   signals.time = numbers_of(step, "time", 1)(0);
-  const Column position = numbers_of(step, "position", joint_count);
-  const Column velocity = numbers_of(step, "velocity", joint_count);
-  const Column torque = numbers_of(step, "torque", joint_count);
+  const StepArray position = numbers_of(step, "position", joint_count);
+  const StepArray velocity = numbers_of(step, "velocity", joint_count);
+  const StepArray torque = numbers_of(step, "torque", joint_count);
   set_joints(signals, [&](std::size_t i) {
     return JointSignals{position(i), velocity(i), torque(i)};
   });
-  const Column linear = numbers_of(step, "linear_acceleration", 3);
-  const Column angular = numbers_of(step, "angular_velocity", 3);
+  const StepArray linear = numbers_of(step, "linear_acceleration", 3);
+  const StepArray angular = numbers_of(step, "angular_velocity", 3);
   signals.linear_acceleration = {linear(0), linear(1), linear(2)};
   signals.angular_velocity = {angular(0), angular(1), angular(2)};
   signals.vertical_acceleration = numbers_of(step, "vertical_acceleration", 1)(0);
@@ -120,7 +125,7 @@ Signals signals_of_step(const py::object& step) {
 }
 
 py::dict arrays_of(std::vector<Signals> steps) {
-  // Six joints at the same distance from each other, so that one array shows them all.
+  // Six joints at equal distances, so that one array can view them all.
   static_assert(sizeof(LegSignals) == 3 * sizeof(JointSignals));
   SharedRows<Signals> rows(std::move(steps));
   Signals& first = rows.front();

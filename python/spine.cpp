@@ -17,7 +17,7 @@ namespace py = pybind11;
   throw InputError(fmt::format("{}: expected {}", path, expected));
 }
 
-/// A dictionary in a dictionary; an empty one where there is none.
+/// A dictionary in a dictionary; an empty one if it is missing.
 py::dict section_of(const py::dict& parent, const char* key, const std::string& path) {
   if (!parent.contains(key) || parent[key].is_none()) return {};
   if (!py::isinstance<py::dict>(parent[key])) refuse(path, "a dictionary");
@@ -38,7 +38,7 @@ double number_in(const py::dict& parent, const char* key, const std::string& pat
   return number_of(parent.contains(key) ? py::object(parent[key]) : py::none(), path + key);
 }
 
-/// Whatever has a length and items: a list, a tuple, an array.
+/// The numbers of anything with a length and items: a list, a tuple, an array.
 template <std::size_t count>
 std::array<double, count> vector_in(const py::dict& parent, const char* key,
                                     const std::string& path) {

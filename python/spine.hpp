@@ -6,10 +6,10 @@
 
 namespace touchdown::python {
 
-/// What a dictionary of Upkie's spine says: `info["spine_observation"]` of a gym environment, or
-/// `observation` of a log's record. A number or a vector that is not there, or None, is NaN, which
-/// estimators know as a sensor that failed; without a `time`, it is `time`. Errors: `InputError`
-/// for what is no such dictionary, and for values of another kind.
+/// Reads a dictionary of Upkie's spine: `info["spine_observation"]` of a gym environment, or
+/// `observation` of a log's record. A missing number or vector, or None, becomes NaN: a failed
+/// sensor for estimators. `time` (s) is used if the dictionary has none. Errors: `InputError` for
+/// anything but such a dictionary, and for values of another type.
 models::Observation observation_of(const pybind11::dict& spine, double time);
 
 }  // namespace touchdown::python

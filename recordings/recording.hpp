@@ -13,9 +13,9 @@ namespace touchdown::recordings {
 /// How a run ended.
 enum class Outcome : int {
   finished,   ///< reached the end of its scenario
-  timed_out,  ///< still upright when the time was over, without having reached the end
+  timed_out,  ///< upright at the time limit, but not at the end
   fell,       ///< something other than a tyre touched the terrain, or the robot tipped over
-  diverged,   ///< the physics engine produced NaN or velocities that no robot has
+  diverged,   ///< the physics engine gave NaN or unrealistic velocities
 };
 
 /// "finished", "timed_out", "fell", "diverged".
@@ -23,10 +23,10 @@ std::string_view to_text(Outcome outcome);
 /// The inverse. Errors: `InputError` for anything else.
 Outcome outcome_from_text(std::string_view text);
 
-/// Where a recording comes from; empty or zero for what a log does not say.
+/// Origin of a recording. Fields that a log does not specify are empty or zero.
 struct RecordingInfo {
   std::string scenario;   ///< name of the scenario
-  std::string simulator;  ///< "mujoco", "bullet"; empty for a log of a real robot
+  std::string simulator;  ///< "mujoco" or "bullet"; empty for a real robot
   std::uint64_t seed = 0;
   std::int64_t run = 0;  ///< index of the run in its experiment
   std::int64_t control_period_us = 1000;
@@ -35,8 +35,8 @@ struct RecordingInfo {
   std::string scenario_yaml;
 };
 
-/// One run, column by column: row k holds what was observed at time k·period and the action that
-/// answered it; `truth` has as many rows for simulated runs and none for a robot's log.
+/// One run, stored by columns. Row k is the observation at time k·period and the action for it.
+/// `truth` has as many rows for simulated runs, and none for a robot's log.
 struct Recording {
   RecordingInfo info;
   std::vector<models::Observation> observation;

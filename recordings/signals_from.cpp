@@ -16,7 +16,7 @@ RobotRecord record_of(const models::Observation& observation,
   }
   const models::ImuReading& imu = observation.imu;
   const Eigen::Quaterniond& q = imu.orientation;
-  // Older logs do not have it.
+  // Older logs lack it.
   Eigen::Vector3d proper = imu.raw_linear_acceleration;
   if (proper.isZero(0.0)) proper.setConstant(not_reported);
   return {.time = observation.time,

@@ -7,24 +7,24 @@
 
 namespace touchdown::recordings {
 
-/// Radius of Upkie's wheels (m), which turns wheel velocities into ground velocities.
+/// Radius of Upkie's wheels (m), for converting wheel velocities to ground velocities.
 inline constexpr double upkie_wheel_radius = 0.05;
 
-/// Ground velocity that an action asks the wheels for (m/s), positive forward: the mean of the left
-/// wheel's and the reversed right wheel's velocity target.
+/// Ground velocity that an action commands (m/s), positive forward: the mean of the velocity
+/// targets of the left and the reversed right wheel.
 double ground_velocity_command(const models::Action& action,
                                double wheel_radius = upkie_wheel_radius);
 
-/// Where the joints of a record are kept.
+/// Storage for the joints of a record.
 using RecordedJoints = std::array<JointSignals, models::servo_count>;
 
-/// What was recorded at one step, as a robot's software would have it. `joints` must outlive it.
+/// Converts one step to a record of a robot's software. `joints` must outlive the record.
 RobotRecord record_of(const models::Observation& observation,
                       double previous_ground_velocity_command, RecordedJoints& joints);
 
-/// What a contact estimator hears at one step. The command is the one of the previous step, since
-/// this step's action answers this observation. An IMU whose quaternion is not of unit length (to a
-/// percent) knows no vertical: the vertical acceleration is NaN then.
+/// The input of a contact estimator at one step. The command is that of the previous step, since
+/// this step's action depends on this observation. If the norm of the IMU's quaternion differs from
+/// 1 by more than a percent, the vertical acceleration is NaN.
 Signals signals_from(const models::Observation& observation,
                      double previous_ground_velocity_command);
 

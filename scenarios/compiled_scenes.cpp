@@ -8,7 +8,7 @@ namespace touchdown::scenarios {
 
 namespace {
 
-/// The robot of this scenario from the one that its file describes.
+/// Applies the deviations to the robot that its file describes.
 void deviate(models::RobotModel& model, const Deviations& deviations) {
   models::shift_mass(*model.mj, model.base_body, {deviations.com_x, 0.0, deviations.com_z});
   models::scale_wheels(*model.mj, deviations.wheel_radius_scale);
@@ -21,7 +21,7 @@ void deviate(models::RobotModel& model, const Deviations& deviations) {
   }
 }
 
-/// The parts of a scenario that its scene is made of, and no others.
+/// The parts of a scenario that determine its scene, as YAML.
 std::string scene_of(const Scenario& scenario) {
   Scenario scene;
   scene.robot = scenario.robot;

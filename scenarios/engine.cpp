@@ -22,13 +22,13 @@ bool tipped_over(const models::GroundTruth& truth, double limit) {
   return cosine < std::cos(limit);
 }
 
-/// Watches a run for its end.
+/// Decides when a run ends, and how.
 class TerminationCheck {
  public:
   explicit TerminationCheck(const End& end) : end_(end) {}
 
-  /// The outcome once there is one.
-  std::optional<recordings::Outcome> judge(const simulators::Simulator& simulator) {
+  /// The outcome if the run is over at this step.
+  std::optional<recordings::Outcome> outcome(const simulators::Simulator& simulator) {
     const double time = simulator.observation().time;
     const models::GroundTruth& truth = simulator.ground_truth();
     if (!simulator.healthy()) return recordings::Outcome::diverged;
@@ -44,15 +44,15 @@ class TerminationCheck {
 
  private:
   const End& end_;
-  double passed_ = std::numeric_limits<double>::infinity();  ///< when the base was past the end (s)
+  double passed_ = std::numeric_limits<double>::infinity();  ///< first time past `end.x` (s)
 };
 
 std::unique_ptr<policies::Policy> make_policy(const Scenario& scenario,
                                               const simulators::Simulator& simulator,
-                                              policies::WheelContact told) {
+                                              policies::WheelContact contact_source) {
   const double radius = simulator.model().wheel_radius;
   const double period = simulator.control_period();
-  policies::WheelContact contact = policy_contact(scenario, simulator, std::move(told));
+  policies::WheelContact contact = policy_contact(scenario, simulator, std::move(contact_source));
   if (scenario.policy.law == policies::PolicyConfig::Law::soft_landing) {
     return std::make_unique<policies::SoftLander>(
         scenario.balancer, policies::Course{scenario.velocity, scenario.crouch, radius, period},
@@ -97,7 +97,7 @@ std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenar
 
 recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
                            std::uint64_t seed, std::int64_t run, const ContinueSimulation& progress,
-                           policies::WheelContact told) {
+                           policies::WheelContact contact_source) {
   recordings::Recording recording;
   recording.info = {.scenario = scenario.name,
                     .simulator = std::string(simulator.name()),
@@ -114,14 +114,14 @@ recordings::Recording play(const Scenario& scenario, simulators::Simulator& simu
 
   simulator.reset(start_pose(simulator.model(), scenario.terrain, scenario.start));
   const std::unique_ptr<policies::Policy> policy =
-      make_policy(scenario, simulator, std::move(told));
+      make_policy(scenario, simulator, std::move(contact_source));
   policy->reset(simulator.observation());
-  TerminationCheck referee(scenario.end);
+  TerminationCheck termination(scenario.end);
   for (std::size_t step = 0;; ++step) {
     recording.observation.push_back(simulator.observation());
     recording.action.push_back(policy->act(simulator.observation()));
     recording.truth.push_back(simulator.ground_truth());
-    recording.info.outcome = referee.judge(simulator);
+    recording.info.outcome = termination.outcome(simulator);
     if (recording.info.outcome) return recording;
     constexpr std::size_t steps_between_reports = 256;
     if (progress && step % steps_between_reports == 0 && !progress(simulator.observation().time)) {

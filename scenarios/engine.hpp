@@ -12,34 +12,35 @@
 
 namespace touchdown::scenarios {
 
-/// Called now and then with the simulated time (s); returning false stops the run early.
+/// Called every 256 steps with the simulated time (s). Returning false stops the run early.
 using ContinueSimulation = std::function<bool(double time)>;
 
-/// The scene of `scenario`, robot and terrain, in the engine called `name` ("mujoco", "bullet").
+/// Makes a simulator of the scenario's robot and terrain. `name` is the engine: "mujoco", "bullet".
 /// Errors: `InputError` for an unknown engine or a robot that breaks the naming contract.
 std::unique_ptr<simulators::Simulator> make_simulator(const Scenario& scenario,
                                                       std::string_view name);
 
-/// As above, with the scene compiled already (`compile_scene`).
+/// As above, with a scene that `compile_scene` compiled.
 std::unique_ptr<simulators::Simulator> make_simulator(
     const Scenario& scenario, std::string_view name,
     const std::shared_ptr<const models::RobotModel>& scene);
 
-/// What pulls at the robot from outside during the coming control step: its tether, its guides and
-/// the timed forces that act now.
+/// External forces on the robot during the next control step: its tether, its guides and the timed
+/// forces that act now.
 std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenario,
                                                           const simulators::Simulator& simulator);
 
-/// Play `scenario` exactly as it stands (no draws) and record every control step. Falling, running
-/// out of time and diverging are outcomes, not errors. The recording's info carries `seed` and
-/// `run` for the record. `simulator` is one that `make_simulator` made for a scenario with the same
-/// robot, terrain, mass and simulation; it is reset first, so that it can be played again. `told`,
-/// if it is given, tells the policy about contact instead of whom the scenario names, as late.
+/// Simulates `scenario` as it is, without random draws, and records every control step. Falling,
+/// running out of time and diverging are outcomes, not errors. `seed` and `run` are only stored in
+/// the recording's info. `simulator` comes from `make_simulator` for a scenario with the same
+/// robot, terrain, mass and simulation; it is reset first, so it can be used again. If
+/// `contact_source` is given, it replaces the scenario's contact source, with the same delay.
 recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
                            std::uint64_t seed = 0, std::int64_t run = 0,
-                           const ContinueSimulation& progress = {}, policies::WheelContact told = {});
+                           const ContinueSimulation& progress = {},
+                           policies::WheelContact contact_source = {});
 
-/// As above, in a simulator of its own.
+/// As above, in a new simulator.
 recordings::Recording play(const Scenario& scenario, std::string_view simulator,
                            std::uint64_t seed = 0, std::int64_t run = 0,
                            const ContinueSimulation& progress = {});

@@ -13,7 +13,7 @@ using models::Servo;
 
 constexpr std::array<Servo, 3> leg_servos = {Servo::left_hip, Servo::left_knee, Servo::left_wheel};
 
-/// What one of the leg's joints moves and the next one does not.
+/// The bodies that one of the leg's joints moves and the next joint does not.
 struct Link {
   double mass = 0.0;                                          ///< kg
   Eigen::Vector3d weighted_centre = Eigen::Vector3d::Zero();  ///< kg·m
@@ -43,7 +43,7 @@ std::array<Link, leg_servos.size()> links_of(const models::RobotModel& robot, co
   return links;
 }
 
-/// What resists the wheel's servo (kg·m²): the wheel and its rotor, about the axle.
+/// Inertia that the wheel's servo accelerates (kg·m²): wheel and rotor, about the axle.
 double inertia_about_axle(const models::RobotModel& robot, mjData& data) {
   const mjModel& mj = *robot.mj;
   mj_comPos(&mj, &data);
@@ -51,7 +51,7 @@ double inertia_about_axle(const models::RobotModel& robot, mjData& data) {
   return data.qM[mj.dof_Madr[robot.dof_address[models::index(Servo::left_wheel)]]];
 }
 
-/// To that many parts of one: what is finer comes from the arithmetic.
+/// Rounds to multiples of 1/`parts`: finer digits come from the arithmetic.
 double rounded(double value, double parts) { return std::round(value * parts) / parts; }
 
 }  // namespace
@@ -73,8 +73,7 @@ LegGeometry leg_geometry(const models::RobotModel& robot) {
     const Eigen::Vector3d centre = links[i].weighted_centre / links[i].mass - anchor[i];
     return std::pair(along.norm(), along.dot(centre) / along.squaredNorm());
   };
-  // Estimators take the wheel's mass to be at its axle: no share of its inertia is due to an
-  // offset.
+  // Estimators assume the wheel's mass at its axle, so its offset must not add to the inertia.
   const Link& wheel = links[2];
   const double off_axle = in_plane(wheel.weighted_centre / wheel.mass - anchor[2]).norm();
   const double wheel_inertia = inertia_about_axle(robot, *data) - wheel.mass * off_axle * off_axle;

@@ -5,10 +5,11 @@
 
 namespace touchdown::scenarios {
 
-/// The left leg of a robot as its description has it, without what deviates from it in one run:
-/// what estimators that compute loads are told about a robot. Lengths (to 1 µm) and centres of mass
-/// (to a thousandth) in the plane in which the leg bends; the wheel's inertia (to 1e-8 kg·m²) with
-/// its rotor; masses, the whole robot's too, to 1 mg. Upkie's are exactly the estimators' defaults.
+/// Geometry of a robot's left leg as its description has it, without the deviations of a run.
+/// Estimators that compute loads get it. Lengths (to 1 µm) and centres of mass (to a thousandth)
+/// are in the plane in which the leg bends. The wheel's inertia (to 1e-8 kg·m²) includes its rotor.
+/// Masses, the whole robot's too, are rounded to 1 mg. Upkie's values equal the estimators'
+/// defaults.
 LegGeometry leg_geometry(const models::RobotModel& robot);
 
 }  // namespace touchdown::scenarios

@@ -11,9 +11,9 @@ namespace touchdown::scenarios {
 
 namespace {
 
-/// The draws of one entry of one script. Scripts and quantities have streams of their own, apart
-/// from those of `perturbed`, which leaves the upper half of the counter zero: append to the lists
-/// of streams, never renumber.
+/// The draws of one entry of one script. Every script and quantity has its own stream. `perturbed`
+/// leaves the upper half of the counter zero, so its streams differ from these. Append to the list
+/// of streams, never renumber it.
 class Draw {
  public:
   Draw(std::uint64_t seed, std::int64_t run, std::uint64_t entry)
@@ -47,8 +47,8 @@ void describe_range(Fields& fields, std::string_view key, Range& range, double l
   range = {ends[0], ends[1]};
 }
 
-/// A half width that is written only if something varies by it.
-void rarely(Fields& fields, std::string_view key, double& half_width, double most) {
+/// A half width that is written only if it is not zero.
+void half_width_if_any(Fields& fields, std::string_view key, double& half_width, double most) {
   if (fields.reading() || half_width != 0.0) fields(key, half_width, 0.0, most);
 }
 
@@ -88,11 +88,11 @@ void describe(Fields& fields, Perturbation& perturbation) {
   fields("friction", perturbation.friction, 0.0, 2.0);
   fields("servo_gain_scale", perturbation.servo_gain_scale, 0.0, 0.9);
   fields("force_scale", perturbation.force_scale, 0.0, 1.0);
-  rarely(fields, "com_x", perturbation.com_x, 0.5);
-  rarely(fields, "com_z", perturbation.com_z, 0.5);
-  rarely(fields, "wheel_radius_scale", perturbation.wheel_radius_scale, 0.5);
-  rarely(fields, "actuator_friction_scale", perturbation.actuator_friction_scale, 1.0);
-  rarely(fields, "torque_error", perturbation.torque_error, 0.5);
+  half_width_if_any(fields, "com_x", perturbation.com_x, 0.5);
+  half_width_if_any(fields, "com_z", perturbation.com_z, 0.5);
+  half_width_if_any(fields, "wheel_radius_scale", perturbation.wheel_radius_scale, 0.5);
+  half_width_if_any(fields, "actuator_friction_scale", perturbation.actuator_friction_scale, 1.0);
+  half_width_if_any(fields, "torque_error", perturbation.torque_error, 0.5);
   fields.section("drive", perturbation.drive);
   fields.know("crouching");
   fields.section("crouching", perturbation.crouching);

@@ -18,65 +18,66 @@ namespace touchdown::scenarios {
 
 namespace {
 
-using Touches = std::array<bool, models::wheel_count>;
+using WheelContacts = std::array<bool, models::wheel_count>;
 
-/// An estimator in the loop: what it hears is what is recorded for it.
-policies::WheelContact contact_sources_of(std::shared_ptr<ContactEstimator> estimator) {
+/// Contact from an estimator in the loop. It gets the signals that a recording would give it.
+policies::WheelContact contact_from(std::shared_ptr<ContactEstimator> estimator) {
   estimator->reset();
   return
       [estimator = std::move(estimator)](const models::Observation& observation, double command) {
         const Belief& belief = estimator->update(recordings::signals_from(observation, command));
-        return Touches{belief.wheel[0].contact, belief.wheel[1].contact};
+        return WheelContacts{belief.wheel[0].contact, belief.wheel[1].contact};
       };
 }
 
-policies::WheelContact told_by_truth(const simulators::Simulator& simulator) {
-  constexpr double touching = 1.0;  // N, as the labels' default
+policies::WheelContact contact_from_truth(const simulators::Simulator& simulator) {
+  constexpr double threshold = 1.0;  // N, the labels' default
   return [&simulator](const models::Observation& observation, double /*command*/) {
-    if (observation.time <= 0.0) return Touches{true, true};  // no force has acted yet
+    if (observation.time <= 0.0) return WheelContacts{true, true};  // no force has acted yet
     const auto& force = simulator.ground_truth().wheel_normal_force;
-    return Touches{force[0] > touching, force[1] > touching};
+    return WheelContacts{force[0] > threshold, force[1] > threshold};
   };
 }
 
-policies::WheelContact reported_late(policies::WheelContact contact, std::size_t steps) {
+policies::WheelContact delayed(policies::WheelContact contact, std::size_t steps) {
   if (steps == 0) return contact;
-  return [contact = std::move(contact), waiting = std::deque<Touches>(steps, {true, true})](
+  return [contact = std::move(contact), waiting = std::deque<WheelContacts>(steps, {true, true})](
              const models::Observation& observation, double command) mutable {
     waiting.push_back(contact(observation, command));
-    const Touches touches = waiting.front();
+    const WheelContacts contacts = waiting.front();
     waiting.pop_front();
-    return touches;
+    return contacts;
   };
 }
 
-policies::WheelContact source(const Scenario& scenario, const simulators::Simulator& simulator) {
+policies::WheelContact named_source(const Scenario& scenario,
+                                    const simulators::Simulator& simulator) {
   const std::string& name = scenario.policy.contact;
   const double period = simulator.control_period();
   if (name == "upkie_observer") return policies::upkie_contact(period);
   if (name == "always") {
-    return [](const models::Observation&, double) { return Touches{true, true}; };
+    return [](const models::Observation&, double) { return WheelContacts{true, true}; };
   }
   if (name == "free_fall") {
-    return contact_sources_of(std::make_shared<FreeFall>(FreeFallConfig{.sample_rate = 1.0 / period}));
+    return contact_from(std::make_shared<FreeFall>(FreeFallConfig{.sample_rate = 1.0 / period}));
   }
   if (name == "support_force") {
     const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
-    return contact_sources_of(std::make_shared<SupportForce>(
+    return contact_from(std::make_shared<SupportForce>(
         SupportForceConfig{.sample_rate = 1.0 / period, .geometry = leg_geometry(robot)}));
   }
-  if (name == "truth") return told_by_truth(simulator);
-  throw InputError(fmt::format("policy.contact: nobody is called '{}'", name));
+  if (name == "truth") return contact_from_truth(simulator);
+  throw InputError(fmt::format("policy.contact: unknown contact source '{}'", name));
 }
 
 }  // namespace
 
 policies::WheelContact policy_contact(const Scenario& scenario,
                                       const simulators::Simulator& simulator,
-                                      policies::WheelContact told) {
-  if (!told) told = source(scenario, simulator);
+                                      policies::WheelContact contact_source) {
+  if (!contact_source) contact_source = named_source(scenario, simulator);
   const auto delay = std::llround(scenario.policy.delay / simulator.control_period());
-  return reported_late(std::move(told), static_cast<std::size_t>(delay));
+  return delayed(std::move(contact_source), static_cast<std::size_t>(delay));
 }
 
 }  // namespace touchdown::scenarios

@@ -6,11 +6,11 @@
 
 namespace touchdown::scenarios {
 
-/// Who tells the scenario's policy about contact, `policy.late` seconds late: `told` if it is
-/// given, else by the name under `policy.contact`. `truth` is an oracle: it looks at `simulator`,
-/// which must outlive what is returned.
+/// The contact source of the scenario's policy: `contact_source` if it is given, else the one named
+/// by `policy.contact`. Its reports are delayed by `policy.delay` (s). `truth` is an oracle: it
+/// reads `simulator`, which must outlive the result.
 policies::WheelContact policy_contact(const Scenario& scenario,
                                       const simulators::Simulator& simulator,
-                                      policies::WheelContact told = {});
+                                      policies::WheelContact contact_source = {});
 
 }  // namespace touchdown::scenarios

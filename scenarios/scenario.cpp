@@ -61,9 +61,10 @@ static void describe(Fields& fields, Scenario& scenario, const policies::LqrGain
   fields.section("tether", scenario.tether);
   fields.list_if_any("guides", scenario.guides);
   fields.list_if_any("forces", scenario.forces);
-  double meant_for = scenario.forces_for_mass.value_or(0.0);
-  if (fields.reading() || meant_for > 0.0) fields("forces_for_mass", meant_for, 0.01, 1e4);
-  if (meant_for > 0.0) scenario.forces_for_mass = meant_for;
+  double reference_mass = scenario.forces_for_mass.value_or(0.0);
+  if (fields.reading() || reference_mass > 0.0)
+    fields("forces_for_mass", reference_mass, 0.01, 1e4);
+  if (reference_mass > 0.0) scenario.forces_for_mass = reference_mass;
   fields("mass_scale", scenario.mass_scale, 0.01, 100.0);
   fields.know("deviations");
   if (fields.present("deviations", scenario.deviations != Deviations{})) {
@@ -99,7 +100,7 @@ std::string to_yaml(const Scenario& scenario) {
 }
 
 Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t run) {
-  // The numbers of the streams are part of what a seed means: append, never renumber.
+  // The numbers of the streams define what a seed draws: append, never renumber.
   enum Stream : std::uint64_t {
     x,
     y,
@@ -114,7 +115,7 @@ Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t ru
     com_z,
     wheel_radius,
     actuator_friction,
-    torque_error  // and five more: a stream for every servo
+    torque_error  // the first of six: one stream per servo
   };
   const auto draw = [&](std::uint64_t stream, double half_width) {
     return half_width * (2.0 * uniform01(seed, static_cast<std::uint64_t>(run), stream) - 1.0);

@@ -13,7 +13,7 @@ namespace touchdown::scenarios {
 
 namespace {
 
-/// Of the robot as its file has it, at rest on the level.
+/// LQR gains of the robot as its file describes it, at rest on level ground.
 policies::LqrGains lqr_gains(const std::filesystem::path& robot, const Start& start) {
   return [robot, legs = Start{.hip = start.hip, .knee = start.knee}](
              const policies::WheelBalancerConfig& config) {
@@ -24,7 +24,7 @@ policies::LqrGains lqr_gains(const std::filesystem::path& robot, const Start& st
   };
 }
 
-/// What the robot's file says about its balancer.
+/// The balancer that the robot's file specifies.
 policies::WheelBalancerConfig balancer_of(const std::filesystem::path& robot,
                                           const policies::LqrGains& lqr) {
   policies::WheelBalancerConfig balancer;
@@ -37,14 +37,14 @@ policies::WheelBalancerConfig balancer_of(const std::filesystem::path& robot,
   return balancer;
 }
 
-/// Forces that are meant for a robot of one mass, in proportion for this one.
-void suit_forces(Scenario& scenario) {
+/// Scales forces that are written for a robot of another mass to the mass of this one.
+void scale_forces(Scenario& scenario) {
   if (!scenario.forces_for_mass) return;
   const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
   const double mass = mj_getTotalmass(robot.mj.get());
   const double factor = mass / *scenario.forces_for_mass;
-  constexpr double the_same = 1e-6;  // that robot: what is written, to the bit
-  if (std::abs(factor - 1.0) < the_same) return;
+  constexpr double same_mass = 1e-6;  // then the forces stay bit-identical
+  if (std::abs(factor - 1.0) < same_mass) return;
   for (policies::TimedForce& timed : scenario.forces) timed.force *= factor;
   if (auto& lift = scenario.perturbation.lift) {
     lift->force = {factor * lift->force.low, factor * lift->force.high};
@@ -55,10 +55,10 @@ void suit_forces(Scenario& scenario) {
 }  // namespace
 
 Scenario complete_scenario(const YamlDocument& document) {
-  // Once for the robot and the pose, then once more on top of what the robot says.
-  constexpr double not_said = std::numeric_limits<double>::quiet_NaN();
+  // Read once for the robot and the stance, then again with the robot's values as defaults.
+  constexpr double unspecified = std::numeric_limits<double>::quiet_NaN();
   Scenario wanted;
-  wanted.start.hip = wanted.start.knee = not_said;
+  wanted.start.hip = wanted.start.knee = unspecified;
   wanted = scenario_from_yaml(document, wanted,
                               [](const policies::WheelBalancerConfig& config) { return config; });
   Scenario defaults;
@@ -70,14 +70,14 @@ Scenario complete_scenario(const YamlDocument& document) {
   defaults.balancer = balancer_of(defaults.robot, lqr);
   Scenario scenario = scenario_from_yaml(document, defaults, lqr);
   scenario.robot = defaults.robot;
-  suit_forces(scenario);
+  scale_forces(scenario);
   return scenario;
 }
 
 Scenario find_scenario(const std::filesystem::path& path, const std::string& robot) {
   YamlDocument document = YamlDocument::load(find_resource(path));
   if (!robot.empty()) {
-    (void)find_resource(robot);  // or the scenario would be blamed for it
+    (void)find_resource(robot);  // otherwise the error would name the scenario
     document.override_value("robot=" + robot);
   }
   return complete_scenario(document);

@@ -7,15 +7,14 @@
 
 namespace touchdown::scenarios {
 
-/// The scenario that somebody wrote: its robot is where `find_resource` finds it, and what the
-/// scenario does not say about stance and balancer the robot's own file does, `gains: lqr` in
-/// either among it. Forces that are meant for a robot of one mass it gets in proportion to its own.
-/// Everything is a number afterwards, which `scenario_from_yaml` reads back without the robot.
-/// Errors: `InputError` with file:line:column, of whichever file.
+/// Reads a scenario file and completes it from its robot's file, which `find_resource` finds. The
+/// robot's file provides stance and balancer where the scenario does not; either may specify
+/// `gains: lqr`. Forces with `forces_for_mass` are scaled to the robot's mass. The result holds
+/// numbers only, so `scenario_from_yaml` reads it back without the robot.
+/// Errors: `InputError` with file:line:column of either file.
 Scenario complete_scenario(const YamlDocument& document);
 
-/// The same of a file that something else names, which is where `find_resource` finds it; with
-/// another robot, if one is named.
+/// The same for a path that `find_resource` resolves. A non-empty `robot` replaces the scenario's.
 Scenario find_scenario(const std::filesystem::path& path, const std::string& robot = {});
 
 }  // namespace touchdown::scenarios

@@ -27,7 +27,7 @@ Kinematics kinematics(const models::RobotModel& model, mjData& data,
                  models::vector_at(data.geom_xpos, model.tyre_geom[1]))};
 }
 
-/// A point's place from the side: x and z.
+/// A point seen from the side: x and z.
 Eigen::Vector2d from_the_side(const mjtNum* x, int row) { return {x[3 * row], x[3 * row + 2]}; }
 
 /// Hip and knee of one leg, by servo.
@@ -36,16 +36,16 @@ struct Leg {
   int tyre;
 };
 
-/// Whether a joint can have this angle.
+/// Whether the angle is within the joint's range.
 bool can_turn(const models::RobotModel& model, std::size_t servo, double angle) {
   const int joint = model.mj->dof_jntid[model.dof_address[servo]];
   const mjtNum* range = &model.mj->jnt_range[2 * joint];
   return model.mj->jnt_limited[joint] == 0 || (range[0] <= angle && angle <= range[1]);
 }
 
-/// Bends a leg until its tyre is at `target`, seen from the side of the upright base, by Newton's
-/// method; whether it can. It starts bent a little more, with its knee to the side that `forward`
-/// says (±1), for a straight leg does not know which way to bend.
+/// Bends a leg by Newton's method until its tyre is at `target`, seen from the side of the upright
+/// base. Returns whether that succeeded. The leg starts with some extra bend, its knee on the side
+/// of `forward` (±1): a straight leg is singular.
 bool reach(const models::RobotModel& model, mjData& data, simulators::RobotState& state,
            const Leg& leg, const Eigen::Vector2d& target, double forward) {
   constexpr double more_hip = 0.2;
@@ -66,15 +66,15 @@ bool reach(const models::RobotModel& model, mjData& data, simulators::RobotState
     Eigen::Matrix2d turn;
     turn << jacobian(0, model.dof_address[leg.hip]), jacobian(0, model.dof_address[leg.knee]),
         jacobian(2, model.dof_address[leg.hip]), jacobian(2, model.dof_address[leg.knee]);
-    const Eigen::Vector2d bend = turn.partialPivLu().solve(missing);
-    state.joint_position[leg.hip] += bend[0];
-    state.joint_position[leg.knee] += bend[1];
+    const Eigen::Vector2d change = turn.partialPivLu().solve(missing);
+    state.joint_position[leg.hip] += change[0];
+    state.joint_position[leg.knee] += change[1];
   }
   return false;
 }
 
-/// Legs of different lengths: the shorter one keeps the angles asked for, and hip and knee of the
-/// longer one give way until both wheels turn about one axle.
+/// Aligns the wheels of legs of different lengths. The shorter leg keeps its angles; the longer one
+/// bends at hip and knee until both wheels share one axle.
 void line_up(const models::RobotModel& model, mjData& data, simulators::RobotState& state) {
   const std::array<Leg, 2> legs = {
       Leg{models::index(models::Servo::left_hip), models::index(models::Servo::left_knee),
@@ -94,7 +94,7 @@ void line_up(const models::RobotModel& model, mjData& data, simulators::RobotSta
   const double forward = (longer == 0) == backward ? -1.0 : 1.0;
   if (!reach(model, data, state, legs[longer], tyre[1 - longer], forward)) {
     throw InputError(fmt::format(
-        "{}: its legs are too unlike each other to stand on one axle, whatever the longer one does",
+        "{}: its legs differ too much to stand on one axle, however the longer one bends",
         model.name));
   }
 }

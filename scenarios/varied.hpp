@@ -6,12 +6,12 @@
 
 namespace touchdown::scenarios {
 
-/// The number under a dotted key of a scenario, list items by number:
-/// `terrain.pieces.1.stairs.rise`. NaN if there is none.
+/// The number under a dotted key of a scenario, with list items by index:
+/// `terrain.pieces.1.stairs.rise`. NaN if there is no such number.
 double number_at(const Scenario& scenario, const std::string& key);
 
-/// The scenario with another number there. Errors: `InputError`, as of the scenario file that is
-/// called `name`, for a key that is none and for a number that it refuses.
+/// The scenario with another number under that key. Errors: `InputError` for an unknown key or a
+/// number out of range, reported for a scenario file called `name`.
 Scenario varied(const Scenario& scenario, const std::string& key, double value,
                 const std::string& name);
 

@@ -15,15 +15,15 @@ class Fields;
 
 namespace touchdown::scoring {
 
-/// What a bootstrap interval takes as its sample.
+/// The sample of a bootstrap interval.
 enum class SampleUnit : int { run, drop };
 
 /// "run", "drop".
 const std::string& to_text(SampleUnit unit);
 
 struct BootstrapConfig {
-  int resamples = 1000;    ///< how often the samples are drawn anew
-  double level = 0.95;     ///< probability that the interval is meant to cover
+  int resamples = 1000;    ///< number of resamples
+  double level = 0.95;     ///< nominal coverage of the interval
   std::uint64_t seed = 1;  ///< of the draws
 };
 
@@ -34,17 +34,17 @@ struct IntervalConfig {
 
 void describe(Fields& fields, IntervalConfig& intervals);
 
-/// For every resample, which of `samples` samples it consists of: row r holds `samples` indices,
-/// drawn with replacement and keyed by (seed, r, position), so equal arguments give equal draws.
+/// Indices of the samples in every resample: row r holds `samples` indices, drawn with replacement
+/// and keyed by (seed, r, position). Equal arguments give equal draws.
 std::vector<std::uint32_t> resampled_indices(std::size_t samples, const BootstrapConfig& config);
 
-/// The percentile interval of a statistic's values over the resamples; values that are NaN (the
-/// resample held nothing to divide by) are left out. `values` is reordered.
+/// The percentile interval of a statistic's values over the resamples. NaN values (the resample had
+/// a zero denominator) are left out. `values` is reordered.
 Interval percentile_interval(double estimate, std::vector<double>& values, double level);
 
-/// The interval of a share of so many events, all or none of which went well: no resample knows
-/// another, so the end that the bootstrap cannot see is the exact one of Clopper and Pearson
-/// (1934), which takes the events for independent. Any other interval stays.
+/// Corrects the interval of a share that is 0 or 1 over `events` events. All resamples then give
+/// the same share, so the bootstrap's inner end is replaced by the exact one of Clopper and Pearson
+/// (1934), which assumes independent events, where that is wider. Other intervals stay unchanged.
 Interval with_exact_end(const Interval& share, std::int64_t events, double level);
 
 template <typename Sample>
@@ -54,11 +54,11 @@ Sample sum(const std::vector<Sample>& samples) {
   return all;
 }
 
-/// 95 % percentile bootstrap (Efron and Tibshirani 1993, ch. 13) of statistics of a sum over
-/// independent samples: means, ratios of sums (precision, recall), differences of paired ones. A
-/// sample is a run or a drop, never a time step. `Sample` needs a default value and `+=`; each
-/// statistic maps a sum of samples to a number. One interval per statistic; all statistics, and all
-/// calls with as many samples and the same seed, see the same resamples.
+/// Percentile bootstrap (Efron and Tibshirani 1993, ch. 13) of statistics of a sum over independent
+/// samples: means, ratios of sums (precision, recall), differences of paired ones. A sample is a
+/// run or a drop, never a time step. `Sample` needs a default value and `+=`; each statistic maps a
+/// sum of samples to a number. Returns one interval per statistic. All statistics, and all calls
+/// with the same number of samples and the same seed, use the same resamples.
 template <typename Sample>
 std::vector<Interval> bootstrap(std::span<const Sample> samples,
                                 const std::vector<std::function<double(const Sample&)>>& statistics,
@@ -81,7 +81,7 @@ std::vector<Interval> bootstrap(std::span<const Sample> samples,
   return result;
 }
 
-/// Two methods' results on the same run or drop, so that their difference is resampled as one.
+/// Two methods' results on the same run or drop, resampled together for their difference.
 template <typename Sample>
 struct Paired {
   Sample first{};
@@ -102,7 +102,7 @@ std::vector<Paired<Sample>> paired(const std::vector<Sample>& first,
   return pairs;
 }
 
-/// Each statistic of the first's samples minus that of the second's on the same runs or drops.
+/// Interval of each statistic of the first samples minus that of the second, paired by run or drop.
 template <typename Sample>
 std::vector<Interval> bootstrap_differences(
     const std::vector<Sample>& first, const std::vector<Sample>& second,

@@ -8,12 +8,12 @@
 
 namespace touchdown::scoring {
 
-/// How well probabilities of contact mean what they say: the Brier score and the reliability curve
-/// of docs/metrics.md, "Calibration". Sums over steps, so they add.
+/// Calibration of the probability of contact: the Brier score and the reliability curve of
+/// docs/metrics.md, "Calibration". All members are sums over steps, so they add.
 struct Calibration {
   static constexpr std::size_t bins = 10;
 
-  /// Steps whose probability lies in [b/10, (b+1)/10), the last bin closed.
+  /// Steps with a probability in [b/10, (b+1)/10); the last bin is closed.
   struct Bin {
     std::int64_t points = 0;
     std::int64_t contact = 0;
@@ -50,8 +50,8 @@ struct Calibration {
     return *this;
   }
 
-  /// The expected calibration error: how far the bins' mean probabilities are from their shares of
-  /// contact, a bin weighing as much as it has points; NaN without points.
+  /// Expected calibration error: mean |mean probability − share of contact| over the bins, weighted
+  /// by their points; NaN without points.
   double expected_error() const {
     double sum = 0.0;
     for (const Bin& b : bin) {

@@ -5,14 +5,15 @@
 
 namespace touchdown::scoring {
 
-/// `part` of `whole`, NaN when there is nothing to take a part of.
+/// `part` / `whole`; NaN if `whole` is zero.
 inline double ratio(std::int64_t part, std::int64_t whole) {
   if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Point-wise confusion counts of one or many sequences; sums over steps, so they add. The metrics
-/// are those of docs/metrics.md, "Point-wise"; NaN where a denominator is zero.
+/// Point-wise confusion counts of one or many sequences, `<truth>_as_<prediction>`. They are sums
+/// over steps, so they add. docs/metrics.md, "Point-wise", defines the metrics; NaN if a
+/// denominator is zero.
 struct Classification {
   std::int64_t contact_as_contact = 0;
   std::int64_t contact_as_flight = 0;
@@ -45,7 +46,7 @@ struct Classification {
     return ratio(flight_as_flight, flight_as_flight + contact_as_flight);
   }
   double no_contact_recall() const { return ratio(flight_as_flight, flight()); }
-  /// The mean of the two recalls; where there was only one of the two states, its recall.
+  /// The mean of the two recalls; if only one of the two states occurred, its recall.
   double balanced_accuracy() const {
     if (flight() == 0) return contact_recall();
     if (contact() == 0) return no_contact_recall();

@@ -19,7 +19,7 @@ double at_most(std::int64_t most, std::int64_t trials, double share) {
   return sum;
 }
 
-/// The share at which at most so many successes have this probability, which falls with the share.
+/// The share at which at most `most` successes have this probability.
 double share_at(std::int64_t most, std::int64_t trials, double probability) {
   double low = 0.0;
   double high = 1.0;

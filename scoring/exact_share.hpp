@@ -6,9 +6,9 @@
 
 namespace touchdown::scoring {
 
-/// The share of `trials` that went well, with the exact interval of Clopper and Pearson (1934): the
-/// shares under which as many as that, or as few, have a probability of at least (1 − level)/2.
-/// Takes the trials for independent. NaN without any.
+/// The share of successful trials with the exact interval of Clopper and Pearson (1934): the shares
+/// for which at least, and at most, that many successes have a probability of (1 − level)/2 or
+/// more. Assumes independent trials. NaN without any.
 Interval exact_share(std::int64_t successes, std::int64_t trials, double level);
 
 }  // namespace touchdown::scoring

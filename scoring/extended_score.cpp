@@ -10,6 +10,7 @@ namespace touchdown::scoring {
 
 namespace {
 
+/// Whether a step is within 20 ms of a takeoff or 5 ms of a landing.
 std::vector<bool> near_events(const ContactSequence& truth, std::int64_t period_us) {
   std::vector<bool> near(truth.size());
   const auto mark = [&](std::size_t event, std::int64_t margin_us) {
@@ -24,12 +25,12 @@ std::vector<bool> near_events(const ContactSequence& truth, std::int64_t period_
   return near;
 }
 
-/// Stretches that are told to be flights, from step `first` on.
-std::vector<Flight> told_flights(const ContactSequence& predicted, std::size_t first) {
-  std::vector<Flight> told = flights(predicted);
-  std::erase_if(told, [&](const Flight& flight) { return flight.landing <= first; });
-  for (Flight& flight : told) flight.takeoff = std::max(flight.takeoff, first);
-  return told;
+/// Flights of a sequence, cut to the steps from `first` on.
+std::vector<Flight> flights_from(const ContactSequence& contact, std::size_t first) {
+  std::vector<Flight> result = flights(contact);
+  std::erase_if(result, [&](const Flight& flight) { return flight.landing <= first; });
+  for (Flight& flight : result) flight.takeoff = std::max(flight.takeoff, first);
+  return result;
 }
 
 std::size_t common_steps(const Flight& a, const Flight& b) {
@@ -39,23 +40,23 @@ std::size_t common_steps(const Flight& a, const Flight& b) {
 
 std::size_t length(const Flight& flight) { return flight.landing - flight.takeoff; }
 
-FlightCounts match_flights(const ContactSequence& truth, const ContactSequence& predicted,
+FlightCounts match_flights(const ContactSequence& truth, const ContactSequence& prediction,
                            std::size_t first, std::size_t shortest) {
   FlightCounts counts;
-  std::vector<Flight> real = told_flights(truth, first);
-  std::vector<Flight> told = told_flights(predicted, first);
-  // What is told of a flight that need not be found is neither right nor wrong.
+  std::vector<Flight> real = flights_from(truth, first);
+  std::vector<Flight> predicted = flights_from(prediction, first);
+  // A predicted flight that overlaps a true flight below the minimum duration is not counted.
   const auto is_short = [&](const Flight& flight) { return length(flight) < shortest; };
-  std::erase_if(told, [&](const Flight& one) {
+  std::erase_if(predicted, [&](const Flight& one) {
     return std::any_of(real.begin(), real.end(), [&](const Flight& flight) {
       return is_short(flight) && common_steps(flight, one) > 0;
     });
   });
   std::erase_if(real, is_short);
   counts.truth = static_cast<std::int64_t>(real.size());
-  counts.told = static_cast<std::int64_t>(told.size());
+  counts.predicted = static_cast<std::int64_t>(predicted.size());
   for (const Flight& flight : real) {
-    counts.matched += std::count_if(told.begin(), told.end(), [&](const Flight& one) {
+    counts.matched += std::count_if(predicted.begin(), predicted.end(), [&](const Flight& one) {
       const std::size_t common = common_steps(flight, one);
       return 2 * common > length(flight) + length(one) - common;
     });
@@ -107,7 +108,7 @@ double Latencies::early_share() const {
 
 FlightCounts& FlightCounts::operator+=(const FlightCounts& other) {
   truth += other.truth;
-  told += other.told;
+  predicted += other.predicted;
   matched += other.matched;
   return *this;
 }
@@ -124,11 +125,11 @@ ExtendedScore& ExtendedScore::operator+=(const ExtendedScore& other) {
   return *this;
 }
 
-ExtendedScore extended_score(const std::array<ContactSequence, models::wheel_count>& truth,
-                       const std::array<std::vector<double>, models::wheel_count>& normal_force,
-                       const Prediction& prediction, std::int64_t period_us,
-                       const ScoringConfig& config) {
-  constexpr double light = 10.0;  // N
+ExtendedScore extended_score(
+    const std::array<ContactSequence, models::wheel_count>& truth,
+    const std::array<std::vector<double>, models::wheel_count>& normal_force,
+    const Prediction& prediction, std::int64_t period_us, const ScoringConfig& config) {
+  constexpr double loaded_force = 10.0;  // N
   constexpr double least_probability = 1e-6;
   ExtendedScore result;
   const std::size_t first = first_scored_step(period_us, config);
@@ -137,12 +138,13 @@ ExtendedScore extended_score(const std::array<ContactSequence, models::wheel_cou
     const ContactSequence& predicted = prediction[w].contact;
     const std::vector<bool> near = near_events(truth[w], period_us);
     for (std::size_t k = first; k < truth[w].size(); ++k) {
-      const bool touches = truth[w][k] != 0;
-      if (!near[k]) result.away_from_events.add(touches, predicted[k] != 0);
-      if (!touches || normal_force[w][k] >= light) result.loaded.add(touches, predicted[k] != 0);
+      const bool in_contact = truth[w][k] != 0;
+      if (!near[k]) result.away_from_events.add(in_contact, predicted[k] != 0);
+      if (!in_contact || normal_force[w][k] >= loaded_force)
+        result.loaded.add(in_contact, predicted[k] != 0);
       const double p_contact = prediction[w].p_contact[k];
       result.log_loss -=
-          std::log(std::clamp(touches ? p_contact : 1.0 - p_contact, least_probability, 1.0));
+          std::log(std::clamp(in_contact ? p_contact : 1.0 - p_contact, least_probability, 1.0));
       result.steps += 1;
     }
     for (const JudgedTransition& judged : judge_transitions(truth[w], predicted, period, config)) {

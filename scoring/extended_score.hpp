@@ -7,53 +7,54 @@
 
 namespace touchdown::scoring {
 
-/// Latencies of detected events to the millisecond; counts, so they add.
+/// Histogram of the latencies of detected events, in bins of 1 ms. Counts add.
 struct Latencies {
-  static constexpr std::int64_t first_ms = -60;  ///< they are counted from here on
-  static constexpr std::size_t count = 311;      ///< one count per ms; the last takes all beyond
+  static constexpr std::int64_t first_ms =
+      -60;  ///< latency of the first bin; it holds all earlier events
+  static constexpr std::size_t count = 311;  ///< bins; the last holds all later events
 
   std::array<std::int32_t, count> events{};
 
   void add(std::int64_t latency_us);
   Latencies& operator+=(const Latencies& other);
   std::int64_t total() const;
-  /// The least latency, or the least |latency|, that so large a share of the events does not exceed
-  /// (ms); NaN without any.
+  /// The smallest latency, or |latency|, that at least `share` of the events do not exceed (ms);
+  /// NaN without events.
   double percentile(double share) const;
   double absolute_percentile(double share) const;
-  /// The share that is told before it happens; NaN without any.
+  /// Share of the events with a negative latency; NaN without events.
   double early_share() const;
 };
 
 /// Flights of a wheel as intervals: docs/metrics.md, "Flights".
 struct FlightCounts {
-  std::int64_t truth = 0;    ///< flights that must be found
-  std::int64_t told = 0;     ///< maximal stretches told to be flights
-  std::int64_t matched = 0;  ///< pairs of the two that share more than half of their union
+  std::int64_t truth = 0;      ///< true flights of at least the minimum duration
+  std::int64_t predicted = 0;  ///< maximal intervals that are predicted as flight
+  std::int64_t matched = 0;    ///< pairs that share more than half of their union
 
   FlightCounts& operator+=(const FlightCounts& other);
-  /// 2 matched / (truth + told); NaN without either.
-  double f1() const { return ratio(2 * matched, truth + told); }
+  /// 2 matched / (truth + predicted); NaN if both are zero.
+  double f1() const { return ratio(2 * matched, truth + predicted); }
 };
 
-/// What a close look at one run adds to its score, both wheels added; counts, so they add.
+/// Additional metrics of one or many runs, summed over both wheels and over steps, so they add.
 struct ExtendedScore {
   Classification away_from_events;  ///< without ±20 ms of takeoffs and ±5 ms of landings
-  Classification loaded;              ///< without contact of less than 10 N
+  Classification loaded;            ///< without contact of less than 10 N
   Latencies takeoff;
   Latencies landing;
   FlightCounts flights;
-  std::int64_t extra_switches = 0;  ///< told, and the detection of no flight, however short
-  double log_loss = 0.0;  ///< −ln of the probability given to the truth, 1e−6 at least, by step
+  std::int64_t extra_switches = 0;  ///< predicted switches that detect no flight, however short
+  double log_loss = 0.0;            ///< Σ over steps of −ln max(P(truth), 1e−6)
   std::int64_t steps = 0;
 
   ExtendedScore& operator+=(const ExtendedScore& other);
 };
 
-/// `normal_force` per wheel and step (N).
-ExtendedScore extended_score(const std::array<ContactSequence, models::wheel_count>& truth,
-                       const std::array<std::vector<double>, models::wheel_count>& normal_force,
-                       const Prediction& prediction, std::int64_t period_us,
-                       const ScoringConfig& config);
+/// Scores one run. `normal_force` is per wheel and step (N); `period_us` is the time step (µs).
+ExtendedScore extended_score(
+    const std::array<ContactSequence, models::wheel_count>& truth,
+    const std::array<std::vector<double>, models::wheel_count>& normal_force,
+    const Prediction& prediction, std::int64_t period_us, const ScoringConfig& config);
 
 }  // namespace touchdown::scoring

@@ -14,8 +14,8 @@ namespace touchdown::scoring {
 
 namespace {
 
-/// Steps [begin, end) share one state.
-struct Stretch {
+/// A maximal interval of steps [begin, end) in one state.
+struct StateInterval {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::uint8_t state = 0;
@@ -23,8 +23,8 @@ struct Stretch {
   std::size_t length() const { return end - begin; }
 };
 
-std::vector<Stretch> stretches(const ContactSequence& contact) {
-  std::vector<Stretch> result;
+std::vector<StateInterval> state_intervals(const ContactSequence& contact) {
+  std::vector<StateInterval> result;
   for (std::size_t k = 0; k < contact.size(); ++k) {
     if (k == 0 || contact[k] != contact[k - 1]) result.push_back({k, k, contact[k]});
     result.back().end = k + 1;
@@ -57,15 +57,15 @@ void describe(Fields& fields, LabelConfig& labels) {
 }
 
 ContactSequence debounced(ContactSequence contact, std::size_t steps) {
-  std::vector<Stretch> parts = stretches(contact);
+  std::vector<StateInterval> parts = state_intervals(contact);
   while (parts.size() > 1) {
     const auto shortest = std::min_element(
         parts.begin(), parts.end(),
-        [](const Stretch& a, const Stretch& b) { return a.length() < b.length(); });
+        [](const StateInterval& a, const StateInterval& b) { return a.length() < b.length(); });
     if (shortest->length() >= steps) break;
     const bool has_left = shortest != parts.begin();
     const bool has_right = shortest + 1 != parts.end();
-    Stretch merged = *shortest;
+    StateInterval merged = *shortest;
     merged.state = shortest->state == 0 ? 1 : 0;
     if (has_left) merged.begin = (shortest - 1)->begin;
     if (has_right) merged.end = (shortest + 1)->end;
@@ -73,7 +73,7 @@ ContactSequence debounced(ContactSequence contact, std::size_t steps) {
     *first = merged;
     parts.erase(first + 1, has_right ? shortest + 2 : shortest + 1);
   }
-  for (const Stretch& part : parts) {
+  for (const StateInterval& part : parts) {
     std::fill(contact.begin() + static_cast<std::ptrdiff_t>(part.begin),
               contact.begin() + static_cast<std::ptrdiff_t>(part.end), part.state);
   }
@@ -83,24 +83,25 @@ ContactSequence debounced(ContactSequence contact, std::size_t steps) {
 ContactSequence annotated(const ContactSequence& contact, double period,
                           const Annotator& annotator) {
   const auto end = static_cast<std::ptrdiff_t>(contact.size());
-  const auto marked = [&](std::size_t event, double late) {
+  const auto marked = [&](std::size_t event, double delay) {
     const auto step = static_cast<std::ptrdiff_t>(event);
     if (step == 0 || step == end) return step;
-    return std::clamp(step + std::ptrdiff_t{std::llround(late / period)}, std::ptrdiff_t{0}, end);
+    return std::clamp(step + std::ptrdiff_t{std::llround(delay / period)}, std::ptrdiff_t{0}, end);
   };
-  ContactSequence seen(contact.size(), 1);
+  ContactSequence marked_contact(contact.size(), 1);
   for (const Flight& flight : flights(contact)) {
     const std::ptrdiff_t takeoff = marked(flight.takeoff, annotator.takeoff_delay);
     const std::ptrdiff_t landing = marked(flight.landing, annotator.landing_delay);
-    if (takeoff < landing) std::fill(seen.begin() + takeoff, seen.begin() + landing, 0);
+    if (takeoff < landing)
+      std::fill(marked_contact.begin() + takeoff, marked_contact.begin() + landing, 0);
   }
-  if (!(annotator.frame > 0.0)) return seen;
-  ContactSequence result(seen.size());
-  for (std::size_t k = 0; k < seen.size(); ++k) {
-    // A picture that is taken at this very step is seen, however time was rounded.
-    const double picture =
+  if (!(annotator.frame > 0.0)) return marked_contact;
+  ContactSequence result(marked_contact.size());
+  for (std::size_t k = 0; k < marked_contact.size(); ++k) {
+    // The tolerance includes a frame that is taken at this very step, despite rounding of the time.
+    const double frame_time =
         std::floor(static_cast<double>(k) * period / annotator.frame + 1e-9) * annotator.frame;
-    result[k] = seen[static_cast<std::size_t>(std::llround(picture / period))];
+    result[k] = marked_contact[static_cast<std::size_t>(std::llround(frame_time / period))];
   }
   return result;
 }
@@ -134,7 +135,7 @@ std::array<ContactSequence, models::wheel_count> contact_labels(
 
 std::vector<Flight> flights(const ContactSequence& contact) {
   std::vector<Flight> result;
-  for (const Stretch& part : stretches(contact)) {
+  for (const StateInterval& part : state_intervals(contact)) {
     if (part.state == 0) result.push_back({part.begin, part.end});
   }
   return result;
@@ -149,7 +150,7 @@ ContactSequence both_wheels(const std::array<ContactSequence, models::wheel_coun
 }
 
 std::vector<std::size_t> drop_segments(const ContactSequence& both_wheels_in_contact,
-                                     std::size_t hold_off) {
+                                       std::size_t hold_off) {
   std::vector<Flight> drops;
   for (const Flight& flight : flights(both_wheels_in_contact)) {
     if (!drops.empty() && flight.takeoff - drops.back().landing <= hold_off) {
@@ -176,24 +177,24 @@ LabelStream::LabelStream(double period, const LabelConfig& config, Sink sink)
 void LabelStream::add(double normal_force) {
   const std::uint8_t contact{normal_force > threshold_};
   duration_ = !pending_.empty() && pending_.back() == contact ? duration_ + 1 : 1;
-  if (duration_ > steps_) {  // nothing is pending, and this changes nothing
+  if (duration_ > steps_) {  // the state is settled, and no step waits for its label
     sink_(contact);
     return;
   }
   pending_.push_back(contact);
-  if (duration_ >= steps_ || pending_.size() > longest_chatter_) settle();
+  if (duration_ >= steps_ || pending_.size() > longest_chatter_) label_settled();
 }
 
 void LabelStream::finish() {
-  settle();
+  label_settled();
   pending_.clear();
   labelled_ = duration_ = 0;
 }
 
-void LabelStream::settle() {
+void LabelStream::label_settled() {
   const ContactSequence labels = debounced(pending_, steps_);
   for (std::size_t k = labelled_; k < labels.size(); ++k) sink_(labels[k]);
-  // The last stretch, cut to what makes it long enough to keep its state.
+  // Keep as much of the last interval as it needs to keep its state.
   const std::size_t kept = std::min(labels.size(), steps_);
   pending_.assign(labels.end() - static_cast<std::ptrdiff_t>(kept), labels.end());
   labelled_ = kept;

@@ -25,28 +25,28 @@ Metric transition_recall(const char* name, Counts of) {
 
 }  // namespace
 
-// N_ab: steps in truth a that were told to be b, C contact and F flight. Of transitions: found,
-// missed and false alarms; t: steps from a true event to its detection, negative if early; T: the
-// length of a step.
+// N_ab: steps of true state a that are predicted as b, with C contact and F flight. Transitions are
+// found, missed or false alarms. t: steps from a true event to its detection, negative if early.
+// T: duration of a step.
 const std::vector<Metric>& metrics() {
   static const std::vector<Metric> all = {
-      // Steps told right: (N_CC + N_FF) / (N_CC + N_CF + N_FC + N_FF).
+      // Accuracy: (N_CC + N_FF) / (N_CC + N_CF + N_FC + N_FF).
       {"success", [](const Score& s) { return s.points.success(); }},
-      // ContactTrace contact that is contact: N_CC / (N_CC + N_FC).
+      // Share of predicted contact that is true: N_CC / (N_CC + N_FC).
       {"contact_precision", [](const Score& s) { return s.points.contact_precision(); }},
-      // Contact that is told: N_CC / (N_CC + N_CF).
+      // Share of true contact that is predicted: N_CC / (N_CC + N_CF).
       {"contact_recall", [](const Score& s) { return s.points.contact_recall(); }},
-      // ContactTrace flight that is flight: N_FF / (N_FF + N_CF).
+      // Share of predicted flight that is true: N_FF / (N_FF + N_CF).
       {"no_contact_precision", [](const Score& s) { return s.points.no_contact_precision(); }},
-      // Flight that is told: N_FF / (N_FF + N_FC).
+      // Share of true flight that is predicted: N_FF / (N_FF + N_FC).
       {"no_contact_recall", [](const Score& s) { return s.points.no_contact_recall(); }},
-      // Announcements that are not false: found / (found + false alarms), of takeoffs, of landings.
+      // Share of predicted takeoffs or landings that are true: found / (found + false alarms).
       transition_precision("takeoff_precision", &Score::takeoff),
-      // True events that are announced in time: found / (found + missed).
+      // Share of true events that are predicted in time: found / (found + missed).
       transition_recall("takeoff_recall", &Score::takeoff),
       transition_precision("landing_precision", &Score::landing),
       transition_recall("landing_recall", &Score::landing),
-      // False alarms of takeoffs by the time that was scored, the time of each wheel: per minute.
+      // False alarms of takeoffs per scored minute of a wheel.
       {"false_takeoffs_per_minute", [](const Score& s) { return s.false_takeoffs_per_minute(); }},
       // Mean of t·T over found events, and its sample standard deviation (n − 1).
       {"takeoff_latency_ms", [](const Score& s) { return 1e3 * s.takeoff.latency_mean(); }},

@@ -7,7 +7,7 @@ namespace touchdown::scoring {
 
 namespace {
 
-/// Calls `visit(piece, step)` for every step that is scored.
+/// Calls `visit(segment, step)` for every scored step.
 template <typename Visit>
 void for_scored_steps(std::size_t steps, const std::vector<std::size_t>& segments,
                       std::int64_t period_us, const ScoringConfig& config, const Visit& visit) {
@@ -38,11 +38,12 @@ std::vector<Score> score(const ContactSequence& truth, const Track& track,
                          const std::vector<std::size_t>& segments, std::int64_t period_us,
                          const ScoringConfig& config) {
   std::vector<Score> result(segments.size());
-  for_scored_steps(truth.size(), segments, period_us, config, [&](std::size_t segment, std::size_t k) {
-    result[segment].points.add(truth[k] != 0, track.contact[k] != 0);
-    result[segment].calibration.add(truth[k] != 0, track.p_contact[k]);
-    result[segment].scored_us += period_us;
-  });
+  for_scored_steps(truth.size(), segments, period_us, config,
+                   [&](std::size_t segment, std::size_t k) {
+                     result[segment].points.add(truth[k] != 0, track.contact[k] != 0);
+                     result[segment].calibration.add(truth[k] != 0, track.p_contact[k]);
+                     result[segment].scored_us += period_us;
+                   });
   const double period = 1e-6 * static_cast<double>(period_us);
   for (const JudgedTransition& judged : judge_transitions(truth, track.contact, period, config)) {
     const auto after = std::upper_bound(segments.begin(), segments.end(), judged.step);
@@ -53,12 +54,13 @@ std::vector<Score> score(const ContactSequence& truth, const Track& track,
 }
 
 std::vector<Classification> classify(const ContactSequence& truth, const ContactSequence& predicted,
-                                     const std::vector<std::size_t>& segments, std::int64_t period_us,
-                                     const ScoringConfig& config) {
+                                     const std::vector<std::size_t>& segments,
+                                     std::int64_t period_us, const ScoringConfig& config) {
   std::vector<Classification> result(segments.size());
-  for_scored_steps(truth.size(), segments, period_us, config, [&](std::size_t segment, std::size_t k) {
-    result[segment].add(truth[k] != 0, predicted[k] != 0);
-  });
+  for_scored_steps(truth.size(), segments, period_us, config,
+                   [&](std::size_t segment, std::size_t k) {
+                     result[segment].add(truth[k] != 0, predicted[k] != 0);
+                   });
   return result;
 }
 
@@ -74,8 +76,9 @@ Score RobotScore::wheels() const {
 }
 
 std::vector<RobotScore> score(const std::array<ContactSequence, models::wheel_count>& truth,
-                              const Prediction& prediction, const std::vector<std::size_t>& segments,
-                              std::int64_t period_us, const ScoringConfig& config) {
+                              const Prediction& prediction,
+                              const std::vector<std::size_t>& segments, std::int64_t period_us,
+                              const ScoringConfig& config) {
   const std::array<ContactSequence, view_count> truths = {truth[0], truth[1], any_wheel(truth),
                                                           both_wheels(truth)};
   std::vector<RobotScore> result(segments.size());

@@ -10,7 +10,7 @@ namespace {
 /// The last step with `margin` steps on either side over which no sequence changes; 0 if none.
 std::size_t quiet_step(const std::array<const ContactSequence*, 4>& sequences, std::size_t known,
                        std::size_t margin) {
-  std::size_t end = known;  // of the stretch without changes that step k belongs to
+  std::size_t end = known;  // end of the interval without changes that contains step k
   for (std::size_t k = known; k-- > 1;) {
     if (end - k > 2 * margin) return k + margin;
     const bool changes = std::any_of(sequences.begin(), sequences.end(),
@@ -20,7 +20,7 @@ std::size_t quiet_step(const std::array<const ContactSequence*, 4>& sequences, s
   return 0;
 }
 
-/// The first `count` entries, which `sequence` loses.
+/// Removes the first `count` entries from `sequence` and returns them.
 template <typename Sequence>
 Sequence take_front(Sequence& sequence, std::size_t count) {
   const auto end = sequence.begin() + static_cast<std::ptrdiff_t>(count);
@@ -65,7 +65,7 @@ void ScoreStream::add(const std::array<double, models::wheel_count>& normal_forc
 
 void ScoreStream::cut_if_quiet() {
   const std::size_t known = std::min(truth_[0].size(), truth_[1].size());
-  // Decisions about any and both wheels change only where one of these does.
+  // Decisions about any and both wheels change only with a wheel's decision.
   std::size_t end = quiet_step(
       {&truth_[0], &truth_[1], &prediction_[0].contact, &prediction_[1].contact}, known, margin_);
   if (end < first_scored_step(period_us_, scoring_) + margin_) end = 0;
@@ -85,7 +85,7 @@ void ScoreStream::score_until(std::size_t end) {
                      take_front(prediction_[v].p_contact, end)};
   }
   total_ += score(truth, prediction, {0}, period_us_, scoring_).front();
-  scoring_.skip = 0.0;  // only a run's beginning is not scored, not a piece's
+  scoring_.skip = 0.0;  // only the beginning of the run is skipped, not that of a segment
 }
 
 RobotScore ScoreStream::finish() {

@@ -9,19 +9,19 @@
 
 namespace touchdown::scoring {
 
-/// `score` of a whole run for beliefs and forces that come one by one, at a memory that does not
-/// grow with the run. The run is scored in pieces that end where neither the truth nor a decision
-/// has changed for so long that no window of docs/metrics.md reaches over the end, so the sum is
-/// the score of the run. (Should there be no such place for five minutes, the piece ends all the
-/// same, and an event next to its end is not judged.)
+/// `score` of a whole run for beliefs and forces that arrive one by one, with a memory that does
+/// not grow with the run. The run is scored in segments. Each ends where truth and decisions have
+/// been constant for longer than every window of docs/metrics.md, so the sum is the score of the
+/// run. (Without such a place for five minutes, the segment ends anyway, and an event near its end
+/// is not counted.)
 class ScoreStream {
  public:
   ScoreStream(std::int64_t period_us, const LabelConfig& labels, const ScoringConfig& scoring);
 
-  /// One step: normal force on both wheels (N) and what was believed.
+  /// Adds one step: normal force on both wheels (N) and the belief.
   void add(const std::array<double, models::wheel_count>& normal_force, const Belief& belief);
 
-  /// The run is over.
+  /// Ends the run and returns its score.
   RobotScore finish();
 
  private:
@@ -35,8 +35,9 @@ class ScoreStream {
   std::size_t retry_after_;
   std::size_t longest_;
   std::array<LabelStream, models::wheel_count> labels_;
-  std::array<ContactSequence, models::wheel_count> truth_;  ///< of the piece, as far as it is known
-  Prediction prediction_;                                   ///< of the piece
+  std::array<ContactSequence, models::wheel_count>
+      truth_;              ///< of the current segment, as far as it is known
+  Prediction prediction_;  ///< of the current segment
   RobotScore total_;
 };
 

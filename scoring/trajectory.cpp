@@ -13,7 +13,7 @@ namespace touchdown::scoring {
 
 namespace {
 
-/// How long a segment of the way is over which relative errors are told (m).
+/// Length of the path segments of relative errors (m).
 constexpr double segment_length = 1.0;
 
 double root_mean(double sum, std::int64_t count) {
@@ -73,11 +73,11 @@ Eigen::Isometry3d aligned(const Trajectory& from, const Trajectory& to) {
   return moved;
 }
 
-std::vector<std::size_t> marks(const Trajectory& way, double length) {
+std::vector<std::size_t> segment_ends(const Trajectory& path, double length) {
   std::vector<std::size_t> at;
   double travelled = 0.0;
-  for (std::size_t k = 1; k < way.size(); ++k) {
-    travelled += (way[k].position - way[k - 1].position).norm();
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    travelled += (path[k].position - path[k - 1].position).norm();
     if (travelled < length) continue;
     at.push_back(k);
     travelled = 0.0;
@@ -85,7 +85,7 @@ std::vector<std::size_t> marks(const Trajectory& way, double length) {
   return at;
 }
 
-Trajectory begun_as(const Trajectory& trajectory, const TimedPose& begin) {
+Trajectory aligned_at_start(const Trajectory& trajectory, const TimedPose& begin) {
   const TimedPose& first = trajectory.front();
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(
       heading(begin.orientation) - heading(first.orientation), Eigen::Vector3d::UnitZ()));
@@ -107,30 +107,31 @@ TrajectoryScore score_trajectory(const Trajectory& estimate, const Trajectory& t
   TrajectoryScore score;
   if (first >= truth.size()) return score;
   const auto offset = static_cast<std::ptrdiff_t>(first);
-  const Trajectory real(truth.begin() + offset, truth.end());
-  const Trajectory told =
-      begun_as(Trajectory(estimate.begin() + offset, estimate.end()), real.front());
-  const Eigen::Isometry3d laid = aligned(told, real);
+  const Trajectory true_poses(truth.begin() + offset, truth.end());
+  const Trajectory estimated =
+      aligned_at_start(Trajectory(estimate.begin() + offset, estimate.end()), true_poses.front());
+  const Eigen::Isometry3d alignment = aligned(estimated, true_poses);
   score.runs = 1;
-  score.steps = static_cast<std::int64_t>(real.size());
-  for (std::size_t k = 0; k < real.size(); ++k) {
-    const Eigen::Vector3d error = told[k].position - real[k].position;
+  score.steps = static_cast<std::int64_t>(true_poses.size());
+  for (std::size_t k = 0; k < true_poses.size(); ++k) {
+    const Eigen::Vector3d error = estimated[k].position - true_poses[k].position;
     score.squared_horizontal += error.head<2>().squaredNorm();
     score.squared_vertical += error.z() * error.z();
-    score.squared_velocity += (told[k].velocity - real[k].velocity).squaredNorm();
-    score.squared_aligned += (laid * told[k].position - real[k].position).squaredNorm();
+    score.squared_velocity += (estimated[k].velocity - true_poses[k].velocity).squaredNorm();
+    score.squared_aligned +=
+        (alignment * estimated[k].position - true_poses[k].position).squaredNorm();
     if (k == 0) continue;
-    score.distance += (real[k].position - real[k - 1].position).head<2>().norm();
+    score.distance += (true_poses[k].position - true_poses[k - 1].position).head<2>().norm();
   }
-  score.end = (told.back().position - real.back().position).head<2>().norm();
-  const std::vector<std::size_t> at = marks(real, segment_length);
+  score.end = (estimated.back().position - true_poses.back().position).head<2>().norm();
+  const std::vector<std::size_t> at = segment_ends(true_poses, segment_length);
   for (std::size_t m = 1; m < at.size(); ++m) {
     const std::size_t i = at[m - 1];
     const std::size_t j = at[m];
-    const Eigen::Vector3d told_way =
-        told[i].orientation.conjugate() * (told[j].position - told[i].position);
-    const Eigen::Vector3d error =
-        real[i].orientation * told_way - (real[j].position - real[i].position);
+    const Eigen::Vector3d estimated_step =
+        estimated[i].orientation.conjugate() * (estimated[j].position - estimated[i].position);
+    const Eigen::Vector3d error = true_poses[i].orientation * estimated_step -
+                                  (true_poses[j].position - true_poses[i].position);
     score.squared_segment += error.squaredNorm();
     score.squared_segment_level += error.head<2>().squaredNorm();
     ++score.segments;

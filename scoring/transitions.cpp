@@ -13,7 +13,7 @@ namespace {
 
 using Step = std::int64_t;
 
-/// A stretch of steps, both ends included.
+/// An interval of steps, both ends included.
 struct Window {
   Step first = 0;
   Step last = 0;
@@ -21,7 +21,7 @@ struct Window {
   bool contains(Step step) const { return first <= step && step <= last; }
 };
 
-/// An end of a flight, and the steps between its neighbours.
+/// A takeoff or landing, and the steps between its neighbours.
 struct Event {
   Step step = 0;
   Window between;
@@ -30,7 +30,7 @@ struct Event {
 struct Limits {
   Step skip, hold_off, takeoff_opens, landing_opens, minimum_flight;
 
-  /// Where an estimator should announce an event, its neighbours apart.
+  /// The steps in which a prediction detects an event, before its neighbours are considered.
   Window around(EventKind kind, Step step) const {
     return {step - (kind == EventKind::takeoff ? takeoff_opens : landing_opens), step + hold_off};
   }
@@ -42,7 +42,7 @@ Limits limits_in_steps(const ScoringConfig& config, double period) {
           to_steps(config.landing_opens), to_steps(config.minimum_flight)};
 }
 
-/// The ends of these flights that lie inside the sequence of `end` steps.
+/// The takeoffs or landings of these flights inside the sequence of `end` steps.
 std::vector<Event> events_of(EventKind kind, const std::vector<Flight>& all, Step end) {
   constexpr Step never = std::numeric_limits<Step>::max();
   std::vector<Event> events;
@@ -93,34 +93,34 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
   std::erase_if(long_flights, [&](const Flight& flight) {
     return static_cast<Step>(flight.landing - flight.takeoff) < limit.minimum_flight;
   });
-  // Where a prediction that announces nothing is not held against the estimator: around every true
-  // flight, however short, and for the hold-off after it.
-  std::vector<Window> forgiving;
+  // Predictions in these windows are no false alarms: around every true flight, however short, and
+  // for the hold-off after it.
+  std::vector<Window> tolerated;
   for (const EventKind kind : {EventKind::takeoff, EventKind::landing}) {
     for (const Event& event : events_of(kind, all_flights, end)) {
-      forgiving.push_back(limit.around(kind, event.step));
+      tolerated.push_back(limit.around(kind, event.step));
     }
   }
   std::vector<JudgedTransition> judged;
 
   for (const EventKind kind : {EventKind::takeoff, EventKind::landing}) {
-    const std::vector<Step> announced = predicted_steps(kind, predicted, limit.skip);
+    const std::vector<Step> predicted_at = predicted_steps(kind, predicted, limit.skip);
     for (const Event& event : events_of(kind, long_flights, end)) {
       const Window wide = limit.around(kind, event.step);
       const Window window{std::max(wide.first, event.between.first),
                           std::min(wide.last, event.between.last)};
-      // An event that could not have been found in time is not judged.
+      // An event with a window that exceeds the scored steps is not counted.
       if (window.first < limit.skip || window.last >= end) continue;
-      const auto first = std::find_if(announced.begin(), announced.end(),
+      const auto first = std::find_if(predicted_at.begin(), predicted_at.end(),
                                       [&](Step step) { return window.contains(step); });
-      const bool found = first != announced.end();
+      const bool found = first != predicted_at.end();
       judged.push_back({kind, found ? Judgement::detected : Judgement::missed,
                         static_cast<std::size_t>(event.step), found ? *first - event.step : 0});
     }
     Step quiet_until = -1;
-    for (const Step step : announced) {
+    for (const Step step : predicted_at) {
       const bool irrelevant =
-          step <= quiet_until || std::any_of(forgiving.begin(), forgiving.end(),
+          step <= quiet_until || std::any_of(tolerated.begin(), tolerated.end(),
                                              [&](const Window& w) { return w.contains(step); });
       if (irrelevant) continue;
       judged.push_back({kind, Judgement::false_alarm, static_cast<std::size_t>(step), 0});

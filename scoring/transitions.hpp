@@ -10,13 +10,13 @@
 
 namespace touchdown::scoring {
 
-/// What is counted when predictions are compared with the truth; docs/metrics.md.
+/// How predictions are compared with the truth; docs/metrics.md defines the windows.
 struct ScoringConfig {
   double skip = 0.3;             ///< not scored at the beginning of a run (s)
-  double hold_off = 0.25;        ///< after a transition, further ones are irrelevant (s)
-  double takeoff_opens = 0.06;   ///< a takeoff may be announced this much before it happens (s)
-  double landing_opens = 0.02;   ///< a landing, likewise (s)
-  double minimum_flight = 0.05;  ///< shorter flights are no events that must be found (s)
+  double hold_off = 0.25;        ///< further transitions are ignored for this long (s)
+  double takeoff_opens = 0.06;   ///< a takeoff may be predicted this early (s)
+  double landing_opens = 0.02;   ///< a landing may be predicted this early (s)
+  double minimum_flight = 0.05;  ///< shorter flights are no events (s)
 };
 
 void describe(Fields& fields, ScoringConfig& scoring);
@@ -34,19 +34,19 @@ struct JudgedTransition {
   friend bool operator==(const JudgedTransition&, const JudgedTransition&) = default;
 };
 
-/// Matches predicted transitions with true ones as docs/metrics.md, "Transitions", defines it.
-/// Both sequences have one state per step of `period` seconds. In order of kind, then time.
+/// Matches predicted transitions with true ones, by docs/metrics.md, "Transitions". Both sequences
+/// have one state per step of `period` seconds. The result is ordered by kind, then time.
 std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
                                                 const ContactSequence& predicted, double period,
                                                 const ScoringConfig& config);
 
-/// Changes of what is predicted, in the scored part of the sequence, but the detections of flights
-/// however short.
+/// Number of predicted switches in the scored part of the sequence, without those that detect a
+/// flight, however short.
 std::int64_t extra_switches(const ContactSequence& truth, const ContactSequence& predicted,
                             double period, ScoringConfig config);
 
-/// How latencies are distributed: events per 5 ms, from 60 ms early to 250 ms late; the outermost
-/// bins hold what lies beyond. Counts, so they add.
+/// Histogram of latencies: events per 5 ms, from 60 ms early to 250 ms late. The outermost bins
+/// hold everything beyond. Counts add.
 struct LatencyHistogram {
   static constexpr std::int64_t width_us = 5'000;
   static constexpr std::int64_t first_us = -60'000;  ///< centre of the first bin
@@ -73,13 +73,13 @@ struct LatencyHistogram {
   friend bool operator==(const LatencyHistogram&, const LatencyHistogram&) = default;
 };
 
-/// Counts of one kind of transition over one or many runs; sums, so they add.
+/// Counts of one kind of transition over one or many runs. Sums, so they add.
 struct TransitionCounts {
   std::int64_t events = 0;
   std::int64_t detected = 0;
   std::int64_t false_alarms = 0;
   std::int64_t latency_us = 0;          ///< summed over detected events (µs)
-  std::int64_t latency_us_squared = 0;  ///< likewise (µs²)
+  std::int64_t latency_us_squared = 0;  ///< squares, summed over detected events (µs²)
   LatencyHistogram latency;             ///< of detected events
 
   void add(const JudgedTransition& judged, std::int64_t period_us);

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Refuses the program each call and kills it in every stage, and says what came of it. The tests do so
-# with some; this takes minutes.
+# Lets each system call of the program fail, kills it in every stage, and reports the results. The tests
+# do so with some calls; this takes minutes.
 # Usage: scripts/faults.sh TEST_PROGRAM JOBS
 set -u
 export TOUCHDOWN_ALL_FAULTS=1 GTEST_TOTAL_SHARDS=$2 GTEST_BRIEF=1

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fits the model that is shipped, in three minutes: Upkie crouched, with ideal and with real
-# actuators, in both engines, on what the benchmark fits and hanging; a quarter of it on nearly straight
-# legs, nearly all of that on the way into the air or back; other draws.
+# Fits the shipped model, in three minutes: Upkie crouched, with ideal and with real actuators, in both
+# engines, on the scenes that the benchmark fits and hanging. A quarter of the runs has nearly straight
+# legs, mostly in scenes that lift off or land. The draws differ from the benchmark's.
 # Usage: scripts/fit_shipped_model.sh build/release/touchdown models/touchdown.npz
 set -euo pipefail
 program="$(realpath "$1")"
@@ -13,7 +13,8 @@ readonly simulators=(mujoco bullet)
 readonly robots=(upkie.xml upkie_actuated.yaml upkie_straight.yaml)
 readonly scenes=(stairs roam lift_slowly push_off hop hang)
 
-# What says little of straight legs, they roll or hang, says of all legs that any load is possible.
+# Rolling and hanging on straight legs inform little about contact, but teach that any load is possible.
+# So they get one run each.
 runs_of() { # robot, scene
   case "$1 $2" in
     "upkie_straight.yaml roam" | "upkie_straight.yaml hang") echo 1 ;;

@@ -1,8 +1,8 @@
 #!/bin/bash
-# Runs every fuzzer in turn and says how often it called its function and what it found.
+# Runs every fuzzer in turn and reports its number of executions and its findings.
 # Usage: scripts/fuzz.sh BUILD_FOLDER MINUTES [FUZZER...]
-# What is found lies in BUILD_FOLDER/found/FUZZER; what belongs to the tests goes, made small by
-# `fuzz_FUZZER -minimize_crash=1`, to tests/fuzz/corpus/FUZZER, which every test run replays.
+# Findings are in BUILD_FOLDER/found/FUZZER. Add one to the tests by minimising it with
+# `fuzz_FUZZER -minimize_crash=1` and copying it to tests/fuzz/corpus/FUZZER, which every test run replays.
 set -u
 build=$1
 seconds=$(($2 * 60))

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# install_packages.sh [section...]: installs the Debian packages of these sections of packages.txt (all,
-# if none is named) that are missing, of `a | b` the first that this release has. Does nothing, without
-# the network and without root, when all of them are there.
+# install_packages.sh [section...]: installs the missing Debian packages of these sections of
+# packages.txt (all sections by default), of `a | b` the first that this release has. If none is missing,
+# it does nothing, and needs neither network nor root.
 set -euo pipefail
 
 list="$(dirname "$0")/../packages.txt"
@@ -20,7 +20,7 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   exit 1
 fi
 
-# dpkg-query fails for names that it has never heard of; those are simply not installed.
+# dpkg-query fails for unknown names; those are simply not installed.
 mapfile -t names < <(printf '%s\n' "${wanted[@]}" | tr '|' '\n')
 installed="$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${names[@]}" 2>/dev/null || true)"
 missing=()
@@ -29,7 +29,7 @@ for package in "${wanted[@]}"; do
 done
 ((${#missing[@]})) || exit 0
 
-# Of each a|b that is missing the first that this release has.
+# Lists the missing packages, of each a|b the first that this release has.
 choose() {
   local package name
   for package in "${missing[@]}"; do
@@ -37,7 +37,7 @@ choose() {
     if [[ "$package" == *"|"* ]]; then
       for name in ${package//|/ }; do
         [[ "$(LC_ALL=C apt-cache policy "$name")" == *"Candidate: "[^\(]* ]] && break
-        name="${package%%|*}" # none: apt shall complain about the first
+        name="${package%%|*}" # none: apt reports the first as missing
       done
     fi
     echo "$name"
@@ -54,12 +54,12 @@ if ((EUID != 0)); then
     exit 1
   fi
   as_root=(sudo)
-  [[ -t 0 ]] || as_root+=(-n) # nobody there to type a password
+  [[ -t 0 ]] || as_root+=(-n) # without a terminal, no password can be typed
   as_root+=(env)
 fi
 as_root+=(DEBIAN_FRONTEND=noninteractive)
 
-echo "touchdown: installing them with apt-get (what they depend on included, up to 2 GB of disk)"
+echo "touchdown: installing them with apt-get (with their dependencies, up to 2 GB of disk)"
 if ! { "${as_root[@]}" apt-get update -q &&
   mapfile -t chosen < <(choose) &&
   "${as_root[@]}" apt-get install -q -y --no-install-recommends "${chosen[@]}"; }; then

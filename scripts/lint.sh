@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# scripts/lint.sh <build directory>: checks formatting, every file that the build compiles with
-# clang-tidy, and the shell scripts. Silent about what is good; exits with 1 if anything is not.
+# scripts/lint.sh <build directory>: checks formatting, runs clang-tidy on every file that the build
+# compiles, and checks the shell scripts. Reports problems only; exits with 1 if there are any.
 set -euo pipefail
 
 cd "$(dirname "$0")/.."
 build="${1:?usage: scripts/lint.sh <build directory>}"
 jobs="${JOBS:-$(nproc)}"
 
-# A checkout may belong to another user than the one who checks it, as in a container.
+# The checkout may belong to another user, as in a container.
 tracked() { git -c safe.directory='*' ls-files -z -- "$@"; }
 
 failed=()

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """tidy.py <compile_commands.json> [path prefix...]: clang-tidy over every source that the build compiles.
 
-clang-tidy spends most of a file's time in other people's headers, again for every file. So files are
-checked together, as one translation unit that includes them, with all of their options; those that do
-not go together with the others of their unit (they define the same private name) make up another one.
-What the build wrote itself is nobody's to tidy.
-Prints what clang-tidy has to say; the exit code is 1 if that is anything.
+clang-tidy spends most of a file's time in headers of libraries, again for every file. So files are
+checked together, as one translation unit that includes them, with all of their options. Files that do
+not compile with the others of their unit (they define the same private name) form another unit.
+Generated sources are skipped.
+Prints the warnings of clang-tidy; the exit code is 1 if there are any.
 """
 import concurrent.futures
 import json
@@ -18,18 +18,18 @@ import sys
 import tempfile
 
 FILES_AT_ONCE = 48
-# What g++ alone knows: how it reads its precompiled headers, which clang cannot, and an optimisation.
+# Options of g++ only: its precompiled headers, and an optimisation.
 OF_GCC = re.compile(r" -(Winvalid-pch|fpch-preprocess|include \S*cmake_pch\.hxx|fexpensive-optimizations)")
-# "12 warnings generated." counts what was hidden in other people's headers.
+# "12 warnings generated." counts hidden warnings in headers of libraries.
 NOISE = re.compile(r"^\d+ (warnings?|errors?)( and \d+ errors?)? (generated|treated as errors?)\.?$")
 
 
-# What an option takes with it as its next word.
+# Options that take the next word as their argument.
 WITH_A_WORD = ("-isystem", "-include")
 
 
 def flags_of(entry):
-    """The compiler's options, each with what it takes, without the file and where its object goes."""
+    """The compiler's options, each with its argument, without the source and the object file."""
     words = shlex.split(OF_GCC.sub("", entry["command"]))
     compiler = next(i for i, word in enumerate(words) if word.endswith("c++"))
     words = iter(words[compiler + 1:words.index("-o")])
@@ -45,7 +45,7 @@ def macros_of(flags):
 
 
 def contradict(flags, others):
-    """Whether it is another language, the last that is named, or a macro has another value."""
+    """Whether two lists of options differ in the last language standard or in a macro's value."""
     dialects = [[flag for flag in each if is_dialect(flag)][-1:] for each in (flags, others)]
     ours, theirs = macros_of(flags), macros_of(others)
     return dialects[0] != dialects[1] or any(
@@ -53,7 +53,7 @@ def contradict(flags, others):
 
 
 def sources_of(entry):
-    """The file, or the files of a room that the build compiles as one (cmake/TouchdownTargets.cmake)."""
+    """The file, or the files of a folder that the build compiles as one (cmake/TouchdownTargets.cmake)."""
     file = os.path.abspath(os.path.join(entry["directory"], entry["file"]))
     if not file.endswith(".cxx"):
         return [file]
@@ -61,7 +61,7 @@ def sources_of(entry):
 
 
 def together(flags, files, folder):
-    """Writes the unit that includes these files; a file alone is its own unit."""
+    """Writes the unit that includes these files; a single file is its own unit."""
     if len(files) == 1:
         return files[0]
     handle, unit = tempfile.mkstemp(suffix=".cpp", dir=folder)
@@ -72,36 +72,36 @@ def together(flags, files, folder):
 
 
 def misfits(flags, files, unit):
-    """Those of several files that do not compile together with the others; never all."""
+    """Files that do not compile together with the others; never all of them."""
     command = ["clang++", *flags, "-w", "-fsyntax-only", "-ferror-limit=0", unit]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode == 0:
         return []
     wrong = set(re.findall(r"^(.*?):\d+:\d+: (?:fatal )?error: ", done.stderr, re.MULTILINE))
     found = [file for file in files if file in wrong]
-    # Where it is an error of none of the files, or of all: whose it is, halves will tell.
+    # If no file or every file has errors, checking halves locates them.
     return found if 0 < len(found) < len(files) else files[len(files) // 2:]
 
 
 def check(flags, files, folder):
-    """What clang-tidy says of the files, as text; empty if nothing."""
+    """The warnings of clang-tidy about the files, as text; empty if there are none."""
     unit = together(flags, files, folder)
     if len(files) > 1 and (apart := misfits(flags, files, unit)):
         rest = [file for file in files if file not in apart]
         return check(flags, rest, folder) + check(flags, apart, folder)
     done = subprocess.run(
-        # A private name of one file does not shadow another file's; the compiler looks for real ones.
+        # Private names of different files do not shadow each other; the compiler finds real shadowing.
         ["clang-tidy", "--quiet", "--warnings-as-errors=*", unit, "--", *flags, "-Wno-shadow"],
         capture_output=True, text=True, check=False)
     lines = (done.stdout + done.stderr).splitlines()
-    said = "\n".join(line for line in lines if line and not NOISE.match(line))
-    if done.returncode and not said:
-        said = f"clang-tidy failed on {', '.join(files)} without a word"
-    return said + "\n" if done.returncode else ""
+    warnings = "\n".join(line for line in lines if line and not NOISE.match(line))
+    if done.returncode and not warnings:
+        warnings = f"clang-tidy failed on {', '.join(files)} without output"
+    return warnings + "\n" if done.returncode else ""
 
 
 def groups_of(commands, prefixes):
-    """Files that can be checked together: the options of any of them, and the files, sorted."""
+    """Groups of files that can be checked together: their joined options, and the sorted files."""
     groups = []
     for entry in commands:
         flags = flags_of(entry)
@@ -134,9 +134,9 @@ def main():
         checks = [pool.submit(check, *batch, folder) for batch in batches]
         clean = True
         for done, finished in enumerate(concurrent.futures.as_completed(checks), 1):
-            said = finished.result()
-            clean = clean and not said
-            print(said, end="", flush=True)
+            warnings = finished.result()
+            clean = clean and not warnings
+            print(warnings, end="", flush=True)
             print(f"clang-tidy: {done}/{len(checks)}", file=sys.stderr, flush=True)
     return 0 if clean else 1
 

@@ -16,7 +16,7 @@ Actuators::Actuators(const models::RobotModel& model, const StepSizes& steps)
     Joint& joint = joint_[i];
     joint.actuator = model.actuator[i];
     joint.effort = model.effort[i];
-    // A spring on the joint's own inertia oscillates no faster than half a radian per time step.
+    // The limit keeps the spring's oscillation with the joint's inertia below 0.5 rad per step.
     const double inertia = 1.0 / model.mj->dof_invweight0[model.dof_address[i]];
     joint.stiffness = std::min(joint.actuator.presliding_stiffness,
                                0.25 * inertia / (physics_period * physics_period));
@@ -33,7 +33,7 @@ Actuators::Actuators(const models::RobotModel& model, const StepSizes& steps)
 void Actuators::reset() {
   started_ = false;
   commands_.clear();
-  for (Joint& joint : joint_) joint.torque = joint.held = 0.0;
+  for (Joint& joint : joint_) joint.torque = joint.spring_torque = 0.0;
 }
 
 const models::Action& Actuators::delayed(const models::Action& action) {
@@ -41,18 +41,18 @@ const models::Action& Actuators::delayed(const models::Action& action) {
   if (commands_.empty()) commands_.assign(longest_delay_, action);
   commands_.push_back(action);
   for (std::size_t i = 0; i < joint_.size(); ++i) {
-    at_work_.servo[i] = commands_[commands_.size() - 1 - joint_[i].delay].servo[i];
+    executed_.servo[i] = commands_[commands_.size() - 1 - joint_[i].delay].servo[i];
   }
   commands_.pop_front();
-  return at_work_;
+  return executed_;
 }
 
 double Actuators::friction(Joint& joint, double position, double velocity) {
   const double limit = joint.actuator.friction;
-  joint.held =
-      std::clamp(joint.held + joint.stiffness * (position - joint.position), -limit, limit);
+  joint.spring_torque = std::clamp(
+      joint.spring_torque + joint.stiffness * (position - joint.position), -limit, limit);
   joint.position = position;
-  return std::clamp(joint.held + joint.damping * velocity, -limit, limit);
+  return std::clamp(joint.spring_torque + joint.damping * velocity, -limit, limit);
 }
 
 Actuators::Torques Actuators::step(const models::Action& action, const JointTorques& position,
@@ -62,7 +62,7 @@ Actuators::Torques Actuators::step(const models::Action& action, const JointTorq
     torques.reported[i] = servo_torque(action.servo[i], position[i], velocity[i], joint_[i].effort);
   }
   if (ideal_) {
-    torques.felt = torques.reported;
+    torques.applied = torques.reported;
     return torques;
   }
   for (std::size_t i = 0; i < joint_.size(); ++i) {
@@ -71,9 +71,9 @@ Actuators::Torques Actuators::step(const models::Action& action, const JointTorq
     joint.torque += joint.lag_gain * (torques.reported[i] - joint.torque);
     const models::Actuator& a = joint.actuator;
     torques.reported[i] = joint.torque;
-    torques.felt[i] = (1.0 + a.torque_error) * joint.torque +
-                      a.ripple * std::sin(a.ripple_cycles * position[i]) -
-                      friction(joint, position[i], velocity[i]) - a.viscous * velocity[i];
+    torques.applied[i] = (1.0 + a.torque_error) * joint.torque +
+                         a.ripple * std::sin(a.ripple_cycles * position[i]) -
+                         friction(joint, position[i], velocity[i]) - a.viscous * velocity[i];
   }
   started_ = true;
   return torques;

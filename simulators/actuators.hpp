@@ -12,47 +12,47 @@ namespace touchdown::simulators {
 /// One number per joint, in servo order.
 using JointTorques = std::array<double, models::servo_count>;
 
-/// The six actuators of a robot at work (models/actuator.hpp), the same in every engine: from
-/// commands to what servos report and what joints feel. All but the rotors' inertia, which is the
-/// engine's.
+/// Simulates the six actuators of a robot (models/actuator.hpp), the same in every engine. From
+/// commands, it computes the torques that servos report and those applied to joints. The engine
+/// simulates the rotors' inertia.
 class Actuators {
  public:
   Actuators(const models::RobotModel& model, const StepSizes& steps);
 
-  /// At rest, without friction's memory.
+  /// Returns to rest and clears friction's state.
   void reset();
 
-  /// Once per control step: what the servos work on, the commands of some time ago. Until then the
-  /// first ones count.
+  /// The delayed commands that the servos execute; called once per control step. Until the delay
+  /// has passed, they are the first commands.
   const models::Action& delayed(const models::Action& action);
 
   struct Torques {
-    JointTorques reported = {};  ///< what the servos believe
-    JointTorques felt = {};      ///< by the joints, without what the ground does to a wheel
+    JointTorques reported = {};  ///< by the servos
+    JointTorques applied = {};   ///< to the joints, without forces from the ground
   };
 
-  /// One physics step, at these joint positions (rad) and velocities (rad/s).
+  /// Simulates one physics step, at these joint positions (rad) and velocities (rad/s).
   Torques step(const models::Action& action, const JointTorques& position,
                const JointTorques& velocity);
 
-  /// Whether joints feel what servos report.
+  /// Whether joints get the torques that servos report.
   bool are_ideal() const { return ideal_; }
 
  private:
-  /// Friction's elastic presliding, and the motor's lag.
+  /// State of friction's elastic presliding and of the motor's lag.
   struct Joint {
     models::Actuator actuator;
     double effort = 0.0;
-    double stiffness = 0.0;  ///< of presliding, as stiff as the time step allows (N·m/rad)
-    double damping = 0.0;    ///< of presliding, critical (N·m·s/rad)
-    double lag_gain = 1.0;   ///< per physics step
-    std::size_t delay = 0;   ///< control steps
-    double torque = 0.0;     ///< that the servo believes (N·m)
-    double held = 0.0;       ///< by the presliding's spring (N·m)
-    double position = 0.0;   ///< at the last step (rad)
+    double stiffness = 0.0;      ///< of presliding, limited by the time step (N·m/rad)
+    double damping = 0.0;        ///< of presliding, critical (N·m·s/rad)
+    double lag_gain = 1.0;       ///< per physics step
+    std::size_t delay = 0;       ///< control steps
+    double torque = 0.0;         ///< that the servo reports (N·m)
+    double spring_torque = 0.0;  ///< torque of the presliding spring (N·m)
+    double position = 0.0;       ///< at the last step (rad)
   };
 
-  /// What friction holds against the joint, which has come to `position` with `velocity`.
+  /// Friction torque that opposes the joint at `position` (rad) with `velocity` (rad/s).
   static double friction(Joint& joint, double position, double velocity);
 
   std::array<Joint, models::servo_count> joint_;
@@ -60,7 +60,7 @@ class Actuators {
   bool started_ = false;
   std::size_t longest_delay_ = 0;
   std::deque<models::Action> commands_;  ///< the last ones, oldest first
-  models::Action at_work_;
+  models::Action executed_;
 };
 
 }  // namespace touchdown::simulators

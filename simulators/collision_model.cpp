@@ -42,7 +42,7 @@ models::MjModelPtr collision_model(const mjModel& model) {
     copy->body_geomnum[body] = static_cast<int>(kept.size()) - kept_before;
     copy->body_geomadr[body] = copy->body_geomnum[body] > 0 ? kept_before : -1;
   }
-  // MuJoCo's own list of the model's tables, of which those with one row per geom are ours.
+  // MuJoCo's own list of the model's tables; only those with one row per geom are filtered.
 #undef MJ_M
 #define MJ_M(n) copy->n
 #define X(type, name, rows, columns)                        \

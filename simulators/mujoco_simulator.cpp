@@ -21,8 +21,8 @@ models::MjModelPtr copy_with_options(const models::RobotModel& model,
   return mj;
 }
 
-/// MuJoCo answers numbers that are not finite, or huge, with a reset to the model's first pose.
-bool gave_up(const mjData& data) {
+/// Whether MuJoCo found infinite or huge numbers; it then resets to the first pose.
+bool diverged(const mjData& data) {
   return data.warning[mjWARN_BADQPOS].number + data.warning[mjWARN_BADQVEL].number +
              data.warning[mjWARN_BADQACC].number >
          0;
@@ -43,7 +43,7 @@ MujocoSimulator::MujocoSimulator(const std::shared_ptr<const models::RobotModel>
 void MujocoSimulator::place(const RobotState& start) {
   mj_resetData(mj_.get(), data_.get());
   models::write_pose(model(), start.position, start.orientation, start.joint_position, data_->qpos);
-  // A free joint turns in its own frame but moves in the world's.
+  // The angular velocity of a free joint is in its own frame, the linear one in the world's.
   Eigen::Map<Eigen::Matrix<mjtNum, 6, 1>> velocity(&data_->qvel[model().base_dof()]);
   velocity << start.linear_velocity, start.orientation.conjugate() * start.angular_velocity;
   for (std::size_t i = 0; i < models::servo_count; ++i) {
@@ -73,7 +73,7 @@ void MujocoSimulator::advance(const JointTorques& torques,
 }
 
 void MujocoSimulator::read(RobotState& state) const {
-  if (gave_up(*data_)) {
+  if (diverged(*data_)) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     state.position.fill(nan);
     state.linear_velocity.fill(nan);
@@ -92,7 +92,7 @@ void MujocoSimulator::read(RobotState& state) const {
 }
 
 void MujocoSimulator::read(ContactForces& forces) const {
-  // After mj_step the contacts are those of the state before it: the ones that acted in the step.
+  // After mj_step the contacts are those of the state before it, which acted during the step.
   forces = {};
   for (int i = 0; i < data_->ncon; ++i) {
     const mjContact& contact = data_->contact[i];

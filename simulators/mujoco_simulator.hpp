@@ -8,7 +8,7 @@
 
 namespace touchdown::simulators {
 
-/// MuJoCo behind the `Simulator` seam: it steps a copy of the compiled model.
+/// MuJoCo as a `Simulator`: it steps a copy of the compiled model.
 class MujocoSimulator : public Simulator {
  public:
   MujocoSimulator(const std::shared_ptr<const models::RobotModel>& model,
@@ -16,8 +16,8 @@ class MujocoSimulator : public Simulator {
 
   std::string_view name() const override { return "mujoco"; }
 
-  /// What the engine itself steps: the compiled model without the geoms that touch nothing, with
-  /// the options' time step and contact.
+  /// The model that the engine steps: without geoms that cannot collide, and with the time step and
+  /// the contact model of the options.
   const mjModel& engine_model() const { return *mj_; }
   const mjData& engine_data() const { return *data_; }
 

@@ -32,9 +32,9 @@ void MujocoTyres::press(mjData& data) const {
     numbers.push_back(i);
   }
 
-  constexpr double softness = 1e3;  // of R beside the inverse mass
-  constexpr double none = -1e6;     // N: a pull, which no contact does
-  const std::vector<bool> counts = that_count(contacts);
+  constexpr double softness = 1e3;  // R relative to the inverse mass
+  constexpr double none = -1e6;     // N: a pull, which gives no contact force
+  const std::vector<bool> counts = counted_contacts(contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     mjContact& contact = data.contact[numbers[i]];
     const int row = contact.efc_address;
@@ -44,7 +44,7 @@ void MujocoTyres::press(mjData& data) const {
     data.efc_R[row] = softness * data.efc_diagApprox[row];
     data.efc_D[row] = 1.0 / data.efc_R[row];
     data.efc_aref[row] = data.efc_R[row] * (counts[i] ? force : none);
-    // The friction cone as MuJoCo's solver sees it, scaled by both rows' R.
+    // The friction cone of MuJoCo's solver, scaled by both rows' R.
     contact.mu = contact.friction[0] * std::sqrt(data.efc_R[row + 1] / data.efc_R[row]);
   }
 }

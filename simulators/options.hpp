@@ -8,16 +8,16 @@ class Fields;
 
 namespace touchdown::simulators {
 
-/// How finely time is cut, as whole microseconds so that no step is ever rounded.
+/// Time steps in whole microseconds, so that no step is rounded.
 struct StepSizes {
   /// One step of the physics engine (µs). A stiff tyre makes it shorter (simulators/tyres.hpp).
   std::int64_t physics_us = 1000;
-  /// One turn of the control loop (µs): a multiple of the physics step.
+  /// Period of the control loop (µs): a multiple of the physics step.
   std::int64_t control_us = 1000;
 };
 
-/// How the tyres meet the ground. Each engine has its own soft contact model; these two settings
-/// give about the same flights and landings.
+/// Contact between tyres and ground. Each engine has its own soft contact model; the defaults give
+/// about the same flights and landings.
 struct ContactModel {
   double solref_time_constant = 0.01;  ///< MuJoCo: time constant of the contact spring (s)
   double solref_damping_ratio = 1.0;   ///< MuJoCo: its damping ratio
@@ -27,7 +27,7 @@ struct ContactModel {
   double rolling_resistance = 0.004;
 };
 
-/// Everything that may be set about a simulation besides the scene.
+/// Settings of a simulation other than the scene.
 struct SimulatorOptions {
   StepSizes steps;
   ContactModel contact;

@@ -10,11 +10,11 @@
 
 namespace touchdown::simulators {
 
-/// One physics engine that files can name.
+/// A physics engine that files can name.
 struct SimulatorEntry {
-  std::string name;     ///< in files
+  std::string name;     ///< used in files
   std::string title;    ///< for tables and figures
-  std::string summary;  ///< one line: what it is
+  std::string summary;  ///< one line
   std::unique_ptr<Simulator> (*make)(const std::shared_ptr<const models::RobotModel>& model,
                                      const SimulatorOptions& options);
 };
@@ -22,12 +22,11 @@ struct SimulatorEntry {
 std::span<const SimulatorEntry> simulator_entries();
 const std::vector<std::string>& simulator_names();
 
-/// An engine as people write it: "MuJoCo"; the name itself where there is no better one.
+/// The title of an engine, "MuJoCo"; an unknown name is returned unchanged.
 std::string simulator_title(const std::string& name);
 
-/// The engine called `name`, with `model` in it. The model's contact and time step are taken from
-/// `options`, not from the MJCF.
-/// Errors: `InputError` naming the nearest engine; a model that the engine cannot represent.
+/// Makes the engine called `name` for `model`. Contact and time step come from `options`, not from
+/// Errors: `InputError` for an unknown engine, or a model that it cannot represent.
 std::unique_ptr<Simulator> make_simulator(std::string_view name,
                                           const std::shared_ptr<const models::RobotModel>& model,
                                           const SimulatorOptions& options);

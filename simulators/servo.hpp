@@ -4,7 +4,7 @@
 
 namespace touchdown::simulators {
 
-/// The gains of the servos that scales of one stand for, as Upkie's spine sets them.
+/// Servo gains for scales of one, as Upkie's spine sets them.
 inline constexpr double servo_kp = 20.0;  ///< N·m/rad
 inline constexpr double servo_kd = 1.0;   ///< N·m·s/rad
 

@@ -10,10 +10,10 @@ namespace touchdown::simulators {
 
 namespace {
 
-/// The attitude reference system of the IMU (x forward, y right, z down) seen from the world.
+/// Axes of the IMU's attitude reference system (x forward, y right, z down) in the world frame.
 const Eigen::Vector3d world_to_ars(1.0, -1.0, -1.0);
 
-/// Resists rolling in proportion to the load, smoothly through standstill.
+/// Rolling resistance, proportional to the load and smooth at standstill.
 double rolling_torque(double coefficient, double normal_force, double wheel_velocity) {
   return -coefficient * normal_force * std::tanh(wheel_velocity);
 }
@@ -48,7 +48,7 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
   Actuators::Torques torques;
   for (std::int64_t substep = 0; substep < substeps; ++substep) {
     torques = actuators_.step(commands, state_.joint_position, state_.joint_velocity);
-    JointTorques applied = torques.felt;
+    JointTorques applied = torques.applied;
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       const std::size_t servo = models::index(models::wheel_servos[wheel]);
       applied[servo] +=
@@ -69,7 +69,7 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
     truth_.wheel_normal_force[wheel] = force_sum[wheel] / static_cast<double>(substeps);
   }
   truth_.body_touches_terrain = body_touched;
-  if (!actuators_.are_ideal()) truth_.joint_torque = torques.felt;
+  if (!actuators_.are_ideal()) truth_.joint_torque = torques.applied;
 }
 
 Eigen::Vector3d Simulator::imu_velocity() const {

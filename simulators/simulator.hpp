@@ -16,7 +16,7 @@
 
 namespace touchdown::simulators {
 
-/// The configuration and velocity of the robot: all that an engine needs to start from.
+/// Configuration and velocity of the robot, from which an engine starts.
 /// World frame: x forward, y left, z up.
 struct RobotState {
   /// Origin of the base frame (m).
@@ -25,18 +25,18 @@ struct RobotState {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   /// Velocity of the base frame's origin, in the world (m/s).
   Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();
-  /// In the world (rad/s).
+  /// Angular velocity of the base, in the world (rad/s).
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
   /// Joint angles (rad) and velocities (rad/s), in servo order.
   std::array<double, models::servo_count> joint_position = {};
   std::array<double, models::servo_count> joint_velocity = {};
 };
 
-/// A force on the base from outside the robot, held over one control step.
+/// An external force on the base, constant over one control step.
 struct ExternalWrench {
   /// Force in the world frame (N).
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  /// Where it pulls, in the base frame (m).
+  /// Point of application, in the base frame (m).
   Eigen::Vector3d point_in_base = Eigen::Vector3d::Zero();
 };
 
@@ -47,19 +47,19 @@ inline Eigen::Vector3d torque_about(const Eigen::Vector3d& pivot_in_base,
   return lever.cross(wrench.force);
 }
 
-/// What touched what during one physics step.
+/// Contact forces of one physics step.
 struct ContactForces {
   /// Normal force on each tyre from the terrain (N).
   std::array<double, models::wheel_count> wheel_normal_force = {0.0, 0.0};
-  /// Anything but a tyre touches the terrain.
+  /// Whether a part other than a tyre touches the terrain.
   bool body_touches_terrain = false;
 };
 
-/// The seam for physics engines: a robot on a terrain, stepped by actions.
+/// The interface of physics engines: a robot on a terrain, stepped by actions.
 ///
-/// What every engine shares lives here: the servo law and its actuators, the rolling resistance,
-/// the IMU and what counts as contact. An engine only has to move the bodies (see the protected
-/// functions).
+/// This class implements the parts that all engines share: servo law, actuators, rolling
+/// resistance, IMU and contact. An engine implements the protected functions, which move the
+/// bodies.
 class Simulator {
  public:
   virtual ~Simulator() = default;
@@ -69,10 +69,10 @@ class Simulator {
   /// "mujoco", "bullet".
   virtual std::string_view name() const = 0;
 
-  /// Put the robot at `start` with zero time. The same start gives the same bits afterwards.
+  /// Puts the robot at `start` at time zero. The same start gives the same bits afterwards.
   void reset(const RobotState& start);
 
-  /// Apply `action` and what pulls at the robot from outside for one control step.
+  /// Applies `action` and the external forces for one control step.
   void step(const models::Action& action, std::span<const ExternalWrench> wrenches = {});
   void step(const models::Action& action, const ExternalWrench& wrench) {
     step(action, {&wrench, 1});
@@ -86,25 +86,25 @@ class Simulator {
   /// Seconds per call of `step`.
   double control_period() const { return 1e-6 * static_cast<double>(options_.steps.control_us); }
 
-  /// False once a position or velocity is not finite or larger than anything physical.
+  /// False if a position or velocity is not finite, or too large to be physical.
   bool healthy() const;
 
  protected:
   Simulator(std::shared_ptr<const models::RobotModel> model, const SimulatorOptions& options);
   double physics_period() const { return 1e-6 * static_cast<double>(options_.steps.physics_us); }
 
-  /// Place the robot; called with a state of finite numbers.
+  /// Places the robot. All numbers of `start` are finite.
   virtual void place(const RobotState& start) = 0;
-  /// Advance one physics step under joint torques (servo order, N·m) and wrenches on the base.
+  /// Advances one physics step under joint torques (servo order, N·m) and wrenches on the base.
   virtual void advance(const JointTorques& torques, std::span<const ExternalWrench> wrenches) = 0;
-  /// Where the robot is now.
+  /// Reads the current state of the robot.
   virtual void read(RobotState& state) const = 0;
-  /// The contact forces of the physics step that just ended.
+  /// Reads the contact forces of the last physics step.
   virtual void read(ContactForces& forces) const = 0;
 
  private:
   Eigen::Vector3d imu_velocity() const;
-  /// What sensors and truth say now, with the IMU's velocity a control step ago (m/s, world).
+  /// Updates observation and truth. `velocity_before`: of the IMU a control step ago (m/s, world).
   void observe(const Eigen::Vector3d& velocity_before, const JointTorques& reported_torques);
 
   std::shared_ptr<const models::RobotModel> model_;

@@ -9,7 +9,7 @@ namespace touchdown::simulators {
 SimulatorOptions with_steps_for_tyres(SimulatorOptions options, const models::RobotModel& model) {
   if (model.tyre.law == models::Tyre::Law::engine) return options;
   constexpr double largest_angle = 0.1;  // rad
-  constexpr double largest_loss = 0.25;  // of speed, by the damper alone
+  constexpr double largest_loss = 0.25;  // of the speed in one step, by the damper
   double lightest = std::numeric_limits<double>::infinity();
   for (const int tyre : model.tyre_geom) {
     lightest = std::min(lightest, model.mj->body_mass[model.mj->geom_bodyid[tyre]]);
@@ -35,17 +35,17 @@ std::optional<std::size_t> wheel_of_tyre(const models::RobotModel& robot, int ge
   return std::nullopt;
 }
 
-/// Whether two contacts press the same strip about the same way.
-static bool press_alike(const TyreContact& a, const TyreContact& b) {
+/// Whether two contacts press the same strip in about the same direction.
+static bool is_same_direction(const TyreContact& a, const TyreContact& b) {
   constexpr double cosine = 0.7;  // of 45°
   return a.strip == b.strip && a.normal.dot(b.normal) > cosine;
 }
 
-std::vector<bool> that_count(const std::vector<TyreContact>& contacts) {
+std::vector<bool> counted_contacts(const std::vector<TyreContact>& contacts) {
   std::vector<bool> count(contacts.size(), true);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     for (std::size_t j = 0; j < i && count[i]; ++j) {
-      if (!count[j] || !press_alike(contacts[i], contacts[j])) continue;
+      if (!count[j] || !is_same_direction(contacts[i], contacts[j])) continue;
       count[contacts[i].depth > contacts[j].depth ? j : i] = false;
     }
   }

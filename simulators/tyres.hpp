@@ -11,26 +11,26 @@
 
 namespace touchdown::simulators {
 
-/// The options with physics steps as short as the robot's tyres want them: of a wheel alone on a
-/// tyre that is a spring and a damper, the oscillation turns by no more than a tenth of a radian
-/// per step, which leaves landings within one percent of continuous time, and the damper takes no
-/// more than a quarter of the speed. Steps are never made longer, and a control step remains a
-/// whole number of them.
+/// The options, with physics steps short enough for the robot's tyres, if these are springs and
+/// dampers. For a wheel alone on its tyre, the phase of the oscillation advances by at most 0.1 rad
+/// per step; landings then are within one percent of continuous time. The damper removes at most a
+/// quarter of the speed per step. Steps never get longer, and a control step remains a multiple of
+/// them.
 SimulatorOptions with_steps_for_tyres(SimulatorOptions options, const models::RobotModel& model);
 
-/// Which wheel's tyre a geom of the robot's model is of, if any.
+/// The wheel with a tyre that contains this geom of the robot's model, if any.
 std::optional<std::size_t> wheel_of_tyre(const models::RobotModel& robot, int geom);
 
-/// Where a strip of a tyre touches something.
+/// A contact of a strip of a tyre.
 struct TyreContact {
-  std::size_t strip = 0;                              ///< whatever number it has
-  double depth = 0.0;                                 ///< how far it is pressed in (m)
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< towards the tyre
+  std::size_t strip = 0;                              ///< any unique number
+  double depth = 0.0;                                 ///< compression (m)
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the contact, towards the tyre
 };
 
-/// Which of all contacts are the tyres'. Where several pieces of ground meet below a strip, that
-/// which presses it most is its ground: it would be twice as stiff at every joint of the ground
-/// otherwise. Only what presses another way, as a kerb does, counts beside it.
-std::vector<bool> that_count(const std::vector<TyreContact>& contacts);
+/// Whether each contact counts. Where several pieces of ground meet below a strip, only the deepest
+/// contact counts; otherwise the tyre would be twice as stiff at every joint of the ground. A
+/// contact in another direction, such as a kerb, counts too.
+std::vector<bool> counted_contacts(const std::vector<TyreContact>& contacts);
 
 }  // namespace touchdown::simulators

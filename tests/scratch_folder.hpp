@@ -9,8 +9,8 @@
 
 namespace touchdown {
 
-/// An empty folder of the test's own, gone with everything in it when the test is over. Tests run
-/// side by side: no two may write to the same place.
+/// An empty folder for one test, removed with all its content afterwards. Tests run in parallel, so
+/// no two may write to the same place.
 class ScratchFolder {
  public:
   ScratchFolder() {

@@ -11,46 +11,47 @@
 
 namespace touchdown::training {
 
-/// When the robot counts as being in contact, from its two wheels.
+/// When the robot is in contact, given its two wheels.
 enum class RobotContact : int {
-  any_wheel,   ///< it touches the ground: no contact means that it flies
-  both_wheels  ///< it stands on both wheels
+  any_wheel,   ///< at least one wheel in contact: no contact means flight
+  both_wheels  ///< both wheels in contact
 };
 
-/// How labelled data comes about: episodes of parallel environments, cut from runs of scenarios.
+/// How labelled data is generated: episodes of parallel environments, cut from runs of scenarios.
 struct RolloutConfig {
-  /// Run after run the next one of these, and after the last one the first in the next engine.
+  /// Successive runs use these in turn, first all in one engine, then all in the next.
   std::vector<std::string> scenarios = {"scenarios/lift.yaml"};
   std::vector<std::string> simulators = {"bullet"};
-  /// Whose loss decides which iteration's weights are kept; none: those above.
+  /// The loss in these selects the iteration with the kept weights; if empty, `scenarios` are used.
   std::vector<std::string> validation_scenarios = {};
-  std::int64_t control_step_us = 5000;  ///< at which the robot is steered and heard
-  std::int64_t network_step_us = 5000;  ///< one step of the network: a multiple of the other
-  int environments = 400;               ///< episodes per iteration
-  int steps = 400;                      ///< of an episode; a multiple of `sequence`
-  int sequence = 10;                    ///< steps that gradients are carried back through
-  double skip = 0.0;                    ///< of every run, before its first episode begins (s)
+  std::int64_t control_step_us = 5000;  ///< control and measurement period (µs)
+  std::int64_t network_step_us =
+      5000;                ///< period of the network (µs), a multiple of `control_step_us`
+  int environments = 400;  ///< episodes per iteration
+  int steps = 400;         ///< steps of an episode; a multiple of `sequence`
+  int sequence = 10;       ///< steps of truncated backpropagation
+  double skip = 0.0;       ///< time of every run before its first episode (s)
   RobotContact contact = RobotContact::any_wheel;
   scoring::LabelConfig labels;
-  std::string sensors;       ///< the profile that the network hears through; empty: ideal
-  noise::SensorNoise noise;  ///< on top of that; the paper trains without
-  /// Each run has a share of the noise between these.
+  std::string sensors;       ///< sensor profile of the inputs; empty: ideal
+  noise::SensorNoise noise;  ///< added to the inputs; the paper trains without
+  /// Each run draws a factor on the noise, uniformly between these.
   std::vector<double> noise_share = {1.0, 1.0};
 
-  /// Of the network (s).
+  /// Period of the network (s).
   double period() const { return 1e-6 * static_cast<double>(network_step_us); }
-  /// Control steps to one of the network.
+  /// Control steps per step of the network.
   int stride() const { return static_cast<int>(network_step_us / control_step_us); }
 };
 
-/// Numbers of features between inputs and outputs.
+/// Layer sizes.
 struct NetworkSize {
   int hidden = 128;  ///< of the GRU
-  int first = 256;   ///< of the perceptron behind it
-  int second = 128;
+  int first = 256;   ///< first layer of the perceptron after it
+  int second = 128;  ///< its second layer
 };
 
-/// A training file, seen whole: the paper's Section V, paragraphs "Simulation" and "Training".
+/// A training file: the paper's Section V, paragraphs "Simulation" and "Training".
 struct TrainingConfig {
   std::string name = "nmn";
   std::uint64_t seed = 1;
@@ -62,7 +63,7 @@ struct TrainingConfig {
 /// Reads a training file strictly. Errors: `InputError` with file:line:column.
 TrainingConfig training_from_yaml(const YamlDocument& document);
 
-/// The same with every default written out; reads back to the same.
+/// The configuration as YAML with every default; it reads back to the same configuration.
 std::string to_yaml(const TrainingConfig& config);
 
 }  // namespace touchdown::training

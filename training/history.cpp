@@ -17,7 +17,7 @@ namespace touchdown::training {
 
 namespace {
 
-/// The columns behind "iteration", which counts the lines, with where a record holds them.
+/// The columns after "iteration", with pointers to their values in a record.
 template <typename Record>
 auto columns(Record& r) {
   return std::array{std::pair{"data_s", &r.data_seconds},
@@ -47,7 +47,7 @@ set xrange [0:*]
 set grid lc rgb "#dddddd"
 set logscale y
 set format y "%g"
-set xlabel "Iteration (each with data of its own)"
+set xlabel "Iteration (each with new data)"
 set ylabel "Cross-entropy (nat) + squared velocity error (m²/s²)" font ",18"
 set arrow from {chosen}, graph 0 to {chosen}, graph 1 nohead dashtype 2 lc rgb "#888888"
 set label "chosen" at {chosen}, graph 0.03 right offset -0.5,0 tc rgb "#555555"
@@ -57,7 +57,7 @@ plot "{data}" using "iteration":"training_loss" with linespoints pt 7 ps 0.8 \
        lc rgb "#cc6677" title "validation"
 )gnuplot";
 
-/// The numbers of one line; empty if it is anything else.
+/// The numbers of one line; empty for an invalid line.
 std::vector<double> numbers(const std::string& line) {
   std::vector<double> values;
   const char* at = line.data();

@@ -7,11 +7,11 @@
 
 namespace touchdown::training {
 
-/// How one iteration of training ended.
+/// Results of one iteration of training.
 struct IterationRecord {
   int iteration = 0;          ///< from 1
-  double data_seconds = 0.0;  ///< labelled simulation seen so far (s)
-  Loss training;              ///< met during its last epoch
+  double data_seconds = 0.0;  ///< labelled data used so far (s)
+  Loss training;              ///< during its last epoch
   Loss validation;            ///< after it
 };
 
@@ -24,15 +24,15 @@ std::size_t best_iteration(const TrainingHistory& history);
 /// Whether the last `patience` iterations brought no better validation loss.
 bool stopped_improving(const TrainingHistory& history, int patience);
 
-/// The curves as comma-separated values, every number to the bit.
+/// Writes the history as comma-separated values that read back to the same bits.
 void write_history(const TrainingHistory& history, const std::filesystem::path& path);
 
-/// Errors: `InputError` for anything that `write_history` would not have written.
+/// Reads a history. Errors: `InputError` for anything that `write_history` cannot have written.
 TrainingHistory read_history(const std::filesystem::path& path);
 
-/// Draws training and validation loss by iteration from a history's table, the chosen iteration
-/// marked. Writes `training.gp` into `folder`, a gnuplot script for anybody who wants another
-/// style, and runs it. Returns the figure; empty if gnuplot could not draw it.
+/// Draws training and validation loss by iteration from a history's table, and marks the chosen
+/// iteration. Writes the gnuplot script `training.gp` into `folder`, which users may restyle, and
+/// runs it. Returns the figure; empty if gnuplot could not draw it.
 std::filesystem::path draw_losses(const std::filesystem::path& history,
                                   const std::filesystem::path& folder, int chosen_iteration);
 

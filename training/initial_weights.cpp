@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t weights_stream = 0x77656967687473;  // "weights"
 
-/// Draws arrays one after the other.
+/// Draws uniform weights, layer by layer, from one stream.
 class UniformWeights {
  public:
   explicit UniformWeights(std::uint64_t seed) : seed_(seed) {}
@@ -41,9 +41,9 @@ void standardise(NeuralNetwork& network, const std::vector<float>& inputs) {
   const Eigen::Matrix<double, 1, neural_input_count> deviation =
       (rows.cast<double>().rowwise() - mean).colwise().squaredNorm().cwiseSqrt() /
       std::sqrt(static_cast<double>(rows.rows()));
-  constexpr double still = 1e-6;
+  constexpr double constant = 1e-6;
   network.input_mean = mean.transpose().cast<float>();
-  network.input_scale = (deviation.array() > still)
+  network.input_scale = (deviation.array() > constant)
                             .select(deviation.array().inverse(), 1.0)
                             .transpose()
                             .matrix()

@@ -20,14 +20,14 @@ namespace touchdown::training {
 
 namespace {
 
-/// Tries per run before giving up, and how far apart the runs' draws are numbered.
+/// Attempts per run before giving up, and the distance of the runs' numbers in the stream of draws.
 constexpr std::int64_t most_tries = 100;
 constexpr std::int64_t draws_per_run = 1000;
 
 std::size_t size(int n) { return static_cast<std::size_t>(n); }
 
-/// The episodes that one run fills: consecutive environments, as one long row of steps.
-struct Stretch {
+/// The episodes that one run fills: consecutive environments, as one long sequence of steps.
+struct RunSlice {
   EpisodeBatch& batch;
   int first_environment;
   int environments;
@@ -58,7 +58,7 @@ scoring::ContactSequence robot_contact(const recordings::Recording& recording,
                                                    : scoring::both_wheels(wheels);
 }
 
-/// The noise that this run is heard with.
+/// The noise levels of one run.
 noise::SensorNoise levels_of(const RolloutConfig& config, const noise::NoiseKey& key) {
   constexpr std::uint64_t share_stream = 0x7368617265;  // "share"
   const double share = std::lerp(config.noise_share[0], config.noise_share[1],
@@ -70,21 +70,21 @@ noise::SensorNoise levels_of(const RolloutConfig& config, const noise::NoiseKey&
   return levels;
 }
 
-/// What the network hears of a run, and at which rows of the recording.
-struct Heard {
+/// The network's inputs of a run, with their rows in the recording.
+struct RunInputs {
   std::vector<NeuralInput> input;
   std::vector<std::size_t> row;
 };
 
-Heard heard(const recordings::Recording& recording, const RolloutConfig& config,
-            const noise::SensorProfile& sensors) {
+RunInputs inputs_of(const recordings::Recording& recording, const RolloutConfig& config,
+                    const noise::SensorProfile& sensors) {
   const noise::NoiseKey key{.seed = recording.info.seed,
                             .run = static_cast<std::uint64_t>(recording.info.run)};
   const noise::SensorNoise levels = levels_of(config, key);
   std::vector<models::Observation> observations = recording.observation;
   noise::report_through(sensors, key, 1e-6 * static_cast<double>(config.control_step_us),
                         observations);
-  Heard heard;
+  RunInputs inputs;
   NeuralInputSampler sampler(config.stride());
   for (std::size_t k = 0; k < observations.size(); ++k) {
     const double command =
@@ -94,52 +94,52 @@ Heard heard(const recordings::Recording& recording, const RolloutConfig& config,
     if (!neural_input(signals).allFinite()) {
       sampler.skip();
     } else if (sampler.add(signals)) {
-      heard.input.push_back(sampler.input());
-      heard.row.push_back(k);
+      inputs.input.push_back(sampler.input());
+      inputs.row.push_back(k);
     }
   }
-  return heard;
+  return inputs;
 }
 
-/// Writes what is heard of a recording from the network's step `first` on into the stretch from
-/// `step` on, whole sequences only. Returns the step behind the last one.
-int write_rows(const recordings::Recording& recording, const Heard& heard, int first,
-               const RolloutConfig& config, int step, Stretch& stretch) {
-  const int steps = std::min(static_cast<int>(heard.row.size()) - first, stretch.steps() - step);
+/// Writes the inputs of a run from the network's step `first` on into the slice from `step` on, in
+/// whole sequences. Returns the step after the last one.
+int write_rows(const recordings::Recording& recording, const RunInputs& inputs, int first,
+               const RolloutConfig& config, int step, RunSlice& slice) {
+  const int steps = std::min(static_cast<int>(inputs.row.size()) - first, slice.steps() - step);
   const int whole = steps / config.sequence * config.sequence;
   if (whole <= 0) return step;
   const scoring::ContactSequence contact = robot_contact(recording, config);
-  stretch.begin_run(step);
+  slice.begin_run(step);
   for (int i = 0; i < whole; ++i) {
-    const std::size_t k = heard.row[size(first + i)];
+    const std::size_t k = inputs.row[size(first + i)];
     const models::GroundTruth& truth = recording.truth[k];
-    stretch.write(step + i, heard.input[size(first + i)], contact[k] != 0,
-                  truth.base_orientation.conjugate() * truth.imu_linear_velocity);
+    slice.write(step + i, inputs.input[size(first + i)], contact[k] != 0,
+                truth.base_orientation.conjugate() * truth.imu_linear_velocity);
   }
   return step + whole;
 }
 
 void roll_out_run(const RolloutConfig& config, const RolloutScenes::Scene& scene,
                   const noise::SensorProfile& sensors, std::uint64_t seed, std::int64_t number,
-                  Stretch stretch) {
+                  RunSlice slice) {
   const double period = config.period();
   const int skip = static_cast<int>(std::lround(config.skip / period));
   int step = 0;
-  for (std::int64_t attempt = 0; step < stretch.steps(); ++attempt) {
+  for (std::int64_t attempt = 0; step < slice.steps(); ++attempt) {
     if (attempt == most_tries) {
       throw InputError(fmt::format("{}: the robot fell {} times within {:.0f} s",
-                                   scene.scenario.name, most_tries, period * stretch.steps()));
+                                   scene.scenario.name, most_tries, period * slice.steps()));
     }
     const std::int64_t run = number * draws_per_run + attempt;
     scenarios::Scenario drawn = scenarios::perturbed(scene.scenario, seed, run);
-    drawn.end.duration = (skip + stretch.steps() - step) * period;
+    drawn.end.duration = (skip + slice.steps() - step) * period;
     const recordings::Recording recording = scenarios::play(drawn, scene.simulator, seed, run);
     if (recording.info.outcome == recordings::Outcome::diverged) continue;
-    step = write_rows(recording, heard(recording, config, sensors), skip, config, step, stretch);
+    step = write_rows(recording, inputs_of(recording, config, sensors), skip, config, step, slice);
   }
 }
 
-/// The first environment of every run that `environments` episodes come from.
+/// The first environment of every run, for `environments` episodes.
 std::vector<int> first_environments(const RolloutConfig& config, const RolloutScenes& scenes,
                                     int environments) {
   std::vector<int> first;

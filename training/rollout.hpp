@@ -14,35 +14,34 @@ namespace touchdown::training {
 /// Called after each run; returning false ends the rollout with `Stopped`.
 using RolloutProgress = std::function<bool()>;
 
-/// What is rolled out: scenarios in engines, heard through sensors.
+/// Scenarios in engines, with a sensor profile.
 struct RolloutScenes {
   struct Scene {
     scenarios::Scenario scenario;
     std::string simulator;
   };
-  std::vector<Scene> scenes;  ///< taken in turn, run by run
+  std::vector<Scene> scenes;  ///< used in turn by successive runs
   noise::SensorProfile sensors;
 };
 
-/// Plays the scenes in turn, perturbed anew for every run, and cuts what happened into episodes:
-/// each run gives `episodes_per_run` environments an episode, one after the other. If the robot
-/// falls or arrives, the rest comes from another run, from the next sequence on. What happens in
-/// run n of a scene depends on (seed, n) and nothing else, so that neither threads nor other runs
-/// matter. Errors: `InputError` for a scenario in which the robot falls over and over again;
-/// `Stopped`.
+/// Simulates the scenes in turn, each run with new perturbations, and cuts the runs into episodes.
+/// Each run fills one episode of `episodes_per_run` consecutive environments. If the robot falls or
+/// arrives, another run provides the rest, from the next sequence on. Run n of a scene depends only
+/// on (seed, n), not on threads or other runs. Errors: `InputError` for a scenario in which the
+/// robot falls in every attempt; `Stopped`.
 EpisodeBatch roll_out(const RolloutConfig& config, const RolloutScenes& scenes, std::uint64_t seed,
                       std::int64_t first_run, int environments, const RolloutProgress& progress);
 
-/// As many episodes as fit into the scenario's duration, at least one.
+/// Number of episodes that fit into the scenario's duration, at least one.
 int episodes_per_run(const RolloutConfig& config, const scenarios::Scenario& scenario);
 
-/// Runs that `environments` episodes come from.
+/// Number of runs for `environments` episodes.
 int runs_for(const RolloutConfig& config, const RolloutScenes& scenes, int environments);
 
-/// Runs of the validation set are numbered from here.
+/// Number of the first run of the validation set.
 inline constexpr std::int64_t first_validation_run = std::int64_t{1} << 40;
 
-/// What a rollout plays: found, read, and set to the rollout's control step.
+/// Scenes of a rollout: found, read, and set to the rollout's control step.
 RolloutScenes training_scenes(const RolloutConfig& config);
 RolloutScenes validation_scenes(const RolloutConfig& config);
 

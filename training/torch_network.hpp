@@ -8,26 +8,25 @@
 
 namespace touchdown::training {
 
-/// The neural measurement network as libtorch trains it: the same numbers as `NeuralNetwork`, with
-/// gradients.
+/// The neural measurement network in libtorch: the parameters of `NeuralNetwork`, with gradients.
 class TorchNetwork : public torch::nn::Module {
  public:
   explicit TorchNetwork(const NeuralNetwork& network);
 
-  /// Its numbers, standardisation included.
+  /// The parameters, standardisation included.
   NeuralNetwork numbers() const;
 
-  /// From raw inputs (steps × lanes × neural_input_count) and hidden state (1 × lanes × hidden) to
-  /// outputs (steps × lanes × neural_output_count) and the next hidden state.
+  /// Maps raw inputs (steps × batch × neural_input_count) and hidden state (1 × batch × hidden) to
+  /// outputs (steps × batch × neural_output_count) and the next hidden state.
   std::pair<torch::Tensor, torch::Tensor> forward(const torch::Tensor& inputs,
                                                   const torch::Tensor& hidden);
 
-  torch::Tensor no_memory(std::int64_t lanes) const {
-    return torch::zeros({1, lanes, gru_->options.hidden_size()});
+  /// The initial hidden state (1 × batch × hidden).
+  torch::Tensor initial_state(std::int64_t batch) const {
+    return torch::zeros({1, batch, gru_->options.hidden_size()});
   }
 
-  /// Makes this network's parameters the same memory as those of `other`, with gradients of its
-  /// own.
+  /// Shares the memory of the parameters of `other`, with separate gradients.
   void share_parameters_of(const TorchNetwork& other);
 
  private:

@@ -15,8 +15,8 @@
 #include "core/fingerprint.hpp"
 #include "core/progress.hpp"
 #include "experiments/run_directory/directory.hpp"
-#include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/own_files.hpp"
+#include "experiments/run_directory/owner.hpp"
 #include "recordings/models/neural_network.hpp"
 #include "training/blas.hpp"
 #include "training/initial_weights.hpp"
@@ -46,7 +46,7 @@ double per_second(std::int64_t steps, double seconds) {
   return seconds > 0.0 ? static_cast<double>(steps) / seconds : 0.0;
 }
 
-/// Where the time of a training went, as far as this process took part in it.
+/// Times of a training in this process.
 struct TrainingTimes {
   double rollout = 0.0;   ///< s
   double training = 0.0;  ///< s, validation included
@@ -54,7 +54,7 @@ struct TrainingTimes {
   std::int64_t training_steps = 0;  ///< times epochs
 };
 
-/// One training, from its beginning or from where it was stopped.
+/// One training, from its beginning or resumed.
 class TrainingSession {
  public:
   TrainingSession(const TrainingConfig& config, const TrainingRequest& request)
@@ -87,12 +87,12 @@ class TrainingSession {
            stopped_improving(history_, config_.optimiser.patience);
   }
 
-  /// Of all that the weights follow from.
+  /// Digest of everything that determines the weights.
   std::string digest() const {
     Fingerprint print;
     print.add(to_yaml(config_)).add(noise::to_yaml(scenes_.sensors));
-    for (const RolloutScenes* played : {&scenes_, &validation_scenes_}) {
-      for (const auto& scene : played->scenes) print.add(scenarios::to_yaml(scene.scenario));
+    for (const RolloutScenes* scenes : {&scenes_, &validation_scenes_}) {
+      for (const auto& scene : scenes->scenes) print.add(scenarios::to_yaml(scene.scenario));
     }
     return print.text();
   }
@@ -120,7 +120,7 @@ class TrainingSession {
     return directory_.file("checkpoints", fmt::format("{:04}.pt", iteration));
   }
 
-  /// The first iteration's data tells how to standardise; a checkpoint knows all the rest.
+  /// Starts with a network standardised by the first iteration's data, or loads the checkpoint.
   void resume() {
     if (history_.empty()) {
       first_batch_ = std::make_unique<EpisodeBatch>(training_episodes(1));
@@ -132,7 +132,7 @@ class TrainingSession {
     trainer_ = std::make_unique<Trainer>(
         recordings::read_neural_network(directory_.file("models", "nmn.npz")), config_.optimiser);
     trainer_->load(checkpoint(history_.size()));
-    tell(fmt::format("going on after iteration {}\n", history_.size()));
+    print_message(fmt::format("resuming after iteration {}\n", history_.size()));
   }
 
   void iterate() {
@@ -160,7 +160,7 @@ class TrainingSession {
     save();
   }
 
-  /// In an order that leaves something to go on from wherever it is cut off.
+  /// Saves in an order that always leaves a state to resume from.
   void save() {
     const bool best = best_iteration(history_) + 1 == history_.size();
     if (best) {
@@ -171,16 +171,15 @@ class TrainingSession {
     std::error_code ignored;
     fs::remove(checkpoint(history_.size() - 1), ignored);
     const IterationRecord& now = history_.back();
-    tell(fmt::format(
+    print_message(fmt::format(
         "iteration {}/{}: training loss {:.4f}, validation loss {:.4f} (contact {:.4f} nat, "
-        "right {:.2f} %; velocity {:.4f} m²/s²){}\n",
+        "accuracy {:.2f} %; velocity {:.4f} m²/s²){}\n",
         now.iteration, config_.optimiser.iterations, now.training.total, now.validation.total,
         now.validation.contact, 100.0 * now.validation.accuracy, now.validation.velocity,
         best ? ", the best so far" : ""));
   }
 
-  /// What should be known about the weights, as JSON: how they were made, on what data, how well
-  /// they did, and the fingerprint of their file.
+  /// Metadata of the weights as JSON: configuration, data, losses and fingerprint.
   std::string manifest(const TrainingResult& result) const {
     const IterationRecord& chosen = result.history.at(result.chosen);
     Json json;
@@ -240,7 +239,7 @@ class TrainingSession {
 
 TrainingResult train(const TrainingConfig& config, const TrainingRequest& request) {
   if (const std::string warning = blas_warning(blas_in_use()); !warning.empty()) {
-    tell(fmt::format("touchdown: warning: {}\n", warning));
+    print_message(fmt::format("touchdown: warning: {}\n", warning));
   }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(request.thread_count()));

@@ -11,23 +11,23 @@
 
 namespace touchdown::training {
 
-/// How a training is run; nothing in it changes the weights.
+/// How a training is run. None of it changes the weights.
 struct TrainingRequest {
   std::filesystem::path out;                ///< run directory; empty: runs/<name>/<id>
   std::filesystem::path network;            ///< also write the chosen weights here; may be empty
-  std::string command;                      ///< what was typed, for the manifest
+  std::string command;                      ///< command line, for the manifest
   int threads = 0;                          ///< 0: one per core
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to stop
 
   bool wants_stop() const { return stop != nullptr && *stop; }
-  /// The number of threads that are asked for.
+  /// The requested number of threads.
   int thread_count() const {
     if (threads > 0) return threads;
     return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   }
 };
 
-/// What a training leaves behind.
+/// Results of a training.
 struct TrainingResult {
   std::filesystem::path directory;
   std::filesystem::path network;  ///< the weights of the chosen iteration
@@ -36,11 +36,11 @@ struct TrainingResult {
   std::size_t chosen = 0;  ///< index into the history
 };
 
-/// Trains a neural measurement network from nothing to a file: rolls out every iteration's data,
-/// trains on it, and keeps the weights with the smallest validation loss. A training that was
-/// stopped goes on from its last finished iteration when the same is asked for again.
-/// Writes `models/nmn.npz` with its manifest `models/nmn.json`, `tables/training.csv` and
-/// `figures/training.png` into the run directory. Errors: `Stopped`; as `roll_out`.
+/// Trains a neural measurement network: every iteration simulates new data and trains on it. The
+/// weights with the smallest validation loss are kept. A stopped training resumes after its last
+/// finished iteration when it is requested again. Writes `models/nmn.npz` with its manifest
+/// `models/nmn.json`, `tables/training.csv` and `figures/training.png` into the run directory.
+/// Errors: `Stopped`; as `roll_out`.
 TrainingResult train(const TrainingConfig& config, const TrainingRequest& request);
 
 }  // namespace touchdown::training

@@ -21,10 +21,10 @@ namespace {
 using torch::Tensor;
 namespace functional = torch::nn::functional;
 
-/// Some environments of a batch, as tensors that look into it.
+/// Some environments of a batch, as tensors that view it.
 struct Part {
   std::int64_t first = 0;
-  std::int64_t lanes = 0;
+  std::int64_t environments = 0;
   Tensor input;
   Tensor contact;
   Tensor velocity;
@@ -41,23 +41,23 @@ struct Part {
   }
 };
 
-/// Tensors do not know constness; nobody writes to these.
-Tensor view(const std::vector<float>& numbers, std::int64_t rows, std::int64_t lanes,
+/// A tensor that views the numbers. Tensors have no const form; these are only read.
+Tensor view(const std::vector<float>& numbers, std::int64_t rows, std::int64_t environments,
             std::int64_t columns) {
-  return torch::from_blob(const_cast<float*>(numbers.data()), {rows, lanes, columns});
+  return torch::from_blob(const_cast<float*>(numbers.data()), {rows, environments, columns});
 }
 
 std::vector<Part> split(const EpisodeBatch& batch, int most_parts) {
-  const std::int64_t lanes = batch.environments;
-  const std::int64_t parts = std::min<std::int64_t>(most_parts, lanes);
-  const Tensor input = view(batch.input, batch.steps, lanes, neural_input_count);
-  const Tensor contact = view(batch.contact, batch.steps, lanes, 1);
-  const Tensor velocity = view(batch.velocity, batch.steps, lanes, 3);
-  const Tensor keep = view(batch.keep, batch.steps / batch.sequence, lanes, 1);
+  const std::int64_t environments = batch.environments;
+  const std::int64_t parts = std::min<std::int64_t>(most_parts, environments);
+  const Tensor input = view(batch.input, batch.steps, environments, neural_input_count);
+  const Tensor contact = view(batch.contact, batch.steps, environments, 1);
+  const Tensor velocity = view(batch.velocity, batch.steps, environments, 3);
+  const Tensor keep = view(batch.keep, batch.steps / batch.sequence, environments, 1);
   std::vector<Part> split;
   for (std::int64_t p = 0; p < parts; ++p) {
-    const std::int64_t first = p * lanes / parts;
-    const std::int64_t count = (p + 1) * lanes / parts - first;
+    const std::int64_t first = p * environments / parts;
+    const std::int64_t count = (p + 1) * environments / parts - first;
     split.push_back({first, count, input.narrow(1, first, count), contact.narrow(1, first, count),
                      velocity.narrow(1, first, count), keep.narrow(1, first, count),
                      batch.sequence});
@@ -65,17 +65,17 @@ std::vector<Part> split(const EpisodeBatch& batch, int most_parts) {
   return split;
 }
 
-/// Sums over steps, to be divided at the end.
+/// Sums over steps, divided at the end.
 struct LossSum {
   double contact = 0.0;
   double velocity = 0.0;
-  double right = 0.0;
+  double correct = 0.0;
   double steps = 0.0;
 
   LossSum& operator+=(const LossSum& other) {
     contact += other.contact;
     velocity += other.velocity;
-    right += other.right;
+    correct += other.correct;
     steps += other.steps;
     return *this;
   }
@@ -87,7 +87,7 @@ struct SequenceLoss {
   LossSum sum;
 };
 
-/// Of sequence `s` of a part.
+/// Loss of sequence `s` of a part.
 SequenceLoss loss_of(const Tensor& outputs, const Part& part, std::int64_t s) {
   const Tensor logit = outputs.narrow(2, 0, 1);
   const Tensor contact = part.rows(part.contact, s);
@@ -97,13 +97,13 @@ SequenceLoss loss_of(const Tensor& outputs, const Part& part, std::int64_t s) {
   const auto steps = static_cast<double>(logit.numel());
   loss.sum.contact = steps * loss.contact.item<double>();
   loss.sum.velocity = steps * loss.velocity.item<double>();
-  loss.sum.right = (logit.detach().ge(0.0) == contact.ge(0.5)).sum().item<double>();
+  loss.sum.correct = (logit.detach().ge(0.0) == contact.ge(0.5)).sum().item<double>();
   loss.sum.steps = steps;
   return loss;
 }
 
-/// Work on all parts side by side. A parallel region, since both OpenBLAS and libtorch then know
-/// that each of its threads has one core to itself. Errors: the first part's.
+/// Runs `work` on all parts in parallel. In an OpenMP region, OpenBLAS and libtorch both use one
+/// thread per part. Errors: rethrows that of the first part that failed.
 template <typename Work>
 void for_each_part(std::size_t parts, const Work& work) {
   std::vector<std::exception_ptr> errors(parts);
@@ -140,7 +140,7 @@ struct Trainer::Impl {
 
   /// One optimiser step on one sequence of all parts.
   LossSum step(const std::vector<Part>& parts, std::vector<Tensor>& hidden, std::int64_t s,
-               std::int64_t lanes) {
+               std::int64_t environments) {
     std::vector<LossSum> sums(parts.size());
     for_each_part(parts.size(), [&](std::size_t p) {
       const Part& part = parts[p];
@@ -149,7 +149,8 @@ struct Trainer::Impl {
       const SequenceLoss loss = loss_of(outputs, part, s);
       sums[p] = loss.sum;
       networks[p]->zero_grad();
-      const double share = static_cast<double>(part.lanes) / static_cast<double>(lanes);
+      const double share =
+          static_cast<double>(part.environments) / static_cast<double>(environments);
       (share * (loss.contact + config.velocity_weight * loss.velocity)).backward();
     });
     add_gradients(parts.size());
@@ -159,7 +160,7 @@ struct Trainer::Impl {
     return sum;
   }
 
-  /// In the order of the parts, so that rounding is the same whoever came first.
+  /// Adds in the order of the parts, so that rounding does not depend on timing.
   void add_gradients(std::size_t parts) {
     const auto total = networks[0]->parameters();
     for (std::size_t p = 1; p < parts; ++p) {
@@ -178,11 +179,12 @@ struct Trainer::Impl {
   Loss mean(const LossSum& sum) const {
     const double contact = sum.contact / sum.steps;
     const double velocity = sum.velocity / sum.steps;
-    return {contact, velocity, contact + config.velocity_weight * velocity, sum.right / sum.steps};
+    return {contact, velocity, contact + config.velocity_weight * velocity,
+            sum.correct / sum.steps};
   }
 
   OptimiserConfig config;
-  /// One per part; all share the first one's parameters and have gradients of their own.
+  /// One network per part. All share the parameters of the first, with separate gradients.
   std::vector<std::shared_ptr<TorchNetwork>> networks;
   torch::optim::Adam adam;
 };
@@ -194,7 +196,8 @@ Trainer::~Trainer() = default;
 Loss Trainer::train_epoch(const EpisodeBatch& batch) {
   const std::vector<Part> parts = split(batch, impl_->config.parts);
   std::vector<Tensor> hidden;
-  for (const Part& part : parts) hidden.push_back(impl_->networks[0]->no_memory(part.lanes));
+  for (const Part& part : parts)
+    hidden.push_back(impl_->networks[0]->initial_state(part.environments));
   LossSum sum;
   for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
     sum += impl_->step(parts, hidden, s, batch.environments);
@@ -206,9 +209,9 @@ Loss Trainer::evaluate(const EpisodeBatch& batch) const {
   const std::vector<Part> parts = split(batch, impl_->config.parts);
   std::vector<LossSum> sums(parts.size());
   for_each_part(parts.size(), [&](std::size_t p) {
-    const torch::NoGradGuard no_grad;  // holds for one thread
+    const torch::NoGradGuard no_grad;  // applies to this thread only
     const Part& part = parts[p];
-    Tensor hidden = impl_->networks[p]->no_memory(part.lanes);
+    Tensor hidden = impl_->networks[p]->initial_state(part.environments);
     for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
       const auto [outputs, next] = part.forward(*impl_->networks[p], hidden, s);
       hidden = next;
@@ -223,7 +226,7 @@ Loss Trainer::evaluate(const EpisodeBatch& batch) const {
 std::vector<float> Trainer::outputs(const EpisodeBatch& batch) const {
   const torch::NoGradGuard no_grad;
   const Part all = split(batch, 1).front();
-  Tensor hidden = impl_->networks[0]->no_memory(all.lanes);
+  Tensor hidden = impl_->networks[0]->initial_state(all.environments);
   std::vector<float> result;
   for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
     auto [outputs, next] = all.forward(*impl_->networks[0], hidden, s);
@@ -260,11 +263,11 @@ void Trainer::load(const std::filesystem::path& path) {
     archive.read("network", network);
     archive.read("adam", adam);
     const auto shapes = impl_->shapes();
-    impl_->networks[0]->load(network);  // takes any shape
-    if (impl_->shapes() != shapes) throw InputError("another network's");
+    impl_->networks[0]->load(network);  // accepts any shape
+    if (impl_->shapes() != shapes) throw InputError("other shapes");
     impl_->adam.load(adam);
   } catch (const std::exception&) {
-    // libtorch's messages are pages long.
+    // Replaces libtorch's messages, which are pages long.
     throw InputError(fmt::format("{}: is not a checkpoint of this network; remove it to start anew",
                                  path.string()));
   }

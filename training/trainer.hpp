@@ -8,8 +8,8 @@
 
 namespace touchdown::training {
 
-/// Labelled episodes of many environments side by side, ready for the network: step by step, then
-/// environment by environment.
+/// Labelled episodes of parallel environments, as inputs and targets of the network. The step is
+/// the slowest index, then the environment.
 struct EpisodeBatch {
   int steps = 0;
   int environments = 0;
@@ -17,25 +17,25 @@ struct EpisodeBatch {
   std::vector<float> input;     ///< steps × environments × neural_input_count, not standardised
   std::vector<float> contact;   ///< steps × environments: 1 in contact, 0 not
   std::vector<float> velocity;  ///< steps × environments × 3: of the IMU in the base frame (m/s)
-  /// (steps / sequence) × environments: 0 where a sequence begins a run, so that what the network
-  /// remembers of the run before is void; 1 elsewhere.
+  /// (steps / sequence) × environments: 0 where a sequence begins a new run, which resets the
+  /// hidden state; 1 elsewhere.
   std::vector<float> keep;
 
-  /// What the robot lived through in it (s).
+  /// Total simulated time (s).
   double seconds(double period) const { return period * steps * environments; }
 };
 
-/// How a network learns from episodes, and when it has learned enough.
+/// Settings of the optimiser, and when it stops.
 struct OptimiserConfig {
-  int iterations = 25;          ///< at most, each with data of its own
+  int iterations = 25;          ///< at most, each with new data
   int epochs = 32;              ///< over an iteration's data
   double learning_rate = 5e-4;  ///< of Adam
-  /// Of the velocity's squared error (s²/m²), beside the cross-entropy.
+  /// Weight of the squared velocity error relative to the cross-entropy (s²/m²).
   double velocity_weight = 1.0;
   int patience = 5;                ///< iterations without a better validation loss before stopping
   int validation_episodes = 1000;  ///< never trained on
-  /// Parts of a batch whose gradients are computed side by side, then added in order. Threads work
-  /// on parts, so that their number changes no bit of the result.
+  /// A batch is split into this many parts. Their gradients are computed in parallel, then added in
+  /// order, so the number of threads changes no bit of the result.
   int parts = 4;
 };
 
@@ -44,18 +44,18 @@ struct Loss {
   double contact = 0.0;   ///< cross-entropy of the contact probability (nat)
   double velocity = 0.0;  ///< squared error, mean over the three axes (m²/s²)
   double total = 0.0;     ///< contact + velocity_weight × velocity
-  /// Share of steps whose contact is told right by P(S = C) ≥ 0.5.
+  /// Contact accuracy: share of steps in which P(S = C) ≥ 0.5 equals the label.
   double accuracy = 0.0;
 };
 
-/// How many threads networks are trained and evaluated with from now on. Has to be said: libtorch
-/// takes half of the cores for siblings of the other half.
+/// Sets the number of threads for training and evaluation. Required, because libtorch uses only
+/// half of the cores by default: it takes the others for hyperthreads.
 void set_training_threads(int threads);
 
 /// Trains a neural measurement network by truncated backpropagation through time: the recurrent
-/// state is carried through an episode, gradients through one sequence of it. One optimiser step
-/// per sequence of all environments. The same seed, data and `parts` give the same bits, whatever
-/// the number of threads.
+/// state is carried through an episode, gradients through one sequence of it. There is one
+/// optimiser step per sequence of all environments. The same seed, data and `parts` give the same
+/// bits for any number of threads.
 class Trainer {
  public:
   /// Starts from `network`.
@@ -64,17 +64,17 @@ class Trainer {
   Trainer(const Trainer&) = delete;
   Trainer& operator=(const Trainer&) = delete;
 
-  /// Goes once through the episodes. Returns the losses met on the way.
+  /// Trains on all episodes once. Returns the losses during this epoch.
   Loss train_epoch(const EpisodeBatch& batch);
   Loss evaluate(const EpisodeBatch& batch) const;
-  /// steps × environments × neural_output_count.
+  /// Outputs of the network: steps × environments × neural_output_count.
   std::vector<float> outputs(const EpisodeBatch& batch) const;
 
   NeuralNetwork network() const;
 
-  /// All that training goes on from, to the bit: weights and the optimiser's moments.
+  /// Saves the state of the training, to the bit: weights and the optimiser's moments.
   void save(const std::filesystem::path& path) const;
-  /// Errors: `InputError` for a file that is not a checkpoint of such a network.
+  /// Restores a saved state. Errors: `InputError` for a file that is no such checkpoint.
   void load(const std::filesystem::path& path);
 
  private:

@@ -18,7 +18,7 @@ void fill(auto& numbers, float size) {
   }
 }
 
-/// Weights that keep every layer busy.
+/// Weights that activate every layer.
 DecisionModel busy_network() {
   DecisionModel model;
   fill(model.first_weight, 0.2F);

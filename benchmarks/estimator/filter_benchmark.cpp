@@ -15,7 +15,7 @@
 namespace touchdown {
 namespace {
 
-/// The yardstick: one real transform of 128 samples.
+/// The reference FFT: one real transform of 128 samples.
 void reference_fft_128(benchmark::State& state) {
   Eigen::FFT<double> fft;
   fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
@@ -41,7 +41,7 @@ std::unique_ptr<ContactEstimator> estimator(const char* name) {
   return std::make_unique<BayesFilter>(bench::model(config), config);
 }
 
-/// Transition, and for both wheels lookup and recursion.
+/// One transition, and for both wheels lookup and recursion.
 void update(benchmark::State& state, const char* name) {
   bench::time_updates(state, *estimator(name));
 }
@@ -56,8 +56,8 @@ void latency(benchmark::State& state, const char* name) {
 BENCHMARK_CAPTURE(latency, robust, "robust")->Iterations(250);
 BENCHMARK_CAPTURE(latency, reference, "reference")->Iterations(250);
 
-/// A sweep over `torques` × `accelerations` noise levels; the time per item is that of one lane's
-/// update, which covers both wheels.
+/// A sweep over a batch of `torques` × `accelerations` noise levels. The time per item is that of
+/// one level's update, which covers both wheels.
 void batch_update(benchmark::State& state, const char* name, int torques, int accelerations) {
   const BayesFilterConfig config = test::named(name);
   std::vector<experiments::BatchNoise> levels;
@@ -66,12 +66,12 @@ void batch_update(benchmark::State& state, const char* name, int torques, int ac
       levels.push_back({0.5 * i, 0.5 * i, 2.0 * j});
     }
   }
-  if (accelerations == 0) {  // no two lanes have anything in common
+  if (accelerations == 0) {  // no two levels have anything in common
     for (int i = 0; i < torques; ++i) {
       levels.push_back({0.1 * i, 0.1 * i, 0.3 * i});
     }
   }
-  experiments::BatchedBayesFilter lanes(bench::model(config), config, levels);
+  experiments::BatchedBayesFilter batch(bench::model(config), config, levels);
   const std::vector<Signals> stream = bench::signals(bench::stream_length);
   const std::vector<Signals> noise = bench::signals(bench::stream_length + 7);
   std::size_t i = 0;
@@ -81,8 +81,8 @@ void batch_update(benchmark::State& state, const char* name, int torques, int ac
     for (std::size_t side = 0; side < 2; ++side) {
       draws.torque[side] = {noise[i].leg[side].knee.torque, noise[i].leg[side].wheel.torque};
     }
-    lanes.update(stream[i], draws);
-    benchmark::DoNotOptimize(lanes.p_contact(Side::left).data());
+    batch.update(stream[i], draws);
+    benchmark::DoNotOptimize(batch.p_contact(Side::left).data());
     benchmark::ClobberMemory();
     i = (i + 1) % bench::stream_length;
   }

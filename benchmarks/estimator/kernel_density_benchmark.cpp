@@ -9,7 +9,7 @@
 namespace touchdown {
 namespace {
 
-/// 84,000 samples on 200 × 200 points, as much as seven minutes of two legs at 100 Hz.
+/// 84,000 samples on 200 × 200 points: seven minutes of two legs at 100 Hz.
 void kernel_density_84k(benchmark::State& state) {
   std::mt19937 engine(1);
   const auto uniform = [&engine] { return static_cast<double>(engine()) / 4294967296.0; };

@@ -11,7 +11,7 @@
 namespace touchdown {
 namespace {
 
-/// The paper's sizes; small weights that are no denormals.
+/// A network of the paper's size, with small weights that are not denormal.
 std::shared_ptr<const NeuralNetwork> network() {
   std::uint32_t state = 1;
   const auto fill = [&](auto& matrix, Eigen::Index rows, Eigen::Index columns) {
@@ -47,23 +47,23 @@ void neural_step(benchmark::State& state) {
 }
 BENCHMARK(neural_step);
 
-/// One `update` at 1 kHz, of which every fifth steps the network; compare with the filter's.
+/// One `update` at 1 kHz. Every fifth one steps the network. Compare with the filter's.
 void neural_update(benchmark::State& state) {
   NeuralEstimator estimator(network());
   bench::time_updates(state, estimator);
 }
 BENCHMARK(neural_update);
 
-/// Many noise levels side by side; the time per item is that of one lane's update at 1 kHz.
+/// A batch of noise levels. The time per item is that of one level's update at 1 kHz.
 void neural_batch_update(benchmark::State& state) {
   std::vector<double> sigmas;
   for (std::int64_t i = 0; i < state.range(0); ++i) sigmas.push_back(0.3 * static_cast<double>(i));
-  experiments::BatchedNeuralNetwork lanes(network(), {}, sigmas);
+  experiments::BatchedNeuralNetwork batch(network(), {}, sigmas);
   const std::vector<Signals> stream = bench::signals(bench::stream_length);
   std::size_t i = 0;
   for (auto _ : state) {
-    lanes.update(stream[i], Eigen::Vector3d::Constant(0.1));
-    benchmark::DoNotOptimize(lanes.p_contact().data());
+    batch.update(stream[i], Eigen::Vector3d::Constant(0.1));
+    benchmark::DoNotOptimize(batch.p_contact().data());
     i = (i + 1) % bench::stream_length;
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));

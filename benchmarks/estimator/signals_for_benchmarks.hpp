@@ -26,7 +26,7 @@ inline std::vector<Signals> signals(std::size_t steps) {
       const double sign = side == 0 ? 1.0 : -1.0;
       leg.knee.torque = sign * (air ? 0.1 : 1.3) + 0.5 * noise();
       leg.wheel.torque = sign * (air ? 0.0 : 0.2) + 0.2 * noise();
-      // Crouched, and swaying: estimators that compute loads divide by what legs do.
+      // Crouched and swaying, because estimators of loads divide by a function of the pose.
       const double sway = 0.01 * std::sin(20.0 * time);
       leg.hip = {sign * (0.455 + sway), sign * 0.2 * std::cos(20.0 * time), sign * 0.4};
       leg.knee.position = -sign * (0.791 + 2.0 * sway);

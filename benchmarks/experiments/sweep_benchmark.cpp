@@ -6,8 +6,8 @@
 #include <tbb/parallel_for.h>
 
 #include "experiments/estimators/registry.hpp"
-#include "experiments/fitting/fitting.hpp"
 #include "experiments/evaluation/sweep_run.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 #include "noise/grid.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
@@ -31,10 +31,10 @@ double cell_updates(const Experiment& experiment, const std::vector<noise::Noise
   return static_cast<double>(experiment.estimators.size() * cells.size() * run_steps);
 }
 
-/// One run heard through one noise realisation in every cell, by one estimator, on one core. The
-/// rate counts one estimator's step in one cell as one update.
+/// One estimator evaluated on one run with one noise realisation, in every cell, on one core. The
+/// rate counts one step in one cell as one update.
 void one_task(benchmark::State& state, const std::string& estimator,
-              const decltype(&sweep_run)& sweep_it) {
+              const decltype(&sweep_run)& sweep) {
   const Experiment experiment = study({estimator});
   const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
   const RunSignals run = synthetic_run(0, run_steps);
@@ -43,14 +43,14 @@ void one_task(benchmark::State& state, const std::string& estimator,
   const std::vector<Condition> conditions = {{"mujoco", "mujoco", estimator}};
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        sweep_it(conditions, cells, run, noise, models, experiment.scoring, [] { return true; }));
+        sweep(conditions, cells, run, noise, models, experiment.scoring, [] { return true; }));
   }
   state.counters["cell_updates"] = benchmark::Counter(
       cell_updates(experiment, cells), benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// All estimators, several runs and seeds, on so many threads; wall-clock time. Divide the rates by
-/// the threads for the parallel efficiency.
+/// All estimators, several runs and seeds, on `state.range(0)` threads; wall-clock time. The rate
+/// divided by the number of threads shows the parallel efficiency.
 void on_threads(benchmark::State& state) {
   const auto threads = static_cast<std::size_t>(state.range(0));
   if (threads > std::thread::hardware_concurrency()) {
@@ -80,10 +80,10 @@ void on_threads(benchmark::State& state) {
 }
 BENCHMARK(on_threads)->Arg(1)->Arg(2)->Arg(4)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// Every estimator in lanes, and one by one as far as that ends soon.
+/// Every estimator batched over noise levels, and some one level at a time.
 const bool registered = [] {
   for (const std::string& name : estimator_names()) {
-    benchmark::RegisterBenchmark(("lanes/" + name).c_str(), one_task, name, &sweep_run)
+    benchmark::RegisterBenchmark(("batch/" + name).c_str(), one_task, name, &sweep_run)
         ->Unit(benchmark::kMillisecond);
   }
   for (const char* name : {"robust", "measurement_only", "phase", "nmn"}) {

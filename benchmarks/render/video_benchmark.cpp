@@ -7,7 +7,8 @@
 #include "render/film/video.hpp"
 #include "tests/render/staged_run.hpp"
 
-// End to end: painting in forked workers, encoding here, one file in the end. 1280x720 at 30 fps.
+// End to end: painting in forked workers, encoding in this process, into one file. 1280x720 at 30
+// fps.
 
 namespace touchdown::render {
 namespace {

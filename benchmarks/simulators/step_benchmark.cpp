@@ -1,5 +1,5 @@
-// What a step of a played scenario costs over the engine's own step in the same scene: the same
-// torques in the same states, bit by bit, with nothing else around.
+// Overhead of a step of a simulated scenario over the engine's own step in the same scene, with the
+// same torques in the same states, bit by bit.
 
 #include <chrono>
 #include <cmath>
@@ -29,7 +29,7 @@ std::shared_ptr<models::RobotModel> compiled(const scenarios::Scenario& scenario
       models::compile_robot_model(scenario.robot, scenario.terrain));
 }
 
-/// Every torque that acted on a joint, step by step: the servo's and the rolling resistance.
+/// Torques on the joints by step: those of the servos and the rolling resistance.
 std::vector<JointTorques> torques_of(const recordings::Recording& recording,
                                      double rolling_resistance) {
   std::vector<JointTorques> torques(recording.steps() - 1);
@@ -103,7 +103,7 @@ double bare_bullet(const scenarios::Scenario& scenario, const std::vector<JointT
   return simulator.run(torques, end);
 }
 
-/// Played and bare in turn, so that whatever else the machine does meets both; the fastest counts.
+/// Runs the scenario and the bare engine in turn under the same load; the fastest counts.
 void step(benchmark::State& state, const char* engine) {
   const scenarios::Scenario scenario = stairs();
   const auto simulator = scenarios::make_simulator(scenario, engine);
@@ -111,25 +111,25 @@ void step(benchmark::State& state, const char* engine) {
   const std::vector<JointTorques> torques =
       torques_of(recording, scenario.simulation.contact.rolling_resistance);
   const auto steps = static_cast<double>(torques.size());
-  double played = 1e9;
+  double scenario_time = 1e9;
   double bare = 1e9;
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
     const recordings::Recording again = scenarios::play(scenario, *simulator);
     const double seconds = seconds_since(start);
     state.SetIterationTime(seconds);
-    played = std::min(played, seconds);
+    scenario_time = std::min(scenario_time, seconds);
     Eigen::Vector3d end;
     bare = std::min(bare, engine == std::string("mujoco") ? bare_mujoco(scenario, torques, end)
                                                           : bare_bullet(scenario, torques, end));
     if (end != again.truth.back().base_position) {
-      throw std::logic_error("the bare engine did not go the same way");
+      throw std::logic_error("the bare engine ended in another state");
     }
   }
-  state.counters["played_us"] = 1e6 * played / steps;
+  state.counters["scenario_us"] = 1e6 * scenario_time / steps;
   state.counters["bare_us"] = 1e6 * bare / steps;
-  state.counters["overhead_percent"] = 100.0 * (played / bare - 1.0);
-  state.counters["steps_per_second"] = steps / played;
+  state.counters["overhead_percent"] = 100.0 * (scenario_time / bare - 1.0);
+  state.counters["steps_per_second"] = steps / scenario_time;
 }
 BENCHMARK_CAPTURE(step, mujoco, "mujoco")
     ->UseManualTime()
@@ -140,25 +140,25 @@ BENCHMARK_CAPTURE(step, bullet, "bullet")
     ->Unit(benchmark::kMillisecond)
     ->MinTime(4.0);
 
-/// What Upkie's actuators cost over ideal ones: both robots come down the same stairs in turn; the
+/// Overhead of Upkie's actuators over ideal ones: both robots descend the same stairs in turn; the
 /// fastest of each counts.
 void actuators(benchmark::State& state, const char* engine) {
-  struct Played {
+  struct TimedRun {
     scenarios::Scenario scenario;
     std::unique_ptr<Simulator> simulator;
     double step = 1e9;  // s
 
-    explicit Played(const char* robot) : scenario(stairs()) { scenario.robot = robot; }
+    explicit TimedRun(const char* robot) : scenario(stairs()) { scenario.robot = robot; }
     void again() {
       const auto start = std::chrono::steady_clock::now();
       const recordings::Recording recording = scenarios::play(scenario, *simulator);
       step = std::min(step, seconds_since(start) / static_cast<double>(recording.steps()));
     }
   };
-  Played ideal(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml");
-  Played actuated(TOUCHDOWN_SOURCE_DIR "/models/upkie_actuated.yaml");
-  for (Played* played : {&ideal, &actuated}) {
-    played->simulator = scenarios::make_simulator(played->scenario, engine);
+  TimedRun ideal(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml");
+  TimedRun actuated(TOUCHDOWN_SOURCE_DIR "/models/upkie_actuated.yaml");
+  for (TimedRun* run : {&ideal, &actuated}) {
+    run->simulator = scenarios::make_simulator(run->scenario, engine);
   }
   for (auto _ : state) {
     ideal.again();
@@ -171,7 +171,7 @@ void actuators(benchmark::State& state, const char* engine) {
 BENCHMARK_CAPTURE(actuators, mujoco, "mujoco")->Unit(benchmark::kMillisecond)->Iterations(15);
 BENCHMARK_CAPTURE(actuators, bullet, "bullet")->Unit(benchmark::kMillisecond)->Iterations(15);
 
-/// Robot and terrain compiled and put into an engine: once per run, or once per many.
+/// Compiles robot and terrain and loads them into an engine: once per run, or once for many runs.
 void compile_scene(benchmark::State& state, const char* engine) {
   const scenarios::Scenario scenario = stairs();
   for (auto _ : state) benchmark::DoNotOptimize(scenarios::make_simulator(scenario, engine));

@@ -25,12 +25,12 @@ fs::path named_after(const std::string& log, const fs::path& output) {
 
 EstimateOutputs sorted_by_kind(const std::vector<std::string>& outputs, const std::string& figure) {
   EstimateOutputs result;
-  const auto take = [](fs::path& place, const std::string& output) {
-    if (!place.empty()) {
+  const auto take = [](fs::path& path, const std::string& output) {
+    if (!path.empty()) {
       throw InputError(
-          fmt::format("--output: '{}' and '{}' are of one kind", place.string(), output));
+          fmt::format("--output: '{}' and '{}' are of one kind", path.string(), output));
     }
-    place = output;
+    path = output;
   };
   for (const std::string& output : outputs) {
     const fs::path extension = fs::path(output).extension();
@@ -56,7 +56,7 @@ EstimateOutputs sorted_by_kind(const std::vector<std::string>& outputs, const st
   return result;
 }
 
-/// What is drawn, and what it is drawn of.
+/// The figure files, with gnuplot's data and script.
 std::vector<fs::path> figure_files(const fs::path& stem) {
   std::vector<fs::path> files;
   if (stem.empty()) return files;
@@ -102,7 +102,7 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
                                               const std::string& figure) {
   EstimateOutputs given = sorted_by_kind(outputs, figure);
   const bool live = std::find(logs.begin(), logs.end(), "-") != logs.end();
-  if (live && logs.size() > 1) throw InputError("estimate: '-', a live stream, is estimated alone");
+  if (live && logs.size() > 1) throw InputError("estimate: '-', a live stream, is read alone");
   if (live && given.csv.empty()) given.csv = "-";
   std::vector<EstimateOutputs> all;
   std::set<fs::path> seen;
@@ -110,7 +110,7 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
   for (const std::string& file : labels) inputs.push_back({file, "file of labels"});
   for (const std::string& log : logs) inputs.push_back({log, "log"});
   std::vector<fs::path> files;
-  std::set<fs::path> styles;  // one for all figures of a folder
+  std::set<fs::path> styles;  // one style file for all figures of a folder
   for (const std::string& log : logs) {
     EstimateOutputs own = given;
     if (logs.size() > 1) {

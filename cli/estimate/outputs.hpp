@@ -8,7 +8,7 @@
 
 namespace touchdown::cli {
 
-/// Where the beliefs about one log go; empty: nowhere.
+/// Output files of the beliefs about one log. An empty path means no output.
 struct EstimateOutputs {
   std::filesystem::path csv;  ///< "-" is standard output
   std::filesystem::path mpack;
@@ -17,17 +17,18 @@ struct EstimateOutputs {
   bool prints_csv() const { return csv == "-"; }
 };
 
-/// Tells outputs apart by their extensions, `.csv` and `.mpack`; for several logs, the log's name
-/// is put before each. Errors: `InputError` for another extension, two outputs of a kind, an output
-/// that two logs share, and those of `check_outputs`; `Error` for one that cannot be written.
+/// Assigns outputs by their extensions, `.csv` and `.mpack`. For several logs, each output's name
+/// begins with the log's name. Errors: `InputError` for another extension, two outputs of one kind,
+/// an output that two logs share, and those of `check_outputs`; `Error` for an output that cannot
+/// be written.
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
                                               const std::string& model,
                                               const std::vector<std::string>& labels,
                                               const std::vector<std::string>& outputs,
                                               const std::string& figure);
 
-/// Opens the files, calls `use` with their streams (null where there is none), and makes them
-/// appear, whole, if it returns.
+/// Opens temporary files and calls `use` with their streams; a stream is null where there is no
+/// output. The complete files appear under their names once `use` returns.
 void write_outputs(const EstimateOutputs& outputs,
                    const std::function<void(std::ostream* csv, std::ostream* mpack)>& use);
 

@@ -10,8 +10,8 @@
 #include "core/progress.hpp"
 #include "experiments/logs/belief_csv.hpp"
 #include "experiments/logs/estimator.hpp"
-#include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/log_score.hpp"
+#include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/summary.hpp"
 #include "recordings/log/annotator.hpp"
 #include "recordings/log/byte_source.hpp"
@@ -21,7 +21,7 @@ namespace touchdown::cli {
 
 namespace {
 
-/// Which part of a log is drawn (s).
+/// The time interval of the figure (s).
 struct DrawnPart {
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
@@ -40,25 +40,25 @@ struct EstimateFlags {
   DrawnPart drawn;
 };
 
-/// All that becomes of the beliefs about one log: table, annotated log, figure, summary.
-class Listeners {
+/// Writes the beliefs about one log: table, annotated log, figure and summary.
+class BeliefWriter {
  public:
-  /// Null for what is not wanted; streams must outlive this.
-  Listeners(std::ostream* csv, std::ostream* mpack, const std::optional<DrawnPart>& drawn)
+  /// A null stream means no such output. Streams must outlive this object.
+  BeliefWriter(std::ostream* csv, std::ostream* mpack, const std::optional<DrawnPart>& drawn)
       : drawn_(drawn) {
     if (csv != nullptr) csv_.emplace(*csv);
     if (mpack != nullptr) annotator_.emplace(*mpack);
   }
 
-  /// Before the first step, once the log's rate is known.
+  /// Call it before the first step, once the log's rate is known.
   void begin(const experiments::LogSteps& log, bool labelled) {
     summary_.emplace(log.period(), scoring::ScoringConfig{});
     score_.emplace(log.period_us(), labels_, scoring::ScoringConfig{}, labelled);
   }
 
-  /// One step, and what was made of it. `reader` is where it comes from.
-  void evaluate(const recordings::LogReader& reader, const experiments::LogStep& step,
-              const ContactEstimator& estimator, const Belief& belief) {
+  /// Adds one step of `reader` and the estimator's belief after it.
+  void add(const recordings::LogReader& reader, const experiments::LogStep& step,
+           const ContactEstimator& estimator, const Belief& belief) {
     const double time = step.signals.time;
     summary_->add(time, belief);
     score_->add(step, belief);
@@ -74,12 +74,12 @@ class Listeners {
     }
   }
 
-  /// Writes what is collected of the table.
+  /// Writes the buffered lines of the table.
   void flush() {
     if (csv_) csv_->flush();
   }
 
-  /// The log is over: returns the summary.
+  /// Call it at the end of the log. Returns the summary.
   std::string finish(const recordings::LogReader& reader) {
     flush();
     if (annotator_) annotator_->copy(reader.skipped());
@@ -95,8 +95,8 @@ class Listeners {
     render::LogTraceStep drawn =
         render::log_trace_step(step.signals, belief, transition.p_takeoff, transition.p_landing);
     if (step.normal_force) {
-      drawn.touches = {(*step.normal_force)[0] > labels_.force_threshold,
-                       (*step.normal_force)[1] > labels_.force_threshold};
+      drawn.true_contact = {(*step.normal_force)[0] > labels_.force_threshold,
+                            (*step.normal_force)[1] > labels_.force_threshold};
     }
     trace_.add(drawn);
   }
@@ -123,31 +123,31 @@ std::string gravity_line(const experiments::LogSteps& log) {
       "imu", log.upside_down());
 }
 
-/// Runs over the log and returns the summary.
+/// Runs the estimator over the log and returns the summary.
 std::string evaluate(recordings::LogReader& reader, const experiments::LogEstimator& chosen,
-                   const recordings::ContactIntervals* labels, Listeners& listeners) {
+                     const recordings::ContactIntervals* labels, BeliefWriter& writer) {
   experiments::LogSteps log(reader, labels);
   const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), reader.info());
-  listeners.begin(log, labels != nullptr);
+  writer.begin(log, labels != nullptr);
   try {
     while (const experiments::LogStep* step = log.next()) {
-      listeners.evaluate(reader, *step, *estimator, estimator->update(step->signals));
+      writer.add(reader, *step, *estimator, estimator->update(step->signals));
     }
   } catch (const InputError&) {
-    listeners.flush();  // what a live stream said before it broke
+    writer.flush();  // the beliefs of a live stream before the error
     throw;
   }
-  const std::string summary = listeners.finish(reader);
-  return fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), listeners.steps(),
-                     static_cast<double>(listeners.steps()) * log.period(), log.sample_rate(),
+  const std::string summary = writer.finish(reader);
+  return fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
+                     static_cast<double>(writer.steps()) * log.period(), log.sample_rate(),
                      chosen.entry.title) +
          summary + gravity_line(log) + model_line(chosen);
 }
 
-/// Where the table does not go.
-void say(const EstimateOutputs& outputs, const std::string& text) {
+/// Prints to standard output, or to standard error if the table goes to standard output.
+void print_text(const EstimateOutputs& outputs, const std::string& text) {
   if (outputs.prints_csv()) {
-    tell(text);
+    print_message(text);
   } else {
     fmt::print("{}", text);
   }
@@ -158,27 +158,27 @@ void estimate_log(const std::string& path, const recordings::ContactIntervals* l
                   const EstimateOutputs& outputs, const CliSession& session) {
   std::string summary;
   write_outputs(outputs, [&](std::ostream* csv, std::ostream* mpack) {
-    Listeners listeners(csv, mpack,
+    BeliefWriter writer(csv, mpack,
                         flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
     const bool live = path == "-";
-    // Whoever watches a live stream sees every line before the program waits for the next one.
+    // A reader of a live stream gets every line before the program waits for the next record.
     const recordings::ByteSource source =
         [&, bytes = recordings::file_source(path, session.stop)](std::span<char> buffer) {
-          if (outputs.prints_csv()) listeners.flush();
+          if (outputs.prints_csv()) writer.flush();
           return bytes(buffer);
         };
     recordings::LogReader reader(source, live ? "standard input" : path);
-    summary = evaluate(reader, estimator, labels, listeners);
+    summary = evaluate(reader, estimator, labels, writer);
     if (*session.stop && !live) throw Stopped("stopped; nothing was written");
     for (const std::string& warning : reader.warnings()) {
-      tell(fmt::format("touchdown: {}\n", warning));
+      print_message(fmt::format("touchdown: {}\n", warning));
     }
     if (!outputs.figure.empty()) {
-      if (listeners.trace().bins().empty()) {
+      if (writer.trace().bins().empty()) {
         throw InputError("--figure: there is no step between --from and --to");
       }
       const render::Figure figure = render::draw_log(
-          listeners.trace(), fmt::format("{}, {}", reader.name(), estimator.entry.title),
+          writer.trace(), fmt::format("{}, {}", reader.name(), estimator.entry.title),
           outputs.figure);
       summary += fmt::format("{:<12} {}\n", "figure", figure.png.string());
     }
@@ -187,7 +187,7 @@ void estimate_log(const std::string& path, const recordings::ContactIntervals* l
     summary += fmt::format("{:<12} {}\n", "beliefs", outputs.csv.string());
   }
   if (!outputs.mpack.empty()) summary += fmt::format("{:<12} {}\n", "log", outputs.mpack.string());
-  say(outputs, summary);
+  print_text(outputs, summary);
 }
 
 void estimate(const EstimateFlags& flags, const CliSession& session) {
@@ -199,7 +199,7 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
   const std::vector<recordings::ContactIntervals> labels =
       recordings::read_contact_intervals(flags.labels, flags.logs.size());
   for (std::size_t i = 0; i < flags.logs.size(); ++i) {
-    if (i > 0) say(outputs[i], "\n");
+    if (i > 0) print_text(outputs[i], "\n");
     estimate_log(flags.logs[i], labels.empty() ? nullptr : &labels[i], estimator, flags, outputs[i],
                  session);
   }
@@ -208,41 +208,45 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
 }  // namespace
 
 void add_estimate(CLI::App& program, const CliSession& session) {
-  Verb verb(
-      program, "estimate",
-      "touchdown estimate robot.mpack --model model.npz -o beliefs.csv --figure beliefs.png\n"
-      "… | touchdown estimate - --model model.npz\n\n"
-      "Listens to Upkie's logs and says which wheels touched the ground. With - it listens to a\n"
-      "live stream and prints as it goes.");
+  Verb verb(program, "estimate",
+            "touchdown estimate robot.mpack --model model.npz -o beliefs.csv --figure beliefs.png\n"
+            "… | touchdown estimate - --model model.npz\n\n"
+            "Estimates from Upkie's logs which wheels are in contact. With - it reads a live\n"
+            "stream from standard input and prints one line per record.");
   const auto flags = std::make_shared<EstimateFlags>();
-  verb.option("log", &flags->logs, "Logs; - is standard input").value_name("LOG").required();
+  verb.option("log", &flags->logs, "Logs in Upkie's layout; - is standard input")
+      .value_name("LOG")
+      .required();
   verb.option("--labels", &flags->labels,
-              "The truth about stretches of each LOG, in the logs' order: start,end,contact or "
-              "start,end,left,right. The score is of these stretches")
+              "Ground truth for intervals of each LOG, in the order of the logs: rows "
+              "start,end,contact or start,end,left,right. Only these intervals are scored")
       .value_name("FILE.csv");
-  verb.option("--model", &flags->model, "What `touchdown fit` wrote").value_name("FILE.npz");
+  verb.option("--model", &flags->model, "Model that `touchdown fit` wrote").value_name("FILE.npz");
   verb.option("--estimator", &flags->estimator,
-              "Any that `touchdown list` shows (default: whom the model was fitted for)");
+              "Estimator from `touchdown list` (default: the one that the model was fitted for)");
   verb.option(
           "--robot", &flags->robot,
-          "Whose logs they are (default: as a simulated log says): not the model's is an error.\n"
-          "Its file tells estimators that compute loads about its legs (default: the model's)")
+          "Robot that recorded the logs (default: that of a simulated log); it must be the\n"
+          "model's. Its file gives the leg geometry to estimators that compute loads (default:\n"
+          "the model's)")
       .value_name("NAME|FILE");
-  verb.option("--set", &flags->hyperparameters,
-              "Run the estimator with another constant than its model says, for example\n"
-              "leave_below=0.25")
+  verb.option(
+          "--set", &flags->hyperparameters,
+          "Run the estimator with another value of a hyperparameter than its model's, for example\n"
+          "leave_below=0.25")
       .value_name("NAME=NUMBER")
       .one_at_a_time();
   verb.flag("--transfer", &flags->transfer,
             "Use a model at another rate or on another robot than it was fitted for");
   verb.option("-o,--output", &flags->outputs,
               "Beliefs as FILE.csv, or the log with beliefs in it as FILE.mpack, or both; - "
-              "prints the table. With several logs, the log's name is put before FILE")
+              "prints the table. With several logs, each file's name begins with the log's name")
       .value_name("FILE")
       .one_at_a_time();
-  verb.option("--figure", &flags->figure, "Signals and beliefs over time").value_name("FILE.png");
-  verb.option("--from", &flags->drawn.from, "The figure begins at this time of the log (s)");
-  verb.option("--to", &flags->drawn.to, "The figure ends at this time of the log (s)");
+  verb.option("--figure", &flags->figure, "Figure of signals and beliefs over time")
+      .value_name("FILE.png");
+  verb.option("--from", &flags->drawn.from, "Start of the figure in the log's time (s)");
+  verb.option("--to", &flags->drawn.to, "End of the figure in the log's time (s)");
   verb.action([flags, &session] { estimate(*flags, session); });
 }
 

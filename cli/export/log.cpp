@@ -26,22 +26,24 @@ void check_stop(const CliSession& session) {
   if (*session.stop) throw Stopped("stopped; nothing was written");
 }
 
-/// One line each about what estimators will not like.
-void tell_faults(const ExportedLog& files, const recordings::ConvertedLog& log) {
-  if (log.lacking > 0) {
-    tell(fmt::format("touchdown: {}: {} of {} rows lack a number, which is NaN in the log\n",
-                     files.log, log.lacking, log.rows));
+/// Prints one line for each fault of the log that affects estimators.
+void report_faults(const ExportedLog& files, const recordings::ConvertedLog& log) {
+  if (log.incomplete_rows > 0) {
+    print_message(
+        fmt::format("touchdown: {}: {} of {} rows lack a number, which is NaN in the log\n",
+                    files.log, log.incomplete_rows, log.rows));
   }
-  if (log.back > 0) {
-    tell(fmt::format("touchdown: {}: time goes back at {} rows\n", files.log, log.back));
+  if (log.time_reversals > 0) {
+    print_message(
+        fmt::format("touchdown: {}: time goes back at {} rows\n", files.log, log.time_reversals));
   }
 }
 
-/// Errors: `InputError` for labels that are wanted of a log that has none.
+/// Errors: `InputError` for a log without contact labels.
 std::string labels_text(const ExportedLog& files, const recordings::ConvertedLog& log) {
   if (log.contact.intervals.empty()) {
     throw InputError(fmt::format(
-        "--labels: {} says nothing about contact: expected a section 'contact' in {}, and numbers",
+        "--labels: {} has no contact labels: expected a section 'contact' in {}, and numbers",
         files.log, files.mapping));
   }
   return recordings::to_csv(log.contact);
@@ -59,11 +61,11 @@ void export_log(const ExportedLog& files, const CliSession& session) {
     if (!stream) throw Error(fmt::format("{}: cannot be written: is the disk full?", files.output));
     if (!files.labels.empty()) write_atomically(files.labels, labels_text(files, log));
   });
-  tell_faults(files, log);
+  report_faults(files, log);
   fmt::print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", files.output, log.rows,
              log.start, log.end, files.log);
   if (!files.labels.empty()) {
-    fmt::print("labels    {}, {} stretches\n", files.labels, log.contact.intervals.size());
+    fmt::print("labels    {}, {} intervals\n", files.labels, log.contact.intervals.size());
   }
   fmt::print("next      touchdown estimate {} --model MODEL.npz{}\n", files.output,
              files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
@@ -81,7 +83,7 @@ void export_mcap(const std::string& log, const std::string& output, const CliSes
     check_stop(session);
   });
   for (const std::string& warning : reader.warnings())
-    tell(fmt::format("touchdown: {}\n", warning));
+    print_message(fmt::format("touchdown: {}\n", warning));
   fmt::print("log       {}, {} records, {:.1f} MB\n", output, rows,
              1e-6 * static_cast<double>(std::filesystem::file_size(output)));
 }

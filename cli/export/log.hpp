@@ -6,7 +6,7 @@
 
 namespace touchdown::cli {
 
-/// Somebody else's log, and what becomes of it.
+/// Files of the conversion of a log in another layout.
 struct ExportedLog {
   std::string log;      ///< .csv or .npz
   std::string mapping;  ///< .yaml
@@ -14,11 +14,11 @@ struct ExportedLog {
   std::string labels;   ///< .csv, or empty
 };
 
-/// Writes it as a log in Upkie's layout, and what it says about contact as labels, and says so.
-/// Errors: `InputError`, and nothing is written.
+/// Converts the log to Upkie's layout, writes its contact column as labels and prints a summary.
+/// Errors: `InputError`; nothing is written then.
 void export_log(const ExportedLog& files, const CliSession& session);
 
-/// Writes a log, with the beliefs that are in it, as an MCAP file, and says so. Errors: as above.
+/// Writes a log, with the beliefs in it, as an MCAP file and prints a summary. Errors: as above.
 void export_mcap(const std::string& log, const std::string& output, const CliSession& session);
 
 }  // namespace touchdown::cli

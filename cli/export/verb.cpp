@@ -32,7 +32,8 @@ struct ExportFlags {
   std::vector<std::string> configuration;  ///< key=value
 };
 
-/// A header's name as one of C++. Errors: `InputError` for an extension that is none of a header's.
+/// A C++ identifier from the header's file name. Errors: `InputError` if the extension is not a
+/// header's.
 std::string name_of(const std::filesystem::path& header) {
   const std::string extension = header.extension().string();
   if (extension != ".hpp" && extension != ".h") {
@@ -45,7 +46,7 @@ std::string name_of(const std::filesystem::path& header) {
   return std::isdigit(static_cast<unsigned char>(name.front())) != 0 ? "model_" + name : name;
 }
 
-/// Errors: `InputError` for what is no key=value.
+/// Errors: `InputError` for an assignment that is not key=value.
 ConfigurationText configuration_of(const std::vector<std::string>& assignments) {
   ConfigurationText configuration;
   for (const std::string& one : assignments) {
@@ -58,7 +59,7 @@ ConfigurationText configuration_of(const std::vector<std::string>& assignments) 
   return configuration;
 }
 
-/// How the model will be used, as the flags say.
+/// The intended use of the model according to the flags.
 ModelUse use_of(const ExportFlags& flags) {
   ModelUse use = flags.use;
   if (!flags.part.robots.empty()) {
@@ -101,8 +102,9 @@ void export_benchmark(const ExportFlags& flags, const CliSession& session) {
   const experiments::ExportReport report = experiments::export_benchmark(
       request, {.out = {}, .command = session.command, .stop = session.stop});
   if (!report.failed.empty()) {
-    tell(fmt::format("touchdown: {} runs fell and are not scored, so they are left out: {}\n",
-                     report.failed.size(), fmt::join(report.failed, ", ")));
+    print_message(
+        fmt::format("touchdown: {} runs fell and are not scored, so they are left out: {}\n",
+                    report.failed.size(), fmt::join(report.failed, ", ")));
   }
   fmt::print("signals   {} files, {:.1f} MB, in {}\n", report.files,
              1e-6 * static_cast<double>(report.bytes), flags.folder);
@@ -113,20 +115,20 @@ void export_benchmark(const ExportFlags& flags, const CliSession& session) {
 void export_source(const ExportFlags& flags, const CliSession& session) {
   if (flags.output.empty() == flags.folder.empty()) {
     throw InputError(
-        "export: expected either --benchmark DIR, for what estimators hear, or -o FILE.hpp or "
-        "FILE.npz, for a model, or --mapping FILE.yaml -o FILE.mpack, for somebody else's log, or "
-        "-o FILE.mcap, for a log of ours");
+        "export: expected either --benchmark DIR, for a benchmark's signals, or -o FILE.hpp or "
+        "FILE.npz, for a model, or --mapping FILE.yaml -o FILE.mpack, for a log in another layout, "
+        "or -o FILE.mcap, for a log in Upkie's layout");
   }
   if (flags.mapping.empty() && !flags.labels.empty()) {
-    throw InputError("--labels: expected --mapping FILE.yaml, which says where they are");
+    throw InputError("--labels: expected --mapping FILE.yaml, which names the contact columns");
   }
   if (flags.mapping.empty() && std::filesystem::path(flags.output).extension() == ".mpack") {
     throw InputError(
-        fmt::format("-o: {}: expected --mapping FILE.yaml, which says what the columns of {} are",
+        fmt::format("-o: {}: expected --mapping FILE.yaml, which describes the columns of {}",
                     flags.output, flags.source));
   }
   if (!flags.mapping.empty() && !flags.folder.empty()) {
-    throw InputError("--mapping: expected -o FILE.mpack, for somebody else's log");
+    throw InputError("--mapping: expected -o FILE.mpack, for a log in another layout");
   }
   if (!flags.mapping.empty()) {
     export_log({flags.source, flags.mapping, flags.output, flags.labels}, session);
@@ -144,56 +146,61 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
 void add_export(CLI::App& program, const CliSession& session) {
   Verb verb(
       program, "export",
-      "touchdown export --benchmark signals experiments/studies/benchmark.yaml\n"
+      "touchdown export --benchmark signals experiments/benchmark.yaml\n"
       "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
       "touchdown export model.npz -o model.hpp\n"
       "touchdown export models/touchdown.npz --robot my_robot.xml -o mine.npz\n"
       "touchdown export robot.csv --mapping robot.yaml -o robot.mpack\n"
       "touchdown export robot.mpack -o robot.mcap\n\n"
-      "Writes what estimators of a benchmark hear, for an estimator in any language. What\n"
-      "it believes is then scored by `touchdown score`. Or writes a fitted model as a C++\n"
-      "header, for a robot without files, or as another file, told a robot's legs or another\n"
-      "constant, so that whoever loads it need not say. Or writes a log of another robot, CSV\n"
-      "or NumPy's arrays, in Upkie's layout, which `fit`, `estimate` and all others read. Or\n"
-      "writes a log of that layout, with the beliefs that `estimate` wrote into it, for\n"
-      "Foxglove.");
+      "Exports a benchmark's signals, a model or a log. A benchmark's signals are for an\n"
+      "external estimator in any language; `touchdown score` scores its beliefs. A model becomes\n"
+      "a C++ header for a robot without files, or another model file. That file can contain\n"
+      "another robot's leg geometry or other hyperparameters, so that users need not set them.\n"
+      "A log of another robot, as CSV or NumPy arrays, becomes a log in Upkie's layout, which\n"
+      "all other commands read. A log in Upkie's layout, with the beliefs of `estimate`,\n"
+      "becomes an MCAP file for Foxglove.");
   const auto flags = std::make_shared<ExportFlags>();
   verb.option("source", &flags->source,
-              "Experiment file with a section `benchmark`, or the run "
-              "directory of one; or what `touchdown fit` wrote; or a log as .csv, .npz or .mpack")
+              "Experiment file with a section `benchmark`, or its run directory; or a model that "
+              "`touchdown fit` wrote; or a log as .csv, .npz or .mpack")
       .value_name("RUN_OR_EXPERIMENT_OR_MODEL_OR_LOG")
       .required();
-  verb.option("--benchmark", &flags->folder, "New or empty folder for the files").value_name("DIR");
+  verb.option("--benchmark", &flags->folder, "New or empty folder for a benchmark's signals")
+      .value_name("DIR");
   verb.option("-o,--output", &flags->output,
-              "The model as FILE.hpp or FILE.npz, or the log as FILE.mpack or FILE.mcap")
+              "Model as FILE.hpp or FILE.npz, or log as FILE.mpack or FILE.mcap")
       .value_name("FILE");
   verb.option("--mapping", &flags->mapping,
-              "Which columns of the log are which signals, in which units, signs and order")
+              "Maps the columns of the log to signals, with units, signs and order")
       .value_name("FILE.yaml");
-  verb.option("--labels", &flags->labels,
-              "With --mapping: what the log says about contact, start,end,left,right, for `fit` "
-              "and `estimate`")
+  verb.option(
+          "--labels", &flags->labels,
+          "With --mapping: writes the log's contact labels as start,end,left,right, for `fit` and "
+          "`estimate`")
       .value_name("FILE.csv");
   verb.option("--estimator", &flags->use.estimator,
-              "Of a model that does not say: whom it was fitted for");
-  verb.option("--rate", &flags->use.sample_rate, "Likewise: at which rate (Hz)").not_negative();
-  verb.option(
-          "--robot", &flags->part.robots,
-          "Only this robot, as the benchmark's table names it; or the model's, whose file tells\n"
-          "an estimator that computes loads about its legs")
+              "For a model without metadata: the estimator that it was fitted for");
+  verb.option("--rate", &flags->use.sample_rate,
+              "For a model without metadata: the rate that it was fitted at (Hz)")
+      .not_negative();
+  verb.option("--robot", &flags->part.robots,
+              "Export only this robot, as the benchmark's table names it. For a model: the robot\n"
+              "that it is for. Its file gives the leg geometry to an estimator that computes loads")
       .value_name("NAME|FILE")
       .one_at_a_time();
-  verb.option("--set", &flags->configuration,
-              "The model with another constant than its own, for example leave_below=0.25")
+  verb.option(
+          "--set", &flags->configuration,
+          "Export the model with another value of a hyperparameter, for example leave_below=0.25")
       .value_name("NAME=VALUE")
       .one_at_a_time();
-  verb.option("--sensors", &flags->part.sensors, "Only these sensors, likewise")
+  verb.option("--sensors", &flags->part.sensors,
+              "Export only these sensors, as the benchmark's table names them")
       .value_name("NAME")
       .one_at_a_time();
-  verb.option("--simulator", &flags->part.simulators, "Only this engine")
+  verb.option("--simulator", &flags->part.simulators, "Export only this physics engine")
       .value_name("NAME")
       .one_at_a_time();
-  verb.flag("--dry-run", &flags->dry_run, "Only show how many files it would be, and how large");
+  verb.flag("--dry-run", &flags->dry_run, "Only show the number of files and their size");
   verb.action([flags, &session] { export_source(*flags, session); });
 }
 

@@ -59,7 +59,8 @@ std::vector<experiments::FitLog> logs_of(const FitFlags& flags) {
   return logs;
 }
 
-/// Shapes the estimator's densities as the flags say.
+/// Applies the flags for densities to the estimator. Errors: `InputError` for an estimator without
+/// them.
 void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) {
   if (!entry.config) {
     if (flags.grid.empty() && flags.bandwidth.empty() && flags.bandwidth_floor.empty() &&
@@ -99,47 +100,51 @@ std::string fitted_estimators() {
 void add_fit_flags(Verb& verb, FitFlags& flags) {
   verb.option("log", &flags.logs, "Logs with ground truth: recordings of simulated runs")
       .value_name("LOG");
-  verb.option("--contact", &flags.contact, "Logs in which both wheels touch all the time")
+  verb.option("--contact", &flags.contact, "Logs in which both wheels are in contact all the time")
       .value_name("LOG");
-  verb.option("--no-contact", &flags.no_contact, "Logs in which neither wheel ever touches")
+  verb.option("--no-contact", &flags.no_contact, "Logs in which neither wheel is ever in contact")
       .value_name("LOG");
   verb.option("--labels", &flags.labels,
-              "Which stretches of each LOG are contact, in the logs' order: start,end,contact or "
+              "Contact intervals of each LOG, in the order of the logs: rows start,end,contact or "
               "start,end,left,right")
       .value_name("FILE.csv");
   verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
-  verb.option("--estimator", &flags.estimator, fitted_estimators()).shows_default();
+  verb.option("--estimator", &flags.estimator, "Estimator: " + fitted_estimators()).shows_default();
   verb.option("--set", &flags.hyperparameters,
-              "Run and fit the estimator with another constant than its default, for example\n"
+              "Run and fit the estimator with another value of a hyperparameter, for example\n"
               "leave_below=0.25")
       .value_name("NAME=NUMBER")
       .one_at_a_time();
-  verb.option(
-          "--robot", &flags.robot,
-          "Whose logs they are, for the model to say (default: as simulated logs do); its file\n"
-          "tells estimators that compute loads about its legs, which else are Upkie's")
+  verb.option("--robot", &flags.robot,
+              "Robot that recorded the logs, for the model's metadata (default: that of simulated\n"
+              "logs). Its file gives the leg geometry to estimators that compute loads (default:\n"
+              "Upkie's)")
       .value_name("NAME|FILE");
-  verb.option("--skip", &flags.config.skip, "Not used at the beginning of each log (s)")
+  verb.option("--skip", &flags.config.skip,
+              "Time at the beginning of each log that is not used (s)")
       .not_negative()
       .shows_default();
   verb.option("--force-threshold", &flags.config.labels.force_threshold,
-              "Ground truth: a wheel touches above this normal force (N)")
+              "Ground truth: a wheel is in contact above this normal force (N)")
       .not_negative()
       .shows_default();
   verb.option("--debounce", &flags.config.labels.debounce,
               "Ground truth: shorter states are merged into their neighbours (s)")
       .not_negative()
       .shows_default();
-  verb.option("--grid", &flags.grid, "Points of the grid along knee and wheel (200 200)")
+  verb.option("--grid", &flags.grid, "Grid points along knee and wheel torque (200 200)")
       .takes(2)
       .between(2, 5000);
-  verb.option("--bandwidth", &flags.bandwidth, "Instead of Scott's rule: knee, wheel (N·m)")
+  verb.option("--bandwidth", &flags.bandwidth,
+              "Bandwidths of knee and wheel instead of Scott's rule (N·m)")
       .takes(2);
   verb.option("--bandwidth-floor", &flags.bandwidth_floor,
-              "Scott's bandwidth is never smaller: knee, wheel (N·m)")
+              "Lower limits of Scott's bandwidths of knee and wheel (N·m)")
       .takes(2);
-  verb.option("--knee-range", &flags.knee_range, "Ends of the grid (N·m)").takes(2);
-  verb.option("--wheel-range", &flags.wheel_range, "Ends of the grid (N·m)").takes(2);
+  verb.option("--knee-range", &flags.knee_range, "Knee torques at the ends of the grid (N·m)")
+      .takes(2);
+  verb.option("--wheel-range", &flags.wheel_range, "Wheel torques at the ends of the grid (N·m)")
+      .takes(2);
 }
 
 void show_samples(const experiments::LogFitReport& report, bool with_bandwidth) {
@@ -177,9 +182,10 @@ void fit(const FitFlags& flags, const CliSession& session) {
   experiments::LogFitReport report;
   experiments::write_fitted_model(experiments::fit_to_logs(entry, logs, config, report),
                                   flags.output);
-  for (const std::string& warning : report.warnings) tell(fmt::format("touchdown: {}\n", warning));
+  for (const std::string& warning : report.warnings)
+    print_message(fmt::format("touchdown: {}\n", warning));
   if (report.unusable > 0) {
-    tell(fmt::format(
+    print_message(fmt::format(
         "touchdown: {} samples of a leg are not finite, or beyond what a sensor measures, and were "
         "left out\n",
         report.unusable));
@@ -199,8 +205,8 @@ void add_fit(CLI::App& program, const CliSession& session) {
       "touchdown fit stairs.mpack -o model.npz\n"
       "touchdown fit --contact rolling.mpack --no-contact hanging.mpack -o model.npz\n"
       "touchdown fit robot.mpack --labels robot.csv -o model.npz\n\n"
-      "Fits an estimator's model to logs: to simulated ones with their ground truth, or to a\n"
-      "robot's, each of which is contact or no contact all along, or labelled by hand.");
+      "Fits an estimator's model to logs: simulated logs with ground truth, or a robot's logs. A\n"
+      "robot's log is in contact all the time, never in contact, or labelled by hand.");
   const auto flags = std::make_shared<FitFlags>();
   add_fit_flags(verb, *flags);
   verb.action([flags, &session] { fit(*flags, session); });

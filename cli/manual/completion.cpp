@@ -6,7 +6,8 @@ namespace touchdown::cli {
 
 namespace {
 
-/// Between zsh's single quotes, where _arguments gives brackets and colons a meaning.
+/// The text for zsh's single quotes. Brackets and colons are escaped, because `_arguments` parses
+/// them.
 std::string quoted(const std::string& text) {
   std::string result;
   for (const char letter : text) {
@@ -20,7 +21,7 @@ std::string quoted(const std::string& text) {
   return result;
 }
 
-/// One option for _arguments: '(-o --output)'{-o,--output=}'[text]:FILE:_files'.
+/// One option as a line for `_arguments`: '(-o --output)'{-o,--output=}'[text]:FILE:_files'.
 std::string argument(const DescribedOption& option) {
   std::vector<std::string> forms;
   for (const std::string& name : option.names) {
@@ -59,12 +60,12 @@ std::string bash_completion(const std::vector<DescribedVerb>& verbs) {
     }
     options += fmt::format("    {}) words=\"{}\" ;;\n", verb.name, fmt::join(dashed, " "));
   }
-  return fmt::format(R"(# bash completion for touchdown, made from its options
+  return fmt::format(R"(# bash completion for touchdown, generated from its options
 _touchdown() {{
   local verb="${{COMP_WORDS[1]}}" words=""
   local word="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD - 1]}}"
   COMPREPLY=()
-  # --name=value comes as three words
+  # bash splits --name=value into three words
   [[ "$before" == "=" ]] && before="${{COMP_WORDS[COMP_CWORD - 2]}}"
   [[ "$word" == "=" ]] && word=""
   if ((COMP_CWORD == 1)); then
@@ -97,7 +98,7 @@ std::string zsh_completion(const std::vector<DescribedVerb>& verbs) {
     cases += "        '*:file:_files'\n      ;;\n";
   }
   return fmt::format(R"(#compdef touchdown
-# zsh completion for touchdown, made from its options
+# zsh completion for touchdown, generated from its options
 _touchdown() {{
   local -a verbs
   verbs=(

@@ -7,8 +7,8 @@
 
 namespace touchdown::cli {
 
-/// Scripts that complete verbs, options, and values where there are choices; elsewhere a file's
-/// name may follow.
+/// Completion scripts for verbs, options and values with known choices. All other values complete
+/// to file names.
 std::string bash_completion(const std::vector<DescribedVerb>& verbs);
 std::string zsh_completion(const std::vector<DescribedVerb>& verbs);
 

@@ -9,7 +9,7 @@ namespace touchdown::cli {
 
 namespace {
 
-/// "a" and "b" of "TEXT:{a,b}", CLI11's name of a type that is checked.
+/// "a" and "b" of "TEXT:{a,b}", which is CLI11's name of a type with choices.
 std::vector<std::string> choices_in(const std::string& type) {
   std::vector<std::string> choices;
   const std::size_t begin = type.find(":{");

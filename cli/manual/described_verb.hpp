@@ -7,31 +7,31 @@
 
 namespace touchdown::cli {
 
-/// An option or positional argument, as the program declares it.
+/// An option or positional argument as the program declares it.
 struct DescribedOption {
-  std::vector<std::string> names;  ///< "-o", "--output"; a positional's has no dash
-  std::string value;               ///< "DIR"; empty for a flag that takes none
-  int count = 0;                   ///< how many values it takes at least
-  bool more = false;               ///< more values may follow
-  std::string text;                ///< what it does, on one line
-  std::string fallback;            ///< its value where it is not given; empty if that is not shown
-  std::vector<std::string> choices;  ///< its values, if they are known
+  std::vector<std::string> names;    ///< "-o", "--output"; a positional argument has no dash
+  std::string value;                 ///< "DIR"; empty for a flag
+  int count = 0;                     ///< minimum number of values
+  bool more = false;                 ///< whether more values may follow
+  std::string text;                  ///< description on one line
+  std::string fallback;              ///< default value; empty if the help does not show it
+  std::vector<std::string> choices;  ///< possible values, if known
   bool positional = false;
   bool required = false;
 };
 
-/// What `--help` says of a verb, taken apart.
+/// The parts of a verb's `--help` text.
 struct DescribedVerb {
   std::string name;                   ///< "run"; empty for the program itself
-  std::vector<std::string> examples;  ///< whole command lines
-  std::string text;                   ///< what it does, on one line
+  std::vector<std::string> examples;  ///< complete command lines
+  std::string text;                   ///< description on one line
   std::vector<DescribedOption> options;
 };
 
-/// With blanks for line ends.
+/// Replaces line ends by blanks.
 std::string on_one_line(std::string text);
 
-/// The program without its verbs, or a verb.
+/// Describes a verb, or the program without its verbs.
 DescribedVerb described(const CLI::App& app);
 
 /// The program's verbs in the order of its help.

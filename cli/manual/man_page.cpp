@@ -9,8 +9,8 @@ namespace touchdown::cli {
 
 namespace {
 
-/// Text that roff prints as it is, though a backslash or a leading dot is a command to it, and
-/// dashes, quotes and the like become those of a printed book.
+/// Escapes text so that roff prints it unchanged. To roff, a backslash or a leading dot is a
+/// command, and plain dashes and quotes become typographic ones.
 std::string plain(const std::string& text) {
   static const std::map<char, std::string> escapes = {
       {'\\', "\\e"}, {'-', "\\-"}, {'`', "\\(ga"}, {'\'', "\\(aq"}, {'~', "\\(ti"}, {'^', "\\(ha"}};

@@ -15,7 +15,7 @@ namespace touchdown::cli {
 
 namespace {
 
-/// Adds the names that are looked up in tables only when the verb is at work.
+/// Adds the choices that verbs look up in registries only when they run.
 void add_known_names(std::vector<DescribedVerb>& verbs) {
   const std::map<std::string, std::vector<std::string>> known = {
       {"--simulator", simulators::simulator_names()},
@@ -44,10 +44,11 @@ void write_manual(const CLI::App& program, const std::filesystem::path& share) {
 }  // namespace
 
 void add_manual(CLI::App& program, const CliSession& /*session*/) {
-  Verb verb(program, "manual",
-            "touchdown manual ~/.local/share\n\n"
-            "Writes a man page for every command, and bash's and zsh's completion, where man and\n"
-            "the shells look for them. An installed touchdown brings them along.");
+  Verb verb(
+      program, "manual",
+      "touchdown manual ~/.local/share\n\n"
+      "Writes a man page for every command, and completion scripts for bash and zsh, to where\n"
+      "man and the shells look for them. An installed touchdown includes them.");
   const auto share = std::make_shared<std::string>();
   verb.option("share", share.get(), "Folder for data, such as ~/.local/share")
       .required()

@@ -13,7 +13,7 @@ namespace touchdown::cli {
 
 namespace {
 
-/// What was not scored, and why; a line each.
+/// One line for each kind of file that was not scored, with the reason.
 std::string left_out(const experiments::BeliefReport& report) {
   std::string text;
   if (!report.without.empty()) {
@@ -35,7 +35,7 @@ std::string left_out(const experiments::BeliefReport& report) {
                         report.about_failed);
   }
   if (report.missing_steps > 0) {
-    text += fmt::format("{} steps in {} files have no belief: the last one stands there\n",
+    text += fmt::format("{} steps in {} files have no belief: the previous belief is used\n",
                         report.missing_steps, report.files_with_missing);
   }
   return text;
@@ -67,19 +67,21 @@ void add_score(CLI::App& program, const CliSession& session) {
     std::string beliefs;
     std::string name;
   };
-  Verb verb(program, "score",
-            "touchdown score runs/benchmark/latest --beliefs mine\n\n"
-            "Scores beliefs about what `touchdown export` wrote, of an estimator in any language,\n"
-            "beside the benchmark's own.");
+  Verb verb(
+      program, "score",
+      "touchdown score runs/benchmark/latest --beliefs mine\n\n"
+      "Scores the beliefs of an external estimator about the signals of `touchdown export`. The\n"
+      "scores are listed beside those of the benchmark's own estimators.");
   const auto flags = std::make_shared<ScoreFlags>();
   verb.option("directory", &flags->run, "Run directory of a finished benchmark")
       .value_name("RUN")
       .required();
   verb.option("--beliefs", &flags->beliefs,
-              "Folder of files named as those of the export, .csv, .npz or .mpack; or one file")
+              "Folder of belief files with the names of the exported files (.csv, .npz or .mpack), "
+              "or one file")
       .value_name("FOLDER_OR_FILE")
       .required();
-  verb.option("--name", &flags->name, "Of the estimator (default: the folder's)")
+  verb.option("--name", &flags->name, "Name of the estimator (default: the folder's name)")
       .value_name("NAME");
   verb.action([flags, &session] { score({flags->run, flags->beliefs, flags->name}, session); });
 }

@@ -6,7 +6,7 @@ namespace touchdown {
 
 namespace {
 
-// Signal handlers can reach nothing but globals.
+// Signal handlers can access globals only.
 std::atomic<bool> stop_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 

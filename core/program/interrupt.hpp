@@ -4,8 +4,8 @@
 
 namespace touchdown {
 
-/// From now on, the first Ctrl-C (or SIGTERM) asks to stop, the second one kills. What is returned
-/// becomes true when that is asked.
+/// Installs signal handlers: the first Ctrl-C (or SIGTERM) requests a stop, the second one kills.
+/// The returned flag becomes true on the request.
 const std::atomic<bool>& stop_on_interrupt();
 
 }  // namespace touchdown

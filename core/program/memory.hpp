@@ -2,9 +2,8 @@
 
 namespace touchdown {
 
-/// Lets what is freed stay with the process: runs come and go by tens of megabytes, and what goes
-/// back to the system is cleared page by page when it is fetched again. To be called before
-/// anything is allocated.
+/// Keeps freed memory in the process. Runs allocate tens of megabytes each, and the system clears
+/// returned pages one by one when they are needed again. Call it before any allocation.
 void keep_freed_memory() noexcept;
 
 }  // namespace touchdown

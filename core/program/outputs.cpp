@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 using Identity = std::pair<dev_t, ino_t>;
 
-/// Of what stands there, if anything does; `standard` is the stream that "-" means.
+/// Status of an existing file. `standard` is the descriptor that "-" stands for.
 std::optional<struct stat> status_of(const fs::path& path, int standard) {
   struct stat status = {};
   const bool found =
@@ -27,7 +27,7 @@ std::optional<struct stat> status_of(const fs::path& path, int standard) {
   return found ? std::optional(status) : std::nullopt;
 }
 
-/// Terminals and pipes may be read and written at once.
+/// Empty for terminals and pipes, which may be input and output at the same time.
 std::optional<Identity> identity_of(const fs::path& path, int standard) {
   const std::optional<struct stat> status = status_of(path, standard);
   if (!status || !S_ISREG(status->st_mode)) return {};
@@ -78,7 +78,7 @@ void require_extension(const fs::path& output, const std::vector<std::string>& e
                        const std::string& what) {
   const std::string extension = output.extension().string();
   if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
-  throw InputError(fmt::format("{}: expected {}, whose name ends with {}", output.string(), what,
+  throw InputError(fmt::format("{}: expected {} with the extension {}", output.string(), what,
                                fmt::join(extensions, " or ")));
 }
 

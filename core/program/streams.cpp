@@ -27,7 +27,7 @@ void open_standard_streams() {
 void print(std::string_view text) { (void)std::fwrite(text.data(), 1, text.size(), stdout); }
 
 int complain(const std::string& message, ExitCode code) {
-  tell(fmt::format("touchdown: {}\n", message));
+  print_message(fmt::format("touchdown: {}\n", message));
   return code;
 }
 

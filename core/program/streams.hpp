@@ -6,23 +6,23 @@
 
 namespace touchdown {
 
-/// What a program ends with.
+/// Exit code of a program.
 enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
 
-/// To be called before a file is opened: standard streams that are closed become ones that give
-/// nothing, swallow messages and refuse results, so that no file takes their place and gets what
-/// was meant for them.
+/// Replaces closed standard streams: input is empty, messages are dropped, and results are refused.
+/// Otherwise the next opened file would take their descriptor and receive their text. Call it
+/// before any file is opened.
 void open_standard_streams();
 
-/// Prints on standard output. What cannot be written is `finished`'s to complain about: the work
-/// that is told about goes on.
+/// Prints on standard output. A write error does not stop the work; `finished` reports it at the
+/// end.
 void print(std::string_view text);
 
-/// Says on standard error what is wrong; returns `code`.
+/// Prints an error message on standard error and returns `code`.
 int complain(const std::string& message, ExitCode code);
 
-/// A whole program: what `work` returns, unless there was not enough memory for it, or what it
-/// printed on standard output could not be written, which it complains about.
+/// Runs a whole program and returns the exit code of `work`. Reports and returns an error if memory
+/// ran out or standard output could not be written.
 int finished(const std::function<int()>& work);
 
 }  // namespace touchdown

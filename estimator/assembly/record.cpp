@@ -10,7 +10,7 @@ namespace touchdown {
 
 namespace {
 
-/// Sensors round, and so do the formats they are logged in.
+/// Whether the quaternion has length one, up to the rounding of sensors and log formats.
 bool is_orientation(const Eigen::Quaterniond& q) noexcept {
   constexpr double tolerance = 0.02;
   return std::abs(q.squaredNorm() - 1.0) <= tolerance;  // written so that NaN fails
@@ -29,7 +29,7 @@ JointSignals joint(const RobotRecord& record, const JointSource& source,
           source.sign * (units.torque * theirs.torque)};
 }
 
-/// Without gravity, in the IMU's frame.
+/// The acceleration without gravity, in the IMU's frame.
 Eigen::Vector3d linear_acceleration(const RobotRecord& record,
                                     const AssemblyConfig& config) noexcept {
   const double unit = config.units.linear_acceleration;

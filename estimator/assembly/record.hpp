@@ -17,11 +17,11 @@ inline constexpr double gravity_at_rest = 9.81;
 /// NaN: not reported.
 inline constexpr double not_reported = std::numeric_limits<double>::quiet_NaN();
 
-/// One control step as a robot's software has it, in its own order, signs and units; what was not
-/// reported is NaN.
+/// One control step as the robot's software reports it, in its own joint order, signs and units.
+/// NaN: not reported.
 struct RobotRecord {
   double time = not_reported;
-  /// In the robot's order; they have to last until the record is assembled.
+  /// In the robot's order. They must stay valid until the record is assembled.
   std::span<const JointSignals> joints = {};
   /// w x y z, from the IMU's frame to its reference (`AssemblyConfig::reference_is_z_up`).
   std::array<double, 4> orientation = {not_reported, not_reported, not_reported, not_reported};
@@ -31,24 +31,24 @@ struct RobotRecord {
   Eigen::Vector3d linear_acceleration = Eigen::Vector3d::Constant(not_reported);
   /// … and as the chip measures it, which at rest points up. One of the two is enough.
   Eigen::Vector3d proper_acceleration = Eigen::Vector3d::Constant(not_reported);
-  /// That the policy commanded at the previous step (m/s).
+  /// Ground velocity that the policy commanded at the previous step (m/s).
   double ground_velocity_command = 0.0;
 };
 
-/// Where one of our joints comes from: ours = sign · (unit · theirs − zero).
+/// How one of our joints follows from one of the record's: ours = sign · (unit · theirs − zero).
 struct JointSource {
   std::size_t index = 0;  ///< among the record's joints
-  double sign = 1.0;      ///< −1: theirs turns the other way than Upkie's
-  double zero = 0.0;      ///< their position where ours is zero (rad)
+  double sign = 1.0;      ///< −1: their joint turns the other way than Upkie's
+  double zero = 0.0;      ///< their position at which ours is zero (rad)
 };
 
-/// Which of a record's accelerations is heard.
+/// Which of a record's accelerations is used.
 enum class AccelerationSource : int {
-  without_gravity,  ///< `linear_acceleration`; the proper one, if reported, only tells up from down
-  proper,           ///< `proper_acceleration`, gravity taken out by the orientation
+  without_gravity,  ///< `linear_acceleration`; the proper one only detects an IMU upside down
+  proper,           ///< `proper_acceleration`, from which the orientation removes gravity
 };
 
-/// What one of a robot's units is in ours.
+/// The size of each of the robot's units in ours.
 struct RecordUnits {
   double time = 1.0;                 ///< s
   double position = 1.0;             ///< rad
@@ -58,25 +58,24 @@ struct RecordUnits {
   double linear_acceleration = 1.0;  ///< of the IMU, m/s²
 };
 
-/// How a robot's records become `Signals`. The defaults are Upkie's: joints as left hip, knee,
-/// wheel, right hip, knee, wheel; left hip and knee forward positive, the right leg their mirror
-/// image; left wheel + and right wheel − drive forward; SI units; an IMU that is referred to z
-/// down.
+/// How a robot's records become `Signals`. The defaults are Upkie's. Joints: left hip, knee, wheel,
+/// right hip, knee, wheel. Left hip and knee are positive forward, the right leg is their mirror
+/// image. Left wheel + and right wheel − drive forward. SI units. The IMU's reference has z down.
 struct AssemblyConfig {
-  double sample_rate = 1000.0;  ///< that records should come at (Hz)
+  double sample_rate = 1000.0;  ///< expected rate of the records (Hz)
   std::array<JointSource, 6> joints = {{{0}, {1}, {2}, {3}, {4}, {5}}};
   RecordUnits units = {};
   AccelerationSource acceleration = AccelerationSource::without_gravity;
   /// The reference's z axis points up (ENU, ROS) rather than down (NED, Upkie's).
   bool reference_is_z_up = false;
-  /// A servo that repeats position, velocity and torque to the bit for this long is stale (s); its
-  /// torque then counts as not reported. 0 = never: for simulators without noise.
+  /// A servo that repeats position, velocity and torque to the bit for this long (s) is stale, and
+  /// its torque counts as not reported. 0 = never, for simulators without noise.
   double stale_after = 0.25;
-  /// A step longer than this is a gap (s), as for estimators.
+  /// A step longer than this (s) is a gap, as for estimators.
   double maximum_gap = 0.02;
-  /// How far the mean step may be from 1/sample_rate, as a share of it.
+  /// How far the mean step may be from 1/sample_rate, as a share of that.
   double rate_tolerance = 0.05;
-  /// Time over which gravity is looked for (s).
+  /// Time constant of the low-pass that finds the direction of gravity (s).
   double gravity_memory = 0.25;
 };
 
@@ -84,12 +83,12 @@ struct AssemblyConfig {
 /// that are not finite, negative times.
 void check_assembly_config(const AssemblyConfig& config);
 
-/// The signals of one record alone: a joint or an acceleration that is not reported is NaN, and so
-/// is the vertical acceleration under a quaternion whose length is not one (to a percent).
+/// The signals of one record alone. A joint or an acceleration that is not reported is NaN. So is
+/// the vertical acceleration if the quaternion's length is not one (to a percent).
 [[nodiscard]] Signals signals_of(const RobotRecord& record, const AssemblyConfig& config) noexcept;
 
-/// The component of a vector in the IMU's frame along the world's upward vertical; NaN under a
-/// quaternion (w x y z) that is no orientation.
+/// The component along the world's upward vertical of a vector in the IMU's frame. NaN if the
+/// quaternion (w x y z) does not have length one.
 [[nodiscard]] double upward(const std::array<double, 4>& orientation, const Eigen::Vector3d& vector,
                             bool reference_is_z_up = false) noexcept;
 

@@ -9,7 +9,7 @@ namespace touchdown {
 
 namespace {
 
-constexpr int steps_for_rate = 200;  // after which the rate is judged anew
+constexpr int steps_for_rate = 200;  // between two checks of the rate
 
 bool is_whole(const JointSignals& joint) noexcept {
   return std::isfinite(joint.position) && std::isfinite(joint.velocity) &&
@@ -123,8 +123,8 @@ void SignalAssembler::watch_joints() noexcept {
 
 void SignalAssembler::watch_imu(const RobotRecord& record) noexcept {
   if (signals_.linear_acceleration.hasNaN()) faults_.add(RecordFault::acceleration_missing);
-  // Where the chip's own measurement is not reported: what gravity was taken out of by the same
-  // orientation.
+  // Without the chip's own measurement, gravity is added back to the acceleration that the robot
+  // took it out of by the same orientation.
   const double reported =
       config_.units.linear_acceleration *
       upward(record.orientation, record.proper_acceleration, config_.reference_is_z_up);
@@ -134,7 +134,7 @@ void SignalAssembler::watch_imu(const RobotRecord& record) noexcept {
     faults_.add(RecordFault::orientation_missing);
   }
   if (std::isfinite(proper)) upward_ += gravity_gain_ * (proper - upward_);
-  // Nothing pulls a robot down at more than g for that long, but an orientation that is wrong does.
+  // Nothing accelerates a robot downwards beyond g for that long: the orientation must be wrong.
   if (upward_ < -0.5 * gravity_at_rest) {
     faults_.add(RecordFault::upside_down);
     signals_.vertical_acceleration = not_reported;

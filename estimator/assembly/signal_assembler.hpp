@@ -8,17 +8,17 @@
 
 namespace touchdown {
 
-/// What may be wrong with a record; several things may be at once.
+/// Faults of a record; several may occur at once.
 enum class RecordFault : std::uint32_t {
   joint_missing = 1U << 0U,         ///< a position, velocity or torque is not a finite number
   joint_stale = 1U << 1U,           ///< a servo repeats itself to the bit
-  orientation_missing = 1U << 2U,   ///< its quaternion has not the length one
-  upside_down = 1U << 3U,           ///< what the accelerometer measures points down by it
+  orientation_missing = 1U << 2U,   ///< the quaternion does not have length one
+  upside_down = 1U << 3U,           ///< the orientation turns gravity upside down
   acceleration_missing = 1U << 4U,  ///< neither acceleration is finite
-  clock_missing = 1U << 5U,         ///< its time is not a finite number
-  clock_back = 1U << 6U,            ///< time goes back
+  clock_missing = 1U << 5U,         ///< the time is not a finite number
+  clock_back = 1U << 6U,            ///< time went back
   clock_gap = 1U << 7U,             ///< records were lost
-  clock_rate = 1U << 8U,            ///< records come at another rate than was said
+  clock_rate = 1U << 8U,            ///< the records' rate is not the configured one
 };
 inline constexpr std::size_t record_fault_count = 9;
 
@@ -36,10 +36,10 @@ struct RecordFaults {
   [[nodiscard]] bool any() const noexcept { return bits != 0; }
 };
 
-/// From a robot's records to what estimators hear, step by step, with all that one has to look
-/// after once: order, signs and units of the joints, the vertical, an IMU that is upside down
-/// (gravity tells), servos that do not report or repeat themselves, the clock. What cannot be used
-/// becomes NaN, which estimators know how to live with; why, is in `faults()`.
+/// Turns a robot's records into the signals that estimators use, step by step. It converts the
+/// joints' order, signs and units and computes the vertical acceleration. It checks the clock, the
+/// servos, and the IMU's orientation against gravity. Unusable values become NaN, which estimators
+/// handle; `faults()` gives the reasons.
 ///
 /// `assemble` never throws, allocates or locks.
 class SignalAssembler {
@@ -51,7 +51,7 @@ class SignalAssembler {
 
   const Signals& assemble(const RobotRecord& record) noexcept;
 
-  /// Of the last record.
+  /// The faults of the last record.
   [[nodiscard]] RecordFaults faults() const noexcept { return faults_; }
   /// How many records had this fault since the last reset.
   [[nodiscard]] std::uint64_t count(RecordFault fault) const noexcept;
@@ -68,10 +68,10 @@ class SignalAssembler {
   std::array<std::uint64_t, record_fault_count> counts_{};
 
   bool started_ = false;
-  double time_ = 0.0;           ///< of the last record with one (s)
-  double steps_time_ = 0.0;     ///< sum of steps that are no gaps (s) …
-  int steps_ = 0;               ///< … and how many
-  bool is_rate_wrong_ = false;  ///< of the last steps that were counted
+  double time_ = 0.0;           ///< of the last record that has a time (s)
+  double steps_time_ = 0.0;     ///< sum of the steps that are not gaps (s) …
+  int steps_ = 0;               ///< … and their number
+  bool is_rate_wrong_ = false;  ///< as of the last check
   double upward_ = 0.0;         ///< low-passed proper acceleration along the vertical (m/s²)
   std::array<JointSignals, 6> last_{};
   std::array<double, 6> repeated_{};  ///< for how long each servo has repeated itself (s)

@@ -6,14 +6,14 @@ namespace touchdown {
 
 namespace {
 
-/// What a rung takes over from `robust`.
-struct Step {
+/// One change: what a step takes over from `robust`.
+struct Change {
   const char* name;
-  const char* change;
-  void (*take)(BayesFilterConfig& config, const BayesFilterConfig& robust);
+  const char* text;
+  void (*apply)(BayesFilterConfig& config, const BayesFilterConfig& robust);
 };
 
-constexpr Step steps[] = {
+constexpr Change changes[] = {
     {"paper_low_pass", "torques low-passed at 25 ms",
      [](BayesFilterConfig& config, const BayesFilterConfig& robust) {
        config.measurement.torque.low_pass = robust.measurement.torque.low_pass;
@@ -52,16 +52,16 @@ constexpr Step steps[] = {
 }  // namespace
 
 std::span<const AblationStep> steps_from_paper_to_robust() {
-  static const std::vector<AblationStep> rungs = [] {
+  static const std::vector<AblationStep> steps = [] {
     std::vector<AblationStep> all;
     BayesFilterConfig config = BayesFilterConfig::paper();
-    for (const Step& step : steps) {
-      step.take(config, BayesFilterConfig::robust());
-      all.push_back({step.name, step.change, config});
+    for (const Change& change : changes) {
+      change.apply(config, BayesFilterConfig::robust());
+      all.push_back({change.name, change.text, config});
     }
     return all;
   }();
-  return rungs;
+  return steps;
 }
 
 }  // namespace touchdown

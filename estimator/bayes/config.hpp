@@ -8,7 +8,7 @@
 namespace touchdown {
 
 struct MeasurementConfig {
-  /// What m_t is made of, when fitting and when estimating.
+  /// How m_t follows from the torques, in the fit and in the estimator.
   TorqueConfig torque;
   /// How the densities are fitted.
   MeasurementFitConfig fit;
@@ -19,7 +19,7 @@ struct MeasurementConfig {
   bool operator==(const MeasurementConfig&) const = default;
 };
 
-/// Everything that can be chosen about the filter, seen whole. Start from a named configuration.
+/// All settings of the filter. Start from a named configuration.
 struct BayesFilterConfig {
   /// Rate at which `update` is called (Hz).
   double sample_rate = 1000.0;
@@ -27,21 +27,21 @@ struct BayesFilterConfig {
   MeasurementConfig measurement;
   /// Eq. (7) to (13).
   TransitionConfig transition;
-  /// What to do with signals that cannot be used.
+  /// Treatment of unusable signals.
   SignalGuardConfig guard;
-  /// A wheel is said to be in contact when P(contact) is at least this.
+  /// The filter decides for contact when P(contact) is at least this.
   double threshold = 0.8;
 
   /// The paper to the letter.
   static BayesFilterConfig paper();
-  /// The paper with the other reading of its power, the root mean square: with the mean square, an
-  /// acceleration of 2.8 m/s² is an even chance to switch, with this one of 8 m/s².
+  /// The paper with the other reading of its power, the root mean square. P(switch) is one half at
+  /// an acceleration of 8 m/s², with the mean square at 2.8 m/s².
   static BayesFilterConfig paper_rms();
-  /// As the authors' robot code does it.
+  /// The authors' robot code.
   static BayesFilterConfig reference();
-  /// The reference with what sensor noise requires: a floor under the bandwidths, the median of the
-  /// power spectrum, a transition matrix whose rows sum to one, absolute low-passed torques on a
-  /// grid that covers all samples.
+  /// The reference with the changes that sensor noise requires: a floor under the bandwidths, the
+  /// median of the power spectrum, transition rows that sum to one, and absolute low-passed torques
+  /// on a grid that covers all samples.
   static BayesFilterConfig robust();
 
   bool operator==(const BayesFilterConfig&) const = default;

@@ -15,8 +15,7 @@ State predict(const Transition& p, const State& bel) noexcept {
           p.contact_to_air * bel.contact + p.air_to_air * bel.no_contact};
 }
 
-/// Eq. (2b) and (3). Where every product vanishes there is nothing to learn and the old belief
-/// stays.
+/// Eq. (2b) and (3). If every product is zero, the old belief stays.
 State correct(const Likelihoods& p, const State& predicted, const State& bel) noexcept {
   const State joint{p.contact * predicted.contact, p.no_contact * predicted.no_contact};
   const double eta = joint.contact + joint.no_contact;

@@ -11,7 +11,7 @@
 
 namespace touchdown {
 
-/// What one wheel's last update was computed from.
+/// The quantities behind one wheel's last update.
 struct MeasurementDiagnostics {
   TorqueSample torque;       ///< m_t, Eq. (4) (N·m)
   Likelihoods likelihood;    ///< Eq. (6), floors included
@@ -26,17 +26,16 @@ struct MeasurementDiagnostics {
   }
 };
 
-/// The paper's Bayes filter, Eq. (1) to (13), for each wheel of the robot. The two wheels have
-/// their own torques and beliefs; they share the transition model, because there is one
-/// accelerometer.
+/// The paper's Bayes filter, Eq. (1) to (13), for each wheel of the robot. Each wheel has its own
+/// torques and belief. Both share the transition model, because there is one accelerometer.
 ///
-/// `update` never throws, allocates or locks, and never returns NaN. A leg whose torques are not
-/// finite, or both legs while the acceleration is not usable, get no measurement: their belief
-/// relaxes to the prior (`SignalGuard`), and the status says why. After a gap in time the window
-/// restarts empty.
+/// `update` never throws, allocates or locks, and never returns NaN. A leg with torques that are
+/// not finite gets no measurement, and neither leg does while the acceleration is not usable. The
+/// belief then relaxes to the prior (`SignalGuard`), and the status gives the reason. After a gap
+/// in time the window restarts empty.
 class BayesFilter : public ContactEstimator {
  public:
-  /// Throws InputError for a configuration that makes no sense.
+  /// Throws InputError for an invalid configuration.
   explicit BayesFilter(MeasurementModel model,
                        const BayesFilterConfig& config = BayesFilterConfig::robust());
 
@@ -44,8 +43,8 @@ class BayesFilter : public ContactEstimator {
   const Belief& update(const Signals& signals) noexcept override;
   [[nodiscard]] Evidence evidence() const noexcept override;
 
-  /// bel(S_t) for both values of S_t. Both are kept, because next to certainty 1 − bel(C) would be
-  /// nothing but rounding error, and that is what the next prediction starts from.
+  /// bel(S_t) for both values of S_t. The filter keeps both, because near certainty 1 − bel(C)
+  /// would be mere rounding error, and the next prediction starts from it.
   struct State {
     double contact = 0.5;
     double no_contact = 0.5;

@@ -23,7 +23,7 @@ double deviation(double squares, std::size_t count) noexcept {
   return std::sqrt(squares / (static_cast<double>(count) - 1.0));
 }
 
-/// Scott's rule over samples that are at hand, unless the bandwidth is given.
+/// Scott's rule over the samples, unless the configuration gives the bandwidth.
 TorqueBandwidth bandwidth_for(std::span<const TorqueSample> samples,
                               const MeasurementFitConfig& config, const char* name) {
   std::vector<double> knee;
@@ -108,7 +108,7 @@ void MeasurementFit::prepare() {
   make_grids();
 }
 
-/// The range that was asked for, or all samples and four bandwidths more, but nothing below zero if
+/// The configured range; otherwise all samples and four bandwidths more, but nothing below zero if
 /// no sample is.
 Axis MeasurementFit::axis_for(const std::optional<std::pair<double, double>>& range, int count,
                               double TorqueSample::*torque, double TorqueBandwidth::*width) const {

@@ -30,8 +30,7 @@ struct MeasurementFitConfig {
   /// bandwidths more (but nothing below zero if no sample is: absolute torques).
   std::optional<std::pair<double, double>> knee_range;
   std::optional<std::pair<double, double>> wheel_range;
-  /// Scott's bandwidth is never taken smaller than this (N·m). Sensor noise that was not in the
-  /// fitted data is what it stands for.
+  /// Lower bound of Scott's bandwidth (N·m). It stands for sensor noise that the fitted data lack.
   TorqueBandwidth bandwidth_floor;
   /// Use these bandwidths instead of Scott's rule (N·m).
   std::optional<TorqueBandwidth> bandwidth;
@@ -39,15 +38,15 @@ struct MeasurementFitConfig {
   bool operator==(const MeasurementFitConfig&) const = default;
 };
 
-/// Fit f_C and f_¬C, Eq. (5) and (6), each with its own bandwidth, to samples from both legs that
-/// went through `TorqueChannel`.
+/// Fits f_C and f_¬C, Eq. (5) and (6), each with its own bandwidth, to samples of both legs from
+/// `TorqueChannel`.
 /// Throws InputError for fewer than two samples of either class and for samples that are not
 /// finite.
 MeasurementModel fit_measurement_model(std::span<const TorqueSample> contact,
                                        std::span<const TorqueSample> no_contact,
                                        const MeasurementFitConfig& config);
 
-/// What bandwidths and axes follow from, of torques that come one by one.
+/// Statistics of torque samples that arrive one by one, for bandwidths and axes.
 struct TorqueSurvey {
   std::size_t count = 0;
   TorqueSample mean;
@@ -58,29 +57,29 @@ struct TorqueSurvey {
   void add(const TorqueSample& sample) noexcept;
 };
 
-/// `fit_measurement_model` for logs of any length, in memory that does not grow with them: samples
-/// are shown twice, first to find bandwidths and axes, then to be added to the densities. The
-/// result is the same up to rounding.
+/// `fit_measurement_model` for logs of any length in constant memory. The caller passes all samples
+/// twice: first for bandwidths and axes, then for the densities. The result is the same up to
+/// rounding.
 class MeasurementFit {
  public:
   explicit MeasurementFit(const MeasurementFitConfig& config);
   ~MeasurementFit();
 
-  /// First time. Throws InputError for a sample that is not finite.
+  /// First pass. Throws InputError for a sample that is not finite.
   void survey(bool contact, const TorqueSample& sample);
 
-  /// Between both. Throws InputError for fewer than two samples of either class, or samples that
-  /// are all equal without a floor under the bandwidth.
+  /// Between the passes. Throws InputError for fewer than two samples of either class, or samples
+  /// that are all equal without a floor under the bandwidth.
   void prepare();
 
-  /// Second time, the same samples in any order.
+  /// Second pass: the same samples in any order.
   void add(bool contact, const TorqueSample& sample);
 
-  /// After both.
+  /// After both passes.
   [[nodiscard]] MeasurementModel model();
 
   [[nodiscard]] std::size_t count(bool contact) const noexcept { return of(contact).survey.count; }
-  /// After `prepare` (N·m).
+  /// Valid after `prepare` (N·m).
   [[nodiscard]] TorqueBandwidth bandwidth(bool contact) const noexcept {
     return of(contact).bandwidth;
   }
@@ -96,7 +95,7 @@ class MeasurementFit {
   void choose_bandwidth(Class& of_class, const char* name) const;
   [[nodiscard]] Axis axis_for(const std::optional<std::pair<double, double>>& range, int count,
                               double TorqueSample::*torque, double TorqueBandwidth::*width) const;
-  /// Axes and empty densities, by bandwidths and survey.
+  /// Makes axes and empty densities from bandwidths and survey.
   void make_grids();
   friend MeasurementModel fit_measurement_model(std::span<const TorqueSample>,
                                                 std::span<const TorqueSample>,

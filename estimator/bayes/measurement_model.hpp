@@ -32,7 +32,7 @@ struct LikelihoodGrids {
   std::vector<double> no_contact;
 };
 
-/// Which axis a grid's rows follow, in data that comes from elsewhere.
+/// Which axis the rows of an external grid follow.
 enum class GridRows : int { wheel, knee };
 
 /// Grids from axes given point by point and values in either axis order.
@@ -47,8 +47,8 @@ LikelihoodGrids likelihood_grids(std::span<const double> knee_points,
 /// where both are zero.
 std::vector<double> contact_probability(const LikelihoodGrids& grids);
 
-/// Where a measurement falls on the grid: the corner of its cell that has the lower torques, and
-/// how far it is from there to the next points, as fractions in [0, 1].
+/// The position of a measurement on the grid: the corner of its cell with the lower torques, and
+/// the distance from there towards the next points, as fractions in [0, 1].
 struct GridPosition {
   int cell = 0;
   double knee_weight = 0.0;
@@ -56,8 +56,8 @@ struct GridPosition {
 };
 
 /// The paper's measurement model: two densities over (knee torque, wheel torque) on one regular
-/// grid, interpolated bilinearly, extrapolated by constants (a torque outside the grid counts as
-/// the nearest torque on its edge). An immutable value: copies share the grids.
+/// grid, interpolated bilinearly. A torque outside the grid counts as the nearest torque on its
+/// edge. The model is an immutable value: copies share the grids.
 class MeasurementModel {
  public:
   /// Throws InputError unless both grids have the axes' sizes and hold finite values ≥ 0.
@@ -68,8 +68,8 @@ class MeasurementModel {
     return at(place(m));
   }
 
-  /// The operator in two parts, for loops over many measurements: where on the grid, and what
-  /// there.
+  /// The operator in two parts, for loops over many measurements: the position on the grid, and
+  /// the likelihoods there.
   [[nodiscard]] GridPosition place(const TorqueSample& m) const noexcept {
     const AxisPosition knee = knee_.place(m.knee);
     const AxisPosition wheel = wheel_.place(m.wheel);

@@ -7,12 +7,14 @@
 namespace touchdown {
 
 /// The paper's ablation, Eq. (14): each wheel's contact probability from its current torques alone,
-/// P_τ(S_t = C | m_t). It has no transition model and does not listen to the accelerometer. A wheel
-/// whose torques are not finite relaxes to 0.5; a gap in time restarts the torque low-pass.
+/// P_τ(S_t = C | m_t). It has no transition model and does not use the accelerometer. Where a
+/// wheel's torques are not finite, its belief relaxes to 0.5. A gap in time restarts the torque
+/// low-pass.
 class MeasurementOnly : public ContactEstimator {
  public:
-  /// Uses the sample rate, measurement, guard and threshold of the configuration; by default the
-  /// torques are filtered as in the robust Bayes filter. Throws InputError for nonsense.
+  /// Uses the sample rate, measurement, guard and threshold of the configuration. By default the
+  /// torques are filtered as in the robust Bayes filter. Throws InputError as
+  /// `check_measurement_config` and `SignalGuard` do.
   explicit MeasurementOnly(MeasurementModel model,
                            const BayesFilterConfig& config = BayesFilterConfig::robust());
 

@@ -20,7 +20,7 @@ struct Sigmoid {
   bool operator==(const Sigmoid&) const = default;
 };
 
-/// The one number that the switch probability takes from a window's spectrum.
+/// Which measure of a window's power the switch probability uses.
 enum class PowerMeasure : int {
   /// The mean over all bins of A_t(ω), Eq. (10); the same as the window's mean square (m²/s⁴).
   mean_square,
@@ -33,9 +33,9 @@ enum class PowerMeasure : int {
 struct TransitionConfig {
   /// N of Eq. (9): number of accelerometer samples in the sliding window.
   int window = 128;
-  /// What A_t means in Eq. (11).
+  /// The measure of power A_t in Eq. (11).
   PowerMeasure power = PowerMeasure::mean_square;
-  /// Which spectrum Eq. (12) takes the median of.
+  /// The spectrum of which Eq. (12) takes the median.
   SpectrumKind median_of = SpectrumKind::power;
   /// Whether the median counts the bin of the Nyquist frequency.
   bool nyquist = true;
@@ -43,22 +43,22 @@ struct TransitionConfig {
   Sigmoid switch_sigmoid{8.0, 1.0};
   /// σ_2 of Eq. (13), of the median frequency (Hz).
   Sigmoid landing_sigmoid{7.5, 2.5};
-  /// Both sigmoids are kept this far from 0 and 1.
+  /// Both sigmoids stay at least this far from 0 and 1.
   double margin = 0.0;
-  /// Time constant of the low-pass of (median frequency × P(switch)) that stands in for the median
-  /// frequency in Eq. (13), advanced twice per step as in the authors' code (s); 0 = no memory.
+  /// Time constant (s) of a low-pass of (median frequency × P(switch)), which replaces the median
+  /// frequency in Eq. (13). It advances twice per step, as in the authors' code. 0 = no memory.
   double median_memory = 0.0;
-  /// P(stay) = 1 − P(leave), so that each row of the transition matrix sums to one; false: the
-  /// published P(stay) = 1 − P(switch), whose rows sum to less.
+  /// true: P(stay) = 1 − P(leave), so each row of the transition matrix sums to one. false: the
+  /// published P(stay) = 1 − P(switch), with rows that sum to less.
   bool row_stochastic = true;
 
   bool operator==(const TransitionConfig&) const = default;
 };
 
-/// P(S_t | S_t−1), and what it was computed from.
+/// P(S_t | S_t−1), and the quantities behind it.
 struct Transition {
-  // The matrix first: four neighbours are stored as one vector, and the recursion that waits for
-  // them can load them from it.
+  // The matrix comes first: its four neighbouring numbers are stored as one vector, and the
+  // recursion loads them as one.
   double contact_to_contact = 1.0;
   double contact_to_air = 0.0;  ///< takeoff
   double air_to_contact = 0.0;  ///< landing, Eq. (8)
@@ -71,15 +71,15 @@ struct Transition {
   double p_landing = 0.5;                  ///< P(S_t = C | S_t ≠ S_t−1), Eq. (13)
 };
 
-/// The last part of the transition model, from what the spectrum is like to probabilities, Eq. (7),
-/// (8), (11) and (13). Branch-free enough to run over many noise levels side by side.
+/// The last part of the transition model, from the spectrum's summary to probabilities: Eq. (7),
+/// (8), (11) and (13). It is branch-free, so that it can run over many noise levels side by side.
 class TransitionLaw {
  public:
-  /// Throws InputError for a rate, slope, margin or memory that makes no sense.
+  /// Throws InputError for an invalid rate, slope, margin or memory.
   TransitionLaw(const TransitionConfig& config, double sample_rate);
 
-  /// Calls `use` with how a mean square becomes A_t of Eq. (11): decided once, so that a loop over
-  /// noise levels has no choice to make.
+  /// Calls `use` with the function from a mean square to A_t of Eq. (11). The choice is made once,
+  /// so that a loop over noise levels has no branch.
   template <typename Use>
   void with_power(const Use& use) const noexcept {
     if (is_root_) {
@@ -89,8 +89,8 @@ class TransitionLaw {
     }
   }
 
-  /// The transition under this power and median (in bins), after one whose filtered median
-  /// frequency was `remembered` (Hz).
+  /// The transition for this power and median (in bins). `remembered` is the filtered median
+  /// frequency of the previous transition (Hz).
   [[nodiscard]] Transition next(double power, double median_bin, double remembered) const noexcept {
     Transition t;
     t.power = power;
@@ -122,12 +122,12 @@ class TransitionLaw {
     double offset;
     double inverse_slope;
   };
-  /// Rounding may leave less than nothing of a window that is empty.
+  /// Rounding may make the square of an empty window slightly negative.
   [[nodiscard]] static double root_of(double square) noexcept {
     return std::sqrt(square > 0.0 ? square : 0.0);
   }
-  /// A sigmoid and its complement, both to full relative precision: next to certainty 1 − p would
-  /// be rounding noise, and that noise the probability to stay.
+  /// A sigmoid and its complement, both to full relative precision. Near certainty, 1 − p would be
+  /// rounding noise, and that noise would be the probability to stay.
   [[nodiscard]] Odds odds(const Steepness& sigmoid, double x) const noexcept {
     const double against = exponential((sigmoid.offset - x) * sigmoid.inverse_slope);
     const double p = 1.0 / (1.0 + against);
@@ -145,25 +145,25 @@ class TransitionLaw {
   bool is_root_;
   double power_scale_;
   double bin_width_;
-  /// Of both steps that the low-pass makes at once.
+  /// The gain of the low-pass over its two steps.
   double memory_gain_;
   double memory_;
-  /// 1 if rows are to sum to one, 0 as published.
+  /// 1: rows sum to one; 0: as published.
   double repair_;
 };
 
-/// The paper's transition model: a landing or a takeoff leaves its mark in the vertical
-/// acceleration's spectrum, its power saying that the state switches and its median frequency in
-/// which direction. Common to both legs. No call but the constructor allocates or throws.
+/// The paper's transition model. A landing or a takeoff changes the spectrum of the vertical
+/// acceleration: its power indicates a switch of the state, its median frequency the direction of
+/// the switch. Both legs share the model. Only the constructor allocates or throws.
 class TransitionModel {
  public:
-  /// sample_rate in Hz. Throws InputError for a rate, slope, margin or memory that makes no sense.
+  /// sample_rate in Hz. Throws InputError for an invalid rate, slope, margin or memory.
   TransitionModel(const TransitionConfig& config, double sample_rate);
 
-  /// Forget all samples: a window of zeros, a robot at rest.
+  /// Clears the window to zeros: a robot at rest.
   void reset() noexcept;
 
-  /// Take the newest vertical acceleration without gravity, γ^z (m/s², finite).
+  /// Adds the newest vertical acceleration without gravity, γ^z (m/s², finite).
   const Transition& update(double vertical_acceleration) noexcept;
 
   [[nodiscard]] const Transition& transition() const noexcept { return transition_; }

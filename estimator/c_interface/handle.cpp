@@ -41,16 +41,16 @@ ModelUse use_of(const touchdown_use* use) {
           .robot = use->robot == nullptr ? "" : use->robot};
 }
 
-void tell(const char* what, char* error, std::size_t error_size) noexcept {
+void write_error(const char* message, char* error, std::size_t error_size) noexcept {
   if (error == nullptr || error_size == 0) return;
-  const std::size_t size = std::min(std::strlen(what), error_size - 1);
-  std::memcpy(error, what, size);
+  const std::size_t size = std::min(std::strlen(message), error_size - 1);
+  std::memcpy(error, message, size);
   error[size] = '\0';
 }
 
 }  // namespace touchdown
 
-using namespace touchdown;  // NOLINT: what follows cannot be in it
+using namespace touchdown;  // NOLINT: C functions cannot be in a namespace
 
 touchdown_record touchdown_empty_record(void) {
   constexpr double n = not_reported;
@@ -96,5 +96,5 @@ const char* touchdown_model_text(const touchdown_estimator* estimator) {
 }
 
 const char* touchdown_status_text(int status) {
-  return to_text(static_cast<SignalStatus>(status)).data();  // of a literal, so it ends with zero
+  return to_text(static_cast<SignalStatus>(status)).data();  // a literal, so zero-terminated
 }

@@ -1,9 +1,10 @@
 #ifndef TOUCHDOWN_TOUCHDOWN_H
 #define TOUCHDOWN_TOUCHDOWN_H
 
-/* Contact estimation in plain C: an estimator from a model file that `touchdown fit` wrote, one
- * record per control step, one belief per record. No exception leaves these functions. An estimator
- * must not be used by two threads at once; different ones may be. */
+/* Contact estimation in plain C. A program creates an estimator from a model file that
+ * `touchdown fit` wrote. It passes one record per control step and gets one belief per record.
+ * No exception leaves these functions. Two threads must not use the same estimator at once; they
+ * may use different ones. */
 
 #include <stddef.h>
 
@@ -13,11 +14,11 @@ extern "C" {
 
 typedef struct touchdown_estimator touchdown_estimator;
 
-/* What a program expects of the model; NULL and 0 are taken as the model has them. */
+/* What the program requires of the model. NULL or 0: no requirement, the model decides. */
 typedef struct touchdown_use {
   const char* estimator; /* "robust", "phase", … */
-  double sample_rate;    /* at which touchdown_update will be called (Hz) */
-  const char* robot;
+  double sample_rate;    /* rate at which the program calls touchdown_update (Hz) */
+  const char* robot;     /* "upkie", … */
 } touchdown_use;
 
 typedef struct touchdown_joint {
@@ -26,70 +27,71 @@ typedef struct touchdown_joint {
   double torque;   /* N·m */
 } touchdown_joint;
 
-/* One control step, in Upkie's signs and frames. What was not reported is NaN. */
+/* The measurements of one control step, in Upkie's signs and frames. NaN: not reported. */
 typedef struct touchdown_record {
-  double time;                    /* s; only differences count */
+  double time;                    /* s; only differences matter */
   touchdown_joint joint[6];       /* left hip, knee, wheel, right hip, knee, wheel */
-  double orientation[4];          /* w x y z, from the IMU to x forward, y right, z down */
-  double angular_velocity[3];     /* of the IMU in its frame (rad/s) */
-  double linear_acceleration[3];  /* of the IMU in its frame, without gravity (m/s²) */
-  double proper_acceleration[3];  /* as its chip measures it (m/s²): tells up from down */
-  double ground_velocity_command; /* that the policy gave at the step before (m/s) */
+  double orientation[4];          /* w x y z; from the IMU's frame to x forward, y right, z down */
+  double angular_velocity[3];     /* of the IMU, in its frame (rad/s) */
+  double linear_acceleration[3];  /* of the IMU, in its frame, without gravity (m/s²) */
+  double proper_acceleration[3];  /* as the chip measures it (m/s²); detects an upside-down IMU */
+  double ground_velocity_command; /* of the policy, at the previous step (m/s) */
 } touchdown_record;
 
 enum touchdown_status {
   TOUCHDOWN_GOOD = 0,
-  TOUCHDOWN_INVALID = 1, /* signals that cannot be used: the belief relaxes */
-  TOUCHDOWN_GAP = 2,     /* time jumped */
-  TOUCHDOWN_FROZEN = 3   /* a sensor repeats itself */
+  TOUCHDOWN_INVALID = 1, /* unusable signals: the belief relaxes to the prior */
+  TOUCHDOWN_GAP = 2,     /* time jumped: the belief relaxes to the prior */
+  TOUCHDOWN_FROZEN = 3   /* a sensor repeats itself to the bit: the belief relaxes to the prior */
 };
 
-/* What may be wrong with a record, as bits. */
+/* Faults of a record, one bit each. */
 enum touchdown_fault {
-  TOUCHDOWN_JOINT_MISSING = 1,
-  TOUCHDOWN_JOINT_STALE = 2,
-  TOUCHDOWN_ORIENTATION_MISSING = 4,
-  TOUCHDOWN_UPSIDE_DOWN = 8,
-  TOUCHDOWN_ACCELERATION_MISSING = 16,
-  TOUCHDOWN_CLOCK_MISSING = 32,
-  TOUCHDOWN_CLOCK_BACK = 64,
-  TOUCHDOWN_CLOCK_GAP = 128,
-  TOUCHDOWN_CLOCK_RATE = 256
+  TOUCHDOWN_JOINT_MISSING = 1,         /* a position, velocity or torque is not finite */
+  TOUCHDOWN_JOINT_STALE = 2,           /* a servo repeats itself to the bit */
+  TOUCHDOWN_ORIENTATION_MISSING = 4,   /* the quaternion does not have length one */
+  TOUCHDOWN_UPSIDE_DOWN = 8,           /* the orientation turns gravity upside down */
+  TOUCHDOWN_ACCELERATION_MISSING = 16, /* neither acceleration is finite */
+  TOUCHDOWN_CLOCK_MISSING = 32,        /* the time is not finite */
+  TOUCHDOWN_CLOCK_BACK = 64,           /* time went back */
+  TOUCHDOWN_CLOCK_GAP = 128,           /* records were lost */
+  TOUCHDOWN_CLOCK_RATE = 256           /* the records' rate is not the configured one */
 };
 
-/* Left wheel, right wheel. */
+/* The estimate after one record. Arrays hold the left wheel, then the right wheel. */
 typedef struct touchdown_belief {
-  double p_contact[2];
-  int contact[2]; /* 1: in contact */
-  double p_any_wheel;
-  double p_both_wheels;
-  int status;      /* enum touchdown_status */
-  unsigned faults; /* of enum touchdown_fault */
+  double p_contact[2];  /* P(this wheel is in contact) */
+  int contact[2];       /* the estimator's decision; 1: in contact */
+  double p_any_wheel;   /* P(at least one wheel is in contact) */
+  double p_both_wheels; /* P(both wheels are in contact) */
+  int status;           /* enum touchdown_status */
+  unsigned faults;      /* bits of enum touchdown_fault */
 } touchdown_belief;
 
-/* A record in which nothing is reported, to be filled in. */
+/* Returns a record to fill in: all its measurements are NaN, the command is 0. */
 touchdown_record touchdown_empty_record(void);
 
-/* Reads the model; of the component `models`, all else is of `estimator`. Returns NULL if that is
- * not possible, and then writes a line that says why to `error`, of `error_size` bytes with the
- * terminating zero; both may be NULL and 0, and so may `use`. To be given to touchdown_destroy in
- * the end. */
+/* Creates an estimator from a model file. `use` may be NULL. The caller destroys the estimator with
+ * touchdown_destroy. On failure, returns NULL and writes one line with the reason to `error`, which
+ * has `error_size` bytes, terminating zero included; `error` may be NULL and `error_size` 0. This
+ * function is in the component `models`, all others are in `estimator`. */
 touchdown_estimator* touchdown_create(const char* model_path, const touchdown_use* use, char* error,
                                       size_t error_size);
 
-/* Takes one step. Neither fails nor allocates nor locks. */
+/* Takes one record and returns the belief after it. Never fails, allocates or locks. */
 touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdown_record* record);
 
-/* Forgets all that was heard. */
+/* Resets the estimator to its state after touchdown_create. */
 void touchdown_reset(touchdown_estimator* estimator);
 
-/* May be given NULL. */
+/* Frees the estimator; NULL is allowed. */
 void touchdown_destroy(touchdown_estimator* estimator);
 
-/* "robust, 1000 Hz, robot upkie, fingerprint …": which model it is; valid until it is destroyed. */
+/* Describes the model: "robust, 1000 Hz, robot upkie, fingerprint …". The text is valid until the
+ * estimator is destroyed. */
 const char* touchdown_model_text(const touchdown_estimator* estimator);
 
-/* "good", "invalid", "gap", "frozen". */
+/* The name of an enum touchdown_status: "good", "invalid", "gap" or "frozen". */
 const char* touchdown_status_text(int status);
 
 #ifdef __cplusplus

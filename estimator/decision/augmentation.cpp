@@ -14,7 +14,7 @@ void check_augmentation_config(const AugmentationConfig& config) {
         is_share(config.share_without_noise) && is_share(config.share_with_bias) &&
         config.gain_error >= 0.0 && config.gain_error < 1.0)) {
     throw InputError(
-        "disturbance: levels must be finite and not negative, shares between 0 and 1, gain_error "
+        "augmentation: levels must be finite and not negative, shares between 0 and 1, gain_error "
         "below 1");
   }
 }
@@ -45,12 +45,12 @@ Signals Augmentation::operator()(Signals signals) {
   return signals;
 }
 
-/// Nothing, or log-uniform over two decades.
+/// Zero, or log-uniform over two decades.
 double Augmentation::level(const AugmentationConfig& config, double largest) {
   constexpr double smallest = 0.01;
-  const bool is_silent = draws_.uniform() < config.share_without_noise;
+  const bool is_without_noise = draws_.uniform() < config.share_without_noise;
   const double share = std::pow(smallest, draws_.uniform());
-  return is_silent ? 0.0 : share * largest;
+  return is_without_noise ? 0.0 : share * largest;
 }
 
 }  // namespace touchdown

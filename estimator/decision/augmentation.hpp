@@ -7,32 +7,32 @@
 
 namespace touchdown {
 
-/// What those that are fitted to decide are fitted through, so that they need not rely on what no
-/// robot's sensors are.
+/// Random disturbances of the signals of a fit, so that the fitted model does not rely on ideal
+/// sensors.
 struct AugmentationConfig {
-  /// White noise of levels log-uniform up to these (N·m, m/s²) …
+  /// White noise with levels log-uniform up to these (N·m, m/s²) …
   double largest_torque_noise = 4.0;
   double largest_acceleration_noise = 14.0;
-  double share_without_noise = 0.25;  ///< of each of the two
+  double share_without_noise = 0.25;  ///< of the draws, for each of the two
   /// … constant errors of each joint's torque (N·m) and of its zero (rad), normal, in a share of
   /// the draws …
   double torque_bias = 0.1;
   double position_bias = 0.01;
   double share_with_bias = 0.5;
-  double gain_error = 0.1;  ///< … and an error of all torques' scale, uniform on both sides.
+  double gain_error = 0.1;  ///< … and an error of the scale of all torques, uniform within ± this.
 
   bool operator==(const AugmentationConfig&) const = default;
 };
 
-/// Throws InputError for values that make no sense.
+/// Throws InputError for invalid values.
 void check_augmentation_config(const AugmentationConfig& config);
 
-/// What one hearing of a run is disturbed with.
+/// The disturbances of one augmentation pass over a run.
 class Augmentation {
  public:
   Augmentation(const AugmentationConfig& config, Draws& draws);
 
-  /// The next step as it is heard.
+  /// Disturbs the signals of the next step.
   Signals operator()(Signals signals);
 
   [[nodiscard]] double torque_noise() const noexcept { return torque_noise_; }  ///< N·m
@@ -49,7 +49,7 @@ class Augmentation {
   double torque_noise_ = 0.0;
   double acceleration_noise_ = 0.0;
   double scale_ = 1.0;
-  std::array<Bias, 6> bias_{};  ///< left hip, knee, wheel, right ones
+  std::array<Bias, 6> bias_{};  ///< left hip, knee, wheel, then right
 };
 
 }  // namespace touchdown

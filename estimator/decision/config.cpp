@@ -33,7 +33,7 @@ void check_decision_fit_config(const DecisionFitConfig& config) {
         "decision: learning_rate must be positive, decay not negative, class_exponent "
         "finite");
   }
-  check_augmentation_config(config.disturbance);
+  check_augmentation_config(config.augmentation);
 }
 
 void check_decision_config(const DecisionConfig& config) {

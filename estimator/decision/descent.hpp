@@ -15,15 +15,15 @@
 
 namespace touchdown {
 
-/// What those learn from that hear `FeatureExtractor`: a column of inputs for each row, whether it is
-/// contact, and how much it weighs.
+/// The rows that models on `FeatureExtractor` are fitted to. Each row is a column of inputs, its
+/// label and its weight.
 struct DecisionRows {
   Eigen::Matrix<float, static_cast<int>(decision_inputs), Eigen::Dynamic> inputs;
   Eigen::RowVectorXf is_contact;  ///< 1 or 0
   Eigen::RowVectorXf weight;
 };
 
-/// One step of Adam (Kingma, Ba 2015) with decoupled decay, whose learning rate falls to nothing
+/// One step of Adam (Kingma, Ba 2015) with decoupled weight decay. The learning rate falls to zero
 /// along a cosine.
 class AdamStep {
  public:
@@ -36,7 +36,8 @@ class AdamStep {
     kept_ = static_cast<float>(1.0 - rate * config.decay);
   }
 
-  /// Moves weights; `mean` and `square` are the gradient's, from step to step. All have one size.
+  /// Updates the weights `w` by the gradient `g`. `mean` and `square` hold the gradient's moments
+  /// from step to step. All four have one size.
   void operator()(std::span<float> w, std::span<const float> g, std::span<float> mean,
                   std::span<float> square) const {
     constexpr float tiny = 1e-8F;
@@ -56,8 +57,8 @@ class AdamStep {
   float kept_ = 1.0F;
 };
 
-/// Calls `step(batch, adam)` for batches that are drawn with replacement, as many as the configured
-/// epochs have. `before_step` is called now and then: what it throws ends the descent.
+/// Calls `step(batch, adam)` for batches drawn with replacement, for the configured number of
+/// epochs. `before_step` is called every 64 steps; an exception from it ends the descent.
 template <typename Step>
 void descend(const DecisionRows& rows, const DecisionFitConfig& config, Draws& draws,
              const std::function<void()>& before_step, const Step& step) {

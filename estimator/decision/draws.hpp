@@ -7,7 +7,7 @@
 
 namespace touchdown {
 
-/// Draws that are the same with every standard library.
+/// Random draws that are the same with every standard library.
 class Draws {
  public:
   explicit Draws(std::uint64_t seed) : engine_(seed) {}
@@ -19,7 +19,7 @@ class Draws {
   std::uint64_t below(std::uint64_t count) {
     return static_cast<std::uint64_t>(uniform() * static_cast<double>(count));
   }
-  /// Of zero mean and unit variance, by Box and Muller.
+  /// Normal, of zero mean and unit variance, by Box and Muller.
   double normal() {
     if (is_kept_) {
       is_kept_ = false;

@@ -47,11 +47,11 @@ FeatureExtractor::FeatureExtractor(const DecisionConfig& config)
       leg_repetition_{Repetition<9>(config.guard, config.sample_rate),
                       Repetition<9>(config.guard, config.sample_rate)},
       gyro_repetition_(config.guard, config.sample_rate),
-      listener_{LegFeatureExtractor(config, false), LegFeatureExtractor(config, true)},
+      leg_extractor_{LegFeatureExtractor(config, false), LegFeatureExtractor(config, true)},
       leg_{LegFilters{LowPassBank(config.sample_rate), LowPassBank(config.sample_rate),
-                     LowPassBank(config.sample_rate), LowPassBank(config.sample_rate)},
+                      LowPassBank(config.sample_rate), LowPassBank(config.sample_rate)},
            LegFilters{LowPassBank(config.sample_rate), LowPassBank(config.sample_rate),
-                     LowPassBank(config.sample_rate), LowPassBank(config.sample_rate)}},
+                      LowPassBank(config.sample_rate), LowPassBank(config.sample_rate)}},
       acceleration_(config.sample_rate),
       roll_rate_(config.sample_rate),
       density_(std::sqrt(reference_rate / config.sample_rate)),
@@ -65,7 +65,7 @@ void FeatureExtractor::reset() noexcept {
   gyro_repetition_.reset();
   torque_noise_.reset();
   acceleration_noise_.reset();
-  for (LegFeatureExtractor& listener : listener_) listener.reset();
+  for (LegFeatureExtractor& leg : leg_extractor_) leg.reset();
   reset_features();
   leg_age_ = {};
   acceleration_age_ = roll_rate_age_ = 0.0;
@@ -79,7 +79,7 @@ void FeatureExtractor::reset_features() noexcept {
   roll_rate_.reset();
 }
 
-/// Nothing was heard for so many seconds.
+/// All sensors were silent for `seconds`.
 void FeatureExtractor::dropout(double seconds) noexcept {
   for (double& age : leg_age_) age += seconds;
   acceleration_age_ += seconds;
@@ -88,23 +88,25 @@ void FeatureExtractor::dropout(double seconds) noexcept {
   acceleration_noise_.reset_signals();
 }
 
-// The next ones are inline since a compiler of position-independent code calls all others.
+// The next functions are inline, because position-independent code calls all others.
 
-/// A leg's bus that hangs: one servo alone may rest.
+/// Whether the leg's bus hangs: all its servos repeat themselves. A single servo may be at rest.
 inline bool FeatureExtractor::is_frozen(const LegSignals& leg, std::size_t side) noexcept {
   return leg_repetition_[side].update({leg.hip.position, leg.hip.velocity, leg.hip.torque,
                                        leg.knee.position, leg.knee.velocity, leg.knee.torque,
                                        leg.wheel.position, leg.wheel.velocity, leg.wheel.torque});
 }
 
-/// What was silent for longer than a gap is taken to have been as it is now all the while.
-inline void FeatureExtractor::update(LowPassBank& channel, double input, double age) const noexcept {
+/// After a dropout longer than a gap, the present input counts for all of it.
+inline void FeatureExtractor::update(LowPassBank& channel, double input,
+                                     double age) const noexcept {
   if (age > config_.maximum_gap) channel.fast_forward(input, age);
   channel.update(input);
 }
 
-inline void FeatureExtractor::update_legs(const Signals& signals, const std::array<bool, 2>& is_valid,
-                                      bool has_acceleration, double elapsed) noexcept {
+inline void FeatureExtractor::update_legs(const Signals& signals,
+                                          const std::array<bool, 2>& is_valid,
+                                          bool has_acceleration, double elapsed) noexcept {
   const std::array<FootJacobian, 2> foot = foot_jacobians(geometry_, signals.leg);
   const double noise = torque_noise();
   for (std::size_t side = 0; side < 2; ++side) {
@@ -113,35 +115,35 @@ inline void FeatureExtractor::update_legs(const Signals& signals, const std::arr
       age += elapsed;
       continue;
     }
-    if (age > config_.maximum_gap) listener_[side].reset();
-    const LegFeatures heard =
-        listener_[side].update(signals.leg[side], foot[side], signals.vertical_acceleration, noise);
-    update(leg_[side][1], heard.reaction, age);
-    update(leg_[side][2], heard.axle_velocity, age);
-    if (has_acceleration) {  // the others cannot do without
+    if (age > config_.maximum_gap) leg_extractor_[side].reset();
+    const LegFeatures features = leg_extractor_[side].update(signals.leg[side], foot[side],
+                                                             signals.vertical_acceleration, noise);
+    update(leg_[side][1], features.reaction, age);
+    update(leg_[side][2], features.axle_velocity, age);
+    if (has_acceleration) {  // load and axle acceleration need it
       const double longer = std::max(age, acceleration_age_);
-      update(leg_[side][0], heard.load, longer);
-      update(leg_[side][3], heard.axle_acceleration, longer);
+      update(leg_[side][0], features.load, longer);
+      update(leg_[side][3], features.axle_acceleration, longer);
     }
     age = 0.0;
   }
-  // A leg that says nothing is taken to fare like the other one.
+  // A leg without usable signals takes over the features of the other leg.
   for (std::size_t side = 0; side < 2; ++side) {
     if (is_valid[side] || !is_valid[1 - side]) continue;
     leg_[side] = leg_[1 - side];
     leg_age_[side] = 0.0;
-    listener_[side].reset();
+    leg_extractor_[side].reset();
   }
 }
 
-/// Every channel goes on for as long as its own sensor does, so that it need not begin anew when
-/// another one comes back.
+/// Each channel continues while its own sensor works, so that it need not restart when another
+/// sensor returns.
 FeatureExtractor::Step FeatureExtractor::update(const Signals& signals) noexcept {
   const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
   Step step{verdict.status, verdict.elapsed, verdict.elapsed > config_.maximum_gap, {}};
-  if (!std::isfinite(signals.time)) return step;  // no record: the next one's time tells its length
+  if (!std::isfinite(signals.time)) return step;  // no record: the next record's time gives the gap
   if (step.restart) dropout(step.elapsed);
-  const auto say = [&](SignalStatus status) {
+  const auto report = [&](SignalStatus status) {
     if (step.status == SignalStatus::good) step.status = status;
   };
   std::array<bool, 2> has_leg{};
@@ -150,19 +152,19 @@ FeatureExtractor::Step FeatureExtractor::update(const Signals& signals) noexcept
     const bool frozen = is_frozen(leg, side);
     const bool usable = is_usable(leg, config_);
     has_leg[side] = usable && !frozen;
-    if (!usable) say(SignalStatus::invalid);
-    if (frozen) say(SignalStatus::frozen);
+    if (!usable) report(SignalStatus::invalid);
+    if (frozen) report(SignalStatus::frozen);
   }
   const Eigen::Vector3d& turn = signals.angular_velocity;
   const bool is_gyro_frozen = gyro_repetition_.update({turn.x(), turn.y(), turn.z()});
   const bool has_roll_rate = std::isfinite(turn.x()) && !is_gyro_frozen;
-  if (is_gyro_frozen) say(SignalStatus::frozen);
+  if (is_gyro_frozen) report(SignalStatus::frozen);
   if (!std::isfinite(turn.x())) step.status = SignalStatus::invalid;
   for (std::size_t side = 0; side < 2; ++side) {
     step.is_valid[side] = has_leg[side] && verdict.acceleration_good && has_roll_rate;
   }
 
-  const double elapsed = step.restart ? 0.0 : step.elapsed;  // a gap's is counted already
+  const double elapsed = step.restart ? 0.0 : step.elapsed;  // `dropout` counted the gap
   update_legs(signals, has_leg, verdict.acceleration_good, elapsed);
   if (verdict.acceleration_good) {
     update(acceleration_, signals.vertical_acceleration, acceleration_age_);
@@ -177,23 +179,23 @@ FeatureExtractor::Step FeatureExtractor::update(const Signals& signals) noexcept
   } else {
     roll_rate_age_ += elapsed;
   }
-  const auto noisy = [&](std::size_t side) {
+  const auto knee_torque = [&](std::size_t side) {
     return has_leg[side] ? mass_ratio_ * signals.leg[side].knee.torque : std::nan("");
   };
-  torque_noise_.update({noisy(0), noisy(1)});
+  torque_noise_.update({knee_torque(0), knee_torque(1)});
   acceleration_noise_.update(
       {verdict.acceleration_good ? signals.vertical_acceleration : std::nan("")});
   return step;
 }
 
-/// Compresses every channel: what is large differs less than what is small. Inputs of one wheel and
-/// of both are made together: reading again what has just been written takes longer.
-void FeatureExtractor::arrange() noexcept {
+/// Compresses every channel by its softsign. The inputs of one wheel and of both are written
+/// together, because reading back what was just written takes longer.
+void FeatureExtractor::compute_inputs() noexcept {
   constexpr auto scales = static_cast<int>(decision_scales);
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
   using Scales = Eigen::Array<float, scales, 1>;
-  const auto bent = [](const LowPassBank& channel, float bend) -> Scales {
-    const Scales y = Eigen::Map<const Scales>(channel.values().data()) * (1.0F / bend);
+  const auto compress = [](const LowPassBank& channel, float scale) -> Scales {
+    const Scales y = Eigen::Map<const Scales>(channel.values().data()) * (1.0F / scale);
     return y / (1.0F + y.abs() / saturation);
   };
   const auto at = [](auto& inputs, std::size_t begin) {
@@ -201,23 +203,23 @@ void FeatureExtractor::arrange() noexcept {
   };
   for (std::size_t i = 0; i < decision_leg_channels; ++i) {
     const std::size_t begin = i * decision_scales;
-    const Scales left = bent(leg_[0][i], leg_softsign_scales[i]);
-    const Scales right = bent(leg_[1][i], leg_softsign_scales[i]);
-    at(heard_, begin) = left;
-    at(heard_, of_legs + begin) = right;
+    const Scales left = compress(leg_[0][i], leg_softsign_scales[i]);
+    const Scales right = compress(leg_[1][i], leg_softsign_scales[i]);
+    at(inputs_, begin) = left;
+    at(inputs_, of_legs + begin) = right;
     at(pair_.common, begin) = left + right;
     at(pair_.difference, begin) = left - right;
   }
-  const Scales acceleration = bent(acceleration_, acceleration_softsign_scale);
-  at(heard_, 2 * of_legs) = acceleration;
+  const Scales acceleration = compress(acceleration_, acceleration_softsign_scale);
+  at(inputs_, 2 * of_legs) = acceleration;
   at(pair_.common, of_legs) = acceleration;
-  const Scales roll_rate = bent(roll_rate_, roll_rate_softsign_scale);
-  at(heard_, 2 * of_legs + decision_scales) = roll_rate;
+  const Scales roll_rate = compress(roll_rate_, roll_rate_softsign_scale);
+  at(inputs_, 2 * of_legs + decision_scales) = roll_rate;
   at(pair_.difference, of_legs) = roll_rate;
   const std::array<float, 2> noise = {
       static_cast<float>(torque_noise_.log_sigma() + log_density_),
       static_cast<float>(acceleration_noise_.log_sigma() + log_density_)};
-  std::copy(noise.begin(), noise.end(), heard_.end() - 2);
+  std::copy(noise.begin(), noise.end(), inputs_.end() - 2);
   std::copy(noise.begin(), noise.end(), pair_.common.end() - 2);
 }
 

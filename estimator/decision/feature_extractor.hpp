@@ -11,16 +11,17 @@
 
 namespace touchdown {
 
-/// What is large differs less than what is small: with y = value / bend every channel is heard as
-/// y / (1 + |y| / largest), which tends to this.
+/// Each channel is compressed by a softsign: y / (1 + |y| / saturation) with y = value / scale. The
+/// result tends to ± this for large values.
 inline constexpr float saturation = 4.0F;
-/// Where the compression begins to bend: of a leg's load (N), reaction (N·m), axle velocity (m/s)
-/// and axle acceleration (m/s²), …
-inline constexpr std::array<float, decision_leg_channels> leg_softsign_scales = {5.0F, 0.1F, 0.1F, 3.0F};
-/// … vertical acceleration (m/s²) and roll rate (rad/s).
+/// Softsign scales of a leg's load (N), reaction (N·m), axle velocity (m/s) and axle acceleration
+/// (m/s²), …
+inline constexpr std::array<float, decision_leg_channels> leg_softsign_scales = {5.0F, 0.1F, 0.1F,
+                                                                                 3.0F};
+/// … of the vertical acceleration (m/s²) and of the roll rate (rad/s).
 inline constexpr float acceleration_softsign_scale = 3.0F;
 inline constexpr float roll_rate_softsign_scale = 0.3F;
-/// Which senses these are: what was fitted to others is no model for them.
+/// The version of this feature set. A model that was fitted to another version is refused.
 inline constexpr int feature_set_version = 2;
 
 /// First-order low-passes of 1, 2, 4, … 128 ms, side by side. Starts at its first input.
@@ -37,7 +38,8 @@ class LowPassBank {
     is_started_ = true;
     for (std::size_t i = 0; i < decision_scales; ++i) values_[i] += gains_[i] * (x - values_[i]);
   }
-  /// Takes the input for what there was in `seconds` without one, which the next update ends.
+  /// Catches up on `seconds` without an input, as if it had been `input` throughout. An update with
+  /// the new input follows.
   void fast_forward(double input, double seconds) noexcept;
   [[nodiscard]] const Values& values() const noexcept { return values_; }
 
@@ -47,37 +49,37 @@ class LowPassBank {
   bool is_started_ = false;
 };
 
-/// From signals to what the network hears of both wheels, alike when fitting and when estimating.
+/// Computes the network's inputs for both wheels from signals, in the fit and in the estimator.
 class FeatureExtractor {
  public:
-  /// What became of one step.
+  /// The outcome of one step.
   struct Step {
     SignalStatus status = SignalStatus::good;
     double elapsed = 0.0;               ///< since the previous step (s)
-    bool restart = false;               ///< time jumped: what was believed is old
-    std::array<bool, 2> is_valid = {};  ///< whether there are inputs of this step; left, right
+    bool restart = false;               ///< time jumped: the belief is outdated
+    std::array<bool, 2> is_valid = {};  ///< whether this step has inputs; left, right
   };
 
-  /// Throws InputError for a configuration that makes no sense.
+  /// Throws InputError for an invalid configuration.
   explicit FeatureExtractor(const DecisionConfig& config);
 
   void reset() noexcept;
-  /// The low-passes begin anew with what comes next; noise levels and silent sensors stay known.
+  /// The low-passes restart at their next inputs. Noise levels and sensors' ages stay.
   void reset_features() noexcept;
   Step update(const Signals& signals) noexcept;
 
-  /// Makes the network's inputs of what was heard so far.
-  void arrange() noexcept;
-  /// As they were last arranged: of the left wheel, of one wheel, of both.
-  [[nodiscard]] const DecisionInputs& left_inputs() const noexcept { return heard_; }
+  /// Computes the network's inputs from the signals so far.
+  void compute_inputs() noexcept;
+  /// The inputs as last computed: of the left wheel, of one wheel, of both.
+  [[nodiscard]] const DecisionInputs& left_inputs() const noexcept { return inputs_; }
   [[nodiscard]] DecisionInputs inputs(std::size_t side) const noexcept {
-    return side == 0 ? heard_ : of_other_wheel(heard_);
+    return side == 0 ? inputs_ : of_other_wheel(inputs_);
   }
   [[nodiscard]] const DecisionPairInputs& pair_inputs() const noexcept { return pair_; }
-  /// The estimated white noise of torques (N·m) of a robot of Upkie's mass, as dense as at 1 kHz:
-  /// at a lower rate there are fewer samples of it to average.
+  /// The estimated white noise of the torques (N·m), scaled to Upkie's mass and to a rate of 1 kHz:
+  /// a lower rate has fewer samples to average.
   [[nodiscard]] double torque_noise() const noexcept { return density_ * torque_noise_.sigma(); }
-  /// A belief after `elapsed` seconds without news.
+  /// A belief after `elapsed` seconds without a measurement.
   [[nodiscard]] double relaxed(double p_contact, double elapsed) const noexcept {
     return guard_.relaxed(p_contact, elapsed);
   }
@@ -89,7 +91,7 @@ class FeatureExtractor {
   bool is_frozen(const LegSignals& leg, std::size_t side) noexcept;
   void update(LowPassBank& channel, double input, double age) const noexcept;
   void update_legs(const Signals& signals, const std::array<bool, 2>& is_valid,
-                 bool has_acceleration, double elapsed) noexcept;
+                   bool has_acceleration, double elapsed) noexcept;
 
   SignalGuardConfig config_;
   LegGeometry geometry_;
@@ -97,19 +99,19 @@ class FeatureExtractor {
   SignalGuard guard_;
   std::array<Repetition<9>, 2> leg_repetition_;
   Repetition<3> gyro_repetition_;
-  std::array<LegFeatureExtractor, 2> listener_;
+  std::array<LegFeatureExtractor, 2> leg_extractor_;
   std::array<LegFilters, 2> leg_;
   LowPassBank acceleration_;
   LowPassBank roll_rate_;
-  double density_;  ///< what white noise at this rate is worth at 1 kHz
+  double density_;  ///< factor from white noise at this rate to the same at 1 kHz
   double log_density_;
-  /// For how long each of these has not been heard (s).
+  /// The age of each sensor: time since its last usable signal (s).
   std::array<double, 2> leg_age_{};
   double acceleration_age_ = 0.0;
   double roll_rate_age_ = 0.0;
   NoiseEstimate<2> torque_noise_;
   NoiseEstimate<1> acceleration_noise_;
-  alignas(32) DecisionInputs heard_{};     ///< of the left wheel
+  alignas(32) DecisionInputs inputs_{};    ///< of the left wheel
   alignas(32) DecisionPairInputs pair_{};  ///< of both
 };
 

@@ -7,16 +7,16 @@
 
 namespace touchdown {
 
-/// A small network that is fitted to decide rather than to model densities: for each wheel it hears
-/// loads, the ground's reaction and the axle's motion of both legs, the vertical acceleration and
-/// the roll rate, all at eight time scales, and how noisy they are (docs/estimator.md). Its belief
-/// is decided by hysteresis.
+/// A small network that is fitted to decide contact directly rather than to model densities. Its
+/// inputs for each wheel are the load, the ground's reaction and the axle's motion of both legs,
+/// the vertical acceleration and the roll rate, all at eight time scales, and the noise levels
+/// (docs/estimator.md). Hysteresis turns its probability into a decision.
 ///
-/// `update` never throws, allocates or locks, and never returns NaN. Without signals that it can
-/// use it does as `LogitDecision`.
+/// `update` never throws, allocates or locks, and never returns NaN. `LogitDecision` describes the
+/// behaviour without usable signals.
 class DecisionNetwork : public ContactEstimator {
  public:
-  /// Throws InputError for weights that are not finite and configurations that make no sense.
+  /// Throws InputError for weights that are not finite and for an invalid configuration.
   explicit DecisionNetwork(const DecisionModel& model, const DecisionConfig& config = {});
 
   void reset() noexcept override { decision_.reset(); }

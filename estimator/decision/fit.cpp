@@ -18,10 +18,11 @@ std::size_t steps_of(const LabelledRun& run) {
   return run.signals.size() - std::min(run.signals.size(), run.skip);
 }
 
-double share_of_steps_that_reset(const DecisionFitConfig& fit, const Augmentation& disturbance,
-                                  double sample_rate, Draws& draws) {
+/// P(reset) per step of one pass.
+double reset_probability(const DecisionFitConfig& fit, const Augmentation& augmentation,
+                         double sample_rate, Draws& draws) {
   if (!(fit.share_with_resets > 0.0 && draws.uniform() < fit.share_with_resets)) return 0.0;
-  const double after = fit.reset_after + fit.reset_after_noise * disturbance.torque_noise();
+  const double after = fit.reset_after + fit.reset_after_noise * augmentation.torque_noise();
   return 1.0 / (after * sample_rate);
 }
 
@@ -44,29 +45,29 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
     check_labels(run);
     steps += steps_of(run);
   }
-  // So many steps apart a pass takes both wheels.
+  // A pass takes a row of each wheel every so many steps.
   const std::size_t stride = std::max<std::size_t>(1, 2 * steps * fit.passes / fit.rows);
   std::vector<DecisionInputs> inputs;
   std::vector<float> is_contact;
   Draws draws(fit.seed);
   for (std::size_t pass = 0; pass < fit.passes; ++pass) {
     for (const LabelledRun& run : runs) {
-      const std::size_t apart = draws.uniform() < fit.share_slow ? fit.steps_of_slow : 1;
+      const std::size_t interval = draws.uniform() < fit.share_slow ? fit.steps_of_slow : 1;
       DecisionConfig own = config;
-      own.sample_rate = run.sample_rate / static_cast<double>(apart);
-      FeatureExtractor senses(own);
-      Augmentation disturbed(fit.disturbance, draws);
-      const double forgets = share_of_steps_that_reset(fit, disturbed, own.sample_rate, draws);
+      own.sample_rate = run.sample_rate / static_cast<double>(interval);
+      FeatureExtractor features(own);
+      Augmentation augmentation(fit.augmentation, draws);
+      const double p_reset = reset_probability(fit, augmentation, own.sample_rate, draws);
       std::size_t next = run.skip + draws.below(stride);
-      for (std::size_t k = 0; k < run.signals.size(); k += apart) {
-        if (forgets > 0.0 && draws.uniform() < forgets) senses.reset_features();
-        const FeatureExtractor::Step step = senses.update(disturbed(run.signals[k]));
+      for (std::size_t k = 0; k < run.signals.size(); k += interval) {
+        if (p_reset > 0.0 && draws.uniform() < p_reset) features.reset_features();
+        const FeatureExtractor::Step step = features.update(augmentation(run.signals[k]));
         if (k < next) continue;
         next += stride;
-        senses.arrange();
+        features.compute_inputs();
         for (std::size_t side = 0; side < 2; ++side) {
           if (!step.is_valid[side]) continue;
-          inputs.push_back(senses.inputs(side));
+          inputs.push_back(features.inputs(side));
           is_contact.push_back(run.contact[side][k] != 0 ? 1.0F : 0.0F);
         }
       }

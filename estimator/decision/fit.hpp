@@ -9,20 +9,20 @@
 
 namespace touchdown {
 
-/// What those learn from that hear `FeatureExtractor`: steps of both wheels of all runs at which they
-/// would hear them, each run heard several times through other noise, biases and scales. Throws
-/// InputError for labels that are not one per step, and where one class is missing.
+/// The rows that models on `FeatureExtractor` are fitted to: steps of both wheels of all runs,
+/// where inputs are valid. Each run gives several augmentation passes with other noise, biases and
+/// scales. Throws InputError if labels are not one per step, and if one class is missing.
 [[nodiscard]] DecisionRows decision_rows(std::span<const LabelledRun> runs,
                                          const DecisionConfig& config,
                                          const DecisionFitConfig& fit);
 
-/// What a logit that was fitted to these rows lacks, so that it means the probability of contact
-/// as if every row weighed alike: ln of the weight of a row without contact to one in contact.
+/// The offset that turns a logit fitted to these weighted rows into that of equally weighted rows:
+/// ln of the weight of a row without contact relative to a row in contact.
 [[nodiscard]] float weights_offset(const DecisionRows& rows);
 
-/// Fits the network to decide: cross-entropy with classes weighted, the weight taken off its logit
-/// again, so that it means the probability of contact in runs like these. The same runs and
-/// configuration give the same weights. Errors: as above, and for bad configurations.
+/// Fits the network by cross-entropy with weighted classes, then removes the weights' effect from
+/// the logit, so that it means the probability of contact in runs like these. The same runs and
+/// configuration give the same weights. Errors: as above, and for an invalid configuration.
 [[nodiscard]] DecisionModel fit_decision_model(std::span<const LabelledRun> runs,
                                                const DecisionConfig& config = {},
                                                const DecisionFitConfig& fit = {},

@@ -7,13 +7,13 @@ namespace touchdown {
 
 namespace {
 
-constexpr double unobservable_load = 15.0;     // N
-constexpr double least_area = 0.003;     // m²
-constexpr double area_of_noise = 0.004;  // m² for each N·m
-constexpr double largest_load = 200.0;   // N: four times Upkie's weight
-constexpr double largest_channel = 1e4;  // of any other, so that floats hold it
+constexpr double unobservable_load = 15.0;  // N
+constexpr double least_area = 0.003;        // m²
+constexpr double area_of_noise = 0.004;     // m² for each N·m
+constexpr double largest_load = 200.0;      // N: four times Upkie's weight
+constexpr double largest_feature = 1e4;     // of the others, so that floats hold them
 
-/// What is beyond counts as the limit, what is no number as nothing.
+/// Clamps the value to ± `largest`; NaN becomes 0.
 double within(double value, double largest) noexcept {
   return std::isnan(value) ? 0.0 : std::clamp(value, -largest, largest);
 }
@@ -28,25 +28,27 @@ LegFeatureExtractor::LegFeatureExtractor(const DecisionConfig& config, bool mirr
 }
 
 LegFeatures LegFeatureExtractor::update(const LegSignals& leg, const FootJacobian& foot,
-                                double vertical_acceleration, double torque_noise) noexcept {
+                                        double vertical_acceleration,
+                                        double torque_noise) noexcept {
   const double sign = mirrored_ ? -1.0 : 1.0;
   const std::array<double, 2> now = {sign * leg.wheel.velocity,
-                                     within(axle_velocity(foot, leg, mirrored_), largest_channel)};
-  const std::array<double, 2> before = heard_ < velocities_.size() ? now : velocities_[next_];
+                                     within(axle_velocity(foot, leg, mirrored_), largest_feature)};
+  const std::array<double, 2> before = count_ < velocities_.size() ? now : velocities_[next_];
   velocities_[next_] = now;
   next_ = next_ + 1 == velocities_.size() ? 0 : next_ + 1;
-  heard_ = std::min(heard_ + 1, velocities_.size());
+  count_ = std::min(count_ + 1, velocities_.size());
 
   const double area = foot.determinant();
   const double noisy_area = area_of_noise * torque_noise;
-  const double untold = least_area * least_area + noisy_area * noisy_area;
-  const double told =
+  const double damping = least_area * least_area + noisy_area * noisy_area;
+  const double force_times_area =
       vertical_force_times_determinant(geometry_, foot, leg, mirrored_, vertical_acceleration);
-  const double load = (area * mass_ratio_ * told + untold * unobservable_load) / (area * area + untold);
+  const double load = (area * mass_ratio_ * force_times_area + damping * unobservable_load) /
+                      (area * area + damping);
   const double reaction =
       sign * leg.wheel.torque - geometry_.wheel_inertia * rate_ * (now[0] - before[0]);
-  return {within(load, largest_load), within(mass_ratio_ * reaction, largest_channel), now[1],
-          within(vertical_acceleration + rate_ * (now[1] - before[1]), largest_channel)};
+  return {within(load, largest_load), within(mass_ratio_ * reaction, largest_feature), now[1],
+          within(vertical_acceleration + rate_ * (now[1] - before[1]), largest_feature)};
 }
 
 }  // namespace touchdown

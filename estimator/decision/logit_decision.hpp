@@ -9,28 +9,32 @@
 
 namespace touchdown {
 
-/// What estimators share that give each wheel a logit of what `FeatureExtractor` hear: the logit is
-/// low-passed the more, the noisier the torques, and decided by hysteresis.
+/// The common part of estimators that compute a logit for each wheel from the inputs of
+/// `FeatureExtractor`. It low-passes the logit, more strongly the noisier the torques, and decides
+/// by hysteresis.
 ///
-/// A leg that cannot be used, or that has frozen, is taken to fare like the other one by the other
-/// one's wheel, while its own belief relaxes to the prior; without a usable IMU both do. The status
-/// says why. After that, as after a gap, it goes on from what it knew before. Never throws,
-/// allocates or locks.
+/// If a leg is unusable or frozen, its own belief relaxes to the prior, and the other wheel's
+/// inputs take both legs as alike. Without a usable IMU both beliefs relax. The status gives the
+/// reason. Afterwards, as after a gap, the features continue from their earlier state. Never
+/// throws, allocates or locks.
 class LogitDecision {
  public:
-  /// Throws InputError for a configuration that makes no sense.
+  /// Throws InputError for an invalid configuration.
   explicit LogitDecision(const DecisionConfig& config);
 
   void reset() noexcept;
 
-  /// Hears a step. Returns whether there are inputs of it: left, right.
+  /// Takes the signals of one step. Returns whether it has inputs: left, right wheel.
   const std::array<bool, 2>& update(const Signals& signals) noexcept;
-  /// Its inputs: of the left wheel, which are the other one's in another order; of both.
-  [[nodiscard]] const DecisionInputs& left_inputs() const noexcept { return features_.left_inputs(); }
+  /// The step's inputs: of the left wheel, which are those of the right one in another order; of
+  /// both.
+  [[nodiscard]] const DecisionInputs& left_inputs() const noexcept {
+    return features_.left_inputs();
+  }
   [[nodiscard]] const DecisionPairInputs& pair_inputs() const noexcept {
     return features_.pair_inputs();
   }
-  /// What is believed, given ln P(contact) / P(no contact) of each wheel that has inputs.
+  /// The belief, given ln P(contact) / P(no contact) of each wheel that has inputs.
   const Belief& decide(const std::array<double, 2>& logit) noexcept;
 
  private:

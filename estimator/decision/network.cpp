@@ -88,7 +88,7 @@ std::array<float, 2> PairedDecisionNetwork::logits(
   }
   const Sums left = (common + difference).max(0.0F);
   const Sums right = (common - difference).max(0.0F);
-  // In four sums side by side, none of which has to wait for the one before.
+  // Four independent sums, so that no addition waits for the one before.
   using SecondSums = Eigen::Array<float, static_cast<int>(decision_second), 1>;
   const auto weights = [&](std::size_t unit) {
     return Eigen::Map<const SecondSums>(model_.second_weight.data() + unit * decision_second);

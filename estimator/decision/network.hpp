@@ -6,11 +6,11 @@
 
 namespace touchdown {
 
-/// What the network hears of one wheel: of its own leg four channels, of the other leg the same,
-/// the vertical acceleration and the roll rate, …
+/// The network's inputs for one wheel: four channels of its own leg, the same four of the other
+/// leg, the vertical acceleration and the roll rate, …
 inline constexpr std::size_t decision_leg_channels = 4;
 inline constexpr std::size_t decision_channels = 2 * decision_leg_channels + 2;
-/// … each at so many time scales, and how noisy torques and acceleration are.
+/// … each at this many time scales, and the noise levels of torques and acceleration.
 inline constexpr std::size_t decision_scales = 8;
 inline constexpr std::size_t decision_inputs = decision_channels * decision_scales + 2;
 inline constexpr std::size_t decision_first = 24;
@@ -18,12 +18,12 @@ inline constexpr std::size_t decision_second = 16;
 
 using DecisionInputs = std::array<float, decision_inputs>;
 
-/// What is heard of the other wheel when this is heard of one: the legs change places, and what
-/// rolls towards one side rolls away from the other.
+/// The inputs of the other wheel, from those of one: the legs change places, and the roll rate
+/// changes its sign.
 [[nodiscard]] DecisionInputs of_other_wheel(const DecisionInputs& inputs) noexcept;
 
-/// A perceptron of two rectified layers and one output, the same for both wheels. Weights lie by
-/// input: those from one input to all outputs of its layer are neighbours.
+/// A perceptron with two rectified layers and one output, the same for both wheels. Weights are
+/// stored by input: those from one input to all outputs of its layer are neighbours.
 struct DecisionModel {
   std::array<float, decision_inputs * decision_first> first_weight{};
   std::array<float, decision_first> first_bias{};
@@ -39,8 +39,8 @@ struct DecisionModel {
 [[nodiscard]] float decision_logit(const DecisionModel& model,
                                    const DecisionInputs& inputs) noexcept;
 
-/// What the network hears of both wheels, as what is common to them and what tells them apart: of
-/// each channel of a leg the sum and the difference, left − right, of both legs.
+/// The inputs of both wheels, split into a common part and a difference: for each channel of a leg
+/// the sum and the difference, left − right, of both legs.
 struct DecisionPairInputs {
   static constexpr std::size_t of_legs = decision_leg_channels * decision_scales;
 
@@ -50,17 +50,18 @@ struct DecisionPairInputs {
   std::array<float, of_legs + decision_scales> difference{};
 };
 
-/// The network of both wheels at once. Their inputs are the same numbers in another order, so with
+/// Evaluates the network for both wheels at once. Their inputs are the same numbers in another
+/// order, so with
 ///
 ///     W_own x_own + W_other x_other = (W_own + W_other)/2 · (x_own + x_other)
 ///                                   + (W_own − W_other)/2 · (x_own − x_other)
 ///
-/// the first layer of both takes as many products as that of one.
+/// the first layer of both wheels takes as many products as that of one.
 class PairedDecisionNetwork {
  public:
   explicit PairedDecisionNetwork(const DecisionModel& model) noexcept;
 
-  /// Of the left and of the right wheel: `decision_logit` of each, up to rounding.
+  /// `decision_logit` of the left and of the right wheel, up to rounding.
   [[nodiscard]] std::array<float, 2> logits(const DecisionPairInputs& inputs) const noexcept;
 
  private:

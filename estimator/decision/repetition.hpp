@@ -10,8 +10,8 @@
 
 namespace touchdown {
 
-/// How long `count` signals of one source have repeated themselves to the bit, all together. Real
-/// ones do not: noise moves the last digit of one or another, even at rest.
+/// Detects that all `count` signals of one source repeat themselves to the bit. Real signals do
+/// not: noise moves the last digit of one or another, even at rest.
 template <std::size_t count>
 class Repetition {
  public:
@@ -24,8 +24,8 @@ class Repetition {
 
   void reset() noexcept { *this = Repetition(steps_to_frozen_); }
 
-  /// Takes the next step's values; returns whether they are frozen. What is not a number repeats
-  /// nothing, and neither does a source that says nothing but zeros: it may not be there.
+  /// Takes the next step's values and returns whether they are frozen. NaN does not count as a
+  /// repetition. Nor does a source that reports only zeros, because it may not exist.
   bool update(const Values& values) noexcept {
     const bool repeated = is_started_ && values == last_ && values != Values{};
     steps_ = repeated ? std::min(steps_ + 1, never - 1) : 0;

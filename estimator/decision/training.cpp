@@ -14,7 +14,7 @@ constexpr int input_count = static_cast<int>(decision_inputs);
 constexpr int first_count = static_cast<int>(decision_first);
 constexpr int second_count = static_cast<int>(decision_second);
 
-// A model's weights, outputs × inputs: by input, as they lie.
+// A model's weights as a matrix, outputs × inputs, in the order in which they are stored.
 template <typename Model>
 auto weights_of_first(Model& model) {
   using Matrix = Eigen::Matrix<float, first_count, input_count>;
@@ -38,7 +38,7 @@ Eigen::Map<Eigen::Matrix<float, static_cast<int>(size), 1>> column(
   return Eigen::Map<Eigen::Matrix<float, static_cast<int>(size), 1>>(values.data());
 }
 
-/// All parameters, part by part, of as many models at once.
+/// Calls `part` with the same parameters of all models, part by part.
 template <typename Part, typename... Models>
 void for_each_part(const Part& part, Models&... models) {
   part(std::span(models.first_weight)...);
@@ -49,7 +49,7 @@ void for_each_part(const Part& part, Models&... models) {
   part(std::span(&models.last_bias, 1)...);
 }
 
-/// He's rule: what is behind a rectifier keeps the size of its inputs.
+/// He's rule: the outputs of a rectified layer keep the size of its inputs.
 DecisionModel drawn(Draws& draws) {
   DecisionModel model;
   const auto fill = [&](auto& weights, int fan_in) {

@@ -15,8 +15,8 @@ namespace {
 
 float table_at(const EvidenceTable& table, const EvidencePair& pair,
                const DecisionInputs& inputs) noexcept {
-  const EvidencePlace row = evidence_place(inputs[pair.first], evidence_pair_knots);
-  const EvidencePlace column = evidence_place(inputs[pair.second], evidence_pair_knots);
+  const EvidencePosition row = evidence_position(inputs[pair.first], evidence_pair_knots);
+  const EvidencePosition column = evidence_position(inputs[pair.second], evidence_pair_knots);
   constexpr auto width = static_cast<int>(evidence_pair_knots);
   const float* const knot = table.data() + row.knot * width + column.knot;
   const float near = knot[0] + column.share * (knot[1] - knot[0]);
@@ -24,14 +24,14 @@ float table_at(const EvidenceTable& table, const EvidencePair& pair,
   return near + row.share * (far - near);
 }
 
-/// `evidence_place` of all inputs.
-struct Places {
+/// `evidence_position` of all inputs.
+struct Positions {
   alignas(32) std::array<int, decision_inputs> knot;
   alignas(32) std::array<float, decision_inputs> share;
 };
 
-/// Step by step: of all steps in one loop compilers make branches, or nearly as many blends.
-Places places_of(const DecisionInputs& inputs) noexcept {
+/// In separate loops: in a single loop, compilers make branches or nearly as many blends.
+Positions positions_of(const DecisionInputs& inputs) noexcept {
   constexpr auto last = static_cast<float>(evidence_knots - 1);
   constexpr float knots_per_unit = last / (2.0F * evidence_reach);
   std::array<float, decision_inputs> inside;
@@ -40,7 +40,7 @@ Places places_of(const DecisionInputs& inputs) noexcept {
     inside[i] = x > 0.0F ? x : 0.0F;
   }
   for (float& x : inside) x = x < last ? x : last;
-  Places at;
+  Positions at;
   for (std::size_t i = 0; i < decision_inputs; ++i) {
     at.knot[i] = std::min(static_cast<int>(inside[i]), static_cast<int>(evidence_knots) - 2);
     at.share[i] = inside[i] - static_cast<float>(at.knot[i]);
@@ -71,7 +71,7 @@ PairedEvidence::PairedEvidence(const EvidenceModel& model)
     for (std::size_t k = 0; k < evidence_knots; ++k) {
       const std::size_t own = i < of_legs ? i : of_legs + i;
       const std::size_t other = of_legs + i;
-      // What rolls to the left rolls to the right for the other wheel.
+      // The roll rate has the opposite sign for the other wheel.
       const bool is_roll = i >= roll && i < roll + decision_scales;
       curve_[i][k] = {model.curve[own][k],
                       model.curve[other][is_roll ? evidence_knots - 1 - k : k]};
@@ -81,8 +81,8 @@ PairedEvidence::PairedEvidence(const EvidenceModel& model)
 
 std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left) const noexcept {
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
-  const Places at = places_of(left);
-  // Of a knot and the next one, each to one wheel and to the other.
+  const Positions at = positions_of(left);
+  // The contributions of a knot and the next one, each to one wheel and to the other.
   using Four = Eigen::Array4f;
   const Four here(1.0F, 1.0F, 0.0F, 0.0F);
   const Four onwards(-1.0F, -1.0F, 1.0F, 1.0F);
@@ -90,7 +90,7 @@ std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left) const no
     const float* const from = curve_[curve][static_cast<std::size_t>(at.knot[input])].data();
     return Eigen::Map<const Four>(from) * (here + onwards * at.share[input]);
   };
-  // In four sums side by side, none of which has to wait for the one before.
+  // Four independent sums, so that no addition waits for the one before.
   static_assert(of_legs % 2 == 0 && std::tuple_size_v<decltype(curve_)> % 2 == 0);
   Four left_even = Four::Zero();
   Four left_odd = Four::Zero();

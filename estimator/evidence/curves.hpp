@@ -4,43 +4,44 @@
 #include <cstddef>
 #include <vector>
 
-#include "estimator/decision/network.hpp"
 #include "estimator/decision/feature_extractor.hpp"
+#include "estimator/decision/network.hpp"
 
 namespace touchdown {
 
-/// Every curve is linear between so many evenly spaced knots over all that a compressed input can
-/// be, and constant beyond them, where only the logarithms of noise levels come.
+/// Every curve is linear between this many evenly spaced knots, which span the range of a
+/// compressed input. It is constant beyond them, which only the logarithms of noise levels reach.
 inline constexpr std::size_t evidence_knots = 33;
 inline constexpr float evidence_reach = saturation;
-/// A pair's table is bilinear between every second knot of both.
+/// A pair's table is bilinear between every second knot of both inputs.
 inline constexpr std::size_t evidence_pair_knots = (evidence_knots + 1) / 2;
 
 using EvidenceCurve = std::array<float, evidence_knots>;
-/// By the first input, then by the second.
+/// Row by row: the first input selects the row, the second the column.
 using EvidenceTable = std::array<float, evidence_pair_knots * evidence_pair_knots>;
 
-/// Additive evidence for contact: ln P(contact) / P(no contact) is a bias, a curve of each input
-/// and, if there are any, a table of each pair in `evidence_pairs`. The same for both wheels.
+/// An additive model (GAM) of contact: ln P(contact) / P(no contact) is the sum of a bias, a curve
+/// of each input and, optionally, a table of each pair in `evidence_pairs`. The same for both
+/// wheels.
 struct EvidenceModel {
-  std::array<EvidenceCurve, decision_inputs> curve{};  ///< nats at its knots
+  std::array<EvidenceCurve, decision_inputs> curve{};  ///< nats at the knots
   std::vector<EvidenceTable> table;                    ///< one per pair, or none
   float bias = 0.0F;
-  /// Between these lie all but two in a thousand of the rows that were learned from. Only for
-  /// people: what a curve says beyond is hearsay.
+  /// The range of each input that holds all but two in a thousand of the fitted rows. Only figures
+  /// and tables use it: beyond this range a curve is hardly supported by data.
   std::array<std::array<float, 2>, decision_inputs> seen{};
 
   bool operator==(const EvidenceModel&) const = default;
 };
 
-/// Where an input lies: between this knot, counted from 0, and the next one, by this share.
-struct EvidencePlace {
+/// The position of an input: between this knot, counted from 0, and the next, by this share.
+struct EvidencePosition {
   int knot = 0;
   float share = 0.0F;
 };
 
-/// Between the outer knots, whatever the input.
-[[nodiscard]] inline EvidencePlace evidence_place(float input, std::size_t knots) noexcept {
+/// The position of an input, limited to the outer knots.
+[[nodiscard]] inline EvidencePosition evidence_position(float input, std::size_t knots) noexcept {
   const auto last = static_cast<float>(knots - 1);
   const float x = (input + evidence_reach) * (last / (2.0F * evidence_reach));
   const float inside = x > 0.0F ? (x < last ? x : last) : 0.0F;
@@ -49,9 +50,9 @@ struct EvidencePlace {
   return {knot, inside - static_cast<float>(knot)};
 }
 
-/// What a curve says of its input (nats).
+/// The curve's log-odds contribution at this input (nats).
 [[nodiscard]] inline float evidence_at(const EvidenceCurve& curve, float input) noexcept {
-  const EvidencePlace at = evidence_place(input, evidence_knots);
+  const EvidencePosition at = evidence_position(input, evidence_knots);
   const float* const knot = curve.data() + at.knot;
   return knot[0] + at.share * (knot[1] - knot[0]);
 }
@@ -60,27 +61,28 @@ struct EvidencePlace {
 [[nodiscard]] float evidence_logit(const EvidenceModel& model,
                                    const DecisionInputs& inputs) noexcept;
 
-/// The evidence of both wheels at once. What is heard of them are the same numbers in another
-/// order, so each is looked up once, for what it says to one wheel and to the other.
+/// Evaluates the model for both wheels at once. Their inputs are the same numbers in another order,
+/// so each is looked up once, for its contribution to both wheels.
 class PairedEvidence {
  public:
   explicit PairedEvidence(const EvidenceModel& model);
 
-  /// Of the left and of the right wheel, from what is heard of the left one: `evidence_logit` of
-  /// each, up to rounding.
+  /// `evidence_logit` of the left and of the right wheel, from the inputs of the left one, up to
+  /// rounding.
   [[nodiscard]] std::array<float, 2> logits(const DecisionInputs& left) const noexcept;
 
  private:
-  /// By knot: what it says to the wheel that it is of, or to the left one; to the other one.
+  /// For each knot, the contribution to the wheel of the input (of a common input: to the left
+  /// wheel), and to the other wheel.
   using Curves = std::array<std::array<float, 2>, evidence_knots>;
 
-  /// Of a leg's inputs, the vertical acceleration's, the roll rate's, the noise levels'.
+  /// The curves of a leg's inputs, the vertical acceleration, the roll rate and the noise levels.
   std::array<Curves, decision_inputs - DecisionPairInputs::of_legs> curve_{};
   std::vector<EvidenceTable> table_;
   float bias_;
 };
 
-/// Throws InputError for numbers that are not finite, and for tables of another number of pairs.
+/// Throws InputError for numbers that are not finite, and for a wrong number of tables.
 void check_evidence_model(const EvidenceModel& model);
 
 }  // namespace touchdown

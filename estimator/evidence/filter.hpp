@@ -7,15 +7,15 @@
 
 namespace touchdown {
 
-/// The decision network's transparent twin: it hears the same and decides alike, but each input
-/// speaks for contact or against it by a curve of its own, and what they say is added
-/// (docs/estimator.md).
+/// The interpretable counterpart of the decision network: an additive model (GAM) with the same
+/// inputs and the same decision rule. Each input contributes to the log-odds of contact by a curve
+/// of its own, and the contributions add up (docs/estimator.md).
 ///
-/// `update` never throws, allocates or locks, and never returns NaN. Without signals that it can
-/// use it does as `LogitDecision`.
+/// `update` never throws, allocates or locks, and never returns NaN. `LogitDecision` describes the
+/// behaviour without usable signals.
 class EvidenceCurves : public ContactEstimator {
  public:
-  /// Throws InputError as `check_evidence_model` and for configurations that make no sense.
+  /// Throws InputError as `check_evidence_model` does, and for an invalid configuration.
   explicit EvidenceCurves(const EvidenceModel& model, const DecisionConfig& config = {});
 
   void reset() noexcept override { decision_.reset(); }

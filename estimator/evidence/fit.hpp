@@ -9,9 +9,9 @@
 
 namespace touchdown {
 
-/// Fits evidence curves as `fit_decision_model` fits the network: to the same rows, and so that the
-/// logit means the probability of contact in runs like these. The same runs and configuration give
-/// the same numbers. Throws InputError as that does.
+/// Fits evidence curves to the same rows as `fit_decision_model` fits the network. The logit means
+/// the probability of contact in runs like these. The same runs and configuration give the same
+/// numbers. Throws InputError as `fit_decision_model` does.
 [[nodiscard]] EvidenceModel fit_evidence_model(std::span<const LabelledRun> runs,
                                                const DecisionConfig& config = {},
                                                const EvidenceFitConfig& fit = {},

@@ -8,7 +8,7 @@
 
 namespace touchdown {
 
-/// What `TouchdownEstimator` was fitted to be.
+/// The fitted model of `TouchdownEstimator`.
 struct TouchdownModel {
   EvidenceModel evidence;
   DecisionModel network;
@@ -16,15 +16,15 @@ struct TouchdownModel {
   bool operator==(const TouchdownModel&) const = default;
 };
 
-/// Evidence curves and the decision network, which hear the same, side by side: the logit is the
-/// mean of theirs (docs/estimator.md). They err at different moments, so the mean errs less often
-/// and changes its mind less often than either.
+/// Evidence curves and the decision network side by side, with the same inputs. The logit is the
+/// mean of their logits (docs/estimator.md). They err at different times, so the mean has fewer
+/// errors and fewer changes of decision than either.
 ///
-/// `update` never throws, allocates or locks, and never returns NaN. Without signals that it can
-/// use it does as `LogitDecision`.
+/// `update` never throws, allocates or locks, and never returns NaN. `LogitDecision` describes the
+/// behaviour without usable signals.
 class TouchdownEstimator : public ContactEstimator {
  public:
-  /// Throws InputError for numbers that are not finite and configurations that make no sense.
+  /// Throws InputError for numbers that are not finite and for an invalid configuration.
   explicit TouchdownEstimator(const TouchdownModel& model, const DecisionConfig& config = {});
 
   void reset() noexcept override { decision_.reset(); }

@@ -10,9 +10,9 @@
 
 namespace touchdown {
 
-/// Fits curves and network, each by itself, to the same rows: those that the network's
-/// configuration says. The same runs and configuration give the same numbers. Throws InputError as
-/// `fit_decision_model` and `fit_evidence_model` do.
+/// Fits curves and network separately to the same rows, which follow the network's configuration.
+/// The same runs and configuration give the same numbers. Throws InputError as `fit_decision_model`
+/// and `fit_evidence_model` do.
 [[nodiscard]] TouchdownModel fit_touchdown_model(std::span<const LabelledRun> runs,
                                                  const DecisionConfig& config = {},
                                                  const DecisionFitConfig& network = {},

@@ -15,15 +15,15 @@ namespace {
 
 constexpr auto pair_width = static_cast<int>(evidence_pair_knots);
 
-/// The four knots around a pair's inputs, and how much each counts.
-struct PairPlace {
+/// The four knots around a pair's inputs, and the weight of each.
+struct PairPosition {
   int knot = 0;
   std::array<float, 4> share{};  ///< of the knot, the next, and those a row further
 };
 
-PairPlace pair_place(const EvidencePair& pair, const float* inputs) {
-  const EvidencePlace row = evidence_place(inputs[pair.first], evidence_pair_knots);
-  const EvidencePlace column = evidence_place(inputs[pair.second], evidence_pair_knots);
+PairPosition pair_position(const EvidencePair& pair, const float* inputs) {
+  const EvidencePosition row = evidence_position(inputs[pair.first], evidence_pair_knots);
+  const EvidencePosition column = evidence_position(inputs[pair.second], evidence_pair_knots);
   return {row.knot * pair_width + column.knot,
           {(1.0F - row.share) * (1.0F - column.share), (1.0F - row.share) * column.share,
            row.share * (1.0F - column.share), row.share * column.share}};
@@ -31,13 +31,13 @@ PairPlace pair_place(const EvidencePair& pair, const float* inputs) {
 
 constexpr std::array<int, 4> pair_offsets = {0, 1, pair_width, pair_width + 1};
 
-/// Gives to each knot around a place its share.
-void add(auto& values, const EvidencePlace& at, float amount) {
+/// Adds to each knot around the position its share of the amount.
+void add(auto& values, const EvidencePosition& at, float amount) {
   const auto knot = static_cast<std::size_t>(at.knot);
   values[knot] += (1.0F - at.share) * amount;
   values[knot + 1] += at.share * amount;
 }
-void add(auto& values, const PairPlace& at, float amount) {
+void add(auto& values, const PairPosition& at, float amount) {
   for (std::size_t k = 0; k < 4; ++k) {
     values[static_cast<std::size_t>(at.knot + pair_offsets[k])] += at.share[k] * amount;
   }
@@ -49,7 +49,7 @@ DecisionInputs inputs_of(const DecisionRows& rows, Eigen::Index row) {
   return inputs;
 }
 
-/// All numbers that are learned, part by part, of as many models at once.
+/// Calls `part` with the same fitted numbers of all models, part by part.
 template <typename Part, typename... Models>
 void for_each_number(const Part& part, Models&... models) {
   for (std::size_t i = 0; i < decision_inputs; ++i) part(std::span(models.curve[i])...);
@@ -58,7 +58,7 @@ void for_each_number(const Part& part, Models&... models) {
   part(std::span(&models.bias, 1)...);
 }
 
-/// Adds the gradient of `cost`/2 times the squared differences of neighbours.
+/// Adds the gradient of `cost`/2 times the squared differences of neighbouring knots.
 void add_smoothness(const EvidenceModel& model, float cost, EvidenceModel& gradient) {
   const auto between = [cost](const auto& values, auto& slopes, std::size_t a, std::size_t b) {
     const float slope = cost * (values[b] - values[a]);
@@ -85,43 +85,43 @@ void add_smoothness(const EvidenceModel& model, float cost, EvidenceModel& gradi
   }
 }
 
-/// Takes from a curve or a table its mean, given how much each knot counted.
+/// Subtracts from a curve or a table its mean, given the weight of each knot. Returns the mean.
 template <typename Values>
-float centred(Values& values, const std::vector<double>& counted) {
+float centred(Values& values, const std::vector<double>& weight) {
   double sum = 0.0;
   double all = 0.0;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    sum += counted[k] * static_cast<double>(values[k]);
-    all += counted[k];
+    sum += weight[k] * static_cast<double>(values[k]);
+    all += weight[k];
   }
   const auto mean = static_cast<float>(sum / all);
   for (float& value : values) value -= mean;
   return mean;
 }
 
-/// Centres every curve and table over the rows; what that takes off goes into the bias.
+/// Centres every curve and table over the rows and adds the means to the bias.
 void centre(EvidenceModel& model, const DecisionRows& rows) {
-  std::vector<double> counted(evidence_knots);
+  std::vector<double> weight(evidence_knots);
   for (std::size_t i = 0; i < decision_inputs; ++i) {
-    std::fill(counted.begin(), counted.end(), 0.0);
+    std::fill(weight.begin(), weight.end(), 0.0);
     for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
-      add(counted, evidence_place(rows.inputs(static_cast<Eigen::Index>(i), row), evidence_knots),
+      add(weight, evidence_position(rows.inputs(static_cast<Eigen::Index>(i), row), evidence_knots),
           rows.weight[row]);
     }
-    model.bias += centred(model.curve[i], counted);
+    model.bias += centred(model.curve[i], weight);
   }
-  counted.assign(std::tuple_size_v<EvidenceTable>, 0.0);
+  weight.assign(std::tuple_size_v<EvidenceTable>, 0.0);
   for (std::size_t p = 0; p < model.table.size(); ++p) {
-    std::fill(counted.begin(), counted.end(), 0.0);
+    std::fill(weight.begin(), weight.end(), 0.0);
     for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
-      add(counted, pair_place(evidence_pairs[p], rows.inputs.col(row).data()), rows.weight[row]);
+      add(weight, pair_position(evidence_pairs[p], rows.inputs.col(row).data()), rows.weight[row]);
     }
-    model.bias += centred(model.table[p], counted);
+    model.bias += centred(model.table[p], weight);
   }
 }
 
-/// Where all but two in a thousand rows of each input lie.
-void note_what_was_seen(EvidenceModel& model, const DecisionRows& rows) {
+/// Sets for each input the range that holds all but two in a thousand rows.
+void set_seen_ranges(EvidenceModel& model, const DecisionRows& rows) {
   const auto count = static_cast<std::size_t>(rows.inputs.cols());
   std::vector<float> values(count);
   for (std::size_t i = 0; i < decision_inputs; ++i) {
@@ -167,10 +167,10 @@ double evidence_loss(const EvidenceModel& model, const DecisionRows& rows,
     const float to_logit = (p - rows.is_contact[row]) * rows.weight[row] / all;
     gradient->bias += to_logit;
     for (std::size_t i = 0; i < decision_inputs; ++i) {
-      add(gradient->curve[i], evidence_place(inputs[i], evidence_knots), to_logit);
+      add(gradient->curve[i], evidence_position(inputs[i], evidence_knots), to_logit);
     }
     for (std::size_t pair = 0; pair < model.table.size(); ++pair) {
-      add(gradient->table[pair], pair_place(evidence_pairs[pair], inputs.data()), to_logit);
+      add(gradient->table[pair], pair_position(evidence_pairs[pair], inputs.data()), to_logit);
     }
   }
   return loss / static_cast<double>(all);
@@ -191,7 +191,7 @@ EvidenceModel train_evidence_model(const DecisionRows& rows, const EvidenceFitCo
             for_each_number(adam_step, model, gradient, mean, square);
           });
   centre(model, rows);
-  note_what_was_seen(model, rows);
+  set_seen_ranges(model, rows);
   return model;
 }
 

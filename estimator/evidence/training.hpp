@@ -10,26 +10,25 @@ namespace touchdown {
 
 /// How an `EvidenceModel` is fitted.
 struct EvidenceFitConfig {
-  /// What is learned from, and the descent. Its decay pulls every number towards no evidence.
+  /// The rows and the descent. Its decay pulls every number towards zero.
   DecisionFitConfig descent = {.learning_rate = 1e-2, .decay = 0.0};
-  /// Half of it times the squared differences of neighbouring knots (nats²) is added to the loss.
+  /// Half of this times the squared differences of neighbouring knots (nats²) is added to the loss.
   double smoothness = 1e-4;
-  bool with_pairs = false;  ///< whether the pairs get tables, too
+  bool with_pairs = false;  ///< whether to fit tables of the pairs, too
 
   bool operator==(const EvidenceFitConfig&) const = default;
 };
 
-/// Throws InputError for values that make no sense.
+/// Throws InputError for invalid values.
 void check_evidence_fit_config(const EvidenceFitConfig& config);
 
-/// The weighted mean of the cross-entropy of these rows, and its gradient where one is asked for
-/// (nothing of it is `seen`). Smoothness does not count.
+/// The weighted mean of the cross-entropy of these rows, without the smoothness term. `gradient`,
+/// unless null, gets its gradient; `seen` has none.
 [[nodiscard]] double evidence_loss(const EvidenceModel& model, const DecisionRows& rows,
                                    EvidenceModel* gradient = nullptr);
 
-/// Curves that begin flat, then the descent of the network. The same rows and configuration give
-/// the same numbers. Curves are centred: their weighted means over the rows are 0, those of tables
-/// too.
+/// Starts from flat curves and runs `descend`. The same rows and configuration give the same
+/// numbers. Curves and tables are centred: their weighted means over the rows are 0.
 [[nodiscard]] EvidenceModel train_evidence_model(const DecisionRows& rows,
                                                  const EvidenceFitConfig& config,
                                                  const std::function<void()>& before_step = {});

@@ -9,25 +9,24 @@ namespace touchdown {
 struct AxleMotionConfig {
   double sample_rate = 1000.0;  ///< at which `update` is called (Hz)
   LegGeometry geometry = {};
-  double leak = 0.3;  ///< time constant with which the torso's velocity is forgotten (s)
+  double leak = 0.3;  ///< time constant with which the torso's velocity decays (s)
 };
 
-/// How fast each axle moves up or down: differential kinematics of the legs, on a torso whose
-/// velocity is a leaky integral of its acceleration. Alike for those that listen and for what they
-/// are fitted to.
+/// The vertical velocity of each axle, by differential kinematics of the legs. The torso's velocity
+/// is a leaky integral of its acceleration. Estimators and their fits use the same one.
 class AxleMotion {
  public:
   explicit AxleMotion(const AxleMotionConfig& config) noexcept;
 
-  /// Forgets everything: what comes next does not follow what came.
+  /// Resets all state: the next step does not follow the previous ones.
   void reset() noexcept;
 
-  /// `acceleration`: the torso's, upwards (m/s²), or 0 where it is not known.
+  /// `acceleration`: upward acceleration of the torso (m/s²), or 0 if it is unknown.
   void update(const Signals& signals, double acceleration) noexcept;
 
-  /// Whether the last step had the velocities of this leg.
+  /// Whether the last step measured this leg.
   [[nodiscard]] bool is_measured(std::size_t side) const noexcept { return is_measured_[side]; }
-  /// Upwards (m/s); the last that was measured.
+  /// The last measured velocity, upwards (m/s).
   [[nodiscard]] double velocity(std::size_t side) const noexcept { return velocity_[side]; }
 
  private:

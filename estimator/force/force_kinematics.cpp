@@ -25,7 +25,7 @@ bool is_sensible(const WheelState& state) noexcept {
 
 double square(double x) noexcept { return x * x; }
 
-/// What of a ratio of likelihoods does not depend on what is observed.
+/// The part of the log likelihood ratio that does not depend on the observation.
 double log_deviation_ratio(const ForceKinematicsModel& model) noexcept {
   const auto log_deviations = [](const WheelState& state) {
     return std::log(state.force_deviation) + std::log(state.axle_deviation);
@@ -33,7 +33,7 @@ double log_deviation_ratio(const ForceKinematicsModel& model) noexcept {
   return log_deviations(model.air) - log_deviations(model.contact);
 }
 
-/// What does.
+/// The part that does.
 double exponent_ratio(const ForceKinematicsModel& model,
                       const WheelObservation& observation) noexcept {
   const auto [least, most] = std::minmax(model.air.force_mean, model.contact.force_mean);

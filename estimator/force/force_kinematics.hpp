@@ -8,24 +8,24 @@
 
 namespace touchdown {
 
-/// What is observed of one wheel at one step.
+/// The observation of one wheel at one step.
 struct WheelObservation {
   double force = 0.0;          ///< of the ground, upwards (N)
   double axle_velocity = 0.0;  ///< upwards (m/s)
 };
 
-/// How observations of a wheel are distributed in one of its two states, and how it leaves the
-/// state.
+/// The distribution of a wheel's observations in one of its two states, and the rate at which the
+/// wheel leaves the state.
 struct WheelState {
   double force_mean = 0.0;       ///< N
   double force_deviation = 1.0;  ///< N
-  double axle_deviation = 1.0;   ///< of a velocity whose mean is zero (m/s)
+  double axle_deviation = 1.0;   ///< of a velocity with zero mean (m/s)
   double leaving_rate = 1.0;     ///< one over the state's mean duration (1/s)
 
   bool operator==(const WheelState&) const = default;
 };
 
-/// One for both wheels.
+/// The model, the same for both wheels.
 struct ForceKinematicsModel {
   WheelState air;
   WheelState contact;
@@ -33,28 +33,28 @@ struct ForceKinematicsModel {
   bool operator==(const ForceKinematicsModel&) const = default;
 };
 
-/// Chosen on runs of seed 2 (docs/estimator.md).
+/// Settings, chosen on runs of seed 2 (docs/estimator.md).
 struct ForceKinematicsConfig {
   double sample_rate = 1000.0;  ///< at which `update` is called (Hz)
   LegGeometry geometry = {};
   double low_pass = 0.007;  ///< time constant of the low-pass of the force (s)
-  /// A force beyond this counts as this (N), before the low-pass: somewhat more than twice what a
-  /// wheel of Upkie carries. Landings would widen the Gaussian of contact, so that light forces lie
-  /// in it, too.
+  /// The force is limited to this (N) before the low-pass: somewhat more than twice the load of one
+  /// wheel of Upkie. Otherwise landings would widen the Gaussian of contact until it includes light
+  /// forces.
   double largest_force = 60.0;
-  double leak = 0.3;       ///< time constant with which the torso's velocity is forgotten (s)
+  double leak = 0.3;       ///< time constant with which the torso's velocity decays (s)
   double threshold = 0.5;  ///< in contact from this probability on
   SignalGuardConfig guard = {};
 };
 
-/// All that is observed, as far as signals can be used. Alike for the filter and for what it is
-/// fitted to.
+/// Computes the observations of both wheels from usable signals. The filter and its fit use the
+/// same one.
 class WheelObservations {
  public:
   explicit WheelObservations(const ForceKinematicsConfig& config);
 
   void reset() noexcept;
-  /// Where a wheel is not measured by this step its observation is the last one.
+  /// If this step does not measure a wheel, its last observation stays.
   WheelLoads::Step update(const Signals& signals) noexcept;
   [[nodiscard]] WheelObservation of(std::size_t side) const noexcept {
     return {loads_.force(side), motion_.velocity(side)};
@@ -68,35 +68,37 @@ class WheelObservations {
   AxleMotion motion_;
 };
 
-/// log P(observation | contact) − log P(observation | no contact), by independent Gaussians. A
-/// force beyond the mean of either state counts as that mean: what presses more than a wheel on the
-/// ground does not lift it, whichever Gaussian is wider.
+/// log P(observation | contact) − log P(observation | no contact), by independent Gaussians. The
+/// force is clamped between the means of both states: a force above that of contact must not count
+/// as air, whichever Gaussian is wider.
 [[nodiscard]] double log_likelihood_ratio(const ForceKinematicsModel& model,
                                           const WheelObservation& observation) noexcept;
 
 /// Published for legged robots: Hwangbo, Bellicoso, Fankhauser, Hutter, "Probabilistic foot contact
-/// estimation by fusing information from dynamics and differential/forward kinematics" (IROS 2016):
-/// a hidden Markov model of each foot with the states contact and no contact, whose observations
-/// are the contact force that the dynamics explain and the velocity of the foot, which on the
-/// ground is zero up to a small noise; forward kinematics, as the foot's height, drive the
-/// transitions. Written from memory of the paper. What is ours, for wheels:
+/// estimation by fusing information from dynamics and differential/forward kinematics" (IROS 2016).
+/// The paper has a hidden Markov model of each foot with the states contact and no contact. The
+/// observations are the contact force that explains the dynamics and the velocity of the foot,
+/// which on the ground is zero up to a small noise. Forward kinematics, as the foot's height, drive
+/// the transitions. Written from memory of the paper. Adapted to wheels as follows:
 ///
-/// - dynamics: the vertical force of each leg (`vertical_force`), Gaussian in each state;
-/// - differential kinematics: a wheel rolls, so that only its axle's vertical velocity is zero on
-///   level ground: the torso's, from a leaky integral of its acceleration, and the leg's;
+/// - dynamics: the vertical force of each leg (`vertical_force`) is Gaussian in each state;
+/// - differential kinematics: a wheel rolls, so on level ground only its axle's vertical velocity
+/// is
+///   zero. It is the sum of the torso's, a leaky integral of its acceleration, and the leg's;
 /// - a wheel's acceleration in place of a foot's slip was tried and left out: in the fitted runs it
 ///   is larger on the ground, where landings spin wheels up, than in the air;
-/// - there is no map of the ground to compare heights with: transitions have the rates that the
-///   fitted runs have;
+/// - there is no map of the ground to compare heights with: transitions have the rates of the
+/// fitted
+///   runs;
 /// - both wheels share one model, fitted to labelled runs.
 ///
 /// `update` never throws, allocates or locks, and never returns NaN. While the acceleration or a
-/// leg's joints are not usable the belief relaxes to the prior and the status says why.
+/// leg's joints are not usable, the belief relaxes to the prior and the status gives the reason.
 class ForceKinematics : public ContactEstimator {
  public:
-  /// Throws InputError for a model whose numbers are not finite, deviations and rates that are not
-  /// positive, and for a rate, length, leak or largest force that is not positive, a negative time
-  /// constant and a threshold that is no probability.
+  /// Throws InputError for a model with numbers that are not finite, or deviations or rates that
+  /// are not positive. Also for a sample rate, length, leak or largest force that is not positive,
+  /// a negative time constant, and a threshold outside (0, 1).
   explicit ForceKinematics(const ForceKinematicsModel& model,
                            const ForceKinematicsConfig& config = {});
 
@@ -110,7 +112,7 @@ class ForceKinematics : public ContactEstimator {
   double log_deviation_ratio_;
   double takeoff_;  ///< P(no contact now | contact before)
   double landing_;
-  std::array<double, 2> p_air_ = {0.5, 0.5};  ///< beside the belief, which may round to one
+  std::array<double, 2> p_air_ = {0.5, 0.5};  ///< kept because the belief may round to one
   Belief belief_;
 };
 

@@ -11,8 +11,8 @@ namespace touchdown {
 
 namespace {
 
-/// Of one state, what has been seen.
-struct Seen {
+/// The observations of one state.
+struct StateStatistics {
   double count = 0.0;
   double force = 0.0;
   double force_squares = 0.0;  ///< about the mean so far
@@ -39,14 +39,14 @@ struct Seen {
   }
 };
 
-using SeenOfStates = std::array<Seen, 2>;  // without and with contact
+using StatisticsByState = std::array<StateStatistics, 2>;  // without and with contact
 
-void count_durations(const LabelledRun& run, SeenOfStates& seen) {
+void count_durations(const LabelledRun& run, StatisticsByState& states) {
   for (const std::span<const std::uint8_t>& contact : run.contact) {
     for (std::size_t k = run.skip; k < contact.size(); ++k) {
-      seen[contact[k] != 0 ? 1 : 0].seconds += 1.0 / run.sample_rate;
+      states[contact[k] != 0 ? 1 : 0].seconds += 1.0 / run.sample_rate;
       const bool is_left = k + 1 < contact.size() && (contact[k] != 0) != (contact[k + 1] != 0);
-      if (is_left) seen[contact[k] != 0 ? 1 : 0].departures += 1.0;
+      if (is_left) states[contact[k] != 0 ? 1 : 0].departures += 1.0;
     }
   }
 }
@@ -56,7 +56,7 @@ void count_durations(const LabelledRun& run, SeenOfStates& seen) {
 ForceKinematicsModel fit_force_kinematics(std::span<const LabelledRun> runs,
                                           const ForceKinematicsConfig& config,
                                           const ForceKinematicsFloors& floors) {
-  SeenOfStates seen;
+  StatisticsByState states;
   for (const LabelledRun& run : runs) {
     check_labels(run);
     ForceKinematicsConfig own = config;
@@ -66,15 +66,15 @@ ForceKinematicsModel fit_force_kinematics(std::span<const LabelledRun> runs,
       const WheelLoads::Step step = observations.update(run.signals[k]);
       for (std::size_t side = 0; side < 2; ++side) {
         if (k < run.skip || !step.is_measured[side]) continue;
-        seen[run.contact[side][k] != 0 ? 1 : 0].add(observations.of(side));
+        states[run.contact[side][k] != 0 ? 1 : 0].add(observations.of(side));
       }
     }
-    count_durations(run, seen);
+    count_durations(run, states);
   }
-  if (!(seen[0].count > 0.0 && seen[1].count > 0.0)) {
+  if (!(states[0].count > 0.0 && states[1].count > 0.0)) {
     throw InputError("force kinematics: steps in contact and without are needed");
   }
-  return {.air = seen[0].state(floors), .contact = seen[1].state(floors)};
+  return {.air = states[0].state(floors), .contact = states[1].state(floors)};
 }
 
 }  // namespace touchdown

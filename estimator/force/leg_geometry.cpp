@@ -10,10 +10,10 @@ namespace touchdown {
 
 namespace {
 
-/// The angles of as many links from vertical, side by side.
+/// Sines and cosines of the links' angles from vertical, side by side.
 template <std::size_t links>
 std::array<SineCosine, links> sines_and_cosines(const std::array<double, links>& angle) noexcept {
-  constexpr double largest = 1e5;  // rad, that sines are defined for
+  constexpr double largest = 1e5;  // rad, the range of `sine_and_cosine`
   std::array<double, links> x;
   for (std::size_t i = 0; i < links; ++i) x[i] = std::clamp(angle[i], -largest, largest);
   std::array<double, links> sine;

@@ -6,8 +6,8 @@
 
 namespace touchdown {
 
-/// One leg in its plane, hip to axle: two links whose centres of mass lie on the lines between the
-/// joints. The values are Upkie's.
+/// One leg in its plane, hip to axle: two links, with their centres of mass on the lines between
+/// the joints. The values are Upkie's.
 struct LegGeometry {
   double upper_length = 0.168;  ///< hip to knee (m)
   double lower_length = 0.175;  ///< knee to axle (m)
@@ -16,53 +16,55 @@ struct LegGeometry {
   double wheel_mass = 0.18455;  ///< kg, at the axle
   double upper_centre = 0.855;  ///< of mass, as a share of the length from the hip
   double lower_centre = 0.742;  ///< likewise, from the knee
-  /// Of the wheel about its axle (kg·m²), with its motor's rotor as the joint feels it: what the
-  /// torque that the servo reports sets in motion.
+  /// Of the wheel about its axle (kg·m²), including its motor's rotor at the joint: the inertia
+  /// that the servo's reported torque accelerates.
   double wheel_inertia = 1.7456e-4;
-  double robot_mass = 5.33922;  ///< of all of the robot (kg), which both legs carry
+  double robot_mass = 5.33922;  ///< of the whole robot (kg), which both legs carry
 
   bool operator==(const LegGeometry&) const = default;
 };
 
-/// How a leg's foot moves with its joints in one pose, in the left leg's signs. With the hip at q₁
-/// and the knee at q₂ from straight, forward positive,
+/// The Jacobian of a leg's foot in one pose, in the left leg's signs. With the hip at q₁ and the
+/// knee at q₂ from straight, forward positive,
 ///
-///     x = L₁ sin q₁ + L₂ sin(q₁ + q₂),   z = −L₁ cos q₁ − L₂ cos(q₁ + q₂),
+///     x = L₁ sin q₁ + L₂ sin(q₁ + q₂),   z = −L₁ cos q₁ − L₂ cos(q₁ + q₂).
 ///
-/// whose terms have these derivatives (m/rad): the upper link's by q₁, the lower link's by q₁ + q₂.
+/// The members are the derivatives (m/rad) of the terms: the upper link's by q₁, the lower link's
+/// by q₁ + q₂.
 struct FootJacobian {
   double upper_x;
   double upper_z;
   double lower_x;
   double lower_z;
 
-  /// det ∂(x, z)/∂(q₁, q₂) = L₁ L₂ sin q₂ (m²): 0 of a straight leg.
+  /// det ∂(x, z)/∂(q₁, q₂) = L₁ L₂ sin q₂ (m²): 0 for a straight leg.
   [[nodiscard]] double determinant() const noexcept {
     return upper_x * lower_z - lower_x * upper_z;
   }
 };
 
-/// Of the left, of the right leg, whose joints' signs are mirrored.
+/// For the left and the right leg; the right leg's joints have mirrored signs.
 [[nodiscard]] std::array<FootJacobian, 2> foot_jacobians(
     const LegGeometry& geometry, const std::array<LegSignals, 2>& legs) noexcept;
-/// Of one leg. `mirrored`: the joints' signs are those of the right leg.
+/// For one leg. `mirrored`: the joints' signs are those of the right leg.
 [[nodiscard]] FootJacobian foot_jacobian(const LegGeometry& geometry, const LegSignals& leg,
                                          bool mirrored) noexcept;
 
-/// The vertical force of the ground on a leg's foot (N) that explains its torques, if the torso is
-/// level and all of the leg accelerates upwards with `acceleration` (m/s², without gravity):
+/// The vertical force of the ground on a leg's foot (N) that explains the leg's torques, times the
+/// determinant of J (N·m²). The torso is taken to be level, and the whole leg to accelerate upwards
+/// with `acceleration` (m/s², without gravity):
 ///
 ///     Jᵀ F = −τ + Σ_i m_i (g + a) ∂z_i/∂q,
 ///
-/// over the links and the wheel, solved for F = (F_x, F_z), times the determinant of J (N·m²):
-/// always finite, whereas a straight leg carries any load without torques.
+/// over the links and the wheel, solved for F = (F_x, F_z). The product is always finite, whereas a
+/// straight leg carries any load without torques.
 [[nodiscard]] inline double vertical_force_times_determinant(const LegGeometry& geometry,
                                                              const FootJacobian& foot,
                                                              const LegSignals& leg, bool mirrored,
                                                              double acceleration) noexcept {
   constexpr double gravity = 9.81;
   const double sign = mirrored ? -1.0 : 1.0;
-  // What the links and the wheel weigh on each joint, by their arms.
+  // The moment arms of the links' and the wheel's masses about each joint (kg·m).
   const double below_knee = geometry.lower_centre * geometry.lower_mass + geometry.wheel_mass;
   const double on_knee = below_knee * foot.lower_z;
   const double on_hip =
@@ -74,12 +76,12 @@ struct FootJacobian {
   return (foot.upper_x + foot.lower_x) * knee_load - foot.lower_x * hip_load;
 }
 
-/// The force alone (N). Not finite where the knee is straight.
+/// The force alone (N). Not finite if the knee is straight.
 [[nodiscard]] double vertical_force(const LegGeometry& geometry, const LegSignals& leg,
                                     bool mirrored, double acceleration) noexcept;
 
-/// How fast the axle moves upwards beneath the hip (m/s), ż of the above, if the torso is level and
-/// does not turn.
+/// The upward velocity of the axle relative to the hip (m/s), ż of the above, if the torso is level
+/// and does not turn.
 [[nodiscard]] inline double axle_velocity(const FootJacobian& foot, const LegSignals& leg,
                                           bool mirrored) noexcept {
   const double sign = mirrored ? -1.0 : 1.0;
@@ -87,7 +89,7 @@ struct FootJacobian {
          foot.lower_z * (sign * leg.hip.velocity + sign * leg.knee.velocity);
 }
 
-/// Likewise, for both legs: where one is mirrored, the signs of a sine and of a velocity cancel.
+/// The same for either leg: in the mirrored one, the signs of a sine and of a velocity cancel.
 [[nodiscard]] double axle_velocity(const LegGeometry& geometry, const LegSignals& leg) noexcept;
 
 }  // namespace touchdown

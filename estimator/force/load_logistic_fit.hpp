@@ -7,9 +7,9 @@
 
 namespace touchdown {
 
-/// The curve that `LoadLogistic` needs, from the steps of both wheels of all runs in which it would
-/// have a force; each run is heard at its own rate. Errors: `InputError` for steps of one class
-/// only and for labels that are not one per step.
+/// Fits the curve of `LoadLogistic` to all steps of both wheels of all runs that have a force, each
+/// run at its own rate. Errors: `InputError` for steps of one class only, and for labels that are
+/// not one per step.
 [[nodiscard]] LogisticCurve fit_load_logistic(std::span<const LabelledRun> runs,
                                               const LoadLogisticConfig& config = {});
 

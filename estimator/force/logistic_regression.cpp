@@ -10,8 +10,8 @@ namespace touchdown {
 
 namespace {
 
-/// What is minimised, at one place: its value, its gradient and its curvature along offset and
-/// slope of the standardised x.
+/// The loss at one point: its value, gradient and curvature along offset and slope of the
+/// standardised x.
 struct Loss {
   double value = 0.0;
   double offset = 0.0;
@@ -118,14 +118,15 @@ LogisticCurve fit_logistic(std::span<const double> x, std::span<const std::uint8
         (here.slope_slope * here.offset - here.offset_slope * here.slope) / determinant;
     const double along_slope =
         (here.offset_offset * here.slope - here.offset_slope * here.offset) / determinant;
-    // A whole step, or as much of it as does not climb: far from the minimum a whole one may.
+    // Halve the step until it does not climb: far from the minimum a whole step may.
     double share_of_step = 1.0;
     Loss there = data.loss(offset - along_offset, slope - along_slope);
     while (!(there.value <= here.value + rounding) && share_of_step > least_share) {
       share_of_step *= 0.5;
       there = data.loss(offset - share_of_step * along_offset, slope - share_of_step * along_slope);
     }
-    // As flat as numbers get: where classes are nearly apart little steepness is still far to go.
+    // Stop where rounding ends the descent: for nearly separable classes, a small gradient can
+    // still be far from the minimum.
     if (!(there.value <= here.value + rounding)) break;
     if (steepness(here) <= flat && steepness(there) >= steepness(here)) break;
     offset -= share_of_step * along_offset;

@@ -15,13 +15,13 @@ struct LogisticCurve {
   [[nodiscard]] double operator()(double x) const noexcept;
 };
 
-/// The curve of the largest likelihood, by Newton's method: the minimum over slope and intercept of
+/// The maximum likelihood curve, by Newton's method: the minimum over slope and intercept of
 ///
 ///     1/n Σ_i log(1 + exp(−y_i (slope x_i + intercept))) + ridge/2 (slope · s)²,   y_i = ±1,
 ///
-/// with s the standard deviation of x. A little of the ridge keeps the slope finite where one value
-/// of x separates the classes. `is_one` is 0 or 1 for each x. Throws InputError for sequences of
-/// different lengths, values that are not finite, a single class, and a ridge that is negative.
+/// with s the standard deviation of x. A small ridge keeps the slope finite if one value of x
+/// separates the classes. `is_one` is 0 or 1 for each x. Throws InputError for sequences of
+/// different lengths, values that are not finite, a single class, and a negative ridge.
 [[nodiscard]] LogisticCurve fit_logistic(std::span<const double> x,
                                          std::span<const std::uint8_t> is_one, double ridge = 1e-6);
 

@@ -14,15 +14,14 @@ struct WheelLoadsConfig {
   double sample_rate = 1000.0;  ///< at which `update` is called (Hz)
   LegGeometry geometry = {};
   double low_pass = 0.01;  ///< time constant of the low-pass of the force (s)
-  /// A force beyond this, up or down, counts as this (N): near a straight knee it may be anything,
-  /// and one such value would stay in the low-pass for long.
+  /// The force is limited to ± this (N). Near a straight knee it may be arbitrarily large, and one
+  /// such value would stay in the low-pass for long.
   double largest = std::numeric_limits<double>::infinity();
   SignalGuardConfig guard = {};
 };
 
-/// Whether all that a load is computed from can be used.
-[[nodiscard]] inline bool has_load(const LegSignals& leg,
-                                        const SignalGuardConfig& guard) noexcept {
+/// Whether all signals behind a load are usable.
+[[nodiscard]] inline bool has_load(const LegSignals& leg, const SignalGuardConfig& guard) noexcept {
   return is_torque(leg.hip.torque, guard) && is_torque(leg.knee.torque, guard) &&
          std::isfinite(leg.hip.position) && std::isfinite(leg.knee.position);
 }
@@ -30,27 +29,27 @@ struct WheelLoadsConfig {
 /// Whether lengths are positive and the time constant is not negative.
 [[nodiscard]] bool is_sensible(const WheelLoadsConfig& config) noexcept;
 
-/// What the ground carries each wheel with, low-passed, as long as signals can be used. Alike for
-/// those that listen and for what they are fitted to.
+/// The low-passed vertical force of the ground on each wheel, from usable signals. Estimators and
+/// their fits use the same one.
 class WheelLoads {
  public:
-  /// What became of one step.
+  /// The outcome of one step.
   struct Step {
     SignalStatus status = SignalStatus::good;
     double elapsed = 0.0;                  ///< since the previous step (s)
-    bool restart = false;                  ///< as the guard says
-    bool acceleration_good = true;         ///< as the guard says
-    std::array<bool, 2> is_measured = {};  ///< whether there is a force of this step
+    bool restart = false;                  ///< the guard's verdict
+    bool acceleration_good = true;         ///< the guard's verdict
+    std::array<bool, 2> is_measured = {};  ///< whether this step has a force
   };
 
-  /// Throws InputError for what the guard refuses.
+  /// Throws InputError if `SignalGuard` does.
   explicit WheelLoads(const WheelLoadsConfig& config);
 
   void reset() noexcept;
   Step update(const Signals& signals) noexcept;
 
-  /// As above, and what to believe then: `decide(wheel, force)` of each wheel whose force was
-  /// measured; that of the others relaxes, and their last decision stands.
+  /// As above, and updates the belief: it calls `decide(wheel, force)` for each wheel with a
+  /// measured force. The probability of the others relaxes, and their last decision stands.
   template <typename Decide>
   void update(const Signals& signals, Belief& belief, const Decide& decide) noexcept {
     const Step step = update(signals);
@@ -66,7 +65,7 @@ class WheelLoads {
     multiply_wheels(belief);
   }
 
-  /// Of the left, of the right wheel (N); the last that was measured.
+  /// The last measured force on the left or the right wheel (N).
   [[nodiscard]] double force(std::size_t side) const noexcept { return force_[side]; }
 
   /// A belief after `elapsed` seconds without a measurement.

@@ -8,7 +8,7 @@
 
 namespace touchdown {
 
-/// Real numbers with one or two axes, row by row: NumPy's arrays, as far as models need them.
+/// Real numbers with one or two axes, row by row: the part of NumPy's arrays that models need.
 struct ModelArray {
   std::vector<std::size_t> shape;
   std::vector<double> data;
@@ -17,10 +17,11 @@ struct ModelArray {
   [[nodiscard]] std::size_t columns() const { return shape.size() < 2 ? 1 : shape[1]; }
 };
 
-/// A fitted model as named arrays: what its file holds, wherever they come from.
+/// A fitted model as named arrays, as its file holds them.
 using ModelArrays = std::map<std::string, ModelArray>;
 
-/// Errors: `InputError` that `what` lacks arrays of these names, if it does.
+/// Errors: `InputError` if arrays of these names are missing; the message lists them and names
+/// `what`.
 void require_arrays(const ModelArrays& arrays, std::string_view what,
                     std::vector<std::string> names);
 

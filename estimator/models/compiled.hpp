@@ -18,10 +18,11 @@ struct CompiledArray {
   const char* text;     ///< of `rows` bytes
 };
 
-/// The arrays, as they were in the file.
+/// The arrays as they were in the file.
 ModelArrays arrays_of(std::span<const CompiledArray> model);
 
-/// As of a file: to the bit the same beliefs. Errors: likewise.
+/// Makes the estimator of a compiled model. Its beliefs are to the bit those of the model's file.
+/// Errors: as `make_estimator` of arrays.
 std::unique_ptr<ContactEstimator> make_estimator(std::span<const CompiledArray> model,
                                                  const ModelUse& use = {});
 

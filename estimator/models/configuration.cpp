@@ -17,7 +17,7 @@ namespace {
 
 using Names = std::span<const char* const>;
 
-/// Puts every member that it is shown under its key.
+/// Writes each visited member under its key.
 class MemberWriter {
  public:
   void operator()(const std::string& key, const double& value) { text[key] = text_of(value); }
@@ -33,7 +33,7 @@ class MemberWriter {
   ConfigurationText text;
 };
 
-/// Takes every member that it is shown from its key, if it is there.
+/// Reads each visited member from its key, if the key exists.
 class MemberReader {
  public:
   explicit MemberReader(const ConfigurationText& text) : left_(text) {}
@@ -67,7 +67,7 @@ class MemberReader {
     });
   }
 
-  /// Errors: `InputError` for a key that nobody took.
+  /// Errors: `InputError` for a key without a member.
   void finish() const {
     if (left_.empty()) return;
     throw InputError("metadata: configuration." + left_.begin()->first +
@@ -89,7 +89,7 @@ class MemberReader {
   ConfigurationText left_;
 };
 
-// Every member once: `visit` writes or reads it.
+// These functions visit every member once; `visit` writes or reads it.
 
 template <typename Visit, typename Guard>
 void visit_guard(Visit& visit, Guard& guard) {
@@ -141,7 +141,7 @@ void visit_members(Visit& visit, Config& config) {
   visit_guard(visit, config.guard);
 }
 
-/// But for a noise that somebody knows, which is no fit's to say.
+/// All but a known sensor noise, which does not belong to a model.
 template <typename Visit, typename Config>
 requires std::same_as<std::remove_const_t<Config>, PhaseFilterConfig>
 void visit_members(Visit& visit, Config& config) {
@@ -196,8 +196,8 @@ void visit_members(Visit& visit, Geometry& geometry) {
 template <typename Visit, typename Config>
 requires std::same_as<std::remove_const_t<Config>, DecisionConfig>
 void visit_members(Visit& visit, Config& config) {
-  // Only this one hears how wheels spin, and how heavy the robot is. Files of before that do not
-  // say the mass are Upkie's.
+  // Only this configuration has the wheel's inertia and the robot's mass. Older files without the
+  // mass belong to Upkie.
   visit_members(visit, config.geometry);
   visit("difference", config.difference);
   visit("smoothing", config.smoothing);

@@ -10,19 +10,18 @@
 
 namespace touchdown {
 
-/// What an estimator is run with, as text: all but its sample rate and how it is fitted, which its
-/// model already is.
+/// An estimator's configuration as text, without its sample rate and the settings of its fit.
 ConfigurationText text_of(const BayesFilterConfig& config);
 ConfigurationText text_of(const PhaseFilterConfig& config);
 ConfigurationText text_of(const NeuralEstimatorConfig& config);
 ConfigurationText text_of(const LoadLogisticConfig& config);
 ConfigurationText text_of(const ForceKinematicsConfig& config);
 ConfigurationText text_of(const DecisionConfig& config);
-/// What the configuration of an estimator that uses kinematics says of a robot, or a part of this.
+/// The robot's part of a configuration. Estimators that use kinematics have all of it or a part.
 ConfigurationText text_of(const LegGeometry& geometry);
 
-/// The inverse; what the text does not say stays as it is. Errors: `InputError` for a key that is
-/// not known, and for values of the wrong kind.
+/// The inverse. Members that the text lacks keep their values. Errors: `InputError` for an unknown
+/// key, and for values of the wrong kind.
 void configure(BayesFilterConfig& config, const ConfigurationText& text);
 void configure(PhaseFilterConfig& config, const ConfigurationText& text);
 void configure(NeuralEstimatorConfig& config, const ConfigurationText& text);
@@ -30,7 +29,7 @@ void configure(LoadLogisticConfig& config, const ConfigurationText& text);
 void configure(ForceKinematicsConfig& config, const ConfigurationText& text);
 void configure(DecisionConfig& config, const ConfigurationText& text);
 
-/// The configuration at another rate (Hz): the window of the transition model lasts as long.
+/// The configuration at another rate (Hz). The window of the transition model keeps its duration.
 BayesFilterConfig at_rate(BayesFilterConfig config, double sample_rate);
 
 }  // namespace touchdown

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/ablation.hpp"
+#include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
 #include "estimator/evidence/filter.hpp"
@@ -25,7 +25,7 @@ namespace {
 
 using Made = std::unique_ptr<ContactEstimator>;
 
-/// What an estimator is made for.
+/// The settings that an estimator is made with.
 struct Request {
   ConfigurationText configuration;  ///< of the model's own estimator, at the model's rate
   double fitted_rate = 0.0;         ///< Hz
@@ -33,10 +33,10 @@ struct Request {
   std::optional<LegGeometry> geometry;
 };
 
-/// How the estimator of this name is made of a model.
+/// How the estimator of this name is made from a model.
 struct Recipe {
   std::string_view name;
-  std::string_view fit;  ///< the name of whoever is fitted in the same way
+  std::string_view fit;  ///< name of the estimator with the same fit
   std::function<ConfigurationText(double sample_rate, const LegGeometry& legs)> configuration;
   std::function<Made(const ModelArrays& arrays, const Request& request)> make;
 };
@@ -51,7 +51,7 @@ Config configured(Config config, const Request& request) {
   return config;
 }
 
-/// The text's window is one at the model's rate.
+/// The window in the text is one at the model's rate.
 BayesFilterConfig configured(BayesFilterConfig config, const Request& request) {
   if (!request.configuration.empty()) {
     config.sample_rate = request.fitted_rate;
@@ -122,10 +122,10 @@ const std::vector<Recipe>& recipes() {
         of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_curves"),
         of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_pairs"),
         of_parameters<TouchdownEstimator, DecisionConfig, touchdown_model_of>("touchdown")};
-    for (const AblationStep& rung : steps_from_paper_to_robust()) {
-      const bool hears_as_robust = rung.config.measurement == robust.measurement;
+    for (const AblationStep& step : steps_from_paper_to_robust()) {
+      const bool shares_fit = step.config.measurement == robust.measurement;
       recipes.push_back(
-          of_torques<BayesFilter>(rung.name, hears_as_robust ? "robust" : rung.name, rung.config));
+          of_torques<BayesFilter>(step.name, shares_fit ? "robust" : step.name, step.config));
     }
     return recipes;
   }();
@@ -151,7 +151,7 @@ const Recipe& recipe(std::string_view name) {
                    listed(recipes(), [](const Recipe& each) { return each.name; }));
 }
 
-/// What a model without a passport tells by its arrays.
+/// The metadata that follow from the arrays of a model without any.
 ModelMetadata metadata_from_arrays(const ModelArrays& arrays) {
   ModelMetadata metadata;
   const auto has = [&](std::string_view name) { return arrays.contains(std::string(name)); };
@@ -173,7 +173,7 @@ std::string no_such_member(const std::string& estimator, const std::string& key,
          listed(known, [](const auto& member) { return member.first; });
 }
 
-/// The model's own, for the estimator that it was fitted for, but for what is replaced.
+/// The model's own configuration, if it was fitted for this estimator, with `replaced` members.
 ConfigurationText configuration_for(const ModelMetadata& metadata, const std::string& estimator,
                                     const ConfigurationText& replaced) {
   ConfigurationText configuration;
@@ -211,7 +211,8 @@ ModelMetadata metadata_for(const ModelArrays& arrays, const ModelUse& use) {
                              : metadata.sample_rate > 0.0
                                  ? "the estimator that it was fitted for"
                                  : "the estimator that it was fitted for, and its sample_rate (Hz)";
-    throw InputError(std::string("has no passport, being older or from elsewhere: name ") + what);
+    throw InputError(std::string("has no metadata, being older or from another program: name ") +
+                     what);
   }
   if (!use.estimator.empty() && !share_fit(metadata.estimator, use.estimator)) {
     throw InputError("was fitted for '" + metadata.estimator + "', which '" + use.estimator +

@@ -8,26 +8,27 @@
 
 namespace touchdown {
 
-/// The estimator that a model was fitted for, ready to listen. A model that has no passport, older
-/// than these or from elsewhere, is taken as well if `use` says what it does not: the estimator of
-/// a grid, and the sample rate of all but a phase model.
-/// Errors: `InputError`, one line: what is missing; an estimator, a rate or a robot that is not the
-/// model's; a configuration without such a member; numbers that the estimator cannot be made with.
+/// Makes the estimator that a model was fitted for. A model without metadata, older or from another
+/// program, is accepted if `use` names what the arrays do not: the estimator of a grid, and the
+/// sample rate of all models but a phase model.
+/// Errors: `InputError`, one line, for missing arrays or metadata, for an estimator, rate or robot
+/// other than the model's, for unknown members of the configuration, and for numbers that the
+/// estimator refuses.
 std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays,
                                                  const ModelUse& use = {});
 
-/// The passport that `make_estimator` goes by. Errors: those of it that are about the passport.
+/// The metadata that `make_estimator` uses. Errors: those of `make_estimator` about the metadata.
 ModelMetadata metadata_for(const ModelArrays& arrays, const ModelUse& use = {});
 
-/// What an estimator is run with at this rate (Hz), on a robot with these legs, unless somebody
-/// says otherwise. Errors: `InputError` for a name that no model is fitted for.
+/// The default configuration of an estimator at this rate (Hz), on a robot with these legs. Errors:
+/// `InputError` for a name of which no model is fitted.
 ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
                                         const LegGeometry& legs = {});
 
-/// Whether this library makes an estimator of this name from a model: studies have others.
+/// Whether this library makes an estimator of this name from a model. Experiments have others, too.
 bool makes_estimator(std::string_view name);
 
-/// Whether what was fitted for one estimator fits the other, too.
+/// Whether both estimators use the same fit.
 bool share_fit(std::string_view estimator, std::string_view other);
 
 }  // namespace touchdown

@@ -20,7 +20,7 @@ const std::vector<double>& grid(const ModelArrays& arrays, const char* name) {
                                              arrays.at("knee_torque").data.size()};
   if (grid.shape == expected) return grid.data;
   throw InputError(std::string(name) + ": expected shape " + shape_text(expected) +
-                   " as the axes say, found " + shape_text(grid.shape));
+                   " from the axes, found " + shape_text(grid.shape));
 }
 
 ModelArray points(const Axis& axis) {

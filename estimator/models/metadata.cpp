@@ -63,7 +63,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are hashed as
                    "' is not understood: was it written by a newer version?");
 }
 
-/// Errors: `InputError` if the line says something else than this version's files.
+/// Errors: `InputError` if the value differs from that of this version's files.
 void expect(std::string_view key, std::string_view found, std::string_view expected) {
   if (found == expected) return;
   throw InputError("metadata: " + std::string(key) + " " + std::string(found) + ": expected " +
@@ -112,7 +112,12 @@ std::string add_metadata(ModelArrays& arrays, const ModelMetadata& metadata) {
 
 std::optional<ModelMetadata> metadata_of(const ModelArrays& arrays) {
   const auto found = arrays.find(std::string(metadata_array));
-  if (found == arrays.end()) return {};
+  if (found == arrays.end()) {
+    const std::string former(former_metadata_array);
+    if (!arrays.contains(former)) return {};
+    throw InputError("its array '" + former + "' is now called '" + std::string(metadata_array) +
+                     "': export the model or fit it again");
+  }
   const std::string text = text_of_array(found->second, found->first);
   ModelMetadata metadata;
   for (std::size_t begin = 0; begin < text.size();) {

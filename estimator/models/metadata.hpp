@@ -13,50 +13,53 @@ namespace touchdown {
 /// A configuration as text: keys with dots, and values.
 using ConfigurationText = std::map<std::string, std::string>;
 
-/// What a model says about itself.
+/// What a model's file states about the model.
 struct ModelMetadata {
-  std::string estimator;     ///< whom it was fitted for
-  double sample_rate = 0.0;  ///< of what it was fitted to (Hz)
-  /// That it was fitted to, or whose legs it was told since (model_for.hpp); empty where nobody
-  /// knows.
+  std::string estimator;     ///< the estimator that it was fitted for
+  double sample_rate = 0.0;  ///< of the fitted runs (Hz)
+  /// The robot that it was fitted to, or that `model_for` adapted it to; empty if unknown.
   std::string robot;
-  ConfigurationText configuration;  ///< that the estimator is run with
-  /// A name for all of this and the model's numbers, sixteen hexadecimal digits: equal for equal
+  ConfigurationText configuration;  ///< of the estimator
+  /// Sixteen hexadecimal digits that identify all of this and the model's numbers: equal for equal
   /// fits.
   std::string fingerprint;
 
   bool operator==(const ModelMetadata&) const = default;
 };
 
-/// The array that holds the passport, as the bytes of "key: value" lines: format, units (SI
+/// The array that holds the metadata, as the bytes of "key: value" lines: format, units (SI
 /// throughout), the members of the above, the configuration's keys after "configuration.".
 inline constexpr std::string_view metadata_array = "metadata";
 
-/// The array of a grid file that follows from the others: no reader needs it, no fingerprint counts
-/// it.
+/// The name that this array had in earlier versions.
+inline constexpr std::string_view former_metadata_array = "passport";
+
+/// The array of a grid file that follows from the others. Readers do not need it, and the
+/// fingerprint leaves it out.
 inline constexpr std::string_view derived_array = "P_contact";
 
-/// Adds the passport to the model's arrays, with their fingerprint. Returns the fingerprint.
+/// Adds the metadata to the model's arrays, with their fingerprint. Returns the fingerprint.
 std::string add_metadata(ModelArrays& arrays, const ModelMetadata& metadata);
 
-/// The passport among a model's arrays; nothing in a file that is older than passports, or comes
-/// from elsewhere. Errors: `InputError` for another format or other units, a line that nobody
-/// understands, and for numbers that are not those that the passport was made for.
+/// Reads the metadata among a model's arrays; nothing if the file has none, being older or from
+/// another program. Errors: `InputError` for another format or other units, an unknown line,
+/// numbers that do not match the fingerprint, and an array `former_metadata_array` in place of
+/// `metadata_array`.
 std::optional<ModelMetadata> metadata_of(const ModelArrays& arrays);
 
-/// What a program expects of a model; what is left empty or zero is taken as the model has it.
+/// What a program requires of a model. Empty or zero: no requirement, the model decides.
 struct ModelUse {
   std::string estimator = {};
-  double sample_rate = 0.0;  ///< at which `update` will be called (Hz)
+  double sample_rate = 0.0;  ///< rate at which the program calls `update` (Hz)
   std::string robot = {};
   /// The legs, for estimators that use kinematics.
   std::optional<LegGeometry> geometry = {};
-  /// Members of the configuration that shall not be as the model has them.
+  /// Members of the configuration that replace the model's.
   ConfigurationText configuration = {};
 };
 
-/// Errors: `InputError` that says what was expected and what the model was fitted for, if its rate
-/// or robot is another one. A model that does not know its robot is any robot's.
+/// Errors: `InputError` if the required rate or robot differs from the model's; the message names
+/// both. A model without a robot fits any robot.
 void check_use(const ModelMetadata& metadata, const ModelUse& use);
 
 }  // namespace touchdown

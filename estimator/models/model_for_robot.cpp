@@ -10,7 +10,7 @@ namespace touchdown {
 
 namespace {
 
-/// Errors: `InputError` for an estimator whose configuration, usually as in `usual`, has no legs.
+/// `usual` is the estimator's default configuration. Errors: `InputError` if it has no legs.
 void put_legs(const LegGeometry& legs, const ConfigurationText& usual, ModelMetadata& metadata) {
   bool uses_legs = false;
   for (const auto& [key, value] : text_of(legs)) {
@@ -20,7 +20,7 @@ void put_legs(const LegGeometry& legs, const ConfigurationText& usual, ModelMeta
   }
   if (uses_legs) return;
   throw InputError("'" + metadata.estimator +
-                   "' uses no kinematics: legs tell it nothing, it has to be fitted to the robot");
+                   "' uses no kinematics, so legs do not adapt it: fit it to the robot");
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ ModelArrays model_for(ModelArrays arrays, const ModelUse& use) {
   if (use.geometry) any_robot.robot.clear();
   ModelMetadata metadata = metadata_for(arrays, any_robot);
   any_robot.estimator = metadata.estimator;
-  make_estimator(arrays, any_robot);  // says what is wrong with it now rather than on the robot
+  make_estimator(arrays, any_robot);  // fails here rather than on the robot
   const ConfigurationText usual = default_configuration(metadata.estimator, metadata.sample_rate);
   if (metadata.configuration.empty()) metadata.configuration = usual;
   if (use.geometry) put_legs(*use.geometry, usual, metadata);

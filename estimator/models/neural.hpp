@@ -12,11 +12,11 @@ namespace touchdown {
 /// `gru_input`, `gru_hidden`, `first`, `second` and `heads`, `<layer>_weight` and `<layer>_bias`.
 std::vector<std::string> neural_array_names();
 
-/// Errors: `InputError` for arrays that are missing (all of them), shapes that do not fit, numbers
+/// Errors: `InputError` for missing arrays (lists them all), shapes that do not fit, and numbers
 /// that are not finite.
 NeuralNetwork neural_network_of(const ModelArrays& arrays);
 
-/// The inverse: single precision survives bit by bit.
+/// The inverse. It keeps every bit of single precision.
 ModelArrays arrays_of(const NeuralNetwork& network);
 
 }  // namespace touchdown

@@ -14,7 +14,7 @@ namespace touchdown {
 
 namespace {
 
-/// What of a wheel's state each parameter holds: without contact, in contact.
+/// The member of `WheelState` behind each parameter, which holds it without and in contact.
 struct StateParameter {
   const char* name;
   double WheelState::*of;
@@ -36,8 +36,8 @@ void for_each_part(Model& model, const Part& part) {
   part("last_bias", std::span(&model.last_bias, 1));
 }
 
-/// Calls `part(name, first, count)` for each run of inputs whose curves are one parameter: the time
-/// scales of a channel, or a noise level.
+/// Calls `part(name, first, count)` for each group of inputs with one parameter for their curves:
+/// the time scales of a channel, or a noise level.
 template <typename Part>
 void for_each_channel(const Part& part) {
   std::size_t first = 0;
@@ -48,33 +48,40 @@ void for_each_channel(const Part& part) {
   for (const char* const name : evidence_noise_names) part(name, first++, std::size_t{1});
 }
 
-/// The pairs that tables are of, so that those of other pairs are not taken for them.
-std::vector<double> places_of_pairs() {
-  std::vector<double> places;
+/// The indices of the pairs that the tables belong to, so that readers refuse tables of other
+/// pairs.
+std::vector<double> pair_indices() {
+  std::vector<double> indices;
   for (const EvidencePair& pair : evidence_pairs) {
-    places.push_back(static_cast<double>(pair.first));
-    places.push_back(static_cast<double>(pair.second));
+    indices.push_back(static_cast<double>(pair.first));
+    indices.push_back(static_cast<double>(pair.second));
   }
-  return places;
+  return indices;
 }
 
-/// Values that came from floats, floats again.
+/// Converts values back to the floats that they came from.
 void take(const double* from, std::span<float> to) {
   std::transform(from, from + to.size(), to.begin(),
                  [](double value) { return static_cast<float>(value); });
 }
 
-void add_senses(Parameters& parameters) {
-  parameters["senses"] = {static_cast<double>(feature_set_version)};
+/// The parameter with the version of the features that a model was fitted to.
+constexpr const char* feature_set = "senses";
+
+void add_feature_set(Parameters& parameters) {
+  parameters[feature_set] = {static_cast<double>(feature_set_version)};
 }
 
-/// Errors: `InputError` for what was fitted to other senses than today's.
-void check_senses(const Parameters& parameters) {
-  if (parameters.contains("senses") && parameter(parameters, "senses") == feature_set_version) return;
+/// Errors: `InputError` for a model that was fitted to another version of the features.
+void check_feature_set(const Parameters& parameters) {
+  if (parameters.contains(feature_set) &&
+      parameter(parameters, feature_set) == feature_set_version) {
+    return;
+  }
   throw InputError(
-      "senses: expected " + std::to_string(feature_set_version) +
-      ", what this version hears of loads: this model was fitted to what another one hears of "
-      "them, fit it again");
+      std::string(feature_set) + ": expected " + std::to_string(feature_set_version) +
+      ", this version's features of loads: this model was fitted to another version's, "
+      "fit it again");
 }
 
 std::string curves_name(const char* channel) { return std::string("curves_") + channel; }
@@ -83,7 +90,8 @@ std::string seen_name(const char* channel) { return std::string("seen_") + chann
 }  // namespace
 
 bool is_text_array(std::string_view name) {
-  return name == estimator_array || name == provenance_array || name == metadata_array;
+  return name == estimator_array || name == provenance_array || name == metadata_array ||
+         name == former_metadata_array;
 }
 
 Parameters parameters_of(const ModelArrays& arrays) {
@@ -142,7 +150,7 @@ ForceKinematicsModel force_kinematics_model_of(const Parameters& parameters) {
 
 Parameters parameters_of(const DecisionModel& model) {
   Parameters parameters;
-  add_senses(parameters);
+  add_feature_set(parameters);
   for_each_part(model, [&](const char* name, auto numbers) {
     parameters[name].assign(numbers.begin(), numbers.end());
   });
@@ -150,7 +158,7 @@ Parameters parameters_of(const DecisionModel& model) {
 }
 
 DecisionModel decision_model_of(const Parameters& parameters) {
-  check_senses(parameters);
+  check_feature_set(parameters);
   DecisionModel model;
   for_each_part(model, [&](const char* name, auto numbers) {
     const std::vector<double>& values = parameter(parameters, name, numbers.size());
@@ -161,7 +169,7 @@ DecisionModel decision_model_of(const Parameters& parameters) {
 
 Parameters parameters_of(const EvidenceModel& model) {
   Parameters parameters = {{"bias", {model.bias}}};
-  add_senses(parameters);
+  add_feature_set(parameters);
   for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
     std::vector<double>& curves = parameters[curves_name(name)];
     std::vector<double>& seen = parameters[seen_name(name)];
@@ -171,7 +179,7 @@ Parameters parameters_of(const EvidenceModel& model) {
     }
   });
   if (model.table.empty()) return parameters;
-  parameters["pairs"] = places_of_pairs();
+  parameters["pairs"] = pair_indices();
   for (const EvidenceTable& table : model.table) {
     parameters["tables"].insert(parameters["tables"].end(), table.begin(), table.end());
   }
@@ -179,7 +187,7 @@ Parameters parameters_of(const EvidenceModel& model) {
 }
 
 EvidenceModel evidence_model_of(const Parameters& parameters) {
-  check_senses(parameters);
+  check_feature_set(parameters);
   EvidenceModel model;
   model.bias = static_cast<float>(parameter(parameters, "bias"));
   for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
@@ -192,7 +200,7 @@ EvidenceModel evidence_model_of(const Parameters& parameters) {
     }
   });
   if (!parameters.contains("pairs")) return model;
-  if (parameters.at("pairs") != places_of_pairs()) {
+  if (parameters.at("pairs") != pair_indices()) {
     throw InputError("pairs: its tables are of other pairs than this version's");
   }
   constexpr std::size_t size = std::tuple_size_v<EvidenceTable>;

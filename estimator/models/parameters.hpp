@@ -16,40 +16,40 @@
 
 namespace touchdown {
 
-/// A model that is a few named arrays of numbers: a handful, or the weights of a small network.
+/// A model that consists of a few named arrays of numbers, such as the weights of a small network.
 using Parameters = std::map<std::string, std::vector<double>, std::less<>>;
 
-/// The array that only these models have: its bytes are the estimator's name.
+/// The array that only these models have. Its bytes are the estimator's name.
 inline constexpr std::string_view estimator_array = "estimator";
-/// Where a model comes from, likewise: "key: value" lines.
+/// The array with the origin of a model, as the bytes of "key: value" lines.
 inline constexpr std::string_view provenance_array = "provenance";
 
-/// All arrays but those that are texts. Errors: `InputError` for numbers that are not finite.
+/// All arrays except texts. Errors: `InputError` for numbers that are not finite.
 Parameters parameters_of(const ModelArrays& arrays);
 
 /// Whether an array of this name is a text about the model.
 bool is_text_array(std::string_view name);
 
-/// The parameter of this name, which has to have `size` values. Errors: `InputError` otherwise.
+/// The parameter of this name. Errors: `InputError` unless it has `size` values.
 const std::vector<double>& parameter(const Parameters& parameters, std::string_view name,
                                      std::size_t size);
 
-/// As above, of one value.
+/// The parameter of this name, which has one value. Errors: as above.
 double parameter(const Parameters& parameters, std::string_view name);
 
-/// Estimators' models as parameters, and back. Errors: `InputError` for parameters that are missing
-/// or of another size.
+/// Converts models to parameters and back. Errors: `InputError` for parameters that are missing or
+/// of another size.
 Parameters parameters_of(const LogisticCurve& curve);
 Parameters parameters_of(const ForceKinematicsModel& model);
 Parameters parameters_of(const DecisionModel& model);
-/// `curves_<channel>` by time scale, then by knot (nats); what of each was `seen`, a lower and an
-/// upper end; `tables` of `pairs`, by row.
+/// `curves_<channel>` by time scale, then by knot (nats); `seen_<channel>`, the lower and upper end
+/// of each input's range; `tables` of `pairs`, by row.
 Parameters parameters_of(const EvidenceModel& model);
-/// Those of its curves and of its network.
+/// The parameters of the curves and of the network.
 Parameters parameters_of(const TouchdownModel& model);
 LogisticCurve logistic_curve_of(const Parameters& parameters);
 ForceKinematicsModel force_kinematics_model_of(const Parameters& parameters);
-/// Doubles that came from floats are floats again.
+/// Converts doubles back to the floats that they came from.
 DecisionModel decision_model_of(const Parameters& parameters);
 /// Likewise. Errors: also for tables of other pairs.
 EvidenceModel evidence_model_of(const Parameters& parameters);

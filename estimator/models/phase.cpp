@@ -20,7 +20,7 @@ ModelArray table(const std::vector<float>& values, std::size_t columns) {
   return {{values.size() / columns, columns}, {values.begin(), values.end()}};
 }
 
-/// Takes arrays of a model, and says which one is missing or has the wrong size.
+/// Reads arrays of a model. Errors: `InputError` that names a missing array or one of a wrong size.
 class PhaseArrays {
  public:
   explicit PhaseArrays(const ModelArrays& arrays) : arrays_(arrays) {}

@@ -11,8 +11,8 @@ namespace touchdown {
 /// `acceleration_i_axis`, `acceleration_i_log_density`, and `…_noise` = (σ, bandwidth).
 ModelArrays arrays_of(const PhaseModel& model);
 
-/// The inverse: densities to single precision, all else to the bit. Errors: `InputError` for what
-/// is missing or of the wrong size, and for what `check_phase_model` refuses.
+/// The inverse: densities to single precision, all else to the bit. Errors: `InputError` for arrays
+/// that are missing or of the wrong size, and if `check_phase_model` throws.
 PhaseModel phase_model_of(const ModelArrays& arrays);
 
 }  // namespace touchdown

@@ -9,7 +9,7 @@
 namespace touchdown {
 namespace {
 
-/// All that the network hears besides the vertical acceleration, which the guard looks at.
+/// Whether all inputs are finite but the vertical acceleration, which the guard checks.
 bool finite(const Signals& s) {
   double sum = s.linear_acceleration.sum() + s.angular_velocity.sum() + s.ground_velocity_command;
   for (const LegSignals& leg : s.leg) {

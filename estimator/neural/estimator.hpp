@@ -10,25 +10,26 @@
 namespace touchdown {
 
 struct NeuralEstimatorConfig {
-  /// How often `update` is called (Hz). One step of the network lasts a whole number of samples;
-  /// the belief holds in between.
+  /// How often `update` is called (Hz). One step of the network lasts a whole number of samples,
+  /// and the belief stays in between.
   double sample_rate = 1000.0;
-  /// Contact is decided at this probability or above.
+  /// The estimator decides for contact at this probability or above.
   double threshold = 0.8;
   SignalGuardConfig guard = {};
 
   bool operator==(const NeuralEstimatorConfig&) const = default;
 };
 
-/// How many samples make one step of the network. Errors: `InputError` if it is not a whole number.
+/// The number of samples per step of the network. Errors: `InputError` if it is not a whole number.
 int neural_stride(double sample_rate, double period);
 
-/// The paper's neural measurement network as a contact estimator. It tells one probability for the
-/// robot, which both wheels and the robot's views get. Signals that are not finite are left out and
-/// the belief relaxes towards the prior; after a gap the recurrent state starts anew.
+/// The paper's neural measurement network as a contact estimator. It estimates one probability for
+/// the robot, which serves for each wheel, for any wheel and for both. It skips signals that are
+/// not finite, and the belief then relaxes towards the prior. After a gap the recurrent state
+/// restarts.
 class NeuralEstimator : public ContactEstimator {
  public:
-  /// Errors: `InputError` for a network that does not pass `check` or a bad configuration.
+  /// Errors: `InputError` for a network that `check` refuses and for an invalid configuration.
   explicit NeuralEstimator(std::shared_ptr<const NeuralNetwork> network,
                            const NeuralEstimatorConfig& config = {});
 
@@ -36,10 +37,10 @@ class NeuralEstimator : public ContactEstimator {
   const Belief& update(const Signals& signals) noexcept override;
 
   [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
-  /// Of the IMU, in the base frame (m/s), at the network's last step; zero before the first.
+  /// Velocity of the IMU in the base frame (m/s) at the network's last step; zero before the first.
   [[nodiscard]] const Eigen::Vector3d& body_velocity() const noexcept { return velocity_; }
   [[nodiscard]] const NeuralEstimatorConfig& config() const noexcept { return config_; }
-  /// Shared with all who use the same one.
+  /// The network, shared with all estimators that use it.
   [[nodiscard]] std::shared_ptr<const NeuralNetwork> network() const noexcept {
     return forward_.shared_network();
   }

@@ -15,22 +15,22 @@ std::shared_ptr<const NeuralNetwork> checked(std::shared_ptr<const NeuralNetwork
 
 }  // namespace
 
-template <int Lanes>
-NeuralForward<Lanes>::NeuralForward(std::shared_ptr<const NeuralNetwork> network,
-                                    Eigen::Index lanes)
+template <int Batch>
+NeuralForward<Batch>::NeuralForward(std::shared_ptr<const NeuralNetwork> network,
+                                    Eigen::Index batch)
     : network_(checked(std::move(network))),
-      standardised_(neural_input_count, lanes),
-      hidden_(network_->hidden(), lanes),
-      from_input_(3 * network_->hidden(), lanes),
-      from_hidden_(3 * network_->hidden(), lanes),
-      first_(network_->first.weight.rows(), lanes),
-      second_(network_->second.weight.rows(), lanes),
-      outputs_(neural_output_count, lanes) {
+      standardised_(neural_input_count, batch),
+      hidden_(network_->hidden(), batch),
+      from_input_(3 * network_->hidden(), batch),
+      from_hidden_(3 * network_->hidden(), batch),
+      first_(network_->first.weight.rows(), batch),
+      second_(network_->second.weight.rows(), batch),
+      outputs_(neural_output_count, batch) {
   reset();
 }
 
-template <int Lanes>
-const typename NeuralForward<Lanes>::Columns& NeuralForward<Lanes>::step(
+template <int Batch>
+const typename NeuralForward<Batch>::Columns& NeuralForward<Batch>::step(
     const Columns& inputs) noexcept {
   const NeuralNetwork& net = *network_;
   const Eigen::Index n = net.hidden();

@@ -8,28 +8,28 @@
 
 namespace touchdown {
 
-/// Walks through time with a neural network: holds the recurrent state of `Lanes` independent
-/// sequences side by side (a compile-time 1, or `Eigen::Dynamic` for as many as one likes, for
-/// which the weights are read once per step). `step` does not throw; with one lane it allocates
-/// nothing.
-template <int Lanes>
+/// Runs a neural network through time. It holds the recurrent state of a batch of independent
+/// sequences, each a column. `Batch` is their number at compile time, 1 or `Eigen::Dynamic`; one
+/// step reads the weights once for the whole batch. `step` does not throw, and allocates nothing
+/// for a batch of 1.
+template <int Batch>
 class NeuralForward {
  public:
-  using Columns = Eigen::Matrix<float, Eigen::Dynamic, Lanes>;
+  using Columns = Eigen::Matrix<float, Eigen::Dynamic, Batch>;
 
-  /// `lanes` counts when `Lanes` is dynamic. Errors: `InputError` for no network or one that does
-  /// not pass `check`.
+  /// `batch` is the number of sequences if `Batch` is dynamic. Errors: `InputError` for no network
+  /// or one that `check` refuses.
   explicit NeuralForward(std::shared_ptr<const NeuralNetwork> network,
-                         Eigen::Index lanes = Lanes == Eigen::Dynamic ? 0 : Lanes);
+                         Eigen::Index batch = Batch == Eigen::Dynamic ? 0 : Batch);
 
-  /// Forget everything: the hidden state is zero, as at the beginning of a training episode.
+  /// Sets the hidden state to zero, as at the beginning of a training episode.
   void reset() noexcept { hidden_.setZero(); }
 
-  /// One step of every lane: raw inputs (neural_input_count × lanes) to outputs
-  /// (neural_output_count × lanes).
+  /// One step of every sequence: raw inputs (neural_input_count × batch) to outputs
+  /// (neural_output_count × batch).
   const Columns& step(const Columns& inputs) noexcept;
 
-  [[nodiscard]] Eigen::Index lanes() const noexcept { return hidden_.cols(); }
+  [[nodiscard]] Eigen::Index batch() const noexcept { return hidden_.cols(); }
   [[nodiscard]] const NeuralNetwork& network() const noexcept { return *network_; }
   [[nodiscard]] std::shared_ptr<const NeuralNetwork> shared_network() const noexcept {
     return network_;

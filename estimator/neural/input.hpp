@@ -10,18 +10,17 @@ namespace touchdown {
 /// m_t = [γ, ω, q, q̇, u_t−1] of the paper's neural measurement network, in this order:
 /// acceleration without gravity (3) and angular velocity (3) in the IMU frame, six joint positions,
 /// six joint velocities (left hip, knee, wheel, then right), the ground velocity commanded at the
-/// previous step. A wheel's angle grows without bound and tells nothing about a round wheel: its
-/// sine takes its place.
+/// previous step. The sine of a wheel's angle replaces the angle, which grows without bound and has
+/// no meaning for a round wheel.
 using NeuralInput = Eigen::Matrix<float, neural_input_count, 1>;
 
 NeuralInput neural_input(const Signals& signals);
 
-/// From the robot's rate to the network's: takes a sample per control step and has an input ready
-/// at the first one and then after every `stride` of them. What the network was trained on lasted
-/// one of its own steps, hence: the acceleration is the mean over the stride (an acceleration that
-/// is a velocity difference becomes exactly the difference over the longer step), the command is
-/// the one that answered the previous input, all else is the last sample. Never throws or
-/// allocates.
+/// Converts the robot's rate to the network's. It takes one sample per control step. An input is
+/// ready at the first sample and then after every `stride` samples. The training data had the
+/// network's own step, so the acceleration is the mean over the stride: an acceleration that is a
+/// velocity difference becomes exactly the difference over the longer step. The command is the one
+/// after the previous input, all else is the last sample. Never throws or allocates.
 class NeuralInputSampler {
  public:
   explicit NeuralInputSampler(int stride) noexcept : stride_(stride) {}
@@ -30,7 +29,7 @@ class NeuralInputSampler {
 
   /// One control step with finite signals. Returns whether `input` is new.
   bool add(const Signals& signals) noexcept;
-  /// A control step whose signals cannot be used: time passes.
+  /// One control step with unusable signals: only time passes.
   void skip() noexcept { ++steps_; }
 
   [[nodiscard]] const NeuralInput& input() const noexcept { return input_; }

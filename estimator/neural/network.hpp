@@ -4,9 +4,9 @@
 
 namespace touchdown {
 
-/// Numbers that the neural measurement network hears at one step; see `NeuralInput`.
+/// The number of inputs of the neural measurement network per step; see `NeuralInput`.
 inline constexpr int neural_input_count = 19;
-/// Its outputs: the logit of P(S_t = C | m_t), then the body's linear velocity (m/s).
+/// The number of its outputs: the logit of P(S_t = C | m_t), then the body's linear velocity (m/s).
 inline constexpr int neural_output_count = 4;
 
 /// y = weight · x + bias.
@@ -16,8 +16,8 @@ struct DenseLayer {
 };
 
 /// The paper's neural measurement network (NMN, Section V): one GRU layer, two rectified layers,
-/// two heads. Nothing but numbers, in the precision that they were trained in; with the paper's
-/// sizes (128 hidden, 256 × 128) there are 123,652 of them.
+/// two heads. It holds only numbers, in their training precision. With the paper's sizes (128
+/// hidden, 256 × 128) there are 123,652 of them.
 struct NeuralNetwork {
   double period = 0.005;        ///< of one of its steps (s)
   Eigen::VectorXf input_mean;   ///< of the training data
@@ -31,8 +31,8 @@ struct NeuralNetwork {
   [[nodiscard]] Eigen::Index hidden() const { return gru_hidden.weight.cols(); }
 };
 
-/// Errors: `InputError` naming the array for shapes that do not fit each other or the inputs and
-/// outputs above, and for weights that are not finite.
+/// Errors: `InputError` that names the array, for shapes that do not fit each other or the inputs
+/// and outputs above, and for weights that are not finite.
 void check(const NeuralNetwork& network);
 
 }  // namespace touchdown

@@ -12,7 +12,7 @@ Axis axis_from_points(std::span<const double> points) {
   if (points.size() < 2) throw InputError("a grid axis needs at least two points");
   const Axis axis{points.front(), points.back(), static_cast<int>(points.size())};
   check_axis(axis, "points");
-  constexpr double most_apart = 1e-3;  // steps: what rounding to float32 or six decimals moves
+  constexpr double most_apart = 1e-3;  // steps: the effect of rounding to float32 or six decimals
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double expected = axis[static_cast<int>(i)];
     if (!(std::abs(points[i] - expected) <= most_apart * axis.step())) {

@@ -5,7 +5,7 @@
 
 namespace touchdown {
 
-/// Where a value falls on an axis: between the points `index` and `index + 1`, the fraction
+/// The position of a value on an axis: between the points `index` and `index + 1`, the fraction
 /// `weight` in [0, 1] of the way to the second one.
 struct AxisPosition {
   int index = 0;
@@ -25,7 +25,7 @@ struct Axis {
   bool operator==(const Axis&) const = default;
 };
 
-/// An axis through points that were given one by one, as in a file.
+/// The axis through the given points, as from a file.
 /// Throws InputError unless there are two or more, finite, increasing and equally spaced to 1e-6 of
 /// a step.
 Axis axis_from_points(std::span<const double> points);
@@ -33,8 +33,8 @@ Axis axis_from_points(std::span<const double> points);
 /// Throws InputError unless the axis has two or more points, finite ends and lower < upper.
 void check_axis(const Axis& axis, const char* name);
 
-/// The axis prepared for lookups: no division when a value is placed on it. A value outside the
-/// axis is placed on its nearest end, which extrapolates a grid by constants.
+/// The axis prepared for lookups without a division. A value outside the axis gets the position of
+/// the nearest end, which extrapolates a grid by constants.
 class AxisLookup {
  public:
   AxisLookup() = default;

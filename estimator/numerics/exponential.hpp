@@ -5,9 +5,9 @@
 
 namespace touchdown {
 
-/// e^x to two units in the last place, for |x| ≤ 700; beyond that the value at ±700, so that
-/// nothing overflows. Without a branch or a call, so that loops over it become vector code and one
-/// filter gives the same bits as many side by side. NaN gives e^−700.
+/// e^x to two units in the last place, for |x| ≤ 700. Beyond that it is the value at ±700, so that
+/// nothing overflows. It has no branch and no call, so that loops over it become vector code, and
+/// one filter gives the same bits as many side by side. NaN gives e^−700.
 ///
 /// x = k·ln 2 + r with |r| ≤ ln 2 / 2; e^r by its Taylor polynomial of degree 13 (remainder below
 /// 5e-18); 2^k by writing k into an exponent.

@@ -7,9 +7,9 @@
 
 namespace touchdown {
 
-/// While it lives, this thread's results below 2.2e-308 become zero. Far tails of Gaussians are
-/// full of such numbers, and each costs a hundred times an ordinary multiplication. Does nothing on
-/// processors other than x86.
+/// During its lifetime, this thread's results below 2.2e-308 become zero. Far tails of Gaussians
+/// contain many such numbers, and each costs a hundred times an ordinary multiplication. It does
+/// nothing on processors other than x86.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)

@@ -16,7 +16,7 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-/// Samples that are added at once: both kernel matrices stay in the second-level cache.
+/// Number of samples per block, such that both kernel matrices stay in the second-level cache.
 constexpr std::size_t block = 256;
 
 void check_samples(std::span<const double> samples, std::size_t at_least) {
@@ -136,7 +136,7 @@ class KernelSums {
 double scott_bandwidth(std::span<const double> samples, int dimensions, double floor) {
   check_samples(samples, 2);
   const auto n = static_cast<double>(samples.size());
-  // A copy, because Eigen's sums over foreign memory depend on where in memory it lies.
+  // A copy, because Eigen's sums over mapped memory depend on its alignment.
   const Eigen::ArrayXd x =
       Eigen::Map<const Eigen::ArrayXd>(samples.data(), static_cast<Eigen::Index>(samples.size()));
   return scott_bandwidth(n, std::sqrt((x - x.mean()).square().sum() / (n - 1.0)), dimensions,

@@ -15,7 +15,7 @@ namespace touchdown {
 /// result is zero (all samples equal and no floor).
 double scott_bandwidth(std::span<const double> samples, int dimensions, double floor = 0.0);
 
-/// The same from the number of samples and their standard deviation, for samples that nobody keeps.
+/// The same from the number of samples and their standard deviation, for samples that are not kept.
 double scott_bandwidth(double count, double deviation, int dimensions, double floor);
 
 /// Eq. (5) of the paper in one dimension: the mean of Gaussians of standard deviation `bandwidth`
@@ -37,20 +37,22 @@ std::vector<double> kernel_density(std::span<const double> x, std::span<const do
                                    double x_bandwidth, double y_bandwidth, const Axis& x_axis,
                                    const Axis& y_axis);
 
-/// One direction of a density: how wide its kernels are, and where it is wanted.
+/// One direction of a density: the kernels' bandwidth and the axis.
 struct KernelAxis {
   double bandwidth = 1.0;
   Axis axis;
 };
 
-/// What the function above returns for each of `x_axes` with each of `y_axes`, all of the first one
-/// first: they share the kernels, which take as long as the sums. Errors: the same.
+/// `kernel_density` in two dimensions for each of `x_axes` with each of `y_axes`; all pairs with
+/// the first of `x_axes` come first. They share the kernels, which take as long as the sums.
+/// Errors: the same.
 std::vector<std::vector<double>> kernel_densities(std::span<const double> x,
                                                   std::span<const double> y,
                                                   std::span<const KernelAxis> x_axes,
                                                   std::span<const KernelAxis> y_axes);
 
-/// The same sum for samples that come one by one and are not kept: its memory is that of the grid.
+/// `kernel_density` in two dimensions for samples that arrive one by one. It does not keep them:
+/// its memory is that of the grid.
 class KernelDensityGrid {
  public:
   /// Throws InputError for a bandwidth that is not positive and finite, or a bad axis.
@@ -64,11 +66,11 @@ class KernelDensityGrid {
   /// Throws InputError for a sample that is not finite.
   void add(double x, double y);
 
-  /// What the function above returns for the samples so far. Throws InputError if there are none.
+  /// The density of the samples so far. Throws InputError if there are none.
   [[nodiscard]] std::vector<double> density();
 
  private:
-  // Eigen aligns its memory as the processor wants it, which nobody outside should have to know.
+  // Hides Eigen's processor-dependent alignment from callers.
   struct Sums;
   std::unique_ptr<Sums> sums_;
 };

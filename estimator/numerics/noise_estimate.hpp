@@ -13,7 +13,8 @@ class SecondDifference {
  public:
   void reset() noexcept { samples_ = 0; }
 
-  /// Takes a sample; returns whether three finite ones in a row make a second difference.
+  /// Takes a sample. Returns whether the last three were finite, so that there is a second
+  /// difference.
   bool update(double x) noexcept {
     if (!std::isfinite(x)) {
       samples_ = 0;
@@ -36,41 +37,41 @@ class SecondDifference {
   int samples_ = 0;
 };
 
-/// Estimates the standard deviation of the white noise on `channels` signals that share one. The
-/// second difference of white noise has the standard deviation √6 σ, and half of its magnitudes lie
-/// below 0.6745·√6 σ: the estimate rises by a small factor when one lies above, falls by it when
-/// one lies below, and settles where both happen equally often. Signals much smoother than their
-/// noise, and rare shocks, hardly move it. The estimate climbs a ladder of values whose rungs are
-/// prepared, so that a step costs neither an exponential nor a logarithm. Never fails; skips what
-/// is not finite.
+/// Estimates the standard deviation of the white noise on `channels` signals with the same noise.
+/// The second difference of white noise has the standard deviation √6 σ, and half of its magnitudes
+/// lie below 0.6745·√6 σ. The estimate rises by a small factor when one lies above, falls by it
+/// when one lies below, and settles where both happen equally often. Signals much smoother than
+/// their noise, and rare shocks, hardly move it. The estimate moves over precomputed levels, so
+/// that a step costs neither an exponential nor a logarithm. Never fails; skips samples that are
+/// not finite.
 template <std::size_t channels>
 class NoiseEstimate {
  public:
-  /// From `floor` up to at least `ceiling` in relative steps of `gain` per update; for the first
-  /// `warm_up` updates in larger ones.
+  /// Covers `floor` to at least `ceiling`. An update moves the estimate by a relative step of
+  /// `gain`, and by more during the first `warm_up` updates.
   NoiseEstimate(double floor, double ceiling, double gain, double warm_up)
       : log_floor_(std::log(floor)),
         log_step_(gain / static_cast<double>(channels)),
         warm_up_(warm_up) {
-    const auto rungs = static_cast<int>(std::ceil(std::log(ceiling / floor) / log_step_));
-    for (int i = 0; i <= std::max(1, rungs); ++i) {
+    const auto levels = static_cast<int>(std::ceil(std::log(ceiling / floor) / log_step_));
+    for (int i = 0; i <= std::max(1, levels); ++i) {
       sigma_.push_back(floor * std::exp(i * log_step_));
     }
   }
 
   void reset() noexcept {
-    rung_ = 0;
+    level_ = 0;
     updates_ = 0.0;
     reset_signals();
   }
 
-  /// The next samples do not follow the last ones; the estimate stays.
+  /// The next samples do not follow the last ones. The estimate stays.
   void reset_signals() noexcept {
     for (SecondDifference& channel : difference_) channel.reset();
   }
 
   void update(const std::array<double, channels>& samples) noexcept {
-    const double median = 0.6744897501960817 * 2.449489742783178 * sigma_[rung_];
+    const double median = 0.6744897501960817 * 2.449489742783178 * sigma_[level_];
     int direction = 0;
     bool usable = false;
     for (std::size_t i = 0; i < channels; ++i) {
@@ -82,25 +83,26 @@ class NoiseEstimate {
     updates_ += 1.0;
     const int stride = updates_ < warm_up_ ? static_cast<int>(warm_up_ / updates_) : 1;
     const auto top = static_cast<int>(sigma_.size()) - 1;
-    rung_ =
-        static_cast<std::size_t>(std::clamp(static_cast<int>(rung_) + direction * stride, 0, top));
+    level_ =
+        static_cast<std::size_t>(std::clamp(static_cast<int>(level_) + direction * stride, 0, top));
   }
 
-  [[nodiscard]] double sigma() const noexcept { return sigma_[rung_]; }
+  [[nodiscard]] double sigma() const noexcept { return sigma_[level_]; }
   /// Its natural logarithm, without computing one.
   [[nodiscard]] double log_sigma() const noexcept {
-    return log_floor_ + log_step_ * static_cast<double>(rung_);
+    return log_floor_ + log_step_ * static_cast<double>(level_);
   }
-  [[nodiscard]] std::size_t rung() const noexcept { return rung_; }
-  /// The standard deviation of every rung.
-  [[nodiscard]] const std::vector<double>& rungs() const noexcept { return sigma_; }
+  /// The index of the estimate among `levels`.
+  [[nodiscard]] std::size_t level() const noexcept { return level_; }
+  /// All standard deviations that the estimate can take, increasing.
+  [[nodiscard]] const std::vector<double>& levels() const noexcept { return sigma_; }
 
  private:
   std::vector<double> sigma_;
   double log_floor_;
-  double log_step_;  ///< from rung to rung
+  double log_step_;  ///< between levels
   double warm_up_;
-  std::size_t rung_ = 0;
+  std::size_t level_ = 0;
   double updates_ = 0.0;
   std::array<SecondDifference, channels> difference_;
 };

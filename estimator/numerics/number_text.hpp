@@ -7,7 +7,7 @@ namespace touchdown {
 
 /// "1000", "0.1": the shortest text that reads back to the same bits.
 std::string text_of(double number);
-/// The inverse; nothing for a text that is not a number from its first letter to its last.
+/// The inverse; nothing unless the whole text is one number.
 std::optional<double> number_of(const std::string& text);
 
 }  // namespace touchdown

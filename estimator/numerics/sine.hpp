@@ -7,12 +7,12 @@ struct SineCosine {
   double cosine;
 };
 
-/// sin x and cos x to two units in the last place of 1, for |x| ≤ 10⁵ rad. Without a branch or a
-/// call, so that loops over it become vector code; a bound in here would bring the branches back.
+/// sin x and cos x to two units in the last place of 1, for |x| ≤ 10⁵ rad. It has no branch and no
+/// call, so that loops over it become vector code; a bound in here would bring branches back.
 ///
-/// x = k·π/2 + r with |r| ≤ π/4, π/2 in three parts, the first two of which times k are exact;
-/// Taylor polynomials of r up to r¹⁵ and r¹⁶ (remainders below 5e-17); k mod 4 says which of the
-/// two is which.
+/// x = k·π/2 + r with |r| ≤ π/4. π/2 comes in three parts; the products of k with the first two are
+/// exact. Taylor polynomials of r go up to r¹⁵ and r¹⁶ (remainders below 5e-17). k mod 4 decides
+/// which of the two is the sine, and the signs.
 inline SineCosine sine_and_cosine(double x) noexcept {
   constexpr double inverse_half_pi = 0x1.45f306dc9c883p-1;
   constexpr double half_pi_high = 0x1.921fb54400000p+0;
@@ -41,8 +41,8 @@ inline SineCosine sine_and_cosine(double x) noexcept {
                                                   r2 * (1.0 / 479001600 +
                                                         r2 * (-1.0 / 87178291200.0 +
                                                               r2 * (1.0 / 20922789888000.0))))))));
-  // 0, 1, 2 or 3 quarters beyond a whole turn; nothing that is rounded lies halfway. Products by 0
-  // and 1 choose, where a compiler would branch.
+  // 0, 1, 2 or 3 quarters beyond a whole turn; no rounded number lies halfway. Products by 0 and 1
+  // select the polynomial, because compilers would branch on a condition.
   const double turns = ((k * 0.25 - 0.375) + shifter) - shifter;
   const double quarter = k - 4.0 * turns;
   const double halves = ((quarter * 0.5 - 0.25) + shifter) - shifter;

@@ -15,7 +15,7 @@ void require(bool holds, const char* what) {
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
-bool is_ladder(const std::vector<double>& levels) {
+bool is_increasing(const std::vector<double>& levels) {
   return !levels.empty() && levels.front() >= 0.0 && std::isfinite(levels.back()) &&
          std::adjacent_find(levels.begin(), levels.end(),
                             [](double a, double b) { return !(a < b); }) == levels.end();
@@ -27,7 +27,7 @@ void check_phase_fit_config(const PhaseFitConfig& config) {
   check_phase_labels(config.labels);
   require(positive(config.torque_bandwidth) && positive(config.acceleration_bandwidth),
           "bandwidths must be positive");
-  require(is_ladder(config.torque_noise) && is_ladder(config.acceleration_noise),
+  require(is_increasing(config.torque_noise) && is_increasing(config.acceleration_noise),
           "noise levels must increase from zero or more");
   require(config.grid_step > 0.0 && config.grid_step <= 2.0, "grid_step must be in (0, 2]");
   require(positive(config.largest_knee_step) && positive(config.largest_wheel_step),

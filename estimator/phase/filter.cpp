@@ -29,7 +29,8 @@ PhaseProbabilities PhaseFilter::phases() const noexcept {
 }
 
 PhaseNoise PhaseFilter::noise() const noexcept {
-  return config_.noise.value_or(PhaseNoise{prepared_.knee_noise.sigma(), prepared_.wheel_noise.sigma(),
+  return config_.noise.value_or(PhaseNoise{prepared_.knee_noise.sigma(),
+                                           prepared_.wheel_noise.sigma(),
                                            prepared_.acceleration_noise.sigma()});
 }
 
@@ -56,28 +57,29 @@ const Belief& PhaseFilter::update(const Signals& signals) noexcept {
   if (!config_.noise) estimate_noise(signals, verdict.acceleration_good);
 
   const PhaseNoiseLevel knee_level =
-      prepared_.knee_levels[config_.noise ? 0 : prepared_.knee_noise.rung()];
+      prepared_.knee_levels[config_.noise ? 0 : prepared_.knee_noise.level()];
   const PhaseNoiseLevel wheel_level =
-      prepared_.wheel_levels[config_.noise ? 0 : prepared_.wheel_noise.rung()];
+      prepared_.wheel_levels[config_.noise ? 0 : prepared_.wheel_noise.level()];
   const PhaseNoiseLevel acceleration_level =
-      prepared_.acceleration_levels[config_.noise ? 0 : prepared_.acceleration_noise.rung()];
+      prepared_.acceleration_levels[config_.noise ? 0 : prepared_.acceleration_noise.level()];
   const auto evidence = [&](std::size_t side) {
     const LegSignals& leg = signals.leg[side];
     const double mirror = side == 0 ? 1.0 : -1.0;
-    return torques_good[side] ? prepared_.torque(mirror * leg.knee.torque, mirror * leg.wheel.torque,
-                                               knee_level, wheel_level)
+    return torques_good[side] ? prepared_.torque(mirror * leg.knee.torque,
+                                                 mirror * leg.wheel.torque, knee_level, wheel_level)
                               : PhaseRow{};
   };
   const PhaseRow left = evidence(0);
   const PhaseRow right = evidence(1);
-  const PhaseRow vertical = prepared_.acceleration(signals.vertical_acceleration, acceleration_level);
+  const PhaseRow vertical =
+      prepared_.acceleration(signals.vertical_acceleration, acceleration_level);
 
   prepared_.recursion.predict_and_correct(alpha_, PhaseRecursion::evidence(left, right, vertical));
   apply_threshold();
   return belief_;
 }
 
-/// The belief after `elapsed` seconds without news.
+/// The belief after `elapsed` seconds without a measurement.
 void PhaseFilter::reset_memory(double elapsed) noexcept {
   const double kept = std::exp(-elapsed / config_.guard.relaxation);
   for (std::size_t k = 0; k < phase_count; ++k) {

@@ -9,17 +9,17 @@
 namespace touchdown {
 
 /// A hidden Markov model over the contact phases of both legs, run forward (docs/phase_filter.md).
-/// Where the paper's filter asks whether a wheel touches now, this one asks where the robot is
-/// between rolling and falling, from the signed knee and wheel torques of both legs and the
-/// vertical acceleration, and adds up: P(left wheel touches) is the probability of all phases in
-/// which it does.
+/// The paper's filter estimates whether a wheel is in contact now. This one estimates in which
+/// phase between rolling and falling the robot is, from the signed knee and wheel torques of both
+/// legs and the vertical acceleration. P(left wheel in contact) is the sum over all phases in which
+/// it is.
 ///
-/// `update` never throws, allocates or locks, and never returns NaN. A leg whose torques are not
-/// finite says nothing at that step; without a usable acceleration, or without torques of either
-/// leg, the belief relaxes to the prior (`SignalGuard`), and the status says why.
+/// `update` never throws, allocates or locks, and never returns NaN. A leg with torques that are
+/// not finite gives no evidence at that step. Without a usable acceleration, or without torques of
+/// either leg, the belief relaxes to the prior (`SignalGuard`), and the status gives the reason.
 class PhaseFilter : public ContactEstimator {
  public:
-  /// Throws InputError for a bad model or configuration, and for a sample rate that is not the
+  /// Throws InputError for an invalid model or configuration, and for a sample rate that is not the
   /// model's divided by a whole number.
   explicit PhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config = {});
 
@@ -30,7 +30,7 @@ class PhaseFilter : public ContactEstimator {
   [[nodiscard]] const PhaseFilterConfig& config() const noexcept { return config_; }
   /// P(phase | all signals so far), which sums to one.
   [[nodiscard]] PhaseProbabilities phases() const noexcept;
-  /// The sensor noise that the last step was judged with.
+  /// The sensor noise that the last step used.
   [[nodiscard]] PhaseNoise noise() const noexcept;
 
  private:

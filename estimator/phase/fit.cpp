@@ -21,8 +21,8 @@ struct Range {
   }
 };
 
-/// Covers the samples and four bandwidths more, where the kernels have fallen below the uniform
-/// part of the mixture.
+/// An axis over the samples and four bandwidths more, where the kernels are below the uniform part
+/// of the mixture.
 Axis axis_over(const Range& range, double bandwidth, double step) {
   const double lower = range.lower - 4.0 * bandwidth;
   const double upper = range.upper + 4.0 * bandwidth;
@@ -39,15 +39,15 @@ std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t larg
   return kept;
 }
 
-/// Where in a table of several densities, cell after cell, one of them stands.
-struct Column {
+/// Which of `count` densities in a table, which stores them cell by cell.
+struct DensityColumn {
   std::size_t number = 0;
   std::size_t count = 1;
 };
 
 /// log((1 − ε) f + ε u) at every cell; without f, log u.
 void put_log_mixture(const std::vector<double>& f, double uniform, const PhaseFitConfig& config,
-                     const Column& column, std::vector<float>& table) {
+                     const DensityColumn& column, std::vector<float>& table) {
   for (std::size_t cell = 0; cell * column.count < table.size(); ++cell) {
     const double mixture =
         f.empty() ? uniform
@@ -57,8 +57,8 @@ void put_log_mixture(const std::vector<double>& f, double uniform, const PhaseFi
 }
 
 /// Torques of many steps, joint by joint.
-struct TorqueSamples {
-  explicit TorqueSamples(const std::vector<TorqueSample>& samples) {
+struct JointTorques {
+  explicit JointTorques(const std::vector<TorqueSample>& samples) {
     for (const TorqueSample& sample : samples) {
       knee.push_back(sample.knee);
       wheel.push_back(sample.wheel);
@@ -68,7 +68,7 @@ struct TorqueSamples {
   std::vector<double> wheel;
 };
 
-/// The kernels of one joint's torque under each noise.
+/// The kernel axis of one joint's torque for each noise.
 std::vector<KernelAxis> kernel_axes(const Range& range, std::span<const double> noise,
                                     const PhaseFitConfig& config, double largest_step) {
   std::vector<KernelAxis> axes;
@@ -79,6 +79,7 @@ std::vector<KernelAxis> kernel_axes(const Range& range, std::span<const double> 
   return axes;
 }
 
+/// Copies the density of `lender` to a borrower without samples.
 void borrow_if_none(const PhaseSamples& samples, std::size_t borrower, Phase lender,
                     PhaseTorqueDensity& density) {
   if (!samples.torque[borrower].empty()) return;
@@ -87,7 +88,7 @@ void borrow_if_none(const PhaseSamples& samples, std::size_t borrower, Phase len
   }
 }
 
-/// Adds one run's samples, transitions and labelled time.
+/// Collects samples, transitions and labelled time of all runs.
 class Collector {
  public:
   Collector(double sample_rate, const PhaseLabelConfig& labels)
@@ -114,7 +115,7 @@ class Collector {
     for (std::size_t k = skip; k < steps; ++k) add_step(run.signals[k], phases[k]);
   }
 
-  void forget_single_wheels() {
+  void drop_single_wheel_samples() {
     samples_.torque[supporting_leg].clear();
     samples_.torque[airborne_leg].clear();
   }
@@ -128,13 +129,13 @@ class Collector {
     seconds_[index(phase)] += 1.0 / sample_rate_;
     samples_.acceleration[std::min(index(phase), acceleration_density_count - 1)].push_back(
         signals.vertical_acceleration);
-    const bool touches[2] = {left_in_contact(phase), right_in_contact(phase)};
+    const bool in_contact[2] = {left_in_contact(phase), right_in_contact(phase)};
     for (std::size_t side = 0; side < 2; ++side) {
       const double mirror = side == 0 ? 1.0 : -1.0;
       const LegSignals& leg = signals.leg[side];
-      const std::size_t density = touches[0] == touches[1] ? index(phase)
-                                  : touches[side]          ? supporting_leg
-                                                           : airborne_leg;
+      const std::size_t density = in_contact[0] == in_contact[1] ? index(phase)
+                                  : in_contact[side]             ? supporting_leg
+                                                                 : airborne_leg;
       samples_.torque[density].push_back({mirror * leg.knee.torque, mirror * leg.wheel.torque});
     }
   }
@@ -201,8 +202,8 @@ std::vector<PhaseTorqueDensity> fit_torque_densities(const PhaseSamples& samples
   }
   for (std::size_t phase = 0; phase < torque_density_count; ++phase) {
     if (before_density) before_density();
-    const TorqueSamples kept(thinned(samples.torque[phase], config.largest_sample));
-    // The wheel's torque along the rows.
+    const JointTorques kept(thinned(samples.torque[phase], config.largest_sample));
+    // Rows along the wheel's torque.
     const std::vector<std::vector<double>> densities =
         kept.knee.empty() ? std::vector<std::vector<double>>()
                           : kernel_densities(kept.wheel, kept.knee, wheels, knees);
@@ -257,7 +258,7 @@ PhaseModel fit_phase_model(std::span<const PhaseFitRun> runs, double sample_rate
   }
   const double single_wheel =
       collector.seconds()[index(Phase::left_only)] + collector.seconds()[index(Phase::right_only)];
-  if (single_wheel < config.least_single_wheel) collector.forget_single_wheels();
+  if (single_wheel < config.least_single_wheel) collector.drop_single_wheel_samples();
   PhaseModel model;
   model.sample_rate = sample_rate;
   model.transition = transition_probabilities(collector.counts(), config.pseudo_count);

@@ -13,7 +13,7 @@ namespace {
 constexpr double gravity = 9.81;
 constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
 
-/// The sequence with every stretch without contact that is shorter than `steps` filled.
+/// The sequence, with contact filled in wherever it is missing for fewer than `steps` steps.
 std::vector<std::uint8_t> without_short_flights(WheelContact contact, std::size_t steps) {
   std::vector<std::uint8_t> filled(contact.begin(), contact.end());
   auto begin = filled.begin();
@@ -27,8 +27,8 @@ std::vector<std::uint8_t> without_short_flights(WheelContact contact, std::size_
   return filled;
 }
 
-/// For every step how many steps lie between it and the last one (in the order of the indices that
-/// `at` gives) with a wheel in the air: 0 in the air, 1 right beside it, `never` without any.
+/// For every step, its distance (steps) from the last step with a wheel in the air, in the order of
+/// the indices from `at`: 0 in the air, 1 right beside it, `never` without any.
 template <typename At>
 std::vector<std::size_t> steps_from_air(const std::vector<std::uint8_t>& both, const At& at) {
   std::vector<std::size_t> steps(both.size());
@@ -41,12 +41,12 @@ std::vector<std::size_t> steps_from_air(const std::vector<std::uint8_t>& both, c
   return steps;
 }
 
-/// With both wheels on the ground, `after` steps after a landing and `before` steps before a
-/// takeoff.
+/// The phase with both wheels on the ground, `after` steps after a landing and `before` steps
+/// before a takeoff.
 Phase phase_on_the_ground(std::size_t after, std::size_t before, double sample_rate,
                           const PhaseLabelConfig& config) {
   const auto seconds = [&](std::size_t steps) {
-    // Half a step in favour of the nearer phase keeps rounding from deciding.
+    // Subtracts half a step, so that rounding does not decide.
     return steps == never ? std::numeric_limits<double>::infinity()
                           : (static_cast<double>(steps) - 0.5) / sample_rate;
   };

@@ -10,10 +10,9 @@
 
 namespace touchdown {
 
-/// Log densities of (knee, wheel) torque in every phase, through sensors with one level of noise at
-/// the knee and one at the wheel.
-/// log_density[(i · knee.count + j) · torque_density_count + phase] belongs to wheel[i], knee[j];
-/// the density's unit is 1/(N·m)².
+/// Log densities of (knee, wheel) torque in every phase, for one level of sensor noise at the knee
+/// and one at the wheel. log_density[(i · knee.count + j) · torque_density_count + phase] belongs
+/// to wheel[i], knee[j]; the density's unit is 1/(N·m)².
 struct PhaseTorqueDensity {
   TorqueSample noise;      ///< standard deviations (N·m)
   TorqueSample bandwidth;  ///< total widths of the kernels (N·m)
@@ -34,7 +33,7 @@ struct PhaseAccelerationDensity {
 /// transition[i][j] = P(phase j at the next step | phase i).
 using PhaseTransition = std::array<PhaseProbabilities, phase_count>;
 
-/// All that the phase filter knows about a robot, as plain data.
+/// The phase filter's model of a robot, as plain data.
 struct PhaseModel {
   double sample_rate = 1000.0;  ///< Hz, of the transitions
   PhaseTransition transition{};
@@ -45,11 +44,11 @@ struct PhaseModel {
   std::array<double, phase_count> seconds{};           ///< labelled data behind each phase
 };
 
-/// Throws InputError unless rows of the transition are probabilities, noise levels increase and
+/// Throws InputError unless rows of the transition are probabilities, noise levels increase, and
 /// every grid has its axes' size and finite values.
 void check_phase_model(const PhaseModel& model);
 
-/// n, for torque densities of n × n noise levels. Throws InputError for any other number of them.
+/// n, for torque densities at n × n noise levels. Throws InputError for any other number of them.
 std::size_t torque_level_count(std::span<const PhaseTorqueDensity> densities);
 
 }  // namespace touchdown

@@ -11,22 +11,22 @@ const PhaseModel& checked(const PhaseModel& model, const PhaseFilterConfig& conf
   return model;
 }
 
-/// Up to the largest noise that densities were prepared for.
+/// A noise estimate up to the largest noise of the densities.
 template <std::size_t channels>
 NoiseEstimate<channels> noise_from(double floor, double largest, const PhaseFilterConfig& config) {
   return {floor, std::max(2.0 * floor, largest), config.noise_gain,
           config.noise_warm_up * config.sample_rate};
 }
 
-/// Where each rung of an estimate, or the noise if it is known, lies among prepared densities.
+/// The position of each level of an estimate, or of the known noise, among the densities' levels.
 template <std::size_t channels>
-std::vector<PhaseNoiseLevel> placed(const PhaseNoiseLevels& ladder,
+std::vector<PhaseNoiseLevel> placed(const PhaseNoiseLevels& densities,
                                     const NoiseEstimate<channels>& estimate,
                                     const std::optional<PhaseNoise>& known,
                                     double PhaseNoise::*part) {
-  if (known) return {ladder.place((*known).*part)};
+  if (known) return {densities.place((*known).*part)};
   std::vector<PhaseNoiseLevel> levels;
-  for (const double sigma : estimate.rungs()) levels.push_back(ladder.place(sigma));
+  for (const double sigma : estimate.levels()) levels.push_back(densities.place(sigma));
   return levels;
 }
 
@@ -45,9 +45,11 @@ PreparedPhaseModel::PreparedPhaseModel(const PhaseModel& model, const PhaseFilte
           noise_from<2>(config.noise_floor.wheel_torque, model.torque.back().noise.wheel, config)),
       acceleration_noise(
           noise_from<1>(config.noise_floor.acceleration, model.acceleration.back().noise, config)),
-      knee_levels(placed(torque.ladder(), knee_noise, config.noise, &PhaseNoise::knee_torque)),
-      wheel_levels(placed(torque.ladder(), wheel_noise, config.noise, &PhaseNoise::wheel_torque)),
-      acceleration_levels(placed(acceleration.ladder(), acceleration_noise, config.noise,
+      knee_levels(
+          placed(torque.noise_levels(), knee_noise, config.noise, &PhaseNoise::knee_torque)),
+      wheel_levels(
+          placed(torque.noise_levels(), wheel_noise, config.noise, &PhaseNoise::wheel_torque)),
+      acceleration_levels(placed(acceleration.noise_levels(), acceleration_noise, config.noise,
                                  &PhaseNoise::acceleration)) {}
 
 }  // namespace touchdown

@@ -10,11 +10,11 @@
 
 namespace touchdown {
 
-/// A model as one filter, or many side by side, run it: transitions and likelihoods at the filter's
-/// rate, noise estimates that have seen nothing yet, and where each of their rungs lies among the
-/// prepared densities (one entry if the noise is known).
+/// A model in the form that filters run, one or many side by side. It holds transitions and
+/// likelihoods at the filter's rate, fresh noise estimates, and the position of each of their
+/// levels among the levels of the densities (one entry if the noise is known).
 struct PreparedPhaseModel {
-  /// Throws InputError for a bad model or configuration, and for a sample rate that is not the
+  /// Throws InputError for an invalid model or configuration, and for a sample rate that is not the
   /// model's divided by a whole number.
   PreparedPhaseModel(const PhaseModel& model, const PhaseFilterConfig& config);
 

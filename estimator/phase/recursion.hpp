@@ -9,13 +9,13 @@
 
 namespace touchdown {
 
-/// The step from one belief over phases to the next, common to one filter and to many side by side:
-/// α'_j ∝ e_j · Σ_i α_i A_ij. Arrays are padded to whole vector registers; the padding is zero.
+/// The step from one belief over phases to the next: α'_j ∝ e_j · Σ_i α_i A_ij. One filter and many
+/// side by side share it. Arrays are padded with zeros to whole vector registers.
 class PhaseRecursion {
  public:
   using Lanes = std::array<double, phase_simd_width>;
 
-  /// P(contact) = 0.5 for each wheel, for any and for both; half of no contact is flight.
+  /// P(contact) = 0.5 for each wheel, for any and for both. Half of no contact is flight.
   static constexpr PhaseProbabilities prior = [] {
     PhaseProbabilities p{};
     p[index(Phase::rolling)] = 0.5;
@@ -30,7 +30,7 @@ class PhaseRecursion {
   /// Log likelihoods by phase, from the rows of both legs and of the acceleration.
   static Lanes evidence(const PhaseRow& left, const PhaseRow& right,
                         const PhaseRow& vertical) noexcept {
-    /// The padding's log likelihood: e^−700 of the largest.
+    // The padding's log likelihood: e^−700 of the largest.
     constexpr double impossible = -1e9;
     Lanes log_likelihood;
     for (std::size_t k = 0; k < phase_simd_width; ++k) {
@@ -48,10 +48,12 @@ class PhaseRecursion {
   void predict_and_correct(Lanes& alpha, const Lanes& log_likelihood) const noexcept {
     Lanes predicted{};
     for (std::size_t i = 0; i < phase_count; ++i) {
-      for (std::size_t j = 0; j < phase_simd_width; ++j) predicted[j] += alpha[i] * transition_[i][j];
+      for (std::size_t j = 0; j < phase_simd_width; ++j)
+        predicted[j] += alpha[i] * transition_[i][j];
     }
     double largest = log_likelihood[0];
-    for (std::size_t k = 1; k < phase_simd_width; ++k) largest = std::max(largest, log_likelihood[k]);
+    for (std::size_t k = 1; k < phase_simd_width; ++k)
+      largest = std::max(largest, log_likelihood[k]);
     double sum = 0.0;
     for (std::size_t k = 0; k < phase_simd_width; ++k) {
       predicted[k] *= exponential(log_likelihood[k] - largest);
@@ -61,7 +63,7 @@ class PhaseRecursion {
     for (std::size_t k = 0; k < phase_simd_width; ++k) alpha[k] = predicted[k] * scale;
   }
 
-  /// P(left wheel touches), P(right wheel touches).
+  /// P(left wheel in contact), P(right wheel in contact).
   static std::array<double, 2> wheels(const Lanes& alpha) noexcept {
     const double none = alpha[index(Phase::flight)] + alpha[index(Phase::held)];
     return {std::clamp(1.0 - (none + alpha[index(Phase::right_only)]), 0.0, 1.0),
@@ -72,12 +74,12 @@ class PhaseRecursion {
   alignas(64) std::array<Lanes, phase_count> transition_{};  // from row to column
 };
 
-/// How many of the model's steps one step of a filter at `filter_rate` (Hz) takes. Throws
-/// InputError unless it is a whole number.
+/// The number of the model's steps per step of a filter at `filter_rate` (Hz). Throws InputError
+/// unless it is a whole number.
 int phase_stride(double model_rate, double filter_rate);
 
-/// The exponent of likelihoods at that stride: fewer samples each tell more, but never more than
-/// independent ones do.
+/// The exponent of likelihoods at that stride. Sparser samples count more each, but never more than
+/// independent samples.
 double phase_exponent(double exponent, int stride);
 
 }  // namespace touchdown

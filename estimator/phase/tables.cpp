@@ -24,7 +24,7 @@ void add(PhaseRow& sum, float weight, const float* cell) noexcept {
   for (std::size_t k = 0; k < phase_simd_width; ++k) sum[k] += weight * cell[k];
 }
 
-PhaseNoiseLevels ladder_of(std::vector<double> bandwidths, double first_noise) {
+PhaseNoiseLevels noise_levels_of(std::vector<double> bandwidths, double first_noise) {
   const double h = bandwidths.front();
   return {std::move(bandwidths), std::sqrt(std::max(0.0, h * h - first_noise * first_noise))};
 }
@@ -47,7 +47,7 @@ PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densiti
   for (const PhaseTorqueDensity& density : densities.first(torque_level_count(densities))) {
     bandwidths.push_back(density.bandwidth.wheel);
   }
-  ladder_ = ladder_of(std::move(bandwidths), densities.front().noise.wheel);
+  noise_levels_ = noise_levels_of(std::move(bandwidths), densities.front().noise.wheel);
   for (const PhaseTorqueDensity& density : densities) {
     tables_.push_back({AxisLookup(density.knee), AxisLookup(density.wheel),
                        phase_simd_width * static_cast<std::size_t>(density.knee.count),
@@ -72,7 +72,7 @@ PhaseRow PhaseTorqueTables::operator()(double knee, double wheel, const PhaseNoi
     add(sum, high_weight * (1.0F - knee_weight), high);
     add(sum, high_weight * knee_weight, high + phase_simd_width);
   };
-  const std::size_t levels = ladder_.bandwidths.size();
+  const std::size_t levels = noise_levels_.bandwidths.size();
   const Table* const corner = tables_.data() + knee_noise.level * levels + wheel_noise.level;
   const float larger = std::max(knee_noise.weight, wheel_noise.weight);
   const float smaller = std::min(knee_noise.weight, wheel_noise.weight);
@@ -91,7 +91,7 @@ PhaseAccelerationTables::PhaseAccelerationTables(
     tables_.push_back({AxisLookup(density.axis),
                        padded(density.log_density, acceleration_density_count, exponent)});
   }
-  ladder_ = ladder_of(std::move(bandwidths), densities.front().noise);
+  noise_levels_ = noise_levels_of(std::move(bandwidths), densities.front().noise);
 }
 
 PhaseRow PhaseAccelerationTables::operator()(double acceleration,
@@ -99,7 +99,8 @@ PhaseRow PhaseAccelerationTables::operator()(double acceleration,
   PhaseRow sum{};
   const auto add_level = [&](const Table& table, float weight) {
     const AxisPosition a = table.axis.place(acceleration);
-    const float* const low = table.cells.data() + static_cast<std::size_t>(a.index) * phase_simd_width;
+    const float* const low =
+        table.cells.data() + static_cast<std::size_t>(a.index) * phase_simd_width;
     const float high_weight = weight * static_cast<float>(a.weight);
     add(sum, weight - high_weight, low);
     add(sum, high_weight, low + phase_simd_width);

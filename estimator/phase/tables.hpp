@@ -15,26 +15,26 @@ inline constexpr std::size_t phase_simd_width = 12;
 /// Log likelihoods by phase; the padding is zero.
 using PhaseRow = std::array<float, phase_simd_width>;
 
-/// Between which two prepared noise levels a noise lies: `weight` in [0, 1] of the way from `level`
-/// to the next one.
+/// The position of a noise among the noise levels: `weight` in [0, 1] of the way from `level` to
+/// the next one.
 struct PhaseNoiseLevel {
   std::size_t level = 0;
   float weight = 0.0F;
 };
 
-/// The noise levels that densities were prepared for.
+/// The noise levels of the densities.
 struct PhaseNoiseLevels {
   std::vector<double> bandwidths;  ///< of the kernels, noise included; they increase
   double kernel_width = 0.0;       ///< h, without noise
 
-  /// Where noise `sigma` lies: linear in the logarithm of the total bandwidth √(h² + σ²).
+  /// The position of noise `sigma`: linear in the logarithm of the total bandwidth √(h² + σ²).
   [[nodiscard]] PhaseNoiseLevel place(double sigma) const;
 };
 
-/// The torque densities prepared for lookups: raised to an exponent, side by side for all phases,
-/// bilinear in (knee, wheel) and linear between noise levels, all in the logarithm. Four pairs of
-/// levels surround a pair of noises; the plane through three of them, both ends of the diagonal and
-/// the corner on the pair's side, interpolates. Outside the grid the nearest edge counts.
+/// Lookup tables of the torque densities, raised to an exponent. A row holds all phases. Lookups
+/// are bilinear in (knee, wheel) and linear between noise levels, all in the logarithm. Four pairs
+/// of levels surround a pair of noises. The plane through three of them interpolates: both ends of
+/// the diagonal and the corner on the pair's side. Outside the grid the nearest edge counts.
 class PhaseTorqueTables {
  public:
   PhaseTorqueTables(std::span<const PhaseTorqueDensity> densities, double exponent);
@@ -43,8 +43,8 @@ class PhaseTorqueTables {
   [[nodiscard]] PhaseRow operator()(double knee, double wheel, const PhaseNoiseLevel& knee_noise,
                                     const PhaseNoiseLevel& wheel_noise) const noexcept;
 
-  /// Of noise at the knee or at the wheel: their levels are the same.
-  [[nodiscard]] const PhaseNoiseLevels& ladder() const noexcept { return ladder_; }
+  /// The levels of noise at the knee, which equal those at the wheel.
+  [[nodiscard]] const PhaseNoiseLevels& noise_levels() const noexcept { return noise_levels_; }
 
  private:
   struct Table {
@@ -54,10 +54,10 @@ class PhaseTorqueTables {
     std::vector<float> cells;
   };
   std::vector<Table> tables_;
-  PhaseNoiseLevels ladder_;
+  PhaseNoiseLevels noise_levels_;
 };
 
-/// The acceleration densities, likewise.
+/// Lookup tables of the acceleration densities, likewise.
 class PhaseAccelerationTables {
  public:
   PhaseAccelerationTables(std::span<const PhaseAccelerationDensity> densities, double exponent);
@@ -65,7 +65,7 @@ class PhaseAccelerationTables {
   [[nodiscard]] PhaseRow operator()(double acceleration,
                                     const PhaseNoiseLevel& noise) const noexcept;
 
-  [[nodiscard]] const PhaseNoiseLevels& ladder() const noexcept { return ladder_; }
+  [[nodiscard]] const PhaseNoiseLevels& noise_levels() const noexcept { return noise_levels_; }
 
  private:
   struct Table {
@@ -73,7 +73,7 @@ class PhaseAccelerationTables {
     std::vector<float> cells;
   };
   std::vector<Table> tables_;
-  PhaseNoiseLevels ladder_;
+  PhaseNoiseLevels noise_levels_;
 };
 
 }  // namespace touchdown

@@ -10,19 +10,19 @@
 
 namespace touchdown {
 
-/// One row of a spectrum that is laid out as in `SlidingDft`.
+/// One row of a spectrum in the layout of `SlidingDft`.
 using SpectrumRow = Eigen::Array<double, SlidingDft::lanes, 1>;
 using SpectrumRowMap = Eigen::Map<SpectrumRow>;
 using ConstSpectrumRowMap = Eigen::Map<const SpectrumRow>;
 
-/// Sums over whole lanes: before[i] is the sum of the lanes 0 … i − 1, the last one that of all
-/// bins below the Nyquist frequency.
+/// Cumulative sums over whole lanes: before[i] is the sum of the lanes 0 … i − 1. The last one is
+/// the sum of all bins below the Nyquist frequency.
 struct SimdSums {
   static constexpr int lanes = SlidingDft::lanes;
 
   double before[lanes + 1];
 
-  /// From the sum of each lane. By a tree: a chain of additions would wait for each other.
+  /// From the sum of each lane. A tree of additions is faster than a chain.
   static SimdSums of(const SpectrumRow& lane) noexcept {
     static_assert(lanes == 8);
     const double s01 = lane[0] + lane[1];
@@ -37,16 +37,16 @@ struct SimdSums {
   [[nodiscard]] double total() const noexcept { return before[lanes]; }
 };
 
-/// Calls f(rows). The rows of the usual window of 128 samples are a constant that the compiler can
-/// unroll loops by.
+/// Calls f(rows). For the usual window of 128 samples, `rows` is a constant, so the compiler can
+/// unroll loops.
 template <typename Function>
 auto with_rows(int rows, const Function& f) noexcept {
   constexpr std::integral_constant<int, 128 / 2 / SlidingDft::lanes> usual;
   return rows == usual ? f(usual) : f(rows);
 }
 
-/// Row by row the sums of each lane's first rows: row r of `within` becomes the sum of the rows
-/// 0 … r − 1. Returns the last one.
+/// Cumulative sums over rows, for each lane: row r of `within` becomes the sum of the rows 0 … r
+/// − 1. Returns the sum of all rows.
 template <typename Rows, typename RowOf>
 SpectrumRow cumulate(Rows rows, const RowOf& row_of, double* within) noexcept {
   SpectrumRow sum = SpectrumRow::Zero();
@@ -57,8 +57,8 @@ SpectrumRow cumulate(Rows rows, const RowOf& row_of, double* within) noexcept {
   return sum;
 }
 
-/// How many of sum(1) ≤ sum(2) ≤ … ≤ sum(count − 1) are below `bound`. Halves the candidates
-/// without a branch: where a median is, no processor can predict.
+/// How many of sum(1) ≤ sum(2) ≤ … ≤ sum(count − 1) are below `bound`. It halves the candidates
+/// without a branch, because a processor cannot predict where the median is.
 template <typename Count, typename Sum>
 int count_below(double bound, Count count, const Sum& sum) noexcept {
   int below = 0;
@@ -70,12 +70,12 @@ int count_below(double bound, Count count, const Sum& sum) noexcept {
   return below;
 }
 
-/// ω_median, Eq. (12), in bins: where the cumulative sum over a spectrum's bins reaches half of its
-/// end, linear between bins; 0 if bin 0 holds half or more. `within` is what `cumulate` made and
-/// `sums` come from, `nyquist` the value of bin N/2, 0 if that does not count.
+/// ω_median, Eq. (12), in bins: where the cumulative sum over a spectrum's bins reaches half of the
+/// total, linear between bins; 0 if bin 0 holds half or more. `within` and the lane sums behind
+/// `sums` come from `cumulate`. `nyquist` is the value of bin N/2, or 0 if that bin does not count.
 ///
-/// All bins whose cumulative sum is below half are counted. To leave a loop at the median would be
-/// less work and take longer: where the median is, no processor can predict.
+/// The function counts all bins with a cumulative sum below half. Leaving the loop at the median
+/// would take longer, because a processor cannot predict where the median is.
 template <typename Rows>
 double median_bin(const SimdSums& sums, double nyquist, int nyquist_bin, Rows rows,
                   const double* within) noexcept {
@@ -87,7 +87,8 @@ double median_bin(const SimdSums& sums, double nyquist, int nyquist_bin, Rows ro
     const double rest = half - sums.before[lane];
     for (int row = 1; row <= rows; ++row) bin += within[row * lanes + lane] < rest ? 1 : 0;
   }
-  bin = std::min<std::int64_t>(bin, rows * lanes - 1);  // sums of other order may round otherwise
+  bin =
+      std::min<std::int64_t>(bin, rows * lanes - 1);  // sums in another order may round differently
   const std::int64_t lane = bin / rows;
   const double* const median = within + (bin - lane * rows) * lanes + lane;
   const double inside = median[lanes] - median[0];

@@ -45,7 +45,7 @@ void SlidingDft::push(double sample) noexcept {
   const double* const cosine = cosine_.data();
   const double* const sine = sine_.data();
   const std::size_t count = real_.size();
-  // The arrays do not overlap, which the compiler cannot know.
+  // The arrays do not overlap. The compiler cannot know this.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC ivdep
 #endif

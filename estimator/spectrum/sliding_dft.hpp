@@ -12,8 +12,8 @@ namespace touchdown {
 ///   X_k(t) = e^(2πik/N) · (X_k(t−1) + a_t − a_(t−N)),   k = 0 … ⌊N/2⌋,
 ///
 /// which equals X_k = Σ_n a_(t−N+1+n) e^(−2πikn/N). In double precision the rotation's rounding
-/// grows so slowly that nothing needs to be refreshed: below 1e-9 of the spectrum after 1e6 steps.
-/// Samples must be finite. Starts from a window of zeros. No call but the constructor allocates.
+/// errors stay below 1e-9 of the spectrum after 1e6 steps, so the transform needs no refresh.
+/// Samples must be finite. The window starts with zeros. Only the constructor allocates.
 class SlidingDft {
  public:
   /// Throws InputError unless window ≥ 2.
@@ -22,28 +22,28 @@ class SlidingDft {
   /// Back to a window of zeros.
   void reset() noexcept;
 
-  /// Drop the oldest sample, take the newest.
+  /// Replaces the oldest sample by the newest.
   void push(double sample) noexcept;
 
   [[nodiscard]] int window() const noexcept { return static_cast<int>(samples_.size()); }
-  /// Number of frequency bins, ⌊N/2⌋ + 1. Bin k stands for the frequency k · sample_rate / N.
+  /// Number of frequency bins, ⌊N/2⌋ + 1. Bin k has the frequency k · sample_rate / N.
   [[nodiscard]] int bins() const noexcept { return bins_; }
   [[nodiscard]] double real(int bin) const noexcept;
   [[nodiscard]] double imaginary(int bin) const noexcept;
   /// |X_k|².
   [[nodiscard]] double squared_magnitude(int bin) const noexcept;
 
-  /// The compiler's vectors run over `lanes` bins at once, and each lane walks through `rows()`
-  /// neighbouring ones: bin k is in lane k / rows(), row k % rows(). So a sum over rows is at once
-  /// the sums over `lanes` contiguous parts of the spectrum.
+  /// SIMD layout: vector code processes `lanes` bins at once, and each lane holds `rows()`
+  /// neighbouring bins. Bin k is in lane k / rows(), row k % rows(). A sum over rows thus gives the
+  /// sums over `lanes` contiguous parts of the spectrum.
   static constexpr int lanes = 8;
   [[nodiscard]] int rows() const noexcept { return rows_; }
-  /// Real and imaginary parts of all bins below the Nyquist frequency, row after row. What is
-  /// beyond the last of them is zero.
+  /// Real and imaginary parts of all bins below the Nyquist frequency, row after row. Padding
+  /// beyond the last bin is zero.
   [[nodiscard]] std::span<const double> reals() const noexcept { return real_; }
   [[nodiscard]] std::span<const double> imaginaries() const noexcept { return imaginary_; }
-  /// X_(N/2) of an even window, which is real and in no row, because 64 bins fill vectors and 65 do
-  /// not; 0 for an odd window, which has none.
+  /// X_(N/2) of an even window, which is real. It is in no row, because 64 bins fill vectors and 65
+  /// do not. 0 for an odd window, which has no such bin.
   [[nodiscard]] double nyquist() const noexcept { return nyquist_; }
 
  private:

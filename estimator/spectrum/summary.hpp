@@ -12,7 +12,7 @@ enum class SpectrumKind : int {
   magnitude,  ///< |X_k|, as in the authors' code
 };
 
-/// What the transition model needs to know of a spectrum.
+/// The two numbers that the transition model uses of a spectrum.
 struct SpectrumValues {
   /// Mean of the squared samples of the window, which by Parseval's theorem is also the mean over
   /// all N frequency bins of A_t(ω) = |â_t(ω)|²/N, Eq. (10) of the paper (unit² of the samples).
@@ -31,11 +31,11 @@ inline double mean_square(double below_nyquist, double first, double nyquist, do
 }
 
 /// Summarises the spectrum of a sliding window. The median is where the cumulative sum over the
-/// bins 0 … ⌊N/2⌋ reaches half of its end, interpolated linearly between bins; it is 0 if bin 0
-/// holds half or more, or if the window holds no more than rounding errors (an RMS below 1e-9).
+/// bins 0 … ⌊N/2⌋ reaches half of the total, interpolated linearly between bins. It is 0 if bin 0
+/// holds half or more, or if the window holds only rounding errors (an RMS below 1e-9).
 class SpectrumSummary {
  public:
-  /// With `nyquist` false an even window's last bin, N/2, is left out of the median.
+  /// If `nyquist` is false, the median leaves out an even window's last bin, N/2.
   SpectrumSummary(const SlidingDft& dft, SpectrumKind kind, bool nyquist);
 
   /// `dft` must have the window that was given to the constructor.
@@ -53,7 +53,7 @@ class SpectrumSummary {
   bool magnitude_;
   bool nyquist_counts_;
   std::vector<double> magnitudes_;
-  /// Row r: the sums of each lane's first r bins.
+  /// Row r holds the sum of the first r bins of each lane.
   std::vector<double> within_simd_width_;
 };
 

@@ -1,7 +1,7 @@
-/* Contact estimation from C, with a made-up robot in place of yours: it stands for half a second,
- * falls for a fifth of one, and stands again.
+/* Contact estimation from C, with a simulated signal in place of your robot: it stands for 0.5 s, falls
+ * for 0.2 s, and stands again.
  *
- * Exit code 0 if the left wheel is believed to be where it is at the end of each. */
+ * Exit code 0 if the belief about the left wheel is right at the end of each phase. */
 
 #include <stdio.h>
 #include <touchdown/touchdown.h>
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     const touchdown_belief belief = touchdown_update(estimator, &record);
     if (step == 499 || step == 699 || step == 1199) {
       printf("%.3f s: left wheel %s, P(contact) %.6f, signals %s\n", record.time,
-             belief.contact[0] ? "touches" : "is in the air", belief.p_contact[0],
+             belief.contact[0] ? "in contact" : "in the air", belief.p_contact[0],
              touchdown_status_text(belief.status));
       right = right && belief.contact[0] == !in_the_air(step);
     }

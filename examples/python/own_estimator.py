@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
-# An estimator of one's own beside `robust`: on one run, then in an experiment (docs/python.md).
+# Your own estimator beside `robust`: on one run, then in an experiment (docs/python.md).
 # %%
 import numpy as np
 
 import touchdown
 
 
-# %% Ten lines: who falls has no contact, and whose knees push has.
+# %% Ten lines: a falling robot has no contact, and a loaded knee means contact.
 class FallsOrPushes:
-    """Contact where the knee bears load, or the robot does not fall."""
+    """Contact if the knee bears load, or the robot does not fall."""
     title = "Falls or pushes"
-    sensors = ("knee_torque", "acceleration")  # whose noise can change what it says
+    sensors = ("knee_torque", "acceleration")  # the sensors that it uses
 
     def run(self, signals):
-        rate = 0.02 * signals["sample_rate"]  # of a mean over 20 ms
+        rate = 0.02 * signals["sample_rate"]  # steps of a mean over 20 ms
         mean = np.ones(int(rate)) / int(rate)
         upwards = np.convolve(signals["vertical_acceleration"], mean)[: len(signals["time"])]
         knees = np.stack([np.convolve(signals["torque"][:, i], mean)[: len(upwards)] for i in (1, 4)], axis=1)
@@ -22,13 +22,13 @@ class FallsOrPushes:
 
 # %% On one run.
 fitted = touchdown.simulate("scenarios/stairs.yaml", run=0)
-heard = touchdown.simulate("scenarios/stairs.yaml", run=1)
+run = touchdown.simulate("scenarios/stairs.yaml", run=1)
 robust = touchdown.Estimator(model=touchdown.fit(fitted))
-for name, beliefs in (("robust", robust.run(heard)),
-                      ("mine", FallsOrPushes().run({**heard, "sample_rate": heard.sample_rate}))):
-    print(f"{name:<8} success {touchdown.score(beliefs, heard)['wheels']['success']:.4f}")
+for name, beliefs in (("robust", robust.run(run)),
+                      ("mine", FallsOrPushes().run({**run, "sample_rate": run.sample_rate}))):
+    print(f"{name:<8} success {touchdown.score(beliefs, run)['wheels']['success']:.4f}")
 
-# %% In an experiment: more runs, both engines if you like, through noise, with intervals.
+# %% In an experiment: more runs, optionally both engines, with noise and confidence intervals.
 result = touchdown.run({
     "name": "own_estimator", "simulators": ["mujoco"], "estimators": ["robust", FallsOrPushes],
     "fit": {"scenarios": ["scenarios/stairs.yaml"]}, "test": {"scenarios": ["scenarios/stairs.yaml"], "runs": 4},

@@ -16,13 +16,13 @@ inline int usage(const char* text) {
   return 2;
 }
 
-/// What your servos and your IMU would report: an Upkie that rolls, drops off a step in every
-/// second, lands, and rolls on. It also takes down how long each answer took.
+/// Replaces your servos and IMU: an Upkie that rolls, drops off a step every second, lands, and
+/// rolls on. It also measures the time of each update.
 class MadeUpRobot {
  public:
   bool is_on() const { return step_ < steps; }
 
-  /// The next record, as the robot's software has it.
+  /// The next record, as the robot's software provides it.
   const touchdown::RobotRecord& read() {
     const double time = step_ / rate;
     const bool air = in_the_air();
@@ -46,14 +46,15 @@ class MadeUpRobot {
     record_.angular_velocity.setConstant(0.01 * noise());
     record_.linear_acceleration = {0.0, 0.0, -up};
     record_.proper_acceleration = {0.0, 0.0, -up - 9.81};
-    asked_ = std::chrono::steady_clock::now();
+    requested_ = std::chrono::steady_clock::now();
     return record_;
   }
 
-  void hear(const touchdown::Belief& belief, touchdown::RecordFaults faults) {
+  /// Takes the belief about the last record, checks it and prints changes of contact.
+  void take(const touchdown::Belief& belief, touchdown::RecordFaults faults) {
     const std::chrono::duration<double, std::micro> took =
-        std::chrono::steady_clock::now() - asked_;
-    took_.push_back(took.count());
+        std::chrono::steady_clock::now() - requested_;
+    durations_.push_back(took.count());
     faulty_ += faults.any() ? 1 : 0;
     right_ += belief.wheel[0].contact == !in_the_air() ? 1 : 0;
     if (belief.wheel[0].contact != contact_) {
@@ -64,16 +65,17 @@ class MadeUpRobot {
     ++step_;
   }
 
-  /// Exit code 0 if most milliseconds were recognised for what they were.
+  /// Prints a summary. Returns the exit code: 0 if the accuracy is above 90 % and no record had
+  /// faults.
   int report() {
-    std::sort(took_.begin(), took_.end());
+    std::sort(durations_.begin(), durations_.end());
     const auto quantile = [&](double q) {
-      return took_[static_cast<std::size_t>(q * static_cast<double>(took_.size() - 1))];
+      return durations_[static_cast<std::size_t>(q * static_cast<double>(durations_.size() - 1))];
     };
     const double share = 100.0 * right_ / steps;
-    std::printf("%.1f %% of the milliseconds were right, %d records had faults\n", share, faulty_);
+    std::printf("contact accuracy %.1f %%, %d records had faults\n", share, faulty_);
     std::printf("update: median %.2f us, p99.9 %.2f us, longest %.2f us\n", quantile(0.5),
-                quantile(0.999), took_.back());
+                quantile(0.999), durations_.back());
     return share > 90.0 && faulty_ == 0 ? 0 : 1;
   }
 
@@ -90,8 +92,8 @@ class MadeUpRobot {
 
   std::array<touchdown::JointSignals, 6> joints_{};
   touchdown::RobotRecord record_;
-  std::chrono::steady_clock::time_point asked_;
-  std::vector<double> took_;
+  std::chrono::steady_clock::time_point requested_;
+  std::vector<double> durations_;
   std::uint64_t state_ = 1;
   int step_ = 0;
   int right_ = 0;

@@ -1,4 +1,4 @@
-// A robot's program: what it needs of touchdown is ten lines.
+// A robot's program: contact estimation takes ten lines.
 
 #include <touchdown/estimator.hpp>
 #include <touchdown/load_estimator.hpp>
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   while (robot.is_on()) {
     const touchdown::RobotRecord& record = robot.read();
     const touchdown::Belief& belief = estimator->update(assembler.assemble(record));
-    robot.hear(belief, assembler.faults());
+    robot.take(belief, assembler.faults());
   }
   return robot.report();
 }

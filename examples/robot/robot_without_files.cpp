@@ -3,7 +3,7 @@
 #include <touchdown/estimator.hpp>
 
 #include "made_up_robot.hpp"
-#include MODEL_HEADER  // what `touchdown export model.npz -o model.hpp` wrote
+#include MODEL_HEADER  // written by `touchdown export model.npz -o model.hpp`
 
 int main() {
   const auto estimator = touchdown::make_estimator(touchdown::compiled::model,
@@ -13,7 +13,7 @@ int main() {
   while (robot.is_on()) {
     const touchdown::RobotRecord& record = robot.read();
     const touchdown::Belief& belief = estimator->update(assembler.assemble(record));
-    robot.hear(belief, assembler.faults());
+    robot.take(belief, assembler.faults());
   }
   return robot.report();
 }

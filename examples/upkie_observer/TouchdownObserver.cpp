@@ -20,7 +20,7 @@ const Dictionary* find(const Dictionary& dictionary, const char* key) {
   return dictionary.has(key) ? &dictionary(key) : nullptr;
 }
 
-/// Takes a value if it is there; what is not leaves `value` as it was.
+/// Reads a value if the key exists; otherwise `value` stays unchanged.
 template <typename T>
 bool take(const Dictionary* dictionary, const char* key, T& value) {
   if (dictionary == nullptr || !dictionary->has(key)) return false;
@@ -28,7 +28,7 @@ bool take(const Dictionary* dictionary, const char* key, T& value) {
     value = dictionary->get<T>(key);
     return true;
   } catch (const std::exception&) {
-    return false;  // of another type: not reported, as far as we are concerned
+    return false;  // a value of another type counts as not reported
   }
 }
 
@@ -80,7 +80,7 @@ void TouchdownObserver::reset(const Dictionary& config) {
 void TouchdownObserver::read(const Dictionary& observation) {
   if (estimator_ == nullptr) return;
   touchdown_record record = touchdown_empty_record();
-  time_ += params_.dt;  // where nobody tells the time, as in some simulators
+  time_ += params_.dt;  // for observations without a time, as in some simulators
   record.time = time_;
   take(&observation, "time", record.time);
   const Dictionary* const servos = find(observation, "servo");

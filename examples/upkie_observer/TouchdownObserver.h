@@ -9,33 +9,32 @@
 
 namespace upkie::cpp::observers {
 
-/*! Believes which wheels touch the ground, by a fitted model of touchdown's.
+/*! Estimates contact of the wheels with a fitted model of touchdown.
  *
- * To be appended after FloorContact: it writes its decision to `floor_contact.contact`, where
- * controllers look for it, and to `contact` of each wheel; beside them P(contact) of each wheel,
- * `p_any_wheel`, `p_both_wheels`, the status of the signals and what was wrong with them. What else
- * FloorContact wrote stays.
+ * Append it after FloorContact. It writes its decision to `floor_contact.contact`, which controllers
+ * read, and to `contact` of each wheel. It adds P(contact) of each wheel, `p_any_wheel`,
+ * `p_both_wheels`, the status of the signals and their faults. Other keys of FloorContact stay.
  */
 class TouchdownObserver : public Observer {
  public:
   struct Parameters {
     /*! Configure from the dictionary given to reset, if it has a section `touchdown`:
      *
-     * model: file of a fitted model. robot: name it has to be fitted to. decides: whether
-     * `floor_contact.contact` is to be ours (the default) or stays FloorContact's.
+     * model: file of a fitted model. robot: name of the robot it must be fitted to. decides: whether
+     * this observer (the default) or FloorContact writes `floor_contact.contact`.
      */
     void configure(const Dictionary& config);
 
     //! Time between two calls of read, in [s].
     double dt = 0.001;
 
-    //! What `touchdown fit` wrote.
+    //! Model file written by `touchdown fit`.
     std::string model;
 
-    //! Robot that it has to be fitted to; any if empty.
+    //! Robot that the model must be fitted to; any if empty.
     std::string robot = "upkie";
 
-    //! Write our decision to `floor_contact.contact`.
+    //! Write the decision to `floor_contact.contact`.
     bool decides = true;
   };
 
@@ -50,19 +49,19 @@ class TouchdownObserver : public Observer {
   /*! Read the model.
    *
    * \throw std::runtime_error If it cannot be used: unreadable, fitted to another robot or at
-   *     another frequency. Without a model, reset has to name one.
+   *     another frequency. Without a model, the configuration of reset must name one.
    */
   explicit TouchdownObserver(const Parameters& params);
 
-  //! With an estimator that comes from elsewhere, such as a model that is compiled in.
+  //! Use a given estimator, such as one with a compiled-in model.
   TouchdownObserver(const Parameters& params, Estimator estimator);
 
   inline std::string prefix() const noexcept final { return "floor_contact"; }
 
-  //! Forget what was heard; read another model if the configuration names one. Throws likewise.
+  //! Reset the belief; read another model if the configuration names one. Throws as the constructor.
   void reset(const Dictionary& config) override;
 
-  //! Take one step. What is not in the observation yet counts as not reported.
+  //! Process one observation. Missing keys count as not reported.
   void read(const Dictionary& observation) override;
 
   //! Write the belief.

@@ -1,6 +1,6 @@
-// A model that is compiled in, for a spine that is cross-compiled: no libzip, no file to copy.
-// C++20, as the library; the observer and the spine see C only. `touchdown export model.npz -o
-// model.hpp` writes the header.
+// A compiled-in model, for a cross-compiled spine: without libzip, and without a file to copy. This
+// file is C++20, as the library; the observer and the spine use C only. `touchdown export model.npz
+// -o model.hpp` writes the header.
 
 #include "compiled_model.h"
 

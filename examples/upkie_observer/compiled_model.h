@@ -2,7 +2,7 @@
 
 #include <touchdown/touchdown.h>
 
-/* As touchdown_create, of the model that is compiled in. */
+/* Like touchdown_create, for the compiled-in model. */
 #ifdef __cplusplus
 extern "C"
 #endif

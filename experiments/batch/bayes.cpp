@@ -17,7 +17,7 @@ bool is_finite(const Signals& clean, const NoiseStep& draws) noexcept {
 }  // namespace
 
 BatchedTransitions::BatchedTransitions(const TransitionConfig& config, double sample_rate,
-                                 std::span<const double> sigmas)
+                                       std::span<const double> sigmas)
     : law_(config, sample_rate),
       clean_(config.window),
       noise_(config.window),
@@ -66,7 +66,7 @@ void BatchedTransitions::update(double vertical_acceleration, double draw) noexc
 }
 
 BatchedBayesFilter::BatchedBayesFilter(MeasurementModel model, const BayesFilterConfig& config,
-                                   std::span<const BatchNoise> levels)
+                                       std::span<const BatchNoise> levels)
     : torque_(levels, torque_part),
       acceleration_(levels, &BatchNoise::acceleration),
       measurement_(std::move(model), config, torque_.level),
@@ -84,7 +84,7 @@ void BatchedBayesFilter::update(const Signals& clean, const NoiseStep& draws) no
   const double* const fly = transition_.air_to_air().data();
   const std::uint32_t* const torque_index = torque_.level_index.data();
   const std::uint32_t* const acceleration_index = acceleration_.level_index.data();
-  const std::size_t count = lanes();
+  const std::size_t count = size();
   for (const Side side : {Side::left, Side::right}) {
     const double* const p_contact = measurement_.contact(side).data();
     const double* const p_no_contact = measurement_.no_contact(side).data();
@@ -94,21 +94,21 @@ void BatchedBayesFilter::update(const Signals& clean, const NoiseStep& draws) no
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC ivdep
 #endif
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const std::uint32_t a = acceleration_index[lane];
-      const std::uint32_t torque = torque_index[lane];
-      const double bel = contact[lane];
-      const double not_bel = no_contact[lane];
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t a = acceleration_index[i];
+      const std::uint32_t torque = torque_index[i];
+      const double bel = contact[i];
+      const double not_bel = no_contact[i];
       // Eq. (2a), (2b) and (3)
       const double joint = p_contact[torque] * (stay[a] * bel + landing[a] * not_bel);
       const double not_joint = p_no_contact[torque] * (takeoff[a] * bel + fly[a] * not_bel);
       const double eta = joint + not_joint;
-      // Divided before it is known whether by zero: a choice of values is vector code, a branch
+      // The division comes before the check for zero: selecting values is vector code, a branch is
       // not.
       const double corrected = joint / eta;
       const double not_corrected = not_joint / eta;
-      contact[lane] = eta > 0.0 ? corrected : bel;
-      no_contact[lane] = eta > 0.0 ? not_corrected : not_bel;
+      contact[i] = eta > 0.0 ? corrected : bel;
+      no_contact[i] = eta > 0.0 ? not_corrected : not_bel;
     }
   }
 }

@@ -12,14 +12,14 @@
 
 namespace touchdown::experiments {
 
-/// The transition model, Eq. (7) to (13), under many levels of accelerometer noise side by side.
-/// The sliding transform is linear, so one of the clean signal and one of the noise serve all
-/// levels. `update` neither allocates nor throws.
+/// The transition model, Eq. (7) to (13), for a batch of accelerometer noise levels. The sliding
+/// transform is linear, so all levels share one transform of the clean signal and one of the noise.
+/// `update` neither allocates nor throws.
 class BatchedTransitions {
  public:
-  /// Sigmas in m/s², checked by the caller. Throws InputError for a bad configuration.
+  /// Takes sigmas in m/s², which the caller has checked. Throws InputError for a bad configuration.
   BatchedTransitions(const TransitionConfig& config, double sample_rate,
-                  std::span<const double> sigmas);
+                     std::span<const double> sigmas);
 
   /// One step: clean vertical acceleration (m/s²) and a standard normal draw, both finite.
   void update(double vertical_acceleration, double draw) noexcept;
@@ -46,26 +46,27 @@ class BatchedTransitions {
   std::vector<double> fly_;
 };
 
-/// `BayesFilter` under many noise levels side by side, for sweeps: one clean recording and one
-/// noise realisation, one lane per level, structures of arrays inside. Lanes that share their
-/// torque noise share lookups and lanes that share their accelerometer noise share spectra, so that
-/// a grid of levels costs little more than its recursions. Each lane's beliefs equal those of a
-/// `BayesFilter` that is fed clean + sigma × draw, to 1e-12.
+/// `BayesFilter` for a batch of noise levels, for sweeps: one clean recording, one noise
+/// realisation, and structures of arrays with one element per level. Elements with the same torque
+/// noise share lookups, and elements with the same accelerometer noise share spectra. A grid of
+/// levels thereby costs little more than its recursions. The beliefs of each element equal those of
+/// a `BayesFilter` with the input clean + sigma × draw, to 1e-12.
 ///
-/// Meant for recordings: unlike `BayesFilter` it has no guard against gaps or frozen sensors; a
-/// step with a value that is not finite is skipped, which leaves the beliefs as they were. `update`
+/// It is meant for recordings: unlike `BayesFilter` it has no guard against gaps or frozen sensors.
+/// It skips a step with a value that is not finite, and the beliefs stay as they were. `update`
 /// neither allocates nor throws.
 class BatchedBayesFilter {
  public:
   /// Throws InputError for no levels, a level that is negative or not finite, a bad configuration.
   BatchedBayesFilter(MeasurementModel model, const BayesFilterConfig& config,
-                   std::span<const BatchNoise> levels);
+                     std::span<const BatchNoise> levels);
 
-  /// One step of the clean signals, with the draws that every lane scales by its own sigmas.
+  /// Processes one step of clean signals. Each element scales the draws by its own sigmas.
   void update(const Signals& clean, const NoiseStep& draws) noexcept;
 
-  [[nodiscard]] std::size_t lanes() const noexcept { return torque_.level_index.size(); }
-  /// P(S_t = C | m_0:t) of one wheel, per lane in the order of the levels.
+  /// The number of noise levels.
+  [[nodiscard]] std::size_t size() const noexcept { return torque_.level_index.size(); }
+  /// P(S_t = C | m_0:t) of one wheel, per noise level.
   [[nodiscard]] std::span<const double> p_contact(Side side) const noexcept {
     return contact_[static_cast<std::size_t>(side)];
   }
@@ -75,7 +76,7 @@ class BatchedBayesFilter {
   BatchByLevel<double> acceleration_;
   BatchedMeasurement measurement_;
   BatchedTransitions transition_;
-  /// bel(S_t = C) and bel(S_t = ¬C) per wheel and lane.
+  /// bel(S_t = C) and bel(S_t = ¬C) per wheel and noise level.
   std::array<std::vector<double>, 2> contact_;
   std::array<std::vector<double>, 2> no_contact_;
 };

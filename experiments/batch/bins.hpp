@@ -5,7 +5,7 @@
 
 namespace touchdown::experiments {
 
-/// A bin of the window (clean + sigma · noise) that is real.
+/// A real-valued bin of the spectrum of the window (clean + sigma · noise).
 struct MixedRealBin {
   double clean = 0.0;
   double noise = 0.0;
@@ -13,7 +13,7 @@ struct MixedRealBin {
   [[nodiscard]] double at(double sigma) const noexcept { return clean + sigma * noise; }
 };
 
-/// Σ |X + σZ|² over rows of bins, lane by lane, as the coefficients of a parabola in σ:
+/// Σ |X + σZ|² over rows of bins, per SIMD lane, as the coefficients of a parabola in σ:
 /// |X|² + σ · 2 Re(X·Z̄) + σ² |Z|².
 struct MixedEnergy {
   SpectrumRow constant = SpectrumRow::Zero();

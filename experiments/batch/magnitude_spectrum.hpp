@@ -9,20 +9,20 @@
 
 namespace touchdown::experiments {
 
-/// Power and median frequency of the window (clean + sigma · noise) for many sigmas, where the
-/// median is that of the magnitude spectrum. The energy is a parabola in sigma; magnitudes take a
-/// square root per bin and sigma, so the compiler's vectors run over sigmas.
+/// Power, and median frequency of the magnitude spectrum, of the window (clean + sigma · noise) for
+/// many sigmas. The energy is a parabola in sigma. Magnitudes take a square root per bin and sigma,
+/// so the loops are vectorised over sigmas.
 class MixedMagnitudeSpectrum {
  public:
-  /// For windows like `dft`'s; `nyquist` as in `SpectrumSummary`.
+  /// Uses the window of `dft`; `nyquist` as in `SpectrumSummary`.
   MixedMagnitudeSpectrum(const SlidingDft& dft, bool nyquist);
 
-  /// One value per sigma, the same as those of `SpectrumSummary` up to rounding.
+  /// Computes one value per sigma, equal to that of `SpectrumSummary` up to rounding.
   void summarise(const SlidingDft& clean, const SlidingDft& noise, std::span<const double> sigmas,
                  std::span<SpectrumValues> values) noexcept;
 
  private:
-  /// Most sigmas side by side: few enough that their sums stay in the fastest cache.
+  /// Largest number of sigmas per block: their sums fit into the fastest cache.
   static constexpr int most = 64;
 
   void set_energies(const SlidingDft& clean, const SlidingDft& noise) noexcept;
@@ -37,10 +37,10 @@ class MixedMagnitudeSpectrum {
   double constant_ = 0.0;
   double linear_ = 0.0;
   double square_ = 0.0;
-  /// Sigmas that are side by side, filled up to whole vectors.
+  /// Sigmas of the current block, padded to whole vectors.
   int width_ = 0;
   std::vector<double> sigma_;
-  /// Half of each spectrum's sum, and the number of bins that are passed before it is reached.
+  /// Half of each spectrum's sum, and the number of lanes with a cumulative sum below it.
   std::vector<double> half_;
   std::vector<std::int64_t> passed_;
   /// Row k: the sums of the first k bins, one per sigma.

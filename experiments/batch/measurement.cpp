@@ -8,7 +8,7 @@
 namespace touchdown::experiments {
 
 BatchedMeasurement::BatchedMeasurement(MeasurementModel model, const BayesFilterConfig& config,
-                                   std::span<const BatchNoise> levels)
+                                       std::span<const BatchNoise> levels)
     : model_(std::move(model)),
       config_(config.measurement),
       gain_(low_pass_gain(config.measurement.torque.low_pass, 1.0 / config.sample_rate)) {
@@ -27,9 +27,9 @@ BatchedMeasurement::BatchedMeasurement(MeasurementModel model, const BayesFilter
   }
 }
 
-/// Eq. (4) of one leg, and where it falls on the grid.
+/// Eq. (4) of one leg, and the position of its torques on the grid.
 void BatchedMeasurement::filter_torques(Leg& leg, const LegSignals& clean, const TorqueSample& draw,
-                                      double mirror, double gain) noexcept {
+                                        double mirror, double gain) noexcept {
   const std::size_t count = knee_sigma_.size();
   const MeasurementModel& model = model_;
   const bool absolute = config_.torque.sign == TorqueSign::absolute;

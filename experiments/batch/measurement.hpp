@@ -9,19 +9,19 @@
 
 namespace touchdown::experiments {
 
-/// The measurement model, Eq. (4) to (6) and (14), under many levels of torque noise side by side:
-/// one clean recording, one noise realisation, one lane per level. With it alone a sweep over the
-/// measurement-only ablation is done. `update` neither allocates nor throws.
+/// The measurement model, Eq. (4) to (6) and (14), for a batch of torque noise levels: one clean
+/// recording, one noise realisation, one element per level. It alone serves sweeps of the
+/// measurement-only ablation. `update` neither allocates nor throws.
 class BatchedMeasurement {
  public:
   /// Throws InputError for no levels, a level that is negative or not finite, a bad configuration.
   BatchedMeasurement(MeasurementModel model, const BayesFilterConfig& config,
-                   std::span<const BatchNoise> levels);
+                     std::span<const BatchNoise> levels);
 
-  /// One step, Eq. (4) to (6) and (14). All inputs must be finite.
+  /// Processes one step, Eq. (4) to (6) and (14). All inputs must be finite.
   void update(const Signals& clean, const NoiseStep& draws) noexcept;
 
-  /// The same without Eq. (14), for a filter that only needs the likelihoods.
+  /// The same without Eq. (14), for a filter that needs only the likelihoods.
   void observe(const Signals& clean, const NoiseStep& draws) noexcept;
 
   /// P(m_t | S_t = C), floor included, per level.

@@ -9,11 +9,11 @@ namespace touchdown::experiments {
 namespace {
 
 Eigen::RowVectorXf checked_sigmas(std::span<const double> sigmas) {
-  if (sigmas.empty()) throw InputError("neural lanes: expected at least one noise level");
+  if (sigmas.empty()) throw InputError("neural batch: expected at least one noise level");
   Eigen::RowVectorXf row(static_cast<Eigen::Index>(sigmas.size()));
   for (std::size_t i = 0; i < sigmas.size(); ++i) {
     if (!(std::isfinite(sigmas[i]) && sigmas[i] >= 0.0)) {
-      throw InputError("neural lanes: noise levels must be finite and not negative (m/s²)");
+      throw InputError("neural batch: noise levels must be finite and not negative (m/s²)");
     }
     row[static_cast<Eigen::Index>(i)] = static_cast<float>(sigmas[i]);
   }
@@ -23,7 +23,8 @@ Eigen::RowVectorXf checked_sigmas(std::span<const double> sigmas) {
 }  // namespace
 
 BatchedNeuralNetwork::BatchedNeuralNetwork(std::shared_ptr<const NeuralNetwork> network,
-                         const NeuralEstimatorConfig& config, std::span<const double> sigmas)
+                                           const NeuralEstimatorConfig& config,
+                                           std::span<const double> sigmas)
     : sigmas_(checked_sigmas(sigmas)),
       forward_(std::move(network), sigmas_.size()),
       clean_(neural_stride(config.sample_rate, forward_.network().period)),

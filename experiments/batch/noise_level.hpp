@@ -11,7 +11,7 @@
 
 namespace touchdown::experiments {
 
-/// Standard deviations of the sensor noise that one lane of a sweep adds to a clean recording.
+/// Standard deviations of the sensor noise that one element of a batch adds to a clean recording.
 struct BatchNoise {
   double knee_torque = 0.0;   ///< N·m
   double wheel_torque = 0.0;  ///< N·m
@@ -23,19 +23,19 @@ struct BatchNoise {
 /// Throws InputError for no levels, and for one that is negative or not finite.
 void check_levels(std::span<const BatchNoise> levels);
 
-/// What all lanes of one level have in common is done once: the levels that differ, and which of
-/// them each lane uses.
+/// The distinct levels of one part of the noise, and the index of each batch element's level. Work
+/// that depends on this part alone is done once per distinct level.
 template <typename Level>
 struct BatchByLevel {
   std::vector<Level> level;
   std::vector<std::uint32_t> level_index;
 
-  /// `part` tells which part of a lane's noise counts. Throws InputError as `check_levels`.
+  /// `part` selects the part of an element's noise. Throws InputError as `check_levels`.
   template <typename Part>
-  BatchByLevel(std::span<const BatchNoise> lanes, const Part& part) {
-    check_levels(lanes);
-    for (const BatchNoise& lane : lanes) {
-      const Level wanted = std::invoke(part, lane);
+  BatchByLevel(std::span<const BatchNoise> batch, const Part& part) {
+    check_levels(batch);
+    for (const BatchNoise& element : batch) {
+      const Level wanted = std::invoke(part, element);
       const auto same = std::find(level.begin(), level.end(), wanted);
       level_index.push_back(static_cast<std::uint32_t>(same - level.begin()));
       if (same == level.end()) level.push_back(wanted);
@@ -43,13 +43,13 @@ struct BatchByLevel {
   }
 };
 
-/// The part of a lane's noise that torques have.
-inline BatchNoise torque_part(const BatchNoise& lane) {
-  return {lane.knee_torque, lane.wheel_torque, 0.0};
+/// The torque noise of a batch element.
+inline BatchNoise torque_part(const BatchNoise& element) {
+  return {element.knee_torque, element.wheel_torque, 0.0};
 }
 
-/// One step's standard normal draws, shared by all lanes: a lane's sensor reads
-/// clean + standard deviation × draw, with torques in the joints' own signs.
+/// Standard normal draws of one step, shared by all elements of a batch. The sensors of an element
+/// report clean + standard deviation × draw, with torques in the joints' own signs.
 struct NoiseStep {
   std::array<TorqueSample, 2> torque;
   double acceleration = 0.0;                    ///< along the world's vertical

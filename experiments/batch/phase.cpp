@@ -5,7 +5,7 @@
 namespace touchdown::experiments {
 
 BatchedPhaseFilter::BatchedPhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config,
-                       std::span<const BatchNoise> levels)
+                                       std::span<const BatchNoise> levels)
     : config_(config),
       prepared_(model, config),
       torque_(levels, torque_part),
@@ -37,31 +37,31 @@ void BatchedPhaseFilter::update(const Signals& clean, const NoiseStep& draws) no
       level.knee_noise.update(knee);
       level.wheel_noise.update(wheel);
     }
-    const PhaseNoiseLevel& knee_rung =
-        prepared_.knee_levels[config_.noise ? 0 : level.knee_noise.rung()];
-    const PhaseNoiseLevel& wheel_rung =
-        prepared_.wheel_levels[config_.noise ? 0 : level.wheel_noise.rung()];
-    level.left = prepared_.torque(knee[0], wheel[0], knee_rung, wheel_rung);
-    level.right = prepared_.torque(-knee[1], -wheel[1], knee_rung, wheel_rung);
+    const PhaseNoiseLevel& knee_level =
+        prepared_.knee_levels[config_.noise ? 0 : level.knee_noise.level()];
+    const PhaseNoiseLevel& wheel_level =
+        prepared_.wheel_levels[config_.noise ? 0 : level.wheel_noise.level()];
+    level.left = prepared_.torque(knee[0], wheel[0], knee_level, wheel_level);
+    level.right = prepared_.torque(-knee[1], -wheel[1], knee_level, wheel_level);
   }
   for (AccelerationLevel& level : acceleration_levels_) {
     const double acceleration = clean.vertical_acceleration + level.sigma * draws.acceleration;
     if (!config_.noise) level.noise.update({acceleration});
     level.row = prepared_.acceleration(
-        acceleration, prepared_.acceleration_levels[config_.noise ? 0 : level.noise.rung()]);
+        acceleration, prepared_.acceleration_levels[config_.noise ? 0 : level.noise.level()]);
   }
-  for (std::size_t lane = 0; lane < alpha_.size(); ++lane) {
-    const TorqueLevel& torque = torque_levels_[torque_.level_index[lane]];
+  for (std::size_t i = 0; i < alpha_.size(); ++i) {
+    const TorqueLevel& torque = torque_levels_[torque_.level_index[i]];
     prepared_.recursion.predict_and_correct(
-        alpha_[lane],
+        alpha_[i],
         PhaseRecursion::evidence(torque.left, torque.right,
-                                 acceleration_levels_[acceleration_.level_index[lane]].row));
-    const std::array<double, 2> p = PhaseRecursion::wheels(alpha_[lane]);
+                                 acceleration_levels_[acceleration_.level_index[i]].row));
+    const std::array<double, 2> p = PhaseRecursion::wheels(alpha_[i]);
     for (std::size_t side = 0; side < 2; ++side) {
-      p_contact_[side][lane] = p[side];
-      const bool was = contact_[side][lane] > 0.5;
+      p_contact_[side][i] = p[side];
+      const bool was = contact_[side][i] > 0.5;
       const bool is = was ? p[side] >= config_.leave_below : p[side] > config_.return_above;
-      contact_[side][lane] = is ? 1.0 : 0.0;
+      contact_[side][i] = is ? 1.0 : 0.0;
     }
   }
 }

@@ -9,29 +9,30 @@
 
 namespace touchdown::experiments {
 
-/// `PhaseFilter` under many noise levels side by side, for sweeps: one clean recording and one
-/// noise realisation, one lane per level. Lanes that share their torque noise share the torques'
-/// lookups and noise estimate, lanes that share their accelerometer noise likewise, and only the
-/// recursion is every lane's own. Each lane's beliefs and decisions equal those of a `PhaseFilter`
-/// that is fed clean + sigma × draw.
+/// `PhaseFilter` for a batch of noise levels, for sweeps: one clean recording, one noise
+/// realisation, one element per level. Elements with the same torque noise share the lookups and
+/// the noise estimate of torques, and likewise for accelerometer noise. Only the recursion runs per
+/// element. The beliefs and decisions of each element equal those of a `PhaseFilter` with the input
+/// clean + sigma × draw.
 ///
-/// Meant for recordings: it has no guard against gaps or frozen sensors, and all inputs must be
-/// finite. `update` neither allocates nor throws.
+/// It is meant for recordings: it has no guard against gaps or frozen sensors, and all inputs must
+/// be finite. `update` neither allocates nor throws.
 class BatchedPhaseFilter {
  public:
   /// Throws InputError as `PhaseFilter`, and for no levels or bad ones.
   BatchedPhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config,
-             std::span<const BatchNoise> levels);
+                     std::span<const BatchNoise> levels);
 
-  /// One step of the clean signals, with the draws that every lane scales by its own sigmas.
+  /// Processes one step of clean signals. Each element scales the draws by its own sigmas.
   void update(const Signals& clean, const NoiseStep& draws) noexcept;
 
-  [[nodiscard]] std::size_t lanes() const noexcept { return alpha_.size(); }
-  /// P(S_t = C | m_0:t) of one wheel, per lane in the order of the levels.
+  /// The number of noise levels.
+  [[nodiscard]] std::size_t size() const noexcept { return alpha_.size(); }
+  /// P(S_t = C | m_0:t) of one wheel, per noise level.
   [[nodiscard]] std::span<const double> p_contact(Side side) const noexcept {
     return p_contact_[static_cast<std::size_t>(side)];
   }
-  /// The decision about one wheel, per lane: 1 for contact, 0 for none.
+  /// The decision about one wheel, per noise level: 1 for contact, 0 for none.
   [[nodiscard]] std::span<const double> contact(Side side) const noexcept {
     return contact_[static_cast<std::size_t>(side)];
   }

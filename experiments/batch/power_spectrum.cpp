@@ -8,7 +8,7 @@ MixedPowerSpectrum::MixedPowerSpectrum(const SlidingDft& dft, bool nyquist)
     : window_(dft.window()),
       rows_(dft.rows()),
       nyquist_counts_(nyquist),
-      within_simd_width_(3 * (dft.reals().size() + lanes)) {}
+      within_lanes_(3 * (dft.reals().size() + lanes)) {}
 
 void MixedPowerSpectrum::summarise(const SlidingDft& clean, const SlidingDft& noise,
                                    std::span<const double> sigmas,
@@ -21,7 +21,7 @@ void MixedPowerSpectrum::cumulate(const SlidingDft& clean, const SlidingDft& noi
   MixedEnergy energy;
   for (int row = 0; row < rows_; ++row) {
     energy.add_row(clean, noise, row);
-    double* const sums = within_simd_width_.data() + 3 * (row + 1) * lanes;
+    double* const sums = within_lanes_.data() + 3 * (row + 1) * lanes;
     SpectrumRowMap{sums} = energy.constant;
     SpectrumRowMap{sums + lanes} = energy.linear;
     SpectrumRowMap{sums + 2 * lanes} = energy.square;
@@ -39,7 +39,7 @@ double MixedPowerSpectrum::median(Rows rows, const SimdSums& sums, double nyquis
   const double half = 0.5 * (sums.total() + nyquist);
   if (sums.total() < half) return 0.5 * window_ - 1.0 + (half - sums.total()) / nyquist;
   const auto within = [this, sigma](int row, int lane) {
-    const double* const parabola = within_simd_width_.data() + 3 * row * lanes + lane;
+    const double* const parabola = within_lanes_.data() + 3 * row * lanes + lane;
     return parabola[0] + sigma * (parabola[lanes] + sigma * parabola[2 * lanes]);
   };
   const int lane = count_below(half, lanes, [&](int i) { return sums.before[i]; });

@@ -10,23 +10,23 @@
 namespace touchdown::experiments {
 
 /// Power and median frequency of the window (clean + sigma · noise) for many sigmas, cheaper than
-/// one spectrum each: |X + σZ|² = |X|² + σ · 2 Re(X·Z̄) + σ² |Z|², so every cumulative sum over bins
-/// is a parabola in σ, and the three sums that make its coefficients are common to all sigmas. A
-/// median is then found with sixteen parabolas instead of all bins. Power spectrum only: magnitudes
-/// do not add up like that.
+/// one spectrum each: |X + σZ|² = |X|² + σ · 2 Re(X·Z̄) + σ² |Z|². Every cumulative sum over bins is
+/// thereby a parabola in σ, and all sigmas share the three sums of its coefficients. The search for
+/// a median evaluates sixteen parabolas instead of all bins. This works for the power spectrum
+/// only, not for magnitudes.
 class MixedPowerSpectrum {
  public:
-  /// For windows like `dft`'s; `nyquist` as in `SpectrumSummary`.
+  /// Uses the window of `dft`; `nyquist` as in `SpectrumSummary`.
   MixedPowerSpectrum(const SlidingDft& dft, bool nyquist);
 
-  /// One value per sigma, the same as those of `SpectrumSummary` up to rounding.
+  /// Computes one value per sigma, equal to that of `SpectrumSummary` up to rounding.
   void summarise(const SlidingDft& clean, const SlidingDft& noise, std::span<const double> sigmas,
                  std::span<SpectrumValues> values) noexcept;
 
  private:
   static constexpr int lanes = SlidingDft::lanes;
 
-  /// Make the sums that are common to all sigmas.
+  /// Computes the sums that all sigmas share.
   void cumulate(const SlidingDft& clean, const SlidingDft& noise) noexcept;
   [[nodiscard]] SpectrumValues at(double sigma) const noexcept;
   template <typename Rows>
@@ -36,8 +36,8 @@ class MixedPowerSpectrum {
   int window_;
   int rows_;
   bool nyquist_counts_;
-  /// Row r: the sums of each lane's first r bins, one array for each of the three coefficients.
-  std::vector<double> within_simd_width_;
+  /// Row r: the sums of the first r bins of each SIMD lane, one array per coefficient.
+  std::vector<double> within_lanes_;
   SimdSums constant_{};
   SimdSums linear_{};
   SimdSums square_{};

@@ -27,7 +27,7 @@ const Belief& BoostedTreesEstimator::update(const Signals& signals) noexcept {
       wheel.p_contact = 1.0 / (1.0 + std::exp(-logit));
       wheel.contact = wheel.contact ? wheel.p_contact >= config_.leave_below
                                     : wheel.p_contact > config_.return_above;
-    } else {  // the last decision stands
+    } else {  // the last decision holds
       wheel.p_contact = window_.relaxed(wheel.p_contact, step.elapsed);
     }
   }

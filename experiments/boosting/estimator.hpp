@@ -6,13 +6,14 @@
 
 namespace touchdown::experiments {
 
-/// The learned ceiling of a benchmark: boosted trees on 100 ms of what the phase filter hears. For
-/// studies: what there is to be had from these signals, not what one would put on a robot.
+/// The reference upper bound of a benchmark: boosted trees on 100 ms of the phase filter's signals.
+/// It shows how much these signals contain. It is for studies, not for robots.
 class BoostedTreesEstimator : public ContactEstimator {
  public:
   struct Config {
     double sample_rate = 1000.0;  ///< Hz
-    /// A wheel leaves contact when P(contact) falls below this, and returns above that.
+    /// A wheel leaves contact when P(contact) falls below `leave_below`, and returns to contact
+    /// above `return_above`.
     double leave_below = 0.75;
     double return_above = 0.9;
   };

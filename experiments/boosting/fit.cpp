@@ -22,16 +22,16 @@ void check(int failed) {
   if (failed != 0) throw Error(fmt::format("gradient boosting: {}", XGBGetLastError()));
 }
 
-struct Freed {
+struct MatrixDeleter {
   void operator()(void* handle) const { XGDMatrixFree(handle); }
 };
-struct Ended {
+struct BoosterDeleter {
   void operator()(void* handle) const { XGBoosterFree(handle); }
 };
-using Matrix = std::unique_ptr<void, Freed>;
-using Booster = std::unique_ptr<void, Ended>;
+using Matrix = std::unique_ptr<void, MatrixDeleter>;
+using Booster = std::unique_ptr<void, BoosterDeleter>;
 
-/// Rows in contact weigh 1, the others this much.
+/// Rows in contact have weight 1, the others `air_weight`.
 Matrix matrix_of(const BoostingRows& rows, float air_weight) {
   DMatrixHandle handle = nullptr;
   check(XGDMatrixCreateFromMat(rows.features.data(), rows.count(), window_features,
@@ -65,7 +65,7 @@ Booster booster_of(const Matrix& rows, const BoostingConfig& config) {
   return booster;
 }
 
-/// Puts a node of a tree that may end early, and all below it, into a complete one.
+/// Copies a node and its subtree into a complete tree. The source tree may have early leaves.
 void put(const nlohmann::json& tree, std::size_t from, std::size_t to, std::size_t number,
          BoostedTrees& trees) {
   const auto& left = tree.at("left_children");
@@ -81,7 +81,7 @@ void put(const nlohmann::json& tree, std::size_t from, std::size_t to, std::size
     trees.threshold[node] = condition.at(from).get<float>();
     put(tree, static_cast<std::size_t>(child), 2 * to + 1, number, trees);
     put(tree, tree.at("right_children").at(from).get<std::size_t>(), 2 * to + 2, number, trees);
-  } else {  // whatever is decided from here on, the leaf is the same
+  } else {  // an early leaf: all leaves below have its value
     put(tree, from, 2 * to + 1, number, trees);
     put(tree, from, 2 * to + 2, number, trees);
   }
@@ -111,7 +111,7 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
     check_labels(run);
     steps += run.signals.size() - std::min(run.signals.size(), run.skip);
   }
-  // So many steps apart a pass takes both wheels.
+  // Each pass takes both wheels of every stride-th step.
   const std::size_t stride =
       std::max<std::size_t>(1, 2 * steps * config.passes / std::max<std::size_t>(1, config.rows));
   BoostingRows rows;
@@ -119,10 +119,10 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
   for (std::size_t pass = 0; pass < config.passes; ++pass) {
     for (const LabelledRun& run : runs) {
       SignalWindow window(run.sample_rate);
-      Augmentation disturbed(config.disturbance, draws);
+      Augmentation augmented(config.augmentation, draws);
       std::size_t next = run.skip + draws.below(stride);
       for (std::size_t k = 0; k < run.signals.size(); ++k) {
-        const SignalWindow::Step step = window.update(disturbed(run.signals[k]));
+        const SignalWindow::Step step = window.update(augmented(run.signals[k]));
         if (k < next) continue;
         next += stride;
         if (!step.is_valid) continue;

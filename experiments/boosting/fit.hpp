@@ -13,20 +13,20 @@
 namespace touchdown::experiments {
 
 struct BoostingConfig {
-  std::uint64_t seed = 1;      ///< of everything that is drawn
-  std::size_t passes = 12;     ///< how often each run is heard, disturbed anew each time
-  std::size_t rows = 200'000;  ///< about so many steps of wheels are learned from
+  std::uint64_t seed = 1;      ///< of all random draws
+  std::size_t passes = 12;     ///< augmentation passes over each run
+  std::size_t rows = 200'000;  ///< approximate number of training rows, one per step and wheel
   std::size_t trees = 120;
   std::size_t depth = 6;  ///< of each tree
   double learning_rate = 0.15;
-  /// A class weighs as the power of its count: 0 every step alike, −1 both classes alike. What
-  /// weights add to the logit is taken off again: it means the probability in runs like these.
+  /// A class has the weight of its count to this power: 0 weighs all steps alike, −1 both classes.
+  /// The weights' shift of the logit is removed, so the logit gives the probability in such runs.
   double class_exponent = -0.5;
   double least_weight = 20.0;  ///< of a leaf: Σ p (1 − p) of its rows
-  AugmentationConfig disturbance = {};
+  AugmentationConfig augmentation = {};
 };
 
-/// What trees learn from: one row after the other, and whether it is one in contact.
+/// Training data: the features of one row after the other, and 1 for rows in contact, 0 for others.
 struct BoostingRows {
   std::vector<float> features;
   std::vector<float> is_contact;
@@ -34,12 +34,12 @@ struct BoostingRows {
   [[nodiscard]] std::size_t count() const noexcept { return is_contact.size(); }
 };
 
-/// Throws InputError for labels that are not one per step.
+/// Draws training rows from labelled runs. Throws InputError unless there is one label per step.
 BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConfig& config);
 
 /// Fits trees by XGBoost to the log loss, on one thread: the same rows give the same trees.
-/// `before_tree` is called before each: what it throws ends the fit. Throws InputError without rows
-/// of both classes, and Error for what the library complains of.
+/// `before_tree` is called before each tree; an exception from it ends the fit. Throws InputError
+/// without rows of both classes, and Error for errors of the library.
 BoostedTrees fit_trees(const BoostingRows& rows, const BoostingConfig& config,
                        const std::function<void()>& before_tree = {});
 

@@ -9,7 +9,7 @@
 namespace touchdown::experiments {
 
 float BoostedTrees::logit(const WindowFeatures& features) const noexcept {
-  // A step down a tree waits for the last one; steps down different trees do not.
+  // A step down a tree depends on the previous one. Steps down different trees are independent.
   constexpr std::size_t abreast = 8;
   const std::size_t inner = nodes();
   const std::size_t count = trees();

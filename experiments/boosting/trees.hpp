@@ -8,10 +8,9 @@
 
 namespace touchdown::experiments {
 
-/// Boosted decision trees: the logit of contact is a bias and the sum of one leaf of
-/// each tree. All trees are
-/// complete binary trees of the same depth D, node after node from the root: the children of node i
-/// are 2i + 1, where its feature is below its threshold, and 2i + 2.
+/// Boosted decision trees: the logit of contact is a bias plus one leaf of each tree. All trees are
+/// complete binary trees of the same depth D. Nodes are numbered from the root: the children of
+/// node i are 2i + 1, where its feature is below its threshold, and 2i + 2.
 struct BoostedTrees {
   std::size_t depth = 0;
   float bias = 0.0F;                       ///< added to the sum
@@ -25,8 +24,7 @@ struct BoostedTrees {
   [[nodiscard]] float logit(const WindowFeatures& features) const noexcept;
 };
 
-/// Throws InputError for trees that are not complete, features that there are not, and numbers that
-/// are not finite.
+/// Throws InputError for incomplete trees, unknown features and numbers that are not finite.
 void check_trees(const BoostedTrees& trees);
 
 }  // namespace touchdown::experiments

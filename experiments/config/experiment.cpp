@@ -16,7 +16,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// Names that the experiment itself must have.
+/// Describes names that must be among the experiment's own.
 void describe_subset(Fields& fields, std::string_view key, const std::vector<std::string>& known,
                      std::vector<std::string>& names) {
   fields(key, names);
@@ -27,7 +27,7 @@ void describe_subset(Fields& fields, std::string_view key, const std::vector<std
   }
 }
 
-/// More would not be readable beside, or above, each other.
+/// Limits of figures: more would not be readable.
 constexpr std::size_t most_settings = 3;
 constexpr std::size_t most_estimators = 6;
 constexpr std::size_t most_panels = 4;
@@ -46,7 +46,7 @@ void describe_choice(Fields& fields, DropChoice& choice, const Experiment& exper
   fields("after", choice.after, 0.01, 10.0);
 }
 
-/// As many as are readable: those that the paper compares and the phase filter first.
+/// As many estimators as are readable, the paper's and the phase filter first.
 std::vector<std::string> shown_by_default(const std::vector<std::string>& estimators) {
   std::vector<std::string> shown;
   const auto show = [&](const std::string& name) {
@@ -78,7 +78,7 @@ static void describe(Fields& fields, TrainingSegments& segments) {
   fields("offsets", segments.offsets, 1, 1000);
 }
 
-/// A run that is not drawn is the same run however often it is played.
+/// All runs of a scenario without perturbations are equal, so they count as one.
 static void describe(Fields& fields, TuningConfig& tuning, const RunsConfig& fit) {
   fields.require("trials", tuning.trials, 1, 10'000);
   fields("folds", tuning.folds, 2, 1000);
@@ -89,7 +89,7 @@ static void describe(Fields& fields, TuningConfig& tuning, const RunsConfig& fit
       fit.scenarios.size() * (fit.perturbed ? static_cast<std::size_t>(fit.runs) : 1);
   fields.finish();
   fields.check(static_cast<std::size_t>(tuning.folds) <= runs, "folds",
-               fmt::format("expected at most as many as different runs are fitted, {}", runs));
+               fmt::format("expected at most the number of different fitted runs, {}", runs));
 }
 
 static void describe(Fields& fields, VideoConfig& video, const Experiment& experiment) {
@@ -119,7 +119,7 @@ static void describe(Fields& fields, PosteriorConfig& posterior, const Experimen
   posterior.noise = noise::as_on_grid(posterior.noise, experiment.noise);
 }
 
-/// A section that is drawn if it is there, and can be switched off where it stands.
+/// A section that enables a figure if it is present, unless it has `enabled: false`.
 template <typename Config>
 static void describe_switched(Fields& parent, std::string_view key, std::optional<Config>& config,
                               const Experiment& experiment) {
@@ -183,7 +183,7 @@ static void describe(Fields& fields, BenchmarkConfig& benchmark) {
     fields(key, files);
     for (auto file = files.begin(); file != files.end(); ++file) {
       fields.check(std::find(files.begin(), file, *file) == file, key,
-                   fmt::format("'{}' stands there twice", *file));
+                   fmt::format("'{}' appears twice", *file));
     }
   };
   describe_files("robots", benchmark.robots);
@@ -200,7 +200,7 @@ static void describe(Fields& fields, OdometryStudyConfig& odometry) {
   for (auto delay = odometry.delay.begin(); delay != odometry.delay.end(); ++delay) {
     fields.check(*delay > 0.0 && *delay <= 1.0, "delay", "expected times between 0 and 1 s");
     fields.check(std::find(odometry.delay.begin(), delay, *delay) == delay, "delay",
-                 fmt::format("{} stands there twice", *delay));
+                 fmt::format("{} appears twice", *delay));
   }
 }
 
@@ -211,12 +211,12 @@ static void describe(Fields& fields, OperatingPointsConfig& config) {
     fields.check(thresholds.empty() ||
                      (thresholds.front() > 0.0 && thresholds.back() < 1.0 &&
                       std::is_sorted(thresholds.begin(), thresholds.end(), std::less_equal<>())),
-                 key, "expected probabilities that grow, none of them 0 or 1");
+                 key, "expected increasing probabilities, none of them 0 or 1");
   };
   describe_thresholds("leave_below", config.leave_below);
   describe_thresholds("return_above", config.return_above);
   fields.check(config.leave_below.front() <= config.return_above.back(), "return_above",
-               "expected one that is no lower than one of leave_below");
+               "expected a threshold of at least the lowest leave_below");
 }
 
 static void describe(Fields& fields, ClosedLoopScene& scene, const Experiment& experiment) {
@@ -228,7 +228,7 @@ static void describe(Fields& fields, ClosedLoopScene& scene, const Experiment& e
     fields.require("values", scene.values);
     fields.check(!scene.values.empty(), "values", "expected at least one number");
     fields.check(std::is_sorted(scene.values.begin(), scene.values.end(), std::less_equal<>()),
-                 "values", "expected numbers that grow");
+                 "values", "expected increasing numbers");
   }
   if (fields.present("noise", true)) fields.list("noise", scene.noise);
   fields.check(!scene.noise.empty(), "noise", "expected at least one noise setting");
@@ -237,11 +237,11 @@ static void describe(Fields& fields, ClosedLoopScene& scene, const Experiment& e
   fields.in_line("delay", scene.delay);
   fields.check(!scene.delay.empty() && scene.delay.front() >= 0.0 && scene.delay.back() <= 1.0 &&
                    std::is_sorted(scene.delay.begin(), scene.delay.end(), std::less_equal<>()),
-               "delay", "expected times from 0 to 1 s that grow");
+               "delay", "expected increasing times from 0 to 1 s");
   const int varied = (scene.values.size() > 1 ? 1 : 0) + (scene.noise.size() > 1 ? 1 : 0) +
                      (scene.delay.size() > 1 ? 1 : 0);
   fields.check(varied <= 1, "scenario",
-               "expected one thing that is varied: values of a key, noise, or delay");
+               "expected at most one varied quantity: values of a key, noise, or delay");
 }
 
 static void describe(Fields& fields, ClosedLoopFilm& film, const ClosedLoopConfig& config) {
@@ -263,7 +263,8 @@ static void describe(Fields& fields, ClosedLoopFilm& film, const ClosedLoopConfi
 static void describe(Fields& fields, ClosedLoopConfig& config, const Experiment& experiment) {
   fields.names("laws", {"balancer", "soft_landing"}, config.laws);
   std::vector<std::string> contact_sources = {"truth", "always"};
-  contact_sources.insert(contact_sources.end(), experiment.estimators.begin(), experiment.estimators.end());
+  contact_sources.insert(contact_sources.end(), experiment.estimators.begin(),
+                         experiment.estimators.end());
   if (fields.reading()) config.contact = contact_sources;
   fields.names("contact", contact_sources, config.contact);
   fields.require("scenes");
@@ -276,8 +277,8 @@ static void describe(Fields& fields, ClosedLoopConfig& config, const Experiment&
   fields.within("film", [&](Fields& film) { describe(film, *config.film, config); });
 }
 
-/// By estimator, then name, as tuning would choose them.
-static void describe_constants(Fields& fields, Experiment& experiment) {
+/// By estimator, then name, as tuning chooses them.
+static void describe_hyperparameters(Fields& fields, Experiment& experiment) {
   constexpr const char* key = "hyperparameters";
   fields.renamed("constants", key);
   fields.know(key);
@@ -288,10 +289,10 @@ static void describe_constants(Fields& fields, Experiment& experiment) {
       if (!all.present(name, experiment.hyperparameters.contains(name))) continue;
       HyperparameterValues& hyperparameters = experiment.hyperparameters[name];
       all.within(name, [&](Fields& own) {
-        for (const Hyperparameter& choice : estimator_entry(name).hyperparameters) {
-          own.know(choice.name);
-          if (!own.present(choice.name, hyperparameters.contains(choice.name))) continue;
-          own(choice.name, hyperparameters[choice.name]);
+        for (const Hyperparameter& one : estimator_entry(name).hyperparameters) {
+          own.know(one.name);
+          if (!own.present(one.name, hyperparameters.contains(one.name))) continue;
+          own(one.name, hyperparameters[one.name]);
         }
       });
     }
@@ -310,7 +311,7 @@ static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
   fields.section(key, *config, experiment);
 }
 
-/// Estimators that are written in Python are there where Python runs the experiment.
+/// Estimators written in Python exist only in experiments that Python runs.
 static void require_python(const Fields& fields) {
   if (!fields.reading()) return;
   const YAML::Node given = fields.node()["estimators"];
@@ -349,7 +350,7 @@ static void describe(Fields& fields, Experiment& experiment) {
     if (fit.reading()) experiment.fit_seed.emplace();
     fit("seed", *experiment.fit_seed);
   });
-  describe_constants(fields, experiment);
+  describe_hyperparameters(fields, experiment);
   fields.section("test", experiment.test);
   const auto file_if_any = [&](const char* key, std::string& file) {
     fields.know(key);
@@ -407,7 +408,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   if (fields.present("phase_study", experiment.phase_study)) {
     fields("phase_study", experiment.phase_study);
     fields.check(!experiment.phase_study || !experiment.training_segments.empty(), "phase_study",
-                 "expected fit.pieces, which the learning curve varies");
+                 "expected fit.segments, which the learning curve varies");
   }
 }
 
@@ -434,7 +435,7 @@ Experiment experiment_from_yaml(const YamlDocument& document) {
 
 void require_files(const YamlDocument& document) {
   require_resources(document,
-                    {"fit.scenarios", "fit.pieces.scenario", "test.scenarios", "robot", "sensors",
+                    {"fit.scenarios", "fit.segments.scenario", "test.scenarios", "robot", "sensors",
                      "benchmark.robots", "benchmark.sensors", "closed_loop.scenes.scenario"});
 }
 

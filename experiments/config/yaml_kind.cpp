@@ -12,7 +12,7 @@ namespace {
 
 struct Kind {
   YamlKind kind;
-  std::vector<std::string> telling_keys;  // that no other kind has
+  std::vector<std::string> distinctive_keys;  // keys that no other kind has
   const char* description;
   const char* command;
 };
@@ -35,7 +35,7 @@ std::vector<Kind> kinds() {
 }
 
 bool is_of(const Kind& kind, const YAML::Node& root) {
-  return std::any_of(kind.telling_keys.begin(), kind.telling_keys.end(),
+  return std::any_of(kind.distinctive_keys.begin(), kind.distinctive_keys.end(),
                      [&](const std::string& key) { return root[key].IsDefined(); });
 }
 

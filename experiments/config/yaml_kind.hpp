@@ -4,11 +4,11 @@
 
 namespace touchdown::experiments {
 
-/// The three kinds of YAML file a user hands to the program; each has a verb of its own.
+/// The three kinds of YAML files that users write. Each kind has its own verb.
 enum class YamlKind { experiment, scenario, training };
 
-/// Errors: `InputError` when the document is plainly of another kind than `wanted`; it says which
-/// verb takes it. A document that is of no known kind passes: its reader knows better what to say.
+/// Errors: `InputError`, with the right verb, when the document is clearly of another kind than
+/// `wanted`. A document of no known kind passes, because its reader reports a better error.
 void require_yaml_kind(const YamlDocument& document, YamlKind wanted);
 
 }  // namespace touchdown::experiments

@@ -20,7 +20,7 @@ std::vector<T> inside(const std::vector<T>& whole, const DropWindow& window) {
   return {at(window.begin), at(window.end)};
 }
 
-/// Whose transition model is shown.
+/// The estimator with the transition model that is shown.
 const EstimatorEntry& spectrum_entry(const std::vector<std::string>& estimators) {
   for (const std::string& name : estimators) {
     const EstimatorEntry& entry = estimator_entry(name);
@@ -38,12 +38,12 @@ std::vector<double> spectrum_now(const SlidingDft& dft) {
 }
 
 SpectrumTrace trace_spectrum(const TransitionConfig& config, double rate, const DropWindow& window,
-                             const std::vector<Signals>& heard) {
+                             const std::vector<Signals>& signals) {
   TransitionModel model(config, rate);
   SpectrumTrace trace;
   for (std::size_t k = 0; k < window.end; ++k) {
-    const double acceleration = heard[k].vertical_acceleration;
-    // As the filter does: what is no number is not listened to.
+    const double acceleration = signals[k].vertical_acceleration;
+    // As in the filter: values that are not finite are skipped.
     if (std::isfinite(acceleration)) model.update(acceleration);
     const Transition& transition = model.transition();
     if (k < window.begin) continue;
@@ -60,20 +60,20 @@ SpectrumTrace trace_spectrum(const TransitionConfig& config, double rate, const 
   return trace;
 }
 
-TorqueTrace trace_torque(const DropWindow& window, const std::vector<Signals>& heard) {
+TorqueTrace trace_torque(const DropWindow& window, const std::vector<Signals>& signals) {
   TorqueTrace trace;
   for (std::size_t k = window.begin; k < window.end; ++k) {
-    trace.knee.push_back(heard[k].leg[left].knee.torque);
-    trace.wheel.push_back(heard[k].leg[left].wheel.torque);
+    trace.knee.push_back(signals[k].leg[left].knee.torque);
+    trace.wheel.push_back(signals[k].leg[left].wheel.torque);
   }
   return trace;
 }
 
-/// NaN where it has not measured yet.
+/// NaN before the first measurement.
 std::vector<double> trace_torque_evidence(const Experiment& experiment, const Condition& shown,
                                           const FittedModels& models, const RunSignals& run,
                                           const DropWindow& window,
-                                          const std::vector<Signals>& heard) {
+                                          const std::vector<Signals>& signals) {
   const auto& names = experiment.estimators;
   if (std::find(names.begin(), names.end(), shown.estimator) == names.end()) {
     return std::vector<double>(window.steps(), Evidence::unknown);
@@ -81,10 +81,10 @@ std::vector<double> trace_torque_evidence(const Experiment& experiment, const Co
   const std::unique_ptr<ContactEstimator> filter = make_estimator(shown, models, run);
   std::vector<double> trace;
   for (std::size_t k = 0; k < window.end; ++k) {
-    if (has_record(heard[k])) filter->update(heard[k]);
+    if (has_record(signals[k])) filter->update(signals[k]);
     if (k < window.begin) continue;
-    const Evidence::Measurement said = filter->evidence().wheel[left];
-    trace.push_back(std::log(said.contact_likelihood / said.no_contact_likelihood));
+    const Evidence::Measurement measurement = filter->evidence().wheel[left];
+    trace.push_back(std::log(measurement.contact_likelihood / measurement.no_contact_likelihood));
   }
   return trace;
 }
@@ -120,12 +120,12 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
   const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));
   for (const noise::NoiseCell& cell : config.noise) {
     const noise::SensorNoise levels = cell.levels();
-    std::vector<Signals> heard;
-    for (std::size_t k = 0; k < window.end; ++k) heard.push_back(noisy(run, noise, levels, k));
+    std::vector<Signals> signals;
+    for (std::size_t k = 0; k < window.end; ++k) signals.push_back(noisy(run, noise, levels, k));
     NoisyDrop drop{cell,
-                   trace_torque(window, heard),
-                   trace_torque_evidence(experiment, shown, models, run, window, heard),
-                   trace_spectrum(transition, rate, window, heard),
+                   trace_torque(window, signals),
+                   trace_torque_evidence(experiment, shown, models, run, window, signals),
+                   trace_spectrum(transition, rate, window, signals),
                    {}};
     for (const std::string& name : config.estimators) {
       EstimatorRunner runner = runner_of({detail.simulator, detail.simulator, name}, models, run);

@@ -37,10 +37,10 @@ std::string_view to_text(DropWheels wheels) {
 
 namespace {
 
-std::size_t moment_of(const RunSignals& run, double at, double period, const std::string& key) {
+std::size_t step_at(const RunSignals& run, double at, double period, const std::string& key) {
   const auto step = static_cast<std::size_t>(std::llround(at / period));
   if (step < run.steps()) return step;
-  throw InputError(fmt::format("{}.at: run {} in {} is over after {:.6g} s", key, run.info.run,
+  throw InputError(fmt::format("{}.at: run {} in {} ends after {:.6g} s", key, run.info.run,
                                run.info.simulator, static_cast<double>(run.steps()) * period));
 }
 
@@ -66,7 +66,7 @@ std::size_t takeoff_of(const RunSignals& run, const DropChoice& choice, double p
 DropWindow drop_window(const RunSignals& run, const DropChoice& choice, double minimum_flight,
                        const std::string& key) {
   const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
-  const std::size_t zero = choice.at ? moment_of(run, *choice.at, period, key)
+  const std::size_t zero = choice.at ? step_at(run, *choice.at, period, key)
                                      : takeoff_of(run, choice, period, minimum_flight, key);
   const auto steps = [&](double seconds) {
     return static_cast<std::size_t>(std::llround(seconds / period));

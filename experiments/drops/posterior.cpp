@@ -27,47 +27,49 @@ std::vector<Phase> true_phases(const RunSignals& run, const PhaseLabelConfig& co
 
 PhaseProbabilities by_phase(const PhaseRow& left_leg, const PhaseRow& right_leg,
                             const PhaseRow& vertical) {
-  const PhaseRecursion::Lanes lanes = PhaseRecursion::evidence(left_leg, right_leg, vertical);
+  const PhaseRecursion::Lanes evidence = PhaseRecursion::evidence(left_leg, right_leg, vertical);
   PhaseProbabilities phases{};
-  std::copy_n(lanes.begin(), phase_count, phases.begin());
+  std::copy_n(evidence.begin(), phase_count, phases.begin());
   return phases;
 }
 
-/// What the filter's last step was told by its own densities at the noise that it assumed; what was
-/// not finite told nothing.
-PhaseEvidence evidence_of(const PreparedPhaseModel& senses, const PhaseNoise& noise,
-                          const Signals& heard) {
+/// Log likelihoods of the filter's last step by its own densities, at the noise that it assumed.
+/// Signals that are not finite contribute nothing.
+PhaseEvidence evidence_of(const PreparedPhaseModel& model, const PhaseNoise& noise,
+                          const Signals& signals) {
   const auto leg = [&](std::size_t side) {
     const double mirror = side == 0 ? 1.0 : -1.0;
-    const double knee = mirror * heard.leg[side].knee.torque;
-    const double wheel = mirror * heard.leg[side].wheel.torque;
+    const double knee = mirror * signals.leg[side].knee.torque;
+    const double wheel = mirror * signals.leg[side].wheel.torque;
     if (!std::isfinite(knee) || !std::isfinite(wheel)) return PhaseRow{};
-    return senses.torque(knee, wheel, senses.torque.ladder().place(noise.knee_torque),
-                         senses.torque.ladder().place(noise.wheel_torque));
+    return model.torque(knee, wheel, model.torque.noise_levels().place(noise.knee_torque),
+                        model.torque.noise_levels().place(noise.wheel_torque));
   };
   const PhaseRow vertical =
-      std::isfinite(heard.vertical_acceleration)
-          ? senses.acceleration(heard.vertical_acceleration,
-                                senses.acceleration.ladder().place(noise.acceleration))
+      std::isfinite(signals.vertical_acceleration)
+          ? model.acceleration(signals.vertical_acceleration,
+                               model.acceleration.noise_levels().place(noise.acceleration))
           : PhaseRow{};
   return {by_phase(leg(0), {}, {}), by_phase({}, leg(1), {}), by_phase({}, {}, vertical)};
 }
 
-LogLikelihoodError error_by(const PhaseEvidence& evidence, const PhaseProbabilities& believed, Phase truth) {
-  const auto first = std::max_element(believed.begin(), believed.end());
-  const auto phase = static_cast<Phase>(first - believed.begin());
-  if (left_in_contact(phase) == left_in_contact(truth) && right_in_contact(phase) == right_in_contact(truth)) {
+LogLikelihoodError error_by(const PhaseEvidence& evidence, const PhaseProbabilities& belief,
+                            Phase truth) {
+  const auto first = std::max_element(belief.begin(), belief.end());
+  const auto phase = static_cast<Phase>(first - belief.begin());
+  if (left_in_contact(phase) == left_in_contact(truth) &&
+      right_in_contact(phase) == right_in_contact(truth)) {
     return {};
   }
   const auto preference = [&](const PhaseProbabilities& of) {
     return of[index(phase)] - of[index(truth)];
   };
   const double least = std::numeric_limits<double>::min();
-  const double whole = std::log(*first / std::max(least, believed[index(truth)]));
-  LogLikelihoodError log_likelihood_error{preference(evidence.left), preference(evidence.right),
-                preference(evidence.acceleration)};
-  log_likelihood_error.memory = whole - log_likelihood_error.left - log_likelihood_error.right - log_likelihood_error.acceleration;
-  return log_likelihood_error;
+  const double whole = std::log(*first / std::max(least, belief[index(truth)]));
+  LogLikelihoodError error{preference(evidence.left), preference(evidence.right),
+                           preference(evidence.acceleration)};
+  error.memory = whole - error.left - error.right - error.acceleration;
+  return error;
 }
 
 }  // namespace
@@ -86,7 +88,7 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
   const EstimatorEntry entry = entry_of(condition, models);
   const EstimatorSetup setup = setup_of(condition, models, run);
   PhaseFilter filter = phase_filter(entry, setup);
-  const PreparedPhaseModel senses(setup.model->phase->model, filter.config());
+  const PreparedPhaseModel prepared(setup.model->phase->model, filter.config());
   const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));
   const noise::SensorNoise levels = config.noise.levels();
   const std::vector<Phase> truth = true_phases(run, entry.phase->fit.labels);
@@ -94,9 +96,9 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
   PhaseEvidence evidence;
   for (std::size_t k = 0; k < window.end; ++k) {
     if (has_record(run.signals[k])) {
-      const Signals heard = noisy(run, noise, levels, k);
-      belief = filter.update(heard);
-      if (k >= window.begin) evidence = evidence_of(senses, filter.noise(), heard);
+      const Signals signals = noisy(run, noise, levels, k);
+      belief = filter.update(signals);
+      if (k >= window.begin) evidence = evidence_of(prepared, filter.noise(), signals);
     }
     if (k < window.begin) continue;
     posterior.truth.push_back(truth[k]);

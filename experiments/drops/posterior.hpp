@@ -14,8 +14,8 @@
 
 namespace touchdown::experiments {
 
-/// What one step says of every phase: log likelihoods as the filter weighs them, the same constant
-/// apart for all phases.
+/// Log likelihoods of every phase at one step, weighted as in the filter, up to a constant that all
+/// phases share.
 struct PhaseEvidence {
   PhaseProbabilities left{};          ///< by the left leg's torques
   PhaseProbabilities right{};         ///< by the right leg's
@@ -26,36 +26,34 @@ struct PhaseEvidence {
   }
 };
 
-/// Where the most probable phase is wrong about a wheel: by how much each ingredient prefers it to
-/// the true one. Logarithms of ratios, which add up to that of the two probabilities; all zero
-/// where it is right about both wheels.
+/// Log-likelihood ratio of the most probable phase to the true phase, by source, where the most
+/// probable phase is wrong about a wheel. The terms add up to the log ratio of the two
+/// probabilities. All are zero where the phase is right about both wheels.
 struct LogLikelihoodError {
   double left = 0.0;
   double right = 0.0;
   double acceleration = 0.0;
-  double memory = 0.0;  ///< by what was believed before, and by what may follow what
+  double memory = 0.0;  ///< from the previous belief and the transition probabilities
 };
 
 /// The phase filter's belief through one drop; one entry per step of the window.
 struct DropPosterior {
   std::string simulator;
   noise::NoiseCell noise;
-  std::optional<double> at = {};  ///< the moment that was asked for instead of a drop (s)
-  std::vector<double> time;       ///< since takeoff, or that moment (s)
+  std::optional<double> at = {};  ///< a time that the file names instead of a drop (s)
+  std::vector<double> time;       ///< since takeoff, or since `at` (s)
   std::array<std::vector<std::uint8_t>, models::wheel_count>
-      contact;                             ///< of each wheel, by its label
-  std::vector<Phase> truth;                ///< the phase by the labels
-  std::vector<PhaseEvidence> evidence;     ///< of the step alone
-  std::vector<PhaseProbabilities> phases;  ///< P(phase | heard so far)
-  std::vector<LogLikelihoodError> log_likelihood_error;              ///< why they are wrong, where they are
-  std::array<std::vector<double>, models::wheel_count>
-      p_contact;  ///< what these add up to, by wheel
+      contact;                                                     ///< of each wheel, by its label
+  std::vector<Phase> truth;                                        ///< the phase by the labels
+  std::vector<PhaseEvidence> evidence;                             ///< of each step alone
+  std::vector<PhaseProbabilities> phases;                          ///< P(phase | signals so far)
+  std::vector<LogLikelihoodError> log_likelihood_error;            ///< zero where `phases` is right
+  std::array<std::vector<double>, models::wheel_count> p_contact;  ///< sums of `phases`, by wheel
 };
 
-/// Lets the phase filter listen to the whole run through the noise that the study hears, with the
-/// model that was fitted in the same engine, and keeps the window around the drop. True phases are
-/// cut as they were for fitting (`PhaseLabelConfig`), so that they look ahead: nobody can know an
-/// unloading for sure before its takeoff.
+/// Runs the phase filter on the whole run with the noise of the study, and keeps the window around
+/// the drop. The model is the one that was fitted in the same engine. True phases are those of
+/// fitting (`PhaseLabelConfig`). They look ahead: an unloading is certain only after its takeoff.
 /// Errors: `InputError` when the run has no such drop.
 DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig& config,
                              const RunSignals& run, const FittedModels& models);

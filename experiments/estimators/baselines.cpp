@@ -10,7 +10,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-using Made = std::unique_ptr<ContactEstimator>;
+using EstimatorPointer = std::unique_ptr<ContactEstimator>;
 
 class AlwaysContact : public ContactEstimator {
  public:
@@ -29,11 +29,10 @@ class AlwaysContact : public ContactEstimator {
 EstimatorEntry always_contact_entry() {
   return {.name = std::string(always_contact_name),
           .title = "Always contact",
-          .summary = "listens to nothing: the share of contact, which others have to beat",
+          .summary = "Reports contact at every step, so its accuracy is the share of contact",
           .sensors = {},
-          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& /*setup*/) -> Made {
-            return std::make_unique<AlwaysContact>();
-          }};
+          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& /*setup*/)
+              -> EstimatorPointer { return std::make_unique<AlwaysContact>(); }};
 }
 
 void Oracle::reset() noexcept {
@@ -48,8 +47,8 @@ const Belief& Oracle::update(const Signals& signals) noexcept {
   time_ = signals.time;
   if (step_ >= std::min(contact_[0].size(), contact_[1].size())) return belief_;
   for (std::size_t side = 0; side < 2; ++side) {
-    const bool touches = contact_[side][step_] != 0;
-    belief_.wheel[side] = {.p_contact = touches ? 1.0 : 0.0, .contact = touches};
+    const bool in_contact = contact_[side][step_] != 0;
+    belief_.wheel[side] = {.p_contact = in_contact ? 1.0 : 0.0, .contact = in_contact};
   }
   const auto [fewer, more] = std::minmax(belief_.wheel[0].p_contact, belief_.wheel[1].p_contact);
   belief_.p_both_wheels = fewer;
@@ -59,27 +58,28 @@ const Belief& Oracle::update(const Signals& signals) noexcept {
 }
 
 EstimatorEntry oracle_entry() {
-  return {.name = "oracle",
-          .title = "Oracle",
-          .summary = "repeats the ground truth: what a perfect estimator would score",
-          .sensors = {},
-          .needs_truth = true,
-          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
-            return std::make_unique<Oracle>(
-                setup.truth == nullptr ? std::array<scoring::ContactSequence, models::wheel_count>{}
-                                       : *setup.truth,
-                setup.sample_rate);
-          }};
+  return {
+      .name = "oracle",
+      .title = "Oracle",
+      .summary = "Repeats the ground truth, which gives the scores of a perfect estimator",
+      .sensors = {},
+      .needs_truth = true,
+      .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> EstimatorPointer {
+        return std::make_unique<Oracle>(
+            setup.truth == nullptr ? std::array<scoring::ContactSequence, models::wheel_count>{}
+                                   : *setup.truth,
+            setup.sample_rate);
+      }};
 }
 
 EstimatorEntry free_fall_entry() {
   return {.name = "free_fall",
           .title = "Free fall",
-          .summary = "a threshold on the vertical acceleration: what falls is in the air",
+          .summary = "Detects flight by a threshold on the vertical acceleration",
           .sensors = {.acceleration = true},
           .hyperparameters = {between("half_way", FreeFallConfig{}.half_way, -9.0, -1.0),
-                      around("low_pass", FreeFallConfig{}.low_pass, 5.0)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+                              around("low_pass", FreeFallConfig{}.low_pass, 5.0)},
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
             return std::make_unique<FreeFall>(FreeFallConfig{.sample_rate = setup.sample_rate,
                                                              .low_pass = entry.chosen("low_pass"),
                                                              .half_way = entry.chosen("half_way")});
@@ -87,15 +87,15 @@ EstimatorEntry free_fall_entry() {
 }
 
 EstimatorEntry upkie_observer_entry() {
-  // Its hips and knees only tell whether the robot touches the floor with anything.
+  // It uses hip and knee torques only for the floor contact of the whole robot, not per wheel.
   return {.name = "upkie_observer",
           .title = "Upkie's observer",
-          .summary = "what Upkie runs today: the apparent inertia of each wheel",
+          .summary = "Thresholds the apparent inertia of each wheel, as Upkie's software does",
           .sensors = {.wheel_torque = true, .joint_velocity = true},
           .hyperparameters = {around("liftoff_inertia", WheelContactConfig{}.liftoff_inertia, 3.0),
-                      around("touchdown_ratio", 4.0, 3.5),
-                      around("cutoff", WheelContactConfig{}.cutoff, 10.0)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+                              around("touchdown_ratio", 4.0, 3.5),
+                              around("cutoff", WheelContactConfig{}.cutoff, 10.0)},
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
             WheelContactConfig wheel;
             wheel.liftoff_inertia = entry.chosen("liftoff_inertia");
             wheel.touchdown_inertia = wheel.liftoff_inertia * entry.chosen("touchdown_ratio");

@@ -8,7 +8,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-using Made = std::unique_ptr<ContactEstimator>;
+using EstimatorPointer = std::unique_ptr<ContactEstimator>;
 using TreesConfig = BoostedTreesEstimator::Config;
 using recordings::parameter;
 using recordings::Parameters;
@@ -23,7 +23,7 @@ Parameters parameters_of(const BoostedTrees& trees) {
       {"threshold", numbers(trees.threshold)},         {"leaf", numbers(trees.leaf)}};
 }
 
-/// The inverse: doubles that came from floats are floats again.
+/// The inverse of `parameters_of`. It converts doubles that were floats back to floats.
 BoostedTrees trees_of(const Parameters& parameters) {
   const auto whole = [&](const char* name, double largest) {
     const double value = parameter(parameters, name);
@@ -62,16 +62,17 @@ FittedModel fit_boosted_trees(const EstimatorEntry& entry, const FitRuns& runs) 
 EstimatorEntry gradient_boosting_entry() {
   return {.name = "gradient_boosting",
           .title = "Gradient boosting",
-          .summary = "the learned ceiling: boosted trees on 100 ms of what the phase filter hears",
+          .summary =
+              "Classifies 100 ms of the phase filter's signals by boosted trees, as an upper bound",
           .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
           .is_upper_bound = true,
           .fit = fit_boosted_trees,
           .learns_from_segments = true,
           .hyperparameters = {fitted_with(whole_between("trees", BoostingConfig{}.trees, 40, 240)),
-                      fitted_with(whole_between("depth", BoostingConfig{}.depth, 3, 8)),
-                      between("leave_below", TreesConfig{}.leave_below, 0.25, 0.8),
-                      between("return_above", TreesConfig{}.return_above, 0.8, 0.97)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+                              fitted_with(whole_between("depth", BoostingConfig{}.depth, 3, 8)),
+                              between("leave_below", TreesConfig{}.leave_below, 0.25, 0.8),
+                              between("return_above", TreesConfig{}.return_above, 0.8, 0.97)},
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
             return std::make_unique<BoostedTreesEstimator>(
                 trees_of(setup.model->parameters->parameters),
                 TreesConfig{.sample_rate = setup.sample_rate,

@@ -4,7 +4,7 @@
 
 namespace touchdown::experiments {
 
-/// The learned ceiling that a benchmark measures others against.
+/// Boosted trees, the reference upper bound of a benchmark.
 EstimatorEntry gradient_boosting_entry();
 
 }  // namespace touchdown::experiments

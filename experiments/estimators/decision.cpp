@@ -16,7 +16,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-using Made = std::unique_ptr<ContactEstimator>;
+using EstimatorPointer = std::unique_ptr<ContactEstimator>;
 
 FittedModel fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
@@ -43,7 +43,7 @@ FittedModel fit_evidence(const EstimatorEntry& entry, const FitRuns& runs) {
 }
 
 template <typename Estimator, auto model_of>
-Made make_fitted(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+EstimatorPointer make_fitted(const EstimatorEntry& entry, const EstimatorSetup& setup) {
   return std::make_unique<Estimator>(
       model_of(setup.model->parameters->parameters),
       configured(DecisionConfig{.sample_rate = setup.sample_rate}, entry, setup));
@@ -53,7 +53,7 @@ Hyperparameter decay() { return fitted_with(around("decay", DecisionFitConfig{}.
 Hyperparameter smoothness() {
   return fitted_with(around("smoothness", EvidenceFitConfig{}.smoothness, 10.0));
 }
-/// What the fit chooses, then the thresholds of the decision.
+/// The hyperparameters of the fit, then the thresholds of the decision.
 std::vector<Hyperparameter> and_thresholds(std::vector<Hyperparameter> of_fit) {
   of_fit.push_back(between("leave_below", DecisionConfig{}.leave_below, 0.25, 0.8));
   of_fit.push_back(between("return_above", DecisionConfig{}.return_above, 0.8, 0.97));
@@ -63,21 +63,20 @@ std::vector<Hyperparameter> and_thresholds(std::vector<Hyperparameter> of_fit) {
 }  // namespace
 
 EstimatorEntry decision_network_entry() {
-  return {.name = "decision_network",
-          .title = "Decision network",
-          .summary =
-              "a small network fitted to decide, from each wheel's load and motion at eight "
-              "time scales",
-          .sensors = {.hip_torque = true,
-                      .knee_torque = true,
-                      .wheel_torque = true,
-                      .acceleration = true,
-                      .joint_position = true,
-                      .joint_velocity = true},
-          .fit = fit_network,
-          .learns_from_segments = true,
-          .hyperparameters = and_thresholds({decay()}),
-          .make = make_fitted<DecisionNetwork, decision_model_of>};
+  return {
+      .name = "decision_network",
+      .title = "Decision network",
+      .summary = "Classifies each wheel's load and motion at eight time scales by a small network",
+      .sensors = {.hip_torque = true,
+                  .knee_torque = true,
+                  .wheel_torque = true,
+                  .acceleration = true,
+                  .joint_position = true,
+                  .joint_velocity = true},
+      .fit = fit_network,
+      .learns_from_segments = true,
+      .hyperparameters = and_thresholds({decay()}),
+      .make = make_fitted<DecisionNetwork, decision_model_of>};
 }
 
 EstimatorEntry evidence_curves_entry() {
@@ -85,7 +84,7 @@ EstimatorEntry evidence_curves_entry() {
   entry.name = "evidence_curves";
   entry.title = "Evidence curves";
   entry.summary =
-      "the decision network's transparent twin: a curve of evidence for each of its inputs, added";
+      "Adds one curve per input of the decision network, as its interpretable counterpart";
   entry.fit = fit_evidence<false>;
   entry.hyperparameters = and_thresholds({smoothness()});
   entry.make = make_fitted<EvidenceCurves, evidence_model_of>;
@@ -96,7 +95,7 @@ EstimatorEntry evidence_pairs_entry() {
   EstimatorEntry entry = evidence_curves_entry();
   entry.name = "evidence_pairs";
   entry.title = "Evidence curves and pairs";
-  entry.summary = "the same, with tables of evidence for a few pairs of inputs";
+  entry.summary = "Adds the evidence curves and tables for a few pairs of inputs";
   entry.fit = fit_evidence<true>;
   return entry;
 }
@@ -105,7 +104,7 @@ EstimatorEntry touchdown_entry() {
   EstimatorEntry entry = decision_network_entry();
   entry.name = "touchdown";
   entry.title = "Touchdown";
-  entry.summary = "evidence curves and the decision network, whose logits are averaged";
+  entry.summary = "Averages the logits of the evidence curves and the decision network";
   entry.fit = fit_touchdown;
   entry.hyperparameters = and_thresholds({decay(), smoothness()});
   entry.make = make_fitted<TouchdownEstimator, touchdown_model_of>;
@@ -116,12 +115,14 @@ EstimatorEntry shipped_touchdown_entry() {
   EstimatorEntry entry = touchdown_entry();
   entry.name = "touchdown_shipped";
   entry.title = "Touchdown, shipped";
-  entry.summary = "the same, fitted to Upkie on bent and on straight legs once and for all";
+  entry.summary =
+      "Runs `touchdown` with the shipped model, fitted to Upkie on bent and straight legs";
   entry.fit = nullptr;
   entry.learns_from_segments = false;
   entry.trained_by = "scripts/fit_shipped_model.sh";
   entry.hyperparameters = {};
-  entry.make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> Made {
+  entry.make = [](const EstimatorEntry& /*entry*/,
+                  const EstimatorSetup& setup) -> EstimatorPointer {
     const auto file = recordings::read_parameter_model(find_resource("models/touchdown.npz"));
     return std::make_unique<TouchdownEstimator>(
         touchdown_model_of(file.parameters),

@@ -7,21 +7,21 @@
 
 namespace touchdown::experiments {
 
-/// A small network that is fitted to decide, from channels that one can name.
+/// A small network with interpretable input features (estimator/decision).
 EstimatorEntry decision_network_entry();
 
-/// The network's transparent twin, curves of evidence that are added (estimator/evidence): without
-/// tables of pairs, and with them.
+/// The network's interpretable counterpart, a generalised additive model of evidence curves
+/// (estimator/evidence): without tables for pairs of inputs, and with them.
 EstimatorEntry evidence_curves_entry();
 EstimatorEntry evidence_pairs_entry();
 
-/// Curves and network side by side (estimator/evidence/touchdown.hpp).
+/// The averaged logits of curves and network (estimator/evidence/touchdown.hpp).
 EstimatorEntry touchdown_entry();
 
-/// The same with a model that is shipped, for who has no labelled runs.
+/// The same with the shipped model, for users without labelled runs.
 EstimatorEntry shipped_touchdown_entry();
 
-/// The curves of a model that has some. Errors: `InputError` for one that lacks a part of them.
+/// The evidence curves of a model, if it has any. Errors: `InputError` for incomplete curves.
 std::optional<EvidenceModel> evidence_in(const FittedModel& model);
 
 }  // namespace touchdown::experiments

@@ -23,37 +23,41 @@ Hyperparameter whole_between(std::string name, double value, double lowest, doub
   return {std::move(name), value, lowest, highest, Hyperparameter::Scale::whole};
 }
 
-Hyperparameter fitted_with(Hyperparameter choice) {
-  choice.is_fitted_with = true;
-  return choice;
+Hyperparameter fitted_with(Hyperparameter hyperparameter) {
+  hyperparameter.is_fitted_with = true;
+  return hyperparameter;
 }
 
-double EstimatorEntry::chosen(std::string_view choice) const {
-  const auto found = std::find_if(hyperparameters.begin(), hyperparameters.end(),
-                                  [&](const Hyperparameter& one) { return one.name == choice; });
-  if (found == hyperparameters.end()) throw Error(fmt::format("'{}' has no choice '{}'", name, choice));
+double EstimatorEntry::chosen(std::string_view hyperparameter) const {
+  const auto found =
+      std::find_if(hyperparameters.begin(), hyperparameters.end(),
+                   [&](const Hyperparameter& one) { return one.name == hyperparameter; });
+  if (found == hyperparameters.end()) {
+    throw Error(fmt::format("'{}' has no hyperparameter '{}'", name, hyperparameter));
+  }
   return found->value;
 }
 
-EstimatorEntry with_hyperparameters(EstimatorEntry entry, const HyperparameterValues& hyperparameters) {
-  if (hyperparameters.empty()) return entry;
-  for (Hyperparameter& choice : entry.hyperparameters) {
-    const auto chosen = hyperparameters.find(choice.name);
-    if (chosen != hyperparameters.end()) choice.value = chosen->second;
+EstimatorEntry with_hyperparameters(EstimatorEntry entry, const HyperparameterValues& values) {
+  if (values.empty()) return entry;
+  for (Hyperparameter& hyperparameter : entry.hyperparameters) {
+    const auto chosen = values.find(hyperparameter.name);
+    if (chosen != values.end()) hyperparameter.value = chosen->second;
   }
   if (entry.apply != nullptr) entry.apply(entry);
   return entry;
 }
 
-void check_names(const HyperparameterValues& hyperparameters, const EstimatorEntry& entry) {
+void check_names(const HyperparameterValues& values, const EstimatorEntry& entry) {
   std::vector<std::string> known;
-  for (const Hyperparameter& choice : entry.hyperparameters) known.push_back(choice.name);
-  for (const auto& [name, value] : hyperparameters) {
+  for (const Hyperparameter& one : entry.hyperparameters) known.push_back(one.name);
+  for (const auto& [name, value] : values) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    throw InputError(known.empty() ? fmt::format("'{}' has no constants", entry.name)
-                                   : fmt::format("'{}' has no constant '{}'{}: expected one of {}",
-                                                 entry.name, name, did_you_mean(name, known),
-                                                 fmt::join(known, ", ")));
+    throw InputError(known.empty()
+                         ? fmt::format("'{}' has no hyperparameters", entry.name)
+                         : fmt::format("'{}' has no hyperparameter '{}'{}: expected one of {}",
+                                       entry.name, name, did_you_mean(name, known),
+                                       fmt::join(known, ", ")));
   }
 }
 
@@ -67,7 +71,8 @@ noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& le
 }
 
 EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return entry.whole_run ? EstimatorRunner(entry.whole_run(setup)) : EstimatorRunner(entry.make(entry, setup));
+  return entry.whole_run ? EstimatorRunner(entry.whole_run(setup))
+                         : EstimatorRunner(entry.make(entry, setup));
 }
 
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other) {

@@ -13,26 +13,26 @@
 #include "estimator/contact_estimator.hpp"
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/phase/config.hpp"
+#include "experiments/batch/noise_level.hpp"
 #include "experiments/estimators/fit_runs.hpp"
 #include "experiments/estimators/fitted_model.hpp"
-#include "experiments/batch/noise_level.hpp"
 #include "experiments/signals/estimator_runner.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
 
-/// What an estimator is made for.
+/// The robot and the run that an estimator is made for.
 struct EstimatorSetup {
   double sample_rate = 1000.0;         ///< Hz
-  const FittedModel* model = nullptr;  ///< for those that are fitted
-  /// Of the robot that it will listen to, where its file is known: before what its model says.
+  const FittedModel* model = nullptr;  ///< for estimators with a fitted model
+  /// Legs of the robot, if its file is known. They take precedence over those in the model.
   std::optional<LegGeometry> legs = {};
-  /// The labels of the run that it will listen to, for the one that repeats them.
+  /// The labels of the run, for the oracle.
   const std::array<scoring::ContactSequence, models::wheel_count>* truth = nullptr;
 };
 
-/// Sensors whose noise can change what an estimator decides about the wheels.
+/// Sensors with noise that can change an estimator's decisions about the wheels.
 struct Sensors {
   bool hip_torque = false;
   bool knee_torque = false;
@@ -42,95 +42,96 @@ struct Sensors {
   bool joint_velocity = false;
 };
 
-/// The part of the noise that these sensors have; all else is zero. Levels with the same part need
-/// to be listened to only once.
+/// The part of the noise that these sensors have; all else is zero. An estimator is evaluated only
+/// once for levels with the same part.
 noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& levels);
 
-/// An estimator under many noise levels side by side (experiments/batch), without a signal guard.
+/// An estimator for many noise levels at once (experiments/batch), without a signal guard.
 struct BatchedEstimator {
   std::function<void(const Signals& clean, const NoiseStep& draws)> update;
-  /// Per level, in contact where it reaches the threshold.
+  /// Per noise level. A wheel is in contact where the value reaches the threshold.
   std::function<std::span<const double>(Side side)> p_contact;
   double threshold = 0.5;
 };
 
-/// A constant of an estimator that tuning may choose.
+/// A constant of an estimator that tuning can choose.
 struct Hyperparameter {
   enum class Scale : int { even, by_ratio, whole };
 
-  std::string name;    ///< as in the passports of its models, if it is there
-  double value = 0.0;  ///< the default, or what was chosen
+  std::string name;    ///< as in the metadata of models, if they have it
+  double value = 0.0;  ///< the default, or the chosen value
   double lowest = 0.0;
   double highest = 0.0;
-  Scale scale = Scale::even;    ///< on which trials are drawn evenly between the two
-  bool is_fitted_with = false;  ///< whether a model is another one with another value
+  Scale scale = Scale::even;    ///< on which trials are uniform in this range
+  bool is_fitted_with = false;  ///< whether the fitted model depends on it
 };
 
-/// Choices in one line: from `lowest` to `highest`; up to so many times more or less than the
-/// default; whole numbers.
+/// Short constructors: from `lowest` to `highest`; up to `factor` times more or less than the
+/// default; whole numbers from `lowest` to `highest`.
 Hyperparameter between(std::string name, double value, double lowest, double highest);
 Hyperparameter around(std::string name, double value, double factor);
 Hyperparameter whole_between(std::string name, double value, double lowest, double highest);
-/// One that decides about the model, too.
-Hyperparameter fitted_with(Hyperparameter choice);
+/// Marks a hyperparameter that the fitted model depends on.
+Hyperparameter fitted_with(Hyperparameter hyperparameter);
 
-/// All that an experiment has to know about an estimator. Most have only some of it.
+/// Everything that an experiment needs to know about an estimator. Most members are optional.
 struct EstimatorEntry {
   std::string name;     ///< in experiment files
   std::string title;    ///< for tables and figures
-  std::string summary;  ///< one line: what it does
+  std::string summary;  ///< one sentence: what it does
   Sensors sensors;
-  /// Whether it stands for what there is to be had, and not for what one would take.
+  /// Whether it is a reference upper bound, not a candidate for a robot.
   bool is_upper_bound = false;
-  /// The configuration whose measurement model it needs, if it needs one.
+  /// The configuration of its measurement model, if it needs one.
   std::optional<BayesFilterConfig> config = {};
-  /// The configuration whose phase model it needs, if it needs one.
+  /// The configuration of its phase model, if it needs one.
   std::optional<PhaseFilterConfig> phase = {};
-  /// How it is fitted, if it is: to one of the two above, or else to parameters of its own, which
-  /// experiments/estimators/parameter_fitting.hpp makes a model of.
+  /// Fits its model; null if it needs none. Without one of the two configurations above, the model
+  /// consists of its own parameters (experiments/estimators/parameter_fitting.hpp).
   FittedModel (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
-  /// Whether it is fitted to an experiment's pieces, too, if there are any.
+  /// Whether it is also fitted to an experiment's training segments, if there are any.
   bool learns_from_segments = false;
-  /// What made its model, if that is no part of an experiment.
+  /// The program that trained its model, if experiments do not fit it.
   std::string trained_by = {};
-  /// It is told the labels of the runs it listens to: nothing for logs without.
+  /// Whether it needs the labels of a run. It cannot run on logs without labels.
   bool needs_truth = false;
-  /// What tuning may choose; empty: nothing.
+  /// What tuning can choose; may be empty.
   std::vector<Hyperparameter> hyperparameters = {};
-  /// Puts the choices' values into `config` and `phase`, where they have their place there.
+  /// Copies the values of hyperparameters into `config` and `phase`.
   void (*apply)(EstimatorEntry& entry) = nullptr;
   std::unique_ptr<ContactEstimator> (*make)(const EstimatorEntry& entry,
                                             const EstimatorSetup& setup) = nullptr;
-  /// Null for an estimator without lanes; nothing where its lanes do not know noise of that kind.
-  std::optional<BatchedEstimator> (*lanes)(const EstimatorEntry& entry, const EstimatorSetup& setup,
-                                         std::span<const noise::SensorNoise> levels) = nullptr;
-  /// Instead of `make`, for one that hears a whole run at once.
+  /// Null for an estimator without a batched form. Returns nothing if that does not support such
+  /// noise.
+  std::optional<BatchedEstimator> (*batch)(const EstimatorEntry& entry, const EstimatorSetup& setup,
+                                           std::span<const noise::SensorNoise> levels) = nullptr;
+  /// Replaces `make` for an estimator that processes a whole run at once.
   std::function<WholeRunEstimator(const EstimatorSetup& setup)> whole_run = {};
-  /// What decides about its numbers and is no part of the program: saved under another one they do
-  /// not count.
+  /// Identifies code outside the program that its results depend on. Results saved with another
+  /// revision are not reused.
   std::string revision = {};
 
-  /// Which kind of model it is fitted with, if it is.
+  /// The kind of its model, if it is fitted.
   std::optional<ModelKind> fits() const {
     if (config) return ModelKind::measurement;
     if (phase) return ModelKind::phase;
     return fit != nullptr ? std::optional(ModelKind::parameters) : std::nullopt;
   }
-  /// The value of one of the choices.
-  double chosen(std::string_view choice) const;
+  /// The value of one of its hyperparameters. Errors: `Error` for an unknown name.
+  double chosen(std::string_view hyperparameter) const;
 };
 
-/// The same estimator with constants that were chosen. Names that are none of its choices do not
-/// count.
-EstimatorEntry with_hyperparameters(EstimatorEntry entry, const HyperparameterValues& hyperparameters);
+/// The same estimator with chosen values. Ignores names that are none of its hyperparameters.
+EstimatorEntry with_hyperparameters(EstimatorEntry entry, const HyperparameterValues& values);
 
-/// Errors: `InputError`, one line with the nearest name, for one that is none of its choices.
-void check_names(const HyperparameterValues& hyperparameters, const EstimatorEntry& entry);
+/// Errors: `InputError`, one line with the nearest name, for a name that the estimator does not
+/// have.
+void check_names(const HyperparameterValues& values, const EstimatorEntry& entry);
 
-/// The estimator, however it listens, made for this.
+/// Makes a runner for the estimator, which processes steps or whole runs.
 EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& setup);
 
-/// Whether one fit serves both.
+/// Whether both estimators use the same fit.
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other);
 
 }  // namespace touchdown::experiments

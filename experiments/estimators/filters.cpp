@@ -6,21 +6,21 @@
 
 #include "estimator/bayes/ablation.hpp"
 #include "estimator/bayes/measurement_only.hpp"
-#include "experiments/estimators/measurement_fitting.hpp"
-#include "experiments/estimators/phase_fitting.hpp"
 #include "experiments/batch/bayes.hpp"
 #include "experiments/batch/neural.hpp"
 #include "experiments/batch/phase.hpp"
+#include "experiments/estimators/measurement_fitting.hpp"
+#include "experiments/estimators/phase_fitting.hpp"
 #include "recordings/models/neural_network.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-using Made = std::unique_ptr<ContactEstimator>;
+using EstimatorPointer = std::unique_ptr<ContactEstimator>;
 using Levels = std::span<const noise::SensorNoise>;
 
-/// An entry's configuration at the rate that is asked for.
+/// An entry's configuration at this sample rate (Hz).
 template <typename Config>
 Config at_rate(Config config, double sample_rate) {
   config.sample_rate = sample_rate;
@@ -28,32 +28,33 @@ Config at_rate(Config config, double sample_rate) {
 }
 
 std::vector<BatchNoise> batch_noise(Levels levels) {
-  std::vector<BatchNoise> lanes;
+  std::vector<BatchNoise> batch;
   for (const noise::SensorNoise& level : levels) {
-    lanes.push_back({level.knee_torque, level.wheel_torque, level.acceleration});
+    batch.push_back({level.knee_torque, level.wheel_torque, level.acceleration});
   }
-  return lanes;
+  return batch;
 }
 
-/// With the bandwidths' floor, where there is one: without it the paper is to the letter.
-std::vector<Hyperparameter> bayes_choices(const BayesFilterConfig& config) {
+/// Includes the floor of the bandwidths if there is one. The filter `paper` has none, as published.
+std::vector<Hyperparameter> bayes_hyperparameters(const BayesFilterConfig& config) {
   const Sigmoid& switching = config.transition.switch_sigmoid;
-  std::vector<Hyperparameter> hyperparameters = {between("threshold", config.threshold, 0.2, 0.95),
-                                 around("transition.switch.offset", switching.offset, 4.0),
-                                 around("transition.switch.slope", switching.slope, 4.0)};
+  std::vector<Hyperparameter> hyperparameters = {
+      between("threshold", config.threshold, 0.2, 0.95),
+      around("transition.switch.offset", switching.offset, 4.0),
+      around("transition.switch.slope", switching.slope, 4.0)};
   const double floor = config.measurement.fit.bandwidth_floor.knee;
   if (floor > 0.0) hyperparameters.push_back(fitted_with(around("bandwidth_floor", floor, 4.0)));
   return hyperparameters;
 }
 
 void apply_bayes(EstimatorEntry& entry) {
-  for (const Hyperparameter& choice : entry.hyperparameters) {
+  for (const Hyperparameter& one : entry.hyperparameters) {
     Sigmoid& switching = entry.config->transition.switch_sigmoid;
-    if (choice.name == "threshold") entry.config->threshold = choice.value;
-    if (choice.name == "transition.switch.offset") switching.offset = choice.value;
-    if (choice.name == "transition.switch.slope") switching.slope = choice.value;
-    if (choice.name == "bandwidth_floor") {
-      entry.config->measurement.fit.bandwidth_floor = {choice.value, choice.value};
+    if (one.name == "threshold") entry.config->threshold = one.value;
+    if (one.name == "transition.switch.offset") switching.offset = one.value;
+    if (one.name == "transition.switch.slope") switching.slope = one.value;
+    if (one.name == "bandwidth_floor") {
+      entry.config->measurement.fit.bandwidth_floor = {one.value, one.value};
     }
   }
 }
@@ -66,45 +67,47 @@ void apply_phase(EstimatorEntry& entry) {
   phase.return_above = entry.chosen("return_above");
 }
 
-template <typename Lanes>
-std::shared_ptr<Lanes> measurement_batch(const EstimatorEntry& entry, const EstimatorSetup& setup,
+template <typename Batch>
+std::shared_ptr<Batch> measurement_batch(const EstimatorEntry& entry, const EstimatorSetup& setup,
                                          Levels levels) {
-  return std::make_shared<Lanes>(*setup.model->measurement,
+  return std::make_shared<Batch>(*setup.model->measurement,
                                  at_rate(*entry.config, setup.sample_rate), batch_noise(levels));
 }
 
-template <typename Lanes>
-auto update_of(const std::shared_ptr<Lanes>& lanes) {
-  return [lanes](const Signals& clean, const NoiseStep& draws) { lanes->update(clean, draws); };
+template <typename Batch>
+auto update_of(const std::shared_ptr<Batch>& batch) {
+  return [batch](const Signals& clean, const NoiseStep& draws) { batch->update(clean, draws); };
 }
 
-std::optional<BatchedEstimator> bayes_batch(const EstimatorEntry& entry, const EstimatorSetup& setup,
-                                          Levels levels) {
-  const auto all = measurement_batch<BatchedBayesFilter>(entry, setup, levels);
-  return BatchedEstimator{update_of(all), [all](Side side) { return all->p_contact(side); },
-                        entry.config->threshold};
+std::optional<BatchedEstimator> bayes_batch(const EstimatorEntry& entry,
+                                            const EstimatorSetup& setup, Levels levels) {
+  const auto batch = measurement_batch<BatchedBayesFilter>(entry, setup, levels);
+  return BatchedEstimator{update_of(batch), [batch](Side side) { return batch->p_contact(side); },
+                          entry.config->threshold};
 }
 
 std::optional<BatchedEstimator> measurement_only_batch(const EstimatorEntry& entry,
-                                                     const EstimatorSetup& setup, Levels levels) {
-  const auto all = measurement_batch<BatchedMeasurement>(entry, setup, levels);
-  return BatchedEstimator{update_of(all), [all](Side side) { return all->p_measurement(side); },
-                        entry.config->threshold};
+                                                       const EstimatorSetup& setup, Levels levels) {
+  const auto batch = measurement_batch<BatchedMeasurement>(entry, setup, levels);
+  return BatchedEstimator{update_of(batch),
+                          [batch](Side side) { return batch->p_measurement(side); },
+                          entry.config->threshold};
 }
 
-std::optional<BatchedEstimator> phase_simd_width(const EstimatorEntry& entry, const EstimatorSetup& setup,
-                                          Levels levels) {
-  const auto all = std::make_shared<BatchedPhaseFilter>(
+std::optional<BatchedEstimator> phase_batch(const EstimatorEntry& entry,
+                                            const EstimatorSetup& setup, Levels levels) {
+  const auto batch = std::make_shared<BatchedPhaseFilter>(
       setup.model->phase->model, at_rate(*entry.phase, setup.sample_rate), batch_noise(levels));
-  // Decided by two thresholds already: 0 or 1.
-  return BatchedEstimator{update_of(all), [all](Side side) { return all->contact(side); }, 0.5};
+  // The batch applies the filter's two thresholds itself, so values are 0 or 1.
+  return BatchedEstimator{update_of(batch), [batch](Side side) { return batch->contact(side); },
+                          0.5};
 }
 
 FittedModel fit_measurement(const EstimatorEntry& entry, const FitRuns& runs) {
   return {.measurement = fit(runs.whole, entry.config->measurement, runs.scoring)};
 }
 
-/// To the pieces, if there are any.
+/// Fits to the training segments if there are any, otherwise to the whole runs.
 FittedModel fit_phase(const EstimatorEntry& entry, const FitRuns& runs) {
   const PhaseFitConfig& config = entry.phase->fit;
   return {.phase = std::make_shared<const recordings::PhaseModelFile>(
@@ -121,21 +124,21 @@ NeuralEstimatorConfig neural_config(const EstimatorEntry& entry, const Estimator
   return {.sample_rate = setup.sample_rate, .threshold = entry.chosen("threshold")};
 }
 
-/// Lanes share what the encoders say, so they know no noise on them.
-std::optional<BatchedEstimator> neural_batch(const EstimatorEntry& entry, const EstimatorSetup& setup,
-                                           Levels levels) {
+/// The elements of a batch share the encoder signals, so a batch does not support encoder noise.
+std::optional<BatchedEstimator> neural_batch(const EstimatorEntry& entry,
+                                             const EstimatorSetup& setup, Levels levels) {
   std::vector<double> sigmas;
   for (const noise::SensorNoise& level : levels) {
     if (level.joint_position != 0.0 || level.joint_velocity != 0.0) return std::nullopt;
     sigmas.push_back(level.acceleration);
   }
   const NeuralEstimatorConfig config = neural_config(entry, setup);
-  const auto all = std::make_shared<BatchedNeuralNetwork>(network(entry), config, sigmas);
-  return BatchedEstimator{[all](const Signals& clean, const NoiseStep& draws) {
-                          const auto& [x, y, z] = draws.linear_acceleration;
-                          all->update(clean, {x, y, z});
-                        },
-                        [all](Side /*side*/) { return all->p_contact(); }, config.threshold};
+  const auto batch = std::make_shared<BatchedNeuralNetwork>(network(entry), config, sigmas);
+  return BatchedEstimator{[batch](const Signals& clean, const NoiseStep& draws) {
+                            const auto& [x, y, z] = draws.linear_acceleration;
+                            batch->update(clean, {x, y, z});
+                          },
+                          [batch](Side /*side*/) { return batch->p_contact(); }, config.threshold};
 }
 
 }  // namespace
@@ -148,70 +151,74 @@ EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
           .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
           .config = config,
           .fit = fit_measurement,
-          .hyperparameters = bayes_choices(config),
+          .hyperparameters = bayes_hyperparameters(config),
           .apply = apply_bayes,
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
             return std::make_unique<BayesFilter>(*setup.model->measurement,
                                                  at_rate(*entry.config, setup.sample_rate));
           },
-          .lanes = bayes_batch};
+          .batch = bayes_batch};
 }
 
 std::vector<EstimatorEntry> entries_from_paper_to_robust() {
   std::vector<EstimatorEntry> entries;
   std::string before = "paper";
-  for (const AblationStep& rung : steps_from_paper_to_robust()) {
+  for (const AblationStep& step : steps_from_paper_to_robust()) {
     entries.push_back(
-        bayes_entry(rung.name, fmt::format("from paper to robust: {}, and {}", before, rung.change),
-                    rung.config));
-    before = rung.name;
+        bayes_entry(step.name,
+                    fmt::format("Runs `{}` with {}, an ablation step from paper to robust", before,
+                                step.change),
+                    step.config));
+    before = step.name;
   }
   return entries;
 }
 
 EstimatorEntry measurement_only_entry() {
-  return {.name = "measurement_only",
-          .title = "Measurement only",
-          .summary = "the paper's ablation: each wheel from its torques now, without transitions",
-          .sensors = {.knee_torque = true, .wheel_torque = true},
-          .config = BayesFilterConfig::robust(),
-          .fit = fit_measurement,
-          .hyperparameters = {between("threshold", BayesFilterConfig::robust().threshold, 0.2, 0.95),
-                      fitted_with(around("bandwidth_floor", 0.1, 4.0))},
-          .apply = apply_bayes,
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
-            return std::make_unique<MeasurementOnly>(*setup.model->measurement,
-                                                     at_rate(*entry.config, setup.sample_rate));
-          },
-          .lanes = measurement_only_batch};
+  return {
+      .name = "measurement_only",
+      .title = "Measurement only",
+      .summary = "Estimates contact from a wheel's current torques alone, the paper's ablation",
+      .sensors = {.knee_torque = true, .wheel_torque = true},
+      .config = BayesFilterConfig::robust(),
+      .fit = fit_measurement,
+      .hyperparameters = {between("threshold", BayesFilterConfig::robust().threshold, 0.2, 0.95),
+                          fitted_with(around("bandwidth_floor", 0.1, 4.0))},
+      .apply = apply_bayes,
+      .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
+        return std::make_unique<MeasurementOnly>(*setup.model->measurement,
+                                                 at_rate(*entry.config, setup.sample_rate));
+      },
+      .batch = measurement_only_batch};
 }
 
 EstimatorEntry phase_entry() {
   const PhaseFilterConfig config;
-  return {.name = "phase",
-          .title = "Phase filter",
-          .summary = "a hidden Markov model over the phases between rolling and falling",
-          .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
-          .phase = config,
-          .fit = fit_phase,
-          .learns_from_segments = true,
-          .hyperparameters = {fitted_with(around("torque_bandwidth", config.fit.torque_bandwidth, 4.0)),
-                      fitted_with(
-                          around("acceleration_bandwidth", config.fit.acceleration_bandwidth, 4.0)),
-                      between("leave_below", config.leave_below, 0.05, 0.5),
-                      between("return_above", config.return_above, 0.5, 0.95)},
-          .apply = apply_phase,
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
-            return std::make_unique<PhaseFilter>(phase_filter(entry, setup));
-          },
-          .lanes = phase_simd_width};
+  return {
+      .name = "phase",
+      .title = "Phase filter",
+      .summary = "Filters by a hidden Markov model of the phases between rolling and falling",
+      .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
+      .phase = config,
+      .fit = fit_phase,
+      .learns_from_segments = true,
+      .hyperparameters = {fitted_with(around("torque_bandwidth", config.fit.torque_bandwidth, 4.0)),
+                          fitted_with(around("acceleration_bandwidth",
+                                             config.fit.acceleration_bandwidth, 4.0)),
+                          between("leave_below", config.leave_below, 0.05, 0.5),
+                          between("return_above", config.return_above, 0.5, 0.95)},
+      .apply = apply_phase,
+      .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
+        return std::make_unique<PhaseFilter>(phase_filter(entry, setup));
+      },
+      .batch = phase_batch};
 }
 
 EstimatorEntry hmm_entry() {
   EstimatorEntry entry = phase_entry();
   entry.name = "hmm";
   entry.title = "Two-state HMM";
-  entry.summary = "the phase filter that knows no phases: each wheel touches or does not";
+  entry.summary = "Runs the phase filter without phases: each wheel is in contact or not";
   PhaseLabelConfig& labels = entry.phase->fit.labels;
   labels.unloading = labels.impact = {0.0, 0.0, 0.0};
   labels.held_margin = std::numeric_limits<double>::infinity();
@@ -222,7 +229,7 @@ EstimatorEntry hmm_without_memory_entry() {
   EstimatorEntry entry = hmm_entry();
   entry.name = "hmm_without_memory";
   entry.title = "Two states, no memory";
-  entry.summary = "the two-state HMM with every step as likely as any other after the last one";
+  entry.summary = "Runs the two-state HMM with uniform transition probabilities";
   entry.phase->fit.pseudo_count = 1e12;
   return entry;
 }
@@ -234,14 +241,14 @@ PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setu
 EstimatorEntry neural_entry() {
   return {.name = "nmn",
           .title = "NMN",
-          .summary = "the paper's neural measurement network: IMU, joints and command, no torques",
+          .summary = "Runs the paper's neural network on IMU, joints and command, without torques",
           .sensors = {.acceleration = true, .joint_position = true, .joint_velocity = true},
           .trained_by = "touchdown train",
           .hyperparameters = {between("threshold", NeuralEstimatorConfig{}.threshold, 0.2, 0.95)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
             return std::make_unique<NeuralEstimator>(network(entry), neural_config(entry, setup));
           },
-          .lanes = neural_batch};
+          .batch = neural_batch};
 }
 
 EstimatorEntry retrained_neural_entry() {
@@ -249,7 +256,7 @@ EstimatorEntry retrained_neural_entry() {
   entry.name = "nmn_retrained";
   entry.title = "NMN, retrained";
   entry.summary =
-      "the paper's network, trained on what others are fitted to, through sensors and noise";
+      "Runs the paper's network, retrained on the benchmark's fit scenes with sensor noise";
   return entry;
 }
 

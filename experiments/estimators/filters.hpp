@@ -12,7 +12,7 @@ namespace touchdown::experiments {
 EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
                            const BayesFilterConfig& config);
 
-/// The rungs between the configurations `paper` and `robust`, in their order
+/// The ablation steps between the configurations `paper` and `robust`, in order
 /// (estimator/bayes/ablation.hpp).
 std::vector<EstimatorEntry> entries_from_paper_to_robust();
 
@@ -22,19 +22,19 @@ EstimatorEntry measurement_only_entry();
 /// The hidden Markov model over phases of contact.
 EstimatorEntry phase_entry();
 
-/// Rungs from the paper's ablation to the phase filter, with all of its inputs, bandwidths and
-/// hysteresis: without phases, and without memory too.
+/// Ablation steps from measurement only to the phase filter, with the inputs, bandwidths and
+/// hysteresis of the phase filter: without phases, and also without memory.
 EstimatorEntry hmm_entry();
 EstimatorEntry hmm_without_memory_entry();
 
-/// Its filter as such, for who wants to see the phases.
+/// The phase filter itself, for callers that need the probabilities of phases.
 PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup);
 
-/// The paper's neural measurement network, as it is shipped.
+/// The paper's neural measurement network with the shipped weights.
 EstimatorEntry neural_entry();
 
-/// The same network, trained on the scenes that a benchmark's estimators are fitted to, through
-/// sensors and noise (experiments/nmn_retrained.yaml).
+/// The same network, trained on the fit scenes of a benchmark with sensor model and noise
+/// (experiments/nmn_retrained.yaml).
 EstimatorEntry retrained_neural_entry();
 
 }  // namespace touchdown::experiments

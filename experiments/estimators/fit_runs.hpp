@@ -17,41 +17,42 @@ namespace touchdown::experiments {
 
 struct RunSignals;
 
-/// Labelled runs that a model is fitted to. They must outlive the fit.
+/// Labelled runs to fit a model to. They must outlive the fit.
 struct FitRuns {
   std::vector<const RunSignals*> whole;
-  /// Cut from other runs, for those that learn from pieces; there may be none.
+  /// Segments of other runs, for estimators that learn from training segments; may be empty.
   std::vector<const RunSignals*> segments = {};
-  scoring::ScoringConfig scoring = {};  ///< how much of the beginning of a whole run is not used
-  /// Called before whatever takes long: what it throws ends the fit.
+  scoring::ScoringConfig scoring = {};  ///< its `skip` is the unused beginning of a whole run
+  /// Called before each long computation. An exception from it ends the fit.
   std::function<void()> before_density = {};
 
-  /// Whole runs and pieces alike as whole runs, for those that decide better what they see more of.
+  /// Whole runs and segments together as whole runs, for estimators that use all data alike.
   [[nodiscard]] FitRuns together() const;
 };
 
-/// Of the robot that is fitted to, which runs that are fitted together share.
+/// Legs of the robot, which all runs of one fit share.
 LegGeometry legs_of(const FitRuns& runs);
 
+/// Control period (s).
 double period_of(const RunSignals& run);
 
-/// The robot of a run, as its file is called; empty for a log that does not say.
+/// The name of the robot's file, without extension; empty for a log that does not name it.
 std::string robot_of(const recordings::RecordingInfo& info);
 
-/// What a passport says of runs that a model was fitted to.
+/// The data that a model's metadata records about the runs of its fit.
 struct FittedTo {
-  double sample_rate = 0.0;  ///< of the first of them (Hz)
+  double sample_rate = 0.0;  ///< of the first run (Hz)
   std::set<std::string> robots;
   LegGeometry legs = {};
 
   void add(const recordings::RecordingInfo& info);
 };
 
-/// How many steps the first `skip` seconds of a run are, at most all of them.
+/// The number of steps in the first `skip` seconds of a run, at most all of them.
 std::size_t skipped_steps(const RunSignals& run, double skip);
 
-/// What the estimator of this name was fitted to, each run without its first `skip` seconds:
-/// scenarios, simulators, seeds, runs and seconds.
+/// The provenance of a fit of this estimator: scenarios, simulators, seeds, runs and seconds. Each
+/// run counts without its first `skip` seconds.
 recordings::ModelProvenance provenance_of(std::string_view estimator,
                                           std::span<const RunSignals* const> runs, double skip);
 

@@ -15,46 +15,46 @@
 
 namespace touchdown::experiments {
 
-/// HyperparameterValues of an estimator that are not its defaults, by name.
+/// Values of an estimator's hyperparameters that replace its defaults, by name.
 using HyperparameterValues = std::map<std::string, double>;
 
-/// What an estimator was fitted with: one of the three, and what it says about itself; files that
-/// are older than passports, or come from elsewhere, say nothing.
+/// A fitted model: one of the three kinds, and its metadata. Older model files, and files from
+/// elsewhere, have no metadata.
 struct FittedModel {
   std::optional<MeasurementModel> measurement = {};
   std::shared_ptr<const recordings::PhaseModelFile> phase = {};
   std::shared_ptr<const recordings::ParameterModelFile> parameters = {};
   std::optional<ModelMetadata> metadata = {};
-  /// That the estimator was fitted, and is run, with; empty: its defaults. All that there is for
-  /// one that is tuned and not fitted. No part of a file.
+  /// The values for fitting and running the estimator; empty: its defaults. An estimator that is
+  /// tuned but not fitted has only these. Model files do not contain them.
   HyperparameterValues hyperparameters = {};
 };
 
-/// The passport of a model that is fitted now.
+/// The metadata of a new fit.
 ModelMetadata new_metadata(const std::string& estimator, const FittedTo& fitted_to);
 
-/// Of "name=number" each. Errors: `InputError` for anything else.
+/// Parses assignments of the form "name=number". Errors: `InputError` for anything else.
 HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignments);
 
-/// Puts constants where the passport's configuration has them; of an estimator that the library
-/// does not make, all of them.
+/// Copies values into the configuration of the metadata. For an estimator that the library makes,
+/// it copies only those that the configuration has.
 void put_into(ModelMetadata& metadata, const HyperparameterValues& hyperparameters);
 
-/// Models by engine that was fitted on, then by estimator. Estimators that need the same model
-/// share it.
+/// Models by the key of their fit (`model_key`), then by estimator. Estimators with the same fit
+/// share a model.
 using FittedModels = std::map<std::string, std::map<std::string, FittedModel>>;
 
 enum class ModelKind : int {
   measurement,  ///< densities of torques
   phase,
-  parameters,  ///< named numbers that only one estimator knows the meaning of
+  parameters,  ///< named arrays of one estimator
 };
 
-/// Which of them a model file holds; one that is neither of the latter counts as the first.
-/// Errors: `InputError` for an unreadable one.
+/// The kind of a model file. A file that is neither of the latter two counts as the first.
+/// Errors: `InputError` for an unreadable file.
 ModelKind kind_of_model_file(const std::filesystem::path& path);
 
-/// Errors: `InputError` for an unreadable file or one of the other kind.
+/// Errors: `InputError` for an unreadable file or one of another kind.
 FittedModel read_fitted_model(ModelKind kind, const std::filesystem::path& path);
 void write_fitted_model(const FittedModel& model, const std::filesystem::path& path);
 

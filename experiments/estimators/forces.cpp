@@ -9,10 +9,10 @@ namespace touchdown::experiments {
 
 namespace {
 
-using Made = std::unique_ptr<ContactEstimator>;
+using EstimatorPointer = std::unique_ptr<ContactEstimator>;
 
-/// What a leg's load is computed from.
-constexpr Sensors of_a_load = {
+/// The sensors that a wheel's load is computed from.
+constexpr Sensors load_sensors = {
     .hip_torque = true, .knee_torque = true, .acceleration = true, .joint_position = true};
 
 FittedModel fit_logistic_curve(const EstimatorEntry& entry, const FitRuns& runs) {
@@ -22,7 +22,7 @@ FittedModel fit_logistic_curve(const EstimatorEntry& entry, const FitRuns& runs)
   });
 }
 
-Made make_load_logistic(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+EstimatorPointer make_load_logistic(const EstimatorEntry& entry, const EstimatorSetup& setup) {
   return std::make_unique<LoadLogistic>(
       logistic_curve_of(setup.model->parameters->parameters),
       configured(LoadLogisticConfig{.sample_rate = setup.sample_rate}, entry, setup));
@@ -36,7 +36,7 @@ FittedModel fit_wheel_states(const EstimatorEntry& entry, const FitRuns& runs) {
   });
 }
 
-Made make_force_kinematics(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+EstimatorPointer make_force_kinematics(const EstimatorEntry& entry, const EstimatorSetup& setup) {
   return std::make_unique<ForceKinematics>(
       force_kinematics_model_of(setup.model->parameters->parameters),
       configured(ForceKinematicsConfig{.sample_rate = setup.sample_rate}, entry, setup));
@@ -47,12 +47,12 @@ Made make_force_kinematics(const EstimatorEntry& entry, const EstimatorSetup& se
 EstimatorEntry support_force_entry() {
   return {.name = "support_force",
           .title = "Support force",
-          .summary = "a threshold on each wheel's load, from its leg's torques and geometry",
-          .sensors = of_a_load,
+          .summary = "Thresholds each wheel's load, computed from its leg's torques and geometry",
+          .sensors = load_sensors,
           .hyperparameters = {around("contact", SupportForceConfig{}.contact, 4.0),
-                      between("release_share", 0.5, 0.2, 0.95),
-                      around("low_pass", SupportForceConfig{}.low_pass, 5.0)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> Made {
+                              between("release_share", 0.5, 0.2, 0.95),
+                              around("low_pass", SupportForceConfig{}.low_pass, 5.0)},
+          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
             const double contact = entry.chosen("contact");
             return std::make_unique<SupportForce>(
                 SupportForceConfig{.sample_rate = setup.sample_rate,
@@ -66,28 +66,29 @@ EstimatorEntry support_force_entry() {
 EstimatorEntry load_logistic_entry() {
   return {.name = "load_logistic",
           .title = "Load, logistic",
-          .summary = "each wheel's load through a logistic curve (Camurri et al. 2017, on wheels)",
-          .sensors = of_a_load,
+          .summary = "Maps each wheel's load by a logistic curve (Camurri et al. 2017, on wheels)",
+          .sensors = load_sensors,
           .fit = fit_logistic_curve,
           .hyperparameters = {between("threshold", LoadLogisticConfig{}.threshold, 0.1, 0.95),
-                      fitted_with(around("low_pass", LoadLogisticConfig{}.low_pass, 5.0))},
+                              fitted_with(around("low_pass", LoadLogisticConfig{}.low_pass, 5.0))},
           .make = make_load_logistic};
 }
 
 EstimatorEntry force_kinematics_entry() {
-  Sensors sensors = of_a_load;
+  Sensors sensors = load_sensors;
   sensors.joint_velocity = true;
   return {
       .name = "force_kinematics",
       .title = "Force and kinematics",
       .summary =
-          "a hidden Markov model of each wheel's load and its axle's motion (Hwangbo et al. 2016, "
+          "Filters each wheel's load and axle motion by a hidden Markov model (Hwangbo et al. "
+          "2016, "
           "on wheels)",
       .sensors = sensors,
       .fit = fit_wheel_states,
       .hyperparameters = {between("threshold", ForceKinematicsConfig{}.threshold, 0.1, 0.95),
-                  fitted_with(around("low_pass", ForceKinematicsConfig{}.low_pass, 5.0)),
-                  fitted_with(around("leak", ForceKinematicsConfig{}.leak, 4.0))},
+                          fitted_with(around("low_pass", ForceKinematicsConfig{}.low_pass, 5.0)),
+                          fitted_with(around("leak", ForceKinematicsConfig{}.leak, 4.0))},
       .make = make_force_kinematics};
 }
 

@@ -4,10 +4,10 @@
 
 namespace touchdown::experiments {
 
-/// What teams with wheeled legs use, fitted to nothing.
+/// A threshold on each wheel's load, as teams with wheeled legs use it. It needs no fit.
 EstimatorEntry support_force_entry();
 
-/// Estimators for legged robots that others published, on wheels.
+/// Published estimators for legged robots, applied to wheels.
 EstimatorEntry load_logistic_entry();
 EstimatorEntry force_kinematics_entry();
 

@@ -19,10 +19,10 @@ MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementC
     const double period = 1e-6 * static_cast<double>(run->info.control_period_us);
     const std::size_t skip = scoring::first_scored_step(run->info.control_period_us, scoring);
     for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
-      // As the filter processes them, by the label of their wheel.
+      // Torques are processed as in the filter, and sorted by their wheel's label.
       TorqueChannel channel(config.torque, static_cast<Side>(leg), 1.0 / period);
       for (std::size_t k = 0; k < run->steps(); ++k) {
-        if (!has_torques(run->signals[k].leg[leg])) continue;  // nor does the filter use these
+        if (!has_torques(run->signals[k].leg[leg])) continue;  // the filter ignores these, too
         const TorqueSample sample = channel.update(run->signals[k].leg[leg]);
         if (k >= skip) (run->contact[leg][k] != 0 ? contact : no_contact).push_back(sample);
       }

@@ -10,8 +10,8 @@ namespace touchdown::experiments {
 
 struct RunSignals;
 
-/// The measurement model that a configuration fits to noiseless runs, as in the paper's Section
-/// III. Errors: `InputError` when the runs lack contact or flight.
+/// Fits the measurement model of a configuration to noiseless runs, as in the paper's Section III.
+/// Errors: `InputError` when the runs lack contact or flight.
 MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementConfig& config,
                      const scoring::ScoringConfig& scoring);
 

@@ -9,17 +9,17 @@
 
 namespace touchdown::experiments {
 
-/// What an estimator learns from labelled runs, by name.
+/// Fits an estimator's named parameters to labelled runs.
 using FitParameters = std::function<recordings::Parameters(std::span<const LabelledRun> runs)>;
 
-/// The model of an entry that is fitted to parameters of its own: to whole runs, each without its
-/// beginning, with where it comes from. Errors: `InputError` for runs of reserved seeds, and what
-/// `fit` throws.
+/// Fits the model of an entry with parameters of its own, and records its provenance. It uses whole
+/// runs, each without its beginning. Errors: `InputError` for runs of reserved seeds, and the
+/// errors of `fit`.
 FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs,
                            const FitParameters& fit);
 
-/// As the model's passport says, if it is the entry's own; the legs are those of the robot that is
-/// listened to, where they are known.
+/// The configuration with the values of the model's metadata, if the model was fitted for this
+/// entry. The legs are those of the evaluated robot, if they are known.
 template <typename Config>
 Config configured(Config config, const EstimatorEntry& entry, const EstimatorSetup& setup) {
   const std::optional<ModelMetadata>& metadata = setup.model->metadata;

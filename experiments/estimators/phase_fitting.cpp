@@ -15,13 +15,13 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// Whether a fit can listen to every step.
+/// Whether the step has all signals that a fit uses.
 bool is_whole(const Signals& step) {
   return std::isfinite(step.vertical_acceleration) && has_torques(step.leg[0]) &&
          has_torques(step.leg[1]);
 }
 
-/// The signals that a fit listens to, finite: a value that is missing repeats the one before.
+/// The signals with all values that a fit uses finite: a missing value repeats the previous one.
 std::vector<Signals> without_gaps(std::vector<Signals> filled) {
   const auto fill = [&](const auto& value_of) {
     double last = 0.0;
@@ -56,19 +56,19 @@ recordings::PhaseModelFile fit_phases(std::span<const RunSignals* const> runs,
                                       const std::function<void()>& before_density) {
   if (runs.empty()) throw InputError("phase filter: there is no run to fit to");
   std::vector<PhaseFitRun> segments;
-  std::list<std::vector<Signals>> mended;
+  std::list<std::vector<Signals>> filled_runs;
   for (const RunSignals* run : runs) {
     check_may_be_fitted(run->info);
     if (run->info.control_period_us != runs.front()->info.control_period_us) {
       throw InputError("phase filter: fitted runs must share one control period");
     }
-    const bool needs_mending = !std::all_of(run->signals.begin(), run->signals.end(), is_whole);
-    if (needs_mending) mended.push_back(without_gaps(run->signals));
-    segments.push_back({needs_mending ? mended.back() : run->signals,
-                      {WheelContact(run->contact[0]), WheelContact(run->contact[1])},
-                      may_be_held(run->info),
-                      {run->normal_force[0], run->normal_force[1]},
-                      skipped_steps(*run, skip)});
+    const bool has_gaps = !std::all_of(run->signals.begin(), run->signals.end(), is_whole);
+    if (has_gaps) filled_runs.push_back(without_gaps(run->signals));
+    segments.push_back({has_gaps ? filled_runs.back() : run->signals,
+                        {WheelContact(run->contact[0]), WheelContact(run->contact[1])},
+                        may_be_held(run->info),
+                        {run->normal_force[0], run->normal_force[1]},
+                        skipped_steps(*run, skip)});
   }
   return {fit_phase_model(segments, 1.0 / period_of(*runs.front()), config, before_density),
           provenance_of("phase", runs, skip)};

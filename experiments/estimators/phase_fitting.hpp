@@ -9,13 +9,13 @@
 
 namespace touchdown::experiments {
 
-/// Whether something besides the ground may have carried the robot in a run: a tether or a force.
+/// Whether a tether or a force may have carried the robot in a run.
 bool may_be_held(const recordings::RecordingInfo& info);
 
-/// The phase filter's model from noiseless runs, each without its first `skip` seconds, and what it
-/// was fitted to: scenarios, simulators, seeds, runs and seconds.
+/// Fits the phase filter's model to noiseless runs, each without its first `skip` seconds. Its
+/// provenance lists scenarios, simulators, seeds, runs and seconds.
 /// Errors: `InputError` for runs of reserved seeds, of different control periods, or without
-/// rolling or flight; what `before_density` throws, as `fit_phase_model` says.
+/// rolling or flight; exceptions from `before_density`, see `fit_phase_model`.
 recordings::PhaseModelFile fit_phases(std::span<const RunSignals* const> runs,
                                       const PhaseFitConfig& config, double skip,
                                       const std::function<void()>& before_density = {});

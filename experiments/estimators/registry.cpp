@@ -18,15 +18,15 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// Who is there, and whether somebody lets them in.
+/// The external estimators of the running experiment, if it has any.
 struct ExternalEstimatorTable {
   std::mutex mutex;
   std::optional<std::vector<EstimatorEntry>> external_estimators;
 };
 
 ExternalEstimatorTable& external_estimator_table() {
-  static ExternalEstimatorTable book;
-  return book;
+  static ExternalEstimatorTable table;
+  return table;
 }
 
 const EstimatorEntry* find(std::span<const EstimatorEntry> entries, std::string_view name) {
@@ -40,12 +40,14 @@ const EstimatorEntry* find(std::span<const EstimatorEntry> entries, std::string_
 std::span<const EstimatorEntry> estimator_entries() {
   static const std::vector<EstimatorEntry> entries = [] {
     std::vector<EstimatorEntry> all = {
-        bayes_entry("robust", "the paper's filter, made to stand sensor noise",
+        bayes_entry("robust", "Runs the paper's Bayes filter with changes for noisy sensors",
                     BayesFilterConfig::robust()),
-        bayes_entry("reference", "the paper's filter as its authors' robot code has it",
+        bayes_entry("reference", "Runs the paper's Bayes filter as in the authors' robot code",
                     BayesFilterConfig::reference()),
-        bayes_entry("paper", "the paper's filter to the letter", BayesFilterConfig::paper()),
-        bayes_entry("paper_rms", "the paper's filter, its power read as a root mean square",
+        bayes_entry("paper", "Runs the paper's Bayes filter exactly as published",
+                    BayesFilterConfig::paper()),
+        bayes_entry("paper_rms",
+                    "Runs the paper's Bayes filter with the power read as a root mean square",
                     BayesFilterConfig::paper_rms()),
         measurement_only_entry(),
         phase_entry(),
@@ -67,7 +69,7 @@ std::span<const EstimatorEntry> estimator_entries() {
         oracle_entry(),
         always_contact_entry(),
     };
-    for (EstimatorEntry& rung : entries_from_paper_to_robust()) all.push_back(std::move(rung));
+    for (EstimatorEntry& entry : entries_from_paper_to_robust()) all.push_back(std::move(entry));
     return all;
   }();
   return entries;
@@ -78,7 +80,8 @@ std::vector<std::string> estimator_names() {
   for (const EstimatorEntry& entry : estimator_entries()) names.push_back(entry.name);
   const std::scoped_lock lock(external_estimator_table().mutex);
   if (!external_estimator_table().external_estimators) return names;
-  for (const EstimatorEntry& guest : *external_estimator_table().external_estimators) names.push_back(guest.name);
+  for (const EstimatorEntry& external : *external_estimator_table().external_estimators)
+    names.push_back(external.name);
   return names;
 }
 
@@ -87,7 +90,9 @@ const EstimatorEntry& estimator_entry(std::string_view name) {
   {
     const std::scoped_lock lock(external_estimator_table().mutex);
     const auto& external_estimators = external_estimator_table().external_estimators;
-    if (const EstimatorEntry* guest = external_estimators ? find(*external_estimators, name) : nullptr) return *guest;
+    if (const EstimatorEntry* external =
+            external_estimators ? find(*external_estimators, name) : nullptr)
+      return *external;
   }
   const std::string near = nearest(name, estimator_names());
   throw InputError(fmt::format("unknown estimator '{}': expected one of {}{}", name,
@@ -103,14 +108,14 @@ bool is_upper_bound(std::string_view estimator) {
 }
 
 ExternalEstimators::ExternalEstimators(std::vector<EstimatorEntry> external_estimators) {
-  for (const EstimatorEntry& guest : external_estimators) {
-    if (find(estimator_entries(), guest.name) == nullptr) continue;
+  for (const EstimatorEntry& external : external_estimators) {
+    if (find(estimator_entries(), external.name) == nullptr) continue;
     throw InputError(
-        fmt::format("the name '{}' is taken by one of touchdown's own estimators", guest.name));
+        fmt::format("the name '{}' is taken by one of touchdown's own estimators", external.name));
   }
   const std::scoped_lock lock(external_estimator_table().mutex);
   if (external_estimator_table().external_estimators) {
-    throw InputError("an experiment with estimators of its caller runs already");
+    throw InputError("another experiment with external estimators is running");
   }
   external_estimator_table().external_estimators = std::move(external_estimators);
 }

@@ -10,19 +10,19 @@
 
 namespace touchdown::experiments {
 
-/// Every estimator of ours, in the order of tables.
+/// All built-in estimators, in the order of tables.
 std::span<const EstimatorEntry> estimator_entries();
-/// Every estimator that an experiment can name: ours, then guests.
+/// The names of all estimators that an experiment can use: built-in ones, then external ones.
 std::vector<std::string> estimator_names();
 
-/// One that an experiment can name. Errors: `InputError` naming the nearest one.
+/// The estimator of this name. Errors: `InputError` with the nearest known name.
 const EstimatorEntry& estimator_entry(std::string_view name);
 
-/// False for names that are not in the table.
+/// Whether the estimator is a reference upper bound; false for unknown names.
 bool is_upper_bound(std::string_view estimator);
 
-/// Estimators that whoever runs an experiment brings along: it can name them while this lives. One
-/// host at a time. Errors: `InputError` while there is another, and for a name that is ours.
+/// Registers the external estimators of a caller: experiments can use them while this object lives.
+/// Errors: `InputError` while another such object lives, and for the name of a built-in estimator.
 class ExternalEstimators {
  public:
   explicit ExternalEstimators(std::vector<EstimatorEntry> external_estimators);
@@ -31,7 +31,7 @@ class ExternalEstimators {
   ExternalEstimators& operator=(const ExternalEstimators&) = delete;
 };
 
-/// What the names of estimators begin with that are written in Python: `python:module.Class`.
+/// Prefix of the names of estimators written in Python: `python:module.Class`.
 inline constexpr std::string_view python_prefix = "python:";
 
 }  // namespace touchdown::experiments

@@ -16,15 +16,15 @@ std::vector<scoring::Score> samples_of(const ConditionScores& scores, std::size_
   return samples;
 }
 
-Statistics functions() {
+Statistics metric_functions() {
   Statistics all;
   for (const scoring::Metric& metric : scoring::metrics()) all.push_back(metric.of);
   return all;
 }
 
 /// The metrics, then the share of contact in each bin of the reliability curve.
-Statistics functions_with_reliability() {
-  Statistics all = functions();
+Statistics metric_and_reliability_functions() {
+  Statistics all = metric_functions();
   for (std::size_t b = 0; b < scoring::Calibration::bins; ++b) {
     all.emplace_back(
         [b](const scoring::Score& s) { return s.calibration.bin[b].contact_frequency(); });
@@ -45,7 +45,7 @@ std::vector<ScoreSummary> summarise(const std::vector<ConditionScores>& scores,
     const std::vector<scoring::Score> samples = samples_of(condition, cell, i % views);
     const scoring::Score sum = scoring::sum(samples);
     std::vector<Interval> intervals =
-        scoring::bootstrap<scoring::Score>(samples, functions_with_reliability(), config);
+        scoring::bootstrap<scoring::Score>(samples, metric_and_reliability_functions(), config);
     for (std::size_t m = 0; m < scoring::metrics().size(); ++m) {
       const auto& events = scoring::metrics()[m].events;
       if (events) intervals[m] = scoring::with_exact_end(intervals[m], events(sum), config.level);
@@ -79,10 +79,11 @@ std::vector<Difference> differences(const std::vector<ConditionScores>& scores,
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t i) {
     const std::size_t cell = i / pairs.size();
     const auto& [one, other] = pairs[i % pairs.size()];
-    result[i] = {one->condition.test_simulator, cells[cell], one->condition.estimator,
-                 other->condition.estimator,
-                 scoring::bootstrap_differences(samples_of(*one, cell, 0),
-                                                samples_of(*other, cell, 0), functions(), config)};
+    result[i] = {
+        one->condition.test_simulator, cells[cell], one->condition.estimator,
+        other->condition.estimator,
+        scoring::bootstrap_differences(samples_of(*one, cell, 0), samples_of(*other, cell, 0),
+                                       metric_functions(), config)};
   });
   return result;
 }

@@ -12,7 +12,7 @@
 
 namespace touchdown::experiments {
 
-/// Everything about one condition, noise cell and view, with intervals over runs or drops.
+/// The scores of one condition, noise cell and view, with intervals over runs or drops.
 struct ScoreSummary {
   Condition condition;
   noise::NoiseCell cell;
@@ -26,12 +26,12 @@ struct ScoreSummary {
   }
 };
 
-/// By cell, then condition, then view; these are the cells that the scores have samples of.
+/// Returns summaries by cell, then condition, then view. `cells` are the cells of the scores.
 std::vector<ScoreSummary> summarise(const std::vector<ConditionScores>& scores,
                                     std::span<const noise::NoiseCell> cells,
                                     const scoring::BootstrapConfig& bootstrap);
 
-/// "first − second" in one metric, both wheels pooled, resampled on the same runs or drops.
+/// "first − second" in each metric, both wheels pooled, with resampling of the same runs or drops.
 struct Difference {
   std::string simulator;
   noise::NoiseCell cell;
@@ -40,7 +40,7 @@ struct Difference {
   std::vector<Interval> metric;  ///< in the order of `metrics()`
 };
 
-/// By cell, the first estimator of each engine against each of the others.
+/// By cell, the differences of each engine's first estimator from each of the others.
 std::vector<Difference> differences(const std::vector<ConditionScores>& scores,
                                     std::span<const noise::NoiseCell> cells,
                                     const scoring::BootstrapConfig& bootstrap);

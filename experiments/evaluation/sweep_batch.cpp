@@ -11,47 +11,47 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// Counts how often the lanes of a sweep say contact, while they walk through a run: nothing is
-/// kept of the single steps, so that memory does not grow with the number of lanes times steps.
-/// Sums are doubles because those are vector code; they are exact below 2^53.
+/// Counts the contact decisions of a batch step by step. It keeps no single steps, so memory does
+/// not grow with the number of levels times steps. Sums are doubles, because the compiler
+/// vectorises those; they are exact below 2^53.
 class BatchCounts {
  public:
-  BatchCounts(const RunSignals& run, std::size_t lanes, const scoring::ScoringConfig& scoring)
+  BatchCounts(const RunSignals& run, std::size_t levels, const scoring::ScoringConfig& scoring)
       : run_(run),
-        lanes_(lanes),
+        levels_(levels),
         first_scored_(scoring::first_scored_step(run.info.control_period_us, scoring)),
-        pieces_(run.segments.size()) {
-    for (Piece& segment : pieces_) {
-      segment.said_in_contact.assign(lanes, 0.0);
-      segment.said_in_flight.assign(lanes, 0.0);
+        segments_(run.segments.size()) {
+    for (SegmentCounts& segment : segments_) {
+      segment.decided_in_contact.assign(levels, 0.0);
+      segment.decided_in_flight.assign(levels, 0.0);
     }
   }
 
-  /// What the lanes say about one wheel at a step: contact where `values` reach the threshold.
-  /// Steps must come in order.
+  /// Adds the decisions about one wheel at a step, one per level: contact where `values` reach the
+  /// threshold. Steps must come in order.
   void add(std::size_t wheel, std::size_t step, std::span<const double> values, double threshold) {
     if (step < first_scored_) return;
-    while (piece_ + 1 < run_.segments.size() && step >= run_.segments[piece_ + 1]) ++piece_;
+    while (current_ + 1 < run_.segments.size() && step >= run_.segments[current_ + 1]) ++current_;
     const bool truth = run_.contact[wheel][step] != 0;
-    Piece& segment = pieces_[piece_];
+    SegmentCounts& segment = segments_[current_];
     ++(truth ? segment.contact : segment.flight);
-    double* const sum = (truth ? segment.said_in_contact : segment.said_in_flight).data();
+    double* const sum = (truth ? segment.decided_in_contact : segment.decided_in_flight).data();
     const double* const value = values.data();
-    const std::size_t lanes = values.size();
+    const std::size_t levels = values.size();
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC ivdep
 #endif
-    for (std::size_t i = 0; i < lanes; ++i) sum[i] += value[i] >= threshold ? 1.0 : 0.0;
+    for (std::size_t i = 0; i < levels; ++i) sum[i] += value[i] >= threshold ? 1.0 : 0.0;
   }
 
-  /// By lane, then piece.
+  /// By level, then segment.
   std::vector<scoring::Classification> result() const {
     std::vector<scoring::Classification> counts;
-    counts.reserve(lanes_ * pieces_.size());
-    for (std::size_t lane = 0; lane < lanes_; ++lane) {
-      for (const Piece& segment : pieces_) {
-        const auto in_contact = static_cast<std::int64_t>(segment.said_in_contact[lane]);
-        const auto in_flight = static_cast<std::int64_t>(segment.said_in_flight[lane]);
+    counts.reserve(levels_ * segments_.size());
+    for (std::size_t level = 0; level < levels_; ++level) {
+      for (const SegmentCounts& segment : segments_) {
+        const auto in_contact = static_cast<std::int64_t>(segment.decided_in_contact[level]);
+        const auto in_flight = static_cast<std::int64_t>(segment.decided_in_flight[level]);
         counts.push_back({.contact_as_contact = in_contact,
                           .contact_as_flight = segment.contact - in_contact,
                           .flight_as_contact = in_flight,
@@ -62,18 +62,18 @@ class BatchCounts {
   }
 
  private:
-  struct Piece {
-    std::int64_t contact = 0;
+  struct SegmentCounts {
+    std::int64_t contact = 0;  ///< steps with this label
     std::int64_t flight = 0;
-    std::vector<double> said_in_contact;  ///< by lane, how often contact was said in contact
-    std::vector<double> said_in_flight;   ///< likewise in flight
+    std::vector<double> decided_in_contact;  ///< by level, contact decisions at contact steps
+    std::vector<double> decided_in_flight;   ///< by level, contact decisions at flight steps
   };
 
   const RunSignals& run_;
-  std::size_t lanes_;
+  std::size_t levels_;
   std::size_t first_scored_;
-  std::size_t piece_ = 0;
-  std::vector<Piece> pieces_;
+  std::size_t current_ = 0;  ///< index of the segment of the last step
+  std::vector<SegmentCounts> segments_;
 };
 
 NoiseStep draws_at(const NoiseRun& noise, std::size_t step) {
@@ -97,7 +97,7 @@ bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> l
     noise = std::max(noise, level.acceleration);
     torque_noise = std::max({torque_noise, level.knee_torque, level.wheel_torque});
   }
-  // No draw is as far out as twenty standard deviations.
+  // No draw exceeds twenty standard deviations.
   if (!(20.0 * noise < 0.5 * config.largest_acceleration)) return false;
   if (!(20.0 * torque_noise < 0.5 * config.largest_torque)) return false;
   SignalGuard guard(config, 1e6 / static_cast<double>(run.info.control_period_us));
@@ -118,17 +118,18 @@ bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> l
   return true;
 }
 
-std::vector<scoring::Classification> count_in_batch(const BatchedEstimator& lanes, std::size_t count,
-                                                    const RunSignals& run, const NoiseRun& noise,
+std::vector<scoring::Classification> count_in_batch(const BatchedEstimator& batch,
+                                                    std::size_t count, const RunSignals& run,
+                                                    const NoiseRun& noise,
                                                     const scoring::ScoringConfig& scoring,
                                                     const std::function<bool()>& should_continue) {
-  constexpr std::size_t steps_between_questions = 256;
+  constexpr std::size_t steps_between_checks = 256;
   BatchCounts counts(run, count, scoring);
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (k % steps_between_questions == 0 && !should_continue()) throw Stopped();
-    lanes.update(run.signals[k], draws_at(noise, k));
+    if (k % steps_between_checks == 0 && !should_continue()) throw Stopped();
+    batch.update(run.signals[k], draws_at(noise, k));
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      counts.add(wheel, k, lanes.p_contact(static_cast<Side>(wheel)), lanes.threshold);
+      counts.add(wheel, k, batch.p_contact(static_cast<Side>(wheel)), batch.threshold);
     }
   }
   return counts.result();

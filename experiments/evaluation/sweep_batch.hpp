@@ -10,14 +10,15 @@
 
 namespace touchdown::experiments {
 
-/// Whether every step of a run is one that an estimator's signal guard lets pass, at any of these
-/// levels: only then may it be replaced by its lanes, which have no guard.
+/// Whether an estimator's signal guard would pass every step of a run at all of these levels. Only
+/// then can a batch, which has no guard, replace the estimator.
 bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> levels);
 
-/// Point-wise counts of so many lanes that listen to a run, both wheels added: by lane, then piece
-/// of the run. `should_continue` is asked every few hundred steps. Errors: `Stopped`.
-std::vector<scoring::Classification> count_in_batch(const BatchedEstimator& lanes, std::size_t count,
-                                                    const RunSignals& run, const NoiseRun& noise,
+/// Point-wise counts of a batch of `count` noise levels on a run, both wheels added: by level, then
+/// segment of the run. Calls `should_continue` every few hundred steps. Errors: `Stopped`.
+std::vector<scoring::Classification> count_in_batch(const BatchedEstimator& batch,
+                                                    std::size_t count, const RunSignals& run,
+                                                    const NoiseRun& noise,
                                                     const scoring::ScoringConfig& scoring,
                                                     const std::function<bool()>& should_continue);
 

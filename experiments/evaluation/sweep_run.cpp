@@ -9,8 +9,8 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The noise levels that differ for an estimator with these sensors, and which of them each cell
-/// has.
+/// The noise levels that differ for an estimator with these sensors, and the index of each cell's
+/// level among them.
 struct DifferentLevels {
   DifferentLevels(const Sensors& sensors, std::span<const noise::SensorNoise> levels) {
     for (const noise::SensorNoise& level : levels) {
@@ -76,7 +76,7 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
                                                const scoring::ScoringConfig& scoring,
                                                const ShouldContinue& should_continue) {
   const std::vector<noise::SensorNoise> all_levels = levels_of(cells);
-  const bool batch_apply = needs_no_guard(run, all_levels);
+  const bool can_batch = needs_no_guard(run, all_levels);
   const std::size_t segments = run.segments.size();
   std::vector<scoring::Classification> counts;
   counts.reserve(conditions.size() * cells.size() * segments);
@@ -84,15 +84,16 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
     const EstimatorEntry entry = entry_of(condition, models);
     const EstimatorSetup setup = setup_of(condition, models, run);
     const DifferentLevels levels(entry.sensors, all_levels);
-    std::optional<BatchedEstimator> lanes;
-    if (batch_apply && entry.lanes != nullptr) lanes = entry.lanes(entry, setup, levels.different);
+    std::optional<BatchedEstimator> batch;
+    if (can_batch && entry.batch != nullptr) batch = entry.batch(entry, setup, levels.different);
     const auto one_by_one = [&] {
       EstimatorRunner runner = runner_of(entry, setup);
       return sweep_levels(runner, levels.different, run, noise, scoring, should_continue);
     };
     const std::vector<scoring::Classification> by_level =
-        lanes ? count_in_batch(*lanes, levels.different.size(), run, noise, scoring, should_continue)
-              : one_by_one();
+        batch
+            ? count_in_batch(*batch, levels.different.size(), run, noise, scoring, should_continue)
+            : one_by_one();
     for (const std::size_t level : levels.of_cell) {
       const auto first = by_level.begin() + static_cast<std::ptrdiff_t>(level * segments);
       counts.insert(counts.end(), first, first + static_cast<std::ptrdiff_t>(segments));

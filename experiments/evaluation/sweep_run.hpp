@@ -9,10 +9,10 @@
 
 namespace touchdown::experiments {
 
-/// Point-wise counts of one run under one noise realisation, both wheels added: by condition, then
-/// cell, then piece of the run (`RunSignals::pieces`). Estimators that can listen to many noise
-/// levels side by side do; noise on a sensor that an estimator does not use costs nothing. Errors:
-/// `Stopped`.
+/// Point-wise counts of one run with one noise realisation, both wheels added: by condition, then
+/// cell, then segment of the run (`RunSignals::segments`). Estimators with a batched form process
+/// all noise levels at once. Noise on a sensor that an estimator does not use costs no time.
+/// Errors: `Stopped`.
 std::vector<scoring::Classification> sweep_run(std::span<const Condition> conditions,
                                                std::span<const noise::NoiseCell> cells,
                                                const RunSignals& run, const NoiseRun& noise,
@@ -20,7 +20,7 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
                                                const scoring::ScoringConfig& scoring,
                                                const ShouldContinue& should_continue);
 
-/// Of one estimator that listens to one noise level after the other: by level, then piece.
+/// The counts of one estimator that processes the noise levels one by one: by level, then segment.
 std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
                                                   std::span<const noise::SensorNoise> levels,
                                                   const RunSignals& run, const NoiseRun& noise,

@@ -19,7 +19,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-// The build is part of a state file's key, so that its numbers may be kept as they lie in memory.
+// The build is part of a state file's key, so numbers can be saved in their memory layout.
 template <typename T>
 void append(std::string& bytes, const std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -40,17 +40,17 @@ void take(std::vector<T>& values, std::string_view& bytes) {
   bytes.remove_prefix(count * sizeof(T));
 }
 
-/// Calls `part(counts, ...)` for each of the four that belong to cells.
+/// Calls `part(counts, ...)` for each of the four lists that belong to cells.
 template <typename Part, typename... Counts>
 void for_each_part(const Part& part, Counts&... counts) {
   part(counts.counted...);
   part(counts.scored...);
-  part(counts.close...);
+  part(counts.extended...);
   part(counts.disturbed...);
 }
 
-/// Adds what one task found out to the conditions that are tested on its engine. The noise seeds of
-/// a run are one sample: later ones are added to the first one's.
+/// Adds the results of one task to the conditions that are tested on its engine. All noise seeds of
+/// a run are one sample, so later seeds are added to the sample of the first one.
 template <typename Sample>
 void add_samples(std::vector<ConditionSamples<Sample>>& all, const std::vector<Sample>& found,
                  const std::string& simulator, bool first_seed) {
@@ -69,16 +69,16 @@ void add_samples(std::vector<ConditionSamples<Sample>>& all, const std::vector<S
   }
 }
 
-/// Both wheels of a whole run whose signals are disturbed.
+/// Counts of both wheels over a whole run with disturbed signals.
 scoring::Classification count(EstimatorRunner& runner, const RunSignals& run, const NoiseRun& noise,
                               const noise::NoiseKey& key, const DisturbedCell& cell,
                               const scoring::ScoringConfig& scoring) {
-  const NoiseRun heard = cell.disturbance.heavy_tails ? with_heavy_tails(noise, key) : noise;
+  const NoiseRun draws = cell.disturbance.heavy_tails ? with_heavy_tails(noise, key) : noise;
   const std::size_t skip = scoring::first_scored_step(run.info.control_period_us, scoring);
   scoring::Classification sum;
   runner.run_estimator(
       run,
-      [&](std::size_t k) { return disturbed(run, heard, cell.cell.levels(), k, cell.disturbance); },
+      [&](std::size_t k) { return disturbed(run, draws, cell.cell.levels(), k, cell.disturbance); },
       [&](std::size_t k, const Belief& belief) {
         for (std::size_t w = 0; w < models::wheel_count && k >= skip; ++w) {
           sum.add(run.contact[w][k] != 0, belief.wheel[w].contact);
@@ -87,7 +87,7 @@ scoring::Classification count(EstimatorRunner& runner, const RunSignals& run, co
   return sum;
 }
 
-/// What an estimator's decisions are worth, and those that its probabilities make elsewhere.
+/// Scores an estimator's own decisions, then its decisions at each operating point.
 void add_operating_scores(const RunSignals& run, const scoring::Prediction& prediction,
                           const OperatingPointsConfig& config,
                           const scoring::ScoringConfig& scoring, TaskCounts& counts) {
@@ -129,7 +129,7 @@ void add_scores(const RunSignals& run, const scoring::Prediction& prediction,
       scoring::score(run.contact, prediction, run.segments, period_us, scoring);
   counts.scored.insert(counts.scored.end(), scores.begin(), scores.end());
   if (!has_extended_scores) return;
-  counts.close.push_back(
+  counts.extended.push_back(
       scoring::extended_score(run.contact, run.normal_force, prediction, period_us, scoring));
 }
 
@@ -144,9 +144,9 @@ SavedCounts::SavedCounts(std::filesystem::path folder, std::string key)
     : folder_(std::move(folder)), key_(std::move(key)) {}
 
 std::optional<TaskCounts> SavedCounts::read(const Plan& plan, const Task& task) const {
-  if (at_hand_) {
-    const auto found = at_hand_->find(task_name(plan, task));
-    return found == at_hand_->end() ? std::nullopt : std::optional(found->second);
+  if (in_memory_) {
+    const auto found = in_memory_->find(task_name(plan, task));
+    return found == in_memory_->end() ? std::nullopt : std::optional(found->second);
   }
   const std::optional<std::string> bytes =
       read_state(folder_ / task_name(plan, task), key_of(plan, task));
@@ -178,8 +178,8 @@ static TaskCounts saved_counts(const Plan& plan, const Task& task, const SavedCo
 }
 
 TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
-                  const scoring::ScoringConfig& scoring, const FittedModels& models,
-                  const ShouldContinue& should_continue) {
+                    const scoring::ScoringConfig& scoring, const FittedModels& models,
+                    const ShouldContinue& should_continue) {
   const RunGroup& group = plan.group_of(task);
   const std::vector<Condition> conditions = tested_on(group.conditions, run.info.simulator);
   const NoiseRun noise = noise_run(run, task.noise);
@@ -193,8 +193,8 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
         score_odometry(run, noise, group.scored.front().levels(), p_contact, scoring));
   };
   if (group.odometry) {
-    for (const ContactTrack& told : oracle_tracks(*group.odometry, run)) {
-      add_odometry({told[0], told[1]});
+    for (const ContactTrack& contact : oracle_tracks(*group.odometry, run)) {
+      add_odometry({contact[0], contact[1]});
     }
   }
   for (const Condition& condition : conditions) {
@@ -222,8 +222,8 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
 }
 
 std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& runs,
-                   const scoring::ScoringConfig& scoring, const FittedModels& models,
-                   const SavedCounts& saved, const ShouldContinue& should_continue) {
+                     const scoring::ScoringConfig& scoring, const FittedModels& models,
+                     const SavedCounts& saved, const ShouldContinue& should_continue) {
   Progress progress("evaluating", "parts", static_cast<std::int64_t>(tasks.size()));
   std::atomic<std::size_t> computed = 0;
   tbb::parallel_for(
@@ -237,8 +237,9 @@ std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& r
           }
           const Rollout& run = runs.at(task.run);
           saved.write(plan, task,
-                      run.failed() ? TaskCounts{}
-                                   : evaluate(plan, task, run.signals, scoring, models, should_continue));
+                      run.failed()
+                          ? TaskCounts{}
+                          : evaluate(plan, task, run.signals, scoring, models, should_continue));
           ++computed;
           progress.advance();
         }
@@ -246,7 +247,8 @@ std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& r
   return computed;
 }
 
-std::vector<TaskCounts> findings_of(std::size_t run, const Plan& plan, const SavedCounts& saved) {
+std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan,
+                                       const SavedCounts& saved) {
   std::vector<TaskCounts> all;
   for (const Task& task : plan.tasks) {
     if (task.run == run) all.push_back(saved_counts(plan, task, saved));
@@ -268,7 +270,7 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
     if (!group.scores(condition)) continue;
     add_to(all.scored, group.scored.size());
     if (condition.refit > 0) continue;
-    add_to(all.close, group.has_extended_scores ? group.scored.size() : 0);
+    add_to(all.extended, group.has_extended_scores ? group.scored.size() : 0);
     add_to(all.disturbed, group.disturbed.size());
   }
   for (const Task& task : plan.tasks) {

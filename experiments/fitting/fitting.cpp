@@ -22,8 +22,9 @@ struct Job {
   FittedModel model;
 };
 
-const HyperparameterValues& hyperparameters_of(const TunedHyperparameters& chosen, const std::string& simulator,
-                              const std::string& estimator) {
+const HyperparameterValues& hyperparameters_of(const TunedHyperparameters& chosen,
+                                               const std::string& simulator,
+                                               const std::string& estimator) {
   static const HyperparameterValues defaults;
   const auto engine = chosen.find(simulator);
   if (engine == chosen.end()) return defaults;
@@ -92,19 +93,20 @@ ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,
 
 FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& segments,
-                        const std::function<bool()>& should_continue, const TunedHyperparameters& of_tuning) {
+                        const std::function<bool()>& should_continue,
+                        const TunedHyperparameters& of_tuning) {
   const TunedHyperparameters chosen = or_given(of_tuning, experiment);
   std::vector<Job> jobs = jobs_of(experiment, chosen);
-  const auto or_stop = [&] {
+  const auto stop_if_asked = [&] {
     if (should_continue && !should_continue()) throw Stopped();
   };
   const auto runs_of = [&](const std::string& simulator) {
-    return FitRuns{of_engine(fit_runs, simulator), of_engine(segments, simulator), experiment.scoring,
-                   or_stop};
+    return FitRuns{of_engine(fit_runs, simulator), of_engine(segments, simulator),
+                   experiment.scoring, stop_if_asked};
   };
   Progress progress("fitting", "models", static_cast<std::int64_t>(jobs.size()));
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-    or_stop();
+    stop_if_asked();
     const std::string& simulator = jobs[i].simulator;
     try {
       jobs[i].model = fit_model(jobs[i].entry, runs_of(simulator));

@@ -11,29 +11,29 @@
 
 namespace touchdown::experiments {
 
-/// HyperparameterValues that were chosen for estimators, by engine, then estimator.
+/// Chosen values of hyperparameters, by engine, then estimator.
 using TunedHyperparameters = std::map<std::string, std::map<std::string, HyperparameterValues>>;
 
-/// What was chosen, and for estimators without a choice what the experiment's file says.
+/// Adds the values of the experiment file for estimators without chosen values.
 TunedHyperparameters or_given(TunedHyperparameters chosen, const Experiment& experiment);
 
 /// The runs of one engine.
 std::vector<const RunSignals*> of_engine(const std::vector<RunSignals>& runs,
                                          const std::string& simulator);
 
-/// One model, still without a passport. Errors: `InputError` for runs of reserved seeds, and what
-/// the fit throws.
+/// Fits one model, still without metadata. Errors: `InputError` for runs of reserved seeds; the
+/// errors of the entry's `fit`.
 FittedModel fit_model(const EstimatorEntry& entry, const FitRuns& runs);
 
-/// The passport of an estimator's model that is fitted to these runs. Chosen constants that the
-/// library knows are part of how it runs the estimator; of one that it does not make, all are.
+/// The metadata of an estimator's model that is fitted to these runs. Its configuration takes over
+/// chosen values as `put_into` does.
 ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,
                            const HyperparameterValues& hyperparameters);
 
-/// Fits what the experiment's estimators need, for each engine on its own runs, in parallel: phase
-/// models to the pieces of an engine that has any. Estimators that something was chosen for, or
-/// given, have it in their models, also those that are not fitted. `should_continue` is asked before each
-/// density; false ends it with `Stopped`.
+/// Fits the models of the experiment's estimators, for each engine on its own runs, in parallel.
+/// Phase models are fitted to the engine's training segments, if it has any. Every model contains
+/// the chosen or given hyperparameters, also for estimators without a fit. `should_continue` is
+/// called before each density. Errors: `Stopped` when it returns false.
 FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& segments = {},
                         const std::function<bool()>& should_continue = {},

@@ -13,7 +13,8 @@ EstimatorEntry entry_of(const Condition& condition, const FittedModels& models) 
   const auto fit = models.find(model_key(condition.fit_simulator, condition.fit, condition.refit));
   if (fit == models.end()) return entry;
   const auto model = fit->second.find(condition.estimator);
-  return model == fit->second.end() ? entry : with_hyperparameters(entry, model->second.hyperparameters);
+  return model == fit->second.end() ? entry
+                                    : with_hyperparameters(entry, model->second.hyperparameters);
 }
 
 EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,
@@ -31,13 +32,14 @@ std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
                                                  const RunSignals& run) {
   const EstimatorEntry entry = entry_of(condition, models);
   if (entry.make == nullptr) {
-    throw InputError(fmt::format("'{}' hears whole runs, and this goes step by step", entry.name));
+    throw InputError(fmt::format("'{}' processes whole runs, and this use needs one step at a time",
+                                 entry.name));
   }
   return entry.make(entry, setup_of(condition, models, run));
 }
 
 EstimatorRunner runner_of(const Condition& condition, const FittedModels& models,
-                     const RunSignals& run) {
+                          const RunSignals& run) {
   return runner_of(entry_of(condition, models), setup_of(condition, models, run));
 }
 

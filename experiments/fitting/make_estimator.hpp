@@ -8,20 +8,20 @@
 
 namespace touchdown::experiments {
 
-/// The condition's estimator, with the constants that it was fitted with.
+/// The condition's estimator, with the hyperparameters of its fit.
 EstimatorEntry entry_of(const Condition& condition, const FittedModels& models);
 
-/// What the condition's estimator is made for when it listens to this run; `models` and `run` must
-/// outlive it.
+/// The setup of the condition's estimator for this run. `models` and `run` must outlive it.
 EstimatorSetup setup_of(const Condition& condition, const FittedModels& models,
                         const RunSignals& run);
 
-/// A fresh estimator as the condition wants it, for this run, step by step. Errors: `InputError`
-/// for one that hears whole runs.
+/// A new estimator of the condition for this run, which is updated step by step. Errors:
+/// `InputError` for an estimator that processes whole runs only.
 std::unique_ptr<ContactEstimator> make_estimator(const Condition& condition,
                                                  const FittedModels& models, const RunSignals& run);
 
-/// Likewise, however it listens.
-EstimatorRunner runner_of(const Condition& condition, const FittedModels& models, const RunSignals& run);
+/// A new runner of the condition's estimator, which processes steps or whole runs.
+EstimatorRunner runner_of(const Condition& condition, const FittedModels& models,
+                          const RunSignals& run);
 
 }  // namespace touchdown::experiments

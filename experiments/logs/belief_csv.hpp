@@ -9,18 +9,18 @@
 namespace touchdown::experiments {
 
 /// Writes beliefs as comma-separated values, one line per step: time (s), contact probability and
-/// decision (1 or 0) of either wheel, probability that any and that both touch, P(takeoff) and
-/// P(landing) of the transition model, status. Numbers are the shortest that read back to the same
-/// bits; `nan` for what an estimator does not compute.
+/// decision (1 or 0) of each wheel, P(any wheel in contact), P(both wheels in contact), P(takeoff)
+/// and P(landing) of the transition model, status. Numbers are the shortest that read back to the
+/// same bits; `nan` stands for values that an estimator does not compute.
 class BeliefCsv {
  public:
   /// Writes the header. `stream` must outlive this.
   explicit BeliefCsv(std::ostream& stream);
 
-  /// Lines are collected; every 64 kB they are written. Errors: `Error` when the stream fails.
+  /// Buffers lines and writes them every 64 kB. Errors: `Error` when the stream fails.
   void write(double time, const Belief& belief, const Evidence& evidence);
 
-  /// Writes what was collected. Errors: as above.
+  /// Writes the buffered lines. Errors: as above.
   void flush();
 
  private:

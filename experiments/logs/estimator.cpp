@@ -14,8 +14,8 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The estimator that such a model is usually for: whom it was fitted for, or else the first that
-/// is fitted with one.
+/// The default estimator of a model: the one it was fitted for, else the first that takes a model
+/// of this kind.
 const EstimatorEntry& usual_estimator(ModelKind kind, const FittedModel& model) {
   if (model.metadata) return estimator_entry(model.metadata->estimator);
   if (model.parameters) return estimator_entry(model.parameters->estimator);
@@ -46,8 +46,8 @@ void check_parameters(const EstimatorEntry& entry, const FittedModel& model,
 void check_fit(const EstimatorEntry& entry, ModelKind kind, const FittedModel& model,
                const std::filesystem::path& path) {
   const EstimatorEntry& usual = usual_estimator(kind, model);
-  const bool is_told = kind == ModelKind::parameters || model.metadata;
-  if (is_told ? share_model(entry, usual) : kind == entry.fits()) return;
+  const bool has_estimator = kind == ModelKind::parameters || model.metadata;
+  if (has_estimator ? share_model(entry, usual) : kind == entry.fits()) return;
   throw InputError(fmt::format("{}: is {}, which '{}' cannot use (did you mean --estimator {}?)",
                                path.string(), described(kind, model, usual, entry), entry.name,
                                usual.name));
@@ -56,7 +56,7 @@ void check_fit(const EstimatorEntry& entry, ModelKind kind, const FittedModel& m
 void check_needs(const EstimatorEntry& entry, const std::filesystem::path& model) {
   if (entry.needs_truth) {
     throw InputError(fmt::format(
-        "--estimator: the {} repeats the ground truth, it does not listen to logs", entry.name));
+        "--estimator: the {} repeats the ground truth and does not run on logs", entry.name));
   }
   if (!entry.fits() && !model.empty()) {
     throw InputError(fmt::format("--model: '{}' is not fitted and takes none", entry.name));
@@ -69,7 +69,7 @@ void check_needs(const EstimatorEntry& entry, const std::filesystem::path& model
   }
 }
 
-/// The entry as its own model's passport says it is run.
+/// The entry with the configuration from its own model's metadata.
 EstimatorEntry configured(EstimatorEntry entry, const FittedModel& model,
                           const std::filesystem::path& path) {
   if (!model.metadata || model.metadata->estimator != entry.name) return entry;
@@ -79,10 +79,10 @@ EstimatorEntry configured(EstimatorEntry entry, const FittedModel& model,
       configure(*entry.config, model.metadata->configuration);
     }
     if (entry.phase) configure(*entry.phase, model.metadata->configuration);
-    for (Hyperparameter& choice : entry.hyperparameters) {
-      const auto said = model.metadata->configuration.find(choice.name);
-      if (said == model.metadata->configuration.end()) continue;
-      choice.value = number_of(said->second).value_or(choice.value);
+    for (Hyperparameter& hyperparameter : entry.hyperparameters) {
+      const auto stored = model.metadata->configuration.find(hyperparameter.name);
+      if (stored == model.metadata->configuration.end()) continue;
+      hyperparameter.value = number_of(stored->second).value_or(hyperparameter.value);
     }
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
@@ -104,15 +104,15 @@ std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
                                    request.model.string(), error.what()));
     }
   }
-  EstimatorEntry heard = entry;
-  if (heard.config) heard.config = at_rate(*entry.config, sample_rate);
-  return heard.make(heard, {sample_rate, &model, request.robot.legs});
+  EstimatorEntry resampled = entry;
+  if (resampled.config) resampled.config = at_rate(*entry.config, sample_rate);
+  return resampled.make(resampled, {sample_rate, &model, request.robot.legs});
 }
 
 std::string LogEstimator::model_text() const {
   if (request.model.empty()) return {};
   if (!model.metadata) {
-    return fmt::format("{}: has no passport, being older or from elsewhere: taken for '{}'",
+    return fmt::format("{}: has no metadata (an older or external file): used with '{}'",
                        request.model.string(), entry.name);
   }
   const ModelMetadata& metadata = *model.metadata;
@@ -140,14 +140,16 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
   check_fit(entry, kind, model, request.model);
   if (kind == ModelKind::parameters) check_parameters(entry, model, request.model);
   check_names(request.hyperparameters, entry);
-  for (const Hyperparameter& choice : entry.hyperparameters) {
-    if (!choice.is_fitted_with || !request.hyperparameters.contains(choice.name)) continue;
-    throw InputError(fmt::format("'{0}' is decided by the fit: touchdown fit --set {0}={1}",
-                                 choice.name, text_of(request.hyperparameters.at(choice.name))));
+  for (const Hyperparameter& hyperparameter : entry.hyperparameters) {
+    const std::string& name = hyperparameter.name;
+    if (!hyperparameter.is_fitted_with || !request.hyperparameters.contains(name)) continue;
+    throw InputError(fmt::format("'{0}' is fixed by the fit: touchdown fit --set {0}={1}", name,
+                                 text_of(request.hyperparameters.at(name))));
   }
   EstimatorEntry own = configured(entry, model, request.model);
   if (model.metadata) put_into(*model.metadata, request.hyperparameters);
-  return {with_hyperparameters(std::move(own), request.hyperparameters), std::move(model), std::move(request)};
+  return {with_hyperparameters(std::move(own), request.hyperparameters), std::move(model),
+          std::move(request)};
 }
 
 }  // namespace touchdown::experiments

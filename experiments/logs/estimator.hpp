@@ -11,37 +11,37 @@
 
 namespace touchdown::experiments {
 
-/// Which estimator listens to logs, with which model.
+/// An estimator to run on logs, and its model.
 struct LogEstimatorRequest {
-  std::string name = {};             ///< empty: as the model says
+  std::string name = {};             ///< empty: the one in the model's metadata
   std::filesystem::path model = {};  ///< empty: none
-  LogRobot robot = {};               ///< whose logs they are; its legs before the model's
-  /// At other rates and on other robots than it was fitted for, too.
+  LogRobot robot = {};               ///< robot of the logs; its legs replace the model's
+  /// Allows other rates and robots than those that the model was fitted for.
   bool transfer = false;
-  HyperparameterValues hyperparameters = {};  ///< instead of the model's; of those that its fit did not need
+  HyperparameterValues hyperparameters = {};  ///< replace the model's; none that the fit uses
 };
 
-/// An estimator for logs: which one, and what it was fitted with.
+/// An estimator for logs, with its fitted model.
 struct LogEstimator {
   EstimatorEntry entry;
   FittedModel model;
   LogEstimatorRequest request;
 
-  /// At a log's rate (Hz). The window of a transition model lasts as long as at 1 kHz. Errors:
-  /// `InputError` for a rate that the estimator cannot be run at, and for a rate or a robot that
-  /// its model was not fitted for, unless that was asked for.
+  /// The estimator at a log's rate (Hz). The window of a transition model keeps its duration at
+  /// 1 kHz. Errors: `InputError` for a rate at which the estimator cannot run. Without
+  /// `request.transfer` also for a rate or a robot that the model was not fitted for.
   std::unique_ptr<ContactEstimator> make(double sample_rate,
                                          const recordings::RecordingInfo& log = {}) const;
 
-  /// What the model says about itself, in a line; empty without a model.
+  /// The model's metadata in one line; empty without a model.
   std::string model_text() const;
 };
 
-/// The model may be one of the project's own (core/resources.hpp), wherever the program is called.
-/// Whose it is, if no name is given: as its passport or its parameters say, or else `phase`
-/// for a phase model, `robust` for a grid. Errors: `InputError` for an unknown name (with the
-/// nearest one), a model that is missing, not needed, another estimator's or unreadable, and for an
-/// estimator that does not listen to logs.
+/// Makes the estimator of a request. The model may be one of the project's own
+/// (core/resources.hpp). Without a name, the model's metadata or parameters name the estimator;
+/// else it is `phase` for a phase model and `robust` for a grid. Errors: `InputError` for an
+/// unknown name (with the nearest one); for a model that is missing, not needed, unreadable or of
+/// another estimator; for an estimator that does not run on logs.
 LogEstimator log_estimator(LogEstimatorRequest request);
 
 }  // namespace touchdown::experiments

@@ -26,35 +26,36 @@ recordings::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
                                log.path.string());
 }
 
-/// What a log had to say besides its steps.
-void note_end(const recordings::LogReader& reader, const LogFitConfig& config,
-              LogFitReport& report) {
+/// Adds the reader's warnings to the report. Errors: `Stopped`.
+void add_warnings(const recordings::LogReader& reader, const LogFitConfig& config,
+                  LogFitReport& report) {
   if (config.stop != nullptr && *config.stop) throw Stopped("stopped; no model was written");
   report.warnings.insert(report.warnings.end(), reader.warnings().begin(), reader.warnings().end());
 }
 
-/// At which rate the log is heard, and whose it is.
-void note_rate(const LogSteps& runner, recordings::RecordingInfo info, LogFitReport& report) {
-  info.control_period_us = runner.period_us();
+/// Adds the log's rate and robot to the report.
+void add_source(const LogSteps& steps, recordings::RecordingInfo info, LogFitReport& report) {
+  info.control_period_us = steps.period_us();
   report.fitted_to.add(info);
 }
 
 using Sink = std::function<void(bool contact, const TorqueSample& sample)>;
 
-/// Samples of one leg on their way to the fit: they wait for their labels.
-class Leg {
+/// Buffers the samples of one leg until their labels are known, then passes them to the fit.
+class LabelledLeg {
  public:
-  Leg(const TorqueConfig& config, Side side, const LogSteps& log,
-      const scoring::LabelConfig& labels, Sink sink)
+  LabelledLeg(const TorqueConfig& config, Side side, const LogSteps& log,
+              const scoring::LabelConfig& labels, Sink sink)
       : channel_(config, side, log.sample_rate()),
         sink_(std::move(sink)),
         labels_(log.period(), labels, [this](std::uint8_t contact) { label(contact != 0); }) {}
-  Leg(const Leg&) = delete;
-  Leg& operator=(const Leg&) = delete;
+  LabelledLeg(const LabelledLeg&) = delete;
+  LabelledLeg& operator=(const LabelledLeg&) = delete;
 
   void restart() { channel_.reset(); }
 
-  /// `force` tells the label later, `declared` at once. Returns whether the torques could be used.
+  /// `declared` labels the sample at once, `force` (N) once the debounce has passed. Returns
+  /// whether the torques are usable.
   bool add(const LegSignals& leg, bool skipped, std::optional<bool> declared, double force) {
     std::optional<TorqueSample> sample;
     const bool usable = has_torques(leg);
@@ -87,72 +88,72 @@ bool is_gap(double elapsed, const SignalGuardConfig& guard) {
   return !(elapsed >= 0.0 && elapsed <= guard.maximum_gap);
 }
 
-/// Errors: `InputError` for labels that are about none of a log's times.
+/// Errors: `InputError` for labels that cover no step of the log.
 void check_labelled(const FitLog& log, std::int64_t used, double last_time) {
   if (!log.labels || used > 0) return;
   throw InputError(fmt::format(
-      "{}: none of its stretches, from {:.3f} to {:.3f} s, is about a step of {}, which ends at "
-      "{:.3f} s: times are those that `touchdown estimate` prints",
+      "{}: none of its intervals, from {:.3f} to {:.3f} s, covers a step of {}, which ends at "
+      "{:.3f} s: expected times as `touchdown estimate` prints them",
       log.labels->file, log.labels->intervals.front().start, log.labels->intervals.back().end,
       log.path.string(), last_time));
 }
 
-/// Whether what a log is declared to be agrees with what it says itself, if it does.
-class Declared {
+/// Compares the declared class of a log with its own ground truth, if it has any.
+class DeclaredClass {
  public:
-  Declared(const FitLog& log, const LogFitConfig& config)
+  DeclaredClass(const FitLog& log, const LogFitConfig& config)
       : log_(log), threshold_(config.labels.force_threshold) {}
 
   void add(const LogStep& step) {
     if (!log_.contact || !step.normal_force) return;
     for (const double force : *step.normal_force) {
-      ++told_;
-      against_ += (force > threshold_) != *log_.contact ? 1 : 0;
+      ++labelled_;
+      contradicting_ += (force > threshold_) != *log_.contact ? 1 : 0;
     }
   }
 
   /// Errors: `InputError` for a log that is the other class most of the time.
   void check() const {
-    if (2 * against_ <= told_) return;
+    if (2 * contradicting_ <= labelled_) return;
     throw InputError(fmt::format(
-        "{}: is declared {}, and by its own ground truth {:.1f} % of it are the other: are "
-        "--contact and --no-contact swapped?",
+        "{}: is declared {}, but its own ground truth contradicts this for {:.1f} % of the steps: "
+        "are --contact and --no-contact swapped?",
         log_.path.string(), *log_.contact ? "--contact" : "--no-contact",
-        100.0 * static_cast<double>(against_) / static_cast<double>(told_)));
+        100.0 * static_cast<double>(contradicting_) / static_cast<double>(labelled_)));
   }
 
  private:
   const FitLog& log_;
   double threshold_;
-  std::int64_t told_ = 0;  ///< steps of wheels
-  std::int64_t against_ = 0;
+  std::int64_t labelled_ = 0;  ///< steps, both wheels added
+  std::int64_t contradicting_ = 0;
 };
 
-/// Errors: `InputError` for a step of which nobody says whether the wheels touch.
+/// Errors: `InputError` for a step without ground truth or labels of contact.
 void check_truth(const FitLog& log, const LogStep& step) {
   if (log.contact || log.labels || step.normal_force) return;
   throw InputError(
       fmt::format("{}: at {:.3f} s: no ground truth of contact: name the log after --contact or "
-                  "--no-contact if all of it is one of them, or say with --labels when they do",
+                  "--no-contact if all of it is one class, or give the intervals with --labels",
                   log.path.string(), step.signals.time));
 }
 
 void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitConfig& config,
               const Sink& sink, LogFitReport& report) {
   recordings::LogReader reader = reader_of(log, config);
-  LogSteps runner(reader, log.labels.get());
+  LogSteps steps(reader, log.labels.get());
   check_may_be_fitted(reader.info());
-  note_rate(runner, reader.info(), report);
+  add_source(steps, reader.info(), report);
   const TorqueConfig& torque = filter.measurement.torque;
-  std::array<Leg, models::wheel_count> legs = {
-      Leg(torque, Side::left, runner, config.labels, sink),
-      Leg(torque, Side::right, runner, config.labels, sink)};
-  const auto skipped = std::llround(config.skip / runner.period());
+  std::array<LabelledLeg, models::wheel_count> legs = {
+      LabelledLeg(torque, Side::left, steps, config.labels, sink),
+      LabelledLeg(torque, Side::right, steps, config.labels, sink)};
+  const auto skipped = std::llround(config.skip / steps.period());
   double before = NAN;
   std::int64_t k = 0;
   std::int64_t used = 0;
-  Declared declared(log, config);
-  for (; const LogStep* step = runner.next(); ++k) {
+  DeclaredClass declared(log, config);
+  for (; const LogStep* step = steps.next(); ++k) {
     check_truth(log, *step);
     declared.add(*step);
     const bool is_used = k >= skipped && (!log.labels || step->normal_force);
@@ -167,14 +168,14 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
     }
     before = step->signals.time;
   }
-  note_end(reader, config, report);
+  add_warnings(reader, config, report);
   declared.check();
   check_labelled(log, used, before);
-  for (Leg& leg : legs) leg.finish();
-  report.seconds += static_cast<double>(used) * runner.period();
+  for (LabelledLeg& leg : legs) leg.finish();
+  report.seconds += static_cast<double>(used) * steps.period();
 }
 
-/// How many samples there are without contact, and in contact.
+/// Errors: `InputError` without samples of one class.
 void require_both_classes(std::size_t no_contact, std::size_t contact) {
   if (no_contact < 2) {
     throw InputError(
@@ -214,7 +215,7 @@ MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
   return fit.model();
 }
 
-/// What the phase filter can be fitted to.
+/// Errors: `InputError` for a step that the phase filter cannot be fitted to.
 void check_step(const FitLog& log, const LogStep& step, double before) {
   const auto refuse = [&](std::string_view what) {
     throw InputError(
@@ -233,18 +234,18 @@ void check_step(const FitLog& log, const LogStep& step, double before) {
   }
 }
 
-/// What a step of the log can be used for, or an error.
+/// Throws `InputError` for a step that cannot be used.
 using CheckStep = void (*)(const FitLog& log, const LogStep& step, double before);
 
-/// A run that is being heard: its labels come when no later step can change them.
-class HeardRun {
+/// Collects the steps of one run. A label follows once no later step can change it.
+class LabelledRun {
  public:
-  HeardRun(const recordings::RecordingInfo& info, const scoring::LabelConfig& labels)
+  LabelledRun(const recordings::RecordingInfo& info, const scoring::LabelConfig& labels)
       : labels_{labels_of(0, info, labels), labels_of(1, info, labels)} {
     run_.info = info;
   }
-  HeardRun(const HeardRun&) = delete;
-  HeardRun& operator=(const HeardRun&) = delete;
+  LabelledRun(const LabelledRun&) = delete;
+  LabelledRun& operator=(const LabelledRun&) = delete;
 
   void add(const LogStep& step, std::optional<bool> declared) {
     for (std::size_t wheel = 0; wheel < labels_.size(); ++wheel) {
@@ -276,23 +277,23 @@ class HeardRun {
   std::array<scoring::LabelStream, models::wheel_count> labels_;
 };
 
-/// The log as one run; where only stretches of it are labelled, one for each.
+/// The log as one run, or as one run per labelled segment.
 void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep check,
                      LogFitReport& report, std::vector<RunSignals>& runs) {
   recordings::LogReader reader = reader_of(log, config);
-  LogSteps runner(reader, log.labels.get());
+  LogSteps steps(reader, log.labels.get());
   recordings::RecordingInfo info = reader.info();
-  info.control_period_us = runner.period_us();
-  note_rate(runner, info, report);
-  Declared declared(log, config);
-  std::optional<HeardRun> run;
+  info.control_period_us = steps.period_us();
+  add_source(steps, info, report);
+  DeclaredClass declared(log, config);
+  std::optional<LabelledRun> run;
   const auto finish = [&] {
     if (run) runs.push_back(run->finish());
     run.reset();
   };
   std::int64_t used = 0;
   double last_time = 0.0;
-  while (const LogStep* step = runner.next()) {
+  while (const LogStep* step = steps.next()) {
     last_time = step->signals.time;
     if (log.labels && !step->normal_force) {
       finish();
@@ -305,12 +306,12 @@ void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep ch
     ++used;
   }
   finish();
-  note_end(reader, config, report);
+  add_warnings(reader, config, report);
   declared.check();
   check_labelled(log, used, last_time);
 }
 
-/// All logs in memory, and what is used of them in the report.
+/// Loads all logs into memory, and adds to the report how much of them is used.
 std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogFitConfig& config,
                                         CheckStep check, LogFitReport& report) {
   report = {};
@@ -327,7 +328,7 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
   return runs;
 }
 
-/// Whether both wheels leave the ground together somewhere in what is used of the run.
+/// Whether both wheels leave the ground together in the used part of the run.
 bool has_takeoff(const RunSignals& run, std::size_t skipped) {
   const scoring::ContactSequence any = scoring::any_wheel(run.contact);
   const std::vector<scoring::Flight> all = scoring::flights(any);
@@ -382,7 +383,8 @@ FittedModel fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
 FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                         const LogFitConfig& config, LogFitReport& report) {
   check_names(config.hyperparameters, entry);
-  FittedModel model = fit_model(with_hyperparameters(entry, config.hyperparameters), logs, config, report);
+  FittedModel model =
+      fit_model(with_hyperparameters(entry, config.hyperparameters), logs, config, report);
   if (!config.robot.name.empty()) report.fitted_to.robots = {config.robot.name};
   report.fitted_to.legs = config.robot.legs.value_or(LegGeometry{});
   model.metadata = new_metadata(entry.name, report.fitted_to);

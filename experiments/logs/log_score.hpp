@@ -8,17 +8,17 @@
 
 namespace touchdown::experiments {
 
-/// The score of beliefs about a log, against its ground truth or what somebody says of stretches of
-/// it: each of those is scored as a run, without what `scoring.skip` leaves out of the log.
+/// The score of beliefs about a log, against its ground truth or against labels of segments. Each
+/// segment is scored as a run; `scoring.skip` applies to the beginning of the log.
 class LogScore {
  public:
-  /// `segment_counts`: the truth may be known of a part of the log; otherwise of all or nothing.
+  /// `segment_counts`: ground truth of a part of the log suffices; otherwise all of it is needed.
   LogScore(std::int64_t period_us, const scoring::LabelConfig& labels,
            const scoring::ScoringConfig& scoring, bool segment_counts);
 
   void add(const LogStep& step, const Belief& belief);
 
-  /// The log is over. Nothing where there is no truth.
+  /// Ends the log. Returns nothing without ground truth.
   std::optional<scoring::RobotScore> finish();
 
  private:

@@ -31,17 +31,17 @@ std::int64_t usable_period_us(recordings::LogReader& reader) {
   return period;
 }
 
-/// A log may be a simulated robot's at rest, whose servos repeat themselves.
+/// Repeated values are no fault: a simulated robot at rest reports the same values again.
 AssemblyConfig assembly_of(std::int64_t period_us) {
   return {.sample_rate = 1e6 / static_cast<double>(period_us), .stale_after = 0.0};
 }
 
-/// As a log says it that knows contact but no forces.
+/// Stand-ins for the forces of a log with labels of contact alone.
 std::optional<std::array<double, models::wheel_count>> forces(
-    const recordings::ContactInterval* said) {
-  if (said == nullptr) return std::nullopt;
+    const recordings::ContactInterval* label) {
+  if (label == nullptr) return std::nullopt;
   constexpr double some_force = std::numeric_limits<double>::infinity();
-  return {{said->contact[0] ? some_force : 0.0, said->contact[1] ? some_force : 0.0}};
+  return {{label->contact[0] ? some_force : 0.0, label->contact[1] ? some_force : 0.0}};
 }
 
 }  // namespace

@@ -11,35 +11,34 @@
 
 namespace touchdown::experiments {
 
-/// What one step of a log says to an estimator, and the truth about its wheels where the log has
-/// it, or somebody says it.
+/// The input of an estimator at one step of a log, and the wheels' ground truth if the log or its
+/// labels have it.
 struct LogStep {
   Signals signals;
-  /// Normal force on the left and the right wheel (N); infinite for a wheel that touches with an
+  /// Normal force on the left and the right wheel (N); infinite for a wheel in contact with an
   /// unknown force.
   std::optional<std::array<double, models::wheel_count>> normal_force;
 };
 
-/// Listens to a log as an estimator does, step by step.
+/// Reads a log step by step, as the inputs of an estimator.
 class LogSteps {
  public:
-  /// `reader` must outlive the listener. With `labels`, which must too, the truth is what they say,
-  /// whatever the log says itself. Errors: those of the reader; `InputError` for a log with
-  /// less than 100 steps per second, in which every step would be a gap (`SignalGuardConfig`), or
-  /// with more than 20,000.
+  /// `reader` and `labels` must outlive this. `labels`, if given, replace the log's own ground
+  /// truth. Errors: those of the reader; `InputError` for a log with fewer than 100 steps per
+  /// second, where every step would be a gap (`SignalGuardConfig`), or with more than 20,000.
   explicit LogSteps(recordings::LogReader& reader,
-                       const recordings::ContactIntervals* labels = nullptr);
+                    const recordings::ContactIntervals* labels = nullptr);
 
   /// The next step, valid until the next call; null at the end of the log.
   const LogStep* next();
 
-  /// What the log says, or for a robot's log the median step, taken for a whole multiple of 0.5 ms
-  /// if it is one within 2 %: clocks jitter, and some estimators know only certain rates.
+  /// The log's period. For a robot's log it is the median step, rounded to a multiple of 0.5 ms if
+  /// one lies within 2 %: clocks jitter, and some estimators support only certain rates.
   std::int64_t period_us() const { return period_us_; }
   double period() const { return 1e-6 * static_cast<double>(period_us_); }
   double sample_rate() const { return 1e6 / static_cast<double>(period_us_); }
 
-  /// At how many steps so far the IMU's orientation contradicted gravity: their vertical
+  /// Number of steps so far with an IMU orientation that contradicts gravity. Their vertical
   /// acceleration is NaN.
   std::uint64_t upside_down() const { return assembler_.count(RecordFault::upside_down); }
 

@@ -17,7 +17,7 @@ LogRobot robot_called(const std::string& name_or_file) {
 }
 
 std::string robot_text(const std::string& name) {
-  return name.empty() ? "a robot that nobody named" : "'" + name + "'";
+  return name.empty() ? "an unnamed robot" : "'" + name + "'";
 }
 
 }  // namespace touchdown::experiments

@@ -7,18 +7,18 @@
 
 namespace touchdown::experiments {
 
-/// Whose logs they are.
+/// The robot of some logs.
 struct LogRobot {
-  std::string name = {};                 ///< empty: as the logs say, if they do
-  std::optional<LegGeometry> legs = {};  ///< as its file has them, if there is one
+  std::string name = {};                 ///< empty: as in the logs, if they name one
+  std::optional<LegGeometry> legs = {};  ///< from its file, if there is one
 };
 
-/// From what somebody calls it: by a name, or by its file, an MJCF or a YAML file about one
-/// (models/robot_description.hpp), of which it has its name and its legs. Errors: `InputError` for
-/// a file that is not there, with the nearest name in its folder, or that describes no robot.
+/// Takes a name, or a file: an MJCF, or a YAML description of one (models/robot_description.hpp). A
+/// file gives the robot its name and its legs. Errors: `InputError` for a missing file (with the
+/// nearest name in its folder) and for a file that describes no robot.
 LogRobot robot_called(const std::string& name_or_file);
 
-/// A model's robot as a message has it: its name in quotes, or that it has none.
+/// A model's robot for messages: its name in quotes, or "an unnamed robot".
 std::string robot_text(const std::string& name);
 
 }  // namespace touchdown::experiments

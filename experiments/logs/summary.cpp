@@ -30,7 +30,7 @@ std::string found(const scoring::TransitionCounts& counts, std::string_view name
 
 std::string score_text(const scoring::Score& score) {
   return fmt::format(
-      "{:<12} success {:.4f}, precision and recall of contact {:.4f} {:.4f}, of no contact {:.4f} "
+      "{:<12} accuracy {:.4f}, precision and recall of contact {:.4f} {:.4f}, of no contact {:.4f} "
       "{:.4f}, Brier {:.4f}\n{:<12} {}; {}\n",
       "truth", score.points.success(), score.points.contact_precision(),
       score.points.contact_recall(), score.points.no_contact_precision(),
@@ -57,7 +57,7 @@ void LogSummary::Clock::add(double time) {
   if (std::isnan(previous)) {
     first = last = time;
   } else {
-    // A record that is late by less than half a step is no lost one.
+    // A record with a delay below half a step does not count as lost.
     if (time - previous > 1.5 * period) lost += time - previous - period;
     if (time < previous) ++steps_back;
   }
@@ -67,7 +67,7 @@ void LogSummary::Clock::add(double time) {
 }
 
 std::string LogSummary::Clock::text(double start) const {
-  if (std::isnan(previous)) return "never a finite number";
+  if (std::isnan(previous)) return "no finite value";
   std::string text = fmt::format("from {:.3f} to {:.3f} s", first, last);
   if (start != 0.0) text += fmt::format(", 0 being {:.3f} s of the log's clock", start);
   if (lost > 0.0) text += fmt::format("; {:.3f} s without records", lost);
@@ -98,7 +98,7 @@ void LogSummary::add(double time, const Belief& belief) {
 
 std::string LogSummary::contact_text() const {
   const std::int64_t counted = std::max<std::int64_t>(steps_ - skipped_, 0);
-  if (counted == 0) return "too short to tell";
+  if (counted == 0) return "too short to count";
   return fmt::format("left {}, right {}, any wheel {}, both {}", percent(contact_[0], counted),
                      percent(contact_[1], counted), percent(contact_[2], counted),
                      percent(contact_[3], counted));

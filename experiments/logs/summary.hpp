@@ -11,9 +11,9 @@
 
 namespace touchdown::experiments {
 
-/// Counts what an estimator made of a log. Only the first takeoffs and landings are kept, so its
-/// memory does not grow with the log. Nothing but the signals' status is counted in the first
-/// `scoring.skip` seconds, in which every estimator comes from its prior.
+/// Counts an estimator's results on a log. It keeps only the first takeoffs and landings, so its
+/// memory does not grow with the log. In the first `scoring.skip` seconds it counts the signals'
+/// status alone: there, beliefs still depend on the prior.
 class LogSummary {
  public:
   /// `period` in seconds.
@@ -24,7 +24,7 @@ class LogSummary {
   std::int64_t steps() const { return steps_; }
 
   /// A few lines, each with a line end: time, contact, takeoffs and landings, signals, and the
-  /// score if the log has ground truth. `start` is what the log's clock said at time 0 (s).
+  /// score if the log has ground truth. `start` is the log's clock at time 0 (s).
   std::string text(const std::optional<scoring::RobotScore>& score, double start = 0.0) const;
 
  private:
@@ -36,7 +36,7 @@ class LogSummary {
     std::string text() const;
   };
 
-  /// What a log's times say about themselves.
+  /// Range, gaps and backward steps of a log's times.
   struct Clock {
     double period = 0.0;
     double first = 0.0, last = 0.0, previous = 0.0;  ///< NaN before the first step

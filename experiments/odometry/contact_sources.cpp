@@ -11,7 +11,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-ContactTrack labels_late(const RunSignals& run, std::size_t steps) {
+ContactTrack delayed_labels(const RunSignals& run, std::size_t steps) {
   ContactTrack track;
   for (std::size_t wheel = 0; wheel < track.size(); ++wheel) {
     track[wheel].assign(run.steps(), 1.0);
@@ -26,15 +26,16 @@ ContactTrack labels_late(const RunSignals& run, std::size_t steps) {
 
 std::vector<std::string> oracle_names(const OdometryStudyConfig& config) {
   std::vector<std::string> names = {"truth"};
-  for (const double delay : config.delay) names.push_back(fmt::format("truth_{}ms_late", 1e3 * delay));
+  for (const double delay : config.delay)
+    names.push_back(fmt::format("truth_delayed_{}ms", 1e3 * delay));
   return names;
 }
 
 std::vector<ContactTrack> oracle_tracks(const OdometryStudyConfig& config, const RunSignals& run) {
   const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
-  std::vector<ContactTrack> tracks = {labels_late(run, 0)};
+  std::vector<ContactTrack> tracks = {delayed_labels(run, 0)};
   for (const double delay : config.delay) {
-    tracks.push_back(labels_late(run, static_cast<std::size_t>(std::llround(delay / period))));
+    tracks.push_back(delayed_labels(run, static_cast<std::size_t>(std::llround(delay / period))));
   }
   return tracks;
 }
@@ -46,8 +47,8 @@ std::string contact_name(std::string_view estimator) {
 std::string contact_title(const std::string& contact) {
   if (contact == "truth") return "Truth (oracle)";
   double milliseconds = 0.0;
-  if (std::sscanf(contact.c_str(), "truth_%lfms_late", &milliseconds) == 1) {
-    return fmt::format("Truth, {} ms late (oracle)", milliseconds);
+  if (std::sscanf(contact.c_str(), "truth_delayed_%lfms", &milliseconds) == 1) {
+    return fmt::format("Truth, delayed {} ms (oracle)", milliseconds);
   }
   const std::string name = contact == "always" ? std::string(always_contact_name) : contact;
   for (const EstimatorEntry& entry : estimator_entries()) {

@@ -16,23 +16,23 @@ odometry::LegJoints joints_of(const LegSignals& leg) {
 scoring::Trajectory dead_reckoned(const RunSignals& run, const NoiseRun& noise,
                                   const noise::SensorNoise& levels, const TrackView& p_contact) {
   odometry::ContactOdometry filter({.robot = run.motion->robot});
-  scoring::Trajectory way;
-  way.reserve(run.steps());
+  scoring::Trajectory trajectory;
+  trajectory.reserve(run.steps());
   for (std::size_t k = 0; k < run.steps(); ++k) {
     if (has_record(run.signals[k])) {
-      const Signals heard = noisy(run, noise, levels, k);
-      filter.update({.time = heard.time,
-                     .angular_velocity = heard.angular_velocity,
-                     .specific_force = run.motion->specific_force[k] + heard.linear_acceleration -
+      const Signals signals = noisy(run, noise, levels, k);
+      filter.update({.time = signals.time,
+                     .angular_velocity = signals.angular_velocity,
+                     .specific_force = run.motion->specific_force[k] + signals.linear_acceleration -
                                        run.signals[k].linear_acceleration,
-                     .leg = {joints_of(heard.leg[0]), joints_of(heard.leg[1])},
+                     .leg = {joints_of(signals.leg[0]), joints_of(signals.leg[1])},
                      .p_contact = {p_contact[0][k], p_contact[1][k]}});
     }
     const odometry::ExtendedPose& pose = filter.state().pose;
-    way.push_back({run.motion->truth[k].time, pose.position, Eigen::Quaterniond(pose.rotation),
-                   pose.velocity});
+    trajectory.push_back({run.motion->truth[k].time, pose.position,
+                          Eigen::Quaterniond(pose.rotation), pose.velocity});
   }
-  return way;
+  return trajectory;
 }
 
 scoring::TrajectoryScore score_odometry(const RunSignals& run, const NoiseRun& noise,

@@ -11,12 +11,12 @@ namespace touchdown::experiments {
 /// P(contact) of each wheel at every step of a run.
 using TrackView = std::array<std::span<const double>, models::wheel_count>;
 
-/// The way that odometry tells of a run (which has its motion) by what is heard of it, contact as
-/// it is told. At a step of which nothing is heard the last state stands.
+/// Odometry's trajectory of a run with this contact. The run must have its motion. At a step
+/// without a record the last state holds.
 scoring::Trajectory dead_reckoned(const RunSignals& run, const NoiseRun& noise,
                                   const noise::SensorNoise& levels, const TrackView& p_contact);
 
-/// It, scored.
+/// The score of that trajectory against the run's motion.
 scoring::TrajectoryScore score_odometry(const RunSignals& run, const NoiseRun& noise,
                                         const noise::SensorNoise& levels,
                                         const TrackView& p_contact,

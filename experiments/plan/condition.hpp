@@ -10,37 +10,38 @@
 
 namespace touchdown::experiments {
 
-/// Who listens to what: an estimator fitted on one engine's runs, tested on another's or the same.
+/// An estimator, the engine of the runs that it is fitted to, and the engine of its test runs.
 struct Condition {
   std::string fit_simulator;
   std::string test_simulator;
   std::string estimator;
-  std::string fit = {};  ///< which fit of that engine; empty: the experiment's
-  int refit = 0;         ///< 0: to all of its runs; else to the so-manieth draw from them
+  std::string fit = {};  ///< name of the fit on that engine; empty: the experiment's own
+  int refit = 0;         ///< 0: fitted to all runs; n: to the n-th resample of them
 
-  /// Whether it was fitted where it is tested, with the fit that is at home there.
+  /// Whether it was fitted on the engine of its test, with this fit, to all runs.
   bool is_fitted_in_domain(std::string_view own_fit = {}) const {
     return refit == 0 && is_in_domain(own_fit);
   }
-  /// Likewise, or to a draw from the runs of that fit.
+  /// The same, also with a fit to a resample of the runs.
   bool is_in_domain(std::string_view own_fit) const {
     return fit_simulator == test_simulator && fit == own_fit;
   }
   friend bool operator==(const Condition&, const Condition&) = default;
 };
 
-/// Under which its model is found among the fitted ones.
+/// The key of a fit in `FittedModels`.
 std::string model_key(const std::string& simulator, const std::string& fit, int refit = 0);
+/// Whether the key belongs to a fit to resampled runs.
 bool is_of_refit(std::string_view model_key);
 
-/// The experiment's estimators on the engine they were fitted on, "always contact" last.
+/// The experiment's estimators, each tested on the engine of its fit, "always contact" last.
 std::vector<Condition> own_engine_conditions(const Experiment& experiment);
 
-/// Those that are tested on this engine.
+/// The conditions with tests on this engine.
 std::vector<Condition> tested_on(std::vector<Condition> conditions, const std::string& simulator);
 
-/// The key of what is drawn for a run under this number of a stream; independent of everything else
-/// that the seed decides.
+/// The key of random draws for a run, by stream and number. It is independent of all other uses of
+/// the experiment's seed.
 noise::NoiseKey draws_of(const Experiment& experiment, std::uint64_t stream, std::uint64_t number,
                          std::int64_t run);
 

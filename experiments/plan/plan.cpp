@@ -13,13 +13,12 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The scenario with the setting's robot; its recordings are named after both.
+/// The scenario with the setup's robot; recordings are named after both.
 scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
-                             const RobotAndSensors& setting) {
-  scenarios::Scenario scene = scenario_of(request, file, setting.robot).scenario;
-  if (setting.robot.empty()) return scene;
-  scene.name =
-      fmt::format("{}_{}", scene.name, std::filesystem::path(setting.robot).stem().string());
+                             const RobotAndSensors& setup) {
+  scenarios::Scenario scene = scenario_of(request, file, setup.robot).scenario;
+  if (setup.robot.empty()) return scene;
+  scene.name = fmt::format("{}_{}", scene.name, std::filesystem::path(setup.robot).stem().string());
   return scene;
 }
 
@@ -51,8 +50,8 @@ std::vector<std::size_t> Plan::runs_in(std::size_t group) const {
   return indices;
 }
 
-void plan_runs(const RunRequest& request, RunRole role, const RobotAndSensors& setting, std::size_t group,
-               Plan& plan) {
+void plan_runs(const RunRequest& request, RunRole role, const RobotAndSensors& setup,
+               std::size_t group, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const bool is_fit = role == RunRole::fit;
   const RunsConfig& runs = is_fit ? experiment.fit : experiment.test;
@@ -60,7 +59,7 @@ void plan_runs(const RunRequest& request, RunRole role, const RobotAndSensors& s
   for (const std::string& simulator : experiment.simulators) {
     std::int64_t index = is_fit ? first_fit_run : 0;
     for (const std::string& file : runs.scenarios) {
-      const scenarios::Scenario scene = scene_of(request, file, setting);
+      const scenarios::Scenario scene = scene_of(request, file, setup);
       for (int i = 0; i < runs.runs; ++i, ++index) {
         plan.runs.push_back({.role = role,
                              .simulator = simulator,
@@ -70,22 +69,23 @@ void plan_runs(const RunRequest& request, RunRole role, const RobotAndSensors& s
                                                     is_fit ? index - first_fit_run : index),
                              .seed = seed,
                              .group = group,
-                             .sensors = setting.sensors,
-                             .fit = is_fit ? setting.fit : std::string()});
+                             .sensors = setup.sensors,
+                             .fit = is_fit ? setup.fit : std::string()});
       }
     }
   }
 }
 
-void plan_segment_runs(const RunRequest& request, const RobotAndSensors& setting, std::size_t entry,
-                     int first, int end, Plan& plan) {
+void plan_segment_runs(const RunRequest& request, const RobotAndSensors& setup, std::size_t entry,
+                       int first, int end, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const std::uint64_t seed = seed_of_fit(experiment);
-  scenarios::Scenario scene = scene_of(request, experiment.training_segments[entry].scenario, setting);
-  // Models are fitted at the rate at which they listen.
+  scenarios::Scenario scene =
+      scene_of(request, experiment.training_segments[entry].scenario, setup);
+  // Models are fitted at the control rate of the test runs.
   scene.simulation.steps.control_us =
       scenario_of(request, experiment.test.scenarios.front()).scenario.simulation.steps.control_us;
-  const std::string role = fmt::format("piece{}", entry + 1);
+  const std::string role = fmt::format("segment{}", entry + 1);
   for (const std::string& simulator : experiment.simulators) {
     for (int i = first; i < end; ++i) {
       const std::int64_t run = first_fit_run + i;
@@ -96,18 +96,18 @@ void plan_segment_runs(const RunRequest& request, const RobotAndSensors& setting
                            .file = recording_name(simulator, scene.name, role, i),
                            .seed = seed,
                            .group = segment_group(entry),
-                           .sensors = setting.sensors,
-                           .fit = setting.fit});
+                           .sensors = setup.sensors,
+                           .fit = setup.fit});
     }
   }
 }
 
-void plan_segments(const RunRequest& request, const RobotAndSensors& setting, Plan& plan) {
+void plan_segments(const RunRequest& request, const RobotAndSensors& setup, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const auto& names = experiment.estimators;
   if (std::none_of(names.begin(), names.end(), learns_from_segments)) return;
   for (std::size_t entry = 0; entry < experiment.training_segments.size(); ++entry) {
-    plan_segment_runs(request, setting, entry, 0, experiment.training_segments[entry].runs, plan);
+    plan_segment_runs(request, setup, entry, 0, experiment.training_segments[entry].runs, plan);
   }
 }
 

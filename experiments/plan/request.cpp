@@ -11,8 +11,8 @@
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/own_files.hpp"
+#include "experiments/run_directory/owner.hpp"
 #include "scenarios/scenario_file.hpp"
 
 namespace touchdown::experiments {
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The digest of a request, one scenario after the other.
+/// The digest of a request. Scenarios are added one by one.
 class Digest {
  public:
   Digest(const Experiment& experiment, const std::vector<NamedSensors>& sensors) {
@@ -32,7 +32,7 @@ class Digest {
       if (!revision.empty()) fingerprint_.add(revision);
     }
   }
-  /// The robot's file counts under the path that the scenario has for it.
+  /// Includes the robot's path as the scenario gives it, and the content of its file.
   void add(const scenarios::Scenario& scenario) {
     fingerprint_.add(scenarios::to_yaml(scenario)).add(scenarios::robot_text(scenario));
   }
@@ -50,16 +50,17 @@ std::vector<NamedScenario>::const_iterator find_named(const std::vector<NamedSce
   });
 }
 
-/// Every scenario file that the experiment names, once with each of its robots, as `read` finds the
-/// n-th of them.
+/// Every scenario file of the experiment, once with each of its robots. `read` loads the n-th one.
 template <typename Read>
 std::vector<NamedScenario> scenarios_of(const Experiment& experiment, const Read& read) {
   std::vector<NamedScenario> scenarios;
   std::vector<std::string> files = experiment.fit.scenarios;
   files.insert(files.end(), experiment.test.scenarios.begin(), experiment.test.scenarios.end());
-  for (const TrainingSegments& segments : experiment.training_segments) files.push_back(segments.scenario);
+  for (const TrainingSegments& segments : experiment.training_segments)
+    files.push_back(segments.scenario);
   if (experiment.closed_loop) {
-    for (const ClosedLoopScene& scene : experiment.closed_loop->scenes) files.push_back(scene.scenario);
+    for (const ClosedLoopScene& scene : experiment.closed_loop->scenes)
+      files.push_back(scene.scenario);
   }
   std::vector<std::string> robots = {""};
   if (experiment.benchmark) {
@@ -105,7 +106,7 @@ void require_place(const RunRequest& request, const fs::path& directory, bool ov
   std::optional<RunDirectoryOwner> owner = owner_of(directory);
   if (!owner) {
     require_no_untracked_files(directory);
-    owner = owner_of(directory);  // somebody may have taken it meanwhile
+    owner = owner_of(directory);  // another process may own it now
   }
   if (!owner || owner->request == request.id || overwrite) return;
   throw InputError(fmt::format(
@@ -125,7 +126,7 @@ void write_request(const RunRequest& request, const RunDirectory& directory, boo
   require_place(request, directory.path(), overwrite);
   const std::optional<RunDirectoryOwner> owner = owner_of(directory.path());
   if (owner && owner->key != state_key(request)) remove_own_files(directory.path());
-  // The key is the first: what follows it, half written, is not taken for a stranger's.
+  // The key comes first: files of an interrupted write then do not count as untracked files.
   write_atomically(key_file(directory.path()), state_key(request) + "\n");
   for (std::size_t i = 0; i < request.scenarios.size(); ++i) {
     write_atomically(directory.file("state", scenario_file(i)),

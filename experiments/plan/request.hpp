@@ -12,46 +12,47 @@
 
 namespace touchdown::experiments {
 
-/// A scenario as the experiment names it, found and read.
+/// A scenario under the name that the experiment uses, found and read.
 struct NamedScenario {
   std::string file;
-  std::string robot;  ///< that a benchmark puts into it; empty: its own
+  std::string robot;  ///< of a benchmark; empty: the scenario's own
   scenarios::Scenario scenario;
 };
 
-/// An experiment with everything that decides its results.
+/// An experiment with all inputs that determine its results.
 struct RunRequest {
   Experiment experiment;
   std::vector<NamedScenario> scenarios;  ///< in the order of first use
   std::vector<NamedSensors> sensors;     ///< likewise
-  std::string id;                        ///< a digest of all
+  std::string id;                        ///< digest of all of these
 };
 
-/// Errors: `InputError` for scenarios and sensors that are missing or wrong.
+/// Reads the scenarios and sensors of an experiment. Errors: `InputError` for files that are
+/// missing or wrong.
 RunRequest request_of(const Experiment& experiment);
 
-/// One of the request's own scenarios, with one of its robots.
+/// A scenario of the request with one of its robots. Both must be part of the request.
 const NamedScenario& scenario_of(const RunRequest& request, const std::string& file,
                                  std::string_view robot = {});
 
-/// The request and the build that a run directory's contents belong to: what state is saved under.
+/// The key of saved state: the request and the build.
 std::string state_key(const RunRequest& request);
 
-/// Errors: `InputError` when a directory holds another experiment, named with its request, unless
-/// it is to be overwritten; or when it holds files that no run made where a run would write.
+/// Errors: `InputError`, with the other request, when the directory holds another experiment and
+/// `overwrite` is false; also when it holds untracked files where a run would write.
 void require_place(const RunRequest& request, const std::filesystem::path& directory,
                    bool overwrite);
 
-/// Whether a run directory is this request's and this build's already.
+/// Whether a run directory already belongs to this request and this build.
 bool is_written(const RunRequest& request, const std::filesystem::path& directory);
 
-/// Makes a directory that `require_place` allows this request's, so that `merge` needs nothing
-/// else. What another request or another build made there is removed; whoever calls this has the
-/// directory alone.
+/// Writes the request into a directory that `require_place` allows. `merge` needs no other input.
+/// Removes the files of another request or build. The caller must hold the directory's exclusive
+/// lock.
 void write_request(const RunRequest& request, const RunDirectory& directory, bool overwrite);
 
-/// Reads it back. Errors: `InputError` when the directory holds none, one of another build, or not
-/// what was written there.
+/// Reads the request of a directory. Errors: `InputError` when the directory holds none, one of
+/// another build, or a request that was changed after it was written.
 RunRequest read_request(const std::filesystem::path& directory);
 
 }  // namespace touchdown::experiments

@@ -17,7 +17,7 @@ std::filesystem::path kept_file(const std::filesystem::path& run_directory, std:
   return run_directory / "state" / fmt::format("sensors_{:03}.yaml", number);
 }
 
-/// Every file that the experiment names, once.
+/// Every sensor profile of the experiment, once.
 std::vector<std::string> named_files(const Experiment& experiment) {
   std::vector<std::string> files;
   const auto add = [&](const std::string& file) {

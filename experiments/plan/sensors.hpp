@@ -12,39 +12,39 @@
 
 namespace touchdown::experiments {
 
-/// A profile as the experiment names it, found and read.
+/// A sensor profile under the name that the experiment uses, found and read.
 struct NamedSensors {
   std::string file;
   noise::SensorProfile profile;
 };
 
-/// Reads the profiles that an experiment names. Its own, under `sensors`, is not named any more if
-/// it changes nothing: ideal sensors are the same request as none. Errors: `InputError` for a file
-/// that is missing or wrong.
+/// Reads the sensor profiles of an experiment. Clears the experiment's own `sensors` if that
+/// profile is ideal, so that ideal sensors and none are the same request. Errors: `InputError` for
+/// a file that is missing or wrong.
 std::vector<NamedSensors> read_sensors(Experiment& experiment);
 
-/// Reads them as they were when the request in this run directory was written.
+/// Reads the copies of the profiles in a run directory.
 std::vector<NamedSensors> read_sensors(const Experiment& experiment,
                                        const std::filesystem::path& run_directory);
 
-/// Keeps them there, beside the scenarios.
+/// Writes copies of the profiles into a run directory, beside the scenarios.
 void write_sensors(const std::vector<NamedSensors>& sensors,
                    const std::filesystem::path& run_directory);
 
 /// The profile of this file; ideal sensors for no file.
 noise::SensorProfile profile_of(const std::vector<NamedSensors>& sensors, const std::string& file);
 
-/// By which draws the sensors of a run of the experiment err: whichever engine it is played in.
+/// The key of the sensor errors of a run, the same in every engine.
 noise::NoiseKey sensor_key(const Experiment& experiment, std::int64_t run);
 
-/// Turns what a run of the experiment recorded into what such sensors report. The same run of
+/// Replaces the recorded observations of a run by the output of the sensor model. The same run of
 /// another engine gets the same draws.
 void report_through_sensors(const noise::SensorProfile& profile, const Experiment& experiment,
                             std::int64_t run, double period,
                             std::vector<models::Observation>& observations);
 
-/// What captions say of robot and sensors: "; sensors as in sensors/upkie.yaml"; nothing of ideal
-/// sensors, nor where each scenario has its own robot.
+/// The caption of robot and sensors, such as "; sensors as in sensors/upkie.yaml". It omits ideal
+/// sensors, and the robot where each scenario has its own.
 std::string setup_caption(const Experiment& experiment);
 
 }  // namespace touchdown::experiments

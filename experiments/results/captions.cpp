@@ -47,7 +47,8 @@ std::string tuning_text(const Experiment& experiment) {
   if (!given.empty()) return given + '.';
   if (!experiment.tuning) return {};
   return fmt::format(
-      " Each estimator that has constants to choose had {}, its defaults first, judged on {} folds "
+      " Each estimator with hyperparameters was tuned with {}, its defaults first, scored on {} "
+      "folds "
       "of the fitted runs alone (tables/tuning.csv).",
       plural(static_cast<std::size_t>(experiment.tuning->trials), "trial"),
       experiment.tuning->folds);

@@ -12,32 +12,33 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The knots where rows were, and where they end.
-std::set<float> places_of(const std::array<float, 2>& seen) {
-  std::set<float> places = {seen[0], seen[1]};
+/// The ends of the range of fitted rows, and the knots inside it.
+std::set<float> knots_of(const std::array<float, 2>& seen) {
+  std::set<float> knots = {seen[0], seen[1]};
   for (std::size_t k = 0; k < evidence_knots; ++k) {
     const float x = evidence_reach * (2.0F * static_cast<float>(k) / (evidence_knots - 1) - 1.0F);
-    if (x > seen[0] && x < seen[1]) places.insert(x);
+    if (x > seen[0] && x < seen[1]) knots.insert(x);
   }
-  return places;
+  return knots;
 }
 
-void add_curve(Table& table, const std::vector<std::string>& whose, const EvidenceModel& model,
-               std::size_t input) {
+void add_curve(Table& table, const std::vector<std::string>& first_cells,
+               const EvidenceModel& model, std::size_t input) {
   const bool is_noise = input >= decision_channels * decision_scales;
   const std::size_t channel = input / decision_scales;
   const auto scale = std::to_string(1U << (input % decision_scales));
-  for (const float x : places_of(model.seen[input])) {
-    std::vector<std::string> row = whose;
-    const double heard_as = static_cast<double>(x);
+  for (const float x : knots_of(model.seen[input])) {
+    std::vector<std::string> row = first_cells;
+    const double input_value = static_cast<double>(x);
     if (is_noise) {
       const std::size_t which = input - decision_channels * decision_scales;
       row.insert(row.end(), {evidence_noise_names[which], "", which == 0 ? "N·m" : "m/s²",
-                             metric(std::exp(heard_as))});
+                             metric(std::exp(input_value))});
     } else {
-      const EvidenceChannel& heard = evidence_channels[channel];
-      row.insert(row.end(), {heard.name, scale, heard.unit,
-                             metric(uncompressed(heard_as, static_cast<double>(heard.bend)))});
+      const EvidenceChannel& shown = evidence_channels[channel];
+      row.insert(row.end(),
+                 {shown.name, scale, shown.unit,
+                  metric(uncompressed(input_value, static_cast<double>(shown.softsign_scale)))});
     }
     row.push_back(metric(static_cast<double>(evidence_at(model.curve[input], x))));
     table.rows.push_back(std::move(row));

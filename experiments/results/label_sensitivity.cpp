@@ -43,12 +43,13 @@ RunCounts counts_of(const Rollout& run, const std::vector<Condition>& conditions
   RunCounts counts;
   for (const Condition& condition : conditions) {
     EstimatorRunner runner = runner_of(condition, result.models, run.signals);
-    const auto said = decide(runner, run.signals, noise, experiment.highlights.front().levels());
+    const auto decisions =
+        decide(runner, run.signals, noise, experiment.highlights.front().levels());
     counts.emplace_back();
     for (const auto& truth : truths) {
       scoring::Classification sum;
       for (std::size_t w = 0; w < models::wheel_count; ++w) {
-        sum += scoring::classify(truth[w], said[w], {0}, period, experiment.scoring).front();
+        sum += scoring::classify(truth[w], decisions[w], {0}, period, experiment.scoring).front();
       }
       counts.back().push_back(sum);
     }

@@ -4,8 +4,8 @@
 
 namespace touchdown::experiments {
 
-/// Writes `manifest.json`: versions, seeds, host, timings, runs that failed. Again when there are
-/// more timings to tell.
+/// Writes `manifest.json`: versions, seeds, host, timings, failed runs. Call it again to add later
+/// timings.
 void write_manifest(const ExperimentResult& result);
 
 }  // namespace touchdown::experiments

@@ -48,7 +48,7 @@ std::string metric_cell(const ScoreSummary& summary, const std::string& metric) 
   return with_interval(summary[metric]);
 }
 
-/// One column per name, filled by `cell`, and the paper's last.
+/// One column per name, filled by `cell`; the last column has the paper's numbers.
 Table table_of(const std::vector<ScoreSummary>& summaries, const std::vector<std::string>& names,
                std::string (*cell)(const ScoreSummary&, const std::string&),
                std::string PaperRow::*reference) {
@@ -74,7 +74,7 @@ std::string joined(const std::vector<std::string>& cells, const std::string& bet
   return fmt::format("{}", fmt::join(cells, between));
 }
 
-/// What LaTeX would take for markup.
+/// Escapes characters that are markup in LaTeX.
 std::string latex_text(const std::string& text) {
   static const std::vector<std::pair<std::string, std::string>> replacements = {
       {"±", "$\\pm$"},    {"–", "--"},  {"−", "$-$"}, {"²", "$^2$"}, {"·", "$\\cdot$"},
@@ -95,7 +95,7 @@ std::vector<std::string> latex_cells(const std::vector<std::string>& cells) {
   return result;
 }
 
-/// What the numbers of one cell are, in words.
+/// The conditions of one cell's scores, in words.
 std::string how_scored(const Experiment& experiment, const noise::NoiseCell& cell) {
   return fmt::format("Both wheels; {}, {} noise seeds{}; {}; {}.", noise_text(cell),
                      experiment.noise.seeds, setup_caption(experiment), labels_text(experiment),
@@ -135,7 +135,7 @@ CaptionedTable difference_text_table(const std::vector<Difference>& differences)
   };
   CaptionedTable result{"Paired differences",
                         "differences",
-                        {{"simulator", "difference", "success rate", "no contact recall",
+                        {{"simulator", "difference", "accuracy", "no contact recall",
                           "takeoff precision", "takeoff latency (ms)", "landing latency (ms)"},
                          {}}};
   for (const Difference& d : differences) {

@@ -8,7 +8,7 @@
 
 namespace touchdown::experiments {
 
-/// A table with what stands above it.
+/// A table with its caption.
 struct CaptionedTable {
   std::string caption;
   std::string label;  ///< a word, for LaTeX references
@@ -16,15 +16,15 @@ struct CaptionedTable {
 };
 
 /// Tables I to III of the paper (point-wise classification, transitions, latency), one row per
-/// engine and estimator, with the paper's numbers from the real robot as the last column. They are
-/// a reference, not a mark to pass: another robot, other drops, hand labels.
+/// engine and estimator. The last column has the paper's numbers from the real robot. They are a
+/// reference, not a target: another robot, other drops, hand labels.
 std::vector<CaptionedTable> paper_tables(const std::vector<ScoreSummary>& summaries,
                                          const std::string& how);
 
-/// The same for every highlighted cell of a result, one below the other, each with its differences.
+/// Those tables for every highlighted cell of a result, each with its differences.
 std::vector<CaptionedTable> paper_tables(const ExperimentResult& result);
 
-/// The first estimator's advantage over the others, with intervals.
+/// The differences of the first estimator from the others, with intervals.
 CaptionedTable difference_text_table(const std::vector<Difference>& differences);
 
 std::string to_text(const CaptionedTable& table);

@@ -4,21 +4,21 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/fitting/fitting.hpp"
 #include "experiments/evaluation/summary.hpp"
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/results/scores.hpp"
+#include "experiments/rollouts/rollouts.hpp"
 
 namespace touchdown::experiments {
 
-/// How a result came about, for people who ask later: nothing in it changes a result.
+/// How a result was made, for the record: nothing in it changes a result.
 struct Provenance {
-  std::string command;                                  ///< what was typed
-  int threads = 0;                                      ///< that worked on it
+  std::string command;                                  ///< as typed
+  int threads = 0;                                      ///< number of worker threads
   std::vector<std::pair<std::string, double>> timings;  ///< of each phase (s)
 };
 
-/// What an experiment found out. The same is in the run directory's files.
+/// The result of an experiment. The run directory's files hold the same.
 struct ExperimentResult {
   Experiment experiment;
   std::string id;
@@ -29,8 +29,8 @@ struct ExperimentResult {
   std::vector<CellSummary> summaries;       ///< of every noise cell
   std::vector<ScoreSummary> scores;         ///< of the highlighted ones
   std::vector<Difference> differences;      ///< likewise
-  std::vector<std::string> studies;         ///< what the studies in it say to people, a text each
-  std::vector<std::string> failed_demands;  ///< estimators whose verdict was demanded and fails
+  std::vector<std::string> studies;         ///< terminal text of each study
+  std::vector<std::string> failed_demands;  ///< estimators that fail a demanded verdict
   Provenance provenance;
 };
 

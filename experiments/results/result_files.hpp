@@ -6,7 +6,7 @@
 
 namespace touchdown::experiments {
 
-/// Writes what an experiment found out into its run directory: `tables/` and `models/`.
+/// Writes an experiment's result into its run directory: `tables/` and `models/`.
 void write_result_files(const ExperimentResult& result);
 
 }  // namespace touchdown::experiments

@@ -28,7 +28,7 @@ std::vector<std::string> setting(const ScoreSummary& summary) {
   return cells;
 }
 
-/// The setting, then metrics with their intervals, then whole numbers.
+/// Columns: the setting, then metrics with their intervals, then counts.
 Table table_of(
     const std::vector<ScoreSummary>& summaries, const std::vector<std::string>& names,
     const std::vector<std::pair<std::string, std::int64_t (*)(const scoring::Score&)>>& counts) {

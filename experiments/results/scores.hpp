@@ -10,22 +10,22 @@
 
 namespace touchdown::experiments {
 
-/// What one condition achieved in one noise cell, with intervals over runs or drops.
+/// Scores of one condition in one noise cell, with intervals over runs or drops.
 struct CellSummary {
   Condition condition;
   noise::NoiseCell cell;
-  Interval success;
+  Interval success;  ///< accuracy
   Interval contact_precision;
   Interval contact_recall;
   Interval no_contact_precision;
   Interval no_contact_recall;
-  double always_contact = 0.0;  ///< success rate of "always contact" in the same runs
+  double always_contact = 0.0;  ///< accuracy of "always contact" in the same runs
 
-  /// Whether one does no worse with "always contact".
+  /// Whether "always contact" is at least as accurate.
   bool loses() const { return success.estimate <= always_contact; }
 };
 
-/// One of its numbers.
+/// A metric of a `CellSummary`, by name.
 struct PointMetric {
   const char* name;
   Interval CellSummary::*interval;
@@ -54,7 +54,7 @@ Table success_table(const std::vector<CellSummary>& summaries);
 Table classification_table(const std::vector<CellSummary>& summaries);
 /// `views.csv`: point-wise metrics per wheel, pooled, and for the robot.
 Table views_table(const std::vector<ScoreSummary>& summaries);
-/// `transitions.csv`: precision and recall of takeoffs and landings, and how many there were.
+/// `transitions.csv`: precision, recall and number of takeoffs and landings.
 Table transitions_table(const std::vector<ScoreSummary>& summaries);
 /// `latency.csv`: mean and standard deviation over detected events.
 Table latency_table(const std::vector<ScoreSummary>& summaries);

@@ -17,14 +17,14 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// As in the CSV tables; JSON has null for what is not defined.
+/// Rounds as the CSV tables do. JSON has null for undefined values.
 double rounded(double value) { return std::stod(metric(value)); }
 
 double number_from(const Json& json) { return json.is_null() ? NAN : json.get<double>(); }
 
 }  // namespace
 
-// Found by the library beside the types: how each of them is written and read.
+// nlohmann::json finds these functions in the namespace of each type.
 
 void to_json(Json& json, const Interval& interval) {
   json = {rounded(interval.estimate), rounded(interval.low), rounded(interval.high)};
@@ -109,10 +109,11 @@ Summary read_summary(const fs::path& run_directory) {
   const fs::path file = file_in(run_directory);
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) {
-    throw InputError(fmt::format(
-        "{}: is not finished, or by an older touchdown: it has no tables/summary.json; run "
-        "`touchdown run` again",
-        run_directory.string()));
+    throw InputError(
+        fmt::format("{}: is not finished, or was made by an older touchdown: it has no "
+                    "tables/summary.json; run "
+                    "`touchdown run` again",
+                    run_directory.string()));
   }
   Summary summary;
   try {
@@ -120,11 +121,11 @@ Summary read_summary(const fs::path& run_directory) {
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
-  const auto knows_all = [](const auto& row) {
+  const auto has_all = [](const auto& row) {
     return row.metric.size() == scoring::metrics().size();
   };
-  if (!std::all_of(summary.scores.begin(), summary.scores.end(), knows_all) ||
-      !std::all_of(summary.differences.begin(), summary.differences.end(), knows_all)) {
+  if (!std::all_of(summary.scores.begin(), summary.scores.end(), has_all) ||
+      !std::all_of(summary.differences.begin(), summary.differences.end(), has_all)) {
     throw InputError(fmt::format("{}: has other metrics: run `touchdown run` again with this build",
                                  file.string()));
   }

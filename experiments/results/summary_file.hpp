@@ -6,26 +6,25 @@
 #include <vector>
 
 #include "experiments/evaluation/summary.hpp"
-#include "experiments/rollouts/rollouts.hpp"
 #include "experiments/results/scores.hpp"
+#include "experiments/rollouts/rollouts.hpp"
 
 namespace touchdown::experiments {
 
 struct ExperimentResult;
 
-/// How one run of an experiment went.
+/// One run of an experiment.
 struct RunSummary {
   RunRole role = RunRole::test;
   std::string simulator;
-  std::int64_t run = 0;   ///< its index, different for every run of one engine
+  std::int64_t run = 0;   ///< its index, unique within one engine
   std::string recording;  ///< its file's name
   recordings::Outcome outcome = recordings::Outcome::finished;
   int flights = 0;
 };
 
-/// What an experiment found out, for programs that come later: its run directory's
-/// `tables/summary.json`. Numbers are rounded as in the CSV tables; metrics are in the order of
-/// `metrics()`.
+/// An experiment's result for other programs: `tables/summary.json` of its run directory. Numbers
+/// are rounded as in the CSV tables; metrics are in the order of `metrics()`.
 struct Summary {
   std::vector<RunSummary> runs;
   std::vector<CellSummary> cells;    ///< without their encoder noise
@@ -37,8 +36,7 @@ Summary summary_of(const ExperimentResult& result);
 
 void write_summary(const Summary& summary, const std::filesystem::path& run_directory);
 
-/// Errors: `InputError` when the file is broken, or not there as in the run directories of older
-/// programs.
+/// Errors: `InputError` when the file is broken or missing; older programs did not write it.
 Summary read_summary(const std::filesystem::path& run_directory);
 
 }  // namespace touchdown::experiments

@@ -16,7 +16,7 @@ namespace {
 /// Every estimator of one engine in one cell.
 Table cell_table(const ExperimentResult& result, const std::string& simulator,
                  const noise::NoiseCell& cell) {
-  Table table{{"estimator", "success rate", "contact precision", "recall", "no contact precision",
+  Table table{{"estimator", "accuracy", "contact precision", "recall", "no contact precision",
                "recall", "false takeoffs/min"},
               {}};
   for (const CellSummary& summary : result.summaries) {
@@ -32,7 +32,7 @@ Table cell_table(const ExperimentResult& result, const std::string& simulator,
   return table;
 }
 
-/// One estimator's success rate over the noise grid.
+/// One estimator's accuracy over the noise grid.
 Table grid_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
                  const std::string& estimator, const noise::NoiseGridConfig& noise) {
   Table table{{"torque noise"}, {}};
@@ -41,8 +41,8 @@ Table grid_table(const std::vector<CellSummary>& summaries, const std::string& s
   }
   for (const double torque : noise.torque) table.rows.push_back({fmt::format("{} N·m", torque)});
   for (const CellSummary& summary : summaries) {
-    const Condition& who = summary.condition;
-    if (who.test_simulator != simulator || who.estimator != estimator) continue;
+    const Condition& condition = summary.condition;
+    if (condition.test_simulator != simulator || condition.estimator != estimator) continue;
     const auto row = std::find(noise.torque.begin(), noise.torque.end(), summary.cell.torque);
     const bool on_grid = row != noise.torque.end() &&
                          std::find(noise.accelerometer.begin(), noise.accelerometer.end(),
@@ -72,7 +72,7 @@ std::string summary_text(const ExperimentResult& result) {
     if (result.cells.size() > 1) {
       const std::string& first = experiment.estimators.front();
       text += fmt::format(
-          "\n{}: success rate of {} by torque and accelerometer noise "
+          "\n{}: accuracy of {} by torque and accelerometer noise "
           "(* no better than always contact){}\n\n",
           simulator, estimator_entry(first).title, setup_caption(experiment));
       text += to_text(grid_table(result.summaries, simulator, first, experiment.noise));
@@ -109,8 +109,8 @@ std::string closing_text(const ExperimentResult& result) {
     row->push_back(with_interval(summary.success));
     row->push_back(false_takeoffs_text(result.scores, summary));
   }
-  return fmt::format("\nShare of time in which contact was told right, {}{}\n\n{}",
-                     noise_text(cell), setup_caption(result.experiment), to_text(table));
+  return fmt::format("\nContact accuracy, {}{}\n\n{}", noise_text(cell),
+                     setup_caption(result.experiment), to_text(table));
 }
 
 }  // namespace touchdown::experiments

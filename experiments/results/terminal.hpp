@@ -6,11 +6,11 @@
 
 namespace touchdown::experiments {
 
-/// What a terminal shows of a result: for each engine the highlighted cells and the first
-/// estimator's noise grid, then what studies say, how it was scored, and which runs were not used.
+/// A result for the terminal: for each engine the highlighted cells and the first estimator's noise
+/// grid, then the studies' texts, the scoring conditions, and the runs that were not used.
 std::string summary_text(const ExperimentResult& result);
 
-/// The same in one table, the last highlighted cell in all engines, for the end of a long command.
+/// One table of the last highlighted cell in all engines, for the end of a long command.
 std::string closing_text(const ExperimentResult& result);
 
 }  // namespace touchdown::experiments

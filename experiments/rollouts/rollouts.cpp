@@ -23,8 +23,8 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// What a recording is made from, and by which build. The robot counts by its content: where its
-/// file is found depends on where one stands.
+/// The key of a recording: its inputs and the build. It uses the robot's content, because the path
+/// depends on the working directory.
 std::string key_of(const PlannedRun& run) {
   scenarios::Scenario scenario = run.scenario;
   scenario.robot.clear();
@@ -37,10 +37,11 @@ std::string key_of(const PlannedRun& run) {
       .text();
 }
 
-/// The two files that say whether a recording can be used: its checksum, or why there is none.
+/// The file with a recording's checksum. Without it the recording is not used.
 std::filesystem::path stamp_of(const PlannedRun& run, const RunDirectory& directory) {
   return directory.file("state/recordings", run.file + ".sum");
 }
+/// The file with the reason why a run has no recording.
 std::filesystem::path failure_of(const PlannedRun& run, const RunDirectory& directory) {
   return directory.file("state/recordings", run.file + ".failed");
 }
@@ -52,7 +53,7 @@ bool is_whole(const PlannedRun& run, const RunDirectory& directory, const std::s
   return sum && *stamp == fmt::format("{:016x}", *sum);
 }
 
-/// A run that could not be simulated.
+/// The rollout of a run that could not be simulated.
 Rollout failed(const PlannedRun& plan, const std::string& why) {
   Rollout run{plan, {.outcome = recordings::Outcome::diverged, .error = why}, {}};
   run.signals.info.simulator = plan.simulator;
@@ -60,9 +61,10 @@ Rollout failed(const PlannedRun& plan, const std::string& why) {
   return run;
 }
 
+/// The rollout of a recorded run, with the signals of its sensor model.
 Rollout rollout(const PlannedRun& run, recordings::Recording recording,
-                 const noise::SensorProfile& sensors, const Experiment& experiment,
-                 scenarios::CompiledScenes& scenes) {
+                const noise::SensorProfile& sensors, const Experiment& experiment,
+                scenarios::CompiledScenes& scenes) {
   report_through_sensors(sensors, experiment, run.run, recording.period(), recording.observation);
   RunSignals signals =
       signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
@@ -92,7 +94,7 @@ recordings::Recording simulate(const PlannedRun& run, scenarios::CompiledScenes&
                          [&](double /*time*/) { return should_continue(); });
 }
 
-/// What is recorded of a run, or why nothing is.
+/// The recording of a run, or the reason why there is none.
 struct Recorded {
   std::optional<recordings::Recording> recording;
   std::string error;
@@ -100,7 +102,8 @@ struct Recorded {
 
 Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
                           const RunDirectory& directory, MissingRun missing,
-                          scenarios::CompiledScenes& scenes, const ShouldContinue& should_continue) {
+                          scenarios::CompiledScenes& scenes,
+                          const ShouldContinue& should_continue) {
   const auto file = directory.file("recordings", run.file);
   if (is_whole(run, directory, key)) return {recordings::read_recording(file), {}};
   if (missing == MissingRun::refuse) {
@@ -113,7 +116,7 @@ Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw;  // says nothing about the run
+    throw;  // no property of the run
   } catch (const std::exception& error) {
     write_state(failure_of(run, directory), key, error.what());
     return {{}, error.what()};
@@ -139,7 +142,7 @@ std::vector<const RunSignals*> scored_runs(const std::vector<Rollout>& runs) {
 }
 
 const Rollout* test_run(const std::vector<Rollout>& runs, const std::string& simulator,
-                          std::int64_t index) {
+                        std::int64_t index) {
   const auto found = std::find_if(runs.begin(), runs.end(), [&](const Rollout& run) {
     return run.plan.role == RunRole::test && run.plan.simulator == simulator &&
            run.plan.run == index;
@@ -148,34 +151,35 @@ const Rollout* test_run(const std::vector<Rollout>& runs, const std::string& sim
 }
 
 void for_each_rollout(const Experiment& experiment, const Plan& plan,
-                     const std::set<std::size_t>& needed, const RunDirectory& directory,
-                     MissingRun missing, const ShouldContinue& should_continue, const UseRollout& use) {
-  // Runs that differ only in who hears them are one simulation.
+                      const std::set<std::size_t>& needed, const RunDirectory& directory,
+                      MissingRun missing, const ShouldContinue& should_continue,
+                      const UseRollout& use) {
+  // Runs that differ only in their sensor model or fit are one simulation.
   struct Simulation {
     std::string key;
-    std::vector<std::size_t> hearers;  // in the plan
+    std::vector<std::size_t> runs;  // indices in the plan
   };
   std::vector<Simulation> simulations;
   std::map<std::string, std::size_t> number;
   for (const std::size_t index : needed) {
     const auto [known, is_new] = number.emplace(key_of(plan.runs[index]), simulations.size());
     if (is_new) simulations.push_back({known->first, {}});
-    simulations[known->second].hearers.push_back(index);
+    simulations[known->second].runs.push_back(index);
   }
   scenarios::CompiledScenes scenes;
   Progress progress("simulating", "runs", static_cast<std::int64_t>(simulations.size()));
   tbb::parallel_for_each(simulations, [&](const Simulation& simulation) {
-    Recorded recorded = simulate_or_read(plan.runs[simulation.hearers.front()], simulation.key,
+    Recorded recorded = simulate_or_read(plan.runs[simulation.runs.front()], simulation.key,
                                          directory, missing, scenes, should_continue);
-    for (const std::size_t index : simulation.hearers) {
+    for (const std::size_t index : simulation.runs) {
       const PlannedRun& run = plan.runs[index];
       if (!recorded.recording) {
         use(index, failed(run, recorded.error));
         continue;
       }
-      const bool is_last = index == simulation.hearers.back();
+      const bool is_last = index == simulation.runs.back();
       use(index, rollout(run, is_last ? std::move(*recorded.recording) : *recorded.recording,
-                        plan.sensors[run.sensors].profile, experiment, scenes));
+                         plan.sensors[run.sensors].profile, experiment, scenes));
     }
     progress.advance();
     if (!should_continue()) throw Stopped();
@@ -183,12 +187,12 @@ void for_each_rollout(const Experiment& experiment, const Plan& plan,
 }
 
 Rollouts run_rollouts(const Experiment& experiment, const Plan& plan,
-                     const std::set<std::size_t>& needed, const RunDirectory& directory,
-                     MissingRun missing, const ShouldContinue& should_continue) {
+                      const std::set<std::size_t>& needed, const RunDirectory& directory,
+                      MissingRun missing, const ShouldContinue& should_continue) {
   Rollouts runs;
   for (const std::size_t index : needed) runs.emplace(index, Rollout{plan.runs[index], {}, {}});
   for_each_rollout(experiment, plan, needed, directory, missing, should_continue,
-                  [&](std::size_t index, Rollout run) { runs.at(index) = std::move(run); });
+                   [&](std::size_t index, Rollout run) { runs.at(index) = std::move(run); });
   return runs;
 }
 

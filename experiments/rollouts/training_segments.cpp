@@ -7,7 +7,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// What a fit needs of the steps from `begin` on.
+/// The data for a fit from `length` steps of a run, from `begin` on.
 RunSignals cut(const RunSignals& run, std::size_t begin, std::size_t length) {
   RunSignals segment;
   segment.info = run.info;
@@ -18,29 +18,30 @@ RunSignals cut(const RunSignals& run, std::size_t begin, std::size_t length) {
   for (std::size_t w = 0; w < models::wheel_count; ++w) {
     segment.contact[w].assign(run.contact[w].begin() + first, run.contact[w].begin() + last);
     segment.normal_force[w].assign(run.normal_force[w].begin() + first,
-                                 run.normal_force[w].begin() + last);
+                                   run.normal_force[w].begin() + last);
   }
   return segment;
 }
 
-/// The piece of a run whose turn it is, counted from 0.
-RunSignals piece_of(const RunSignals& run, const TrainingSegments& segments, std::size_t turn) {
+/// The segment of the run with this number, counted from 0.
+RunSignals segment_of(const RunSignals& run, const TrainingSegments& segments, std::size_t number) {
   const auto steps = [&](double seconds) {
     return static_cast<std::size_t>(
         std::llround(1e6 * seconds / static_cast<double>(run.info.control_period_us)));
   };
   const std::size_t earliest = steps(segments.after);
   const std::size_t length = steps(segments.length);
-  const std::size_t room = run.steps() - std::min(run.steps(), earliest + length);
+  const std::size_t slack = run.steps() - std::min(run.steps(), earliest + length);
   const auto offsets = static_cast<std::size_t>(segments.offsets);
-  const std::size_t later = offsets > 1 ? room * (turn % offsets) / (offsets - 1) : 0;
+  const std::size_t later = offsets > 1 ? slack * (number % offsets) / (offsets - 1) : 0;
   return cut(run, earliest + later, length);
 }
 
 }  // namespace
 
 std::vector<RunSignals> training_segments_of(const Rollouts& runs, const std::string& simulator,
-                                  std::span<const TrainingSegments> segments, const std::string& fit) {
+                                             std::span<const TrainingSegments> segments,
+                                             const std::string& fit) {
   std::vector<RunSignals> all;
   for (std::size_t entry = 0; entry < segments.size(); ++entry) {
     std::size_t taken = 0;
@@ -49,7 +50,7 @@ std::vector<RunSignals> training_segments_of(const Rollouts& runs, const std::st
       const bool is_wanted = plan.role == RunRole::fit && plan.simulator == simulator &&
                              plan.fit == fit && plan.group == segment_group(entry) && !run.failed();
       if (!is_wanted || taken == static_cast<std::size_t>(segments[entry].runs)) continue;
-      all.push_back(piece_of(run.signals, segments[entry], taken++));
+      all.push_back(segment_of(run.signals, segments[entry], taken++));
     }
   }
   return all;

@@ -8,9 +8,10 @@
 
 namespace touchdown::experiments {
 
-/// The pieces of one engine's runs that one fit is made of: of every entry the first so many runs
-/// that did not fail. A piece holds what a fit needs of its steps, and no more.
+/// The training segments of one fit on one engine: for every entry, one segment from each of the
+/// first `runs` runs that did not fail. A segment has only the data that a fit needs.
 std::vector<RunSignals> training_segments_of(const Rollouts& runs, const std::string& simulator,
-                                  std::span<const TrainingSegments> segments, const std::string& fit = {});
+                                             std::span<const TrainingSegments> segments,
+                                             const std::string& fit = {});
 
 }  // namespace touchdown::experiments

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Points `link` to `target`, replacing what it pointed to in one step.
+/// Points `link` to `target`; replaces an existing link in one step.
 void point(const fs::path& link, const fs::path& target) {
   // Shards start at the same time, some of them on other machines.
   const fs::path temporary =
@@ -26,7 +26,7 @@ void point(const fs::path& link, const fs::path& target) {
   fs::rename(temporary, link);
 }
 
-/// The scenario's name may come from a recording that somebody else made.
+/// The scenario's name may come from an untrusted recording.
 const std::string& name_word(const std::string& scenario) {
   if (!is_name_word(scenario)) {
     throw InputError(fmt::format("a scenario's name: {}", expected_name_word));
@@ -60,7 +60,7 @@ RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,
     fs::create_directories(path_);
     if (out.empty()) point(path_.parent_path() / "latest", id);
   } catch (const fs::filesystem_error& error) {
-    throw Error(fmt::format("{}: cannot be made: {}", path_.string(), error.code().message()));
+    throw Error(fmt::format("{}: cannot be created: {}", path_.string(), error.code().message()));
   }
 }
 

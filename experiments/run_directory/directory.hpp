@@ -11,12 +11,12 @@
 
 namespace touchdown::experiments {
 
-/// Where one experiment's results go: `out` if given, or else `runs/<experiment>/<id>`.
+/// The run directory of an experiment: `out` if given, else `runs/<experiment>/<id>`.
 std::filesystem::path run_path(const std::string& experiment, const std::string& id,
                                const std::filesystem::path& out = {});
 
 /// Names of files in the folders `recordings`, `models` and `videos` of a run directory. Errors:
-/// `InputError` for a scenario whose name would lead elsewhere.
+/// `InputError` for a scenario with a name that leads to another folder.
 std::string recording_name(const std::string& simulator, const std::string& scenario,
                            std::string_view role, std::int64_t number);
 std::string model_name(const std::string& simulator, const std::string& estimator);
@@ -26,13 +26,13 @@ std::string video_name(const std::string& simulator, const std::string& scenario
 /// Every file appears whole or not at all.
 class RunDirectory {
  public:
-  /// `runs/<experiment>/<id>` under the current directory; `runs/<experiment>/latest` then points
-  /// to it. A given `out` is used itself, without such a link. Errors: `Error` when it cannot be
-  /// made.
+  /// Creates `runs/<experiment>/<id>` under the current directory and points
+  /// `runs/<experiment>/latest` to it. A given `out` is used as it is, without a link. Errors:
+  /// `Error` when the directory cannot be created.
   RunDirectory(const std::string& experiment, const std::string& id,
                const std::filesystem::path& out = {});
 
-  /// Keeps the directory taken for as long as this, or a copy of it, lives.
+  /// Holds the lock for as long as this, or a copy of it, lives.
   void keep(const DirectoryLock& lock) { lock_ = lock; }
   void release() { lock_.reset(); }
 

@@ -6,16 +6,16 @@
 
 namespace touchdown::experiments {
 
-/// Who needs the space, and what to do where it is short.
+/// What needs the space, and the advice if there is too little.
 struct SpaceNeed {
-  const char* who = "run";
+  const char* purpose = "run";
   const char* advice =
       "free some (`touchdown clean` removes old runs), keep fewer recordings (--set "
-      "recordings=pictured), lower what asks for so many parts, or put it elsewhere (--out)";
+      "recordings=pictured), reduce the number of parts, or use another disk (--out)";
 };
 
-/// Errors: `Error` when the disk that holds the directory has fewer bytes free than `needed`, with
-/// what they are for. Before anything is computed is the time to say so.
+/// Checks the disk before anything is computed. Errors: `Error` when the directory's disk has fewer
+/// free bytes than `needed`; the message includes `what_for`.
 void require_free_space(const std::filesystem::path& directory, std::uintmax_t needed,
                         const std::string& what_for = "", const SpaceNeed& need = {});
 

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Who holds a lock, as a line of its file.
+/// A process that holds a lock: one line of the lock file.
 struct Holder {
   pid_t process = 0;
   std::string host;
@@ -56,7 +56,7 @@ std::vector<Holder> holders_in(const std::string& lines) {
   return holders;
 }
 
-/// Of those who share a lock some may be dead; who is on another machine counts as alive.
+/// Some processes of a shared lock may be dead. Those on other machines count as alive.
 std::optional<Holder> living_holder(const fs::path& file) {
   std::vector<Holder> holders;
   try {
@@ -71,9 +71,9 @@ std::optional<Holder> living_holder(const fs::path& file) {
   return alive == holders.rend() ? std::nullopt : std::optional(*alive);
 }
 
-std::string who_holds(const fs::path& file) {
+std::string holder_text(const fs::path& file) {
   const std::optional<Holder> holder = living_holder(file);
-  if (!holder) return "somebody";
+  if (!holder) return "another process";
   return fmt::format("process {} on {} since {} ({})", holder->process, holder->host, holder->since,
                      holder->command);
 }
@@ -88,7 +88,7 @@ std::shared_ptr<const int> opened(const fs::path& file, int flags) {
           }};
 }
 
-/// Whether the path still leads to the opened file: somebody may have removed the directory.
+/// Whether the path still leads to the opened file: the directory may have been removed meanwhile.
 bool is_still_there(const fs::path& file, int descriptor) {
   struct stat there = {};
   struct stat here = {};
@@ -96,31 +96,30 @@ bool is_still_there(const fs::path& file, int descriptor) {
          there.st_dev == here.st_dev && there.st_ino == here.st_ino;
 }
 
-/// What became of asking for a lock.
-enum class Answer { taken, busy, no_locks };
+/// The outcome of a request for a lock.
+enum class LockResult { taken, busy, no_locks };
 
-Answer ask(int descriptor, Access access) {
+LockResult try_lock(int descriptor, Access access) {
   const int operation = (access == Access::alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
   int result = 0;
   do {
     result = ::flock(descriptor, operation);
   } while (result != 0 && errno == EINTR);
-  if (result == 0) return Answer::taken;
-  return errno == EWOULDBLOCK ? Answer::busy : Answer::no_locks;
+  if (result == 0) return LockResult::taken;
+  return errno == EWOULDBLOCK ? LockResult::busy : LockResult::no_locks;
 }
 
-/// A process that was killed leaves its locks to those it had forked, for the moment that they take
-/// to die.
+/// Children of a killed process inherit its locks until they die: this long at most.
 constexpr std::chrono::seconds dying(5);
 
-/// Asks until `until`, and on while nobody of those who signed is alive.
-Answer ask_patiently(const fs::path& file, int descriptor, Access access,
-                     std::chrono::steady_clock::time_point until) {
+/// Retries until `until`, and for `dying` longer if no registered holder is alive.
+LockResult wait_for_lock(const fs::path& file, int descriptor, Access access,
+                         std::chrono::steady_clock::time_point until) {
   for (;;) {
-    const Answer answer = ask(descriptor, access);
-    if (answer != Answer::busy) return answer;
+    const LockResult result = try_lock(descriptor, access);
+    if (result != LockResult::busy) return result;
     const auto now = std::chrono::steady_clock::now();
-    if (now >= until && (now >= until + dying || living_holder(file))) return answer;
+    if (now >= until && (now >= until + dying || living_holder(file))) return result;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 }
@@ -131,14 +130,14 @@ void sign(int descriptor, Access access, const std::string& command) {
                                                    std::chrono::system_clock::now()))),
                       command};
   const std::string line = line_of(holder);
-  // A disk that is full does not keep anybody from holding the lock.
+  // Errors are ignored: the lock holds on a full disk, too.
   if (access == Access::alone && ::ftruncate(descriptor, 0) != 0) return;
   [[maybe_unused]] const ssize_t written = ::write(descriptor, line.data(), line.size());
 }
 
 [[noreturn]] void refuse(const fs::path& directory) {
   throw Error(fmt::format("{}: is in use by {}: wait until it has ended", directory.string(),
-                          who_holds(lock_file(directory))));
+                          holder_text(lock_file(directory))));
 }
 
 }  // namespace
@@ -157,9 +156,9 @@ DirectoryLock::DirectoryLock(const fs::path& directory, Access access, const std
       if (!error) error.assign(errno, std::generic_category());
       throw Error(fmt::format("{}: cannot be opened: {}", file.string(), error.message()));
     }
-    const Answer answer = ask_patiently(file, *descriptor_, access, until);
-    if (answer == Answer::taken && !is_still_there(file, *descriptor_)) continue;
-    if (answer == Answer::busy) refuse(directory);
+    const LockResult result = wait_for_lock(file, *descriptor_, access, until);
+    if (result == LockResult::taken && !is_still_there(file, *descriptor_)) continue;
+    if (result == LockResult::busy) refuse(directory);
     break;
   }
   sign(*descriptor_, access, command);
@@ -172,7 +171,7 @@ DirectoryLock DirectoryLock::for_reading(const fs::path& directory, const std::s
   if (!lock.descriptor_) lock.descriptor_ = opened(file, O_RDONLY);
   if (!lock.descriptor_) return lock;
   const auto now = std::chrono::steady_clock::now();
-  if (ask_patiently(file, *lock.descriptor_, Access::shared, now) == Answer::busy) {
+  if (wait_for_lock(file, *lock.descriptor_, Access::shared, now) == LockResult::busy) {
     refuse(directory);
   }
   sign(*lock.descriptor_, Access::shared, command);

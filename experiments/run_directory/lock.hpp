@@ -7,22 +7,22 @@
 
 namespace touchdown::experiments {
 
-/// Who may work in a run directory beside whom: one alone, or several who share it.
+/// How a process uses a run directory: alone, or shared with others.
 enum class Access { alone, shared };
 
-/// A run directory that is taken: as long as this lives, and no longer than the process. It is a
-/// lock of the system on the file `state/lock`, so that nobody has to clear away what a killed
-/// process left; the file says who holds it.
+/// A lock on a run directory, held for as long as this lives and the process runs. It is a system
+/// lock on the file `state/lock`, so a killed process leaves no stale lock. The file names the
+/// holders.
 class DirectoryLock {
  public:
-  /// Takes a directory that exists, for as long as any copy lives; waits up to `patience` for
-  /// others. `command` is what was typed. A disk that knows no locks is worked on without one.
-  /// Errors: `Error` that says who is working there.
+  /// Locks an existing directory for as long as any copy lives; waits up to `patience` for other
+  /// processes. `command` is the command line. On a file system without locks it holds none.
+  /// Errors: `Error` that names the holder.
   DirectoryLock(const std::filesystem::path& directory, Access access, const std::string& command,
                 std::chrono::milliseconds patience = {});
 
-  /// The same for somebody who only looks at what a run left there: makes no file. Holds nothing
-  /// where there is no lock, or none that may be opened.
+  /// A shared lock for commands that only read a run's files: creates no file. Holds nothing if
+  /// there is no lock file, or it cannot be opened.
   static DirectoryLock for_reading(const std::filesystem::path& directory,
                                    const std::string& command);
 
@@ -32,7 +32,7 @@ class DirectoryLock {
   std::shared_ptr<const int> descriptor_;  ///< closes itself
 };
 
-/// The file, for those who have to leave it alone.
+/// The lock file, which other code must leave alone.
 std::filesystem::path lock_file(const std::filesystem::path& directory);
 
 }  // namespace touchdown::experiments

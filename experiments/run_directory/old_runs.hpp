@@ -12,8 +12,8 @@ struct OldRun {
   std::uintmax_t bytes = 0;  ///< of all files in it
 };
 
-/// The run directories `runs/<experiment>/<id>` but those that `latest` points to, by name. An
-/// experiment without a `latest`, and whatever holds no `config.yaml`, is left alone.
+/// The run directories `runs/<experiment>/<id>`, sorted by name, except those that `latest` points
+/// to. Experiments without a `latest` and folders without a `config.yaml` are skipped.
 /// Errors: `InputError` when `runs` is no directory.
 std::vector<OldRun> old_runs(const std::filesystem::path& runs);
 

@@ -22,7 +22,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// What no experiment decides.
+/// Files with names that do not depend on the experiment.
 struct FixedNames {
   const char* folder;
   const char* shape;
@@ -32,7 +32,7 @@ constexpr std::array fixed_names = {
     FixedNames{"state/evaluation", R"(.+_seed_\d{4,})"},
     FixedNames{"state/shards", R"(\d+_of_\d+)"},
     FixedNames{"state/tuning", R"(.+_fold_\d+)"},
-    FixedNames{"state/foreign", R"([^.].*)"},
+    FixedNames{"state/submissions", R"([^.].*)"},
     FixedNames{"state/closed_loop", R"(run_\d{6,})"},
     FixedNames{
         "tables",
@@ -50,14 +50,24 @@ constexpr std::array fixed_names = {
     FixedNames{"models", R"(nmn\.(npz|json))"},
     FixedNames{"checkpoints", R"(\d{4,}\.pt)"}};
 
-/// Every folder that a run makes, the inner ones first.
-constexpr std::array all_folders = {"state/evaluation", "state/recordings",  "state/shards",
-                                    "state/foreign",   "state/closed_loop", "state/tuning",
-                                    "state",           "recordings",        "models",
-                                    "tables",          "figures",           "videos",
-                                    "trajectories",    "checkpoints",       "logs"};
+/// Every folder that a run creates, inner folders first.
+constexpr std::array all_folders = {"state/evaluation",
+                                    "state/recordings",
+                                    "state/shards",
+                                    "state/submissions",
+                                    "state/closed_loop",
+                                    "state/tuning",
+                                    "state",
+                                    "recordings",
+                                    "models",
+                                    "tables",
+                                    "figures",
+                                    "videos",
+                                    "trajectories",
+                                    "checkpoints",
+                                    "logs"};
 
-/// The files in a folder itself; none where the folder is a link or is not there.
+/// The files directly in a folder; none if the folder is a link or missing.
 Names files_in(const fs::path& folder) {
   Names names;
   std::error_code ignored;
@@ -71,7 +81,7 @@ Names files_in(const fs::path& folder) {
   return names;
 }
 
-/// A list of names, or one name, under a key of a file; none if it cannot be read.
+/// A list of names, or one name, under a key of a YAML file; none if the file cannot be read.
 Names names_under(const char* key, const fs::path& file) {
   try {
     const YAML::Node node = YamlDocument::load(file).root()[key];
@@ -82,8 +92,7 @@ Names names_under(const char* key, const fs::path& file) {
   }
 }
 
-/// The names of an experiment's engines, estimators and scenarios make those of its models and
-/// videos.
+/// Names of models and videos, which consist of the experiment's engines, estimators and scenarios.
 std::vector<fs::path> models_and_videos(const fs::path& directory) {
   const fs::path config = directory / "config.yaml";
   std::vector<fs::path> names;
@@ -102,7 +111,7 @@ std::vector<fs::path> models_and_videos(const fs::path& directory) {
   return names;
 }
 
-/// A recording is the run's if there is a stamp for it.
+/// A recording belongs to the run if it has a stamp.
 std::vector<fs::path> recordings_and_stamps(const fs::path& directory) {
   std::vector<fs::path> names;
   for (const std::string& stamp : files_in(directory / "state/recordings")) {
@@ -116,7 +125,7 @@ std::vector<fs::path> recordings_and_stamps(const fs::path& directory) {
   return names;
 }
 
-/// The first line of a figure's script says what it draws; its data stands in it by name.
+/// The first line of a figure's script names its pictures; the script names its data files.
 std::vector<fs::path> figures(const fs::path& directory) {
   const fs::path folder = directory / "figures";
   const Names files = files_in(folder);
@@ -176,7 +185,7 @@ std::vector<fs::path> own_files(const fs::path& directory) {
       if (has_shape(file, fixed.shape)) names.push_back(fs::path(fixed.folder) / file);
     }
   }
-  // Scenarios and the experiment name the others: were the removal killed, the next one needs them.
+  // Scenarios and the experiment come last: after a killed removal they still name the other files.
   std::stable_partition(names.begin(), names.end(), [](const fs::path& name) {
     return !name.filename().string().starts_with("scenario_");
   });
@@ -208,7 +217,7 @@ UntrackedFiles remove_run(const fs::path& directory) {
     if (type == fs::file_type::regular) left.bytes += entry.file_size();
   }
   if (left.files > 0) return left;
-  // Nobody is given a lock on a file that has gone.
+  // Other processes detect that the lock file is gone and lock a new one.
   if (is_file(lock_file(directory))) remove_file(lock_file(directory));
   remove_empty_folders(directory);
   std::error_code not_empty;

@@ -28,19 +28,20 @@ std::string name_in(const fs::path& config) {
   }
 }
 
-/// Of a finished run whose `state` somebody removed, its manifest tells the experiment.
+/// The owner by the manifest, for a finished run after its `state` was removed.
 std::optional<RunDirectoryOwner> finished_in(const fs::path& directory) {
   try {
-    // What is JSON is YAML.
+    // JSON is a subset of YAML.
     const YAML::Node manifest = YamlDocument::load(directory / "manifest.json").root();
     if (!manifest["versions"]["touchdown"]) return std::nullopt;
-    return RunDirectoryOwner{{}, manifest["id"].as<std::string>(), name_in(directory / "config.yaml")};
+    return RunDirectoryOwner{
+        {}, manifest["id"].as<std::string>(), name_in(directory / "config.yaml")};
   } catch (const std::exception&) {
     return std::nullopt;
   }
 }
 
-/// Something in a folder that a killed start, or a start at the same time, did not leave there.
+/// An entry of a folder that neither a killed start nor a concurrent start leaves there.
 fs::path untracked_file_in(const fs::path& folder) {
   std::error_code unreadable;
   for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
@@ -51,13 +52,13 @@ fs::path untracked_file_in(const fs::path& folder) {
   return unreadable ? folder : fs::path();
 }
 
-/// Whoever takes a directory writes its key first: what lies in one that has a key by now may be a
-/// run's that starts at the same time.
-void refuse_unless_taken(const fs::path& directory, const fs::path& stranger) {
+/// A run writes its key first. If there is a key by now, `file` may belong to a run that starts at
+/// the same time.
+void refuse_unless_owned(const fs::path& directory, const fs::path& file) {
   if (owner_of(directory)) return;
   throw InputError(
       fmt::format("{}: {} is there already, and no run of touchdown made it: choose another --out",
-                  directory.string(), stranger.lexically_relative(directory).string()));
+                  directory.string(), file.lexically_relative(directory).string()));
 }
 
 }  // namespace
@@ -90,20 +91,20 @@ void require_place_beside(const fs::path& directory, const std::string& config,
   std::error_code ignored;
   const fs::path there = directory / "config.yaml";
   if (fs::exists(directory / result, ignored) || !fs::exists(there, ignored)) return;
-  if (read_file(there) != config) refuse_unless_taken(directory, there);
+  if (read_file(there) != config) refuse_unless_owned(directory, there);
 }
 
 void require_no_untracked_files(const fs::path& directory) {
   std::error_code ignored;
   for (const char* const name : run_files) {
     const fs::path file = directory / name;
-    if (fs::exists(fs::symlink_status(file, ignored))) refuse_unless_taken(directory, file);
+    if (fs::exists(fs::symlink_status(file, ignored))) refuse_unless_owned(directory, file);
   }
   for (const char* const name : run_folders) {
     const fs::path folder = directory / name;
     if (!fs::exists(fs::symlink_status(folder, ignored))) continue;
-    const fs::path stranger = untracked_file_in(folder);
-    if (!stranger.empty()) refuse_unless_taken(directory, stranger);
+    const fs::path untracked = untracked_file_in(folder);
+    if (!untracked.empty()) refuse_unless_owned(directory, untracked);
   }
 }
 

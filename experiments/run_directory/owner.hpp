@@ -7,35 +7,35 @@
 
 namespace touchdown::experiments {
 
-/// Where a run writes: these files and folders of its directory, nothing else.
+/// The files and folders of its directory that a run writes to.
 inline constexpr std::array run_files = {"config.yaml", "manifest.json", "report.html"};
 inline constexpr std::array run_folders = {"state",  "recordings", "models",
                                            "tables", "figures",    "videos"};
 
 /// The experiment that a run directory belongs to.
 struct RunDirectoryOwner {
-  std::string key;      ///< the whole of it, `key_of`; empty where only the manifest says so
+  std::string key;      ///< `key_of`; empty if only the manifest names the owner
   std::string request;  ///< the experiment's digest
   std::string name;     ///< of the experiment; empty if its file cannot be read
 };
 
-/// Where a run directory says whose it is.
+/// The file that names the owner of a run directory.
 std::filesystem::path key_file(const std::filesystem::path& directory);
 
-/// What it says there: a request, and the build that computes it.
+/// The content of that file: a request, and the build that computes it.
 std::string key_of(const std::string& request, const std::string& build);
 
-/// Nothing if the directory is nobody's.
+/// The owner of a run directory; nothing if it has none.
 std::optional<RunDirectoryOwner> owner_of(const std::filesystem::path& directory);
 
-/// Where something else than an experiment goes, with its `config.yaml`. Errors: `InputError` when
-/// the directory is an experiment's, or when there is another `config.yaml` without the `result`
-/// that such leave: it is somebody's own.
+/// Checks a directory for a program other than an experiment, which writes a `config.yaml` with
+/// this content. Errors: `InputError` when an experiment owns the directory. Also when it has a
+/// different `config.yaml` but no `result`: then the user made that file.
 void require_place_beside(const std::filesystem::path& directory, const std::string& config,
                           const std::filesystem::path& result);
 
-/// Errors: `InputError`, naming it, when a directory that is nobody's, and does not become a run's
-/// meanwhile, holds something where a run would write: it is not a run's to replace.
+/// Refuses to overwrite untracked files. Errors: `InputError` that names a file in a place that a
+/// run writes to, if the directory has no owner and no run takes it meanwhile.
 void require_no_untracked_files(const std::filesystem::path& directory);
 
 }  // namespace touchdown::experiments

@@ -31,10 +31,10 @@ std::optional<std::uint64_t> file_checksum(const std::filesystem::path& path) {
                                                                      XXH3_freeState);
   if (!sum) return std::nullopt;
   XXH3_64bits_reset(sum.get());
-  std::vector<char> segment(std::size_t{1} << 20U);
+  std::vector<char> block(std::size_t{1} << 20U);
   do {
-    file.read(segment.data(), static_cast<std::streamsize>(segment.size()));
-    XXH3_64bits_update(sum.get(), segment.data(), static_cast<std::size_t>(file.gcount()));
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    XXH3_64bits_update(sum.get(), block.data(), static_cast<std::size_t>(file.gcount()));
   } while (file);
   if (file.bad()) return std::nullopt;
   return XXH3_64bits_digest(sum.get());

@@ -8,24 +8,25 @@
 
 namespace touchdown::experiments {
 
-/// A number that tells contents apart quickly (XXH3), the same on every machine.
+/// A fast checksum (XXH3), the same on every machine.
 std::uint64_t checksum(std::string_view content);
-/// Of a file, read in pieces. Nothing if it cannot be read.
+/// The checksum of a file, read in blocks. Nothing if it cannot be read.
 std::optional<std::uint64_t> file_checksum(const std::filesystem::path& path);
 
-/// Writes something to come back to: `content` under a `key` that says what it was computed from
-/// and by which build. Appears whole or not at all. `key` is one line.
+/// Saves `content` under a `key` of one line, which names its inputs and the build. The file
+/// appears whole or not at all.
 void write_state(const std::filesystem::path& path, std::string_view key, std::string_view content);
 
-/// What was written there under the same key. Nothing if there is no such file, if its key is
-/// another one, or if it is not whole.
+/// The content that was saved under this key. Nothing if the file is missing or damaged, or has
+/// another key.
 std::optional<std::string> read_state(const std::filesystem::path& path, std::string_view key);
 
-/// What somebody wrote there, under whatever key. Nothing if it is not whole.
+/// The content of a state file, with its key.
 struct SavedState {
   std::string key;
   std::string content;
 };
+/// Reads a state file with any key. Nothing if it is missing or damaged.
 std::optional<SavedState> read_any_state(const std::filesystem::path& path);
 
 }  // namespace touchdown::experiments

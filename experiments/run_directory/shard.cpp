@@ -16,18 +16,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path notes(const fs::path& run_directory) { return run_directory / "state" / "shards"; }
+fs::path mark_folder(const fs::path& run_directory) { return run_directory / "state" / "shards"; }
 
-/// The files whose names are notes.
-std::vector<std::pair<fs::path, Shard>> notes_in(const fs::path& run_directory) {
+/// The marks of started shards, with their files.
+std::vector<std::pair<fs::path, Shard>> marks_in(const fs::path& run_directory) {
   static const std::regex shape(R"((\d{1,6})_of_(\d{1,6}))");
   std::vector<std::pair<fs::path, Shard>> found;
   std::error_code ignored;
-  for (const auto& note : fs::directory_iterator(notes(run_directory), ignored)) {
-    const std::string name = note.path().filename().string();
+  for (const auto& mark : fs::directory_iterator(mark_folder(run_directory), ignored)) {
+    const std::string name = mark.path().filename().string();
     std::smatch part;
     if (!std::regex_match(name, part, shape)) continue;
-    found.push_back({note.path(), {std::stoi(part[1]), std::stoi(part[2])}});
+    found.push_back({mark.path(), {std::stoi(part[1]), std::stoi(part[2])}});
   }
   return found;
 }
@@ -53,7 +53,7 @@ Shard shard_from(std::string_view text) {
 std::string to_text(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 
 void mark_shard_started(const fs::path& run_directory, const Shard& shard) {
-  write_atomically(notes(run_directory) / fmt::format("{}_of_{}", shard.index, shard.count),
+  write_atomically(mark_folder(run_directory) / fmt::format("{}_of_{}", shard.index, shard.count),
                    to_text(shard) + "\n");
 }
 
@@ -61,7 +61,7 @@ int started_shards(const fs::path& run_directory) {
   int count = 1;
   auto newest = fs::file_time_type::min();
   std::error_code ignored;
-  for (const auto& [path, shard] : notes_in(run_directory)) {
+  for (const auto& [path, shard] : marks_in(run_directory)) {
     const auto written = fs::last_write_time(path, ignored);
     if (written < newest) continue;
     count = shard.count;
@@ -72,8 +72,8 @@ int started_shards(const fs::path& run_directory) {
 
 void remove_shard_marks(const fs::path& run_directory) {
   std::error_code ignored;
-  for (const auto& [path, shard] : notes_in(run_directory)) fs::remove(path, ignored);
-  fs::remove(notes(run_directory), ignored);
+  for (const auto& [path, shard] : marks_in(run_directory)) fs::remove(path, ignored);
+  fs::remove(mark_folder(run_directory), ignored);
 }
 
 }  // namespace touchdown::experiments

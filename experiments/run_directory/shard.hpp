@@ -12,8 +12,8 @@ struct Shard {
   int index = 1;
   int count = 1;
 
-  /// Its share of `size` things in a row is [begin, end); all shards' shares together are all of
-  /// them, and no two shares overlap.
+  /// Its share of `size` items is [begin, end). The shares of all shards cover all items without
+  /// overlap.
   std::size_t begin(std::size_t size) const {
     return size * (static_cast<std::size_t>(index) - 1) / static_cast<std::size_t>(count);
   }
@@ -24,14 +24,14 @@ struct Shard {
   friend bool operator==(const Shard&, const Shard&) = default;
 };
 
-/// "2/3". Errors: `InputError` unless it is k/n with 1 ≤ k ≤ n ≤ 100,000.
+/// Reads "2/3". Errors: `InputError` unless it is k/n with 1 ≤ k ≤ n ≤ 100,000.
 Shard shard_from(std::string_view text);
 std::string to_text(const Shard& shard);
 
-/// Which shards a run directory's work was cut into: each leaves a note when it starts, so that
-/// `merge` can say which ones are missing. The notes are removed once all is merged.
+/// Marks a shard as started in its run directory, so that `merge` can name missing shards. The
+/// marks are removed after the merge.
 void mark_shard_started(const std::filesystem::path& run_directory, const Shard& shard);
-/// Number of shards of the newest note; 1 without any.
+/// Number of shards by the newest mark; 1 without any.
 int started_shards(const std::filesystem::path& run_directory);
 void remove_shard_marks(const std::filesystem::path& run_directory);
 

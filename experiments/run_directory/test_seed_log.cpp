@@ -9,24 +9,24 @@
 
 namespace touchdown::experiments {
 
-int log_evaluation(const std::filesystem::path& run_directory, const TestSeedUse& touch) {
-  const std::filesystem::path ledger =
+int log_evaluation(const std::filesystem::path& run_directory, const TestSeedUse& use) {
+  const std::filesystem::path log =
       std::filesystem::absolute(run_directory).parent_path() / "reserved_seeds.csv";
   Table table{{"seed", "id", "commit"}, {}};
-  if (std::filesystem::exists(ledger)) table.rows = from_csv(read_file(ledger)).rows;
-  const std::vector<std::string> own = {std::to_string(touch.seed), touch.id, touch.commit};
+  if (std::filesystem::exists(log)) table.rows = from_csv(read_file(log)).rows;
+  const std::vector<std::string> own = {std::to_string(use.seed), use.id, use.commit};
   std::set<std::vector<std::string>> others;
-  bool is_noted = false;
+  bool is_logged = false;
   for (const std::vector<std::string>& row : table.rows) {
     if (row == own) {
-      is_noted = true;
+      is_logged = true;
     } else if (!row.empty() && row.front() == own.front()) {
       others.insert(row);
     }
   }
-  if (!is_noted) {
+  if (!is_logged) {
     table.rows.push_back(own);
-    write_atomically(ledger, to_csv(table));
+    write_atomically(log, to_csv(table));
   }
   return static_cast<int>(others.size());
 }

@@ -4,10 +4,11 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The two kinds by one name.
-template <typename Hear, typename Take>
-void evaluate(EstimatorRunner& runner, const RunSignals& run, const Hear& hear, const Take& take) {
-  runner.run_estimator(run, hear, take);
+/// Lets the templates below take an `EstimatorRunner` like a `ContactEstimator`.
+template <typename Sense, typename Take>
+void evaluate(EstimatorRunner& runner, const RunSignals& run, const Sense& sense,
+              const Take& take) {
+  runner.run_estimator(run, sense, take);
 }
 
 template <typename Estimator>

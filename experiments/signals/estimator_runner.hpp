@@ -10,32 +10,33 @@
 
 namespace touchdown::experiments {
 
-/// What is believed after each of these steps, which are all that is heard of a run.
-using WholeRunEstimator = std::function<std::vector<Belief>(std::span<const Signals> heard)>;
+/// Returns one belief for each of these steps. The steps are all recorded steps of a run.
+using WholeRunEstimator = std::function<std::vector<Belief>(std::span<const Signals> signals)>;
 
-/// An estimator, reset, listens to a whole run step by step: to `hear(k)` at every step k of which
-/// there is a record. `take(k, belief)` is called for all; where nothing is heard, the last belief
-/// stands.
-template <typename Hear, typename Take>
-void evaluate(ContactEstimator& estimator, const RunSignals& run, const Hear& hear,
-            const Take& take) {
+/// Resets an estimator and runs it on a whole run. `sense(k)` returns the signals of step k; it is
+/// called for recorded steps only. `take(k, belief)` is called for every step. At a step without a
+/// record the last belief holds.
+template <typename Sense, typename Take>
+void evaluate(ContactEstimator& estimator, const RunSignals& run, const Sense& sense,
+              const Take& take) {
   estimator.reset();
   Belief belief;
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (has_record(run.signals[k])) belief = estimator.update(hear(k));
+    if (has_record(run.signals[k])) belief = estimator.update(sense(k));
     take(k, belief);
   }
 }
 
-/// Likewise, all of the run at once.
-template <typename Hear, typename Take>
-void evaluate(const WholeRunEstimator& believe, const RunSignals& run, const Hear& hear, const Take& take) {
-  std::vector<Signals> heard;
-  heard.reserve(run.steps());
+/// The same for an estimator that gets the whole run at once.
+template <typename Sense, typename Take>
+void evaluate(const WholeRunEstimator& estimate, const RunSignals& run, const Sense& sense,
+              const Take& take) {
+  std::vector<Signals> signals;
+  signals.reserve(run.steps());
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (has_record(run.signals[k])) heard.push_back(hear(k));
+    if (has_record(run.signals[k])) signals.push_back(sense(k));
   }
-  const std::vector<Belief> beliefs = believe(heard);
+  const std::vector<Belief> beliefs = estimate(signals);
   Belief belief;
   auto next = beliefs.begin();
   for (std::size_t k = 0; k < run.steps(); ++k) {
@@ -44,28 +45,29 @@ void evaluate(const WholeRunEstimator& believe, const RunSignals& run, const Hea
   }
 }
 
-/// An estimator that listens to runs: as on a robot, or to each of them at once.
+/// Runs an estimator on recorded runs: step by step as on a robot, or on a whole run at once.
 class EstimatorRunner {
  public:
-  explicit EstimatorRunner(std::unique_ptr<ContactEstimator> by_step) : how_(std::move(by_step)) {}
-  explicit EstimatorRunner(WholeRunEstimator whole_run) : how_(std::move(whole_run)) {}
+  explicit EstimatorRunner(std::unique_ptr<ContactEstimator> by_step)
+      : estimator_(std::move(by_step)) {}
+  explicit EstimatorRunner(WholeRunEstimator whole_run) : estimator_(std::move(whole_run)) {}
 
-  /// As the functions above.
-  template <typename Hear, typename Take>
-  void run_estimator(const RunSignals& run, const Hear& hear, const Take& take) {
-    if (const auto* by_step = std::get_if<std::unique_ptr<ContactEstimator>>(&how_)) {
-      evaluate(**by_step, run, hear, take);
+  /// Works as `evaluate` above.
+  template <typename Sense, typename Take>
+  void run_estimator(const RunSignals& run, const Sense& sense, const Take& take) {
+    if (const auto* by_step = std::get_if<std::unique_ptr<ContactEstimator>>(&estimator_)) {
+      evaluate(**by_step, run, sense, take);
     } else {
-      evaluate(std::get<WholeRunEstimator>(how_), run, hear, take);
+      evaluate(std::get<WholeRunEstimator>(estimator_), run, sense, take);
     }
   }
 
  private:
-  std::variant<std::unique_ptr<ContactEstimator>, WholeRunEstimator> how_;
+  std::variant<std::unique_ptr<ContactEstimator>, WholeRunEstimator> estimator_;
 };
 
-/// The wheels' decisions of an estimator that, reset, listens to a whole run through noise. At a
-/// step of which it does not hear, its last belief stands.
+/// The contact decision per wheel and step of an estimator that is reset and run on a whole run
+/// with sensor noise. At a step without a record its last belief holds.
 std::array<scoring::ContactSequence, models::wheel_count> decide(ContactEstimator& estimator,
                                                                  const RunSignals& run,
                                                                  const NoiseRun& noise,
@@ -75,7 +77,7 @@ std::array<scoring::ContactSequence, models::wheel_count> decide(EstimatorRunner
                                                                  const NoiseRun& noise,
                                                                  const noise::SensorNoise& levels);
 
-/// As above, with probabilities and the robot's views.
+/// The same with probabilities, for each wheel and for the robot's views.
 scoring::Prediction predict(ContactEstimator& estimator, const RunSignals& run,
                             const NoiseRun& noise, const noise::SensorNoise& levels);
 scoring::Prediction predict(EstimatorRunner& runner, const RunSignals& run, const NoiseRun& noise,

@@ -11,18 +11,18 @@
 
 namespace touchdown::experiments {
 
-/// What odometry needs of a run besides its signals.
+/// The data of a run that odometry needs besides the signals.
 struct RunMotion {
-  odometry::WheeledBiped robot;                 ///< as its description has it
-  std::vector<Eigen::Vector3d> specific_force;  ///< that the accelerometer reports (m/s²)
-  scoring::Trajectory truth;                    ///< of the IMU, with the axes of the base
+  odometry::WheeledBiped robot;                 ///< from the robot's description
+  std::vector<Eigen::Vector3d> specific_force;  ///< reported by the accelerometer (m/s²)
+  scoring::Trajectory truth;  ///< pose of the IMU's origin, with the axes of the base
 };
 
-/// Errors: `InputError` for a robot whose joints do not turn about ±y, see `wheeled_biped`.
+/// Errors: `InputError` for a robot with joints that do not turn about ±y, see `wheeled_biped`.
 RunMotion motion_of(const recordings::Recording& recording, const models::RobotModel& robot);
 
-/// The robot as odometry knows it, from its model. Errors: `InputError` when a joint does not turn
-/// about ±y: legs are taken to be plane.
+/// The kinematic model for odometry, from the robot's MuJoCo model. It assumes planar legs. Errors:
+/// `InputError` when a joint does not turn about ±y.
 odometry::WheeledBiped wheeled_biped(const models::RobotModel& robot);
 
 }  // namespace touchdown::experiments

@@ -8,13 +8,13 @@
 
 namespace touchdown::experiments {
 
-/// Seeds from here on are kept for reported numbers (docs/protocol.md): nothing is ever fitted to a
-/// run that was drawn with one.
+/// Seeds from this one on are reserved for reported numbers (docs/protocol.md). No model may be
+/// fitted to a run that was drawn with one.
 inline constexpr std::uint64_t first_reserved_seed = 900'000'000;
 
 inline bool is_reserved(std::uint64_t seed) { return seed >= first_reserved_seed; }
 
-/// The seed that fitted runs are drawn with when tested ones are drawn with `seed`.
+/// The seed for drawing fitted runs when test runs are drawn with `seed`.
 inline std::uint64_t fit_seed(std::uint64_t seed) { return is_reserved(seed) ? 1 : seed; }
 
 /// Errors: `InputError` when the run was drawn with a reserved seed.

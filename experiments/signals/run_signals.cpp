@@ -83,7 +83,7 @@ void add_encoder_noise(Signals& signals, const NoiseRun& noise, const noise::Sen
 }
 
 NoiseRun with_heavy_tails(NoiseRun noise, const noise::NoiseKey& key) {
-  // Which samples is drawn from a channel that is not otherwise used: hip encoders are exact here.
+  // The outliers are drawn from a channel that is otherwise unused: hip encoders are exact here.
   std::vector<double> pick(noise.vertical_acceleration.size());
   noise::fill_standard_normal(key, noise::NoiseChannel::left_hip_position, 0, pick);
   constexpr double upper_tenth = 1.2815515655446004;

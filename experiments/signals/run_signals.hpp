@@ -20,19 +20,19 @@
 
 namespace touchdown::experiments {
 
-/// Whether an estimator hears of a step at all: there is a record of it.
+/// Whether the step was recorded. Estimators are not updated at steps without a record.
 inline bool has_record(const Signals& signals) { return !std::isnan(signals.time); }
 
-/// What a study keeps of a recording: the signals at every step, and what is true.
+/// The data that a study keeps of a recording: the signals at every step and the ground truth.
 struct RunSignals {
   recordings::RecordingInfo info;
   std::vector<Signals> signals;            ///< noiseless
   std::vector<Eigen::Vector3d> up_in_imu;  ///< the world's vertical in the IMU frame
   std::array<scoring::ContactSequence, models::wheel_count> contact;  ///< labels
   std::array<std::vector<double>, models::wheel_count> normal_force;  ///< truth, per wheel (N)
-  std::vector<std::size_t> segments;               ///< first steps of the statistical samples
-  LegGeometry legs = {};                         ///< of the robot, as its file has it
-  std::shared_ptr<const RunMotion> motion = {};  ///< of tested runs, where odometry is studied
+  std::vector<std::size_t> segments;             ///< first step of each statistical sample
+  LegGeometry legs = {};                         ///< of the robot, from its file
+  std::shared_ptr<const RunMotion> motion = {};  ///< of test runs, if odometry is studied
 
   std::size_t steps() const { return signals.size(); }
 };
@@ -47,8 +47,8 @@ struct EncoderNoise {
   std::array<std::vector<double>, 3> velocity;
 };
 
-/// Unit Gaussian noise on all signals of one run, to be scaled by every noise
-/// level of a sweep: the draws are those of `with_noise` with the same key.
+/// Standard normal draws for all signals of one run. Each noise level of a sweep scales them. The
+/// draws equal those of `with_noise` with the same key.
 struct NoiseRun {
   std::array<std::vector<double>, models::wheel_count> hip_torque;
   std::array<std::vector<double>, models::wheel_count> knee_torque;
@@ -60,11 +60,11 @@ struct NoiseRun {
 
 NoiseRun noise_run(const RunSignals& run, const noise::NoiseKey& key);
 
-/// Most studies leave the encoders exact: `noisy` asks for this only where they are not.
+/// Adds noise to joint positions and velocities. `noisy` calls it only for levels with such noise.
 void add_encoder_noise(Signals& signals, const NoiseRun& noise, const noise::SensorNoise& levels,
                        std::size_t step);
 
-/// The signals at `step` through sensors with this noise.
+/// The signals at `step` with sensor noise of these levels.
 inline Signals noisy(const RunSignals& run, const NoiseRun& noise, const noise::SensorNoise& levels,
                      std::size_t step) {
   Signals signals = run.signals[step];
@@ -84,10 +84,10 @@ inline Signals noisy(const RunSignals& run, const NoiseRun& noise, const noise::
   return signals;
 }
 
-/// A run's noise with heavy tails: a tenth of the samples, of all channels at once, are outliers.
+/// A run's noise with heavy tails: a tenth of the steps are outliers, in all channels at once.
 NoiseRun with_heavy_tails(NoiseRun noise, const noise::NoiseKey& key);
 
-/// `noisy` with everything of the disturbance but its heavy tails, which are the noise's own.
+/// The signals of `noisy` with the disturbance, except for its heavy tails: `noise` has those.
 Signals disturbed(const RunSignals& run, const NoiseRun& noise, const noise::SensorNoise& levels,
                   std::size_t step, const noise::Disturbance& disturbance);
 

@@ -22,7 +22,7 @@ bool is_hidden(const fs::path& name) {
                      [](const fs::path& part) { return part.string().starts_with('.'); });
 }
 
-/// Every file below the folder that is not hidden, by its path there; sorted.
+/// The relative paths of all files below the folder that are not hidden, sorted.
 std::vector<fs::path> files_below(const fs::path& folder) {
   std::vector<fs::path> names;
   try {
@@ -38,7 +38,7 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return names;
 }
 
-Submission in_folder(const fs::path& folder, const std::vector<HeardRun>& runs) {
+Submission submission_of_folder(const fs::path& folder, const std::vector<ExportedRun>& runs) {
   std::map<std::string, std::size_t> number;
   for (std::size_t i = 0; i < runs.size(); ++i) number.emplace(runs[i].name, i);
   std::map<std::size_t, fs::path> found;
@@ -69,7 +69,7 @@ Submission in_folder(const fs::path& folder, const std::vector<HeardRun>& runs) 
   return all;
 }
 
-Submission one_file(const fs::path& file, const std::vector<HeardRun>& runs) {
+Submission submission_of_file(const fs::path& file, const std::vector<ExportedRun>& runs) {
   Submission all;
   std::vector<std::string> known;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -85,19 +85,19 @@ Submission one_file(const fs::path& file, const std::vector<HeardRun>& runs) {
   throw InputError(fmt::format(
       "{}: the benchmark has {} runs of this name, '{}' and '{}' among them: expected a folder "
       "with a file for each",
-      file.string(), all.files.size(), runs[all.files[0].heard].name,
-      runs[all.files[1].heard].name));
+      file.string(), all.files.size(), runs[all.files[0].run].name, runs[all.files[1].run].name));
 }
 
 }  // namespace
 
-Submission handed_in(const fs::path& beliefs, const std::vector<HeardRun>& runs) {
+Submission submission_in(const fs::path& beliefs, const std::vector<ExportedRun>& runs) {
   std::error_code ignored;
   if (!fs::exists(beliefs, ignored)) {
     throw InputError(fmt::format("{}: no such file or folder", beliefs.string()));
   }
   const bool is_folder = fs::is_directory(beliefs, ignored);
-  Submission all = is_folder ? in_folder(beliefs, runs) : one_file(beliefs, runs);
+  Submission all =
+      is_folder ? submission_of_folder(beliefs, runs) : submission_of_file(beliefs, runs);
   if (all.files.empty()) {
     throw InputError(
         fmt::format("{}: holds no beliefs about a test run: expected files such as {}.csv",

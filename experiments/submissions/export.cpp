@@ -8,10 +8,10 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
+#include "experiments/run_directory/free_space.hpp"
 #include "experiments/submissions/exported_arrays.hpp"
 #include "experiments/submissions/readme.hpp"
 #include "experiments/submissions/sha256.hpp"
-#include "experiments/run_directory/free_space.hpp"
 
 namespace touchdown::experiments {
 
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder for the export: a new one is gone again unless all of it was written.
+/// A folder for the export. A new folder is removed again unless the export is complete.
 class ExportFolder {
  public:
   explicit ExportFolder(const fs::path& folder) : path_(fs::absolute(folder)) {
@@ -29,10 +29,10 @@ class ExportFolder {
       throw InputError(
           fmt::format("{}: is no folder: name a new or an empty one", folder.string()));
     }
-    const fs::directory_iterator held(path_, ignored);
-    if (held != fs::directory_iterator()) {
+    const fs::directory_iterator content(path_, ignored);
+    if (content != fs::directory_iterator()) {
       throw InputError(fmt::format("{}: holds '{}': name a new or an empty folder", folder.string(),
-                                   held->path().filename().string()));
+                                   content->path().filename().string()));
     }
   }
   ~ExportFolder() {
@@ -44,7 +44,7 @@ class ExportFolder {
 
   const fs::path& path() const { return path_; }
 
-  /// Moves everything out of `made` to its place; sums are the last.
+  /// Moves all content of `made` into this folder, the checksums last.
   void take(const fs::path& made) const {
     std::vector<fs::path> names;
     for (const auto& entry : fs::directory_iterator(made)) names.push_back(entry.path().filename());
@@ -59,11 +59,11 @@ class ExportFolder {
   bool is_new_ = false;
 };
 
-/// What is known of a file once it is written.
+/// The checksum and size of a written file.
 struct Written {
   std::string sha256;
   std::uintmax_t bytes = 0;
-  std::size_t steps = 0;  ///< none: the run failed
+  std::size_t steps = 0;  ///< 0: the run failed
 };
 
 Written write_file(const fs::path& path, const std::string& content) {
@@ -71,39 +71,39 @@ Written write_file(const fs::path& path, const std::string& content) {
   return {sha256(content), content.size()};
 }
 
-Written write_heard(const HeardRun& heard, const RunRequest& request, const Plan& plan,
-                    const RunSignals& run, const fs::path& folder) {
+Written write_run(const ExportedRun& exported, const RunRequest& request, const Plan& plan,
+                  const RunSignals& run, const fs::path& folder) {
   recordings::NpzArrays arrays;
-  if (heard.task) {
-    const NoiseRun noise = noise_run(run, plan.tasks[*heard.task].noise);
-    arrays = exported_arrays(run, noise, request.experiment.highlights[heard.cell].levels());
+  if (exported.task) {
+    const NoiseRun noise = noise_run(run, plan.tasks[*exported.task].noise);
+    arrays = exported_arrays(run, noise, request.experiment.highlights[exported.cell].levels());
   } else {
     arrays = exported_arrays(run);
   }
-  const fs::path path = folder / (heard.name + ".npz");
+  const fs::path path = folder / (exported.name + ".npz");
   Written written =
       write_file(path, recordings::to_npz(arrays, path.string(), recordings::Deflated::all));
   written.steps = run.steps();
   return written;
 }
 
-Table index_of(const std::vector<HeardRun>& runs, const std::vector<Written>& written,
+Table index_of(const std::vector<ExportedRun>& runs, const std::vector<Written>& written,
                const RunRequest& request, const Plan& plan) {
   Table table{{"file", "robot", "sensors", "simulator", "role", "scene", "run", "noise", "seed",
                "torque_noise_nm", "accelerometer_noise_mps2", "steps", "control_period_s"},
               {}};
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (written[i].steps == 0) continue;
-    const HeardRun& heard = runs[i];
-    const PlannedRun& run = plan.runs[heard.run];
+    const ExportedRun& exported = runs[i];
+    const PlannedRun& run = plan.runs[exported.run];
     const noise::NoiseCell cell =
-        heard.task ? request.experiment.highlights[heard.cell] : noise::NoiseCell();
+        exported.task ? request.experiment.highlights[exported.cell] : noise::NoiseCell();
     const std::int64_t number = run.role == RunRole::fit ? run.run - first_fit_run : run.run;
     table.rows.push_back(
-        {heard.name + ".npz", heard.robot, heard.sensors, run.simulator,
-         std::string(to_text(run.role)), heard.scene, std::to_string(number),
-         heard.task ? std::to_string(heard.cell) : "",
-         heard.task ? std::to_string(plan.tasks[*heard.task].seed) : "", exact(cell.torque),
+        {exported.name + ".npz", exported.robot, exported.sensors, run.simulator,
+         std::string(to_text(run.role)), exported.scene, std::to_string(number),
+         exported.task ? std::to_string(exported.cell) : "",
+         exported.task ? std::to_string(plan.tasks[*exported.task].seed) : "", exact(cell.torque),
          exact(cell.accelerometer), std::to_string(written[i].steps),
          exact(1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us))});
   }
@@ -112,18 +112,18 @@ Table index_of(const std::vector<HeardRun>& runs, const std::vector<Written>& wr
 
 }  // namespace
 
-double bytes_at_most(std::span<const HeardRun> runs, const Plan& plan) {
+double bytes_at_most(std::span<const ExportedRun> runs, const Plan& plan) {
   double bytes = 0.0;
-  for (const HeardRun& heard : runs) {
-    const scenarios::Scenario& scenario = plan.runs[heard.run].scenario;
+  for (const ExportedRun& exported : runs) {
+    const scenarios::Scenario& scenario = plan.runs[exported.run].scenario;
     bytes += bytes_of_exported(scenario.end.duration /
-                            (1e-6 * static_cast<double>(scenario.simulation.steps.control_us)));
+                               (1e-6 * static_cast<double>(scenario.simulation.steps.control_us)));
   }
   return bytes;
 }
 
 ExportReport export_runs(const RunRequest& request, const Plan& plan,
-                         const std::vector<HeardRun>& runs, const RunDirectory& directory,
+                         const std::vector<ExportedRun>& runs, const RunDirectory& directory,
                          const fs::path& folder, const ShouldContinue& should_continue) {
   const ExportFolder place(folder);
   const PartFolder part(place.path() / "export");
@@ -131,28 +131,28 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
                      fmt::format("{} files", runs.size()),
                      {"export",
                       "free some, choose a part (--robot, --sensors, --simulator; "
-                      "--dry-run says how large each is), or name another folder"});
-  std::map<std::size_t, std::vector<std::size_t>> heard_by_run;
+                      "--dry-run lists their sizes), or name another folder"});
+  std::map<std::size_t, std::vector<std::size_t>> exported_by_run;
   std::set<std::size_t> needed;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    heard_by_run[runs[i].run].push_back(i);
+    exported_by_run[runs[i].run].push_back(i);
     needed.insert(runs[i].run);
   }
   std::vector<Written> written(runs.size());  // each by one thread
   std::mutex mutex;
   std::set<std::string> failed;
   for_each_rollout(request.experiment, plan, needed, directory, MissingRun::refuse, should_continue,
-                  [&](std::size_t index, const Rollout& run) {
-                    if (run.failed()) {
-                      const std::scoped_lock lock(mutex);
-                      failed.insert(run.plan.file);
-                      return;
-                    }
-                    for (const std::size_t i : heard_by_run.at(index)) {
-                      if (!should_continue()) throw Stopped();
-                      written[i] = write_heard(runs[i], request, plan, run.signals, part.path());
-                    }
-                  });
+                   [&](std::size_t index, const Rollout& run) {
+                     if (run.failed()) {
+                       const std::scoped_lock lock(mutex);
+                       failed.insert(run.plan.file);
+                       return;
+                     }
+                     for (const std::size_t i : exported_by_run.at(index)) {
+                       if (!should_continue()) throw Stopped();
+                       written[i] = write_run(runs[i], request, plan, run.signals, part.path());
+                     }
+                   });
   ExportReport report{0, 0, {failed.begin(), failed.end()}};
   std::map<std::string, std::string> sums;  // by file
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -161,7 +161,7 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
     ++report.files;
     report.bytes += written[i].bytes;
   }
-  if (report.files == 0) throw Error("no run stayed upright: there is nothing to hand out");
+  if (report.files == 0) throw Error("no run stayed upright: there is nothing to export");
   const std::string index = to_csv(index_of(runs, written, request, plan));
   sums["index.csv"] = write_file(part.path() / "index.csv", index).sha256;
   sums["README.md"] = write_file(part.path() / "README.md", readme_of(request)).sha256;

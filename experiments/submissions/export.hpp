@@ -6,27 +6,28 @@
 #include <string>
 #include <vector>
 
-#include "experiments/submissions/exported_runs.hpp"
 #include "experiments/rollouts/rollouts.hpp"
+#include "experiments/submissions/exported_runs.hpp"
 
 namespace touchdown::experiments {
 
-/// What an export came to.
+/// The result of an export.
 struct ExportReport {
-  std::size_t files = 0;            ///< of signals
-  std::uintmax_t bytes = 0;         ///< likewise
-  std::vector<std::string> failed;  ///< recordings that are not scored, and so not handed out
+  std::size_t files = 0;            ///< files of signals
+  std::uintmax_t bytes = 0;         ///< of these files
+  std::vector<std::string> failed;  ///< recordings of failed runs, which are not exported
 };
 
-/// The most that these take on a disk (bytes).
-double bytes_at_most(std::span<const HeardRun> runs, const Plan& plan);
+/// Upper bound of the size of these runs on disk (bytes).
+double bytes_at_most(std::span<const ExportedRun> runs, const Plan& plan);
 
-/// Plays the runs and writes what estimators hear of them into a new or an empty folder, with
-/// `README.md`, `index.csv` and `SHA256SUMS`: all of it or nothing. The same runs give the same
-/// bytes. `directory` is where recordings may be; those that are not are simulated. Errors:
-/// `InputError` for a folder that holds something; `Error` for too small a disk; `Stopped`.
+/// Writes the inputs of estimators for these runs into a new or an empty folder, with `README.md`,
+/// `index.csv` and `SHA256SUMS`: all files or none. Equal runs give equal bytes. Recordings are
+/// read from `directory`; missing ones are simulated. Errors: `InputError` for a folder that is not
+/// empty; `Error` for too little disk space; `Stopped`.
 ExportReport export_runs(const RunRequest& request, const Plan& plan,
-                         const std::vector<HeardRun>& runs, const RunDirectory& directory,
-                         const std::filesystem::path& folder, const ShouldContinue& should_continue);
+                         const std::vector<ExportedRun>& runs, const RunDirectory& directory,
+                         const std::filesystem::path& folder,
+                         const ShouldContinue& should_continue);
 
 }  // namespace touchdown::experiments

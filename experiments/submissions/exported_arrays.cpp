@@ -6,7 +6,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// `columns` numbers of every step, as `put` gives them.
+/// An array with `columns` numbers per step, appended by `put`.
 template <typename Put>
 recordings::NpyArray array_of(const std::vector<Signals>& steps, std::size_t columns,
                               const Put& put) {
@@ -41,11 +41,11 @@ recordings::NpzArrays arrays_of(const RunSignals& run,
                                 const std::function<Signals(std::size_t step)>& signals_at) {
   std::vector<Signals> steps;
   steps.reserve(run.steps());
-  recordings::NpyArray heard{{run.steps()}, {}};
+  recordings::NpyArray recorded{{run.steps()}, {}};
   recordings::NpyArray contact{{run.steps(), models::wheel_count}, {}};
   for (std::size_t k = 0; k < run.steps(); ++k) {
     steps.push_back(signals_at(k));
-    heard.data.push_back(has_record(steps.back()) ? 1.0 : 0.0);
+    recorded.data.push_back(has_record(steps.back()) ? 1.0 : 0.0);
     if (!has_record(steps.back())) {
       steps.back().time =
           1e-6 * static_cast<double>(run.info.control_period_us) * static_cast<double>(k);
@@ -55,7 +55,7 @@ recordings::NpzArrays arrays_of(const RunSignals& run,
     }
   }
   return {{"time", numbers(steps, &Signals::time)},
-          {"heard", std::move(heard)},
+          {"has_record", std::move(recorded)},
           {"position", joints(steps, &JointSignals::position)},
           {"velocity", joints(steps, &JointSignals::velocity)},
           {"torque", joints(steps, &JointSignals::torque)},
@@ -73,7 +73,7 @@ recordings::NpzArrays exported_arrays(const RunSignals& run) {
 }
 
 recordings::NpzArrays exported_arrays(const RunSignals& run, const NoiseRun& noise,
-                                   const noise::SensorNoise& levels) {
+                                      const noise::SensorNoise& levels) {
   return arrays_of(run, [&](std::size_t step) { return noisy(run, noise, levels, step); });
 }
 

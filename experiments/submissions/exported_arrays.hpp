@@ -5,17 +5,17 @@
 
 namespace touchdown::experiments {
 
-/// What estimators hear of a run that is fitted, and what is true: `time` and `heard` by step, the
-/// members of `Signals`, joints in six columns (hip, knee, wheel of the left leg, then of the
-/// right one), and the labels `contact` in two. To the bit what `ContactEstimator::update` is given
-/// at the steps that are heard. At others there is no record, and the time is the step's.
+/// The arrays of a run for fitting, one row per step: `time`, `has_record`, the members of
+/// `Signals` and the labels `contact` (left, right). Joints have six columns: hip, knee, wheel of
+/// the left leg, then of the right leg. At steps with a record the values equal the input of
+/// `ContactEstimator::update` bit for bit. At other steps the time is that of the step.
 recordings::NpzArrays exported_arrays(const RunSignals& run);
 
-/// Likewise through noise.
+/// The arrays of a run with noise.
 recordings::NpzArrays exported_arrays(const RunSignals& run, const NoiseRun& noise,
-                                   const noise::SensorNoise& levels);
+                                      const noise::SensorNoise& levels);
 
-/// The most that they take on a disk (bytes).
+/// Upper bound of the size of a run's arrays on disk (bytes).
 double bytes_of_exported(double steps);
 
 }  // namespace touchdown::experiments

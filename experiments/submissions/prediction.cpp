@@ -10,7 +10,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The step that a belief is about.
+/// The step of a belief.
 std::size_t step_of(const recordings::Beliefs& beliefs, std::size_t index, const RunSignals& run) {
   const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
   const double step = std::round(beliefs.time[index] / period);

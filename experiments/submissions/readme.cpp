@@ -8,16 +8,16 @@ namespace touchdown::experiments {
 
 namespace {
 
-constexpr const char* text = R"(# What an estimator hears
+constexpr const char* text = R"(# Inputs of the estimators
 
-Runs of the benchmark `{name}` of touchdown (request {id}). Every file is what one robot's sensors say in
-one run, to the bit what touchdown's own estimators are given. The question at every step: which wheels
-touch the ground?
+Runs of the benchmark `{name}` of touchdown (request {id}). Every file has the sensor signals of one robot in
+one run, bit for bit the input of touchdown's own estimators. The task at every step: which wheels are in
+contact with the ground?
 
-`index.csv` lists the files, `sha256sum -c SHA256SUMS` checks them. `role` is `fit` for runs to learn from,
-`test` for runs that are scored; use nothing of a test run for fitting. Learn for each robot and its
-sensors apart, as our estimators do. Test runs have noise on top of what the sensors do: settings of
-`noise` and draws (`seed`) of it, {noise}.
+`index.csv` lists the files, `sha256sum -c SHA256SUMS` checks them. `role` is `fit` for runs to fit to,
+`test` for runs that are scored; use nothing of a test run for fitting. Fit each robot and its sensors
+separately, as our estimators do. Test runs have noise added to the sensor signals: settings of `noise` and
+draws (`seed`) of it, {noise}.
 
 ## Arrays
 
@@ -26,7 +26,7 @@ sensors apart, as our estimators do. Test runs have noise on top of what the sen
 | array | shape | |
 |---|---|---|
 | `time` | n | s, from 0, one control period apart |
-| `heard` | n | 1: there is a record of this step. 0: there is none, sensors are NaN, an estimator is not called and its last belief stands |
+| `has_record` | n | 1: there is a record of this step. 0: there is none, sensors are NaN, an estimator is not called and its last belief holds |
 | `position`, `velocity`, `torque` | n × 6 | rad, rad/s, N·m as servos report them: left hip, left knee, left wheel, right hip, right knee, right wheel |
 | `linear_acceleration` | n × 3 | m/s², without gravity, in the frame of the IMU |
 | `angular_velocity` | n × 3 | rad/s, of the IMU in its own frame |
@@ -35,11 +35,11 @@ sensors apart, as our estimators do. Test runs have noise on top of what the sen
 | `contact` | n × 2 | the truth, left and right wheel: 1 contact, 0 none ({labels}) |
 
 Signs are each joint's own. Legs mirror each other: a positive torque drives the left wheel forward and the
-right one backward; hips and knees likewise. On Upkie the IMU has x back, y left, z down. Bad sensors say
-NaN, repeat themselves or come late; that is part of the task. A belief at a step may use everything up to
-that step and nothing after it; `contact` of test runs is there to look at results, not to listen to.
+right one backward; hips and knees likewise. On Upkie the IMU has x back, y left, z down. Bad sensors report
+NaN, repeat values or have a delay; that is part of the task. A belief at a step may use everything up to
+that step and nothing after it. `contact` of test runs is for analysis of results, not an input.
 
-## What to hand in
+## What to submit
 
 A folder with a file of beliefs for every test file, under the same relative name: for
 `upkie/ideal/x.npz` a file `upkie/ideal/x.csv`, `.npz` or `.mpack`. Its columns (CSV with a line of names;
@@ -51,15 +51,16 @@ arrays of float64; MessagePack dictionaries one after the other):
 | `p_left`, `p_right` | probability of contact, 0 to 1 |
 | `contact_left`, `contact_right` | optional decisions, 1 or 0; without them, contact is p ≥ 0.5 |
 
-At a step without a belief the last one stands; before the first it is 0.5. How many there are is said.
-A run is scored if there are beliefs for all of its noise seeds. Runs without are counted and named.
+At a step without a belief the last one holds; before the first it is 0.5. `touchdown score` reports the
+number of such steps. A run is scored if there are beliefs for all of its noise seeds. Other runs are counted
+and named.
 
     touchdown score RUN --beliefs FOLDER --name NAME
 
-puts it into the tables of a finished run of the benchmark, beside ours and by the same code. The first
-{skip} ms of a run are not scored. Balanced accuracy is the mean of the shares of contact and of flight that
-are told right, with 95 % bootstrap intervals over runs; the other columns are in docs/benchmark.md and
-docs/metrics.md of touchdown. Another build of touchdown may simulate other runs: export and score with one.
+adds it to the tables of a finished run of the benchmark, scored by the same code as our estimators. The first
+{skip} ms of a run are not scored. Balanced accuracy is the mean of the recalls of contact and of flight, with
+95 % bootstrap intervals over runs; docs/benchmark.md and docs/metrics.md of touchdown define the other
+columns. Another build of touchdown may simulate other runs: export and score with the same build.
 )";
 
 std::string noise_of(const Experiment& experiment) {

@@ -6,7 +6,7 @@
 
 namespace touchdown::experiments {
 
-/// What stands beside an export: what its arrays are, what to hand in, how that is scored.
+/// The README of an export: its arrays, the format of a submission, and the scoring.
 std::string readme_of(const RunRequest& request);
 
 }  // namespace touchdown::experiments

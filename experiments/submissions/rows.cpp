@@ -6,12 +6,12 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// A plan in which one estimator alone is scored, at one noise setting.
+/// A plan that scores one estimator alone, at one noise setting.
 Plan plan_for(const std::string& estimator, const noise::NoiseCell& cell,
               const Evaluation& evaluation) {
   Plan plan = evaluation.plan;
-  for (const BenchmarkSetup& setting : benchmark_settings(evaluation.request, plan)) {
-    RunGroup& group = plan.groups[setting.group];
+  for (const BenchmarkSetup& setup : benchmark_setups(evaluation.request, plan)) {
+    RunGroup& group = plan.groups[setup.group];
     group.conditions.clear();
     for (const std::string& simulator : evaluation.request.experiment.simulators) {
       group.conditions.push_back({simulator, simulator, estimator, group.fit});
@@ -24,20 +24,20 @@ Plan plan_for(const std::string& estimator, const noise::NoiseCell& cell,
 }
 
 void add_submission_rows(const Evaluation& evaluation, const RunDirectory& directory,
-                      std::vector<BenchmarkRow>& rows) {
+                         std::vector<BenchmarkRow>& rows) {
   for (const SubmissionScores& scores : saved_submissions(evaluation.request, directory)) {
     for (std::size_t cell = 0; cell < scores.by_cell.size(); ++cell) {
       RunRequest request = evaluation.request;
       request.experiment.highlights = {evaluation.request.experiment.highlights[cell]};
       Plan plan = plan_for(scores.name, request.experiment.highlights.front(), evaluation);
       std::map<std::string, TaskCounts> counts = scores.by_cell[cell];
-      constexpr std::size_t nobody = std::size_t{0} - 1;
+      constexpr std::size_t no_group = std::size_t{0} - 1;
       for (const Task& task : plan.tasks) {
         const std::string name = task_name(plan, task);
         if (evaluation.runs.at(task.run).failed()) {
           counts.emplace(name, TaskCounts{});
         } else if (!counts.contains(name)) {
-          plan.runs[task.run].group = nobody;
+          plan.runs[task.run].group = no_group;
         }
       }
       const SavedCounts at_hand(std::move(counts));

@@ -4,10 +4,9 @@
 
 namespace touchdown::experiments {
 
-/// A benchmark's rows, then those of every estimator that is none of ours and that was scored in
-/// this run directory: by estimator, noise, then as the others. `runs` of a row are those that it
-/// handed beliefs in for, and those that failed. With their standings; all of it is written into
-/// the directory's tables.
+/// Writes the tables of a benchmark with its submissions, and returns their rows and standings.
+/// Rows of submitted estimators that were scored in this run directory follow the others, by
+/// estimator, then noise. `runs` of such a row counts runs with submitted beliefs, and failed runs.
 BenchmarkResult write_benchmark(const Evaluation& evaluation, const RunDirectory& directory);
 
 }  // namespace touchdown::experiments

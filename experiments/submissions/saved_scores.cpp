@@ -11,13 +11,13 @@ namespace touchdown::experiments {
 
 namespace {
 
-constexpr const char* folder = "state/foreign";
+constexpr const char* folder = "state/submissions";
 
 std::string key_for(const RunRequest& request, const std::string& name) {
-  return fmt::format("{} foreign {}", state_key(request), name);
+  return fmt::format("{} submission {}", state_key(request), name);
 }
 
-/// The text up to the next line end, which is taken off with it.
+/// Removes the first line of `bytes` and returns it without its line end.
 std::string take_line(std::string_view& bytes) {
   const std::size_t end = bytes.find('\n');
   if (end == std::string_view::npos) throw Error("a state file is too short");
@@ -28,7 +28,8 @@ std::string take_line(std::string_view& bytes) {
 
 }  // namespace
 
-void save(const SubmissionScores& scores, const RunRequest& request, const RunDirectory& directory) {
+void save(const SubmissionScores& scores, const RunRequest& request,
+          const RunDirectory& directory) {
   std::string bytes;
   for (const auto& by_task : scores.by_cell) {
     bytes += fmt::format("{}\n", by_task.size());
@@ -38,7 +39,8 @@ void save(const SubmissionScores& scores, const RunRequest& request, const RunDi
   write_state(directory.file(folder, scores.name), key_for(request, scores.name), bytes);
 }
 
-std::vector<SubmissionScores> saved_submissions(const RunRequest& request, const RunDirectory& directory) {
+std::vector<SubmissionScores> saved_submissions(const RunRequest& request,
+                                                const RunDirectory& directory) {
   std::vector<SubmissionScores> all;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(directory.path() / folder, none)) {

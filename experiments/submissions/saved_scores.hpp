@@ -10,17 +10,18 @@
 
 namespace touchdown::experiments {
 
-/// What an estimator that is none of ours scored in a benchmark: by highlighted noise setting, then
-/// by the name of the task; nothing for tasks that it handed nothing in for.
+/// The scores of a submitted estimator in a benchmark, by highlighted noise setting, then by task
+/// name. Tasks without submitted beliefs are missing.
 struct SubmissionScores {
   std::string name;
   std::vector<std::map<std::string, TaskCounts>> by_cell;
 };
 
-/// Keeps it in the run directory, in place of what had the same name.
+/// Saves the scores in the run directory; replaces those of the same name.
 void save(const SubmissionScores& scores, const RunRequest& request, const RunDirectory& directory);
 
-/// Those that were kept there for this request by this build, by name.
-std::vector<SubmissionScores> saved_submissions(const RunRequest& request, const RunDirectory& directory);
+/// The scores that this build saved for this request, by name.
+std::vector<SubmissionScores> saved_submissions(const RunRequest& request,
+                                                const RunDirectory& directory);
 
 }  // namespace touchdown::experiments

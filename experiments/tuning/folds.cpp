@@ -19,7 +19,7 @@ std::vector<Fold> folds_of(std::span<const RunSignals* const> whole,
   for (const RunSignals* run : whole) {
     const std::size_t own = fold_of(*run, drawn);
     for (std::size_t fold = 0; fold < folds; ++fold) {
-      (fold == own ? all[fold].judged : all[fold].fitted).push_back(run);
+      (fold == own ? all[fold].held_out : all[fold].fitted).push_back(run);
     }
   }
   for (const RunSignals* segment : segments) {

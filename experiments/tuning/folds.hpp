@@ -8,16 +8,16 @@
 
 namespace touchdown::experiments {
 
-/// One of the parts that fitted runs are cut into: what is fitted to the others is judged by it.
+/// One fold of a cross-validation over the fitted runs.
 struct Fold {
-  std::vector<const RunSignals*> fitted;  ///< whole runs of all other folds
-  std::vector<const RunSignals*> segments;  ///< likewise, cut from runs
-  std::vector<const RunSignals*> judged;  ///< whole runs of its own
+  std::vector<const RunSignals*> fitted;    ///< training data: whole runs of all other folds
+  std::vector<const RunSignals*> segments;  ///< training data: segments of runs of all other folds
+  std::vector<const RunSignals*> held_out;  ///< validation data: whole runs of this fold
 };
 
-/// Whole runs are dealt out in turn, so that each scene is spread over the folds, then the runs
-/// that pieces are cut from. A draw of a scene is in one fold alone, however often it is there,
-/// whole or as a piece; a scene that is not `drawn` is one such draw.
+/// Assigns whole runs to folds in turn, so that each scene is spread over the folds, then the runs
+/// of segments. All whole runs and segments of one draw of a scene are in the same fold. A scene
+/// that is not `drawn` counts as one draw.
 std::vector<Fold> folds_of(std::span<const RunSignals* const> whole,
                            std::span<const RunSignals* const> segments, std::size_t folds,
                            bool drawn);

@@ -10,20 +10,19 @@
 
 namespace touchdown::experiments {
 
-/// What was counted of one trial, by scene and noise setting.
-using PlaceCounts = std::map<std::string, scoring::Classification>;
+/// Point-wise counts of one trial, by noise setting and scene.
+using SceneCounts = std::map<std::string, scoring::Classification>;
 
-/// Where it is saved what trials made of a fold: an interrupted run, and whoever merges shards,
-/// need not try again.
+/// The saved counts of trials, by fold. An interrupted run, or a merge of shards, reuses them.
 class SavedTrials {
  public:
-  SavedTrials() = default;  ///< nowhere
-  /// `key` names the experiment and the build: nothing else is believed.
+  SavedTrials() = default;  ///< saves nothing
+  /// `key` identifies the experiment and the build. Files with another key are ignored.
   SavedTrials(std::filesystem::path folder, std::string key);
 
   /// By trial.
-  std::optional<std::vector<PlaceCounts>> read(const std::string& name) const;
-  void write(const std::string& name, const std::vector<PlaceCounts>& trials) const;
+  std::optional<std::vector<SceneCounts>> read(const std::string& name) const;
+  void write(const std::string& name, const std::vector<SceneCounts>& trials) const;
 
  private:
   std::filesystem::path folder_;

@@ -23,19 +23,21 @@ std::string text_of(const HyperparameterValues& hyperparameters) {
   return fmt::format("{}", fmt::join(all, " "));
 }
 
-HyperparameterValues constants_in(const std::string& text) {
+HyperparameterValues hyperparameters_in(const std::string& text) {
   std::istringstream words(text);
-  return hyperparameters_of(std::vector<std::string>(std::istream_iterator<std::string>(words), {}));
+  return hyperparameters_of(
+      std::vector<std::string>(std::istream_iterator<std::string>(words), {}));
 }
 
-/// Fits are called "_robot_sensors"; a column needs no line at its beginning.
+/// Fits are named "_robot_sensors". The column omits the leading underscore.
 std::string fit_text(const std::string& fit) { return fit.starts_with('_') ? fit.substr(1) : fit; }
 
 }  // namespace
 
 void write_table(const std::vector<Trial>& trials, const RunDirectory& directory) {
   Table table{
-      {"simulator", "fit", "estimator", "trial", "hyperparameters", "balanced_accuracy", "chosen"}, {}};
+      {"simulator", "fit", "estimator", "trial", "hyperparameters", "balanced_accuracy", "chosen"},
+      {}};
   for (const Trial& trial : trials) {
     table.rows.push_back({trial.simulator, fit_text(trial.fit), trial.estimator,
                           std::to_string(trial.number), text_of(trial.hyperparameters),
@@ -52,7 +54,7 @@ TunedHyperparameters read_chosen(const std::filesystem::path& run_directory) {
   for (const std::vector<std::string>& row : table.rows) {
     if (cell(table, row, "chosen") != "1" || !cell(table, row, "fit").empty()) continue;
     chosen[cell(table, row, "simulator")][cell(table, row, "estimator")] =
-        constants_in(cell(table, row, "hyperparameters"));
+        hyperparameters_in(cell(table, row, "hyperparameters"));
   }
   return chosen;
 }
@@ -69,8 +71,8 @@ std::string tuning_text(const std::vector<Trial>& trials, const Experiment& expe
                           trial.number == 0 ? "its defaults" : text_of(trial.hyperparameters)});
   }
   return fmt::format(
-      "Tuning: balanced accuracy, mean over scenes, of fitted runs in {} folds, each heard by fits "
-      "to the others; the best of {} trials\n{}",
+      "Tuning: balanced accuracy, mean over scenes, of the fitted runs in {}-fold "
+      "cross-validation; the best of {} trials\n{}",
       experiment.tuning->folds, experiment.tuning->trials, to_text(table, 2));
 }
 

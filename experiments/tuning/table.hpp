@@ -9,14 +9,14 @@
 
 namespace touchdown::experiments {
 
-/// `tuning.csv`: every trial with its constants, so exactly that they read back to the same.
+/// Writes `tuning.csv`: every trial with its hyperparameters, in full precision.
 void write_table(const std::vector<Trial>& trials, const RunDirectory& directory);
 
-/// What was chosen for the experiment's own fit, as a run directory's `tuning.csv` says; nothing
-/// where there is no such file.
+/// The values that the tuning of the experiment's own fit chose, from `tuning.csv` in a run
+/// directory; empty without such a file.
 TunedHyperparameters read_chosen(const std::filesystem::path& run_directory);
 
-/// For people: what the defaults scored, and what was chosen.
+/// A table as text: the scores of the defaults and of the chosen values.
 std::string tuning_text(const std::vector<Trial>& trials, const Experiment& experiment);
 
 }  // namespace touchdown::experiments

@@ -7,10 +7,11 @@
 
 namespace touchdown::experiments {
 
-/// The constants of an estimator's trials: its defaults, then draws within the ranges of its
-/// choices, which depend on the seed of fitted runs, the estimator's name and their number alone.
-/// Drawn numbers have three digits, so that a table has them whole. None for an estimator without
-/// choices.
-std::vector<HyperparameterValues> trial_hyperparameters(const EstimatorEntry& entry, std::uint64_t seed, int trials);
+/// The hyperparameters of an estimator's trials: its defaults, then random draws within their
+/// ranges. Draws depend only on the seed of fitted runs, the estimator's name and the trial's
+/// number. They have three digits, so that tables contain them exactly. Empty for an estimator
+/// without hyperparameters.
+std::vector<HyperparameterValues> trial_hyperparameters(const EstimatorEntry& entry,
+                                                        std::uint64_t seed, int trials);
 
 }  // namespace touchdown::experiments

@@ -19,16 +19,16 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// All trials of one estimator in one fold: they share what they can of its fits.
+/// All trials of one estimator in one fold. Trials with the same fit share it.
 struct FoldJob {
   std::string simulator;
   const EstimatorEntry* entry;
-  std::size_t fold;             ///< index in the engine's
-  std::size_t first;            ///< index of the first trial
-  std::vector<PlaceCounts> of;  ///< by trial
+  std::size_t fold;                 ///< index in the engine's folds
+  std::size_t first;                ///< index of the first trial
+  std::vector<SceneCounts> counts;  ///< by trial
 };
 
-/// Noise of a judged run: no other run, and no test, is drawn with the same key.
+/// Noise of a held-out run. Its key differs from those of all other runs and tests.
 NoiseRun noise_of(const RunSignals& run, const Experiment& experiment) {
   constexpr std::uint64_t tuning_stream = 0x74756e696e67;  // "tuning"
   const auto bits = philox(seed_of_fit(experiment), tuning_stream, 0);
@@ -49,37 +49,38 @@ void count(EstimatorRunner& runner, const RunSignals& run, const NoiseRun& noise
       });
 }
 
-/// Those that decide about the model.
-HyperparameterValues fit_constants(const EstimatorEntry& entry, const HyperparameterValues& hyperparameters) {
-  HyperparameterValues those;
-  for (const Hyperparameter& choice : entry.hyperparameters) {
-    if (choice.is_fitted_with) those[choice.name] = hyperparameters.at(choice.name);
+/// The values that the fitted model depends on.
+HyperparameterValues fit_hyperparameters(const EstimatorEntry& entry,
+                                         const HyperparameterValues& hyperparameters) {
+  HyperparameterValues of_fit;
+  for (const Hyperparameter& one : entry.hyperparameters) {
+    if (one.is_fitted_with) of_fit[one.name] = hyperparameters.at(one.name);
   }
-  return those;
+  return of_fit;
 }
 
 void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
-         const Experiment& experiment, const std::function<void()>& or_stop) {
-  const FitRuns runs{fold.fitted, fold.segments, experiment.scoring, or_stop};
+              const Experiment& experiment, const std::function<void()>& stop_if_asked) {
+  const FitRuns runs{fold.fitted, fold.segments, experiment.scoring, stop_if_asked};
   std::vector<NoiseRun> noise;
-  for (const RunSignals* run : fold.judged) noise.push_back(noise_of(*run, experiment));
+  for (const RunSignals* run : fold.held_out) noise.push_back(noise_of(*run, experiment));
   std::map<HyperparameterValues, FittedModel> models;
   for (const Trial& trial : trials) {
     const EstimatorEntry entry = with_hyperparameters(*job.entry, trial.hyperparameters);
     FittedModel model;
     if (entry.fits()) {
-      const HyperparameterValues key = fit_constants(entry, trial.hyperparameters);
+      const HyperparameterValues key = fit_hyperparameters(entry, trial.hyperparameters);
       if (!models.contains(key)) models[key] = fit_model(entry, runs);
       model = models[key];
       model.metadata = new_metadata(entry.name, runs, trial.hyperparameters);
     }
-    PlaceCounts& counts = job.of.emplace_back();
-    for (std::size_t i = 0; i < fold.judged.size(); ++i) {
-      const RunSignals& run = *fold.judged[i];
+    SceneCounts& counts = job.counts.emplace_back();
+    for (std::size_t i = 0; i < fold.held_out.size(); ++i) {
+      const RunSignals& run = *fold.held_out[i];
       EstimatorRunner runner =
           runner_of(entry, {1.0 / period_of(run), &model, run.legs, &run.contact});
       for (std::size_t cell = 0; cell < experiment.tuning->noise.size(); ++cell) {
-        or_stop();
+        stop_if_asked();
         count(runner, run, noise[i], experiment.tuning->noise[cell].levels(), experiment.scoring,
               counts[fmt::format("{} {}", cell, run.info.scenario)]);
       }
@@ -87,16 +88,16 @@ void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
   }
 }
 
-/// Zero where nothing was scored.
-double mean_over_places(const PlaceCounts& counts) {
+/// The mean balanced accuracy; zero if nothing was scored.
+double mean_over_scenes(const SceneCounts& counts) {
   double sum = 0.0;
-  double places = 0.0;
-  for (const auto& [place, points] : counts) {
+  double scenes = 0.0;
+  for (const auto& [scene, points] : counts) {
     if (points.points() == 0) continue;
     sum += points.balanced_accuracy();
-    places += 1.0;
+    scenes += 1.0;
   }
-  return places > 0.0 ? sum / places : 0.0;
+  return scenes > 0.0 ? sum / scenes : 0.0;
 }
 
 }  // namespace
@@ -105,7 +106,7 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                         const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& segments,
                         const std::function<bool()>& should_continue, const SavedTrials& saved) {
-  const auto or_stop = [&] {
+  const auto stop_if_asked = [&] {
     if (should_continue && !should_continue()) throw Stopped();
   };
   std::map<std::string, std::vector<Fold>> folds;
@@ -120,8 +121,8 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
       const std::vector<HyperparameterValues> tried =
           trial_hyperparameters(entry, seed_of_fit(experiment), experiment.tuning->trials);
       for (std::size_t fold = 0; fold < folds[simulator].size() && !tried.empty(); ++fold) {
-        // A run that fell is not there: nothing is judged by a fold that lacks all of its runs.
-        if (folds[simulator][fold].judged.empty()) continue;
+        // Runs that fell are missing. A fold without held-out runs has no score.
+        if (folds[simulator][fold].held_out.empty()) continue;
         jobs.push_back({simulator, &entry, fold, trials.size(), {}});
       }
       for (const HyperparameterValues& hyperparameters : tried) {
@@ -133,37 +134,37 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
   const auto number = static_cast<std::size_t>(experiment.tuning->trials);
   Progress progress("tuning", "folds", static_cast<std::int64_t>(jobs.size()));
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-    or_stop();
+    stop_if_asked();
     FoldJob& job = jobs[i];
-    const std::string name = fmt::format("{}{}_{}_fold_{}", job.simulator, fit,
-                                         job.entry->name, job.fold + 1);
+    const std::string name =
+        fmt::format("{}{}_{}_fold_{}", job.simulator, fit, job.entry->name, job.fold + 1);
     if (auto known = saved.read(name)) {
-      job.of = std::move(*known);
+      job.counts = std::move(*known);
       return progress.skip();
     }
     try {
-      run_fold(job, folds.at(job.simulator)[job.fold],
-          std::span(trials).subspan(job.first, number), experiment, or_stop);
+      run_fold(job, folds.at(job.simulator)[job.fold], std::span(trials).subspan(job.first, number),
+               experiment, stop_if_asked);
     } catch (const InputError& error) {
       throw InputError(fmt::format("fit.tuning: {} on {}, without fold {} of {}: {}",
                                    job.entry->name, job.simulator, job.fold + 1,
                                    experiment.tuning->folds, error.what()));
     }
-    saved.write(name, job.of);
+    saved.write(name, job.counts);
     progress.advance();
   });
-  std::vector<PlaceCounts> counts(trials.size());
+  std::vector<SceneCounts> counts(trials.size());
   for (const FoldJob& job : jobs) {
     for (std::size_t trial = 0; trial < number; ++trial) {
-      for (const auto& [place, points] : job.of[trial]) {
-        counts[job.first + trial][place] += points;
+      for (const auto& [scene, points] : job.counts[trial]) {
+        counts[job.first + trial][scene] += points;
       }
     }
   }
   for (std::size_t first = 0; first < trials.size(); first += number) {
     std::size_t best = first;
     for (std::size_t trial = first; trial < first + number; ++trial) {
-      trials[trial].score = mean_over_places(counts[trial]);
+      trials[trial].score = mean_over_scenes(counts[trial]);
       if (trials[trial].score > trials[best].score) best = trial;
     }
     trials[best].is_chosen = true;

@@ -11,29 +11,31 @@
 
 namespace touchdown::experiments {
 
-/// One set of constants that an estimator was tried with.
+/// One set of hyperparameters and its score.
 struct Trial {
   std::string simulator;
-  std::string fit;  ///< the name of the fit; empty: the experiment's own
+  std::string fit;  ///< name of the fit; empty: the experiment's own
   std::string estimator;
-  int number = 0;  ///< 0: its defaults
+  int number = 0;  ///< 0: the estimator's defaults
   HyperparameterValues hyperparameters;
-  /// Mean over scenes and noise settings of the balanced accuracy, both wheels and all runs of a
-  /// scene added, each run heard by an estimator that was fitted to runs of other folds.
+  /// Balanced accuracy, mean over scenes and noise settings, with both wheels and all runs of a
+  /// scene pooled. Each run is evaluated with a fit to the other folds.
   double score = 0.0;
-  bool is_chosen = false;  ///< the best of its estimator in this engine; of equals the first
+  bool is_chosen = false;  ///< the best of its estimator on this engine; the first of equals
 };
 
-/// As many trials of every estimator that has something to choose, on each engine, in parallel: by
-/// engine, estimator, then number. Only these runs decide: whole ones and pieces are fitted to,
-/// whole ones are judged, as sensors report them and through the tuning's noise. What is saved is
-/// not tried again. Errors: `InputError` where too few are left to fit to, `Stopped`.
+/// Runs the same number of trials for every estimator with hyperparameters, on each engine, in
+/// parallel. Returns trials by engine, estimator, then number. Whole runs and segments serve as
+/// training data, whole runs as validation data, with the sensor model and the tuning's noise.
+/// Saved trials are not repeated. Errors: `InputError` when a fold leaves too little data for a
+/// fit; `Stopped`.
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                         const std::vector<RunSignals>& fit_runs,
                         const std::vector<RunSignals>& segments,
-                        const std::function<bool()>& should_continue, const SavedTrials& saved = {});
+                        const std::function<bool()>& should_continue,
+                        const SavedTrials& saved = {});
 
-/// What was chosen, of the trials of one fit.
+/// The chosen values among the trials of one fit.
 TunedHyperparameters chosen_in(const std::vector<Trial>& trials);
 
 }  // namespace touchdown::experiments

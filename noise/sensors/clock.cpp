@@ -4,7 +4,7 @@ namespace touchdown::noise {
 
 namespace {
 
-/// How often something of this probability fails before it happens, by inversion of a uniform draw.
+/// Draws a geometric number of failures before the first success, by inverting a uniform draw.
 std::size_t failures_before(double probability, double uniform) {
   if (probability >= 1.0) return 0;
   constexpr double many = 1e15;
@@ -13,12 +13,12 @@ std::size_t failures_before(double probability, double uniform) {
 
 }  // namespace
 
-Drops::Drops(const Dropout& dropout, double period, const ChannelDraws& draws)
+DropoutProcess::DropoutProcess(const Dropout& dropout, double period, const ChannelDraws& draws)
     : begins_(dropout.rate), ends_(period / dropout.length), draws_(draws) {
   advance();
 }
 
-void Drops::advance() {
+void DropoutProcess::advance() {
   const std::size_t begin =
       current_.end + failures_before(begins_, draws_.uniform(DrawnFor::dropout, drawn_));
   const std::size_t length =

@@ -8,8 +8,8 @@
 
 namespace touchdown::noise {
 
-/// What a channel's draws are for. The numbers are part of every draw: never change one, only add
-/// more. None is 0, so that the white noise of `with_noise` shares no draw with any.
+/// The disturbance that a draw is for. The numbers are part of every draw: never change one; only
+/// add new ones. 0 is not used: it belongs to the white noise of `with_noise`.
 enum class DrawnFor : std::uint16_t {
   misalignment = 1,
   scale = 2,
@@ -21,17 +21,17 @@ enum class DrawnFor : std::uint16_t {
   dropout = 8,
 };
 
-/// The randomness of one channel of one run: functions of (seed, run, channel, disturbance, step),
-/// whatever else is drawn.
+/// The random draws of one channel of one run. Each draw is a function of (seed, run, channel,
+/// disturbance, step) and independent of other draws.
 class ChannelDraws {
  public:
   ChannelDraws(const NoiseKey& key, NoiseChannel channel) : key_(key), channel_(channel) {}
 
-  /// Of N(0, 1), one for the run.
+  /// One draw from N(0, 1) for the whole run.
   double constant(DrawnFor what) const;
-  /// Of N(0, 1), one for every step from `first` on; valid until the next call.
+  /// One draw from N(0, 1) for every step from `first` on. The span is valid until the next call.
   std::span<const double> series(DrawnFor what, std::size_t first, std::size_t steps);
-  /// Uniform in (0, 1), the n-th of the run.
+  /// The n-th draw of the run from the uniform distribution on (0, 1).
   double uniform(DrawnFor what, std::uint64_t n) const;
 
  private:

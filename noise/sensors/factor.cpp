@@ -15,33 +15,37 @@ namespace touchdown::noise {
 
 namespace {
 
-/// How much there is of one disturbance, and where it means something.
-struct Disturbance {
+/// A disturbance that a study can vary, with the number that sets its size.
+struct VariedDisturbance {
   const char* name;
   double& (*of)(SensorChannel& channel);
-  bool has_no_unit;  ///< and so may be the same for all sensors
+  bool has_no_unit;  ///< may be set for all sensors at once
   bool on_joints = true;
   bool on_attitude = true;
-  bool on_axes_at_once = false;
+  bool is_shared_by_axes = false;
 };
 constexpr std::array disturbances = {
-    Disturbance{"scale", [](SensorChannel& c) -> double& { return c.scale.sd; }, true, true, false},
-    Disturbance{"bias", [](SensorChannel& c) -> double& { return c.bias.sd; }, false},
-    Disturbance{"walk", [](SensorChannel& c) -> double& { return c.walk; }, false},
-    Disturbance{"vibration", [](SensorChannel& c) -> double& { return c.vibration.amplitude; },
-                false, false, false},
-    Disturbance{"coloured", [](SensorChannel& c) -> double& { return c.coloured.sd; }, false},
-    Disturbance{"low_pass", [](SensorChannel& c) -> double& { return c.low_pass; }, true, true,
-                false},
-    Disturbance{"white", [](SensorChannel& c) -> double& { return c.white; }, false},
-    Disturbance{"range", [](SensorChannel& c) -> double& { return c.range; }, false, true, false},
-    Disturbance{"resolution", [](SensorChannel& c) -> double& { return c.resolution; }, false, true,
-                false},
-    Disturbance{"rate", [](SensorChannel& c) -> double& { return c.rate; }, true, true, true, true},
-    Disturbance{"delay", [](SensorChannel& c) -> double& { return c.delay; }, true, true, true,
-                true},
-    Disturbance{"dropout", [](SensorChannel& c) -> double& { return c.dropout.rate; }, true, true,
-                true, true}};
+    VariedDisturbance{"scale", [](SensorChannel& c) -> double& { return c.scale.sd; }, true, true,
+                      false},
+    VariedDisturbance{"bias", [](SensorChannel& c) -> double& { return c.bias.sd; }, false},
+    VariedDisturbance{"walk", [](SensorChannel& c) -> double& { return c.walk; }, false},
+    VariedDisturbance{"vibration",
+                      [](SensorChannel& c) -> double& { return c.vibration.amplitude; }, false,
+                      false, false},
+    VariedDisturbance{"coloured", [](SensorChannel& c) -> double& { return c.coloured.sd; }, false},
+    VariedDisturbance{"low_pass", [](SensorChannel& c) -> double& { return c.low_pass; }, true,
+                      true, false},
+    VariedDisturbance{"white", [](SensorChannel& c) -> double& { return c.white; }, false},
+    VariedDisturbance{"range", [](SensorChannel& c) -> double& { return c.range; }, false, true,
+                      false},
+    VariedDisturbance{"resolution", [](SensorChannel& c) -> double& { return c.resolution; }, false,
+                      true, false},
+    VariedDisturbance{"rate", [](SensorChannel& c) -> double& { return c.rate; }, true, true, true,
+                      true},
+    VariedDisturbance{"delay", [](SensorChannel& c) -> double& { return c.delay; }, true, true,
+                      true, true},
+    VariedDisturbance{"dropout", [](SensorChannel& c) -> double& { return c.dropout.rate; }, true,
+                      true, true, true}};
 
 struct Sensor {
   const char* name;
@@ -49,7 +53,7 @@ struct Sensor {
   bool is_joint;
   bool is_attitude;
 
-  bool has(const Disturbance& disturbance) const {
+  bool has(const VariedDisturbance& disturbance) const {
     return (disturbance.on_joints || !is_joint) && (disturbance.on_attitude || !is_attitude);
   }
 };
@@ -64,7 +68,7 @@ constexpr std::array sensors = {
 constexpr std::array joints = {"hip", "knee", "wheel"};
 constexpr std::array axes = {"x", "y", "z"};
 
-/// Where a word stands among those that `is_known` lets pass.
+/// Finds the entry named `word` among those that `is_known` accepts. Errors: `InputError`.
 template <typename Named, typename Known>
 const Named& find(const std::string& word, const Named& first, std::size_t count,
                   const Known& is_known) {
@@ -85,18 +89,19 @@ std::size_t channel_number(const std::string& word, const std::array<const char*
                                did_you_mean(word, {names.begin(), names.end()})));
 }
 
-/// The numbers that a key names.
+/// The numbers of the profile that a key names.
 std::vector<double*> numbers_of(SensorProfile& profile, std::string_view key) {
   std::vector<std::string> words;
   std::istringstream parts{std::string(key)};
   for (std::string word; std::getline(parts, word, '.');) words.push_back(word);
   if (words.empty() || words.size() > 3) {
-    throw InputError("expected a disturbance, a sensor's or a channel's");
+    throw InputError("expected a disturbance, of all sensors, one sensor or one channel");
   }
   std::vector<double*> numbers;
   if (words.size() == 1) {
-    const Disturbance& disturbance = find(words[0], disturbances.front(), disturbances.size(),
-                                          [](const Disturbance& one) { return one.has_no_unit; });
+    const VariedDisturbance& disturbance =
+        find(words[0], disturbances.front(), disturbances.size(),
+             [](const VariedDisturbance& one) { return one.has_no_unit; });
     for (const Sensor& sensor : sensors) {
       if (!sensor.has(disturbance)) continue;
       for (SensorChannel& channel : profile.*sensor.channels) {
@@ -108,9 +113,9 @@ std::vector<double*> numbers_of(SensorProfile& profile, std::string_view key) {
   const Sensor& sensor =
       find(words[0], sensors.front(), sensors.size(), [](const Sensor& /*any*/) { return true; });
   const bool whole = words.size() == 2;
-  const Disturbance& disturbance =
-      find(words.back(), disturbances.front(), disturbances.size(), [&](const Disturbance& one) {
-        return sensor.has(one) && (whole || sensor.is_joint || !one.on_axes_at_once);
+  const VariedDisturbance& disturbance = find(
+      words.back(), disturbances.front(), disturbances.size(), [&](const VariedDisturbance& one) {
+        return sensor.has(one) && (whole || sensor.is_joint || !one.is_shared_by_axes);
       });
   auto& channels = profile.*sensor.channels;
   if (!whole) {
@@ -124,7 +129,7 @@ std::vector<double*> numbers_of(SensorProfile& profile, std::string_view key) {
 
 SensorProfile with_value(SensorProfile profile, std::string_view key, double value) {
   for (double* number : numbers_of(profile, key)) *number = value;
-  // Its own description knows which values there are.
+  // Reading the profile back checks the range of the value.
   from_yaml<SensorProfile>(YamlDocument::parse(to_yaml(profile), fmt::format("{}={}", key, value)));
   return profile;
 }

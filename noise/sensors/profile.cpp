@@ -11,10 +11,10 @@ namespace touchdown::noise {
 
 namespace {
 
-constexpr double largest = 1e4;  ///< of biases, standard deviations and steps
+constexpr double largest = 1e4;  ///< limit of biases, standard deviations and resolutions
 
-/// Which disturbances mean something.
-enum class Sense { joint, imu, attitude };
+/// Kind of sensor; it determines which disturbances apply.
+enum class SensorKind { joint, imu, attitude };
 
 constexpr std::array joints = {"hip", "knee", "wheel"};
 constexpr std::array axes = {"x", "y", "z"};
@@ -33,9 +33,9 @@ void describe_low_pass(Fields& fields, double& time_constant) {
   });
 }
 
-/// What changes a value.
-void describe_values(Fields& fields, SensorChannel& channel, Sense sense) {
-  if (sense != Sense::attitude) {
+/// Disturbances of the value.
+void describe_values(Fields& fields, SensorChannel& channel, SensorKind kind) {
+  if (kind != SensorKind::attitude) {
     fields.within("scale", [&](Fields& scale) {
       scale("value", channel.scale.value, -1.0, 10.0);
       scale("sd", channel.scale.sd, 0.0, 1.0);
@@ -46,7 +46,7 @@ void describe_values(Fields& fields, SensorChannel& channel, Sense sense) {
     bias("sd", channel.bias.sd, 0.0, largest);
     bias("walk", channel.walk, 0.0, largest);
   });
-  if (sense == Sense::imu) {
+  if (kind == SensorKind::imu) {
     fields.within("vibration", [&](Fields& vibration) {
       vibration("amplitude", channel.vibration.amplitude, 0.0, largest);
       vibration("order", channel.vibration.order, 1e-3, 1e3);
@@ -56,14 +56,14 @@ void describe_values(Fields& fields, SensorChannel& channel, Sense sense) {
     coloured("sd", channel.coloured.sd, 0.0, largest);
     coloured("time_constant", channel.coloured.time_constant, 1e-6, 1e6);
   });
-  if (sense != Sense::attitude) describe_low_pass(fields, channel.low_pass);
+  if (kind != SensorKind::attitude) describe_low_pass(fields, channel.low_pass);
   fields("white", channel.white, 0.0, largest);
-  if (sense == Sense::attitude) return;
+  if (kind == SensorKind::attitude) return;
   if (fields.reading() || std::isfinite(channel.range)) fields("range", channel.range, 1e-9, 1e9);
   fields("resolution", channel.resolution, 0.0, largest);
 }
 
-/// What changes when it is heard.
+/// Disturbances of the timing.
 void describe_clock(Fields& fields, SensorChannel& channel) {
   fields("rate", channel.rate, 0.0, 1e6);
   fields("delay", channel.delay, 0.0, 10.0);
@@ -74,15 +74,15 @@ void describe_clock(Fields& fields, SensorChannel& channel) {
   });
 }
 
-/// What is said of a sensor as a whole holds for all three of its channels; what is said of one of
-/// them by name, for this one instead.
+/// Keys of a sensor apply to all three of its channels. Keys under a channel's name override them
+/// for this channel.
 void describe_sensor(Fields& fields, std::string_view key, std::array<SensorChannel, 3>& channels,
-                     const std::array<const char*, 3>& names, Sense sense) {
+                     const std::array<const char*, 3>& names, SensorKind kind) {
   fields.within(key, [&](Fields& sensor) {
-    const bool is_joint = sense == Sense::joint;
+    const bool is_joint = kind == SensorKind::joint;
     const bool alike = channels[0] == channels[1] && channels[0] == channels[2];
     SensorChannel common = channels[0];
-    if (sensor.reading() || alike) describe_values(sensor, common, sense);
+    if (sensor.reading() || alike) describe_values(sensor, common, kind);
     if (sensor.reading() || alike || !is_joint) describe_clock(sensor, common);
     if (sensor.reading()) channels.fill(common);
     for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -91,7 +91,7 @@ void describe_sensor(Fields& fields, std::string_view key, std::array<SensorChan
         continue;
       }
       sensor.within(names[i], [&](Fields& one) {
-        describe_values(one, channels[i], sense);
+        describe_values(one, channels[i], kind);
         if (is_joint) describe_clock(one, channels[i]);
       });
     }
@@ -101,12 +101,12 @@ void describe_sensor(Fields& fields, std::string_view key, std::array<SensorChan
 }  // namespace
 
 void describe(Fields& fields, SensorProfile& profile) {
-  describe_sensor(fields, "torque", profile.torque, joints, Sense::joint);
-  describe_sensor(fields, "position", profile.position, joints, Sense::joint);
-  describe_sensor(fields, "velocity", profile.velocity, joints, Sense::joint);
-  describe_sensor(fields, "accelerometer", profile.accelerometer, axes, Sense::imu);
-  describe_sensor(fields, "gyroscope", profile.gyroscope, axes, Sense::imu);
-  describe_sensor(fields, "orientation", profile.orientation, axes, Sense::attitude);
+  describe_sensor(fields, "torque", profile.torque, joints, SensorKind::joint);
+  describe_sensor(fields, "position", profile.position, joints, SensorKind::joint);
+  describe_sensor(fields, "velocity", profile.velocity, joints, SensorKind::joint);
+  describe_sensor(fields, "accelerometer", profile.accelerometer, axes, SensorKind::imu);
+  describe_sensor(fields, "gyroscope", profile.gyroscope, axes, SensorKind::imu);
+  describe_sensor(fields, "orientation", profile.orientation, axes, SensorKind::attitude);
   fields.within("misalignment", [&](Fields& misalignment) {
     Misalignment& angle = profile.misalignment;
     misalignment("roll", angle.roll, -std::numbers::pi, std::numbers::pi);

@@ -13,7 +13,7 @@ class Fields;
 
 namespace touchdown::noise {
 
-/// A constant of a run: what is given, and what is drawn from N(0, sd) besides.
+/// A constant of a run: `value` plus a draw from N(0, sd).
 struct Constant {
   double value = 0.0;
   double sd = 0.0;
@@ -21,7 +21,7 @@ struct Constant {
   bool operator==(const Constant&) const = default;
 };
 
-/// A sine at the turning frequency of each wheel times `order`, its phase drawn per run.
+/// A sine at `order` times the turning frequency of each wheel. The phase is drawn once per run.
 struct Vibration {
   double amplitude = 0.0;  ///< the channel's unit per rad/s of the wheel's speed
   double order = 1.0;
@@ -37,56 +37,56 @@ struct ColouredNoise {
   bool operator==(const ColouredNoise&) const = default;
 };
 
-/// What a sensor says while it says nothing new.
-enum class DropKind : int {
-  missing,  ///< the record lacks the channel: estimators do not hear of the step
-  frozen,   ///< the last value repeats
+/// Output of a sensor during a dropout.
+enum class DropoutKind : int {
+  missing,  ///< the step has no record: estimators are not updated
+  frozen,   ///< the last value is repeated
   nan       ///< not a number
 };
 
 struct Dropout {
-  DropKind kind = DropKind::frozen;
-  double rate = 0.0;     ///< probability per step that a drop begins
+  DropoutKind kind = DropoutKind::frozen;
+  double rate = 0.0;     ///< probability per step that a dropout begins
   double length = 0.01;  ///< mean of its geometric distribution (s)
 
   bool operator==(const Dropout&) const = default;
 };
 
-/// What lies between a quantity and the number that is reported for it, in the order in which it
-/// happens (docs/noise.md has the equations). The defaults change nothing.
+/// Error model between a physical quantity and its reported value, in the order of application
+/// (equations: docs/noise.md). The defaults change nothing.
 struct SensorChannel {
   Constant scale = {};  ///< relative error
   Constant bias = {};   ///< the channel's unit
-  double walk = 0.0;    ///< of the bias: its standard deviation after one second
+  double walk = 0.0;    ///< random walk of the bias: its standard deviation after one second
   Vibration vibration = {};
   ColouredNoise coloured = {};
-  double low_pass = 0.0;  ///< time constant of the instrument (s); 0: none
-  double white = 0.0;     ///< standard deviation at every step
-  double range = std::numeric_limits<double>::infinity();  ///< no value beyond plus or minus this
+  double low_pass = 0.0;  ///< time constant (s); 0: none
+  double white = 0.0;     ///< standard deviation of the white noise
+  double range = std::numeric_limits<double>::infinity();  ///< values are clipped to ± this
   double resolution = 0.0;                                 ///< step of the values; 0: none
-  double rate = 0.0;   ///< of new samples, which are held in between (Hz); 0: one every step
-  double delay = 0.0;  ///< s, in whole steps
+  double rate = 0.0;   ///< sample rate (Hz), samples are held; 0: one per step
+  double delay = 0.0;  ///< s, rounded to whole steps
   Dropout dropout = {};
 
   bool operator==(const SensorChannel&) const = default;
 };
 
-/// How the IMU is turned against its nominal frame (rad): about x, then y, then z.
+/// Rotation of the IMU from its nominal frame (rad): about x, then y, then z.
 struct Misalignment {
   double roll = 0.0;
   double pitch = 0.0;
   double yaw = 0.0;
-  double sd = 0.0;  ///< of what is drawn per run for each of the three
+  double sd = 0.0;  ///< of a draw per run that is added to each angle
 
   bool operator==(const Misalignment&) const = default;
 };
 
-/// Hip, knee, wheel; left and right legs are alike, with draws of their own.
+/// Hip, knee, wheel. Both legs have the same parameters and independent draws.
 using JointChannels = std::array<SensorChannel, 3>;
-/// x, y, z in the frame of the IMU. Its axes have one clock: rate, delay and dropout are the same.
+/// x, y, z in the frame of the IMU. The axes share rate, delay and dropout.
 using AxisChannels = std::array<SensorChannel, 3>;
 
-/// What a robot's electronics make of what its ideal sensors would say.
+/// Error models of all sensors of a robot.
 struct SensorProfile {
   JointChannels torque;        ///< N·m
   JointChannels position;      ///< rad
@@ -102,13 +102,12 @@ struct SensorProfile {
 
 void describe(Fields& fields, SensorProfile& profile);
 
-/// Whether a profile reports what ideal sensors say, to the bit.
+/// Whether the profile leaves all values unchanged, to the bit.
 bool is_ideal(const SensorProfile& profile);
 bool is_ideal(const AxisChannels& channels);
 bool is_ideal(const SensorChannel& channel);
 
-/// The profile that something else names, where `find_resource` finds it. Errors: `InputError` with
-/// file:line:column.
+/// Reads a profile, looked up by `find_resource`. Errors: `InputError` with file:line:column.
 SensorProfile find_sensor_profile(const std::filesystem::path& path);
 
 /// The profile as YAML that reads back to the same profile.

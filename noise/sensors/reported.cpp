@@ -38,8 +38,8 @@ constexpr AxisNumbers gyroscope_channels = {NoiseChannel::gyroscope_x, NoiseChan
 constexpr AxisNumbers orientation_channels = {
     NoiseChannel::orientation_x, NoiseChannel::orientation_y, NoiseChannel::orientation_z};
 
-/// One number of every observation on its way through its sensor.
-struct Column {
+/// One scalar signal of the observations, with the state of its sensor.
+struct SensorSignal {
   SensorChannel channel;
   ChannelDraws draws;
   Clock<double> clock;
@@ -49,18 +49,18 @@ struct Column {
   std::vector<double> values = {};
 };
 
-/// What every channel's randomness is drawn by.
-struct RunOfDraws {
+/// The key of the random draws, and the control period (s).
+struct RunKey {
   NoiseKey key;
   double period;
 };
 
 template <typename At>
-Column column_of(const SensorChannel& channel, const RunOfDraws& run, NoiseChannel number,
-                 NoiseChannel dropped_like, At at) {
+SensorSignal signal_of(const SensorChannel& channel, const RunKey& run, NoiseChannel number,
+                       NoiseChannel dropout_channel, At at) {
   return {channel,
           {run.key, number},
-          {channel, run.period, {run.key, dropped_like}, nan},
+          {channel, run.period, {run.key, dropout_channel}, nan},
           [at](std::span<const models::Observation> from, double* to) {
             for (const models::Observation& observation : from) *to++ = at(observation);
           },
@@ -71,7 +71,7 @@ Column column_of(const SensorChannel& channel, const RunOfDraws& run, NoiseChann
 
 }  // namespace
 
-/// What sensors that are not ideal remember of the run so far.
+/// State of sensors that are not ideal, over the run so far.
 class ReportingSensors::Reporter {
  public:
   Reporter(const SensorProfile& profile, const NoiseKey& key, double period);
@@ -79,35 +79,36 @@ class ReportingSensors::Reporter {
   void report(std::span<models::Observation> next);
 
  private:
-  /// Each of these takes its values before any is put back: wheels shake by how they turn, not by
-  /// what their encoders report.
+  /// Add one signal per channel that is not ideal. All signals are read before any is written back:
+  /// vibration follows the true wheel angle, not the reported one.
   void add_joints(const JointChannels& channels, double models::ServoReading::*member,
                   const std::array<NoiseChannel, models::servo_count>& numbers);
   void add_vector(const AxisChannels& channels, Eigen::Vector3d models::ImuReading::*member,
                   const AxisNumbers& numbers);
 
-  /// Turns what all of the IMU measures.
+  /// Rotates all measurements of the IMU.
   void misalign(std::span<models::Observation> next) const;
-  void report_columns(std::span<models::Observation> next);
+  void report_signals(std::span<models::Observation> next);
   void report_orientation(std::span<models::Observation> next);
-  /// Leaves of the reported proper acceleration what is not gravity along the reported vertical.
+  /// Computes the acceleration without gravity from the reported acceleration and orientation.
   void remove_gravity(std::span<models::Observation> next) const;
-  void strike_out_missing(std::span<models::Observation> next) const;
+  void blank_missing_records(std::span<models::Observation> next) const;
 
   void turn_wheels(std::span<const models::Observation> next);
 
-  RunOfDraws run_;
+  RunKey run_;
   bool is_aligned_;
   bool is_attitude_ideal_;
   bool changes_acceleration_;
-  Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();  ///< of the IMU in its place
-  std::vector<Column> columns_;
+  Eigen::Quaterniond turn_ =
+      Eigen::Quaterniond::Identity();  ///< rotation of the IMU from its nominal frame
+  std::vector<SensorSignal> signals_;
   AxisChannels orientation_;
   std::array<ChannelState, 3> orientation_state_;
   Clock<Eigen::Quaterniond> orientation_clock_;
-  std::map<double, TurnsOfBoth> turns_;     ///< of the steps that are reported, by order
-  std::optional<Eigen::Vector3d> gravity_;  ///< as the first step knows it, where attitude is of
-  std::vector<std::uint8_t> missing_;  ///< of the steps that are reported; empty if no record is
+  std::map<double, TurnsOfBoth> turns_;     ///< of the current steps, by order
+  std::optional<Eigen::Vector3d> gravity_;  ///< from the first step, in the attitude frame
+  std::vector<std::uint8_t> missing_;       ///< marks current steps without a record; may be empty
 };
 
 namespace {
@@ -125,8 +126,8 @@ Eigen::Quaterniond turn_of(const Misalignment& misalignment, const NoiseKey& key
                            Eigen::Vector3d::UnitX());
 }
 
-/// Calls `part(block, first step)` for block after block: so few observations that all of their
-/// numbers stay at hand while column after column is copied.
+/// Calls `part(block, first step)` for consecutive blocks. A block is small enough to stay in the
+/// cache while its signals are copied one by one.
 template <typename Part>
 void for_each_block(std::span<models::Observation> steps, const Part& part) {
   constexpr std::size_t most = 64;
@@ -162,7 +163,7 @@ void ReportingSensors::Reporter::add_joints(
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
     const SensorChannel& channel = channels[servo % channels.size()];
     if (is_ideal(channel)) continue;
-    columns_.push_back(column_of(
+    signals_.push_back(signal_of(
         channel, run_, numbers[servo], numbers[servo],
         [ servo,
           member ](auto& observation) -> auto& { return observation.servo[servo].*member; }));
@@ -174,7 +175,7 @@ void ReportingSensors::Reporter::add_vector(const AxisChannels& channels,
                                             const AxisNumbers& numbers) {
   for (std::size_t axis = 0; axis < channels.size(); ++axis) {
     if (is_ideal(channels[axis])) continue;
-    columns_.push_back(column_of(
+    signals_.push_back(signal_of(
         channels[axis], run_, numbers[axis], numbers.front(),
         [ axis, member ](auto& observation) -> auto& {
           return (observation.imu.*member)[static_cast<Eigen::Index>(axis)];
@@ -185,16 +186,16 @@ void ReportingSensors::Reporter::add_vector(const AxisChannels& channels,
 void ReportingSensors::Reporter::report(std::span<models::Observation> next) {
   if (next.empty()) return;
   if (!gravity_) {
-    // In the frame of the attitude reference system, the same throughout the run.
+    // In the frame of the attitude reference system, where gravity is constant.
     const models::ImuReading& first = next.front().imu;
     gravity_ = first.orientation * (first.linear_acceleration - first.raw_linear_acceleration);
   }
   missing_.clear();
   if (!is_aligned_) misalign(next);
-  report_columns(next);
+  report_signals(next);
   if (!is_attitude_ideal_) report_orientation(next);
   if (changes_acceleration_) remove_gravity(next);
-  strike_out_missing(next);
+  blank_missing_records(next);
 }
 
 void ReportingSensors::Reporter::misalign(std::span<models::Observation> next) const {
@@ -209,8 +210,8 @@ void ReportingSensors::Reporter::misalign(std::span<models::Observation> next) c
 
 void ReportingSensors::Reporter::turn_wheels(std::span<const models::Observation> next) {
   turns_.clear();
-  for (const Column& column : columns_) {
-    const Vibration& vibration = column.channel.vibration;
+  for (const SensorSignal& signal : signals_) {
+    const Vibration& vibration = signal.channel.vibration;
     if (vibration.amplitude == 0.0) continue;
     const auto [found, is_new] = turns_.try_emplace(vibration.order);
     if (!is_new) continue;
@@ -227,21 +228,21 @@ void ReportingSensors::Reporter::turn_wheels(std::span<const models::Observation
   }
 }
 
-void ReportingSensors::Reporter::report_columns(std::span<models::Observation> next) {
+void ReportingSensors::Reporter::report_signals(std::span<models::Observation> next) {
   turn_wheels(next);
-  for (Column& column : columns_) column.values.resize(next.size());
+  for (SensorSignal& signal : signals_) signal.values.resize(next.size());
   for_each_block(next, [&](std::span<const models::Observation> block, std::size_t first) {
-    for (Column& column : columns_) column.take(block, column.values.data() + first);
+    for (SensorSignal& signal : signals_) signal.take(block, signal.values.data() + first);
   });
-  for (Column& column : columns_) {
-    const auto turns = turns_.find(column.channel.vibration.order);
-    const bool vibrates = column.channel.vibration.amplitude != 0.0;
-    disturb_values(column.values, column.channel, run_.period, column.draws, column.state,
+  for (SensorSignal& signal : signals_) {
+    const auto turns = turns_.find(signal.channel.vibration.order);
+    const bool vibrates = signal.channel.vibration.amplitude != 0.0;
+    disturb_values(signal.values, signal.channel, run_.period, signal.draws, signal.state,
                    vibrates ? &turns->second : nullptr);
-    column.clock.report(column.values, missing_);
+    signal.clock.report(signal.values, missing_);
   }
   for_each_block(next, [&](std::span<models::Observation> block, std::size_t first) {
-    for (const Column& column : columns_) column.put(column.values.data() + first, block);
+    for (const SensorSignal& signal : signals_) signal.put(signal.values.data() + first, block);
   });
 }
 
@@ -269,7 +270,7 @@ void ReportingSensors::Reporter::remove_gravity(std::span<models::Observation> n
   }
 }
 
-void ReportingSensors::Reporter::strike_out_missing(std::span<models::Observation> next) const {
+void ReportingSensors::Reporter::blank_missing_records(std::span<models::Observation> next) const {
   models::Observation nothing;
   nothing.time = nothing.pitch = nothing.pitch_rate = nothing.yaw = nothing.yaw_rate = nan;
   nothing.servo.fill({nan, nan, nan});

@@ -10,11 +10,11 @@
 
 namespace touchdown::noise {
 
-/// The sensors of one run. Turn what ideal sensors say, step after step, into what sensors of this
-/// profile report: the same, to the bit, in however many parts a run is given to them.
-/// Acceleration without gravity is what the accelerometer reports, minus gravity along the reported
-/// orientation. At a step whose record is missing nothing is a number, not even the time. Pitch and
-/// yaw, their rates and the clock stay as they are.
+/// The sensors of one run. They turn ideal observations into those that sensors of this profile
+/// report. The result is the same, to the bit, however the run is split into calls. Acceleration
+/// without gravity is the reported acceleration minus gravity along the reported orientation. At a
+/// step without a record all values are NaN, even the time. Pitch, yaw, their rates and the time
+/// are not changed otherwise.
 class ReportingSensors {
  public:
   ReportingSensors(const SensorProfile& profile, const NoiseKey& key, double period);
@@ -22,7 +22,7 @@ class ReportingSensors {
   ReportingSensors(ReportingSensors&&) noexcept;
   ReportingSensors& operator=(ReportingSensors&&) noexcept;
 
-  /// Of the steps that come next.
+  /// Processes the next steps of the run in place.
   void report(std::span<models::Observation> next);
 
  private:
@@ -30,7 +30,7 @@ class ReportingSensors {
   std::unique_ptr<Reporter> reporter_;  ///< null for ideal sensors
 };
 
-/// The same for all steps of a run at once.
+/// The same for all steps of a run.
 void report_through(const SensorProfile& profile, const NoiseKey& key, double period,
                     std::vector<models::Observation>& observations);
 

@@ -12,7 +12,7 @@ double constant_of(const Constant& constant, DrawnFor what, const ChannelDraws& 
   return constant.value + (constant.sd > 0.0 ? constant.sd * draws.constant(what) : 0.0);
 }
 
-/// The first step of a run is where the walk begins.
+/// Adds the random walk, which starts at zero at the first step of a run.
 void add_walk(std::span<double> values, double step_sd, std::span<const double> normal,
               ChannelState& state) {
   for (std::size_t k = state.step == 0 ? 1 : 0; k < values.size(); ++k) {

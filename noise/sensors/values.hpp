@@ -10,7 +10,7 @@
 
 namespace touchdown::noise {
 
-/// The sine and the cosine of a wheel's angle times an order, times its speed, at every step.
+/// Sine and cosine of a wheel's angle times an order, multiplied by the wheel's speed, per step.
 struct WheelTurns {
   std::vector<double> sine;
   std::vector<double> cosine;
@@ -19,21 +19,20 @@ struct WheelTurns {
 WheelTurns wheel_turns(std::span<const double> position, std::span<const double> velocity,
                        double order);
 
-/// The wheels' turns at the order of a channel's vibration: left, right.
+/// The turns of both wheels at the order of a channel's vibration: left, right.
 using TurnsOfBoth = std::array<WheelTurns, 2>;
 
-/// How far a channel has come in its run, and what it remembers of it.
+/// State of a channel within a run.
 struct ChannelState {
-  std::size_t step = 0;   ///< of the next value
-  double walked = 0.0;    ///< by the bias
-  double process = 0.0;   ///< the coloured noise
-  double filtered = 0.0;  ///< what the low-pass gave last
+  std::size_t step = 0;   ///< number of the next step
+  double walked = 0.0;    ///< random walk of the bias
+  double process = 0.0;   ///< coloured noise
+  double filtered = 0.0;  ///< last output of the low-pass
 };
 
-/// What a channel makes of the values that it is given next, step by step, up to the moment at
-/// which they are sampled: scale, bias and its walk, vibration, coloured noise, low-pass, white
-/// noise, range, resolution. `turns` are those of these steps, null for channels that do not
-/// vibrate.
+/// Applies the value errors of a channel to the next steps in place: scale, bias and its random
+/// walk, vibration, coloured noise, low-pass, white noise, range, resolution. `turns` belong to the
+/// same steps; null without vibration.
 void disturb_values(std::span<double> values, const SensorChannel& channel, double period,
                     ChannelDraws& draws, ChannelState& state, const TurnsOfBoth* turns = nullptr);
 

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 __version__: str
 
 class Error(RuntimeError):
-    """What was asked for could not be done."""
+    """The request could not be fulfilled."""
 
 class InputError(Error, ValueError):
     """The request itself was wrong: a file, a name, an array."""
 
 class Belief:
-    """What an estimator believes after one step."""
+    """An estimator's belief after one step."""
     @property
     def p_contact(self) -> tuple[float, float]: ...
     @property
@@ -27,7 +27,7 @@ class Belief:
     def status(self) -> str: ...
 
 class Model:
-    """What an estimator was fitted with; `fit` makes one."""
+    """A fitted model, as returned by `fit`."""
     @staticmethod
     def load(path: str | PathLike[str], estimator: str = ...) -> Model: ...
     def save(self, path: str | PathLike[str]) -> None: ...
@@ -65,4 +65,4 @@ def fit(runs: Sequence[tuple[Any, bool | None]], estimator: str, skip: float, fo
         debounce: float) -> Model: ...
 def python_estimators(experiment: str | PathLike[str], text: str | None, assignments: Sequence[str]) -> list[tuple[str, str]]: ...
 def run(experiment: str | PathLike[str], text: str | None, assignments: Sequence[str], out: str | PathLike[str],
-        overwrite: bool, command: str, guests: Sequence[dict[str, Any]]) -> dict[str, Any]: ...
+        overwrite: bool, command: str, external_estimators: Sequence[dict[str, Any]]) -> dict[str, Any]: ...

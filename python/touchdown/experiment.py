@@ -1,4 +1,4 @@
-"""Experiments, with estimators that are written in Python among the others."""
+"""Experiments, which may include estimators written in Python."""
 from __future__ import annotations
 
 import csv
@@ -57,13 +57,13 @@ def _column(cells: list[str]) -> np.ndarray:
 
 
 class Result:
-    """What an experiment found out.
+    """The result of an experiment.
 
     path: its run directory
-    id: the digest of all that decides its numbers
+    id: the digest of everything that determines its numbers
     tables: its tables by name ("success", "classification", "latency", …), each a dict of columns
-    studies: what the studies in it say to people
-    failed_demands: estimators whose verdict was demanded and fails
+    studies: text summaries of its studies
+    failed_demands: estimators that fail a verdict the experiment demands
     """
 
     def __init__(self, path: pathlib.Path, id: str, studies: list[str], failed_demands: list[str]):
@@ -83,15 +83,15 @@ class Result:
 
 
 class _Signals(dict):
-    """What an estimator is given: whoever asks for what is not there is told what is."""
+    """The signals that an estimator gets. An unknown name raises an error that lists the known ones."""
 
     def __missing__(self, name: str) -> Any:
         near = difflib.get_close_matches(str(name), self, 1)
         raise KeyError(f"'{name}' is no signal: expected one of {', '.join(self)}" + (f" (did you mean '{near[0]}'?)" if near else ""))
 
 
-class _Listener:
-    """Somebody's estimator, for one run of the robot."""
+class _OneRunEstimator:
+    """An instance of a user's estimator, for one run of the robot."""
 
     def __init__(self, estimator: Any):
         self._estimator = estimator
@@ -110,7 +110,7 @@ def _found(name: str, place: str) -> type:
         found: Any = importlib.import_module(module_name)
     except ModuleNotFoundError as error:
         if error.name is None or not module_name.startswith(error.name):
-            raise  # it is there, and needs another one
+            raise  # the module exists and imports a missing one
         raise InputError(f"{complaint}: there is no module '{module_name}' in {os.getcwd()} "
                          "or where Python looks for modules") from error
     if not hasattr(found, class_name):
@@ -124,7 +124,7 @@ def _found(name: str, place: str) -> type:
 
 
 def _codes(code: types.CodeType) -> Iterator[types.CodeType]:
-    """A piece of code and all that stands in it."""
+    """A code object and all code objects in it."""
     yield code
     for constant in code.co_consts:
         if isinstance(constant, types.CodeType):
@@ -132,7 +132,7 @@ def _codes(code: types.CodeType) -> Iterator[types.CodeType]:
 
 
 def _is_loaded(estimator: type, source: str) -> bool:
-    """Whether what runs is what stands in its file: somebody may have edited that since."""
+    """Whether the loaded code equals its file, which may have been edited since the import."""
     written = {(code.co_name, code.co_firstlineno): code
                for code in _codes(compile(source, "source", "exec", dont_inherit=True))}
     file = inspect.getsourcefile(estimator)
@@ -142,7 +142,7 @@ def _is_loaded(estimator: type, source: str) -> bool:
 
 
 def _revision(estimator: type) -> str:
-    """Its source: what was computed with another one does not count."""
+    """The source of an estimator. Saved results count only for an unchanged source."""
     try:
         source = inspect.getsource(inspect.getmodule(estimator))
     except (OSError, TypeError):
@@ -155,49 +155,49 @@ def _revision(estimator: type) -> str:
     try:
         return inspect.getsource(estimator)
     except (OSError, TypeError):
-        return uuid.uuid4().hex  # nobody knows: nothing counts
+        return uuid.uuid4().hex  # unknown: no saved result counts
 
 
-def _guest(name: str, place: str) -> dict[str, Any]:
+def _described(name: str, place: str) -> dict[str, Any]:
     estimator = _found(name, place)
     lines = (inspect.getdoc(estimator) or "").splitlines()
     return {"name": name, "title": getattr(estimator, "title", estimator.__name__),
             "summary": lines[0] if lines else "written in Python",
             "sensors": list(getattr(estimator, "sensors", SENSORS)), "revision": _revision(estimator),
-            "make": lambda: _Listener(estimator())}
+            "make": lambda: _OneRunEstimator(estimator())}
 
 
 def run(experiment: str | os.PathLike | Mapping[str, Any], *, overrides: Mapping[str, Any] | Iterable[str] | None = None,
         out: str | os.PathLike | None = None, overwrite: bool = False) -> Result:
-    """Run an experiment, as `touchdown run --no-pictures` does: simulate, fit, listen, score, tables.
+    """Run an experiment, as `touchdown run --no-pictures` does: simulate, fit, estimate, score, tables.
 
-    experiment: a path, one of the shipped ones ("experiments/stairs.yaml"), or a dict of what such a file says
-    overrides: values of it to change, by dotted key: {"test.runs": 2, "estimators": ["robust", Mine]}
+    experiment: a path, one of the shipped ones ("experiments/stairs.yaml"), or a dict with the content of such a file
+    overrides: values to change, by dotted key: {"test.runs": 2, "estimators": ["robust", Mine]}
     out: run directory; without it runs/<experiment>/<id>
-    overwrite: replace another experiment that is there
+    overwrite: replace another experiment in that directory
 
-    What an earlier call left there is used. Among the estimators may be your own: "python:module.Class",
-    or the class itself where overrides name it. Such a class is made without arguments for every run of
-    the robot, and needs one method:
+    Results that an earlier call saved there are reused. Estimators may include your own:
+    "python:module.Class", or the class itself in `overrides` or a dict. Such a class is instantiated
+    without arguments for every run of the robot, and needs one method:
 
         class Falls:
             '''One line about it, for tables.'''
             title = "Falls"               # optional
-            sensors = ("acceleration",)   # optional: whose noise matters to it; without it, all
+            sensors = ("acceleration",)   # optional: the sensors it uses; without it, all
             def run(self, signals):
-                '''signals: the arrays that Estimator.run takes, of steps that are heard, and `sample_rate` (Hz).
-                Returns P(contact), as an array or as what Estimator.run gives.'''
+                '''signals: the arrays that Estimator.run takes, of steps with a record, and `sample_rate` (Hz).
+                Returns P(contact), as an array or as the dict that Estimator.run returns.'''
                 return signals["vertical_acceleration"] > -4.9
 
-    It is called once per run and noise level, with all steps, from threads that hold Python's lock.
+    The method is called once per run and noise level, with all steps, from threads that hold Python's lock.
     """
     changes = assignments(overrides)
     text = as_text(experiment, indent=1) if isinstance(experiment, Mapping) else None
     file = "experiment" if isinstance(experiment, Mapping) else os.fspath(experiment)
-    guests = [_guest(name, place) for name, place in _touchdown.python_estimators(file, text, changes)]
+    external_estimators = [_described(name, place) for name, place in _touchdown.python_estimators(file, text, changes)]
     command = " ".join(["touchdown.run" if text else "python3 -m touchdown run", shlex.quote(file)] +
                        [f"--set {shlex.quote(change)}" for change in changes])
-    return Result(**_touchdown.run(file, text, changes, out or "", overwrite, command, guests))
+    return Result(**_touchdown.run(file, text, changes, out or "", overwrite, command, external_estimators))
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -207,9 +207,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python3 -m touchdown", description=main.__doc__)
     verb = parser.add_subparsers(required=True, metavar="run").add_parser("run", help="run an experiment")
     verb.add_argument("experiment")
-    verb.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="change a value of it")
+    verb.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="change a value of the experiment")
     verb.add_argument("--out", help="run directory (default: runs/<experiment>/<id>)")
-    verb.add_argument("--overwrite", action="store_true", help="replace another experiment that is there")
+    verb.add_argument("--overwrite", action="store_true", help="replace another experiment in that directory")
     given = parser.parse_args(arguments)
     try:
         result = run(given.experiment, overrides=given.set, out=given.out, overwrite=given.overwrite)

@@ -1,4 +1,4 @@
-"""From Python's values to the `KEY=VALUE` that the program's --set knows."""
+"""Converts Python values to the `KEY=VALUE` of the program's option --set."""
 from __future__ import annotations
 
 import json
@@ -6,20 +6,20 @@ from typing import Any, Iterable, Mapping
 
 
 def estimator_name(estimator: type) -> str:
-    """What a class is called in an experiment: `python:module.Class`."""
+    """The name of a class in an experiment: `python:module.Class`."""
     return f"python:{estimator.__module__}.{estimator.__qualname__}"
 
 
 def _plain(value: Any) -> Any:
     if isinstance(value, type):
         return estimator_name(value)
-    if hasattr(value, "tolist"):  # NumPy's
+    if hasattr(value, "tolist"):  # an array or number of NumPy
         return value.tolist()
     return str(value)
 
 
 def as_text(value: Any, indent: int | None = None) -> str:
-    """As YAML, which reads JSON."""
+    """The value as JSON, which is valid YAML."""
     return json.dumps(value, default=_plain, ensure_ascii=False, indent=indent)
 
 

@@ -14,28 +14,28 @@ Path = str | os.PathLike
 
 
 class Recording(dict):
-    """One run: a dict of NumPy arrays with one row per control step, and `info`, where it comes from.
+    """One run: a dict of NumPy arrays with one row per control step, and `info` about its origin.
 
-    What the robot measures and commands, all float64:
+    Measurements and commands, all float64:
 
     ========================== ========== ========= ============================================================
-    `time`                     (steps,)   s         since the run began
+    `time`                     (steps,)   s         since the start of the run
     `position`                 (steps, 6) rad       of the joints
     `velocity`                 (steps, 6) rad/s
     `torque`                   (steps, 6) N·m       as the servos report them
-    `orientation`              (steps, 4)           of the IMU, w x y z, to x forward, y right, z down
+    `orientation`              (steps, 4)           of the IMU, w x y z, to a frame x forward, y right, z down
     `angular_velocity`         (steps, 3) rad/s     of the IMU, in its own frame (x back, y left, z down)
-    `linear_acceleration`      (steps, 3) m/s²      likewise, without gravity
-    `raw_linear_acceleration`  (steps, 3) m/s²      likewise, with it
+    `linear_acceleration`      (steps, 3) m/s²      of the IMU, in its own frame, without gravity
+    `raw_linear_acceleration`  (steps, 3) m/s²      of the IMU, in its own frame, with gravity
     `vertical_acceleration`    (steps,)   m/s²      `linear_acceleration` along the world's upward vertical
     `ground_velocity_command`  (steps,)   m/s       of the step before
     `pitch`, `yaw`             (steps,)   rad       of the base; rates: `pitch_rate`, `yaw_rate` (rad/s)
-    `command_position`, …      (steps, 6)           what the servos are told: also `_velocity`,
+    `command_position`, …      (steps, 6)           commands of the servos: also `_velocity`,
                                                     `_feedforward_torque`, `_kp_scale`, `_kd_scale`,
                                                     `_maximum_torque`
     ========================== ========== ========= ============================================================
 
-    And the truth, of simulated runs:
+    Ground truth of simulated runs:
 
     ========================== ========== ========= ============================================================
     `contact`                  (steps, 2) bool      more than 1 N, debounced by 5 ms (`contact_labels`)
@@ -43,14 +43,14 @@ class Recording(dict):
     `base_position`            (steps, 3) m         world: x forward, y left, z up
     `base_orientation`         (steps, 4)           w x y z, from base to world
     `base_linear_velocity`     (steps, 3) m/s       in the world
-    `base_angular_velocity`    (steps, 3) rad/s     likewise
-    `imu_linear_velocity`      (steps, 3) m/s       likewise
-    `body_touches_terrain`     (steps,)   bool      the robot has fallen
-    `joint_torque`             (steps, 6) N·m       what joints feel, of robots whose actuators are not ideal
+    `base_angular_velocity`    (steps, 3) rad/s     in the world
+    `imu_linear_velocity`      (steps, 3) m/s       in the world
+    `body_touches_terrain`     (steps,)   bool      a part other than a tyre touches the terrain
+    `joint_torque`             (steps, 6) N·m       applied to joints; only for robots with non-ideal actuators
     ========================== ========== ========= ============================================================
 
-    Most arrays look into the memory of the run, which lives as long as any of them. They are yours:
-    what you write into them is heard by `Estimator.run`, fitted to, and saved.
+    Most arrays are views of the run's memory, which lives as long as any of them. You may write into
+    them: `Estimator.run`, `fit` and `save` use the changed values.
     """
 
     def __init__(self, arrays: Mapping[str, np.ndarray], info: Mapping[str, Any]):
@@ -65,12 +65,12 @@ class Recording(dict):
         return cls(*_touchdown.load(path))
 
     def save(self, path: Path) -> None:
-        """Write it as such a log, whole or not at all, to the byte as `touchdown simulate` does."""
+        """Write such a log, atomically, with the same bytes as `touchdown simulate`."""
         _touchdown.save(self, self.info, path)
 
     @property
     def period(self) -> float:
-        """Between two steps (s)."""
+        """Time between two steps (s)."""
         return 1e-6 * self.info["control_period_us"]
 
     @property
@@ -80,7 +80,7 @@ class Recording(dict):
 
     @property
     def steps(self) -> int:
-        """How many there are."""
+        """Number of steps."""
         return len(self["time"])
 
     def __repr__(self) -> str:
@@ -90,11 +90,11 @@ class Recording(dict):
 
 def simulate(scenario: Path, simulator: str = "mujoco", *, seed: int = 1, run: int | None = None,
              overrides: Mapping[str, Any] | Iterable[str] | None = None) -> Recording:
-    """Play one run of a scenario file, as `touchdown simulate` does.
+    """Simulate one run of a scenario file, as `touchdown simulate` does.
 
     scenario: a path, or one of the shipped ones ("scenarios/stairs.yaml")
     simulator: one of `simulators()`
-    run: draws the perturbations of this run from `seed`; without it, the scenario as it stands
+    run: draws the perturbations of this run from `seed`; without it, the scenario is not perturbed
     overrides: values of the scenario to change, by dotted key: {"end.duration": 5}
     """
     return Recording(*_touchdown.simulate(scenario, simulator, seed, run, assignments(overrides)))
@@ -102,10 +102,10 @@ def simulate(scenario: Path, simulator: str = "mujoco", *, seed: int = 1, run: i
 
 def contact_labels(normal_force: Any, period: float, *, force_threshold: float = 1.0,
                    debounce: float = 0.005) -> np.ndarray:
-    """When wheels touch, from their normal forces: (steps, 2) in N → (steps, 2) of bool.
+    """Contact of the wheels from their normal forces: (steps, 2) in N → (steps, 2) of bool.
 
-    period: between two steps (s)
-    force_threshold: in contact above it (N)
+    period: time between two steps (s)
+    force_threshold: a wheel is in contact above this force (N)
     debounce: shorter states are merged into their neighbours (s)
     """
     return _touchdown.contact_labels(normal_force, period, force_threshold, debounce)
@@ -120,16 +120,16 @@ def fit(runs: Any = (), estimator: str = "robust", *, contact: Any = (), no_cont
     """Fit an estimator's model, as `touchdown fit` does.
 
     runs: a `Recording` with ground truth, or a path to one, or several
-    contact, no_contact: likewise, runs in which both wheels touch, or neither does, all the time
-    skip: not used at the beginning of each (s)
-    force_threshold, debounce: what contact is (`contact_labels`)
+    contact, no_contact: the same, for runs in which both wheels, or neither, are in contact all the time
+    skip: time at the beginning of each run that is not used (s)
+    force_threshold, debounce: definition of contact (`contact_labels`)
     """
     declared = [(one, None) for one in _several(runs)]
     declared += [(one, True) for one in _several(contact)]
     declared += [(one, False) for one in _several(no_contact)]
     for one, _ in declared:
         if isinstance(one, dict) and not isinstance(one, Recording):
-            raise InputError("fit: expected a Recording, which knows its scenario and seed, or a path; found a dict")
+            raise InputError("fit: expected a Recording, which has scenario and seed, or a path; found a dict")
     return _touchdown.fit(declared, estimator, skip, force_threshold, debounce)
 
 
@@ -138,12 +138,12 @@ def score(beliefs: Any, recording: Mapping[str, np.ndarray], *, skip: float = 0.
           minimum_flight: float = 0.05) -> dict[str, dict[str, float]]:
     """Score beliefs about a run by the definitions of docs/metrics.md.
 
-    beliefs: what `Estimator.run` gives, or an array of probabilities or decisions, (steps, 2) for the
+    beliefs: a result of `Estimator.run`, or an array of probabilities or decisions, (steps, 2) for the
         wheels or (steps,) for both
     recording: has `contact`, (steps, 2), and its period, or `time`
 
-    Returns by view ("wheels": both pooled, "left_wheel", "right_wheel", "any_wheel", "both_wheels")
-    and metric ("success", "takeoff_latency_ms", …) a number; NaN where it is not defined.
+    Returns a number by view ("wheels": both pooled, "left_wheel", "right_wheel", "any_wheel",
+    "both_wheels") and metric ("success", "takeoff_latency_ms", …); NaN where it is not defined.
     """
     if "contact" not in recording:
         raise InputError("score: the recording has no ground truth: 'contact' is missing")

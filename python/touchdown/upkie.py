@@ -7,11 +7,12 @@ from touchdown._touchdown import Estimator
 
 
 class ContactWrapper:
-    """An environment whose `info["contact"]` is what an estimator believes of `info["spine_observation"]`.
+    """Wraps an environment and adds `info["contact"]`, an estimator's belief from `info["spine_observation"]`.
 
-    env: any of Upkie's; everything else of it is as it was
+    env: any of Upkie's environments; its other attributes stay
     estimator: made for the environment's frequency (`sample_rate`, Hz)
-    ground_velocity: of an action (m/s), for estimators that hear commands: the neural network is one
+    ground_velocity: gives the ground velocity of an action (m/s), for estimators that use commands,
+        such as the neural network
     """
 
     def __init__(self, env: Any, estimator: Estimator, ground_velocity: Callable[[Any], float] | None = None):
@@ -27,14 +28,14 @@ class ContactWrapper:
         return {**info, "contact": self.estimator.update_from_spine(info["spine_observation"], self._command)}
 
     def reset(self, **options: Any) -> tuple[Any, dict[str, Any]]:
-        """Resets both."""
+        """Reset the environment and the estimator."""
         observation, info = self.env.reset(**options)
         self.estimator.reset()
         self._command = 0.0
         return observation, self._with_belief(info)
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """One step of both. The command that an estimator hears is the one before."""
+        """Step the environment, then update the estimator with the new observation and the command before it."""
         observation, reward, terminated, truncated, info = self.env.step(action)
         if self.ground_velocity is not None:
             self._command = float(self.ground_velocity(action))

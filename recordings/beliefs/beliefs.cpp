@@ -25,7 +25,7 @@ const std::vector<std::string>& known_names() {
 constexpr const char* expected_names =
     "expected time, p_left, p_right and, for decisions, contact_left and contact_right";
 
-/// What a value has to be under one of the known names; empty if it is that.
+/// The error of a value under one of the known names; empty if the value is valid.
 std::string complaint(std::size_t name, double value, double last_time) {
   if (name == time_name) {
     if (!std::isfinite(value)) return fmt::format("{}: expected a time in seconds", value);
@@ -47,16 +47,16 @@ std::string Beliefs::place(std::size_t index) const {
   return fmt::format("{}: belief {}", file, index);
 }
 
-std::optional<WrongBelief> BeliefColumns::set_names(std::span<const std::string> names) {
+std::optional<ColumnError> BeliefColumns::set_names(std::span<const std::string> names) {
   const std::vector<std::string>& known = known_names();
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::find(known.begin(), known.end(), names[i]) == known.end()) {
-      return WrongBelief{i, fmt::format("unknown name '{}'{}: {}", names[i],
+      return ColumnError{i, fmt::format("unknown name '{}'{}: {}", names[i],
                                         did_you_mean(names[i], known), expected_names)};
     }
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i)) {
-      return WrongBelief{i, fmt::format("'{}' is there already", names[i])};
+      return ColumnError{i, fmt::format("'{}' appears twice", names[i])};
     }
   }
   names_.assign(names.begin(), names.end());
@@ -66,7 +66,7 @@ std::optional<WrongBelief> BeliefColumns::set_names(std::span<const std::string>
   decides_ = has(first_contact) || has(first_contact + 1);
   for (std::size_t name = 0; name < (decides_ ? known.size() : needed); ++name) {
     if (!has(name)) {
-      return WrongBelief{names.size(),
+      return ColumnError{names.size(),
                          fmt::format("'{}' is missing: {}", known[name], expected_names)};
     }
     column_[name] = static_cast<std::size_t>(std::find(names.begin(), names.end(), known[name]) -
@@ -75,12 +75,12 @@ std::optional<WrongBelief> BeliefColumns::set_names(std::span<const std::string>
   return std::nullopt;
 }
 
-std::optional<WrongBelief> BeliefColumns::add(std::span<const double> values) {
+std::optional<ColumnError> BeliefColumns::add(std::span<const double> values) {
   const double last = beliefs.time.empty() ? -HUGE_VAL : beliefs.time.back();
   for (std::size_t name = 0; name < (decides_ ? known_names().size() : needed); ++name) {
     const std::size_t column = column_[name];
     const std::string what = complaint(name, values[column], last);
-    if (!what.empty()) return WrongBelief{column, fmt::format("{}: {}", names_[column], what)};
+    if (!what.empty()) return ColumnError{column, fmt::format("{}: {}", names_[column], what)};
   }
   beliefs.time.push_back(values[column_[time_name]]);
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {

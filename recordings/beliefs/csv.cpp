@@ -13,7 +13,7 @@ Beliefs read_belief_csv(const std::filesystem::path& path) {
   read_numbers_csv(path,
                    {[&](std::span<const std::string> names) { return columns.set_names(names); },
                     [&](std::span<const double> values, std::size_t line) {
-                      std::optional<WrongBelief> wrong = columns.add(values);
+                      std::optional<ColumnError> wrong = columns.add(values);
                       if (!wrong) columns.beliefs.line.push_back(line);
                       return wrong;
                     }});

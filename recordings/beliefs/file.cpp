@@ -14,8 +14,7 @@ Beliefs read_beliefs(const std::filesystem::path& path) {
   if (extension == ".csv") return read_belief_csv(path);
   if (extension == ".npz") return read_belief_npz(path);
   if (extension == ".mpack") return read_belief_mpack(path);
-  throw InputError(
-      fmt::format("{}: expected a name that ends with .csv, .npz or .mpack", path.string()));
+  throw InputError(fmt::format("{}: expected the extension .csv, .npz or .mpack", path.string()));
 }
 
 }  // namespace touchdown::recordings

@@ -6,10 +6,11 @@
 
 namespace touchdown::recordings {
 
-/// What a belief file's name may end with.
+/// Extensions of belief files.
 inline constexpr std::array<const char*, 3> belief_extensions = {".csv", ".npz", ".mpack"};
 
-/// Reads it by its extension. Errors: `InputError`, one line that says where and what was expected.
+/// Reads a belief file by its extension. Errors: `InputError` with the position and what was
+/// expected.
 Beliefs read_beliefs(const std::filesystem::path& path);
 
 }  // namespace touchdown::recordings

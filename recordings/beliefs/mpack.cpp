@@ -15,7 +15,7 @@ namespace touchdown::recordings {
 
 namespace {
 
-/// Far more than beliefs need; a header that promises more is not worth the memory.
+/// Far more than beliefs need. A header that announces more is rejected.
 const msgpack::unpack_limit limits(64, 64, 1024, 1024, 1024, 4);
 
 std::optional<double> number_of(const msgpack::object& value) {
@@ -34,7 +34,7 @@ std::optional<double> number_of(const msgpack::object& value) {
   }
 }
 
-/// Takes dictionary after dictionary; each has the names of the first.
+/// Reads one dictionary after the other. All must have the names of the first.
 class DictionaryReader {
  public:
   explicit DictionaryReader(const std::filesystem::path& path) {
@@ -82,7 +82,7 @@ class DictionaryReader {
     std::sort(names.begin(), names.end());
     return names;
   }
-  void check(const std::optional<WrongBelief>& wrong) const {
+  void check(const std::optional<ColumnError>& wrong) const {
     if (wrong) complain(wrong->what);
   }
 
@@ -104,7 +104,7 @@ Beliefs read_belief_mpack(const std::filesystem::path& path) {
     } catch (const msgpack::insufficient_bytes&) {
       reader.complain("is cut off");
     } catch (const msgpack::unpack_error&) {
-      reader.complain(fmt::format("is no MessagePack dictionary of beliefs (byte {})", offset));
+      reader.complain(fmt::format("is not a MessagePack dictionary of beliefs (byte {})", offset));
     }
     reader.take(handle.get());
   }

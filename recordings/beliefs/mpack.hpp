@@ -6,8 +6,8 @@
 
 namespace touchdown::recordings {
 
-/// Beliefs as MessagePack dictionaries, as Upkie logs: one after the other, one per step, numbers
-/// (decisions also as booleans) by name. Errors: `InputError` that names the file and the
+/// Reads beliefs as a sequence of MessagePack dictionaries, like Upkie's logs: one per step, with
+/// numbers (decisions also as booleans) by name. Errors: `InputError` that names the file and the
 /// dictionary, counted from 0.
 Beliefs read_belief_mpack(const std::filesystem::path& path);
 

@@ -11,7 +11,7 @@ Beliefs read_belief_npz(const std::filesystem::path& path) {
   const std::vector<std::string> names = npz_names(path);
   BeliefColumns columns;
   columns.beliefs.file = path.string();
-  if (const std::optional<WrongBelief> wrong = columns.set_names(names)) {
+  if (const std::optional<ColumnError> wrong = columns.set_names(names)) {
     throw InputError(fmt::format("{}: {}", path.string(), wrong->what));
   }
   const NpzArrays arrays = read_npz(path);
@@ -25,7 +25,7 @@ Beliefs read_belief_npz(const std::filesystem::path& path) {
   std::vector<double> values(names.size());
   for (std::size_t step = 0; step < steps; ++step) {
     for (std::size_t i = 0; i < names.size(); ++i) values[i] = arrays.at(names[i]).data[step];
-    if (const std::optional<WrongBelief> wrong = columns.add(values)) {
+    if (const std::optional<ColumnError> wrong = columns.add(values)) {
       throw InputError(fmt::format("{}: index {}: {}", path.string(), step, wrong->what));
     }
   }

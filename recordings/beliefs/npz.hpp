@@ -6,8 +6,8 @@
 
 namespace touchdown::recordings {
 
-/// Beliefs as NumPy's arrays, one per name and of equal length. Errors: `InputError` that names the
-/// file, the array and the index.
+/// Reads beliefs as NumPy's arrays, one per name and of equal length. Errors: `InputError` that
+/// names the file, the array and the index.
 Beliefs read_belief_npz(const std::filesystem::path& path);
 
 }  // namespace touchdown::recordings

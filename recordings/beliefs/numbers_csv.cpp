@@ -16,9 +16,9 @@ namespace touchdown::recordings {
 namespace {
 
 struct Field {
-  std::string_view text;   ///< without blanks and quotes around it
-  std::size_t column = 1;  ///< of the line, from 1
-  bool is_open = false;    ///< it begins with a quote that nothing ends
+  std::string_view text;   ///< without surrounding blanks and quotes
+  std::size_t column = 1;  ///< position in the line, from 1
+  bool is_open = false;    ///< begins with a quote that is not closed
 };
 
 constexpr std::string_view blanks = " \t\r";
@@ -28,7 +28,7 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(0, text.find_last_not_of(blanks) + 1);
 }
 
-/// Where the quote at the beginning of a text ends; two in a row stand for one inside of it.
+/// The end of the quote at the beginning of a text. Two quote characters in a row stand for one.
 std::size_t quote_end(std::string_view text) {
   std::size_t end = text.find('"', 1);
   while (end != std::string_view::npos && text.substr(end + 1, 1) == "\"") {
@@ -72,11 +72,11 @@ std::optional<double> number_of(std::string_view text) {
   return value;
 }
 
-/// Reads line after line and knows where it is.
+/// Reads one line after the other and counts them, for messages.
 class LineReader {
  public:
-  LineReader(const std::filesystem::path& path, const NumbersCsv& taker)
-      : file_(path.string()), taker_(taker) {}
+  LineReader(const std::filesystem::path& path, const NumbersCsvSink& sink)
+      : file_(path.string()), sink_(sink) {}
 
   void take(std::string_view line) {
     ++line_;
@@ -97,7 +97,7 @@ class LineReader {
     throw InputError(fmt::format("{}:{}:{}: {}", file_, line_, column, what));
   }
 
-  void check(const std::optional<WrongBelief>& wrong, const std::vector<Field>& fields) const {
+  void check(const std::optional<ColumnError>& wrong, const std::vector<Field>& fields) const {
     if (!wrong) return;
     const std::size_t field = std::min(wrong->column, fields.size() - 1);
     complain(fields[field].column, wrong->what);
@@ -106,10 +106,10 @@ class LineReader {
   void take_names(const std::vector<Field>& fields) {
     std::vector<std::string> names;
     for (const Field& field : fields) names.push_back(name_of(field));
-    check(taker_.names(names), fields);
+    check(sink_.names(names), fields);
     values_.resize(names.size());
     for (std::size_t i = 0; i < names.size(); ++i) {
-      needed_.push_back(!taker_.needs || taker_.needs(i));
+      needed_.push_back(!sink_.needs || sink_.needs(i));
     }
   }
 
@@ -121,18 +121,18 @@ class LineReader {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (needed_[i]) values_[i] = value_of(fields[i]);
     }
-    check(taker_.row(values_, line_), fields);
+    check(sink_.row(values_, line_), fields);
   }
 
   double value_of(const Field& field) const {
     const std::optional<double> value =
-        field.text.empty() ? taker_.empty_cell : number_of(field.text);
+        field.text.empty() ? sink_.empty_cell : number_of(field.text);
     if (!value) complain(field.column, fmt::format("expected a number, found '{}'", field.text));
     return *value;
   }
 
   std::string file_;
-  const NumbersCsv& taker_;
+  const NumbersCsvSink& sink_;
   std::vector<double> values_;
   std::vector<bool> needed_;
   std::size_t line_ = 0;
@@ -140,13 +140,13 @@ class LineReader {
 
 }  // namespace
 
-void read_numbers_csv(const std::filesystem::path& path, const NumbersCsv& taker) {
+void read_numbers_csv(const std::filesystem::path& path, const NumbersCsvSink& sink) {
   require_file(path);
   const std::string text = read_file(path);
   std::string_view rest = text;
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
-  LineReader reader(path, taker);
+  LineReader reader(path, sink);
   do {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     reader.take(rest.substr(0, end));

@@ -11,21 +11,23 @@
 
 namespace touchdown::recordings {
 
-/// Who takes a file of comma-separated numbers: its names, then its rows in the order of the names;
-/// each says what is wrong, if anything is, and in which column.
-struct NumbersCsv {
-  std::function<std::optional<WrongBelief>(std::span<const std::string> names)> names;
-  std::function<std::optional<WrongBelief>(std::span<const double> values, std::size_t line)> row;
-  /// Asked once the names are known. What stands in a column that is not needed is not looked at.
+/// Receives a file of comma-separated numbers: first the names, then the rows in the order of the
+/// names. Each callback returns an error, if any.
+struct NumbersCsvSink {
+  std::function<std::optional<ColumnError>(std::span<const std::string> names)> names;
+  std::function<std::optional<ColumnError>(std::span<const double> values, std::size_t line)> row;
+  /// Called once the names are known. Columns that are not needed are not parsed.
   std::function<bool(std::size_t column)> needs = {};
-  /// What a cell is that nothing stands in; without it that is an error.
+  /// The value of an empty cell; without it an empty cell is an error.
   std::optional<double> empty_cell = {};
 };
 
-/// Reads a line of names, then a line of numbers after the other; true and false are 1 and 0, lines
-/// without anything are passed over. What stands between quotes ends on the same line, and may hold
-/// commas. Errors: `InputError` with file:line:column for a file without names, a row of another
-/// length, what is no number, a quote without its end, and what the taker complains of.
-void read_numbers_csv(const std::filesystem::path& path, const NumbersCsv& taker);
+/// Reads a line of names, then lines of numbers. true and false are 1 and 0; empty lines are
+/// skipped. Quoted cells may contain commas and must end on the same line. Errors: `InputError`
+/// with file:line:column for
+/// - a file without names, or a row of another length;
+/// - a cell that is not a number, or a quote without end;
+/// - errors of the sink.
+void read_numbers_csv(const std::filesystem::path& path, const NumbersCsvSink& sink);
 
 }  // namespace touchdown::recordings

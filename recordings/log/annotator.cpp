@@ -8,7 +8,7 @@ namespace touchdown::recordings {
 
 namespace {
 
-/// Packs what is believed as three maps.
+/// Packs a belief as three maps.
 void pack_beliefs(LogPacker& packer, msgpack::sbuffer& buffer, const Belief& belief,
                   const Evidence& evidence) {
   const auto group = [&](std::string_view key, std::uint32_t size) {

@@ -27,8 +27,8 @@ struct Descriptor {
   }
 };
 
-/// Waits until there is something to read or `stop` is true. A signal may come right before the
-/// wait begins, so no wait is long.
+/// Waits until bytes are available or `stop` is true. Each wait is short, since a signal may arrive
+/// right before it.
 void wait_for_bytes(int descriptor, const std::atomic<bool>& stop) {
   constexpr int milliseconds = 100;
   pollfd wait{descriptor, POLLIN, 0};

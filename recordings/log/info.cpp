@@ -25,7 +25,7 @@ void take(const msgpack::object& map, std::string_view key, T& value) {
   if (const msgpack::object* found = find(map, key)) found->convert(value);
 }
 
-/// As above. Whatever is told about a recording goes on into files that hold nothing but UTF-8.
+/// The same for texts, which must be UTF-8: they are copied to files that allow nothing else.
 void take_text(const msgpack::object& map, std::string_view key, std::string& value) {
   take(map, key, value);
   if (const std::size_t size = utf8_size(value); size < value.size()) {
@@ -54,17 +54,17 @@ std::optional<RecordingInfo> unpack_info(std::string_view record, std::string_vi
   try {
     const msgpack::object_handle handle = msgpack::unpack(record.data(), record.size());
     const msgpack::object* config = find(handle.get(), "config");
-    const msgpack::object* ours = config == nullptr ? nullptr : find(*config, "touchdown");
-    if (ours == nullptr) return {};
+    const msgpack::object* info_map = config == nullptr ? nullptr : find(*config, "touchdown");
+    if (info_map == nullptr) return {};
     RecordingInfo info;
-    take_text(*ours, "scenario", info.scenario);
-    take_text(*ours, "simulator", info.simulator);
-    take(*ours, "seed", info.seed);
-    take(*ours, "run", info.run);
-    take(*ours, "control_period_us", info.control_period_us);
-    take_text(*ours, "scenario_yaml", info.scenario_yaml);
+    take_text(*info_map, "scenario", info.scenario);
+    take_text(*info_map, "simulator", info.simulator);
+    take(*info_map, "seed", info.seed);
+    take(*info_map, "run", info.run);
+    take(*info_map, "control_period_us", info.control_period_us);
+    take_text(*info_map, "scenario_yaml", info.scenario_yaml);
     std::string outcome;
-    take(*ours, "outcome", outcome);
+    take(*info_map, "outcome", outcome);
     if (!outcome.empty()) info.outcome = outcome_from_text(outcome);
     if (info.control_period_us <= 0) throw InputError("control_period_us must be positive");
     return info;

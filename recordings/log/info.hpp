@@ -8,11 +8,11 @@
 
 namespace touchdown::recordings {
 
-/// Appends `config: {touchdown: {…}}` to a map that is being packed: where the run comes from.
+/// Appends the origin of a run, `config: {touchdown: {…}}`, to a map that is being packed.
 void pack_info(LogPacker& packer, const RecordingInfo& info);
 
-/// What `config.touchdown` of a record says; nothing if it was not written by us.
-/// Errors: `InputError` when it says something that we do not understand.
+/// Reads `config.touchdown` of a record; empty for a log that touchdown did not write.
+/// Errors: `InputError` for invalid values.
 std::optional<RecordingInfo> unpack_info(std::string_view record, std::string_view log_name);
 
 }  // namespace touchdown::recordings

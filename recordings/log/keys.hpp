@@ -9,8 +9,8 @@
 
 namespace touchdown::recordings {
 
-/// Where each number of a row stands in `LogValues`: vectors and quaternions (w x y z) take
-/// consecutive places, the six servos follow each other in the order of `Servo`.
+/// Index of each number of a row in `LogValues`. Vectors and quaternions (w x y z) have consecutive
+/// indices; the six servos are in the order of `Servo`.
 namespace log_slot {
 inline constexpr std::size_t wall_time = 0;
 inline constexpr std::size_t time = 1;
@@ -34,33 +34,33 @@ inline constexpr std::size_t true_imu_velocity = command + 49;      // 3
 inline constexpr std::size_t normal_force = command + 52;           // left, right
 inline constexpr std::size_t contact_points = command + 54;         // left, right
 inline constexpr std::size_t body_touches_terrain = command + 56;
-inline constexpr std::size_t joint_torque = command + 57;  // 6: what joints feel
+inline constexpr std::size_t joint_torque = command + 57;  // 6: torque on the joints
 inline constexpr std::size_t count = command + 63;
 }  // namespace log_slot
 
 /// All numbers of one control step.
 using LogValues = std::array<double, log_slot::count>;
 
-/// One key of Upkie's log layout that we know.
+/// One known key of Upkie's log layout.
 struct LogKey {
   enum class Role {
-    needed,       ///< no estimator can do without it
-    optional,     ///< has a default or can be derived; we write it all the same
+    needed,       ///< required by every estimator
+    optional,     ///< has a default or can be derived; always written
     truth,        ///< ground truth; written for simulated runs
-    joint_truth,  ///< likewise, where joints feel other torques than servos report
-    alias,        ///< where some version of Upkie keeps it; only ever read
+    joint_truth,  ///< written if joint torques differ from reported ones
+    alias,        ///< key of another version of Upkie; only read
   };
   std::string path;  ///< dotted
   std::size_t slot = 0;
   std::size_t size = 1;
   Role role = Role::optional;
-  bool is_flag = false;  ///< true or false rather than a number
+  bool is_flag = false;  ///< true or false instead of a number
 };
 
-/// Every key that we read or write, in the order in which they are written.
+/// All keys that are read or written, in writing order.
 const std::vector<LogKey>& log_keys();
 
-/// Keys as the tree of nested maps that they are in a record. Node 0 is the record itself.
+/// Keys as a tree, like the nested maps of a record. Node 0 is the record itself.
 class LogKeyTree {
  public:
   static constexpr int none = -1;
@@ -68,10 +68,10 @@ class LogKeyTree {
   struct Node {
     std::string name;
     std::vector<int> children;
-    const LogKey* key = nullptr;  ///< what stands here; may be null, may have children beside
+    const LogKey* key = nullptr;  ///< may be null; a node may have a key and children
   };
 
-  /// Of the keys of `log_keys()` that are `wanted`.
+  /// Builds the tree of those keys of `log_keys()` for which `wanted` is true.
   explicit LogKeyTree(const std::function<bool(const LogKey&)>& wanted);
 
   const Node& node(int index) const { return nodes_[static_cast<std::size_t>(index)]; }

@@ -11,16 +11,17 @@ namespace {
 
 enum class Kind : std::uint8_t { other, text, list, map };
 
-/// What follows a value's first byte: a length of so many bytes, then so many bytes that have no
-/// length, then as many bytes, or values, as the length says.
+/// The bytes that follow a value's first byte: a length, bytes of fixed number, then as many bytes
+/// or values as the length specifies.
 struct Format {
-  std::uint8_t length_bytes = 0;
-  std::uint8_t extra = 0;
+  std::uint8_t length_bytes = 0;  ///< size of the length
+  std::uint8_t extra = 0;         ///< fixed number of bytes
   Kind kind = Kind::other;
 };
 
 // clang-format off
-/// Of the first bytes 0xc0 to 0xdf of MessagePack's specification; the others say it themselves.
+/// Formats of the first bytes 0xc0 to 0xdf in MessagePack's specification. All other first bytes
+/// contain their length.
 constexpr std::array<Format, 32> formats = {{
     {}, {}, {}, {},                                                // nil, nothing, booleans
     {1}, {2}, {4}, {1, 1}, {2, 1}, {4, 1},                         // bin, ext
@@ -34,8 +35,8 @@ constexpr std::array<Format, 32> formats = {{
 
 struct Value {
   Kind kind = Kind::other;
-  std::size_t end = 0;       ///< offset behind it, without the values inside
-  std::uint64_t inside = 0;  ///< values in it
+  std::size_t end = 0;       ///< offset behind the value, without nested values
+  std::uint64_t inside = 0;  ///< number of nested values
   std::string_view text;
 };
 
@@ -79,7 +80,7 @@ Value value_at(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-/// The offset behind the value that begins at `at`, with all that is inside.
+/// The offset behind the value at `at`, nested values included.
 std::size_t skip(std::string_view bytes, std::size_t at) {
   for (std::uint64_t left = 1; left > 0; --left) {
     const Value value = value_at(bytes, at);
@@ -89,8 +90,8 @@ std::size_t skip(std::string_view bytes, std::size_t at) {
   return at;
 }
 
-/// Calls `visit(key, begin, value)` for every entry of the map at `at`: the key, and the offsets at
-/// which the entry and its value begin. Returns the offset behind the map.
+/// Calls `visit(key, begin, value)` for every entry of the map at `at`, with the key and the
+/// offsets of the entry and of its value. Returns the offset behind the map.
 template <typename Visit>
 std::size_t for_each_entry(std::string_view bytes, std::size_t at, const Visit& visit) {
   const Value map = value_at(bytes, at);

@@ -11,8 +11,8 @@ namespace touchdown::recordings {
 inline constexpr std::array<std::string_view, 3> belief_groups = {
     "measurement_model", "transition_model", "contact_filter"};
 
-/// Where the `observation` map stands in the bytes of a record, so that beliefs can be written into
-/// it without taking the record apart again.
+/// Position of the `observation` map in the bytes of a record. With it, beliefs can be inserted
+/// without decoding the record.
 struct ObservationOutline {
   struct Range {
     std::size_t begin = 0;
@@ -20,14 +20,14 @@ struct ObservationOutline {
   };
   /// Offset of the map's header; 0 if the record has no such map.
   std::size_t header = 0;
-  /// How many entries the map has.
+  /// Number of entries of the map.
   std::size_t entries = 0;
-  /// Entries that are beliefs already, key and value, in their order.
+  /// Existing beliefs, each from its key to the end of its value, in order.
   std::vector<Range> beliefs;
 };
 
-/// Of a record, a MessagePack map with keys of any kind; of several maps called `observation`, the
-/// last. Errors: `InputError` when the record is cut off.
+/// Finds the outline of a record, a MessagePack map with keys of any type. If there are several
+/// maps called `observation`, the last one counts. Errors: `InputError` when the record is cut off.
 ObservationOutline outline_of(std::string_view record);
 
 }  // namespace touchdown::recordings

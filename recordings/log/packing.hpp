@@ -17,7 +17,7 @@ inline void pack_text(LogPacker& packer, std::string_view text) {
   packer.pack_str(size).pack_str_body(text.data(), size);
 }
 
-/// Bytes before the first key of a map that begins with this byte; 0 if no map does.
+/// Number of bytes before the first key of a map with this first byte; 0 if no map begins with it.
 inline std::size_t map_header_size(char first) {
   const auto byte = static_cast<unsigned char>(first);
   if ((byte & 0xf0U) == 0x80U) return 1;
@@ -25,8 +25,8 @@ inline std::size_t map_header_size(char first) {
   return byte == 0xdfU ? 5 : 0;
 }
 
-/// Packs a number as a float 64, always. `msgpack::packer::pack_double` turns whole numbers into
-/// integers, which loses the sign of −0 and gives readers a key whose type changes from row to row.
+/// Always packs a number as a float 64. `msgpack::packer::pack_double` packs whole numbers as
+/// integers: the sign of −0 gets lost, and the type of a key changes from row to row.
 inline void pack_float64(msgpack::sbuffer& buffer, double value) {
   constexpr auto float64 = static_cast<char>(0xcbU);
   const auto bits = std::bit_cast<std::uint64_t>(value);

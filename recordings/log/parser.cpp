@@ -77,7 +77,7 @@ std::vector<std::string> LogParser::malformed() const {
   return paths;
 }
 
-/// What stands at a key whose numbers are not what they should be; empty for nothing.
+/// Describes the wrong value at a key; empty if there is no value.
 std::string LogParser::instead(const LogKey& key) const {
   const char* numbers = key.size == 1 ? "a number" : "numbers";
   if (flags_[key.slot]) return fmt::format("true or false instead of {}", numbers);
@@ -87,7 +87,7 @@ std::string LogParser::instead(const LogKey& key) const {
   return fmt::format("{} number{} instead of {}", given, given == 1 ? "" : "s", key.size);
 }
 
-/// Of the value that is being visited; null for one that we do not know.
+/// The key of the current value; null if it is unknown.
 const LogKey* LogParser::key_here() const {
   return current_ == LogKeyTree::none || in_key_ ? nullptr : tree_.node(current_).key;
 }
@@ -116,7 +116,7 @@ bool LogParser::number(double value) {
 
 int LogParser::child(int parent, std::string_view name) {
   if (parent == LogKeyTree::none) return LogKeyTree::none;
-  // Records of a log repeat each other: the key is most likely the one of the record before.
+  // Records of a log are alike: the key is most likely the one at the same position before.
   KeySequence& before = sequences_[static_cast<std::size_t>(parent)];
   const std::size_t position = before.position++;
   if (position < before.keys.size() && before.keys[position].name == name) {
@@ -147,7 +147,7 @@ bool LogParser::visit_str(const char* text, std::uint32_t size) {
   return true;
 }
 
-/// A list may be a key; the texts in it are none.
+/// A key may be a list; the texts in such a list are not keys.
 bool LogParser::start_array(std::uint32_t /*elements*/) {
   in_key_ = false;
   return true;

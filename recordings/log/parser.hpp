@@ -14,32 +14,32 @@
 
 namespace touchdown::recordings {
 
-/// Reads the numbers of one record of a log without building the record in memory. Keys that we do
-/// not know are skipped.
+/// Reads the numbers of one record of a log without building the record in memory. Unknown keys are
+/// skipped.
 class LogParser : public msgpack::null_visitor {
  public:
   enum class Result {
-    record,      ///< a whole record stands at the beginning of the bytes
-    incomplete,  ///< the bytes end before the record does
-    garbage,     ///< no MessagePack map
+    record,      ///< the bytes begin with a complete record
+    incomplete,  ///< the record continues behind the bytes
+    garbage,     ///< not a MessagePack map
   };
 
   LogParser();
 
-  /// Parses the first record of `bytes`; `length` becomes its size, or for garbage the offset at
-  /// which it stops making sense.
+  /// Parses the first record of `bytes`. `length` becomes its size; for garbage, the offset of the
+  /// error.
   Result parse(std::string_view bytes, std::size_t& length);
 
   const LogValues& values() const { return values_; }
-  /// A vector is present only when it had the right number of elements.
+  /// A vector is present only if it has the right number of elements.
   const LogPresence& present() const { return present_; }
   bool has_config() const { return has_config_; }
 
-  /// Dotted paths of the needed keys that the last record lacks, with what stands there instead:
+  /// Dotted paths of the needed keys that the last record lacks, with the wrong value, if any:
   /// "observation.imu.orientation (3 numbers instead of 4)".
   std::vector<std::string> missing() const;
   bool is_missing_any() const { return (present_ & needed_) != needed_ || !has_time(); }
-  /// Those of them where something else stands.
+  /// Those of them with a wrong value.
   std::vector<std::string> malformed() const;
 
   /// \name Called by MessagePack's parser.
@@ -60,7 +60,7 @@ class LogParser : public msgpack::null_visitor {
   /// @}
 
  private:
-  /// The keys that a map had in the record before.
+  /// The keys of a map in the previous record.
   struct KeySequence {
     struct Key {
       std::string name;
@@ -83,9 +83,10 @@ class LogParser : public msgpack::null_visitor {
   LogPresence needed_;
   LogPresence present_;
   LogPresence malformed_;
-  LogPresence flags_;                                   ///< true or false where numbers belong
-  LogPresence texts_;                                   ///< likewise
-  std::array<std::uint16_t, log_slot::count> given_{};  ///< numbers at a key, by its first slot
+  LogPresence flags_;  ///< true or false instead of numbers
+  LogPresence texts_;  ///< text instead of numbers
+  std::array<std::uint16_t, log_slot::count>
+      given_{};  ///< number of elements of a key, by its first slot
   LogValues values_{};
   std::vector<int> open_;  ///< the maps around the current value
   int current_ = 0;

@@ -13,9 +13,9 @@ namespace touchdown::recordings {
 namespace {
 
 constexpr std::size_t chunk_size = std::size_t{1} << 18U;
-/// Larger than any record; what claims to be longer is garbage that looks like a header.
+/// Larger than any record. A longer one is garbage that looks like a header.
 constexpr std::size_t largest_record = std::size_t{1} << 23U;
-/// A spine needs a moment until all of its observers run; two seconds are no moment any more.
+/// Until all of its observers run, a spine logs incomplete records; two seconds are too long.
 constexpr std::uint64_t most_skipped_in_a_row = 2000;
 constexpr std::size_t rows_for_period = 200;
 
@@ -105,8 +105,8 @@ void LogReader::read_entry(Entry& entry) {
   }
 }
 
-/// Later on the guard of an estimator looks at the time; before the first row there is nothing yet
-/// that time counts from.
+/// Applies before the first row only, which defines time zero. Later the guard of an estimator
+/// checks the time.
 bool LogReader::is_without_time(const LogRow& row) {
   if (has_rows_ || std::isfinite(row.observation.time)) return false;
   if (++timeless_count_ == 1) {
@@ -161,7 +161,7 @@ bool LogReader::refill() {
 
 void LogReader::finish() {
   if (record_count_ == 0) throw InputError(fmt::format("{}: the log is empty", name_));
-  // A run of ours may have ended before its first step; a robot's log without a row is useless.
+  // A simulated run may end before its first step. A robot's log without rows is an error.
   if (!has_rows_ && !info_) complain_about_missing_keys();
   if (skipped_count_ > 0 && has_rows_ && !has_finished_) {
     warnings_.push_back(fmt::format("{}: {} of {} records lack needed keys and were left out",
@@ -183,11 +183,11 @@ void LogReader::finish() {
 }
 
 void LogReader::complain_about_garbage(std::size_t offset) const {
-  const bool is_submission = name_.ends_with(".csv") || name_.ends_with(".npz");
+  const bool is_source_log = name_.ends_with(".csv") || name_.ends_with(".npz");
   const bool is_scenario = name_.ends_with(".yaml") || name_.ends_with(".yml");
   throw InputError(fmt::format(
       "{}: byte {}: expected a MessagePack map, one per control step{}", name_, offset_ + offset,
-      is_submission    ? ": `touchdown export --mapping` makes such a log"
+      is_source_log ? ": `touchdown export --mapping` makes such a log"
       : is_scenario ? ": `touchdown simulate` makes such a log of a scenario"
                     : ""));
 }

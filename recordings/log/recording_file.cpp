@@ -32,7 +32,7 @@ void write_recording(const Recording& recording, const std::filesystem::path& pa
       writer.finish();
       file.close();
     } catch (const Error&) {
-      if (file) throw;  // or else it is about a stream without a name
+      if (file) throw;  // otherwise the message lacks the file's name
     }
     if (!file) throw Error(fmt::format("{}: cannot be written: is the disk full?", path.string()));
   });

@@ -8,11 +8,11 @@
 
 namespace touchdown::recordings {
 
-/// Writes a recording as a log in Upkie's layout, whole or not at all.
+/// Writes a recording as a log in Upkie's layout, completely or not at all.
 /// Errors: `Error` when it cannot be written or its columns differ in length.
 void write_recording(const Recording& recording, const std::filesystem::path& path);
 
-/// Reads a whole log into memory; "-" is standard input. What was wrong but not fatal is added to
+/// Reads a whole log into memory; "-" is standard input. Problems that are not fatal are added to
 /// `warnings` if given. Errors: as `LogReader`.
 Recording read_recording(const std::filesystem::path& path,
                          std::vector<std::string>* warnings = nullptr);

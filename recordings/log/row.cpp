@@ -8,7 +8,7 @@ namespace touchdown::recordings {
 
 namespace {
 
-/// Attitude of the base as its IMU tells it. World: x forward, y left, z up.
+/// Attitude of the base according to its IMU. World: x forward, y left, z up.
 struct BaseAttitude {
   Eigen::Matrix3d base_to_world = Eigen::Matrix3d::Identity();
   /// In the base frame (rad/s).
@@ -19,8 +19,8 @@ struct BaseAttitude {
   double yaw_rate = 0.0;    ///< about the world's vertical (rad/s)
 };
 
-/// From the IMU's orientation (to x forward, y right, z down) and angular velocity, with the IMU
-/// mounted as on Upkie: x back, y left, z down.
+/// Computes the attitude from the IMU's orientation (to x forward, y right, z down) and angular
+/// velocity. The IMU is mounted as on Upkie: x back, y left, z down.
 BaseAttitude base_attitude(const models::ImuReading& imu) {
   const Eigen::DiagonalMatrix<double, 3> base_to_imu(-1.0, 1.0, -1.0);
   const Eigen::DiagonalMatrix<double, 3> ars_to_world(1.0, -1.0, -1.0);
@@ -65,7 +65,7 @@ constexpr std::array<double models::ServoReading::*, 3> reading_members = {
     &models::ServoReading::position, &models::ServoReading::velocity,
     &models::ServoReading::torque};
 
-/// Where writing and reading find what a step must have; `visit` is called with slots and members.
+/// Calls `visit` with the slots and members that every step must have, for writing and reading.
 template <typename Readings, typename Visit>
 void visit_needed(Readings& observation, const Visit& visit) {
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
@@ -78,7 +78,7 @@ void visit_needed(Readings& observation, const Visit& visit) {
   visit(log_slot::linear_acceleration, observation.imu.linear_acceleration);
 }
 
-/// What has a default or can be derived.
+/// The same for values that have a default or can be derived.
 template <typename Readings, typename Commands, typename Visit>
 void visit_optional(Readings& observation, Commands& action, const Visit& visit) {
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {

@@ -9,28 +9,27 @@
 
 namespace touchdown::recordings {
 
-/// Which ground truth a log holds.
+/// The ground truth that a log contains.
 enum class WrittenTruth : int { none, of_robot, of_robot_and_joints };
 
-/// The truth that a run knows: of the joints where its actuators are not ideal.
+/// The ground truth that a run has. Joints are included if the actuators are not ideal.
 WrittenTruth truth_of(const Recording& recording);
 
-/// Writes a log in Upkie's layout, row by row, at a constant memory: one MessagePack map per
-/// control step, ground truth under `observation.sim`, `info` under `config.touchdown` of the first
-/// record. Reading it back gives the same bits. Wrap it in `write_atomically` to get a file whole
-/// or not at all.
+/// Writes a log in Upkie's layout, row by row, with constant memory. Each control step is one
+/// MessagePack map. Ground truth is under `observation.sim`, `info` under `config.touchdown` of the
+/// first record. Reading it back gives the same bits. For files, use it within `write_atomically`.
 class LogWriter {
  public:
-  /// Every row must have the ground truth that is to be written. `stream` must outlive the writer.
+  /// Every row must have the ground truth that `truth` specifies. `stream` must outlive the writer.
   LogWriter(std::ostream& stream, RecordingInfo info, WrittenTruth truth);
-  /// A robot's log: nobody says where it comes from, and its records have the values that are
-  /// `present`, a vector's by its first number.
+  /// For a robot's log: without origin, and with the values that are `present`. For a vector, its
+  /// first number counts.
   LogWriter(std::ostream& stream, const LogPresence& present);
 
   /// Errors: `Error` when the stream fails or the ground truth is missing.
   void write(const models::Observation& observation, const models::Action& action,
              const models::GroundTruth* truth);
-  /// As above, a row as flat numbers.
+  /// The same for a row of flat numbers.
   void write(const LogValues& values);
 
   /// Writes the info of a run that had no steps; does nothing after a `write`.

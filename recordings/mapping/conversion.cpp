@@ -21,7 +21,7 @@ Eigen::Vector3d vector_of(const MappedSignal& signal, std::span<const double> ro
   return {signal.value(row, 0), signal.value(row, 1), signal.value(row, 2)};
 }
 
-/// From Upkie's IMU frame to the reference whose z points down.
+/// Orientation from Upkie's IMU frame to the reference with z down.
 Eigen::Quaterniond orientation_of(const LogMapping& mapping, std::span<const double> row) {
   std::array<double, 4> q{};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -31,12 +31,12 @@ Eigen::Quaterniond orientation_of(const LogMapping& mapping, std::span<const dou
   if (!mapping.axes.isIdentity(0.0)) {
     orientation = orientation * Eigen::Quaterniond(Eigen::Matrix3d(mapping.axes.transpose()));
   }
-  // Half a turn about x.
+  // z up to z down: half a turn about x.
   const Eigen::Quaterniond o = orientation;
   return mapping.reference_is_z_up ? Eigen::Quaterniond(-o.x(), o.w(), -o.z(), o.y()) : o;
 }
 
-/// Without gravity.
+/// Acceleration without gravity, in Upkie's IMU frame.
 Eigen::Vector3d linear_acceleration(const LogMapping& mapping, const Eigen::Quaterniond& q,
                                     const Eigen::Vector3d& proper, std::span<const double> row) {
   if (mapping.linear_acceleration) {
@@ -55,7 +55,7 @@ constexpr std::size_t velocity_target(models::Servo wheel) {
   return log_slot::command + 6 * models::index(wheel) + 2;
 }
 
-/// The numbers of one row as those of a record.
+/// Converts one row to the numbers of a record.
 LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const double> row) {
   LogValues values{};
   values[log_slot::time] =
@@ -85,7 +85,7 @@ LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const
   return values;
 }
 
-/// Which of them a record has.
+/// Marks the numbers that a record has.
 LogPresence log_presence(const LogMapping& mapping) {
   LogPresence present;
   present.set(log_slot::time);
@@ -99,41 +99,41 @@ LogPresence log_presence(const LogMapping& mapping) {
   return present;
 }
 
-/// Makes stretches of what every row says about contact.
-class Stretches {
+/// Builds contact intervals from the contact labels of the rows.
+class IntervalBuilder {
  public:
-  Stretches(const LogMapping& mapping, ContactIntervals& said) : mapping_(mapping), said_(said) {}
+  IntervalBuilder(const LogMapping& mapping, ContactIntervals& labels)
+      : mapping_(mapping), labels_(labels) {}
 
-  /// `time` counts from the log's first.
+  /// `time` counts from the first time of the log.
   void add(double time, std::span<const double> row, const SourceLocation& place) {
     if (!mapping_.contact || !std::isfinite(time)) return;
     if (time < last_) {
-      throw InputError(
-          fmt::format("{}: labels of contact need times that increase: {} s comes after {} s",
-                      place(), time, last_));
+      throw InputError(fmt::format(
+          "{}: contact labels need increasing times: {} s comes after {} s", place(), time, last_));
     }
     const std::optional<std::array<bool, models::wheel_count>> contact = contact_in(row);
-    const bool goes_on = open_ && contact == said_.intervals.back().contact;
-    if (open_ && !goes_on) end(time);
-    if (contact && !goes_on) said_.intervals.push_back({time, time, *contact});
+    const bool continues = open_ && contact == labels_.intervals.back().contact;
+    if (open_ && !continues) end(time);
+    if (contact && !continues) labels_.intervals.push_back({time, time, *contact});
     open_ = contact.has_value();
     last_ = time;
     ++rows_;
   }
 
-  /// The last row lasts as long as the others.
+  /// Ends the last interval: the last row lasts as long as the mean of the others.
   void finish() {
     if (open_) end(last_ + last_ / std::max<double>(1.0, static_cast<double>(rows_) - 1.0));
   }
 
  private:
-  /// A stretch without a duration, between two rows of the same time, says nothing.
+  /// Ends the open interval, or drops it if it has no duration (two rows of the same time).
   void end(double time) {
-    said_.intervals.back().end = time;
-    if (said_.intervals.back().start >= time) said_.intervals.pop_back();
+    labels_.intervals.back().end = time;
+    if (labels_.intervals.back().start >= time) labels_.intervals.pop_back();
   }
 
-  /// Nothing where a number is missing.
+  /// Empty if a number is missing.
   std::optional<std::array<bool, models::wheel_count>> contact_in(
       std::span<const double> row) const {
     std::array<bool, models::wheel_count> contact{};
@@ -147,13 +147,13 @@ class Stretches {
   }
 
   const LogMapping& mapping_;
-  ContactIntervals& said_;
+  ContactIntervals& labels_;
   bool open_ = false;
   double last_ = 0.0;
   std::uint64_t rows_ = 0;
 };
 
-/// Takes row after row of a foreign log, whose mapping is known once its names are.
+/// Converts a log row by row. The mapping is read once the names of the log are known.
 class Converter {
  public:
   Converter(const std::filesystem::path& mapping, std::ostream& stream)
@@ -162,7 +162,7 @@ class Converter {
   std::vector<SourceColumn> begin(const SourceNames& names) {
     mapping_ = read_log_mapping(path_, names);
     writer_.emplace(stream_, log_presence(mapping_));
-    stretches_.emplace(mapping_, converted_.contact);
+    intervals_.emplace(mapping_, converted_.contact);
     return mapping_.columns;
   }
 
@@ -171,11 +171,11 @@ class Converter {
     writer_->write(values);
     const bool is_whole =
         std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-    if (!is_whole) ++converted_.lacking;
+    if (!is_whole) ++converted_.incomplete_rows;
     const double time = values[log_slot::time];
     if (std::isfinite(time)) {
       if (has_time_) {
-        if (time < converted_.end) ++converted_.back;
+        if (time < converted_.end) ++converted_.time_reversals;
         if (time > converted_.end + longest_period) ++long_steps_;
       } else {
         converted_.start = time;
@@ -183,7 +183,7 @@ class Converter {
       converted_.end = time;
       has_time_ = true;
     }
-    stretches_->add(time - converted_.start, row, place);
+    intervals_->add(time - converted_.start, row, place);
   }
 
   ConvertedLog finish(const std::filesystem::path& log) {
@@ -193,11 +193,11 @@ class Converter {
     }
     if (2 * long_steps_ > converted_.rows) {
       throw InputError(fmt::format(
-          "{}: most rows come more than {} s after the one before: is time in ms, us or ns? Its "
-          "`unit` says so",
+          "{}: most rows come more than {} s after the one before: is time in ms, us or ns? "
+          "Then set its `unit`",
           log.string(), longest_period));
     }
-    stretches_->finish();
+    intervals_->finish();
     return std::move(converted_);
   }
 
@@ -206,7 +206,7 @@ class Converter {
   std::ostream& stream_;
   LogMapping mapping_;
   std::optional<LogWriter> writer_;
-  std::optional<Stretches> stretches_;
+  std::optional<IntervalBuilder> intervals_;
   ConvertedLog converted_;
   std::uint64_t long_steps_ = 0;
   bool has_time_ = false;
@@ -217,13 +217,12 @@ class Converter {
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
                          std::ostream& stream, const std::function<void()>& check_stop) {
   Converter converter(mapping, stream);
-  read_source_log(log,
-                   {.wanted = [&](const SourceNames& names) { return converter.begin(names); },
-                    .row =
-                        [&](std::span<const double> row, const SourceLocation& place) {
-                          if (check_stop) check_stop();
-                          converter.add(row, place);
-                        }});
+  read_source_log(log, {.wanted = [&](const SourceNames& names) { return converter.begin(names); },
+                        .row =
+                            [&](std::span<const double> row, const SourceLocation& place) {
+                              if (check_stop) check_stop();
+                              converter.add(row, place);
+                            }});
   return converter.finish(log);
 }
 

@@ -9,22 +9,22 @@
 
 namespace touchdown::recordings {
 
-/// What became of a foreign log.
+/// The result of converting another robot's log.
 struct ConvertedLog {
   std::uint64_t rows = 0;
-  double start = 0.0;         ///< its first time that is a finite number (s)
-  double end = 0.0;           ///< its last one
-  std::uint64_t lacking = 0;  ///< rows with a number that is missing: empty, NaN or infinite
-  std::uint64_t back = 0;     ///< rows whose time lies before the one of the row before
-  /// What the log says about contact, if the mapping says where; times count from `start`.
+  double start = 0.0;                 ///< first finite time (s)
+  double end = 0.0;                   ///< last finite time (s)
+  std::uint64_t incomplete_rows = 0;  ///< rows with an empty, NaN or infinite number
+  std::uint64_t time_reversals = 0;   ///< rows with a time before that of the previous row
+  /// Contact labels, if the mapping specifies their columns. Times count from `start`.
   ContactIntervals contact;
 };
 
-/// Writes somebody else's log, CSV or NumPy's arrays, as a robot's log in Upkie's layout, as the
-/// mapping file says: a record for each row, with what was measured and nothing else. What is
-/// missing is NaN there. `check_stop` is called now and then, and may throw. Errors: `InputError`
-/// as `read_log_mapping` and `read_source_log`, for a log without rows or times, and for labels of
-/// contact whose time goes back; `Error` when the stream fails.
+/// Converts another robot's log, CSV or NumPy's arrays, to a robot's log in Upkie's layout, by a
+/// mapping file. Each row becomes one record with the measurements only. Missing values become NaN.
+/// `check_stop` is called regularly, and may throw. Errors: `InputError` as in `read_log_mapping`
+/// and `read_source_log`, for a log without rows or times, and for contact labels with decreasing
+/// times; `Error` when the stream fails.
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
                          std::ostream& stream, const std::function<void()>& check_stop = {});
 

@@ -22,11 +22,11 @@ struct Unit {
   double size;
 };
 
-/// A signal as a mapping file may describe it.
+/// The options that a mapping file has for a signal.
 struct SignalKind {
-  std::string what;  ///< its numbers in their order, for complaints
+  std::string what;  ///< its numbers in order, for messages
   std::size_t count = 1;
-  std::vector<Unit> units = {};  ///< the first is ours
+  std::vector<Unit> units = {};  ///< the first is the unit of touchdown
   bool has_zero = false;
 };
 
@@ -41,7 +41,7 @@ std::vector<Unit> speeds() {
 
 std::vector<Unit> accelerations() { return {{"m/s^2", 1.0}, {"g", standard_gravity}}; }
 
-/// One value for all, or a list.
+/// Reads a single value or a list.
 template <typename T>
 std::vector<T> one_or_more(Fields& fields, const std::string& key) {
   if (fields.node()[key].IsSequence()) {
@@ -54,14 +54,13 @@ std::vector<T> one_or_more(Fields& fields, const std::string& key) {
   return {value};
 }
 
-/// All keys that may be there. A misspelt one is complained of as such, not as another one that is
-/// missing.
+/// Declares all valid keys, so that a misspelt key is reported as such, and not as a missing one.
 void expect_keys(Fields& fields, std::initializer_list<const char*> keys) {
   for (const char* key : keys) fields.know(key);
   fields.finish();
 }
 
-/// For each of a signal's numbers one; nothing if the key is absent.
+/// Reads one number per component of a signal; empty if the key is absent.
 std::vector<double> number_for_each(Fields& fields, const std::string& key, std::size_t count) {
   if (!fields.present(key, false)) return {};
   std::vector<double> values = one_or_more<double>(fields, key);
@@ -79,18 +78,17 @@ double unit_of(Fields& fields, const std::vector<Unit>& units) {
   return units[index].size;
 }
 
-/// Some of a log's names: nobody wants to read hundreds.
+/// Lists the first few names of a log, for messages.
 std::string some_of(const std::vector<std::string>& names) {
   constexpr std::size_t most = 8;
   const auto shown = std::span(names).first(std::min(names.size(), most));
   return fmt::format(" (it has {}{})", fmt::join(shown, ", "), names.size() > most ? ", …" : "");
 }
 
-/// Reads signals and notes which columns they need.
+/// Reads signals and collects the columns that they need.
 class MappingReader {
  public:
-  MappingReader(const SourceNames& names, LogMapping& mapping)
-      : names_(names), mapping_(mapping) {}
+  MappingReader(const SourceNames& names, LogMapping& mapping) : names_(names), mapping_(mapping) {}
 
   void require(Fields& fields, std::string_view key, const SignalKind& kind, MappedSignal& signal) {
     fields.require(key);
@@ -102,7 +100,7 @@ class MappingReader {
     if (fields.present(key, false)) require(fields, key, kind, signal.emplace());
   }
 
-  /// Orientations know no units, but orders and references.
+  /// Orientations have an order and a reference instead of a unit.
   void describe_orientation(Fields& fields) {
     fields.require("orientation");
     fields.within("orientation", [&](Fields& inner) {
@@ -112,7 +110,7 @@ class MappingReader {
       inner.choose("reference", {"z_down", "z_up"}, reference);
       mapping_.is_w_last = order == 1;
       mapping_.reference_is_z_up = reference == 1;
-      describe_signal(inner, {"the quaternion's parts in the order that 'order' says", 4},
+      describe_signal(inner, {"the quaternion's components in the order of 'order'", 4},
                       mapping_.orientation);
     });
   }
@@ -158,10 +156,10 @@ class MappingReader {
     return columns;
   }
 
-  /// Several numbers are columns of one array, the first ones unless `index` says which, or come
-  /// from an array each.
+  /// The numbers of a signal are columns of one array (the first ones, unless `index` selects
+  /// others), or come from one array each.
   static std::vector<SourceColumn> columns_of_arrays(Fields& fields, const SignalKind& kind,
-                                                      const std::vector<std::string>& from) {
+                                                     const std::vector<std::string>& from) {
     const bool is_of_one = from.size() == 1;
     fields.check(
         is_of_one || from.size() == kind.count, "from",
@@ -197,7 +195,7 @@ class MappingReader {
                  fmt::format("{} has no {} '{}'{}", names_.file, what, name, hint));
   }
 
-  /// The column's place among those that are needed.
+  /// Adds a column to the needed ones and returns its index.
   std::size_t take(const Fields& fields, const SourceColumn& column) {
     std::vector<SourceColumn>& columns = mapping_.columns;
     const bool is_new = std::find(columns.begin(), columns.end(), column) == columns.end();
@@ -212,17 +210,17 @@ class MappingReader {
   LogMapping& mapping_;
 };
 
-/// Each of ours is one of theirs, x, y or z, or its reverse.
+/// Reads the rotation to Upkie's IMU axes: each is x, y or z of the log's IMU, or its reverse.
 void describe_axes(Fields& fields, Eigen::Matrix3d& axes) {
-  std::vector<std::string> theirs = {"x", "y", "z"};
-  fields("axes", theirs);
+  std::vector<std::string> names = {"x", "y", "z"};
+  fields("axes", names);
   constexpr const char* expected =
-      "expected what of theirs points back, left and down, such as [-x, y, -z]: a right-handed "
+      "expected the log's axes that point back, left and down, such as [-x, y, -z]: a right-handed "
       "order of x, y and z, each with or without a minus";
-  fields.check(theirs.size() == 3, "axes", expected);
+  fields.check(names.size() == 3, "axes", expected);
   axes.setZero();
   for (Eigen::Index i = 0; i < 3; ++i) {
-    std::string_view axis = theirs[static_cast<std::size_t>(i)];
+    std::string_view axis = names[static_cast<std::size_t>(i)];
     const double sign = axis.starts_with('-') ? -1.0 : 1.0;
     if (sign < 0.0) axis.remove_prefix(1);
     const std::size_t j = axis.size() == 1 ? std::string_view("xyz").find(axis) : 3;
@@ -240,7 +238,8 @@ void describe_time(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   reader.optional(fields, "time",
                   {"time", 1, {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}},
                   mapping.time);
-  fields.check(!has_period || !mapping.time, "period", "'time' says when rows were logged");
+  fields.check(!has_period || !mapping.time, "period",
+               "'time' already specifies when rows were logged");
   fields.check(has_period || mapping.time, "time", "is missing: expected 'time' or 'period'");
 }
 

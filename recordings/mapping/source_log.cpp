@@ -15,33 +15,33 @@ namespace touchdown::recordings {
 
 namespace {
 
-void read_csv(const std::filesystem::path& path, const SourceLogSink& taker) {
-  std::vector<std::size_t> places;  // of what is wanted, in a line
+void read_csv(const std::filesystem::path& path, const SourceLogSink& sink) {
+  std::vector<std::size_t> positions;  // of the wanted columns in a line
   std::vector<double> row;
-  NumbersCsv csv;
-  csv.names = [&](std::span<const std::string> given) -> std::optional<WrongBelief> {
+  NumbersCsvSink csv;
+  csv.names = [&](std::span<const std::string> given) -> std::optional<ColumnError> {
     const std::vector<std::string> names(given.begin(), given.end());
-    if (names == std::vector<std::string>{""}) return WrongBelief{0, "expected a line of names"};
-    for (const SourceColumn& column : taker.wanted({path.string(), false, names})) {
+    if (names == std::vector<std::string>{""}) return ColumnError{0, "expected a line of names"};
+    for (const SourceColumn& column : sink.wanted({path.string(), false, names})) {
       const auto found = std::find(names.begin(), names.end(), column.name);
-      places.push_back(static_cast<std::size_t>(found - names.begin()));
+      positions.push_back(static_cast<std::size_t>(found - names.begin()));
     }
-    row.resize(places.size());
+    row.resize(positions.size());
     return std::nullopt;
   };
   csv.needs = [&](std::size_t column) {
-    return std::find(places.begin(), places.end(), column) != places.end();
+    return std::find(positions.begin(), positions.end(), column) != positions.end();
   };
   csv.empty_cell = std::numeric_limits<double>::quiet_NaN();
-  csv.row = [&](std::span<const double> values, std::size_t line) -> std::optional<WrongBelief> {
-    for (std::size_t i = 0; i < places.size(); ++i) row[i] = values[places[i]];
-    taker.row(row, [&] { return fmt::format("{}:{}", path.string(), line); });
+  csv.row = [&](std::span<const double> values, std::size_t line) -> std::optional<ColumnError> {
+    for (std::size_t i = 0; i < positions.size(); ++i) row[i] = values[positions[i]];
+    sink.row(row, [&] { return fmt::format("{}:{}", path.string(), line); });
     return std::nullopt;
   };
   read_numbers_csv(path, csv);
 }
 
-/// An array's column: its numbers, and how far they are apart.
+/// A column of an array: its first number, and the distance between numbers.
 struct ArrayColumn {
   const double* first = nullptr;
   std::size_t stride = 1;
@@ -52,7 +52,7 @@ ArrayColumn column_of(const NpzArrays& arrays, const SourceColumn& column,
   const NpyArray& array = arrays.at(column.name);
   const std::size_t width = array.shape.size() == 2 ? array.shape[1] : 1;
   if (!column.index && width != 1) {
-    throw InputError(fmt::format("{}: {}: has two axes ({}): expected 'index' to say which column",
+    throw InputError(fmt::format("{}: {}: has two axes ({}): expected 'index' to select a column",
                                  path.string(), column.name, fmt::join(array.shape, " × ")));
   }
   const std::size_t index = column.index.value_or(0);
@@ -65,8 +65,8 @@ ArrayColumn column_of(const NpzArrays& arrays, const SourceColumn& column,
   return {array.data.data() + index, width};
 }
 
-void read_arrays(const std::filesystem::path& path, const SourceLogSink& taker) {
-  const std::vector<SourceColumn> wanted = taker.wanted({path.string(), true, npz_names(path)});
+void read_arrays(const std::filesystem::path& path, const SourceLogSink& sink) {
+  const std::vector<SourceColumn> wanted = sink.wanted({path.string(), true, npz_names(path)});
   const NpzArrays arrays = read_npz(path, [&](std::string_view name) {
     const bool is_wanted = std::any_of(wanted.begin(), wanted.end(),
                                        [&](const SourceColumn& one) { return one.name == name; });
@@ -87,17 +87,17 @@ void read_arrays(const std::filesystem::path& path, const SourceLogSink& taker) 
   for (std::size_t k = 0; k < rows; ++k) {
     for (std::size_t i = 0; i < columns.size(); ++i)
       row[i] = columns[i].first[k * columns[i].stride];
-    taker.row(row, [&] { return fmt::format("{}: row {}", path.string(), k); });
+    sink.row(row, [&] { return fmt::format("{}: row {}", path.string(), k); });
   }
 }
 
 }  // namespace
 
-void read_source_log(const std::filesystem::path& path, const SourceLogSink& taker) {
+void read_source_log(const std::filesystem::path& path, const SourceLogSink& sink) {
   if (path.extension() == ".csv") {
-    read_csv(path, taker);
+    read_csv(path, sink);
   } else if (path.extension() == ".npz") {
-    read_arrays(path, taker);
+    read_arrays(path, sink);
   } else {
     throw InputError(fmt::format("{}: expected a log as FILE.csv or FILE.npz", path.string()));
   }

@@ -10,21 +10,22 @@
 
 namespace touchdown::recordings {
 
-/// Names a row in complaints.
+/// Returns the position of a row, for messages.
 using SourceLocation = std::function<std::string()>;
 
-/// Who reads a foreign log: told its names, it says which columns it wants, and then gets row after
-/// row the numbers of these, NaN for a cell that is empty.
+/// Receives another robot's log. `wanted` selects columns from the names. `row` then receives the
+/// numbers of these columns row by row; empty cells are NaN.
 struct SourceLogSink {
   std::function<std::vector<SourceColumn>(const SourceNames& names)> wanted;
   std::function<void(std::span<const double> row, const SourceLocation& place)> row;
 };
 
-/// Reads a log as comma-separated values (a line of names, then a line per row) or as NumPy's
-/// arrays, by its extension. Nothing else than what is wanted is looked at. Errors: `InputError`
-/// with file:line:column, or file and array, for another extension, what is no number, rows or
-/// arrays that differ in length, and an array that has not the wanted columns; whatever the taker
-/// throws.
-void read_source_log(const std::filesystem::path& path, const SourceLogSink& taker);
+/// Reads the wanted columns of a log by its extension: comma-separated values (a line of names,
+/// then a line per row) or NumPy's arrays. Errors: exceptions of the sink, and `InputError` with
+/// file:line:column, or file and array, for
+/// - another extension;
+/// - a cell that is not a number;
+/// - rows or arrays of different length, or an array without the wanted columns.
+void read_source_log(const std::filesystem::path& path, const SourceLogSink& sink);
 
 }  // namespace touchdown::recordings

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a message like this one is made of.
+/// The JSON Schema of messages like this one.
 Json schema_of(const Json& value) {
   if (value.is_object()) {
     Json properties = Json::object();
@@ -31,7 +31,7 @@ Json schema_of(const Json& value) {
   return {{"type", "number"}};  // null, too: a number that is not known yet
 }
 
-/// NaN becomes null, and what is no UTF-8 something that is.
+/// Formats JSON. NaN becomes null; invalid UTF-8 is replaced.
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -44,7 +44,7 @@ Json observation_in(std::string_view record, std::string_view log) {
   }
 }
 
-/// Takes the beliefs out of an observation.
+/// Moves the beliefs out of an observation.
 Json beliefs_of(Json& observation) {
   Json beliefs = Json::object();
   for (const std::string_view group : belief_groups) {
@@ -63,7 +63,7 @@ std::uint64_t write_mcap(LogReader& reader, std::ostream& stream) {
   std::uint16_t of_observation = 0;
   std::uint16_t of_beliefs = 0;
   std::uint64_t rows = 0;
-  std::uint64_t time = 0;  // a row without one is taken for as late as the row before it
+  std::uint64_t time = 0;  // a row without a time gets that of the previous row
   for (; const std::optional<LogRow> row = reader.next(); ++rows) {
     const double nanoseconds = 1e9 * (reader.start_time() + row->observation.time);
     if (nanoseconds >= 0.0 && nanoseconds < 0x1p63) {

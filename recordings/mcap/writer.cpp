@@ -34,7 +34,7 @@ void put(std::string& bytes, T number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));  // NOLINT
 }
 
-/// A text, an array or a map: as many bytes, and these.
+/// A text, an array or a map: the number of bytes, then the bytes.
 void put(std::string& bytes, std::string_view text) {
   put(bytes, static_cast<std::uint32_t>(text.size()));
   bytes.append(text);
@@ -166,7 +166,7 @@ void McapWriter::finish() {
   group(Op::chunk_index, chunk_indexes_);
   const std::uint64_t summary_offset = position_;
   emit(offsets);
-  // The checksum is of the footer, too, up to itself.
+  // The checksum includes the footer up to the checksum.
   const std::string footer = content(summary, summary_offset);
   emit(record_head(Op::footer, footer.size() + sizeof(std::uint32_t)) + footer);
   emit(content(std::uint32_t{crc_.checksum()}));

@@ -11,26 +11,26 @@
 
 namespace touchdown::recordings {
 
-/// Writes messages in JSON as an MCAP file, version 0 of its format (mcap.dev/spec): chunks that
-/// are not compressed, an index of their messages, and a summary at the end, with checksums.
+/// Writes JSON messages as an MCAP file, format version 0 (mcap.dev/spec): uncompressed chunks, an
+/// index of their messages, and a summary at the end, with checksums.
 class McapWriter {
  public:
   /// `stream` must outlive the writer.
   explicit McapWriter(std::ostream& stream);
 
-  /// A topic, before its first message; `schema` is a JSON Schema. Returns its number.
+  /// Adds a topic. `schema` is a JSON Schema. Returns the number of the topic.
   std::uint16_t add_topic(std::string_view topic, std::string_view schema);
 
   /// `time` in ns. Errors: `Error` when the stream fails.
   void write(std::uint16_t topic, std::uint64_t time, std::string_view json);
 
-  /// To be called once, after the last message. Errors: as above.
+  /// Ends the file. Call it once, after the last message. Errors: as above.
   void finish();
 
  private:
   using Crc32 = boost::crc_32_type;
 
-  /// Message by message: its time, and where it is among the chunk's records.
+  /// Time of each message, and its offset in the chunk's records.
   using Index = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
   /// Earliest and latest time; zero before the first.
@@ -53,7 +53,7 @@ class McapWriter {
   Span span_;
   std::uint32_t chunks_ = 0;
 
-  std::string chunk_;  ///< records of the one that is being filled
+  std::string chunk_;  ///< records of the current chunk
   Span chunk_span_;
   std::map<std::uint16_t, Index> index_;
 };

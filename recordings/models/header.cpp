@@ -31,12 +31,12 @@ void put_numbers(std::string& text, const std::vector<double>& data, const char*
       text += '\n';
       line = text.size();
     }
-    // "#" leaves no number without a point.
+    // "#" writes every number with a decimal point.
     fmt::format_to(Text(text), "{:#}{},", static_cast<Number>(value), suffix);
   }
 }
 
-/// Any byte in a literal of C++.
+/// Writes any bytes as a C++ string literal.
 void put_text(std::string& text, const std::string& value) {
   text += '"';
   for (const char c : value) {

@@ -7,10 +7,10 @@
 
 namespace touchdown::recordings {
 
-/// The model of a file as a C++ header for a program without files: `touchdown::compiled::<name>`,
-/// which `touchdown::make_estimator` takes, as `use` says (estimator/models/model_for_robot.hpp). It
-/// needs the installed component `estimator` only. Errors: `InputError` that names the file, for
-/// what no estimator can be made of.
+/// Converts a model file to a C++ header, for programs without files. It defines
+/// `touchdown::compiled::<name>` for `touchdown::make_estimator`, adapted by `use`
+/// (estimator/models/model_for_robot.hpp). The header needs the installed component `estimator`
+/// only. Errors: `InputError` that names the file, if no estimator can be made from it.
 std::string header_of_model(const std::filesystem::path& path, const std::string& name,
                             const ModelUse& use = {});
 

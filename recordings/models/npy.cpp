@@ -17,13 +17,13 @@ std::string to_npy(const NpyArray& array) {
   const std::size_t count =
       std::accumulate(array.shape.begin(), array.shape.end(), std::size_t{1}, std::multiplies<>());
   if (array.shape.empty() || array.shape.size() > 2 || count != array.data.size()) {
-    throw Error("an array to be written has a shape that is not its own");
+    throw Error("the shape of an array to be written does not match its size");
   }
   std::string header =
       fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}",
                   array.shape.size() == 1 ? fmt::format("{},", array.shape[0])
                                           : fmt::format("{}, {}", array.shape[0], array.shape[1]));
-  // NumPy wants the data to begin at a multiple of 64 bytes, after a line break.
+  // NumPy requires the data to begin at a multiple of 64 bytes, after a line break.
   while ((npy_magic.size() + 4 + header.size() + 1) % 64 != 0) header += ' ';
   header += '\n';
 

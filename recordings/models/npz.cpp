@@ -25,7 +25,7 @@ struct FreeSource {
 };
 using Source = std::unique_ptr<zip_source_t, FreeSource>;
 
-/// What a source holds, which an archive was written to.
+/// The bytes of an archive that was written to a source.
 std::string content_of(zip_source_t& source) {
   zip_stat_t status;
   if (zip_source_stat(&source, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0 ||
@@ -54,10 +54,10 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
     complain(archive, name, "cannot be added");
   }
   const auto index = static_cast<zip_uint64_t>(added);
-  // Neither compression nor the clock: the same arrays must give the same bytes.
+  // A fixed date: the same arrays must give the same bytes.
   constexpr zip_uint16_t midnight = 0;
   constexpr zip_uint16_t first_of_january_1980 = (1U << 5U) | 1U;
-  // The grids of a phase model take 40 MB, and a third of that deflated, at whatever level.
+  // The grids of a phase model take 40 MB, and a third of that deflated, at any level.
   const bool is_deflated = deflated == Deflated::all || bytes.size() > 400'000;
   if (zip_set_file_compression(&archive, index, is_deflated ? ZIP_CM_DEFLATE : ZIP_CM_STORE,
                                is_deflated ? 1 : 0) != 0 ||
@@ -69,15 +69,15 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
 }  // namespace
 
 std::string to_npz(const NpzArrays& arrays, const std::string& name, Deflated deflated) {
-  // In memory: beside a file libzip would make one of its own, with a name that nobody knows again
-  // when it is left there.
+  // In memory: otherwise libzip would make a temporary file of unknown name, which could be left
+  // behind.
   const Source memory(zip_source_buffer_create(nullptr, 0, 0, nullptr));
   if (!memory) throw std::bad_alloc();
   std::vector<std::string> contents;  // libzip reads them when the archive is closed
   contents.reserve(arrays.size());
   Zip archive(zip_open_from_source(memory.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr));
   if (!archive) throw std::bad_alloc();
-  zip_source_keep(memory.get());  // the archive's one is given back when it is closed
+  zip_source_keep(memory.get());  // closing the archive releases its own reference
   for (const auto& [member, array] : arrays) {
     contents.push_back(to_npy(array));
     add_member(*archive, member + std::string(extension), contents.back(), deflated);

@@ -8,7 +8,7 @@
 
 namespace touchdown::recordings {
 
-/// Named arrays, as NumPy's `np.savez` keeps them in one file.
+/// Named arrays, as in a file of NumPy's `np.savez`.
 using NpzArrays = ModelArrays;
 using touchdown::any_array;
 using touchdown::made_of_npz;
@@ -16,14 +16,14 @@ using touchdown::npz_names;
 using touchdown::NpzNeeds;
 using touchdown::read_npz;
 
-/// Which arrays are deflated, as NumPy's `savez_compressed` does it.
+/// The arrays that are deflated, as by NumPy's `savez_compressed`.
 enum class Deflated { large, all };
 
-/// The content of a `.npz`; the same arrays give the same bytes. `name` starts the message of an
-/// `Error`.
+/// The content of a `.npz` file. The same arrays give the same bytes. `name` is used in messages.
+/// Errors: `Error`.
 std::string to_npz(const NpzArrays& arrays, const std::string& name, Deflated deflated);
 
-/// Writes a `.npz` whole or not at all, its large arrays deflated. Errors: `Error`.
+/// Writes a `.npz` file completely or not at all, with large arrays deflated. Errors: `Error`.
 void write_npz(const NpzArrays& arrays, const std::filesystem::path& path);
 
 }  // namespace touchdown::recordings

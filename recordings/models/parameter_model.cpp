@@ -8,7 +8,7 @@ namespace touchdown::recordings {
 
 namespace {
 
-/// As many as a small network has, and texts of any sensible length.
+/// Size limits: the parameters of a small network, and texts of reasonable length.
 std::size_t most_parameters(std::string_view name) {
   constexpr std::size_t small_network = 100'000;
   return is_text_array(name) ? most_text : small_network;

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "estimator/models/parameters.hpp"
 #include "estimator/models/metadata.hpp"
+#include "estimator/models/parameters.hpp"
 #include "recordings/models/provenance.hpp"
 
 namespace touchdown::recordings {
@@ -14,19 +14,19 @@ using touchdown::parameter;
 using touchdown::Parameters;
 
 struct ParameterModelFile {
-  std::string estimator;  ///< whose parameters they are
+  std::string estimator;  ///< the estimator with these parameters
   Parameters parameters;
   ModelProvenance provenance;
 };
 
-/// Writes one `.npz`: an array for each parameter, `estimator` and `provenance` as the bytes of
-/// their texts, and its passport, if it has one. Errors: `Error` when it cannot be written, and for
-/// a parameter that has one of those names.
+/// Writes one `.npz` file: an array for each parameter, `estimator` and `provenance` as the bytes
+/// of their texts, and the metadata, if any. Errors: `Error` when the file cannot be written, and
+/// for a parameter with one of those names.
 void write_parameter_model(const ParameterModelFile& file, const std::filesystem::path& path,
                            const std::optional<ModelMetadata>& metadata = {});
 
-/// The inverse, to the bit. Errors: `InputError` that names the file: unreadable, no such model,
-/// values that are not finite. What it says about itself goes to `metadata` if given.
+/// The inverse, to the bit. The file's metadata are stored in `metadata` if given. Errors:
+/// `InputError` that names the file: unreadable, not such a model, values that are not finite.
 ParameterModelFile read_parameter_model(const std::filesystem::path& path,
                                         std::optional<ModelMetadata>* metadata = nullptr);
 

@@ -8,10 +8,10 @@
 
 namespace touchdown::recordings {
 
-/// Where a model comes from: scenario, simulator, seeds, runs, seconds, … as text.
+/// Origin of a model: scenario, simulator, seeds, runs, seconds, … as text.
 using ModelProvenance = std::map<std::string, std::string>;
 
-/// As "key: value" lines.
+/// Converts to and from the bytes of "key: value" lines.
 NpyArray array_of(const ModelProvenance& provenance);
 ModelProvenance provenance_from(const NpyArray& array);
 

@@ -7,9 +7,8 @@
 
 namespace touchdown::render {
 
-/// A card for each estimator: what it is, where it stands at best and at worst, and the scenes in
-/// which it fails, by what it does wrong there. `videos/worst_<estimator>.mp4` is shown if it is in
-/// the run directory.
+/// A card for each estimator: a summary, its best and worst mean, and the scenes in which it fails,
+/// with its errors there. A card shows `videos/worst_<estimator>.mp4` if the run directory has it.
 std::string cards_html(const BenchmarkScores& scores, const std::filesystem::path& run_directory);
 
 }  // namespace touchdown::render

@@ -7,7 +7,7 @@
 namespace touchdown::render {
 
 /// Writes `benchmark.html` into the run directory of an experiment with a benchmark, from its
-/// tables and figures: who stands where, robots × sensors, every scene, a card for each estimator.
+/// tables and figures: the ranking, robots × sensors, every scene, a card for each estimator.
 /// Returns the page.
 std::filesystem::path write_benchmark_page(const ReportSubject& subject);
 

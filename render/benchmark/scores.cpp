@@ -10,7 +10,7 @@ namespace touchdown::render {
 
 namespace {
 
-/// A table's rows, whose cells are asked for by the names of their columns.
+/// The rows of a table, with access to their cells by column name.
 class Rows {
  public:
   explicit Rows(const std::filesystem::path& file) {
@@ -22,7 +22,7 @@ class Rows {
     for (row_ = 0; row_ < table_.rows.size(); ++row_) each();
   }
 
-  /// Of the row that it is at.
+  /// The cell of the current row.
   std::string text(const std::string& column) const {
     return cell(table_, table_.rows[row_], column);
   }
@@ -58,14 +58,14 @@ BenchmarkScores benchmark_scores(const std::filesystem::path& run_directory) {
          rows.value("flight_f1"), rows.value("extra_switches_per_minute"),
          rows.value("false_takeoffs_per_minute"), rows.value("takeoff_latency_median_ms")});
   });
-  Rows places(tables / "benchmark_standings.csv");
-  places.for_each([&] {
+  Rows standings(tables / "benchmark_standings.csv");
+  standings.for_each([&] {
     scores.standings.push_back(
-        {places.setting(), places.text("robot"), places.text("sensors"), places.noise(),
-         places.text("estimator"), places.interval("mean_balanced_accuracy"),
-         places.value("worst_balanced_accuracy"), places.text("worst_scene"),
-         places.text("worst_simulator"), places.text("is_not_significantly_worse") == "1",
-         places.value("bits_left")});
+        {standings.setting(), standings.text("robot"), standings.text("sensors"), standings.noise(),
+         standings.text("estimator"), standings.interval("mean_balanced_accuracy"),
+         standings.value("worst_balanced_accuracy"), standings.text("worst_scene"),
+         standings.text("worst_simulator"), standings.text("is_not_significantly_worse") == "1",
+         standings.value("excess_log_loss_bits")});
   });
   Rows pairs(tables / "benchmark_differences.csv");
   pairs.for_each([&] {

@@ -9,14 +9,14 @@
 
 namespace touchdown::render {
 
-/// One row of a run directory's `benchmark.csv`: an estimator at home, in one scene.
+/// One row of a run directory's `benchmark.csv`: an in-domain score in one scene.
 struct SceneScore {
   std::string simulator;
   std::string setting;  ///< "upkie, harsh sensors"
   std::string noise;    ///< "1 N·m, 5 m/s²"
   std::string scene;
   std::string estimator;
-  bool is_unseen = false;  ///< nothing was fitted to scenes like it
+  bool is_unseen = false;  ///< no estimator was fitted to scenes like it
   Interval accuracy;
   double no_contact_precision = 0.0;
   double no_contact_recall = 0.0;
@@ -38,10 +38,11 @@ struct Standing {
   std::string worst_scene;
   std::string worst_simulator;
   bool is_not_significantly_worse = false;
-  double bits_left = 0.0;  ///< above the learned ceiling's log loss, per wheel and step
+  double excess_log_loss = 0.0;  ///< above the reference upper bound's (bits per wheel and step)
 };
 
-/// One row of `benchmark_differences.csv`; without a scene: of the means over all.
+/// One row of `benchmark_differences.csv`. Without a scene, it is the difference of the means over
+/// all scenes.
 struct PairedBand {
   std::string setting;
   std::string noise;
@@ -51,17 +52,17 @@ struct PairedBand {
   Interval difference;
 };
 
-/// What a benchmark found out, as its tables have it.
+/// A benchmark's results, read from its tables.
 struct BenchmarkScores {
   std::vector<SceneScore> scenes;
   std::vector<Standing> standings;
   std::vector<PairedBand> pairs;
 };
 
-/// Nothing where the run directory has no such tables. Errors: `InputError` for unreadable ones.
+/// Empty where the run directory has no such tables. Errors: `InputError` for unreadable ones.
 BenchmarkScores benchmark_scores(const std::filesystem::path& run_directory);
 
-/// What these rows have as `name`, each once, in the order of the rows.
+/// The distinct values of `name` over the rows, in the order of the rows.
 template <typename Rows, typename Name>
 std::vector<std::string> names(const Rows& rows, const Name& name) {
   std::vector<std::string> all;

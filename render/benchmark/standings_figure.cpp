@@ -21,61 +21,62 @@ constexpr double worst_width = 230.0, words_width = 170.0, gap_y = 84.0;
 
 /// One noise setting.
 struct Panel {
-  std::vector<Standing> places;
-  /// The learned ceiling's mean, where there is one; it has no place of its own.
-  std::optional<double> ceiling = {};
+  std::vector<Standing> standings;
+  /// The reference upper bound's mean, where there is one; it has no rank.
+  std::optional<double> upper_bound = {};
 };
 
-/// Ranks from the first to the last of those who cannot be told apart.
-struct Level {
+/// The ranks of neighbours that do not differ significantly.
+struct TiedRanks {
   std::size_t first, last;
 };
 
-bool are_told_apart(const BenchmarkScores& scores, const Standing& one, const Standing& other) {
+bool differ_significantly(const BenchmarkScores& scores, const Standing& one,
+                          const Standing& other) {
   return std::any_of(scores.pairs.begin(), scores.pairs.end(), [&](const PairedBand& pair) {
-    const bool is_theirs = pair.scene.empty() && pair.setting == one.setting &&
-                           pair.noise == one.noise &&
-                           ((pair.first == one.estimator && pair.second == other.estimator) ||
-                            (pair.second == one.estimator && pair.first == other.estimator));
-    return is_theirs && (pair.difference.low > 0.0 || pair.difference.high < 0.0);
+    const bool is_this_pair = pair.scene.empty() && pair.setting == one.setting &&
+                              pair.noise == one.noise &&
+                              ((pair.first == one.estimator && pair.second == other.estimator) ||
+                               (pair.second == one.estimator && pair.first == other.estimator));
+    return is_this_pair && (pair.difference.low > 0.0 || pair.difference.high < 0.0);
   });
 }
 
-/// The longest rows of neighbours of whom no two are told apart; not of one alone.
-std::vector<Level> levels(const BenchmarkScores& scores, const std::vector<Standing>& places) {
-  std::vector<Level> all;
-  for (std::size_t first = 0; first < places.size(); ++first) {
+/// The maximal groups of two or more neighbours of which no two differ significantly.
+std::vector<TiedRanks> ties(const BenchmarkScores& scores, const std::vector<Standing>& standings) {
+  std::vector<TiedRanks> all;
+  for (std::size_t first = 0; first < standings.size(); ++first) {
     std::size_t last = first;
     const auto joins = [&](std::size_t next) {
       for (std::size_t i = first; i < next; ++i) {
-        if (are_told_apart(scores, places[i], places[next])) return false;
+        if (differ_significantly(scores, standings[i], standings[next])) return false;
       }
       return true;
     };
-    while (last + 1 < places.size() && joins(last + 1)) ++last;
+    while (last + 1 < standings.size() && joins(last + 1)) ++last;
     const bool is_part = !all.empty() && all.back().last >= last;
     if (last > first && !is_part) all.push_back({first, last});
   }
   return all;
 }
 
-/// Blocks (gnuplot's `index`): for every noise setting the places (mean, low, high, height, worst,
-/// its words) and the bars (place of the bar, lower end, upper end).
+/// Blocks (gnuplot's `index`): for every noise setting the standings (mean, low, high, height,
+/// worst, its label) and the bars (position, lower end, upper end).
 std::string data_of(const std::vector<Panel>& panels, const BenchmarkScores& scores) {
   std::string text = "#mean\tlow\thigh\theight\tworst\twhere\n";
   const auto out = std::back_inserter(text);
   for (const Panel& panel : panels) {
-    const std::vector<Standing>& places = panel.places;
-    const std::size_t count = places.size();
+    const std::vector<Standing>& standings = panel.standings;
+    const std::size_t count = standings.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const Standing& place = places[i];
-      fmt::format_to(out, "{}\t{}\t{}\t{}\t{}\t\"{:.3f} {}, {}\"\n", number(place.mean.estimate),
-                     number(place.mean.low), number(place.mean.high), count - 1 - i,
-                     number(place.worst), place.worst, place.worst_scene,
-                     simulators::simulator_title(place.worst_simulator));
+      const Standing& standing = standings[i];
+      fmt::format_to(out, "{}\t{}\t{}\t{}\t{}\t\"{:.3f} {}, {}\"\n", number(standing.mean.estimate),
+                     number(standing.mean.low), number(standing.mean.high), count - 1 - i,
+                     number(standing.worst), standing.worst, standing.worst_scene,
+                     simulators::simulator_title(standing.worst_simulator));
     }
     text += "\n\n";
-    const std::vector<Level> all = levels(scores, places);
+    const std::vector<TiedRanks> all = ties(scores, standings);
     if (all.empty()) text += "NaN\tNaN\tNaN\n";
     for (std::size_t i = 0; i < all.size(); ++i) {
       fmt::format_to(out, "{}\t{}\t{}\n", i, static_cast<double>(count - 1 - all[i].last) - 0.3,
@@ -89,14 +90,15 @@ std::string data_of(const std::vector<Panel>& panels, const BenchmarkScores& sco
 std::string described(const std::vector<Panel>& panels) {
   std::string text = "Mean balanced accuracy, the best first.";
   for (const Panel& panel : panels) {
-    fmt::format_to(std::back_inserter(text), " {}:", panel.places.front().noise);
-    if (panel.ceiling) {
-      fmt::format_to(std::back_inserter(text), " learned ceiling {:.3f};", *panel.ceiling);
+    fmt::format_to(std::back_inserter(text), " {}:", panel.standings.front().noise);
+    if (panel.upper_bound) {
+      fmt::format_to(std::back_inserter(text), " reference upper bound {:.3f};",
+                     *panel.upper_bound);
     }
-    for (const Standing& place : panel.places) {
+    for (const Standing& standing : panel.standings) {
       fmt::format_to(std::back_inserter(text), " {} {:.3f} (worst {:.3f}, {});",
-                     experiments::estimator_title(place.estimator), place.mean.estimate,
-                     place.worst, place.worst_scene);
+                     experiments::estimator_title(standing.estimator), standing.mean.estimate,
+                     standing.worst, standing.worst_scene);
     }
   }
   return text;
@@ -105,8 +107,9 @@ std::string described(const std::vector<Panel>& panels) {
 }  // namespace
 
 std::filesystem::path standings_stem(const std::filesystem::path& run_directory,
-                                     const Standing& place) {
-  return run_directory / "figures" / fmt::format("benchmark_{}_{}", place.robot, place.sensors);
+                                     const Standing& standing) {
+  return run_directory / "figures" /
+         fmt::format("benchmark_{}_{}", standing.robot, standing.sensors);
 }
 
 Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& setting,
@@ -114,44 +117,46 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
   std::vector<Panel> panels;
   std::string noise;
   double lowest = 1.0;
-  for (const Standing& place : scores.standings) {
-    if (place.setting != setting) continue;
-    if (panels.empty() || noise != place.noise) panels.emplace_back();
-    noise = place.noise;
-    if (experiments::is_upper_bound(place.estimator)) {
-      panels.back().ceiling = place.mean.estimate;
+  for (const Standing& standing : scores.standings) {
+    if (standing.setting != setting) continue;
+    if (panels.empty() || noise != standing.noise) panels.emplace_back();
+    noise = standing.noise;
+    if (experiments::is_upper_bound(standing.estimator)) {
+      panels.back().upper_bound = standing.mean.estimate;
       continue;
     }
-    panels.back().places.push_back(place);
-    lowest = std::fmin(lowest, std::isnan(place.mean.low) ? place.mean.estimate : place.mean.low);
+    panels.back().standings.push_back(standing);
+    lowest = std::fmin(lowest,
+                       std::isnan(standing.mean.low) ? standing.mean.estimate : standing.mean.low);
   }
-  const double height = row_height * static_cast<double>(panels.front().places.size());
+  const double height = row_height * static_cast<double>(panels.front().standings.size());
   const FigureFrame frame(
-      fmt::format("Who stands where: {}", setting),
-      fmt::format("Balanced accuracy, the mean over all scenes and engines, with {:.0f} % "
-                  "intervals over runs, and over fits where they were repeated. A bar joins "
-                  "estimators of whom no two can be told apart: the simultaneous bands of their "
-                  "paired differences include zero. On the right, each one's worst scene.{}",
-                  100.0 * level,
-                  panels.front().ceiling ? " The dashed line is the learned ceiling." : ""),
+      fmt::format("Balanced accuracy by estimator: {}", setting),
+      fmt::format(
+          "Balanced accuracy, averaged over all scenes and engines, with {:.0f} % intervals over "
+          "runs, and over fits where these were repeated. A bar joins estimators that do not "
+          "differ significantly: the simultaneous bands of their paired differences include zero. "
+          "On the right, the worst scene of each estimator.{}",
+          100.0 * level,
+          panels.front().upper_bound ? " The dashed line is the reference upper bound." : ""),
       names_width + mean_width + bars_width + worst_width + words_width,
       static_cast<double>(panels.size()) * (height + gap_y));
   const std::string file = gnuplot_text(stem.filename().string() + ".dat");
   std::string commands = "unset key\nset grid noytics\n";
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    const std::vector<Standing>& places = panels[p].places;
+    const std::vector<Standing>& standings = panels[p].standings;
     std::string estimators;
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < standings.size(); ++i) {
       estimators += fmt::format("{}{} {}", i > 0 ? ", " : "",
-                                gnuplot_text(experiments::estimator_title(places[i].estimator)),
-                                places.size() - 1 - i);
+                                gnuplot_text(experiments::estimator_title(standings[i].estimator)),
+                                standings.size() - 1 - i);
     }
     const double top = 24.0 + static_cast<double>(p) * (height + gap_y);
     commands += frame.panel(names_width, top, mean_width, height);
-    if (panels[p].ceiling) {
+    if (panels[p].upper_bound) {
       commands += fmt::format(
           "set arrow 1 from {0},graph 0 to {0},graph 1 nohead dt 2 lw 1.4 lc rgb '#22262b'\n",
-          number(*panels[p].ceiling));
+          number(*panels[p].upper_bound));
     }
     commands += fmt::format(
         "set border 1\nset title {0} offset 0,-0.6\nset yrange [-0.6:{1}]\nset xrange [{2:.2f}:1]\n"
@@ -159,8 +164,9 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
         "set xlabel 'mean balanced accuracy'\n"
         "plot {4} index {5} using 1:4 with points lt 1 pt 7 ps 0.9, \\\n"
         "     '' index {5} using 1:4:2:3 with xerrorbars lt 1 lw 1.6 dt 1 pt 7 ps 0.9\n",
-        gnuplot_text("noise: " + places.front().noise), static_cast<double>(places.size()) - 0.4,
-        std::floor(20.0 * lowest) / 20.0, estimators, file, 2 * p);
+        gnuplot_text("noise: " + standings.front().noise),
+        static_cast<double>(standings.size()) - 0.4, std::floor(20.0 * lowest) / 20.0, estimators,
+        file, 2 * p);
     commands += "unset arrow\n";
     commands += FigureFrame::end_panel();
     commands += frame.panel(names_width + mean_width + 14.0, top, bars_width - 28.0, height);
@@ -184,11 +190,11 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
 void draw_standings_figures(const std::filesystem::path& run_directory, double level) {
   const BenchmarkScores scores = benchmark_scores(run_directory);
   std::string last;
-  for (const Standing& place : scores.standings) {
-    const std::string stem = standings_stem(run_directory, place).string();
+  for (const Standing& standing : scores.standings) {
+    const std::string stem = standings_stem(run_directory, standing).string();
     if (stem == last) continue;
     last = stem;
-    draw_standings_figure(scores, place.setting, level, stem);
+    draw_standings_figure(scores, standing.setting, level, stem);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "experiments/odometry/contact_sources.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
+#include "render/palette.hpp"
 #include "render/report/tables.hpp"
 #include "simulators/registry.hpp"
 
@@ -21,8 +22,8 @@ namespace {
 
 using Points = std::vector<SurvivalPoint>;
 
-/// The values of one member, each once, in the order of the rows.
-std::vector<std::string> different(const Points& points, std::string SurvivalPoint::*member) {
+/// The distinct values of one member, in the order of the rows.
+std::vector<std::string> distinct(const Points& points, std::string SurvivalPoint::*member) {
   std::vector<std::string> values;
   for (const SurvivalPoint& point : points) {
     const std::string& value = point.*member;
@@ -32,13 +33,12 @@ std::vector<std::string> different(const Points& points, std::string SurvivalPoi
 }
 
 std::string title_of(const SurvivalPoint& point) {
-  return fmt::format("What becomes of the robot, by who tells it about contact: {}, {}, {} sensors",
-                     point.scene, point.law == "soft_landing" ? "soft landing" : point.law,
-                     point.sensors);
+  return fmt::format("Closed-loop results by contact source: {}, {}, {} sensors", point.scene,
+                     point.law == "soft_landing" ? "soft landing" : point.law, point.sensors);
 }
 
-/// Each row of the data in words.
-std::string told_in_words(const Points& points) {
+/// The alternative text: each row of the data.
+std::string described(const Points& points) {
   std::string text = "Share of runs that finish.";
   for (const SurvivalPoint& point : points) {
     fmt::format_to(std::back_inserter(text), " {}, {}{}: {:.2f};",
@@ -51,25 +51,28 @@ std::string told_in_words(const Points& points) {
   return text;
 }
 
-/// How a teller's curve looks: oracles black, nobody grey, estimators in colour.
+/// The look of a contact source's curve: the truth is dark, "always contact" grey, and each
+/// estimator has its own colour.
 struct CurveStyle {
   std::string colour;
   const char* line;
 };
 
-CurveStyle style_of(const std::string& contact, std::size_t estimator) {
-  if (contact == "truth") return {"lc rgb '#22262b'", "lw 2.4 dt 1 pt 7"};
-  if (contact == "always") return {"lc rgb '#8a929b'", "lw 2.4 dt 2 pt 6"};
-  return {fmt::format("lt {}", estimator % 6 + 1),
-          estimator < 6 ? "lw 1.8 dt 1 pt 7" : "lw 1.8 dt 3 pt 5"};
+CurveStyle style_of(const std::string& contact, const std::vector<std::string>& estimators) {
+  const auto colour = [](unsigned rgb) { return fmt::format("lc rgb '#{:06x}'", rgb); };
+  if (contact == "truth") return {colour(truth_colour), "lw 2.4 dt 1 pt 7"};
+  if (contact == "always") return {colour(always_contact_colour), "lw 2.4 dt 2 pt 6"};
+  const std::size_t line_type = line_type_of(estimators, contact);
+  return {fmt::format("lt {}", line_type),
+          line_type <= 6 ? "lw 1.8 dt 1 pt 7" : "lw 1.8 dt 3 pt 5"};
 }
 
 std::string axis_of(const std::string& varied) {
   static const std::map<std::string, std::string> titles = {
       {"rise", "height of a step (m)"},
-      {"late", "the law is told so late (ms)"},
+      {"delay", "delay of contact feedback (ms)"},
       {"noise", "torque noise (N·m)"},
-      {"velocity", "asked speed (m/s)"}};
+      {"velocity", "commanded speed (m/s)"}};
   const auto title = titles.find(varied);
   return title == titles.end() ? varied : title->second;
 }
@@ -77,17 +80,18 @@ std::string axis_of(const std::string& varied) {
 constexpr double panel_side = 300.0, lower_height = 130.0, panel_gap = 34.0, axis_margin = 66.0;
 constexpr double key_width = 200.0, between = 44.0;
 
-/// Curves over what is varied.
-Figure draw_curves(const Points& points, double level, const std::filesystem::path& stem) {
-  const std::vector<std::string> engines = different(points, &SurvivalPoint::simulator);
-  const std::vector<std::string> contacts = different(points, &SurvivalPoint::contact);
+/// A curve per contact source over the varied quantity.
+Figure draw_curves(const Points& points, const std::vector<std::string>& estimators, double level,
+                   const std::filesystem::path& stem) {
+  const std::vector<std::string> engines = distinct(points, &SurvivalPoint::simulator);
+  const std::vector<std::string> contacts = distinct(points, &SurvivalPoint::contact);
   const auto panels = static_cast<double>(engines.size());
   const FigureFrame frame(
       title_of(points.front()),
-      fmt::format("{} runs a point, started alike whoever tells, with exact {:.0f} % intervals of "
-                  "the share that finishes; curves are moved sideways a little. Below: root mean "
-                  "square speed of the tyres over the ground at landings. Oracles look at the "
-                  "simulator.",
+      fmt::format("{} runs per point, with the same initial conditions for all contact sources. "
+                  "Bars: exact {:.0f} % intervals of the share of runs that finish; curves are "
+                  "shifted sideways a little. Below: root mean square speed of the tyres over the "
+                  "ground at landings. Oracles read the simulator's state.",
                   points.front().runs, 100.0 * level),
       axis_margin + panels * panel_side + (panels - 1.0) * panel_gap + key_width,
       24.0 + panel_side + between + lower_height + 52.0);
@@ -105,7 +109,6 @@ Figure draw_curves(const Points& points, double level, const std::filesystem::pa
   std::size_t block = 0;
   for (std::size_t e = 0; e < engines.size(); ++e) {
     std::string upper, lower;
-    std::size_t estimator = 0;
     for (std::size_t c = 0; c < contacts.size(); ++c, ++block) {
       const double aside =
           0.012 * span * (static_cast<double>(c) - 0.5 * static_cast<double>(contacts.size() - 1));
@@ -116,8 +119,7 @@ Figure draw_curves(const Points& points, double level, const std::filesystem::pa
                        number(point.finished.high), number(point.landing_speed));
       }
       data += "\n\n";
-      const bool is_estimator = contacts[c] != "truth" && contacts[c] != "always";
-      const CurveStyle style = style_of(contacts[c], is_estimator ? estimator++ : 0);
+      const CurveStyle style = style_of(contacts[c], estimators);
       const char* comma = c > 0 ? ", \\\n     " : "";
       upper += fmt::format(
           "{0}{1} index {2} using 1:2:3:4 with yerrorbars {3} lw 0.8 dt 1 pt 0 notitle, {1} index "
@@ -144,10 +146,11 @@ Figure draw_curves(const Points& points, double level, const std::filesystem::pa
         "unset title\nunset key\nset yrange [0:{}]\nset ytics autofreq\nset format y '{}'\n"
         "set xlabel {}\nset ylabel {}\nplot {}\n",
         number(1.08 * std::max(fastest, 0.1)), e == 0 ? "%g" : "",
-        gnuplot_text(axis_of(points.front().varied)), e == 0 ? "'at landings (m/s)'" : "''", lower);
+        gnuplot_text(axis_of(points.front().varied)), e == 0 ? "'landing speed (m/s)'" : "''",
+        lower);
     commands += FigureFrame::end_panel();
   }
-  return frame.draw(stem, commands, data, told_in_words(points));
+  return frame.draw(stem, commands, data, described(points));
 }
 
 struct Measure {
@@ -159,12 +162,12 @@ struct Measure {
 constexpr Measure measures[] = {{[](const SurvivalPoint& point) { return point.finished.estimate; },
                                  "share of runs that finish", "1:5:2:3", "[-0.02:1.02]"},
                                 {[](const SurvivalPoint& point) { return point.landing_speed; },
-                                 "tyres over the ground at landings (m/s)", "4:5:4:4", "[0:*]"},
+                                 "tyre speed at landings (m/s)", "4:5:4:4", "[0:*]"},
                                 {[](const SurvivalPoint& point) { return point.false_takeoffs; },
                                  "false takeoffs per minute of contact", "6:5:6:6", "[0:*]"}};
-constexpr double teller_height = 27.0, tellers_width = 190.0, measure_width = 250.0;
+constexpr double row_height = 27.0, names_width = 190.0, measure_width = 250.0;
 
-/// What there is anything to say about: nobody lands where nothing takes off.
+/// The measures that have values: without takeoffs there are no landings.
 std::vector<Measure> measures_of(const Points& points) {
   std::vector<Measure> known;
   for (const Measure& measure : measures) {
@@ -177,20 +180,19 @@ std::vector<Measure> measures_of(const Points& points) {
   return known;
 }
 
-/// A row per teller.
+/// A row per contact source.
 Figure draw_rows(const Points& points, double level, const std::filesystem::path& stem) {
-  const std::vector<std::string> engines = different(points, &SurvivalPoint::simulator);
-  const std::vector<std::string> contacts = different(points, &SurvivalPoint::contact);
+  const std::vector<std::string> engines = distinct(points, &SurvivalPoint::simulator);
+  const std::vector<std::string> contacts = distinct(points, &SurvivalPoint::contact);
   const std::vector<Measure> shown = measures_of(points);
-  const double height = teller_height * static_cast<double>(contacts.size());
+  const double height = row_height * static_cast<double>(contacts.size());
   const FigureFrame frame(
       title_of(points.front()),
-      fmt::format("{} runs, started alike whoever tells; exact {:.0f} % intervals of the share "
-                  "that finishes, root mean square speed of the tyres over the ground at landings. "
-                  "Oracles look at the simulator.",
+      fmt::format("{} runs, with the same initial conditions for all contact sources; exact "
+                  "{:.0f} % intervals of the share of runs that finish; root mean square speed of "
+                  "the tyres over the ground at landings. Oracles read the simulator's state.",
                   points.front().runs, 100.0 * level),
-      tellers_width + static_cast<double>(shown.size()) * (measure_width + panel_gap),
-      height + 96.0);
+      names_width + static_cast<double>(shown.size()) * (measure_width + panel_gap), height + 96.0);
   std::vector<std::string> titles;
   for (const std::string& contact : contacts) {
     titles.push_back(experiments::contact_title(contact));
@@ -211,7 +213,7 @@ Figure draw_rows(const Points& points, double level, const std::filesystem::path
   }
   std::string commands = "set grid noytics\nset border 1\nset xtics nomirror\n";
   for (std::size_t m = 0; m < shown.size(); ++m) {
-    commands += frame.panel(tellers_width + static_cast<double>(m) * (measure_width + panel_gap),
+    commands += frame.panel(names_width + static_cast<double>(m) * (measure_width + panel_gap),
                             24.0, measure_width, height);
     commands += fmt::format(
         "set yrange [-0.6:{}]\nset xrange {}\nset xlabel {}\n{}\n{}\nplot ",
@@ -230,7 +232,7 @@ Figure draw_rows(const Points& points, double level, const std::filesystem::path
     commands += '\n';
     commands += FigureFrame::end_panel();
   }
-  return frame.draw(stem, commands, data, told_in_words(points));
+  return frame.draw(stem, commands, data, described(points));
 }
 
 }  // namespace
@@ -250,7 +252,7 @@ std::vector<SurvivalPoint> survival_points(const std::filesystem::path& run_dire
          .law = text("policy"),
          .contact = text("contact"),
          .varied = varied,
-         .at = value(varied == "late"    ? "late_ms"
+         .at = value(varied == "delay"   ? "delay_ms"
                      : varied == "noise" ? "torque_noise_nm"
                                          : "value"),
          .runs = static_cast<int>(value("runs")),
@@ -262,13 +264,15 @@ std::vector<SurvivalPoint> survival_points(const std::filesystem::path& run_dire
   return points;
 }
 
-Figure draw_survival_figure(const std::vector<SurvivalPoint>& points, double level,
+Figure draw_survival_figure(const std::vector<SurvivalPoint>& points,
+                            const std::vector<std::string>& estimators, double level,
                             const std::filesystem::path& stem) {
   return points.front().varied.empty() ? draw_rows(points, level, stem)
-                                       : draw_curves(points, level, stem);
+                                       : draw_curves(points, estimators, level, stem);
 }
 
-void draw_survival_figures(const std::filesystem::path& run_directory, double level) {
+void draw_survival_figures(const std::filesystem::path& run_directory,
+                           const std::vector<std::string>& estimators, double level) {
   std::map<std::string, Points> figures;
   for (SurvivalPoint& point : survival_points(run_directory)) {
     std::string name = fmt::format("survival_{}_{}", point.scene, point.law);
@@ -276,7 +280,7 @@ void draw_survival_figures(const std::filesystem::path& run_directory, double le
     figures[name].push_back(std::move(point));
   }
   for (const auto& [name, points] : figures) {
-    draw_survival_figure(points, level, run_directory / "figures" / name);
+    draw_survival_figure(points, estimators, level, run_directory / "figures" / name);
   }
 }
 

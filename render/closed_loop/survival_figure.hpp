@@ -9,30 +9,33 @@
 
 namespace touchdown::render {
 
-/// A row of `survival.csv`, as far as it is drawn.
+/// The drawn columns of a row of `survival.csv`.
 struct SurvivalPoint {
   std::string simulator, scene, law, contact;
-  std::string varied;  ///< "rise", "late", "noise", …; empty where nothing is
+  std::string varied;  ///< varied quantity: "rise", "delay", "noise", …; or empty
   double at = 0.0;     ///< its value: in the key's own unit, ms, N·m
   int runs = 0;
-  Interval finished;            ///< share
-  double landing_speed = 0.0;   ///< m/s; NaN where nobody landed
+  Interval finished;            ///< share of the runs
+  double landing_speed = 0.0;   ///< RMS, m/s; NaN without landings
   double false_takeoffs = 0.0;  ///< per minute of contact
   std::string sensors;
 };
 
-/// Of a run directory's table; nothing without one.
+/// The rows of a run directory's table; empty without one.
 std::vector<SurvivalPoint> survival_points(const std::filesystem::path& run_directory);
 
-/// Draws what becomes of the robot in one scene under one law, by who tells it about contact. Where
-/// something is varied: the share of runs that finish, and below it the tyres' speed over the
-/// ground at landings, over what is varied, a panel per engine. Where nothing is: a row per teller,
-/// a point per engine. `level` is that of the intervals. Files and errors as `draw_figure`.
-Figure draw_survival_figure(const std::vector<SurvivalPoint>& points, double level,
+/// Draws closed-loop results in one scene under one law, by contact source. With a varied quantity,
+/// there is a panel per engine and a curve per source: the share of runs that finish and, below,
+/// the tyres' speed over the ground at landings. Without one, there is a row per source with a
+/// point per engine. `estimators` are all estimators of the experiment; they determine the colours.
+/// `level` is the confidence level of the intervals. Files and errors as `draw_figure`.
+Figure draw_survival_figure(const std::vector<SurvivalPoint>& points,
+                            const std::vector<std::string>& estimators, double level,
                             const std::filesystem::path& stem);
 
-/// Of every scene and law that the table knows: `figures/survival_<scene>_<law>`, with `_<varied>`
-/// where something is.
-void draw_survival_figures(const std::filesystem::path& run_directory, double level);
+/// Draws a figure for every scene and law in the table: `figures/survival_<scene>_<law>`, with
+/// `_<varied>` at its end if a quantity is varied.
+void draw_survival_figures(const std::filesystem::path& run_directory,
+                           const std::vector<std::string>& estimators, double level);
 
 }  // namespace touchdown::render

@@ -8,6 +8,7 @@
 
 #include "render/gnuplot/panel_grid.hpp"
 #include "render/gnuplot/text.hpp"
+#include "render/palette.hpp"
 
 namespace touchdown::render {
 namespace {
@@ -23,8 +24,8 @@ enum Row : std::size_t {
   transition
 };
 
-/// Spectra are drawn over octaves, log2 of the frequency in Hz: what tells takeoffs from landings
-/// is below 30 Hz.
+/// Spectra are drawn over octaves, log2 of the frequency in Hz: takeoffs and landings differ below
+/// 30 Hz.
 constexpr double lowest_octave = 1.0, highest_octave = 9.0, rows_per_octave = 8.0;
 constexpr double smallest_magnitude = -20.0, largest_magnitude = 50.0;  ///< of the colours (dB)
 
@@ -32,7 +33,7 @@ struct Axis {
   double low, high;
 };
 
-/// A little wider than the data, and never without zero.
+/// An axis that includes zero and is a little wider than the data.
 Axis range_of(const std::vector<const std::vector<double>*>& all) {
   Axis axis{0.0, 0.0};
   for (const std::vector<double>* values : all) {
@@ -46,7 +47,7 @@ Axis range_of(const std::vector<const std::vector<double>*>& all) {
   return {axis.low - margin, axis.high + margin};
 }
 
-/// Of all settings, so that columns share their vertical axis.
+/// The axis over all noise settings, so that columns share it.
 Axis range_of(const experiments::DropDetail& detail,
               std::vector<double> experiments::TorqueTrace::*joint) {
   std::vector<const std::vector<double>*> all = {&(detail.torque.*joint)};
@@ -54,7 +55,7 @@ Axis range_of(const experiments::DropDetail& detail,
   return range_of(all);
 }
 
-/// What is drawn of one noise setting, a line per step.
+/// The data of one noise setting, a line per step.
 PlotColumns detail_columns(const experiments::DropDetail& detail,
                            const experiments::NoisyDrop& drop) {
   PlotColumns columns;
@@ -86,7 +87,8 @@ struct DetailColumn {
   const PanelGrid& grid;
   std::size_t number;
   const PlotColumns& columns;
-  const std::string& name;  ///< of the figure's files
+  const std::string& name;                     ///< of the figure's files
+  const std::vector<std::string>& estimators;  ///< all of the experiment's
 
   std::string commands() const {
     std::string text =
@@ -95,11 +97,11 @@ struct DetailColumn {
     const Axis heights = range_of({&detail.height});
     text += fmt::format(
         "set yrange [{}:{}]\nset ytics -10,0.1\n"
-        "plot NaN with boxes fillcolor rgb '#dceee0' title 'left wheel touches', {}\n"
+        "plot NaN with boxes fillcolor rgb '#dceee0' title 'left wheel in contact', {}\n"
         "set ytics autofreq\n",
         heights.low, heights.high,
         line("height_m", "lc rgb '#009e73' lw 2.2",
-             detail.at ? "base, above that moment" : "base, above takeoff"));
+             detail.at ? "base, above time zero" : "base, above takeoff"));
     text += torques(knee, "knee torque\n(N·m)", "knee_torque_nm", &experiments::TorqueTrace::knee);
     text +=
         torques(wheel, "wheel torque\n(N·m)", "wheel_torque_nm", &experiments::TorqueTrace::wheel);
@@ -109,7 +111,7 @@ struct DetailColumn {
     text += spectrum(noisy_spectrum, number + 1, "noisy acceleration\nfrequency (Hz)", "noisy_");
     text += panel(transition, "P(switch)\nat one step");
     text += "set yrange [-0.04:1.04]\nset ytics 0,0.5,1\nplot " +
-            line("p_switch", "lc rgb '#8a9299' lw 1.8", "either way") + ", " +
+            line("p_switch", "lc rgb '#8a9299' lw 1.8", "takeoff or landing") + ", " +
             line("p_takeoff", "lc rgb '#e69f00' lw 2.2", "takeoff") + ", " +
             line("p_landing", "lc rgb '#7b3294' lw 2.2", "landing") + "\n";
     return text;
@@ -141,22 +143,23 @@ struct DetailColumn {
   }
 
   std::string torque_evidence() const {
-    constexpr double most = 12.0;  // more is certainty, and would flatten all else
-    return panel(evidence, "torques for\ncontact (nats)") +
+    constexpr double most = 12.0;  // larger values mean certainty, and would flatten the rest
+    return panel(evidence, "torque evidence\n(nats)") +
            fmt::format(
                "set yrange [-{0}:{0}]\nset ytics -{0},{0}\nset clip two\nplot 0 with lines lc "
                "rgb '#8a9299' lw 1 dt 1 notitle, {1}\nset ytics autofreq\n",
-               most,
-               line("torque_evidence", "lc rgb '#0072b2' lw 1.6", "their log likelihood ratio"));
+               most, line("torque_evidence", "lc rgb '#0072b2' lw 1.6", "log likelihood ratio"));
   }
 
   std::string beliefs() const {
-    // From the last to the first, which is seen on top of the others; the key stays in order.
+    // Drawn from the last to the first, which is on top; the key keeps the order of the list.
     std::string text = panel(belief, "P(contact)") + (last() ? "set key invert\n" : "") +
                        "set yrange [-0.04:1.04]\nset ytics 0,0.5,1\nplot ";
     const auto& traces = detail.noisy[number].beliefs;
     for (std::size_t i = traces.size(); i-- > 0;) {
-      text += line("p_" + traces[i].estimator, fmt::format("lt {} lw 2", i + 1), traces[i].title) +
+      text += line("p_" + traces[i].estimator,
+                   fmt::format("lt {} lw 2", line_type_of(estimators, traces[i].estimator)),
+                   traces[i].title) +
               (i == 0 ? "" : ", ");
     }
     return text + "\nset ytics autofreq\nset key noinvert\n";
@@ -181,7 +184,7 @@ struct DetailColumn {
             ? grid.colour_bar(row, 92.0, 16.0) +
                   "set cblabel 'dB of m²/s⁴' font ',11' offset 1.2,0\nset cbtics 20 font ',11'\n"
             : "unset colorbox\n";
-    // A dark edge keeps the lines apart from every colour behind them.
+    // A dark edge makes the lines visible on every colour.
     const auto edged = [&](const std::string& values, const std::string& axes,
                            const std::string& colour, const std::string& title) {
       const std::string from = fmt::format("'{}_{}.dat' using 1:{} axes {} with lines dt 1", name,
@@ -206,7 +209,7 @@ struct DetailColumn {
 }  // namespace
 
 std::string spectrum_text(const experiments::SpectrumTrace& trace, double bin_width) {
-  constexpr double floor = 1e-6;  // −60 dB: nothing
+  constexpr double floor = 1e-6;  // −60 dB, drawn as zero
   std::string text = fmt::format(
       "# dB of m2/s4; row i: the bin of {} Hz nearest to 2^({} + i/{}) Hz; columns: times\n",
       bin_width, lowest_octave, rows_per_octave);
@@ -224,7 +227,8 @@ std::string spectrum_text(const experiments::SpectrumTrace& trace, double bin_wi
   return text;
 }
 
-Figure draw_drop_detail(const experiments::DropDetail& detail, const FigureText& text,
+Figure draw_drop_detail(const experiments::DropDetail& detail,
+                        const std::vector<std::string>& estimators, const FigureText& text,
                         const std::filesystem::path& stem) {
   const std::string name = stem.filename().string();
   PanelGrid::Layout layout;
@@ -243,7 +247,7 @@ Figure draw_drop_detail(const experiments::DropDetail& detail, const FigureText&
   std::string commands = grid.begin(1e3 * detail.time.front(), 1e3 * detail.time.back());
   for (std::size_t i = 0; i < detail.noisy.size(); ++i) {
     const PlotColumns columns = detail_columns(detail, detail.noisy[i]);
-    commands += DetailColumn{detail, grid, i, columns, name}.commands();
+    commands += DetailColumn{detail, grid, i, columns, name, estimators}.commands();
     data.push_back({fmt::format("{}_{}.dat", name, i + 1), columns.text()});
     data.push_back({fmt::format("{}_spectrum_{}.dat", name, i + 1),
                     spectrum_text(detail.noisy[i].spectrum, detail.bin_width)});

@@ -15,7 +15,7 @@ namespace touchdown::render {
 
 namespace {
 
-constexpr double before = 0.15, after = 0.45;  ///< what is shown around the takeoff (s)
+constexpr double before = 0.15, after = 0.45;  ///< shown before and after the takeoff (s)
 
 scoring::Flight flight_of(const recordings::Recording& recording, const DropOverlay& what) {
   const std::vector<scoring::Flight> found = experiments::drops(
@@ -27,7 +27,7 @@ scoring::Flight flight_of(const recordings::Recording& recording, const DropOver
                   recording.info.simulator, found.size(), what.drop));
 }
 
-/// Time since takeoff (ms), then what is drawn. Heights count from that at takeoff.
+/// The data: time since takeoff (ms), then the drawn quantities. Heights count from takeoff's.
 std::string columns(const recordings::Recording& recording, const DropOverlay& what) {
   const std::size_t takeoff = flight_of(recording, what).takeoff;
   const auto steps = [&](double seconds) {
@@ -54,7 +54,7 @@ std::string columns(const recordings::Recording& recording, const DropOverlay& w
   return text;
 }
 
-/// For people who cannot see it.
+/// The alternative text.
 std::string described(const std::array<const recordings::Recording*, 2>& recordings,
                       const DropOverlay& what) {
   std::string text = "Height, normal force, torques and acceleration through one drop.";

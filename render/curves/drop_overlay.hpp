@@ -10,17 +10,17 @@
 
 namespace touchdown::render {
 
-/// Which drop of a run is drawn, and how flights are found.
+/// The drop of a run that is drawn, and the definition of flights.
 struct DropOverlay {
   int drop = 0;                      ///< of each run, from 0; a drop is a flight of both wheels
-  scoring::LabelConfig labels = {};  ///< what is contact
+  scoring::LabelConfig labels = {};  ///< what counts as contact
   double minimum_flight = 0.05;      ///< shorter flights are no drops (s)
   std::string title;
-  std::string caption;  ///< which runs, what is contact
+  std::string caption;  ///< the runs, and what counts as contact
 };
 
-/// Draws one drop as both engines played it, aligned at takeoff: height of the base, normal force,
-/// knee and wheel torque of the left leg, vertical acceleration. Files as `draw_figure`.
+/// Draws one drop as simulated in both engines, aligned at takeoff: height of the base, normal
+/// force, knee and wheel torque of the left leg, vertical acceleration. Files as `draw_figure`.
 /// Errors: `InputError` when a run has no such drop; `Error` as `draw_figure`.
 Figure draw_drop_overlay(const recordings::Recording& first, const recordings::Recording& second,
                          const DropOverlay& what, const std::filesystem::path& stem);

@@ -22,29 +22,29 @@ constexpr double evidence_width = 232.0, evidence_height = 168.0, evidence_left 
 constexpr double evidence_gap_x = 26.0, evidence_gap_y = 82.0;
 constexpr std::size_t evidence_columns = 4;
 
-/// One panel: the inputs that it draws, and the axis that they share.
+/// One panel: a range of inputs, and the axis that they share.
 struct EvidencePanel {
   std::string title;
   std::string unit;
   std::size_t first = 0;  ///< of its inputs
   std::size_t count = 1;
-  double bend = 0.0;  ///< of its compression; 0: a logarithm
+  double softsign_scale = 0.0;  ///< of its compression, in its unit; 0: a logarithmic axis
 };
 
 std::vector<EvidencePanel> evidence_panels() {
   std::vector<EvidencePanel> all;
   std::size_t first = 0;
   for (const EvidenceChannel& channel : evidence_channels) {
-    all.push_back(
-        {channel.title, channel.unit, first, decision_scales, static_cast<double>(channel.bend)});
+    all.push_back({channel.title, channel.unit, first, decision_scales,
+                   static_cast<double>(channel.softsign_scale)});
     first += decision_scales;
   }
-  all.push_back({"noise of its torques", "N·m", first++, 1, 0.0});
-  all.push_back({"noise of the acceleration", "m/s²", first, 1, 0.0});
+  all.push_back({"torque noise", "N·m", first++, 1, 0.0});
+  all.push_back({"acceleration noise", "m/s²", first, 1, 0.0});
   return all;
 }
 
-/// Where any input of a panel was seen.
+/// The range of a panel's inputs in the training data.
 std::array<double, 2> evidence_ends(const EvidenceModel& model, const EvidencePanel& panel) {
   std::array<double, 2> ends = {std::numeric_limits<double>::max(),
                                 std::numeric_limits<double>::lowest()};
@@ -52,16 +52,16 @@ std::array<double, 2> evidence_ends(const EvidenceModel& model, const EvidencePa
     ends[0] = std::min(ends[0], static_cast<double>(model.seen[i][0]));
     ends[1] = std::max(ends[1], static_cast<double>(model.seen[i][1]));
   }
-  // A channel that never moved still has a width.
+  // The axis of a constant channel still needs a width.
   if (!(ends[1] - ends[0] > 0.01)) ends = {ends[0] - 0.5, ends[1] + 0.5};
-  if (panel.bend > 0.0) {  // the very end is infinitely far
+  if (panel.softsign_scale > 0.0) {  // full saturation stands for an infinite value
     constexpr double furthest = 0.995 * static_cast<double>(saturation);
     ends = {std::max(ends[0], -furthest), std::min(ends[1], furthest)};
   }
   return ends;
 }
 
-/// The panel's block: compressed input, value, a column of nats for each scale.
+/// The panel's data block: compressed input, value, a column of nats for each time scale.
 std::string evidence_block(const EvidenceModel& model, const EvidencePanel& panel) {
   constexpr int points = 240;
   const auto [low, high] = evidence_ends(model, panel);
@@ -71,7 +71,8 @@ std::string evidence_block(const EvidenceModel& model, const EvidencePanel& pane
   }
   for (int point = 0; point <= points; ++point) {
     const double x = low + (high - low) * point / points;
-    const double value = panel.bend > 0.0 ? uncompressed(x, panel.bend) : std::exp(x);
+    const double value =
+        panel.softsign_scale > 0.0 ? uncompressed(x, panel.softsign_scale) : std::exp(x);
     fmt::format_to(std::back_inserter(text), "\n{:.5g}\t{:.5g}", x, value);
     for (std::size_t i = panel.first; i < panel.first + panel.count; ++i) {
       const auto at = static_cast<float>(x);
@@ -82,7 +83,7 @@ std::string evidence_block(const EvidenceModel& model, const EvidencePanel& pane
   return text + "\n\n\n";
 }
 
-/// The loudest that anything says where it was seen (nats).
+/// The largest absolute contribution of a panel's inputs over the training data's range (nats).
 double largest_contribution(const EvidenceModel& model, const EvidencePanel& panel) {
   double most = 0.0;
   for (std::size_t i = panel.first; i < panel.first + panel.count; ++i) {
@@ -95,7 +96,7 @@ double largest_contribution(const EvidenceModel& model, const EvidencePanel& pan
   return most;
 }
 
-/// Of a time scale, from dark to bright: the fastest is the darkest.
+/// The colour of a time scale: the fastest is the darkest.
 std::string scale_colour(std::size_t scale, std::size_t count) {
   if (count == 1) return "#22262b";
   return fmt::format("#{:06x}", viridis[scale]);
@@ -103,7 +104,7 @@ std::string scale_colour(std::size_t scale, std::size_t count) {
 
 std::string evidence_ticks(const EvidencePanel& panel, double low, double high) {
   std::string text;
-  for (const CompressedTick& tick : compressed_ticks(low, high, panel.bend)) {
+  for (const CompressedTick& tick : compressed_ticks(low, high, panel.softsign_scale)) {
     const std::string sign = tick.value < 0.0 ? "−" : "";
     fmt::format_to(std::back_inserter(text), "{}'{}{:g}' {:.5g}", text.empty() ? "" : ", ", sign,
                    std::abs(tick.value), tick.place);
@@ -138,8 +139,8 @@ std::string scale_legend(const FigureFrame& frame) {
 std::string evidence_described(const EvidenceFigure& figure,
                                const std::vector<EvidencePanel>& all) {
   std::string text =
-      "Curves of evidence for contact over what is heard, at eight time scales. The loudest of "
-      "each, in nats:";
+      "Evidence for contact as a function of each input, at eight time scales. Largest absolute "
+      "contributions, in nats:";
   for (const EvidencePanel& panel : all) {
     fmt::format_to(std::back_inserter(text), " {} {:.2f},", panel.title,
                    largest_contribution(figure.model, panel));
@@ -150,13 +151,13 @@ std::string evidence_described(const EvidenceFigure& figure,
 
 }  // namespace
 
-std::vector<CompressedTick> compressed_ticks(double low, double high, double bend) {
+std::vector<CompressedTick> compressed_ticks(double low, double high, double softsign_scale) {
   constexpr double apart = 0.12;  // of the axis
   const double span = high - low;
   std::vector<CompressedTick> chosen;
   const auto offer = [&](double value) {
-    if (bend <= 0.0 && !(value > 0.0)) return;
-    const double place = bend > 0.0 ? compressed(value, bend) : std::log(value);
+    if (softsign_scale <= 0.0 && !(value > 0.0)) return;
+    const double place = softsign_scale > 0.0 ? compressed(value, softsign_scale) : std::log(value);
     const bool is_inside = place >= low && place <= high;
     const bool is_apart = std::all_of(chosen.begin(), chosen.end(), [&](const auto& other) {
       return std::abs(other.place - place) >= apart * span;

@@ -9,24 +9,25 @@
 
 namespace touchdown::render {
 
-/// The curves of a fitted model: what every channel says for contact and against it, at each of its
-/// time scales, and what the noise levels say; one panel each, all of the same height in nats.
-/// Curves end where their rows do.
+/// The curves of a fitted additive model: the evidence of each channel for or against contact, at
+/// each time scale, and that of the noise levels. Each has a panel; all panels span the same range
+/// of nats. Curves end where the training data end.
 struct EvidenceFigure {
   std::string title;
   EvidenceModel model;
   std::string caption;
 };
 
-/// A tick of an axis that is compressed as a channel with this bend is heard.
+/// A tick of an axis that is compressed like a channel's input.
 struct CompressedTick {
   double value = 0.0;
-  double place = 0.0;  ///< on the compressed axis
+  double place = 0.0;  ///< position on the compressed axis
 };
 
-/// Round values (0, and 1 or 3 times powers of ten of either sign) between both ends of a
-/// compressed axis, the rounder ones first as long as labels stay apart.
-std::vector<CompressedTick> compressed_ticks(double low, double high, double bend);
+/// Round values between both ends of a compressed axis: 0, and 1 or 3 times powers of ten of either
+/// sign. Rounder values take precedence, so that labels do not touch. A `softsign_scale` of 0 means
+/// a logarithmic axis.
+std::vector<CompressedTick> compressed_ticks(double low, double high, double softsign_scale);
 
 /// Draws an evidence figure. Files as `draw_figure`. Errors: `Error` as `draw_figure`.
 Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem::path& stem);

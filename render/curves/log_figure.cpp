@@ -66,7 +66,7 @@ std::string curve_commands(const Panel& panel, const std::string& file) {
   std::vector<std::string> columns;
   for (const auto& [column, name, line_type] : panel.curves) {
     const int low = low_column(column);
-    // The filled band has no height where low and high agree: the line is seen there.
+    // Where low and high agree, the filled band has no height and the line shows the value.
     columns.push_back(
         fmt::format("1:{}:{} with filledcurves lt {} fs transparent solid 0.35 noborder", low,
                     low + 1, line_type));
@@ -79,7 +79,7 @@ std::string curve_commands(const Panel& panel, const std::string& file) {
          plot(file, columns);
 }
 
-/// Rows of bars as high as the share of steps that were in contact.
+/// Rows of bars; their height is the share of steps in contact.
 std::string contact_commands(const std::string& file, bool with_truth) {
   struct Bars {
     int column;
@@ -141,9 +141,9 @@ LogTrace::Bin::Bin(const LogTraceStep& step)
     : begin(step.time), end(step.time), steps(1), low(step.value), high(step.value) {
   for (std::size_t wheel = 0; wheel < 2; ++wheel) {
     contact[wheel] = step.contact[wheel] ? 1 : 0;
-    touches[wheel] = step.touches && (*step.touches)[wheel] ? 1 : 0;
+    true_contact[wheel] = step.true_contact && (*step.true_contact)[wheel] ? 1 : 0;
   }
-  with_truth = step.touches ? 1 : 0;
+  with_truth = step.true_contact ? 1 : 0;
   status[static_cast<std::size_t>(step.status)] = 1;
 }
 
@@ -152,13 +152,13 @@ void LogTrace::Bin::merge(const Bin& later) {
   steps += later.steps;
   with_truth += later.with_truth;
   for (std::size_t i = 0; i < log_curve_count; ++i) {
-    // NaN counts as no value, infinity as a curve that leaves the plot.
+    // NaN means no value; at infinity a curve leaves the plot.
     low[i] = std::fmin(low[i], later.low[i]);
     high[i] = std::fmax(high[i], later.high[i]);
   }
   for (std::size_t wheel = 0; wheel < 2; ++wheel) {
     contact[wheel] += later.contact[wheel];
-    touches[wheel] += later.touches[wheel];
+    true_contact[wheel] += later.true_contact[wheel];
   }
   for (std::size_t i = 0; i < status.size(); ++i) status[i] += later.status[i];
 }
@@ -199,7 +199,7 @@ std::string LogTrace::table() const {
       append(text, bin.high[c]);
     }
     for (const std::size_t steps : bin.contact) append(text, share(steps, bin.steps));
-    for (const std::size_t steps : bin.touches) append(text, share(steps, bin.with_truth));
+    for (const std::size_t steps : bin.true_contact) append(text, share(steps, bin.with_truth));
     for (const std::size_t steps : bin.status) append(text, static_cast<double>(steps));
     text.back() = '\n';
   }

@@ -27,21 +27,21 @@ enum class LogCurve : int {
 };
 inline constexpr std::size_t log_curve_count = 9;
 
-/// One step of a log as a figure shows it.
+/// The drawn values of one step of a log.
 struct LogTraceStep {
-  double time = 0.0;                           ///< s
-  std::array<double, log_curve_count> value;   ///< by `LogCurve`; NaN for what there is not
-  std::array<bool, 2> contact;                 ///< decided, left and right wheel
-  std::optional<std::array<bool, 2>> touches;  ///< truth, likewise
+  double time = 0.0;                                ///< s
+  std::array<double, log_curve_count> value;        ///< by `LogCurve`; NaN for a missing value
+  std::array<bool, 2> contact;                      ///< decision, left and right wheel
+  std::optional<std::array<bool, 2>> true_contact;  ///< true contact, likewise
   SignalStatus status = SignalStatus::good;
 };
 
 LogTraceStep log_trace_step(const Signals& signals, const Belief& belief, double p_takeoff,
                             double p_landing);
 
-/// What a figure needs of a log of any length: bins of equally many steps, with the lowest and the
-/// highest value of each curve, so that no spike is lost. When there are too many bins, each two
-/// become one: memory does not grow with the log.
+/// A summary of a log of any length for drawing: bins of equally many steps with the lowest and the
+/// highest value of each curve, so that no spike is lost. When there are too many bins, neighbours
+/// are merged in pairs: memory does not grow with the log.
 class LogTrace {
  public:
   struct Bin {
@@ -50,7 +50,7 @@ class LogTrace {
     std::size_t steps = 0;
     std::array<double, log_curve_count> low, high;  ///< NaN where no step had a value
     std::array<std::size_t, 2> contact{};           ///< steps with the decision "contact"
-    std::array<std::size_t, 2> touches{};           ///< steps with true contact
+    std::array<std::size_t, 2> true_contact{};      ///< steps with true contact
     std::size_t with_truth = 0;
     std::array<std::size_t, 4> status{};  ///< by `SignalStatus`
 
@@ -60,14 +60,14 @@ class LogTrace {
 
   explicit LogTrace(std::size_t most_bins = 2000) : most_bins_(most_bins) {}
 
-  /// Steps in the order of the log.
+  /// Adds a step; steps come in the order of the log.
   void add(const LogTraceStep& step);
 
   const std::vector<Bin>& bins() const { return bins_; }
 
   /// Tab-separated: begin and end, low and high of each curve, shares of contact (left, right) and
-  /// of true contact (NaN without truth), numbers of steps by status; an empty line, where a
-  /// plotted line breaks, before a bin that begins after a gap in time or a step back.
+  /// of true contact (NaN without truth), numbers of steps by status. An empty line interrupts
+  /// plotted lines before a bin that begins after a gap in time or a step back.
   std::string table() const;
 
  private:
@@ -76,11 +76,11 @@ class LogTrace {
   std::vector<Bin> bins_;
 };
 
-/// Draws a log and what an estimator made of it over time: torques, vertical acceleration, contact
-/// probability, takeoff and landing probability where the estimator has them, contact as decided
-/// and, where it is known, as it was, and the signals' status. Each curve fills the space between
-/// its lowest and highest value. Files as `draw_figure`.
-/// Errors: `InputError` for a trace without steps; `Error` as `draw_figure`.
+/// Draws a log with an estimator's output over time: torques, vertical acceleration, contact
+/// probability, decided contact and the signals' status; takeoff and landing probability where the
+/// estimator has them; true contact where it is known. Each curve fills the space between its
+/// lowest and highest value. Files as `draw_figure`. Errors: `InputError` for a trace without
+/// steps; `Error` as `draw_figure`.
 Figure draw_log(const LogTrace& trace, const std::string& title, const std::filesystem::path& stem);
 
 }  // namespace touchdown::render

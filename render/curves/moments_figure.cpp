@@ -34,7 +34,7 @@ struct Moments {
   double mean, deviation;
 };
 
-/// A panel's moments: one entry per engine, and the robot's last.
+/// A panel's moments: one entry per engine, then the real robot's.
 std::vector<Moments> moments_of(const Table& table, const TorquePanel& panel) {
   std::vector<Moments> all;
   Moments robot;
@@ -51,7 +51,7 @@ std::vector<Moments> moments_of(const Table& table, const TorquePanel& panel) {
   return all;
 }
 
-/// The panel's blocks: a curve per engine, then the moments, one line each.
+/// The panel's data blocks: a curve per engine, then the moments, one line each.
 std::string torque_data(const Table& moments, const Table& densities, const TorquePanel& panel) {
   std::string text;
   for (const std::vector<std::string>& row : moments.rows) {
@@ -79,7 +79,7 @@ std::string torque_data(const Table& moments, const Table& densities, const Torq
   return text + "\n\n";
 }
 
-/// Where the panel's axis ends: beyond every mean and two deviations.
+/// The end of the panel's axis: 2.5 deviations above every mean.
 double torque_axis_end(const std::vector<Moments>& all) {
   double end = 0.0;
   for (const Moments& one : all) end = std::fmax(end, one.mean + 2.5 * one.deviation);
@@ -121,7 +121,7 @@ std::string density_curves(const std::vector<Moments>& all, const std::string& f
 }
 
 std::string moments_described(const Table& moments) {
-  std::string text = "Torques of the simulated robot beside the real one's, mean and deviation.";
+  std::string text = "Torques of the simulated and the real robot: mean and standard deviation.";
   for (const TorquePanel& panel : torque_panels) {
     fmt::format_to(std::back_inserter(text), " {}:", panel.title);
     for (const Moments& one : moments_of(moments, panel)) {
@@ -138,10 +138,10 @@ std::string moments_described(const Table& moments) {
 Figure draw_moments_figure(const Table& moments, const Table& densities,
                            const std::filesystem::path& stem) {
   const FigureFrame frame(
-      "Torques of the simulated robot beside the real robot's",
-      "Curves: densities of the simulated joints' |torque| as their servos report it, in cells of "
-      "0.01 N·m. Points and bars above them: mean ± one standard deviation. Of the real robot, "
-      "whose authors publish densities that include their kernels, only these are compared.",
+      "Torques of the simulated and the real robot",
+      "Curves: densities of the simulated joints' |torque| as their servos report it, in bins of "
+      "0.01 N·m. Points and bars above them: mean ± one standard deviation. The real robot has no "
+      "curve, because its published densities include their kernels.",
       torque_left + 2.0 * torque_width + torque_gap_x + 24.0,
       torque_top + 2.0 * (moments_height + density_height) + torque_gap_y + 50.0);
   const std::string file = gnuplot_text(stem.filename().string() + ".dat");

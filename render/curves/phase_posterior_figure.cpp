@@ -23,10 +23,10 @@ enum PosteriorRow : std::size_t {
   belief_row
 };
 
-/// Below the likeliest phase this much less likely is impossible (nats).
+/// Log likelihoods are clipped at this distance below the most likely phase (nats).
 constexpr double faintest = -8.0;
 
-/// How a phase is named, in short and in full, and coloured (0xRRGGBB).
+/// The short and the full name of a phase, and its colour (0xRRGGBB).
 struct PhaseStyle {
   const char* tick;
   const char* title;
@@ -59,24 +59,27 @@ PlotColumns columns_of(const experiments::DropPosterior& drop) {
   std::vector<double> truth;
   for (const Phase phase : drop.truth) truth.push_back(static_cast<double>(index(phase)));
   columns.add("true_phase", std::move(truth));
-  const auto add_log_likelihood_error = [&](const char* name, double experiments::LogLikelihoodError::*part) {
+  const auto add_error_column = [&](const char* name,
+                                    double experiments::LogLikelihoodError::*term) {
     std::vector<double> values;
-    for (const experiments::LogLikelihoodError& log_likelihood_error : drop.log_likelihood_error) values.push_back(log_likelihood_error.*part);
+    for (const experiments::LogLikelihoodError& error : drop.log_likelihood_error) {
+      values.push_back(error.*term);
+    }
     columns.add(name, std::move(values));
   };
-  add_log_likelihood_error("error_by_left_leg", &experiments::LogLikelihoodError::left);
-  add_log_likelihood_error("error_by_right_leg", &experiments::LogLikelihoodError::right);
-  add_log_likelihood_error("error_by_acceleration", &experiments::LogLikelihoodError::acceleration);
-  add_log_likelihood_error("error_by_memory", &experiments::LogLikelihoodError::memory);
+  add_error_column("error_by_left_leg", &experiments::LogLikelihoodError::left);
+  add_error_column("error_by_right_leg", &experiments::LogLikelihoodError::right);
+  add_error_column("error_by_acceleration", &experiments::LogLikelihoodError::acceleration);
+  add_error_column("error_by_memory", &experiments::LogLikelihoodError::memory);
   columns.add("p_left_wheel", drop.p_contact[0]);
   columns.add("p_right_wheel", drop.p_contact[1]);
   return columns;
 }
 
-/// Maximal stretches of one value as rectangles between `low` and `high`: x0, x1, y0, y1, colour.
+/// Runs of equal values as rectangles between `low` and `high`: x0, x1, y0, y1, colour.
 template <typename T, typename Colour>
-std::string stretches(const std::vector<double>& time, const std::vector<T>& values, double low,
-                      double high, const Colour& colour) {
+std::string rectangles(const std::vector<double>& time, const std::vector<T>& values, double low,
+                       double high, const Colour& colour) {
   std::string text;
   for (std::size_t begin = 0; begin < values.size();) {
     std::size_t end = begin + 1;
@@ -88,18 +91,20 @@ std::string stretches(const std::vector<double>& time, const std::vector<T>& val
   return text;
 }
 
-/// The block of the wheels, then that of the phases.
+/// The data block of the wheels, then that of the phases.
 std::string truth_text(const experiments::DropPosterior& drop) {
   const std::vector<double> time = in_ms(drop.time);
-  const auto touches = [](std::uint8_t contact) { return contact != 0 ? 0x8fcaa0U : 0xffffffU; };
+  const auto contact_colour = [](std::uint8_t contact) {
+    return contact != 0 ? 0x8fcaa0U : 0xffffffU;
+  };
   return "# from_ms\tto_ms\tlow\thigh\tcolour\n" +
-         stretches(time, drop.contact[0], 1.1, 1.9, touches) +
-         stretches(time, drop.contact[1], 0.1, 0.9, touches) + "\n\n" +
-         stretches(time, drop.truth, 0.0, 1.0,
-                   [](Phase phase) { return styles[index(phase)].colour; });
+         rectangles(time, drop.contact[0], 1.1, 1.9, contact_colour) +
+         rectangles(time, drop.contact[1], 0.1, 0.9, contact_colour) + "\n\n" +
+         rectangles(time, drop.truth, 0.0, 1.0,
+                    [](Phase phase) { return styles[index(phase)].colour; });
 }
 
-/// Rows: phases; columns: times; how much less likely than the likeliest phase (nats).
+/// Log likelihoods relative to the most likely phase (nats). Rows: phases; columns: times.
 std::string likelihood_text(const experiments::DropPosterior& drop) {
   std::string text = "# log likelihood below the likeliest phase; row i: phase i; columns: times\n";
   std::vector<double> largest;
@@ -120,11 +125,11 @@ std::string likelihood_text(const experiments::DropPosterior& drop) {
   return text;
 }
 
-/// Wide enough for the strongest word of any ingredient.
-double strongest(const experiments::DropPosterior& drop) {
+/// The largest absolute log-likelihood error of any term, but at least 1 (nats).
+double largest_error_of(const experiments::DropPosterior& drop) {
   double most = 1.0;
-  for (const experiments::LogLikelihoodError& log_likelihood_error : drop.log_likelihood_error) {
-    for (const double value : {log_likelihood_error.left, log_likelihood_error.right, log_likelihood_error.acceleration, log_likelihood_error.memory}) {
+  for (const experiments::LogLikelihoodError& error : drop.log_likelihood_error) {
+    for (const double value : {error.left, error.right, error.acceleration, error.memory}) {
       most = std::max(most, std::abs(value));
     }
   }
@@ -154,7 +159,7 @@ std::string column_commands(const experiments::DropPosterior& drop, const PanelG
   text += panel(wheel_row, "truth");
   text += fmt::format(
       "set yrange [0:2]\nset ytics ({} 1.5, {} 0.5) scale 0\nunset grid\n"
-      "plot {}, NaN with boxes fillcolor rgb '#8fcaa0' title 'wheel touches'\n",
+      "plot {}, NaN with boxes fillcolor rgb '#8fcaa0' title 'wheel in contact'\n",
       column == 0 ? "'left'" : "''", column == 0 ? "'right'" : "''", boxes(truth, 0));
   text += panel(label_row, "");
   text += fmt::format("set yrange [0:1]\nset ytics ({} 0.5) scale 0\nplot {}\n",
@@ -167,7 +172,7 @@ std::string column_commands(const experiments::DropPosterior& drop, const PanelG
                         phase + 1 < phase_count ? ", " : ") scale 0 font ',10'\n");
   }
   text += last ? grid.colour_bar(likelihood_row, 14.0, 16.0) +
-                     "set cblabel 'nats below the likeliest' font ',11' offset 1.2,0\n"
+                     "set cblabel 'nats below the most likely' font ',11' offset 1.2,0\n"
                      "set cbtics 2 font ',11'\n"
                : "unset colorbox\n";
   const double step = drop.time.size() > 1 ? 1e3 * (drop.time[1] - drop.time[0]) : 1.0;
@@ -175,22 +180,22 @@ std::string column_commands(const experiments::DropPosterior& drop, const PanelG
       "plot '{}_likelihood_{}.dat' matrix using ({}+{}*$1):2:3 with image notitle, "
       "'{}' using 1:{} with steps lc rgb 'black' lw 2 dt 1 notitle\n",
       name, column + 1, 1e3 * drop.time.front(), step, data, columns.number_of("true_phase"));
-  text += panel(error_row, "what misleads\n(nats)");
+  text += panel(error_row, "log-likelihood\nerror (nats)");
   text += fmt::format(
       "set yrange [-{0}:{0}]\nset ytics autofreq scale 0.5 norangelimit font ',13'\n"
       "set grid\nplot 0 with lines lc rgb '#8a9299' lw 1 dt 1 notitle",
       1.05 * largest_error);
-  const auto log_likelihood_error = [&](const char* key, const char* style, const char* title) {
+  const auto add_error = [&](const char* key, const char* style, const char* title) {
     text += fmt::format(", '{}' using 1:{} with lines {} dt 1 title {}", data,
                         columns.number_of(key), style, gnuplot_text(title));
   };
-  log_likelihood_error("error_by_left_leg", "lt 6 lw 2", "left leg's torques");
-  log_likelihood_error("error_by_right_leg", "lt 2 lw 2", "right leg's torques");
-  log_likelihood_error("error_by_acceleration", "lt 3 lw 2", "acceleration");
-  log_likelihood_error("error_by_memory", "lc rgb '#101418' lw 2", "memory");
+  add_error("error_by_left_leg", "lt 6 lw 2", "left leg's torques");
+  add_error("error_by_right_leg", "lt 2 lw 2", "right leg's torques");
+  add_error("error_by_acceleration", "lt 3 lw 2", "acceleration");
+  add_error("error_by_memory", "lc rgb '#101418' lw 2", "memory");
   text += "\n" + panel(posterior_row, "P(phase)");
   text += "set yrange [0:1]\nset ytics 0,0.5,1 scale 0.5\nset grid\nplot ";
-  // From the whole downwards, each painted over the ones above: no seams between neighbours.
+  // Drawn from the full sum downwards, each over the previous one: neighbours have no seams.
   for (std::size_t phase = phase_count; phase-- > 0;) {
     text += fmt::format(
         "'{}' using 1:(sum [c=2:{}] column(c)) with filledcurves y1=0 fillcolor rgb "
@@ -220,7 +225,7 @@ Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops
     layout.columns.push_back(simulators::simulator_title(drop.simulator));
     from = std::min(from, 1e3 * drop.time.front());
     to = std::max(to, 1e3 * drop.time.back());
-    largest_error = std::max(largest_error, strongest(drop));
+    largest_error = std::max(largest_error, largest_error_of(drop));
   }
   const PanelGrid grid(layout, text);
   std::vector<PlotData> data;

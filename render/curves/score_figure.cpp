@@ -17,8 +17,8 @@ namespace {
 constexpr double side = 360.0, counts_height = 96.0, gap = 84.0, left_margin = 70.0, key = 240.0;
 constexpr double counts_top = side + 62.0;
 
-/// One block (gnuplot's `index`) per panel and curve: what was said, what was true with its
-/// interval, how often.
+/// One block (gnuplot's `index`) per panel and curve: the stated probability, the share of contact
+/// with its interval, and the number of steps of each bin.
 std::string reliability_data(const ScoreFigure& figure) {
   std::string text = "#bin_centre\tmean_probability\tcontact_frequency\tlow\thigh\tsteps\n";
   for (const ScorePanel& panel : figure.panels) {
@@ -38,20 +38,20 @@ std::string reliability_data(const ScoreFigure& figure) {
   return text;
 }
 
-/// One plot of all curves of a panel.
+/// The plot of all curves of a panel.
 std::string curves(const ScorePanel& panel, const std::string& file, std::size_t first_block,
                    const char* columns, const char* with, bool named) {
   std::string text;
   for (std::size_t c = 0; c < panel.rows.size(); ++c) {
-    text +=
-        fmt::format(", \\\n     {} index {} using {} with {} lt {} title {}", file, first_block + c,
-                    columns, with, c + 1, gnuplot_text(named ? panel.rows[c].name : ""));
+    text += fmt::format(", \\\n     {} index {} using {} with {} lt {} title {}", file,
+                        first_block + c, columns, with, panel.rows[c].line_type,
+                        gnuplot_text(named ? panel.rows[c].name : ""));
   }
   return text;
 }
 
 std::string reliability_described(const ScoreFigure& figure) {
-  std::string text = "How often there was contact against the probability that was stated.";
+  std::string text = "Share of steps in contact against the stated probability of contact.";
   for (const ScorePanel& panel : figure.panels) {
     text += fmt::format(" {}: Brier score", panel.title);
     for (std::size_t c = 0; c < panel.rows.size(); ++c) {
@@ -118,8 +118,7 @@ struct LatencyKind {
 constexpr std::array<LatencyKind, 2> kinds = {
     {{"takeoff", &ScoreRow::takeoff}, {"landing", &ScoreRow::landing}}};
 
-/// A histogram's outline from its first to its last event: each bin as high as its share of the
-/// fullest one, standing on `base`.
+/// A histogram's outline on `base`. A bin's height is its share of the fullest bin.
 std::string outline(const scoring::LatencyHistogram& histogram, double base) {
   const auto& events = histogram.events;
   const std::int32_t most = *std::max_element(events.begin(), events.end());
@@ -136,15 +135,15 @@ std::string outline(const scoring::LatencyHistogram& histogram, double base) {
   return text;
 }
 
-/// With a minus sign that is as wide as the plus sign, and without one where zero is meant.
+/// A number with a typographic minus sign; zero has no sign.
 std::string signed_text(double value) {
   std::string text = fmt::format("{:.1f}", std::abs(value));
   return value < 0.0 && text != "0.0" ? "−" + text : text;
 }
 
 /// The data file: blocks (gnuplot's `index`) by panel, kind and estimator with the histogram's
-/// outline (latency in ms, foot, top); then one per panel and kind with a row per estimator: its
-/// mean, its foot, and what is written beside it.
+/// outline (latency in ms, base, top); then one block per panel and kind with a row per estimator:
+/// its mean, its base, and the label beside it.
 std::string latency_data(const ScoreFigure& figure) {
   std::string text = "#latency_ms\tbase\theight\n";
   std::string means;
@@ -156,9 +155,9 @@ std::string latency_data(const ScoreFigure& figure) {
         text += outline(counts.latency, base) + "\n\n";
         const double mean = 1e3 * counts.latency_mean();
         const double deviation = 1e3 * counts.latency_deviation();
-        std::string says = counts.detected > 0 ? signed_text(mean) : "–";
-        if (std::isfinite(deviation)) says += fmt::format(" ± {:.1f} ms", deviation);
-        means += fmt::format("{}\t{}\t\"{}\\n{} of {} found\"\n", number(mean), base, says,
+        std::string label = counts.detected > 0 ? signed_text(mean) : "–";
+        if (std::isfinite(deviation)) label += fmt::format(" ± {:.1f} ms", deviation);
+        means += fmt::format("{}\t{}\t\"{}\\n{} of {} found\"\n", number(mean), base, label,
                              counts.detected, counts.events);
       }
       means += "\n\n";
@@ -167,7 +166,7 @@ std::string latency_data(const ScoreFigure& figure) {
   return text + "#mean_ms\tbase\ttext\n" + means;
 }
 
-/// Where all histograms of one kind lie.
+/// The range of all histograms of one kind (ms).
 std::array<double, 2> range_of(const ScoreFigure& figure, const LatencyKind& kind) {
   scoring::LatencyHistogram all;
   for (const ScorePanel& panel : figure.panels) {
@@ -234,9 +233,8 @@ Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::pat
       for (std::size_t r = 0; r < rows; ++r) {
         commands += fmt::format(
             "{0} index {1} using 1:2:3 with filledcurves lt {2}, {0} index {1} using 1:3 with "
-            "lines "
-            "lt {2} lw 1.2 dt 1, \\\n     ",
-            file, block++, r + 1);
+            "lines lt {2} lw 1.2 dt 1, \\\n     ",
+            file, block++, figure.panels[p].rows[r].line_type);
       }
       commands += fmt::format(
           "{0} index {1} using 1:2:(0):(0.9) with vectors nohead lw 1.8 dt 1 lc rgb '#101418', \\\n"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,9 +12,10 @@
 
 namespace touchdown::render {
 
-/// What one estimator's probabilities and transitions are worth.
+/// The calibration and the latencies of one estimator.
 struct ScoreRow {
   std::string name;
+  std::size_t line_type = 1;  ///< `line_type_of` the estimator
   scoring::Calibration calibration;
   std::vector<Interval> contact_frequency;  ///< by bin of the calibration
   scoring::TransitionCounts takeoff, landing;
@@ -25,21 +27,21 @@ struct ScorePanel {
   std::vector<ScoreRow> rows;  ///< the same estimators in every panel
 };
 
-/// A figure of one aspect of scores, with panels for each noise setting.
+/// A figure of scores, with panels for each noise setting.
 struct ScoreFigure {
   std::string title;
   std::vector<ScorePanel> panels;
   std::string caption;
 };
 
-/// Draws how often there was contact when an estimator said so with a probability: a curve each,
-/// with the number of steps in every bin below. Files as `draw_figure`. Errors: `InputError`
-/// without rows; `Error` as `draw_figure`.
+/// Draws a reliability diagram: for each estimator the share of steps in contact against the stated
+/// probability of contact, with the number of steps in every bin below. Files as `draw_figure`.
+/// Errors: `InputError` without rows; `Error` as `draw_figure`.
 Figure draw_reliability_figure(const ScoreFigure& figure, const std::filesystem::path& stem);
 
-/// Draws how latencies of takeoffs and landings are distributed: a histogram per estimator, one
-/// pair of panels per noise setting. Early is negative. Files as `draw_figure`. Errors:
-/// `InputError` without rows; `Error` as `draw_figure`.
+/// Draws the distributions of takeoff and landing latencies: a histogram per estimator, one pair of
+/// panels per noise setting. Early detections have negative latency. Files as `draw_figure`.
+/// Errors: `InputError` without rows; `Error` as `draw_figure`.
 Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::path& stem);
 
 }  // namespace touchdown::render

@@ -19,7 +19,7 @@ extern "C" {
 namespace touchdown::render {
 namespace {
 
-/// A file without a name, in memory: gone with the process, however that ends.
+/// An unnamed file in memory, which the system removes when the process ends.
 class MemoryFile {
  public:
   MemoryFile() : descriptor_(::memfd_create("touchdown-video", MFD_CLOEXEC)) {
@@ -35,7 +35,7 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// FFmpeg's objects, freed as FFmpeg wants it.
+/// Frees FFmpeg's objects with FFmpeg's functions.
 struct FfmpegFree {
   void operator()(AVFormatContext* context) const {
     if (context->pb) avio_closep(&context->pb);
@@ -50,7 +50,7 @@ using CodecHandle = std::unique_ptr<AVCodecContext, FfmpegFree>;
 using FrameHandle = std::unique_ptr<AVFrame, FfmpegFree>;
 using PacketHandle = std::unique_ptr<AVPacket, FfmpegFree>;
 
-/// `what` failed, with FFmpeg's reason, when `result` is negative.
+/// Throws that `what` failed, with FFmpeg's reason, when `result` is negative.
 void check_ffmpeg(int result, const char* what) {
   if (result >= 0) return;
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text = {};
@@ -58,7 +58,7 @@ void check_ffmpeg(int result, const char* what) {
   throw Error(fmt::format("video: {}: {}", what, text.data()));
 }
 
-/// An encoder that has been started. `global_header`: the container keeps the stream's parameters.
+/// A started encoder. With `global_header`, the container stores the stream's parameters.
 CodecHandle start_encoder(const VideoFormat& format, bool global_header) {
   if (format.width % 2 != 0 || format.height % 2 != 0) {
     throw InputError(
@@ -88,7 +88,7 @@ CodecHandle start_encoder(const VideoFormat& format, bool global_header) {
   check_ffmpeg(av_opt_set(codec.priv_data, "preset", "veryfast", 0), "preset");
   check_ffmpeg(av_opt_set(codec.priv_data, "crf", std::to_string(format.crf).c_str(), 0),
                "quality");
-  // x264's macroblock tree reads memory that it never wrote: the same frames, other bytes.
+  // x264's macroblock tree reads uninitialised memory, which makes the bytes differ between runs.
   check_ffmpeg(av_opt_set(codec.priv_data, "x264-params", "mbtree=0", 0), "parameters");
   check_ffmpeg(avcodec_open2(&codec, encoder, nullptr), "cannot start the encoder");
   return handle;
@@ -116,7 +116,7 @@ struct VideoWriter::Streams {
   AVStream* stream = nullptr;
   std::int64_t frames = 0;
 
-  /// Give the encoder a frame (or null: there are no more) and write what it has ready.
+  /// Passes a frame to the encoder (null after the last one), and writes its finished packets.
   void encode(const AVFrame* next) {
     check_ffmpeg(avcodec_send_frame(codec.get(), next), "the encoder refuses a frame");
     while (true) {
@@ -179,7 +179,7 @@ void VideoWriter::write(const std::uint8_t* i420) {
 void VideoWriter::finish() {
   streams_->encode(nullptr);
   check_ffmpeg(av_write_trailer(streams_->format.get()), "cannot finish the file");
-  // A write that failed on the way is remembered here, and nowhere else.
+  // An earlier write error is recorded only here.
   check_ffmpeg(streams_->format->pb->error, "cannot write");
   check_ffmpeg(avio_closep(&streams_->format->pb), "cannot finish the file");
   write_atomically(path_, read_file(streams_->file.path()));

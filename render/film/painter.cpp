@@ -13,14 +13,14 @@ namespace touchdown::render {
 namespace {
 
 constexpr double camera_time_constant = 0.35;  // s
-/// Contact shorter than this is not worth a label that nobody could read (s).
+/// Shorter states of contact get no label, because it could not be read (s).
 constexpr double label_debounce = 0.05;
 
 struct Label {
   const char* text;
   unsigned colour;
 };
-/// By `Outcome`, and by the number of wheels that touch.
+/// By `Outcome`, and by the number of wheels in contact.
 constexpr Label outcome_labels[] = {
     {"FINISHED", 0x2f6f4f}, {"TIME IS OVER", 0x5c636e}, {"FELL", 0xb0304f}, {"DIVERGED", 0xb0304f}};
 constexpr Label contact_labels[] = {
@@ -36,13 +36,13 @@ Label state_label(const recordings::Recording& recording, std::size_t row,
   return contact_labels[contact[row]];
 }
 
-/// Where the runs stand: up to two beside each other, more in rows of two.
-struct Places {
+/// The layout of the runs: up to two side by side, more in rows of two.
+struct ViewGrid {
   int columns, rows;
 };
-Places places_of(int runs) { return {std::min(runs, 2), (runs + 1) / 2}; }
+ViewGrid grid_of(int runs) { return {std::min(runs, 2), (runs + 1) / 2}; }
 
-/// How much larger the view is drawn than it is shown.
+/// The factor by which the view is drawn larger than it is shown.
 int supersampling(const VideoOptions& options) {
   return options.quality == VideoQuality::page ? 2 : 1;
 }
@@ -97,15 +97,15 @@ FramePainter::~FramePainter() = default;
 
 const cv::Mat& FramePainter::paint(double time) {
   const int count = static_cast<int>(shows_.size());
-  const Places places = places_of(count);
-  const int wide = gl_.width() / places.columns;
-  const int high = gl_.height() / places.rows;
+  const ViewGrid grid = grid_of(count);
+  const int wide = gl_.width() / grid.columns;
+  const int high = gl_.height() / grid.rows;
   for (int i = 0; i < count; ++i) {
     Show& show = *shows_[static_cast<std::size_t>(i)];
     const std::size_t row = show.row(time);
     show.poses.apply(row, show.view.data());
-    const int from_below = places.rows - 1 - i / places.columns;  // as OpenGL counts
-    show.view.draw({i % places.columns * wide, from_below * high, wide, high}, show.camera[row]);
+    const int from_below = grid.rows - 1 - i / grid.columns;  // OpenGL counts from below
+    show.view.draw({i % grid.columns * wide, from_below * high, wide, high}, show.camera[row]);
   }
   gl_.finish();
   const cv::Mat drawn(gl_.height(), gl_.width(), CV_8UC4, gl_.pixels());
@@ -119,14 +119,14 @@ const cv::Mat& FramePainter::paint(double time) {
   if (strip_) {
     for (int i = 0; i < count; ++i) {
       const Show& show = *shows_[static_cast<std::size_t>(i)];
-      paint_labels(show, show.row(time), time, i % places.columns * view.cols / places.columns,
-                   i / places.columns * view.rows / places.rows);
+      paint_labels(show, show.row(time), time, i % grid.columns * view.cols / grid.columns,
+                   i / grid.columns * view.rows / grid.rows);
     }
     const Colour paper = rgb(0xf7f8fa);
-    if (places.columns > 1) {
+    if (grid.columns > 1) {
       cv::line(view, {view.cols / 2, 0}, {view.cols / 2, view.rows - 1}, paper, 2);
     }
-    if (places.rows > 1) {
+    if (grid.rows > 1) {
       cv::line(view, {0, view.rows / 2}, {view.cols - 1, view.rows / 2}, paper, 2);
     }
     strip_->draw(picture_.rowRange(options_.height - strip_height_, options_.height), time);

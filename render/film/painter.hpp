@@ -12,12 +12,11 @@
 
 namespace touchdown::render {
 
-/// Paints up to `most_sources` runs at a point in time: views beside each other and, if
-/// `annotated`, labels on them and the strip below. What it paints depends on the time alone, not
-/// on what it painted before.
+/// Paints up to `most_sources` runs at a point in time: views side by side and, if `annotated`,
+/// labels on them and the strip below. The picture depends on the time alone, not on previous ones.
 class FramePainter {
  public:
-  /// Makes the process's OpenGL context. Keeps references to what the sources refer to.
+  /// Creates the process's OpenGL context. Keeps the sources' references.
   FramePainter(const std::vector<VideoSource>& sources, const VideoOptions& options,
                bool annotated = true);
   ~FramePainter();

@@ -8,7 +8,7 @@
 namespace touchdown::render {
 namespace {
 
-/// The wheels' mean path since the first row, as if they never slipped (m).
+/// The wheels' mean path since the first row, without slip (m).
 std::vector<Eigen::Vector3d> odometry(const models::RobotModel& robot,
                                       const recordings::Recording& recording) {
   std::vector<Eigen::Vector3d> path(recording.steps(), Eigen::Vector3d::Zero());
@@ -43,7 +43,7 @@ Poses::Poses(const models::RobotModel& robot, const recordings::Recording& recor
   base_.reserve(recording.steps());
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     const Eigen::Vector3d& position = recording.truth[k].base_position;
-    // A diverged run ends in numbers that no picture can show.
+    // A diverged run ends in numbers that cannot be drawn.
     if (position.allFinite() && position.norm() < 1e4) last = position;
     base_.push_back(last);
   }

@@ -40,7 +40,7 @@ void require_drawable(const std::vector<VideoSource>& sources, const VideoOption
   }
   if (sources.size() > most_sources) {
     throw InputError(
-        fmt::format("a film of {} runs: at most {} have room", sources.size(), most_sources));
+        fmt::format("a film of {} runs: expected at most {}", sources.size(), most_sources));
   }
   for (const VideoSource& source : sources) {
     if (source.recording.steps() == 0) {

@@ -10,32 +10,35 @@
 #include "models/robot_model.hpp"
 #include "recordings/recording.hpp"
 #include "render/encode/writer.hpp"
+#include "render/palette.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::render {
 
-/// What one estimator believed along a recording: one number per row and wheel (left, right). A
-/// vector that is empty is not drawn.
+/// One estimator's beliefs along a recording: one number per row and wheel (left, right). Empty
+/// vectors are not drawn.
 struct BeliefTrack {
   std::string name;
+  unsigned colour = line_colours.front();  ///< of its curves (0xRRGGBB)
   std::array<std::vector<float>, models::wheel_count> p_contact;
   std::array<std::vector<float>, models::wheel_count> p_takeoff;
   std::array<std::vector<float>, models::wheel_count> p_landing;
 };
 
-/// One run as it is shown: the robot that was compiled for the run's terrain, and what it did.
+/// One run of a film: the robot that was compiled for the run's terrain, the recording, and the
+/// beliefs to draw.
 struct VideoSource {
   const models::RobotModel& robot;
   const recordings::Recording& recording;
   const std::vector<BeliefTrack>& beliefs;
-  std::string label = {};  ///< what it is called; empty: by its engine
+  std::string label = {};  ///< shown in the film; empty: the name of its engine
 };
 
-/// How many wheels truly touched the ground, row by row; empty for a robot's log.
+/// The number of wheels in true contact, row by row; empty for a robot's log.
 std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recording,
                                             const scoring::LabelConfig& labels);
 
-/// What a run is called: by its label, or "MuJoCo", "Bullet", "robot log".
+/// A run's label, or else "MuJoCo", "Bullet" or "robot log".
 std::string label_of(const VideoSource& source);
 
 enum class VideoQuality : int {
@@ -47,17 +50,17 @@ struct VideoOptions : VideoFormat {
   VideoQuality quality = VideoQuality::draft;
   double from = 0.0;                                    ///< of the recording (s)
   double to = std::numeric_limits<double>::infinity();  ///< of the recording (s)
-  double speed = 1.0;                                   ///< 0.1: ten times slower than life
+  double speed = 1.0;                                   ///< 0.1: ten times slower than real time
   int workers = 0;                                      ///< processes; 0: one per core
   scoring::LabelConfig labels = {};                     ///< what counts as true contact
   /// Called after every frame; may be empty.
   std::function<void(int done, int of)> progress = {};
 };
 
-/// As many runs have room beside each other.
+/// The largest number of runs in a film.
 inline constexpr std::size_t most_sources = 4;
 
-/// Throws `InputError`, saying what is wrong, if these runs cannot be drawn so.
+/// Throws `InputError`, with the reason, if these runs cannot be drawn with these options.
 void require_drawable(const std::vector<VideoSource>& sources, const VideoOptions& options);
 
 }  // namespace touchdown::render

@@ -8,9 +8,9 @@
 namespace touchdown::render {
 namespace {
 
-/// Distance from which the sun's shadow map is taken (m).
+/// The distance of the sun's shadow map from the robot (m).
 constexpr double sun_distance = 6.0;
-/// The camera looks there, from the base, in the world (m).
+/// The offset of the camera's target from the base, in the world (m).
 const Eigen::Vector3d look_at_offset = {0.12, 0.0, -0.28};
 
 }  // namespace
@@ -55,8 +55,8 @@ void SceneView::draw(const mjrRect& viewport, const Eigen::Vector3d& target) {
   mjr_render(viewport, &scene_, &context_);
 }
 
-/// The shadow map covers a box around the sun's axis: the axis goes through the robot. Moving it by
-/// whole texels of the map keeps shadow edges from crawling.
+/// The shadow map covers a box around the sun's axis, so the axis goes through the robot. It moves
+/// by whole texels of the map, so that shadow edges do not flicker.
 void SceneView::place_sun(const Eigen::Vector3d& target) {
   const mjModel& model = *robot_.mj;
   const double texel = 2.0 * model.vis.map.shadowclip * model.stat.extent /
@@ -75,7 +75,7 @@ void SceneView::place_sun(const Eigen::Vector3d& target) {
   }
 }
 
-/// The renderer only draws haze if the scene has an infinite plane; this one draws nothing else.
+/// The renderer draws haze only if the scene has an infinite plane. This plane is itself invisible.
 void SceneView::switch_haze_on() {
   if (scene_.ngeom >= scene_.maxgeom) return;
   mjvGeom& plane = scene_.geoms[scene_.ngeom++];

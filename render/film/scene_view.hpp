@@ -7,8 +7,8 @@
 
 namespace touchdown::render {
 
-/// Draws one robot on its terrain with MuJoCo's renderer into the GL context that is current. That
-/// context must outlive it. The shadows' sharp region and the camera follow the robot.
+/// Draws one robot on its terrain with MuJoCo's renderer into the current GL context, which must
+/// outlive it. The sharp region of the shadows and the camera follow the robot.
 class SceneView {
  public:
   /// Keeps a reference to `robot`.
@@ -17,10 +17,10 @@ class SceneView {
   SceneView(const SceneView&) = delete;
   SceneView& operator=(const SceneView&) = delete;
 
-  /// Where the robot is: fill with `Poses::apply`.
+  /// The robot's state; fill it with `Poses::apply`.
   mjData& data() { return *data_; }
 
-  /// Draws `data()` into `viewport`, looked at around `target` (m, world).
+  /// Draws `data()` into `viewport`. The camera looks at the surroundings of `target` (m, world).
   void draw(const mjrRect& viewport, const Eigen::Vector3d& target);
 
  private:

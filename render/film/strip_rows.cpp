@@ -8,8 +8,6 @@
 namespace touchdown::render {
 namespace {
 
-Colour curve_colour(std::size_t i) { return rgb(okabe_ito[i % okabe_ito.size()]); }
-
 void add_wheels(StripRow& row, const std::string& label, const Colour& colour,
                 const std::array<std::vector<float>, models::wheel_count>& values) {
   if (!values[1].empty()) row.curves.push_back({label, colour, values[1], false});
@@ -28,7 +26,8 @@ StripRow contact_row(const VideoSource& source, const std::vector<std::uint8_t>&
                      const std::string& title) {
   StripRow row = empty_row(title, source, contact);
   for (std::size_t i = source.beliefs.size(); i-- > 0;) {  // the first one on top
-    add_wheels(row, source.beliefs[i].name, curve_colour(i), source.beliefs[i].p_contact);
+    const BeliefTrack& belief = source.beliefs[i];
+    add_wheels(row, belief.name, rgb(belief.colour), belief.p_contact);
   }
   return row;
 }
@@ -53,8 +52,8 @@ std::vector<float> torque(const recordings::Recording& recording, models::Servo 
   return values;
 }
 
-/// Symmetric about zero and wide enough for everyday torques; landings run into the edge, or else
-/// they would flatten everything (N·m).
+/// Sets a range that is symmetric about zero and fits usual torques (N·m). Peaks at landings are
+/// clipped: they would flatten everything else.
 void fit_range(StripRow& row) {
   std::vector<float> sizes;
   for (const StripCurve& curve : row.curves) {
@@ -93,7 +92,7 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
   }
   for (const VideoSource& source : sources) {
     rows.push_back(contact_row(source, wheels_in_contact(source.recording, labels),
-                               sources.size() > 2 ? "P(contact)"  // its curve has the name
+                               sources.size() > 2 ? "P(contact)"  // the curve has the name
                                                   : "P(contact), " + label_of(source)));
   }
   if (sources.size() > 2) return rows;
@@ -101,7 +100,7 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const recordings::Recording& recording = sources[i].recording;
     std::vector<float> values = torque(recording, models::Servo::left_knee);
-    if (recording.period() != knees.period) {  // onto the first recording's rows
+    if (recording.period() != knees.period) {  // resample to the first recording's rows
       std::vector<float> resampled;
       for (std::size_t k = 0;; ++k) {
         const auto from =
@@ -111,7 +110,7 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
       }
       values = std::move(resampled);
     }
-    knees.curves.push_back({label_of(sources[i]), curve_colour(i), std::move(values)});
+    knees.curves.push_back({label_of(sources[i]), rgb(line_colour(i + 1)), std::move(values)});
   }
   fit_range(knees);
   rows.push_back(std::move(knees));

@@ -7,8 +7,8 @@
 
 namespace touchdown::render {
 
-/// The plots of the strip: of one run, of two beside each other, or what is believed in each of
-/// more.
+/// The plots of the strip: all of them for one run, P(contact) and knee torques for two runs, and
+/// P(contact) alone for more.
 std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
                                  const scoring::LabelConfig& labels);
 

@@ -28,7 +28,7 @@ double duration(const VideoSource& source) {
   return source.recording.period() * static_cast<double>(source.recording.steps() - 1);
 }
 
-/// Middle of the first time in the air that one can see, or of the recording.
+/// The middle of the first visible flight, or else of the recording (s).
 double first_flight(const recordings::Recording& recording, const scoring::LabelConfig& labels) {
   scoring::LabelConfig visible = labels;
   visible.debounce = std::max(visible.debounce, 0.04);
@@ -48,7 +48,7 @@ void picture(const std::vector<VideoSource>& sources, VideoOptions options, bool
   require_drawable(sources, options);
   require_writable(path);
   options.quality = VideoQuality::page;
-  options.speed = 1.0;  // a picture has none
+  options.speed = 1.0;  // a still picture has no speed
   if (std::isnan(time)) time = first_flight(sources.front().recording, options.labels);
   const auto bytes = static_cast<std::size_t>(options.width * options.height * 3);
   const auto prepare = [&]() -> PaintFrame {

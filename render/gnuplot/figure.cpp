@@ -24,7 +24,7 @@ constexpr std::array<TextLine, 3> text_lines = {{{"# Title: ", &FigureText::titl
                                                  {"# Caption: ", &FigureText::caption},
                                                  {"# Alt: ", &FigureText::alt}}};
 
-/// The text as comments, one line each: a line end in it would let it out of the comment.
+/// The text as comments, one line each. A line end in the text would end its comment.
 std::string comments(const FigureText& text) {
   std::string lines;
   for (const TextLine& line : text_lines) {
@@ -50,9 +50,7 @@ constexpr const char* terminals =
 
 constexpr const char* style_text =
     R"(set encoding utf8
-{lines}set linetype 7 lc rgb '#22262b' lw 1.4 pt 1 ps 0.8 dt (1,2)
-set linetype 8 lc rgb '#8c6d31' lw 1.8 pt 2 ps 0.8 dt (16,3,2,3)
-set linetype cycle 8
+{lines}set linetype cycle 8
 set palette defined ({scale})
 set border 3 lc rgb '#40464e' lw 0.8
 set tics nomirror out scale 0.5 textcolor rgb '#22262b'
@@ -64,21 +62,24 @@ set datafile missing 'NaN'
 set minussign
 )";
 
-/// Markers and dashes of the curves, which differ in more than their colours.
-constexpr std::array<const char*, okabe_ito.size()> looks = {"pt 7 ps 0.7",
-                                                             "pt 5 ps 0.7 dt (8,3)",
-                                                             "pt 9 ps 0.8 dt (3,2)",
-                                                             "pt 13 ps 0.8 dt (8,3,2,3)",
-                                                             "pt 11 ps 0.8 dt (12,4)",
-                                                             "pt 3 ps 0.8 dt (2,3)"};
+/// Widths, markers and dashes of the line types, which differ in more than their colours.
+constexpr std::array<const char*, line_colours.size()> line_styles = {
+    "lw 1.8 pt 7 ps 0.7",
+    "lw 1.8 pt 5 ps 0.7 dt (8,3)",
+    "lw 1.8 pt 9 ps 0.8 dt (3,2)",
+    "lw 1.8 pt 13 ps 0.8 dt (8,3,2,3)",
+    "lw 1.8 pt 11 ps 0.8 dt (12,4)",
+    "lw 1.8 pt 3 ps 0.8 dt (2,3)",
+    "lw 1.4 pt 1 ps 0.8 dt (1,2)",
+    "lw 1.8 pt 2 ps 0.8 dt (16,3,2,3)"};
 
-/// The one style of all figures, which each figure's script begins with: lines and maps in the
+/// The style of all figures, with which each figure's script begins. Lines and maps have the
 /// colours of render/palette.hpp.
 std::string gnuplot_style() {
   std::string lines, scale;
-  for (std::size_t i = 0; i < okabe_ito.size(); ++i) {
-    lines +=
-        fmt::format("set linetype {} lc rgb '#{:06x}' lw 1.8 {}\n", i + 1, okabe_ito[i], looks[i]);
+  for (std::size_t i = 0; i < line_colours.size(); ++i) {
+    lines += fmt::format("set linetype {} lc rgb '#{:06x}' {}\n", i + 1, line_colours[i],
+                         line_styles[i]);
   }
   for (std::size_t i = 0; i < cividis.size(); ++i) {
     scale += fmt::format("{}{} '#{:06x}'", i == 0 ? "" : ", ", i, cividis[i]);
@@ -86,15 +87,15 @@ std::string gnuplot_style() {
   return fmt::format(style_text, fmt::arg("lines", lines), fmt::arg("scale", scale));
 }
 
-/// The first line of a figure's script, by which its files are known as ours.
+/// The first line of a figure's script. It marks the figure's files as written by this program.
 std::string first_line(const std::string& name) {
   return fmt::format("# Draws {0}.png, {0}.svg and {0}.pdf: gnuplot {0}.gp\n", name);
 }
 
-/// Nobody but the person who asks for a figure knows its name: what bears it, stands in its folder
-/// and was not drawn by us is somebody's own. (The PNG was asked for.)
-void require_ours(const std::filesystem::path& folder, const std::string& name,
-                  const std::vector<std::string>& files) {
+/// The user chooses a figure's name, so a file of that name which this program did not draw is the
+/// user's own. The PNG may be replaced: the user asked for it.
+void require_own_files(const std::filesystem::path& folder, const std::string& name,
+                       const std::vector<std::string>& files) {
   const std::filesystem::path script = folder / (name + ".gp");
   if (std::filesystem::is_regular_file(script) && read_file(script).starts_with(first_line(name))) {
     return;
@@ -130,7 +131,7 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
   const std::filesystem::path folder = stem.parent_path();
   std::vector<std::string> files = {name + ".gp", name + ".png", name + ".svg", name + ".pdf"};
   for (const PlotData& table : data) files.push_back(table.name);
-  require_ours(folder, name, files);
+  require_own_files(folder, name, files);
   const PartFolder scratch(stem);
   const std::string script = fmt::format(
       "{0}{1}"

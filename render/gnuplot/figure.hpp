@@ -8,42 +8,42 @@
 
 namespace touchdown::render {
 
-/// A table of numbers (or texts) that a script plots.
+/// A table of numbers or texts that a script plots.
 struct PlotData {
   std::string name;     ///< file name, beside the script
   std::string content;  ///< columns separated by tabs, `#` begins a comment, NaN is a gap
 };
 
-/// What is said about a figure where it is shown. It stands in the figure's script, as comments,
-/// and the report takes it from there.
+/// The texts that accompany a figure. The figure's script contains them as comments, and the report
+/// reads them from there.
 struct FigureText {
   std::string title;
-  std::string caption;  ///< what is drawn; how many runs and seeds, what counts as contact
-  std::string alt;      ///< for people who cannot see it: what there is to see
+  std::string caption;  ///< what is drawn, the numbers of runs and seeds, what counts as contact
+  std::string alt;      ///< a description for readers who cannot see the figure
 };
 
-/// Where a figure's three files are.
+/// The paths of a figure's three files.
 struct Figure {
   std::filesystem::path png, svg, pdf;
 };
 
-/// Draw one figure as `<stem>.png`, `.svg` and `.pdf`, and leave `<stem>.gp` and its data beside
-/// them: `gnuplot <name>.gp` in that folder draws it again.
+/// Draws one figure as `<stem>.png`, `.svg` and `.pdf`, and writes `<stem>.gp` and its data beside
+/// them. `gnuplot <name>.gp` in that folder draws the figure again.
 ///
-/// `commands` draw one figure on an open terminal; `width` and `height` are in pixels of the PNG's
-/// 96 per inch. Everything is drawn in a scratch folder first and looked at: all files appear,
-/// whole, or those stay that were there before.
-/// Errors: `InputError` when a file beside the PNG bears the figure's name and is not one of ours;
-/// `Error` when gnuplot is not installed or complains (with its first line), or when the folder
-/// cannot be written or is full.
+/// `commands` draw one figure on an open terminal. `width` and `height` are in pixels of the PNG,
+/// 96 per inch. The files are drawn and checked in a scratch folder first: either all files appear,
+/// whole, or the previous ones stay.
+/// Errors: `InputError` when another file beside the PNG has the figure's name and was not written
+/// by this program; `Error` when gnuplot is not installed or reports an error (with its first
+/// line), or when the folder cannot be written or is full.
 Figure draw_figure(const std::filesystem::path& stem, int width, int height,
                    const std::string& commands, const std::vector<PlotData>& data,
                    const FigureText& text = {});
 
-/// Ends what `set multiplot` began.
+/// Ends a `set multiplot`.
 inline constexpr const char* end_multiplot = "unset multiplot\n";
 
-/// What the script of a figure says about it; empty where it says nothing.
+/// The texts in a figure's script; those that the script lacks are empty.
 FigureText figure_text(const std::string& script);
 
 }  // namespace touchdown::render

@@ -11,7 +11,7 @@ namespace touchdown::render {
 namespace {
 
 constexpr double title_height = 38.0, caption_line = 16.0, caption_padding = 14.0;
-constexpr double letter_width = 6.6;  ///< of a caption's letters
+constexpr double letter_width = 6.6;  ///< of the caption, on average (px)
 
 double caption_height(const std::string& caption) {
   if (caption.empty()) return 8.0;

@@ -11,14 +11,15 @@
 namespace touchdown::render {
 namespace {
 
-constexpr double above = 84.0;  ///< the panels: the title and the columns' titles (px)
-constexpr double below = 62.0;  ///< the panels: tics and label of the time axis (px)
-constexpr double left = 104.0;  ///< of the panels, for tics and labels (px)
+constexpr double above = 84.0;  ///< above the panels: the title and the columns' titles (px)
+constexpr double below = 62.0;  ///< below the panels: tics and label of the time axis (px)
+constexpr double left = 104.0;  ///< left of the panels: tics and labels (px)
 constexpr double gap_x = 22.0, gap_y = 22.0;  ///< between panels (px)
 constexpr double line_height = 21.0;          ///< of the caption (px)
 constexpr double letter = 9.3;                ///< of the caption, on average (px)
 
-/// Tics from `from` to `to`, at most seven, none so near an end that labels of neighbours meet.
+/// At most seven tics between `from` and `to`, far enough from both ends that the labels of
+/// neighbouring panels do not touch.
 std::string inner_tics(double from, double to) {
   const double step = tick_step(to - from, 7.0);
   const double margin = 0.04 * (to - from);
@@ -94,7 +95,7 @@ std::string PanelGrid::panel(std::size_t row, std::size_t column, std::string_vi
       "set bmargin at screen {}\nset format x '{}'\nset format y '{}'\nunset key\n",
       screen_x(x(column)), screen_x(x(column) + layout_.panel_width), screen_y(y(row)),
       screen_y(bottom), last ? "%g" : "", first ? "%g" : "");
-  // A label at a place of its own: those of all rows line up whatever their tics' widths.
+  // A label at a fixed position: the labels of all rows are aligned whatever their tics' widths.
   text += first ? fmt::format(
                       "set label 103 {} at screen {}, screen {} center rotate by 90 font ',11'\n",
                       gnuplot_text(y_label), screen_x(24.0), screen_y(0.5 * (y(row) + bottom)))

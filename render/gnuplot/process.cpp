@@ -16,7 +16,7 @@
 namespace touchdown::render {
 namespace {
 
-/// Of gnuplot's complaints, the line that says what is wrong.
+/// The line of gnuplot's messages that names the error.
 std::string first_reason(const std::string& complaints) {
   std::istringstream lines(complaints);
   std::string line, last;
@@ -27,7 +27,7 @@ std::string first_reason(const std::string& complaints) {
   return last;
 }
 
-/// This process's environment, but for the time zone, which would stand in every PDF.
+/// This process's environment, but in UTC: gnuplot writes the time zone into every PDF.
 std::vector<char*> environment_in_utc() {
   static std::string zone = "TZ=UTC0";
   std::vector<char*> variables;
@@ -42,7 +42,7 @@ std::vector<char*> environment_in_utc() {
 }  // namespace
 
 std::string gnuplot_complaint(const std::filesystem::path& folder, const std::string& script) {
-  // -d: the settings of whoever draws, ~/.gnuplot, are commands, and would change the figure.
+  // -d ignores ~/.gnuplot: the user's settings are commands, and would change the figure.
   std::array<std::string, 3> words = {"gnuplot", "-d", script};
   const std::array<char*, 4> arguments = {words[0].data(), words[1].data(), words[2].data(),
                                           nullptr};
@@ -74,7 +74,7 @@ std::string gnuplot_complaint(const std::filesystem::path& folder, const std::st
     throw Error("gnuplot is not installed: the figures need the package gnuplot-nox");
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  return complaints.empty() ? "it failed and did not say why" : first_reason(complaints);
+  return complaints.empty() ? "it failed and gave no reason" : first_reason(complaints);
 }
 
 std::filesystem::path try_gnuplot(const std::filesystem::path& script, const std::string& content) {
@@ -88,7 +88,7 @@ std::filesystem::path try_gnuplot(const std::filesystem::path& script, const std
     const std::string name = script.filename().string();
     if (gnuplot_complaint(script.parent_path(), name).empty() && is_whole(picture)) return picture;
   } catch (const Error&) {
-    // As with any other reason for no figure.
+    // Handled like any other reason for a missing figure.
   }
   std::filesystem::remove(picture, ignored);
   std::filesystem::rename(before, picture, ignored);

@@ -77,7 +77,7 @@ std::string PlotColumns::text() const {
 }
 
 std::vector<double> in_ms(std::vector<double> seconds) {
-  // To the nanosecond: the product alone would say 345.00000000000006.
+  // Rounded to the nanosecond: the product alone would be 345.00000000000006.
   for (double& time : seconds) time = std::round(1e9 * time) / 1e6;
   return seconds;
 }

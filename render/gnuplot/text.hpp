@@ -7,14 +7,14 @@
 
 namespace touchdown::render {
 
-/// `text` as a gnuplot string constant: nothing in it is markup, substitution or the string's end.
+/// `text` as a gnuplot string constant. No character of it acts as markup, as a substitution or as
+/// the string's end.
 std::string gnuplot_text(std::string_view text);
 
-/// The names of rows, the first one on top, as the tics of an axis on which the last one stands at
-/// 0.
+/// The tics of a vertical axis that names rows: the first name on top, the last one at 0.
 std::string row_tics(const std::vector<std::string>& names);
 
-/// A number for a data file: all digits, NaN as gnuplot reads it.
+/// A number for a data file, with all digits; NaN is written as gnuplot reads it.
 std::string number(double value);
 
 /// `text` broken into lines of at most `columns` characters.
@@ -25,9 +25,9 @@ class PlotColumns {
  public:
   void add(std::string name, std::vector<double> values);
 
-  /// The number that a script knows the column by, from 1. Errors: `Error` without such a column.
+  /// The column's number in scripts, from 1. Errors: `Error` without such a column.
   int number_of(const std::string& name) const;
-  /// A line of names after `#`, then one line per step. Columns must have the same length.
+  /// A line of names after `#`, then one line per step. All columns have the same length.
   std::string text() const;
 
  private:
@@ -35,11 +35,11 @@ class PlotColumns {
   std::vector<std::vector<double>> values_;
 };
 
-/// Seconds as the milliseconds of a time axis.
+/// Converts seconds into the milliseconds of a time axis.
 std::vector<double> in_ms(std::vector<double> seconds);
 
-/// Commands that tint the time in which `contact` holds, behind what is drawn, and mark its edges
-/// in front of pictures. `time` in ms, one entry per step.
+/// Commands that tint the time in contact behind the curves, and mark its edges in front of images.
+/// `time` is in ms, with one entry per step.
 std::string contact_bands(const std::vector<double>& time, const std::vector<bool>& contact);
 
 }  // namespace touchdown::render

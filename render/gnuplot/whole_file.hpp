@@ -5,18 +5,18 @@
 
 namespace touchdown::render {
 
-/// Writes a file that gets another name once all is well, onto the disk; errors call it by that
-/// name, `becomes`. Errors: `Error` when not all of it can be written.
+/// Writes and flushes a file that will be renamed to `final_path` when all files are complete.
+/// Errors: `Error`, naming `final_path`, when the file cannot be written in full.
 void write_whole(const std::filesystem::path& path, std::string_view content,
-                 const std::filesystem::path& becomes);
+                 const std::filesystem::path& final_path);
 
-/// Whether what another program drew ends as a file of its kind does: a PNG with its last chunk, an
-/// SVG with `</svg>`, a PDF with `%%EOF`. On a full disk gnuplot writes what has room, and is
-/// content.
+/// Whether a drawing of another program ends as its file type does: a PNG with its last chunk, an
+/// SVG with `</svg>`, a PDF with `%%EOF`. On a full disk gnuplot writes an incomplete file and
+/// reports no error.
 bool is_whole(const std::filesystem::path& drawing);
 
-/// Has what is whole on the disk. Throws `Error` if it is not whole, or cannot be flushed;
-/// `becomes` as above.
-void require_whole(const std::filesystem::path& drawing, const std::filesystem::path& becomes);
+/// Flushes a complete drawing to the disk. Errors: `Error`, naming `final_path`, when the drawing
+/// is incomplete or cannot be flushed.
+void require_whole(const std::filesystem::path& drawing, const std::filesystem::path& final_path);
 
 }  // namespace touchdown::render

@@ -18,18 +18,18 @@
 namespace touchdown::render {
 namespace {
 
-/// The shares of a density's probability that its lines enclose.
+/// The shares of a density's probability within its contour lines.
 constexpr std::array<double, 3> enclosed_shares = {0.5, 0.9, 0.99};
-/// The probabilities of contact that have a line: undecided, and the filter's decision.
+/// The contact probabilities with a contour line: undecided, and the filter's decision threshold.
 constexpr std::array<double, 2> probability_levels = {0.5, 0.8};
-/// A density is drawn down to this share of its peak.
+/// Densities are clipped below at this share of their peak.
 constexpr double faintest = 1e-4;
-/// And it is shown where this share of both densities lies.
+/// The axes cover the region with this share of both densities.
 constexpr double shown_share = 0.97;
-/// More points than this along an axis are thinned out.
+/// Along an axis with more points than this, only every n-th is drawn.
 constexpr int most_points = 200;
 
-/// Widens a stretch, but not beyond 0 and `count`.
+/// Widens a range by a margin, within 0 and `count`.
 void add_margin(int& begin, int& length, int count) {
   const int margin = std::max(2, length / 8);
   const int end = std::min(count, begin + length + margin);
@@ -37,9 +37,8 @@ void add_margin(int& begin, int& length, int count) {
   length = end - begin;
 }
 
-/// The part of the grids that is drawn (x: columns, along the knee's axis; y: rows, along the
-/// wheel's): where 97 % of both densities lie, with a margin around it. One that vanishes counts as
-/// not there.
+/// The drawn part of the grids (x: columns, along the knee's axis; y: rows, along the wheel's): the
+/// region with 97 % of both densities and a margin. A vanishing density is ignored.
 cv::Rect window_of(const LikelihoodGrids& grids) {
   const DensityPeaks peaks = peaks_of(grids);
   cv::Rect window;
@@ -55,7 +54,7 @@ cv::Rect window_of(const LikelihoodGrids& grids) {
   return window;
 }
 
-/// A grid's window as nested rows, for `iso_lines`.
+/// A window of a grid as nested rows, for `iso_lines`.
 std::vector<std::vector<double>> rows_of(const std::vector<double>& grid, int row_length,
                                          const cv::Rect& window) {
   std::vector<std::vector<double>> rows;
@@ -66,7 +65,7 @@ std::vector<std::vector<double>> rows_of(const std::vector<double>& grid, int ro
   return rows;
 }
 
-/// The lines at these levels, in torques.
+/// The contour lines at these levels, in torques.
 std::string block_of_lines(const std::vector<double>& grid, std::span<const double> levels,
                            const LikelihoodGrids& grids, const cv::Rect& window) {
   const auto rows = rows_of(grid, grids.knee.count, window);
@@ -112,12 +111,12 @@ std::string points(const LikelihoodGrids& grids, const std::vector<double>& prob
   return text + "\n\n";
 }
 
-/// Of the data file; gnuplot calls them `index`.
+/// Blocks of the data file (gnuplot's `index`).
 constexpr std::size_t blocks_per_row = 4;
 
-/// A density figure's data file. Its blocks are, of each row, first the points: knee torque, wheel
-/// torque, both densities as shares of their peaks, P(contact); then the lines of both densities
-/// and of the probability.
+/// A density figure's data file. For each row, its blocks are the points (knee torque, wheel
+/// torque, both densities as shares of their peaks, P(contact)), then the contour lines of both
+/// densities and of the probability.
 std::string density_data(const DensityFigure& figure) {
   std::string text;
   for (const DensityRow& row : figure.rows) {
@@ -136,17 +135,17 @@ constexpr double panel_width = 268.0, panel_height = 216.0, left_margin = 76.0, 
 constexpr double gap_y = 104.0, bar_height = 12.0, top_margin = 46.0;
 
 /// One column of the figure.
-struct Column {
+struct DensityColumn {
   const char* title;
   const char* palette;
   const char* scale;  ///< of its colours
-  int value;          ///< in the data file
+  int value;          ///< column of the data file
   const char* bar_label;
 };
 constexpr const char* density_scale =
     "set logscale cb\nset cbrange [1e-4:1]\n"
     "set cbtics ('10⁻⁴' 1e-4, '10⁻³' 1e-3, '10⁻²' 1e-2, '0.1' 0.1, '1' 1)\n";
-constexpr Column columns[] = {
+constexpr DensityColumn columns[] = {
     {"in contact", "(0 '#ffffff', 1 '#b9d7ea', 2 '#5aa5d1', 3 '#0072b2', 4 '#00304d')",
      density_scale, 3, "density, share of its peak"},
     {"in the air", "(0 '#ffffff', 1 '#f6d3b8', 2 '#ec9656', 3 '#d55e00', 4 '#5c2800')",
@@ -155,7 +154,7 @@ constexpr Column columns[] = {
      "unset logscale cb\nset cbrange [0:1]\nset cbtics (0, 0.2, 0.5, 0.8, 1)\n", 5,
      "probability of contact"}};
 
-/// The panel's points and lines; a density that is not there says so instead.
+/// The panel's points and lines, or a note in place of a vanishing density.
 std::string plot(const DensityRow& row, const std::string& file, std::size_t block, int value) {
   const DensityPeaks peaks = peaks_of(row.grids);
   const bool empty =
@@ -174,7 +173,7 @@ std::string plot(const DensityRow& row, const std::string& file, std::size_t blo
 std::string described(const DensityFigure& figure) {
   std::string text =
       "Densities of knee and wheel torques with a wheel in contact and in the air, and the "
-      "probability of contact that they imply.";
+      "resulting probability of contact.";
   for (const DensityRow& row : figure.rows) {
     const DensityPeaks peaks = peaks_of(row.grids);
     text += fmt::format(" {}: the peaks are {:.3g} and {:.3g} per square newton metre.", row.title,
@@ -228,7 +227,7 @@ Figure draw_density_figure(const DensityFigure& figure, const std::filesystem::p
     const double top = top_margin + static_cast<double>(r) * (panel_height + gap_y);
     const DensityAxes axes = axes_of(figure.rows[r].grids);
     for (std::size_t c = 0; c < std::size(columns); ++c) {
-      const Column& column = columns[c];
+      const DensityColumn& column = columns[c];
       const double left = left_margin + static_cast<double>(c) * (panel_width + gap_x);
       commands += frame.panel(left, top, panel_width, panel_height);
       if (c == 0) {

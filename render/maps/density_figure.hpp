@@ -9,26 +9,26 @@
 
 namespace touchdown::render {
 
-/// A measurement model and whose it is.
+/// A measurement model and the estimators that use it.
 struct DensityRow {
-  std::string title;
+  std::string title;  ///< the estimators
   LikelihoodGrids grids;
 };
 
-/// The paper's Fig. 3: densities of torques in contact and in the air, and the probability of
-/// contact that they imply when both are as likely beforehand; one row per model.
+/// The paper's Fig. 3: densities of torques in contact and in the air, and the contact probability
+/// that follows from a flat prior; one row per model.
 struct DensityFigure {
   std::string title;
   std::vector<DensityRow> rows;
   std::string caption;
 };
 
-/// The density above which `share` of a grid's sum lies: the border of its highest-density region.
-/// NaN for a grid of zeros.
+/// The level of a grid's highest-density region: values above it add up to `share` of the grid's
+/// sum. NaN for a grid of zeros.
 double density_level(const std::vector<double>& grid, double share);
 
-/// Both densities' peaks; zero for one that vanishes beside the other, as when all its torques lie
-/// outside the model's axes.
+/// Both densities' peaks. A density that is negligible beside the other counts as zero, for example
+/// when all its torques lie outside the model's axes.
 struct DensityPeaks {
   double contact = 0.0, no_contact = 0.0;
 };

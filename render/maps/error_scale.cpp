@@ -9,11 +9,11 @@
 
 namespace touchdown::render {
 
-double error_percent(double success) { return std::round(1e8 * (1.0 - success)) / 1e6; }
+double error_percent(double accuracy) { return std::round(1e8 * (1.0 - accuracy)) / 1e6; }
 
 std::string error_text(double percent) {
   if (!std::isfinite(percent)) return "–";
-  // What rounds to 10.00 has enough digits with one of them less.
+  // A value that would round to 10.00 needs one digit less.
   return fmt::format("{:.{}f}", percent, percent < 9.995 ? 2 : 1);
 }
 
@@ -32,7 +32,7 @@ MapColour error_colour(double percent) {
     hex += fmt::format("{:02x}", static_cast<unsigned>(part));
     linear[i] = std::pow((part / 255.0 + 0.055) / 1.055, 2.4);
   }
-  // Where white and black text have the same contrast.
+  // At this luminance, white and black text have the same contrast.
   return {hex, 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2] > 0.179};
 }
 

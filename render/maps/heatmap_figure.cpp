@@ -107,7 +107,7 @@ std::string crosses(const HeatmapPanel& panel) {
   return text.empty() ? nothing : text;
 }
 
-/// Of the data file; gnuplot calls them `index`. Each for every panel.
+/// Kinds of blocks (gnuplot's `index`) of the data file; each kind has one block per panel.
 enum Block : std::size_t { cell_block, line_block, label_block, cross_block };
 
 /// A heatmap's data file. Its blocks, each for every panel: the cells (column, row, value, text,
@@ -134,14 +134,14 @@ CellSize cell_size(const Heatmap& heatmap, bool numbers) {
   return {width, std::max(22.0, 0.82 * width)};
 }
 
-/// As many of an axis's values as have room: every one, every second, ...
-std::string tics(const std::vector<double>& values, double room) {
+/// As many of an axis's values as fit: every one, every second, ... `space` is per value (px).
+std::string tics(const std::vector<double>& values, double space) {
   constexpr double letter = 8.0;
   std::size_t longest = 1;
   for (const double value : values)
     longest = std::max(longest, fmt::format("{:.4g}", value).size());
   const auto every =
-      static_cast<std::size_t>(std::ceil(letter * (static_cast<double>(longest) + 0.5) / room));
+      static_cast<std::size_t>(std::ceil(letter * (static_cast<double>(longest) + 0.5) / space));
   std::string text;
   for (std::size_t i = 0; i < values.size(); i += std::max<std::size_t>(every, 1)) {
     text += fmt::format("{}'{:.4g}' {}", i == 0 ? "" : ", ", values[i], i);
@@ -149,7 +149,8 @@ std::string tics(const std::vector<double>& values, double room) {
   return "(" + text + ")";
 }
 
-/// The cells' numbers. Where there is a cross, its middle, which would add dots to them, gives way.
+/// The cells' numbers. A cross is interrupted behind a number, where its lines would look like
+/// dots.
 std::string numbers_plot(std::size_t block, bool with_intervals, const CellSize& cell) {
   return fmt::format(
       ", \\\n     '' index {0} using ($7 > 0 ? $1 : NaN):2:($1-{1:.4f}):($1+{1:.4f}):"
@@ -159,7 +160,7 @@ std::string numbers_plot(std::size_t block, bool with_intervals, const CellSize&
       (with_intervals ? 15.0 : 8.0) / cell.height);
 }
 
-/// The lines' labels, each written first around its place in white, apart from every colour.
+/// The lines' labels, with a white outline that makes them legible on every colour.
 std::string line_labels_plot(std::size_t block, const CellSize& cell) {
   constexpr double reach = 1.6;  // pixels
   constexpr const char* with = "with labels rotate variable font ',8' textcolor rgb";
@@ -192,7 +193,7 @@ std::string panel_plot(const Heatmap& heatmap, const std::string& name, std::siz
   return text + line_labels_plot(block(label_block), cell) + '\n';
 }
 
-/// gnuplot's palette and ticks of the error rates' colours.
+/// gnuplot's palette and ticks for error rates.
 std::string colour_scale(const Heatmap& heatmap) {
   std::string stops, ticks;
   for (std::size_t i = 0; i < viridis.size(); ++i) {
@@ -206,7 +207,7 @@ std::string colour_scale(const Heatmap& heatmap) {
       lowest_error, highest_error, stops, ticks);
 }
 
-/// Each panel's first and last cell, for people who cannot see it.
+/// The alternative text: each panel's first and last cell.
 std::string described(const Heatmap& heatmap) {
   std::string text = fmt::format("Maps of the error rate by {} (across) and {} (up).",
                                  heatmap.x_label, heatmap.y_label);

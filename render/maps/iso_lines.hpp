@@ -5,15 +5,18 @@
 
 namespace touchdown::render {
 
-/// Where a surface given on a grid crosses `level`: pieces of line (from, to) in grid coordinates
-/// (column, row). Between grid points the surface is linear along the edges (marching squares; a
-/// saddle is resolved by its middle). Cells with a NaN corner are left out.
-using IsoPiece = std::array<std::array<double, 2>, 2>;
-std::vector<IsoPiece> iso_lines(const std::vector<std::vector<double>>& rows, double level);
+/// A line segment (from, to) in grid coordinates (column, row).
+using IsoSegment = std::array<std::array<double, 2>, 2>;
 
-/// Pieces that share an end, put together into lines from end to end, so that dashes run on along
-/// them. A closed line ends where it begins.
+/// The segments along which a surface given on a grid crosses `level` (marching squares). Between
+/// grid points the surface is linear along the edges; a saddle is resolved by its middle. Cells
+/// with a NaN corner are left out.
+std::vector<IsoSegment> iso_lines(const std::vector<std::vector<double>>& rows, double level);
+
+/// The points of a line in grid coordinates; a closed line ends where it begins.
 using IsoLine = std::vector<std::array<double, 2>>;
-std::vector<IsoLine> joined(const std::vector<IsoPiece>& pieces);
+
+/// Joins segments that share an end into lines, so that dashes continue along them.
+std::vector<IsoLine> joined(const std::vector<IsoSegment>& segments);
 
 }  // namespace touchdown::render

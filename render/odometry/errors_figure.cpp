@@ -20,9 +20,9 @@ namespace {
 
 constexpr double row_height = 27.0, names_width = 200.0, panel_width = 330.0, gap_x = 26.0;
 
-/// The values of one member, each once, in the order of the rows.
-std::vector<std::string> each(const std::vector<OdometryError>& errors,
-                              std::string OdometryError::*member) {
+/// The distinct values of one member, in the order of the rows.
+std::vector<std::string> distinct(const std::vector<OdometryError>& errors,
+                                  std::string OdometryError::*member) {
   std::vector<std::string> values;
   for (const OdometryError& error : errors) {
     const std::string& value = error.*member;
@@ -31,9 +31,9 @@ std::vector<std::string> each(const std::vector<OdometryError>& errors,
   return values;
 }
 
-/// Who tells, by the mean over scenes and engines, the best first.
+/// The contact sources by their mean error over scenes and engines, the best first.
 std::vector<std::string> ranked(const std::vector<OdometryError>& errors) {
-  std::vector<std::string> contacts = each(errors, &OdometryError::contact);
+  std::vector<std::string> contacts = distinct(errors, &OdometryError::contact);
   const auto sum = [&](const std::string& contact) {
     double all = 0.0;
     for (const OdometryError& error : errors) {
@@ -80,16 +80,16 @@ std::vector<OdometryError> odometry_errors(const std::filesystem::path& run_dire
 Figure draw_odometry_figure(const std::vector<OdometryError>& errors, double level,
                             const std::filesystem::path& stem) {
   const std::vector<std::string> contacts = ranked(errors);
-  const std::vector<std::string> scenes = each(errors, &OdometryError::scene);
-  const std::vector<std::string> engines = each(errors, &OdometryError::simulator);
+  const std::vector<std::string> scenes = distinct(errors, &OdometryError::scene);
+  const std::vector<std::string> engines = distinct(errors, &OdometryError::simulator);
   const double height = row_height * static_cast<double>(contacts.size());
   const FigureFrame frame(
-      fmt::format("How wrong odometry is, by who tells it about contact: {}, {} sensors",
-                  errors.front().robot, errors.front().sensors),
+      fmt::format("Odometry error by contact source: {}, {} sensors", errors.front().robot,
+                  errors.front().sensors),
       fmt::format(
-          "Root mean square error of the horizontal place along the way, the first pose "
-          "being right, with {:.0f} % bootstrap intervals over runs. The same filter and the "
-          "same sensors everywhere; oracles repeat the truth, at once or late.",
+          "Root mean square error of the horizontal position along the run, starting from the true "
+          "pose, with {:.0f} % bootstrap intervals over runs. All sources use the same filter and "
+          "the same sensors. Oracles repeat the true contact, with or without a delay.",
           100.0 * level),
       names_width + static_cast<double>(scenes.size()) * (panel_width + gap_x), height + 96.0);
   std::vector<std::string> titles;

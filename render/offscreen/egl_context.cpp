@@ -36,9 +36,9 @@ const Egl& egl() {
   return loaded;
 }
 
-/// One for the process, for as long as it runs.
+/// Opens the display, which belongs to the process until it ends.
 EGLDisplay open_display() {
-  // No pixel shall depend on the machine's graphics card.
+  // Pixels must not depend on the machine's graphics card.
   ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
   const EGLDisplay display =
       egl().get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
@@ -87,7 +87,7 @@ void EglContext::release() {
 
 void EglContext::finish() {
   egl().read_pixels(0, 0, width_, height_, GL_BGRA, GL_UNSIGNED_BYTE, pixels_);
-  // OpenGL's first row is the lowest.
+  // OpenGL's first row is at the bottom.
   const std::ptrdiff_t row = std::ptrdiff_t{4} * width_;
   for (std::ptrdiff_t top = 0, bottom = height_ - 1; top < bottom; ++top, --bottom) {
     std::swap_ranges(pixels_ + top * row, pixels_ + (top + 1) * row, pixels_ + bottom * row);

@@ -4,18 +4,18 @@
 
 namespace touchdown::render {
 
-/// Mesa's OpenGL behind EGL, on no surface of any screen ("surfaceless"), by the processor alone
-/// unless LIBGL_ALWAYS_SOFTWARE=0 asks for the graphics card.
+/// Mesa's OpenGL through EGL, without a screen ("surfaceless"). It draws on the CPU unless
+/// LIBGL_ALWAYS_SOFTWARE=0 selects the graphics card.
 class EglContext {
  public:
-  /// Current in this thread; `finish` copies into `pixels` as `GlContext` describes them. Errors:
-  /// `Error` if the library is not there or makes no context.
+  /// Makes the context current in this thread. `finish` copies into `pixels`, in the layout of
+  /// `GlContext`. Errors: `Error` if the library is missing or creates no context.
   EglContext(int width, int height, std::uint8_t* pixels);
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
 
-  /// Waits for all drawing and copies it.
+  /// Waits for all drawing and copies the pixels.
   void finish();
 
  private:

@@ -9,19 +9,20 @@
 
 namespace touchdown::render {
 
-/// An OpenGL context that draws into plain memory, without a display or a GPU, and is current in
-/// the thread that made it for as long as it lives. It is OSMesa's where there is OSMesa, and EGL's
-/// elsewhere; the environment variable TOUCHDOWN_GL, `osmesa` or `egl`, asks for one of them. A
-/// process keeps to the one it began with, for so does MuJoCo.
+/// An OpenGL context that draws into plain memory, without a display or a GPU. It is current in the
+/// thread that created it, for its whole lifetime. It uses OSMesa where this is installed, and EGL
+/// elsewhere; the environment variable TOUCHDOWN_GL, `osmesa` or `egl`, selects one of them. A
+/// process must not change its choice, because MuJoCo does not.
 ///
-/// All contexts of one process share one rasteriser: for more speed use more processes
-/// (`paint_in_order`). Never fork a process that has one. Errors: `Error` when there is none, with
-/// both reasons and the packages; `InputError` for another value of TOUCHDOWN_GL.
+/// All contexts of a process share one rasteriser: for more speed use more processes
+/// (`paint_in_order`). Never fork a process that has a context. Errors: `Error` when neither
+/// library works, with both reasons and the packages; `InputError` for another value of
+/// TOUCHDOWN_GL.
 class GlContext {
  public:
   GlContext(int width, int height);
 
-  /// Waits until all drawing is in `pixels`.
+  /// Waits until `pixels` contains all drawing.
   void finish();
 
   /// BGRA, 8 bits each, rows from the top, no padding.

@@ -9,7 +9,7 @@
 namespace touchdown::render {
 namespace {
 
-// What <GL/osmesa.h> declares, which newer releases of Mesa do not bring any more.
+// Declarations of <GL/osmesa.h>, which newer releases of Mesa no longer contain.
 constexpr GLenum osmesa_bgra = 0x1;
 constexpr GLint osmesa_y_up = 0x11;
 

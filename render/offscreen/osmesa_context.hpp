@@ -4,11 +4,11 @@
 
 namespace touchdown::render {
 
-/// Mesa's OpenGL without a window system: draws straight into memory.
+/// Mesa's OpenGL without a window system, which draws directly into memory.
 class OsmesaContext {
  public:
-  /// Current in this thread; draws into `pixels` as `GlContext` describes them. Errors: `Error` if
-  /// the library is not there or makes no context.
+  /// Makes the context current in this thread; it draws into `pixels`, in the layout of
+  /// `GlContext`. Errors: `Error` if the library is missing or creates no context.
   OsmesaContext(int width, int height, std::uint8_t* pixels);
   ~OsmesaContext();
   OsmesaContext(const OsmesaContext&) = delete;

@@ -4,17 +4,17 @@
 
 namespace touchdown::render {
 
-/// A library that is not on this machine.
+/// The error for a library that is not installed on this machine.
 class MissingLibrary : public Error {
  public:
   using Error::Error;
 };
 
-/// A library of the system that is loaded when it is needed and stays until the process ends. All
-/// see its symbols: MuJoCo draws with the OpenGL of whichever library it finds among them.
+/// A system library, loaded on demand until the process ends. Its symbols are global: MuJoCo draws
+/// with the first OpenGL library that it finds among them.
 class SharedLibrary {
  public:
-  /// Becomes a pointer to the function that it is.
+  /// The address of a function; converts to any function pointer.
   struct Symbol {
     void* address;
     template <typename Function>
@@ -26,7 +26,7 @@ class SharedLibrary {
   /// Errors: `MissingLibrary` with the linker's reason.
   explicit SharedLibrary(const char* name);
 
-  /// Errors: `Error` if the library has nothing of that name.
+  /// Errors: `Error` if the library has no symbol of that name.
   Symbol operator[](const char* name) const;
 
  private:

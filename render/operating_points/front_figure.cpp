@@ -12,6 +12,7 @@
 #include "experiments/results/captions.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
+#include "render/palette.hpp"
 #include "render/report/tables.hpp"
 
 namespace touchdown::render {
@@ -19,13 +20,13 @@ namespace touchdown::render {
 namespace {
 
 constexpr double side = 330.0, between_panels = 84.0, left_of_panels = 76.0, beside_panels = 220.0;
-constexpr double fewest = 0.3;  // extra switches a minute: the axis begins here
+constexpr double fewest = 0.3;  // extra switches per minute: the axis begins here
 
-/// What is drawn of one estimator in one noise setting.
+/// The Pareto front of one estimator in one noise setting.
 struct Front {
   std::string estimator;
-  std::vector<std::array<double, 2>> points;  ///< extra switches a minute, error (%)
-  std::array<double, 2> own = {};
+  std::vector<std::array<double, 2>> points;  ///< extra switches per minute, error (%)
+  std::array<double, 2> own = {};             ///< of its own thresholds, likewise
 };
 
 struct FrontPanel {
@@ -48,10 +49,10 @@ std::vector<FrontPanel> panels_of(const Table& table) {
     const bool is_own = text("leave_below").empty();
     if (is_own) fronts.push_back({estimator, {}, point});
     if (text("on_front") != "1") continue;
-    const auto of_it = std::find_if(fronts.begin(), fronts.end(), [&](const Front& front) {
+    const auto its_front = std::find_if(fronts.begin(), fronts.end(), [&](const Front& front) {
       return front.estimator == estimator;
     });
-    of_it->points.push_back(point);
+    its_front->points.push_back(point);
   }
   for (FrontPanel& panel : panels) {
     for (Front& front : panel.fronts) std::sort(front.points.begin(), front.points.end());
@@ -59,7 +60,8 @@ std::vector<FrontPanel> panels_of(const Table& table) {
   return panels;
 }
 
-/// One block (gnuplot's `index`) per panel and estimator, then likewise their own decisions.
+/// One block (gnuplot's `index`) per panel and estimator with its front, then one each with the
+/// point of its own decision.
 std::string data_of(const std::vector<FrontPanel>& panels) {
   std::string curves = "#extra_switches_per_minute\terror_percent\n";
   std::string own;
@@ -76,8 +78,7 @@ std::string data_of(const std::vector<FrontPanel>& panels) {
   return curves + own;
 }
 
-/// An axis on which all panels can be compared: what of their points is least, and most, with a
-/// margin.
+/// The range of one axis over the points of all panels, with a margin.
 std::string range_of(const std::vector<FrontPanel>& panels, std::size_t coordinate) {
   double least = HUGE_VAL;
   double most = 0.0;
@@ -100,8 +101,7 @@ std::string described(const std::vector<FrontPanel>& panels) {
     fmt::format_to(std::back_inserter(text), " {}:", panel.title);
     for (const Front& front : panel.fronts) {
       fmt::format_to(std::back_inserter(text),
-                     " {} by its own decision {:.2f} % with {:.1f} a "
-                     "minute;",
+                     " {} by its own decision {:.2f} % with {:.1f} per minute;",
                      experiments::estimator_title(front.estimator), front.own[1], front.own[0]);
     }
     text.back() = '.';
@@ -111,25 +111,28 @@ std::string described(const std::vector<FrontPanel>& panels) {
 
 }  // namespace
 
-Figure draw_operating_points_figure(const Table& operating_points, const std::string& conditions,
+Figure draw_operating_points_figure(const Table& operating_points,
+                                    const std::vector<std::string>& estimators,
+                                    const std::string& conditions,
                                     const std::filesystem::path& stem) {
   const std::vector<FrontPanel> panels = panels_of(operating_points);
   std::size_t blocks = 0;
   for (const FrontPanel& panel : panels) blocks += panel.fronts.size();
   const FigureFrame frame(
-      "What a quieter decision costs",
-      fmt::format("1 − balanced accuracy against extra switches of the decision, both means over "
-                  "scenes and engines ({}). A curve is one estimator's P(contact) decided by other "
-                  "thresholds, those that no others do better than; rings are its own decision. "
-                  "Fewer than {} a minute are drawn there.",
-                  conditions, fewest),
+      "Balanced error against extra switches",
+      fmt::format(
+          "1 − balanced accuracy against extra switches of the decision, both averaged over "
+          "scenes and engines ({}). Each curve is the Pareto front of one estimator over "
+          "decision thresholds on its P(contact); a ring marks its own thresholds. Values "
+          "below {} extra switches per minute are drawn at that value.",
+          conditions, fewest),
       left_of_panels + static_cast<double>(panels.size()) * (side + between_panels) -
           between_panels + beside_panels,
       side + 84.0);
   const std::string file = gnuplot_text(stem.filename().string() + ".dat");
   std::string commands = fmt::format(
       "set logscale xy\nset xrange {}\nset yrange {}\nset format x '%g'\nset format y '%g'\n"
-      "set xlabel 'extra switches a minute'\n",
+      "set xlabel 'extra switches per minute'\n",
       range_of(panels, 0), range_of(panels, 1));
   std::size_t block = 0;
   for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -146,11 +149,12 @@ Figure draw_operating_points_figure(const Table& operating_points, const std::st
     commands += "plot ";
     for (std::size_t e = 0; e < panel.fronts.size(); ++e, ++block) {
       const std::string& estimator = panel.fronts[e].estimator;
+      const std::size_t line_type = line_type_of(estimators, estimator);
       commands += fmt::format(
           "{}{} index {} using 1:2 with linespoints lt {} pt 7 ps 0.5 title {}, \\\n     {} index "
           "{} using 1:2 with points lt {} pt 6 ps 1.6 lw 2 notitle",
-          e == 0 ? "" : ", \\\n     ", file, block, e + 1,
-          gnuplot_text(experiments::estimator_title(estimator)), file, blocks + block, e + 1);
+          e == 0 ? "" : ", \\\n     ", file, block, line_type,
+          gnuplot_text(experiments::estimator_title(estimator)), file, blocks + block, line_type);
     }
     commands += '\n' + FigureFrame::end_panel();
   }

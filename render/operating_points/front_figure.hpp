@@ -1,16 +1,21 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "core/table.hpp"
 #include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {
 
-/// Draws what fewer extra switches cost, from `operating_points.csv`: a panel per noise setting, a
-/// curve per estimator through the thresholds that no others do better than, a ring for its own
-/// decision. `conditions` says what all of it has in common. Files and errors as `draw_figure`.
-Figure draw_operating_points_figure(const Table& operating_points, const std::string& conditions,
+/// Draws the trade-off between balanced error and extra switches, from `operating_points.csv`: a
+/// panel per noise setting, the Pareto front of each estimator's thresholds, and a ring for its own
+/// thresholds. `estimators` are all estimators of the experiment; they determine the colours. The
+/// caption contains `conditions`. Files and errors as `draw_figure`.
+Figure draw_operating_points_figure(const Table& operating_points,
+                                    const std::vector<std::string>& estimators,
+                                    const std::string& conditions,
                                     const std::filesystem::path& stem);
 
 }  // namespace touchdown::render

@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "experiments/studies/closed_loop/rollout.hpp"
 #include "experiments/odometry/contact_sources.hpp"
+#include "experiments/studies/closed_loop/rollout.hpp"
 #include "render/film/video.hpp"
+#include "render/palette.hpp"
 #include "render/pictures/filmed_run.hpp"
 #include "render/report/html.hpp"
 #include "simulators/registry.hpp"
@@ -21,9 +22,9 @@ namespace fs = std::filesystem;
 
 std::string loop_film_stem(const std::string& simulator) { return "closed_loop_" + simulator; }
 
-/// The cell of the film's point that is told by `contact`.
+/// The cell of the film's point with this contact source.
 experiments::ClosedLoopCell filmed_cell(const experiments::Experiment& experiment,
-                                  const std::string& simulator, const std::string& contact) {
+                                        const std::string& simulator, const std::string& contact) {
   const experiments::ClosedLoopFilm& film = *experiment.closed_loop->film;
   const std::vector<experiments::ClosedLoopCell> cells = experiments::closed_loop_cells(experiment);
   return *std::find_if(cells.begin(), cells.end(), [&](const experiments::ClosedLoopCell& cell) {
@@ -33,22 +34,30 @@ experiments::ClosedLoopCell filmed_cell(const experiments::Experiment& experimen
   });
 }
 
+/// As in the survival figures.
+unsigned colour_of(const std::string& contact, const std::vector<std::string>& estimators) {
+  if (contact == "truth") return truth_colour;
+  if (contact == "always") return always_contact_colour;
+  return line_colour(line_type_of(estimators, contact));
+}
+
 FilmedRun rollout(const experiments::RunRequest& request, const experiments::ClosedLoopCell& cell,
-                 const experiments::FittedModels& models, scenarios::CompiledScenes& scenes,
-                 const std::atomic<bool>* stop) {
+                  const experiments::FittedModels& models, scenarios::CompiledScenes& scenes,
+                  const std::atomic<bool>* stop) {
   experiments::ClosedLoopRun run =
       experiments::run_closed_loop(request, cell, request.experiment.closed_loop->film->run, models,
-                             scenes, [stop] { return stop == nullptr || !*stop; });
-  BeliefTrack told;
-  told.name = experiments::contact_title(cell.contact);
-  told.p_contact = std::move(run.told.p_contact);
+                                   scenes, [stop] { return stop == nullptr || !*stop; });
+  BeliefTrack track;
+  track.name = experiments::contact_title(cell.contact);
+  track.colour = colour_of(cell.contact, request.experiment.estimators);
+  track.p_contact = std::move(run.trace.p_contact);
   return {scenarios::compile_robot(run.scenario),
           std::move(run.recording),
-          {std::move(told)},
+          {std::move(track)},
           request.experiment.labels};
 }
 
-/// When the first of them fell, or else ended (s): the runs are told apart by then.
+/// The time at which the first run falls or ends (s); the runs differ visibly by then.
 double first_end(const std::list<FilmedRun>& runs) {
   double end = HUGE_VAL;
   for (const FilmedRun& run : runs) {
@@ -68,7 +77,7 @@ void film_closed_loop(const experiments::ExperimentResult& result, const std::at
     std::vector<VideoSource> sources;
     for (const std::string& contact : experiment.closed_loop->film->contact) {
       runs.push_back(rollout(request, filmed_cell(experiment, simulator, contact), result.models,
-                            scenes, stop));
+                             scenes, stop));
       sources.push_back(runs.back().source());
       sources.back().label = experiments::contact_title(contact);
     }
@@ -76,7 +85,7 @@ void film_closed_loop(const experiments::ExperimentResult& result, const std::at
     options.height = options.width * 3 / 4;
     options.labels = experiment.labels;
     options.workers = experiment.workers;
-    options.progress = film_progress(fmt::format("filming who steers in {}", simulator), stop);
+    options.progress = film_progress(fmt::format("filming the closed loop in {}", simulator), stop);
     const std::string stem = loop_film_stem(simulator);
     render_video(sources, options, result.directory.file("videos", stem + ".mp4"));
     render_poster(sources, options, first_end(runs),
@@ -95,11 +104,11 @@ std::string closed_loop_films_html(const ReportSubject& subject) {
     const std::uintmax_t bytes = fs::file_size(folder / name, error);
     if (error || !fs::exists(picture)) continue;
     html += fmt::format(
-        "<figure class=\"still\"><a href=\"videos/{0}\"><img alt=\"{1}, the same run by who tells "
-        "the policy about "
-        "contact\" src=\"{2}\"></a>\n<figcaption>{1}, the same run by who tells the policy about "
-        "contact; below, what each was told. The film, beside this file: <a href=\"videos/{0}\">{0}"
-        "</a> ({3}).</figcaption></figure>\n",
+        "<figure class=\"still\"><a href=\"videos/{0}\"><img alt=\"{1}: the same run with "
+        "each contact source\" src=\"{2}\"></a>\n<figcaption>{1}: the same run with each contact "
+        "source. Below: the contact probabilities that each policy receives. The film is beside "
+        "this "
+        "file: <a href=\"videos/{0}\">{0}</a> ({3}).</figcaption></figure>\n",
         escaped(name), escaped(simulators::simulator_title(simulator)),
         data_uri("image/jpeg", picture), size_text(bytes));
   }

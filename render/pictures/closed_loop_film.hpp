@@ -9,12 +9,12 @@
 namespace touchdown::render {
 
 /// Films the run that `closed_loop.film` names, in every engine, as
-/// `videos/closed_loop_<engine>.mp4`: started alike, told about contact by up to four, side by
-/// side, with what each was told below, and a picture of each beside it. The runs are played again
-/// for it. Errors: as `render_video`; `Stopped`.
+/// `videos/closed_loop_<engine>.mp4` with a still picture beside it. Up to four contact sources
+/// start from the same conditions and are shown side by side, with their contact probabilities
+/// below. The runs are simulated again for the film. Errors: as `render_video`; `Stopped`.
 void film_closed_loop(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
 
-/// A picture for each of those films that are there, which leads to it; nothing without.
+/// A still picture with a link for each of these films in the run directory; empty without films.
 std::string closed_loop_films_html(const ReportSubject& subject);
 
 }  // namespace touchdown::render

@@ -22,7 +22,7 @@ namespace {
 
 /// The chosen run in one engine. Errors: `InputError` when it is not scored.
 const experiments::Rollout& chosen_run(const experiments::ExperimentResult& result,
-                                         const std::string& simulator, int run, const char* key) {
+                                       const std::string& simulator, int run, const char* key) {
   const experiments::Rollout* found = experiments::test_run(result.runs, simulator, run);
   if (found == nullptr || experiments::is_failure(found->report.outcome)) {
     throw InputError(fmt::format("{}.run: run {} in {} is not scored", key, run, simulator));
@@ -40,7 +40,7 @@ std::string which_drop(const experiments::Experiment& experiment,
                      experiments::setup_caption(experiment));
 }
 
-/// "Not shown: NMN, Free fall."; nothing where all of the experiment's estimators are.
+/// "Not shown: NMN, Free fall."; empty where all of the experiment's estimators are shown.
 std::string left_out_text(const experiments::Experiment& experiment,
                           const std::vector<std::string>& shown) {
   std::vector<std::string> titles;
@@ -62,21 +62,22 @@ Figure draw_detail(const experiments::ExperimentResult& result, const std::strin
   const FigureText text{
       fmt::format("One {} in detail: {}, {}", config.choice.at ? "moment" : "drop", experiment.name,
                   simulators::simulator_title(simulator)),
-      fmt::format("{} Left wheel and leg. Spectra, power and median frequency are those of the "
-                  "{:.0f} ms that end at each instant; they, the switch probabilities and "
-                  "what the torques say come from the models of {}. Dashed verticals: the left "
-                  "wheel leaves or lands.{}",
-                  which_drop(experiment, config.choice), 1e3 / detail.bin_width,
-                  detail.transition_of, left_out_text(experiment, config.estimators)),
       fmt::format(
-          "Rows of curves over the time around one drop, {} noise settings beside each "
-          "other: height of the base, knee and wheel torque with and without noise, what these "
-          "torques say about contact, contact probability of {}, spectrograms of the true and of "
-          "the noisy vertical "
-          "acceleration with their power and median frequency, and the probabilities of a "
-          "takeoff and a landing. The time in which the wheel truly touches is tinted.",
+          "{} Left wheel and leg. Spectra, power and median frequency are computed over the "
+          "{:.0f} ms before each instant. They, the switch probabilities and the torque "
+          "evidence come from the models of {}. Dashed verticals: takeoffs and landings of "
+          "the left wheel.{}",
+          which_drop(experiment, config.choice), 1e3 / detail.bin_width, detail.transition_of,
+          left_out_text(experiment, config.estimators)),
+      fmt::format(
+          "Rows of curves over the time around one drop, with a column for each of {} noise "
+          "settings: height of the base, knee and wheel torque with and without noise, evidence of "
+          "these torques for contact, contact probability of {}, spectrograms of the true and of "
+          "the noisy vertical acceleration with their power and median frequency, and the "
+          "probabilities of a takeoff and a landing. The time in true contact is tinted.",
           config.noise.size(), fmt::join(config.estimators, ", "))};
-  return draw_drop_detail(detail, text, result.directory.file("figures", "detail_" + simulator));
+  return draw_drop_detail(detail, experiment.estimators, text,
+                          result.directory.file("figures", "detail_" + simulator));
 }
 
 FigureText posterior_text(const experiments::Experiment& experiment,
@@ -84,26 +85,27 @@ FigureText posterior_text(const experiments::Experiment& experiment,
   return {
       fmt::format("The phase filter through one {}: {}", config.choice.at ? "moment" : "drop",
                   experiment.name),
-      fmt::format("{} Noise: {} N·m on torques, {} m/s² on the accelerometer. True phases look "
-                  "ahead: an unloading is named after the takeoff that follows. "
-                  "Likelihoods are those of one step, tempered as the filter does; black: the true "
-                  "phase. What misleads: where the most probable phase is wrong about a wheel, how "
-                  "much each ingredient prefers it to the true one; memory is what was believed "
-                  "before. Dashed verticals: the last wheel leaves, the first one lands.",
-                  which_drop(experiment, config.choice), config.noise.torque,
-                  config.noise.accelerometer),
-      "Over the time around one drop, for each engine: which wheels truly touch, the true phase, "
-      "the likelihood of every phase, what speaks for a wrong one, the probabilities of all phases "
-      "stacked upon each other, and the contact probability of both wheels."};
+      fmt::format(
+          "{} Noise: {} N·m on torques, {} m/s² on the accelerometer. True phases look "
+          "ahead: an unloading is named after the takeoff that follows. Likelihoods are "
+          "those of one step, tempered as in the filter; black: the true phase. "
+          "Log-likelihood error: where the most probable phase is wrong about a wheel, its "
+          "log-likelihood ratio to the true phase, by source; memory is the previous belief. "
+          "Dashed verticals: the last wheel leaves the ground, the first one lands.",
+          which_drop(experiment, config.choice), config.noise.torque, config.noise.accelerometer),
+      "Over the time around one drop, for each engine: true contact of both wheels, the true "
+      "phase, the likelihood of every phase, the log-likelihood error by source, the stacked "
+      "probabilities "
+      "of all phases, and the contact probability of both wheels."};
 }
 
-/// What an engine's run cannot give is said, not thrown.
+/// Draws a figure. If an engine's run lacks what it shows, prints the reason instead of throwing.
 template <typename Draw>
-void or_say_why_not(const Draw& draw) {
+void draw_if_possible(const Draw& draw) {
   try {
     draw();
   } catch (const InputError& error) {
-    tell(fmt::format("touchdown: not drawn: {}\n", error.what()));
+    print_message(fmt::format("touchdown: not drawn: {}\n", error.what()));
   }
 }
 
@@ -133,17 +135,18 @@ Figure draw_overlay(const experiments::ExperimentResult& result) {
 std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& result) {
   const experiments::Experiment& experiment = result.experiment;
   std::vector<Figure> figures;
-  if (experiment.cross_simulator) or_say_why_not([&] { figures.push_back(draw_overlay(result)); });
+  if (experiment.cross_simulator)
+    draw_if_possible([&] { figures.push_back(draw_overlay(result)); });
   if (experiment.detail) {
     for (const std::string& simulator : experiment.simulators) {
-      or_say_why_not([&] { figures.push_back(draw_detail(result, simulator)); });
+      draw_if_possible([&] { figures.push_back(draw_detail(result, simulator)); });
     }
   }
   if (!experiment.posterior) return figures;
   const experiments::PosteriorConfig& config = *experiment.posterior;
   std::vector<experiments::DropPosterior> drops;
   for (const std::string& simulator : experiment.simulators) {
-    or_say_why_not([&] {
+    draw_if_possible([&] {
       const experiments::Rollout& run =
           chosen_run(result, simulator, config.choice.run, "posterior");
       drops.push_back(experiments::drop_posterior(experiment, config, run.signals, result.models));

@@ -7,9 +7,9 @@
 
 namespace touchdown::render {
 
-/// Draws the drops that the experiment's sections `detail` and `posterior` ask for, for every
-/// engine. An engine whose run has no such drop gets no figure and one line on the error stream
-/// that says why: the experiment is not lost for it.
+/// Draws the drops that the experiment's sections `detail` and `posterior` select, for every
+/// engine. An engine without such a drop gets no figure, and one line on the error stream states
+/// the reason; the experiment continues.
 std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& result);
 
 }  // namespace touchdown::render

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Longer runs are shown from their beginning only: the film lies inside the page (s).
+/// Only this much of a longer run is shown, because the page contains the film (s).
 constexpr double longest_film = 20.0;
-/// A jump goes here before the takeoff, so that one sees it coming (s).
+/// A jump to a drop goes to this time before the takeoff (s).
 constexpr double run_up = 0.4;
-/// And the drop counts as shown until so long after the landing (s).
+/// The button of a drop stays highlighted until this time after the landing (s).
 constexpr double follow_through = 0.4;
 
-/// A run's flights, to be jumped to, in a film until `end` (s).
+/// Buttons that jump to a run's flights, in a film until `end` (s).
 std::string drops_html(const FilmedRun& run, double end) {
   const std::string engine = escaped(simulators::simulator_title(run.recording.info.simulator));
   scoring::LabelConfig visible = run.labels;
@@ -49,7 +49,7 @@ std::string drops_html(const FilmedRun& run, double end) {
                      drops == 1 ? "drop" : "drops", items);
 }
 
-/// A link to the video in full size, where it is.
+/// A link to the video in full size; empty without one.
 std::string full_size_html(const FilmedRun& run, const fs::path& directory) {
   const recordings::RecordingInfo& info = run.recording.info;
   const std::string name = experiments::video_name(info.simulator, info.scenario);
@@ -59,7 +59,7 @@ std::string full_size_html(const FilmedRun& run, const fs::path& directory) {
   return fmt::format(" <a href=\"videos/{0}\">{0}</a> ({1})", escaped(name), size_text(bytes));
 }
 
-/// A small video that the report carries inside, and links to the files in full size beside it.
+/// A small video inside the report, and links to the files in full size beside it.
 std::string film_html(const std::vector<FilmedRun>& runs, const fs::path& directory,
                       const std::atomic<bool>* stop) {
   const fs::path video = directory / "videos" / "report.mp4";
@@ -88,17 +88,17 @@ std::string film_html(const std::vector<FilmedRun>& runs, const fs::path& direct
   render_video(sources, options, video);
   render_poster(sources, options, NAN, poster);
   const std::string description = escaped(fmt::format(
-      "The {} run in {}{}{}. Below: what the estimators believe, over the true contact (green: "
-      "dark where both wheels touch, light where one does), and torques; thick lines are the left "
-      "wheel.",
+      "The {} run in {}{}{}. Below: the estimators' contact probabilities over the true contact "
+      "(green: dark where both wheels are in contact, light where one is), and torques. Thick "
+      "lines are the left wheel.",
       runs.front().recording.info.scenario, fmt::join(engines, " and "),
-      runs.size() > 1 ? ", beside each other" : "",
+      runs.size() > 1 ? ", side by side" : "",
       end > longest_film ? fmt::format(", its first {:.0f} seconds", longest_film) : ""));
   return fmt::format(
       "<div class=\"film\">\n<figure><video controls muted playsinline preload=\"auto\" "
       "aria-label=\"{0}\" poster=\"{1}\" src=\"{2}\"></video>\n"
       "<figcaption>{0}{3}{4}{5}</figcaption></figure>\n"
-      "<div class=\"drops\">\n<p class=\"note\">Choose a drop to see it:</p>\n{6}</div>\n</div>\n",
+      "<div class=\"drops\">\n<p class=\"note\">Choose a drop to play it:</p>\n{6}</div>\n</div>\n",
       description, data_uri("image/jpeg", poster), data_uri("video/mp4", video),
       full_size.empty() ? "" : " In full size, beside this file:", fmt::join(full_size, ","),
       full_size.empty() ? "" : ".", drops);

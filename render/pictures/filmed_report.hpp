@@ -9,8 +9,9 @@
 
 namespace touchdown::render {
 
-/// Writes `report.html` into a run directory, with a small film of the runs, two of them beside
-/// each other, if there are any; of a benchmark `benchmark.html` too. Returns the report.
+/// Writes `report.html` into a run directory, and `benchmark.html` for a benchmark. If there are
+/// filmed runs, the report contains a small film with up to two of them side by side. Returns the
+/// report's path.
 std::filesystem::path make_report(const ReportSubject& subject,
                                   const std::vector<FilmedRun>& filmed,
                                   const std::atomic<bool>* stop);

@@ -15,6 +15,7 @@
 #include "experiments/plan/sensors.hpp"
 #include "experiments/tuning/table.hpp"
 #include "recordings/log/recording_file.hpp"
+#include "render/palette.hpp"
 #include "scenarios/compiled_scenes.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -32,13 +33,12 @@ experiments::FittedModel model_of(const fs::path& directory, const std::string& 
       *kind, directory / "models" / experiments::model_name(simulator, estimator));
 }
 
-/// The robot, as it was drawn, on the terrain of the scenario that a recording says it was made in.
+/// The robot as drawn for the run, on the terrain of the scenario that the recording contains.
 models::RobotModel robot_of(const recordings::Recording& recording) {
   const recordings::RecordingInfo& info = recording.info;
   if (info.scenario_yaml.empty()) {
     throw InputError(
-        "the recording does not say on which terrain it was made: a robot's own log "
-        "cannot be drawn");
+        "the recording does not contain its terrain: a robot's own log cannot be drawn");
   }
   scenarios::Scenario scenario = scenarios::scenario_from_yaml(
       YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)"));
@@ -46,10 +46,10 @@ models::RobotModel robot_of(const recordings::Recording& recording) {
   return scenarios::compile_robot(scenario);
 }
 
-/// What an estimator says along a noisy recording. `noise` was drawn for the run.
-BeliefTrack believe(const experiments::Condition& condition,
-                    const experiments::FittedModels& models, const experiments::RunSignals& run,
-                    const experiments::NoiseRun& noise, const noise::SensorNoise& levels) {
+/// An estimator's beliefs along a noisy recording. `noise` was drawn for the run.
+BeliefTrack beliefs_of(const experiments::Condition& condition,
+                       const experiments::FittedModels& models, const experiments::RunSignals& run,
+                       const experiments::NoiseRun& noise, const noise::SensorNoise& levels) {
   const auto estimator = experiments::make_estimator(condition, models, run);
   BeliefTrack track;
   track.name = experiments::estimator_entry(condition.estimator).title;
@@ -78,23 +78,25 @@ FilmedRun filmed(recordings::Recording recording, const experiments::Experiment&
   recordings::Recording reported = recording;
   experiments::report_through_sensors(profile, experiment, run, recording.period(),
                                       reported.observation);
-  const experiments::RunSignals heard = experiments::signals_of(
+  const experiments::RunSignals signals = experiments::signals_of(
       reported, experiment.labels, experiment.scoring, experiment.intervals.over);
-  const experiments::NoiseRun drawn = experiments::noise_run(heard, key);
+  const experiments::NoiseRun drawn = experiments::noise_run(signals, key);
   const std::string& simulator = recording.info.simulator;
   std::vector<BeliefTrack> beliefs;
   for (const std::string& estimator : filmed_estimators.estimators) {
-    beliefs.push_back(believe({simulator, simulator, estimator}, filmed_estimators.models, heard, drawn,
-                              filmed_estimators.noise));
+    beliefs.push_back(beliefs_of({simulator, simulator, estimator}, filmed_estimators.models,
+                                 signals, drawn, filmed_estimators.noise));
+    beliefs.back().colour = line_colour(line_type_of(experiment.estimators, estimator));
   }
   models::RobotModel robot = robot_of(recording);
-  // What the sensors report; the ground truth stays, and so does the pose.
+  // Torques become those that the sensors report; ground truth and pose stay.
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
       const double torque = reported.observation[k].servo[servo].torque;
       if (std::isfinite(torque)) recording.observation[k].servo[servo].torque = torque;
     }
-    recording.observation[k] = noise::with_noise(recording.observation[k], key, k, filmed_estimators.noise);
+    recording.observation[k] =
+        noise::with_noise(recording.observation[k], key, k, filmed_estimators.noise);
   }
   return {std::move(robot), std::move(recording), std::move(beliefs), experiment.labels};
 }
@@ -133,9 +135,9 @@ FilmedRun filmed_recording(const fs::path& log, std::vector<std::string>& warnin
 
 std::function<void(int done, int of)> film_progress(const std::string& what,
                                                     const std::atomic<bool>* stop) {
-  // A function object must be copyable, a bar is not.
+  // A function object must be copyable, and a bar is not.
   return [what, stop, bar = std::make_shared<std::optional<Progress>>()](int, int frames) {
-    // Only the film knows how many frames it has.
+    // The number of frames is known only now.
     if (!*bar) bar->emplace(what, "frames", frames);
     (*bar)->advance();
     if (*stop) throw Stopped();

@@ -16,7 +16,7 @@
 
 namespace touchdown::render {
 
-/// A run with everything that filming it needs.
+/// A run with all data for a film of it.
 struct FilmedRun {
   models::RobotModel robot;
   recordings::Recording recording;
@@ -26,30 +26,29 @@ struct FilmedRun {
   VideoSource source() const { return {robot, recording, beliefs}; }
 };
 
-/// Who listens to a filmed run, through which noise.
+/// The estimators that process a filmed run, and the noise of its sensors.
 struct FilmedEstimators {
   std::vector<std::string> estimators;
   const experiments::FittedModels& models;
   noise::SensorNoise noise;
 };
 
-/// A run of an experiment as its sensors report it, with the noise of its first realisation, and
-/// what estimators that were fitted in its engine make of it.
+/// A run of an experiment as its sensors report it, with the first noise realisation, and the
+/// beliefs of estimators that were fitted in its engine.
 FilmedRun filmed(recordings::Recording recording, const experiments::Experiment& experiment,
                  const noise::SensorProfile& profile, const FilmedEstimators& filmed_estimators);
 
-/// The run that an experiment films, for each of its engines: the recording with the noise that the
-/// experiment asks for, and what the estimators made of it. An engine without that recording is
-/// left out. Errors: `InputError` for a recording that is broken, or when the directory lacks a
-/// model.
+/// The run that an experiment films, for each of its engines: the recording with the experiment's
+/// noise, and the estimators' beliefs. An engine without that recording is left out. Errors:
+/// `InputError` for a broken recording, or when the directory lacks a model.
 std::vector<FilmedRun> filmed_runs(const ReportSubject& subject);
 
-/// A recording alone. Errors: `InputError` when it does not say on which terrain it was made.
-/// What was wrong with the log but not fatal is added to `warnings`.
+/// A recording without beliefs. Non-fatal errors of the log are added to `warnings`. Errors:
+/// `InputError` when the recording does not contain its terrain.
 FilmedRun filmed_recording(const std::filesystem::path& log, std::vector<std::string>& warnings);
 
-/// What a video calls after every frame: moves a bar that lives as long as this, and stops the
-/// filming once the user asked for it (`Stopped`).
+/// A callback for after every frame. It advances a progress bar, which lives as long as the
+/// callback, and throws `Stopped` once the user has asked to stop.
 std::function<void(int done, int of)> film_progress(const std::string& what,
                                                     const std::atomic<bool>* stop);
 

@@ -16,15 +16,16 @@ namespace touchdown::render {
 
 namespace {
 
-/// Where a summary's cell lies on a map.
-using Place = std::function<std::array<double, 2>(const noise::NoiseCell&)>;
+/// The coordinates of a noise cell on a map.
+using CellCoordinates = std::function<std::array<double, 2>(const noise::NoiseCell&)>;
 
-std::size_t place_in(const std::vector<double>& levels, double level) {
+std::size_t index_in(const std::vector<double>& levels, double level) {
   return static_cast<std::size_t>(std::find(levels.begin(), levels.end(), level) - levels.begin());
 }
 
 HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::string& simulator,
-                      const std::string& estimator, const Heatmap& heatmap, const Place& place) {
+                      const std::string& estimator, const Heatmap& heatmap,
+                      const CellCoordinates& coordinates) {
   HeatmapPanel panel;
   panel.title = experiments::estimator_entry(estimator).title;
   for (auto* rows : {&panel.value, &panel.low, &panel.high}) {
@@ -32,10 +33,10 @@ HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::st
   }
   panel.marked.assign(heatmap.y.size(), std::vector<bool>(heatmap.x.size(), false));
   for (const experiments::CellSummary& summary : result.summaries) {
-    const experiments::Condition& who = summary.condition;
-    if (who.test_simulator != simulator || who.estimator != estimator) continue;
-    const auto [x, y] = place(summary.cell);
-    const std::size_t column = place_in(heatmap.x, x), row = place_in(heatmap.y, y);
+    const experiments::Condition& condition = summary.condition;
+    if (condition.test_simulator != simulator || condition.estimator != estimator) continue;
+    const auto [x, y] = coordinates(summary.cell);
+    const std::size_t column = index_in(heatmap.x, x), row = index_in(heatmap.y, y);
     if (column == heatmap.x.size() || row == heatmap.y.size()) continue;
     panel.value[row][column] = error_percent(summary.success.estimate);
     panel.low[row][column] = error_percent(summary.success.high);
@@ -45,7 +46,7 @@ HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::st
   return panel;
 }
 
-/// The widest interval of all panels, for maps whose cells are too many to say their own.
+/// The width of the widest interval of all panels, for maps with too many cells to show them.
 double widest_interval(const Heatmap& heatmap) {
   double widest = 0.0;
   for (const HeatmapPanel& panel : heatmap.panels) {
@@ -67,18 +68,16 @@ double always_contact(const experiments::ExperimentResult& result, const std::st
 
 /// The map of these axes with its panels, caption and lines.
 Heatmap filled(Heatmap heatmap, const experiments::ExperimentResult& result,
-               const std::string& simulator, const Place& place) {
+               const std::string& simulator, const CellCoordinates& coordinates) {
   const experiments::Experiment& experiment = result.experiment;
   for (const std::string& estimator : experiment.estimators) {
     if (estimator == experiments::always_contact_name) continue;
-    heatmap.panels.push_back(panel_of(result, simulator, estimator, heatmap, place));
+    heatmap.panels.push_back(panel_of(result, simulator, estimator, heatmap, coordinates));
   }
   heatmap.caption = fmt::format(
-      "Share of steps that are judged wrongly; {}. Always contact errs in {} %: crossed cells do "
-      "not "
-      "beat it. Lines run between cells below and above {} %. Colours end at {} and {} % and are "
-      "the "
-      "same in every map.",
+      "Error rate: the share of steps with a wrong decision; {}. Always contact has an error rate "
+      "of {} %; crossed cells do not beat it. Lines run between cells below and above {} %. The "
+      "colour scale ends at {} and {} % and is the same in every map.",
       experiments::scored_text(result, simulator),
       error_text(error_percent(always_contact(result, simulator))), fmt::join(heatmap.levels, ", "),
       lowest_error, highest_error);
@@ -97,10 +96,10 @@ Heatmap filled(Heatmap heatmap, const experiments::ExperimentResult& result,
 std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result) {
   const experiments::Experiment& experiment = result.experiment;
   const noise::KneeWheelGridConfig& apart = experiment.noise.knee_wheel;
-  const Place by_torque = [](const noise::NoiseCell& cell) {
+  const CellCoordinates by_torque = [](const noise::NoiseCell& cell) {
     return std::array{cell.accelerometer, cell.torque};
   };
-  const Place by_joint = [&](const noise::NoiseCell& cell) {
+  const CellCoordinates by_joint = [&](const noise::NoiseCell& cell) {
     return cell.accelerometer == apart.accelerometer ? std::array{cell.wheel, cell.knee}
                                                      : std::array<double, 2>{NAN, NAN};
   };

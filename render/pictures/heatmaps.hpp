@@ -7,8 +7,8 @@
 
 namespace touchdown::render {
 
-/// Draws into the run directory, for every engine: error rates over the noise grid, one panel per
-/// estimator, and the same over knee and wheel torque noise if there is such a grid.
+/// Draws maps of the error rate into the run directory, for every engine: over the noise grid with
+/// one panel per estimator, and over knee and wheel torque noise if there is such a grid.
 std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result);
 
 }  // namespace touchdown::render

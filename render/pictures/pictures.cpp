@@ -62,11 +62,12 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     if (result.experiment.operating_points) {
       draw_operating_points_figure(
           from_csv(read_file(result.directory.file("tables", "operating_points.csv"))),
-          experiments::labels_text(result.experiment),
+          result.experiment.estimators, experiments::labels_text(result.experiment),
           result.directory.file("figures", "operating_points"));
     }
     if (result.experiment.closed_loop) {
-      draw_survival_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
+      draw_survival_figures(result.directory.path(), result.experiment.estimators,
+                            result.experiment.intervals.bootstrap.level);
     }
     progress.advance();
   }

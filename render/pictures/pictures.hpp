@@ -10,8 +10,8 @@
 
 namespace touchdown::render {
 
-/// Draws what an experiment's result asks for into its run directory, with a video of each filmed
-/// run, and adds the time it took to the provenance.
+/// Draws all figures and films of an experiment's result into its run directory, and adds the
+/// elapsed time to the provenance.
 void draw_pictures(experiments::ExperimentResult& result, const std::vector<FilmedRun>& filmed,
                    const std::atomic<bool>* stop);
 

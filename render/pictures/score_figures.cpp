@@ -11,6 +11,7 @@
 #include "render/curves/evidence_figure.hpp"
 #include "render/curves/score_figure.hpp"
 #include "render/maps/density_figure.hpp"
+#include "render/palette.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -22,8 +23,8 @@ std::string title_of(const noise::NoiseCell& cell) {
   return fmt::format("noise: {} N·m, {} m/s²", cell.torque, cell.accelerometer);
 }
 
-/// What scores the highlighted cells in this engine: all but the answer that never changes and the
-/// one that knows.
+/// The scores at the highlighted noise settings in this engine, without the constant answer and the
+/// oracle.
 std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result,
                                      const std::string& simulator) {
   std::vector<ScorePanel> panels;
@@ -36,6 +37,7 @@ std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result
                          score.condition.estimator != "oracle";
       if (!shown) continue;
       panel.rows.push_back({experiments::estimator_entry(score.condition.estimator).title,
+                            line_type_of(result.experiment.estimators, score.condition.estimator),
                             score.total.calibration, score.contact_frequency, score.total.takeoff,
                             score.total.landing});
     }
@@ -44,7 +46,7 @@ std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result
   return panels;
 }
 
-/// How many runs an engine's models were fitted to, pieces left aside.
+/// The number of whole runs that an engine's models were fitted to.
 std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator) {
   std::size_t runs = 0;
   for (const experiments::Rollout& run : result.runs) {
@@ -77,14 +79,14 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
                              simulators::simulator_title(simulator));
   figure.caption = fmt::format(
       "Kernel densities fitted to {} without noise, both legs, seed {}; {}{}. Lines enclose 50, 90 "
-      "and 99 % of a density; on the right they are P = 0.5 and the decision, 0.8. Axes end where "
-      "97 % of both densities lie.",
+      "and 99 % of a density; on the right they mark P = 0.5 and the decision threshold, 0.8. Axes "
+      "cover 97 % of both densities.",
       experiments::plural(fitted_runs(result, simulator), "run"), experiment.seed,
       experiments::labels_text(experiment), experiments::setup_caption(experiment));
   return figure;
 }
 
-/// Of every estimator that has curves, with its name.
+/// The figures of all estimators that have evidence curves, with the estimators' names.
 std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
     const experiments::ExperimentResult& result, const std::string& simulator) {
   std::vector<std::pair<std::string, EvidenceFigure>> figures;
@@ -101,20 +103,22 @@ std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
     figures.emplace_back(
         estimator,
         EvidenceFigure{
-            fmt::format("How loudly each quantity speaks for a wheel's contact: {}, {}, {}",
+            fmt::format("Evidence of each input for a wheel's contact: {}, {}, {}",
                         experiments::estimator_entry(estimator).title, experiment.name,
                         simulators::simulator_title(simulator)),
             std::move(*model),
             fmt::format(
-                "Fitted to {}{}, seed {}; {}{}. Above 0 speaks for contact, below against "
-                "it; what all curves say is added{}. Each is 0 on average over what was learned "
-                "from, and drawn where all but two in a thousand of its rows lie. Axes are "
-                "compressed as the estimator hears them, those of noise levels by logarithms.",
+                "Fitted to {}{}, seed {}; {}{}. The curves form an additive model (GAM) of the log "
+                "odds of contact: values above 0 are evidence for contact, values below 0 against "
+                "it. The estimator adds the values of all curves{}. Each curve averages 0 over the "
+                "training data and covers all but two in a thousand of its rows. Axes are "
+                "compressed as the estimator's inputs are; those of noise levels are logarithmic.",
                 experiments::plural(fitted_runs(result, simulator), "run"),
-                experiment.training_segments.empty() ? "" : " and pieces of others", experiment.seed,
-                experiments::labels_text(experiment), experiments::setup_caption(experiment),
-                has_pairs     ? ", and what pairs of them say besides"
-                : has_network ? ", and averaged with what the network says"
+                experiment.training_segments.empty() ? "" : " and segments of others",
+                experiment.seed, experiments::labels_text(experiment),
+                experiments::setup_caption(experiment),
+                has_pairs     ? " and terms for pairs of inputs"
+                : has_network ? " and averages the sum with the network's output"
                               : "")});
   }
   return figures;
@@ -141,17 +145,18 @@ std::vector<Figure> draw_score_figures(const experiments::ExperimentResult& resu
     if (panels.empty()) continue;
     const std::string scored = experiments::scored_text(result, simulator);
     figures.push_back(draw_reliability_figure(
-        {"Do probabilities mean what they say? " + where, panels,
-         fmt::format("{}. Every step of both wheels counts. Bars: {}. On the diagonal a stated "
-                     "probability is the share of contact; below, how often each was stated.",
+        {"Calibration of contact probabilities: " + where, panels,
+         fmt::format("{}. Every step of both wheels counts. Bars: {}. On the diagonal, the stated "
+                     "probability equals the share of steps in contact. Below: steps per bin.",
                      scored, experiments::intervals_text(experiment))},
         stem("reliability")));
     figures.push_back(draw_latency_figure(
-        {"How late takeoffs and landings are told: " + where, panels,
-         fmt::format("{}. Events of both wheels, flights of at least {:.0f} ms; early is negative. "
-                     "Bins of 5 ms, every histogram to its own height; the line is the mean, ± the "
-                     "standard deviation of found events.",
-                     scored, 1e3 * experiment.scoring.minimum_flight)},
+        {"Latency of takeoffs and landings: " + where, panels,
+         fmt::format(
+             "{}. Events of both wheels, flights of at least {:.0f} ms; early detections "
+             "have negative latency. Bins of 5 ms; every histogram has its own scale. The "
+             "line is the mean; ± is the standard deviation over the events that were found.",
+             scored, 1e3 * experiment.scoring.minimum_flight)},
         stem("latency")));
   }
   return figures;

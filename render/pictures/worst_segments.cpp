@@ -16,7 +16,7 @@ namespace touchdown::render {
 
 namespace {
 
-constexpr double shown = 2.0;  ///< s
+constexpr double shown = 2.0;  ///< length of a film (s)
 
 using Runs = std::vector<const experiments::Rollout*>;
 
@@ -32,10 +32,10 @@ Runs runs_of(const experiments::ExperimentResult& result, const Standing& standi
   return runs;
 }
 
-/// How many wheels an estimator tells wrong at every scored step.
-std::vector<int> wrong_steps(const experiments::ExperimentResult& result,
-                             const std::string& estimator, const experiments::Rollout& run,
-                             const noise::SensorNoise& levels) {
+/// The number of wheels about which an estimator decides wrongly, at every scored step.
+std::vector<int> wrong_decisions(const experiments::ExperimentResult& result,
+                                 const std::string& estimator, const experiments::Rollout& run,
+                                 const noise::SensorNoise& levels) {
   const std::string& simulator = run.plan.simulator;
   const auto runner =
       experiments::make_estimator({simulator, simulator, estimator}, result.models, run.signals);
@@ -53,27 +53,27 @@ std::vector<int> wrong_steps(const experiments::ExperimentResult& result,
   return wrong;
 }
 
-void film_worst_moment(const experiments::ExperimentResult& result, const Standing& standing,
-                       const noise::SensorProfile& profile, const std::atomic<bool>* stop) {
+void film_worst_segment(const experiments::ExperimentResult& result, const Standing& standing,
+                        const noise::SensorProfile& profile, const std::atomic<bool>* stop) {
   const experiments::Experiment& experiment = result.experiment;
   const noise::SensorNoise levels = experiment.highlights.front().levels();
   const Runs runs = runs_of(result, standing);
   if (runs.empty()) return;
   std::vector<std::vector<int>> wrong;
   for (const experiments::Rollout* run : runs) {
-    wrong.push_back(wrong_steps(result, standing.estimator, *run, levels));
+    wrong.push_back(wrong_decisions(result, standing.estimator, *run, levels));
   }
   const double period = 1e-6 * static_cast<double>(runs.front()->signals.info.control_period_us);
   const auto length = static_cast<std::size_t>(shown / period);
-  const WorstSegment moment = worst_segment(wrong, length);
-  const experiments::PlannedRun& plan = runs[moment.run]->plan;
+  const WorstSegment segment = worst_segment(wrong, length);
+  const experiments::PlannedRun& plan = runs[segment.run]->plan;
   const FilmedRun run = filmed(scenarios::play(plan.scenario, plan.simulator, plan.seed, plan.run),
                                experiment, profile, {{standing.estimator}, result.models, levels});
   VideoOptions options;
   options.width = 640;
   options.height = 360;
   options.crf = 28;
-  options.from = period * static_cast<double>(moment.begin);
+  options.from = period * static_cast<double>(segment.begin);
   options.to = options.from + shown;
   options.speed = 0.5;
   options.workers = experiment.workers;
@@ -100,7 +100,7 @@ WorstSegment worst_segment(const std::vector<std::vector<int>>& wrong, std::size
 }
 
 void film_worst_segments(const experiments::ExperimentResult& result,
-                        const std::atomic<bool>* stop) {
+                         const std::atomic<bool>* stop) {
   const experiments::Experiment& experiment = result.experiment;
   const noise::SensorProfile profile = experiments::profile_of(
       experiments::read_sensors(experiment, result.directory.path()), experiment.sensors);
@@ -111,7 +111,7 @@ void film_worst_segments(const experiments::ExperimentResult& result,
     if (standing.setting != first.setting || standing.noise != first.noise) continue;
     const auto& names = experiment.estimators;
     const bool is_ours = std::find(names.begin(), names.end(), standing.estimator) != names.end();
-    if (is_ours) film_worst_moment(result, standing, profile, stop);
+    if (is_ours) film_worst_segment(result, standing, profile, stop);
   }
 }
 

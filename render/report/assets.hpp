@@ -2,8 +2,8 @@
 
 namespace touchdown::render {
 
-/// A file of `render/report/` as it was when the program was built. The page is a format text whose
-/// {names} stand for what is on it.
+/// A file of `render/report/` at the time of the build. The page is a format string with {names}
+/// for its parts.
 struct ReportAsset {
   const char* content;
   const char* sha256;  ///< of the content, hexadecimal

@@ -32,8 +32,8 @@ std::string longest_title(const std::string& script) {
 /// Pictures beyond this would make the page slow to open (bytes).
 constexpr std::uintmax_t largest_picture = 2'000'000;
 
-/// What the figure's script says about it. Where it says nothing: the figure's name, and the
-/// longest of the titles that it draws (`set title '…'`, `set label … '…'`).
+/// The texts in the figure's script. Missing ones are replaced by the figure's name and the longest
+/// title that the script draws (`set title '…'`, `set label … '…'`).
 FigureText text_of(const fs::path& figure) {
   std::string name = figure.stem().string();
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -41,16 +41,16 @@ FigureText text_of(const fs::path& figure) {
   std::error_code ignored;
   if (!fs::is_regular_file(script, ignored)) return {name, {}, name};
   const std::string commands = read_file(script);
-  FigureText said = figure_text(commands);
-  if (said.title.empty()) said.title = name;
-  if (said.caption.empty()) said.caption = longest_title(commands);
-  if (said.alt.empty()) {
-    said.alt = said.caption.empty() ? said.title : said.title + ": " + said.caption;
+  FigureText text = figure_text(commands);
+  if (text.title.empty()) text.title = name;
+  if (text.caption.empty()) text.caption = longest_title(commands);
+  if (text.alt.empty()) {
+    text.alt = text.caption.empty() ? text.title : text.title + ": " + text.caption;
   }
-  return said;
+  return text;
 }
 
-/// Whether a drawing is so wide that it needs the whole width of the page.
+/// Whether a drawing needs the whole width of the page.
 bool is_wide(const fs::path& svg) {
   if (svg.extension() != ".svg") return false;
   const std::string text = read_file(svg);
@@ -61,7 +61,7 @@ bool is_wide(const fs::path& svg) {
   return width > 1.4 * height || width >= 1200.0;
 }
 
-/// Data files that bear the figure's name and more: `<figure>_….dat`.
+/// Further data files of a figure: `<figure>_….dat`.
 std::vector<fs::path> more_data_of(const fs::path& figure) {
   const std::string beginning = figure.stem().string() + "_";
   std::vector<fs::path> names;
@@ -75,9 +75,8 @@ std::vector<fs::path> more_data_of(const fs::path& figure) {
   return names;
 }
 
-/// Files as their names have them, but what differs in its engine only as the experiment names
-/// them.
-std::pair<std::string, std::ptrdiff_t> place_of(const fs::path& file,
+/// The sort key of a file: its name without the engine, then the engine's index in the experiment.
+std::pair<std::string, std::ptrdiff_t> sort_key(const fs::path& file,
                                                 const std::vector<std::string>& simulators) {
   std::string name = file.stem().string();
   for (auto engine = simulators.begin(); engine != simulators.end(); ++engine) {
@@ -91,7 +90,7 @@ std::pair<std::string, std::ptrdiff_t> place_of(const fs::path& file,
 
 void sort_by_engine(std::vector<fs::path>& files, const std::vector<std::string>& simulators) {
   std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
-    const auto first = place_of(a, simulators), second = place_of(b, simulators);
+    const auto first = sort_key(a, simulators), second = sort_key(b, simulators);
     return first != second ? first < second : a < b;
   });
 }

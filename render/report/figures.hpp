@@ -5,7 +5,7 @@
 
 namespace touchdown::render {
 
-/// The figures of the run directory, with what their scripts say about them.
+/// The figures of the run directory, with the texts of their scripts.
 ReportSection figures_section(const ReportSubject& subject);
 
 }  // namespace touchdown::render

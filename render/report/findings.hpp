@@ -7,11 +7,11 @@
 
 namespace touchdown::render {
 
-/// A sentence about each of the experiment's estimators: what it does, what it listens to.
+/// A summary of each of the experiment's estimators, and its input signals.
 ReportSection estimators_section(const ReportSubject& subject);
 
-/// A paragraph per engine: who errs least at the highlighted noise settings, and how much the
-/// others do. Nothing without scores.
+/// A paragraph per engine: the estimator with the lowest error rate at each highlighted noise
+/// setting, and the error rates of the next two. Empty without scores.
 std::string findings_html(const ReportSubject& subject);
 
 }  // namespace touchdown::render

@@ -7,17 +7,17 @@
 
 namespace touchdown::render {
 
-/// A part of the page with its place in the list of contents; empty where there is nothing to say.
+/// A section of the page and of its list of contents. A section without `html` is left out.
 struct ReportSection {
   std::string id;
   std::string title;
   std::string html = {};
 };
 
-/// `text` with nothing left in it that HTML takes for markup, inside and outside of attributes.
+/// `text` with its markup characters escaped, for use inside and outside of attributes.
 std::string escaped(std::string_view text);
 
-/// One of the `facts` at the head of a page.
+/// One of the `facts` in the header of a page.
 std::string fact_html(std::string_view name, std::string_view value);
 
 /// "a", "a and b", "a, b and c".
@@ -25,11 +25,11 @@ std::string in_words(const std::vector<std::string>& things);
 
 std::string base64(std::string_view bytes);
 
-/// The file's content as an address that needs no file. Errors: `InputError` when it cannot be
-/// read.
+/// The file's content as a `data:` URI. Errors: `InputError` when the file cannot be read.
 std::string data_uri(std::string_view media_type, const std::filesystem::path& path);
 
-/// A hexadecimal digest as a Content-Security-Policy names the script or style that has it.
+/// The source expression of a Content-Security-Policy for a script or style with this hexadecimal
+/// SHA-256 digest.
 std::string policy_source(std::string_view sha256);
 
 /// "3.9 MB", "250 kB".

@@ -25,7 +25,7 @@ struct NoiseAxis {
   std::string label, unit, name;
 };
 
-/// Two of them, combined.
+/// The grid of two noise levels.
 struct NoiseGrid {
   NoiseAxis x, y;
 };
@@ -48,11 +48,12 @@ bool is_among(const std::vector<double>& levels, double level) {
   return std::find(levels.begin(), levels.end(), level) != levels.end();
 }
 
-std::string says(const experiments::CellSummary& row, const NoiseGrid& grid) {
+/// The text that a cell shows when the user chooses it.
+std::string readout(const experiments::CellSummary& row, const NoiseGrid& grid) {
   const auto level = [&](const NoiseAxis& axis) {
     return fmt::format("{} {:.4g} {}", axis.name, row.cell.*axis.level, axis.unit);
   };
-  std::string text = fmt::format("{}, {}: {}, {}: success rate {}",
+  std::string text = fmt::format("{}, {}: {}, {}: accuracy {}",
                                  simulators::simulator_title(row.condition.test_simulator),
                                  experiments::estimator_title(row.condition.estimator),
                                  level(grid.y), level(grid.x), with_interval(row.success));
@@ -62,7 +63,8 @@ std::string says(const experiments::CellSummary& row, const NoiseGrid& grid) {
   return text + fmt::format("; error rate {} %", error_text(error_percent(row.success.estimate)));
 }
 
-/// One estimator's error rates in one engine as inline SVG whose cells say their numbers.
+/// A map of one estimator's error rates in one engine, as inline SVG. Cells show their numbers when
+/// the user chooses them.
 class ErrorMap {
  public:
   /// Keeps a reference to the grid.
@@ -78,8 +80,8 @@ class ErrorMap {
     const int columns = static_cast<int>(x_.size()), rows = static_cast<int>(y_.size());
     std::string svg = fmt::format(
         "<div class=\"pan\"><svg class=\"map\" viewBox=\"0 0 {} {}\" data-columns=\"{}\" "
-        "tabindex=\"0\" role=\"group\" "
-        "aria-label=\"{}. Rows: {}; columns: {}. The arrow keys choose a cell.\">\n",
+        "tabindex=\"0\" role=\"group\" aria-label=\"{}. Rows: {}; columns: {}. The arrow keys "
+        "choose a cell.\">\n",
         left + columns * cell_width + 2, top + rows * cell_height + bottom, columns, escaped(title),
         escaped(grid_.y.label), escaped(grid_.x.label));
     std::string numbers;
@@ -128,9 +130,9 @@ class ErrorMap {
 
   std::string cell_svg(const experiments::CellSummary* cell, int x, int y) const {
     const std::string text =
-        escaped(cell != nullptr ? says(*cell, grid_) : "not part of this study");
+        escaped(cell != nullptr ? readout(*cell, grid_) : "not part of this study");
     std::string svg = fmt::format(
-        "<g class=\"cell\" data-say=\"{0}\"><title>{0}</title><rect x=\"{1}\" y=\"{2}\" "
+        "<g class=\"cell\" data-readout=\"{0}\"><title>{0}</title><rect x=\"{1}\" y=\"{2}\" "
         "width=\"{3}\" height=\"{4}\" fill=\"{5}\"/>",
         text, x, y, cell_width, cell_height, colour_of(cell).hex);
     if (cell != nullptr && cell->loses()) {
@@ -140,7 +142,7 @@ class ErrorMap {
     return svg + "</g>\n";
   }
 
-  /// A cell's number, with a seam of the cell's colour that lines disappear behind.
+  /// A cell's number, with an outline of the cell's colour that hides lines behind it.
   std::string number_svg(const experiments::CellSummary* cell, int x, int y) const {
     const double value = value_of(cell);
     const MapColour colour = colour_of(cell);
@@ -149,7 +151,7 @@ class ErrorMap {
                        y + cell_height / 2 + 4, colour.hex, error_text(value));
   }
 
-  /// Lines between cells of lower and of higher errors, and what they stand for.
+  /// Lines between cells below and above each level, with their labels.
   std::string borders_svg() const {
     std::vector<std::vector<double>> values(cells_.size());
     for (std::size_t r = 0; r < cells_.size(); ++r) {
@@ -187,16 +189,15 @@ class ErrorMap {
   std::vector<std::vector<const experiments::CellSummary*>> cells_;  ///< by row, then column
 };
 
-/// What the colours stand for.
+/// The colour scale.
 std::string scale_svg() {
   constexpr int width = 420, steps = 60, left = 24;
   const auto x = [](double percent) {
     return left + width * std::log(percent / lowest_error) / std::log(highest_error / lowest_error);
   };
   std::string svg =
-      "<svg class=\"scale\" viewBox=\"0 0 476 36\" role=\"img\" aria-label=\"The colours: bright "
-      "is "
-      "a low error rate, dark a high one.\">\n";
+      "<svg class=\"scale\" viewBox=\"0 0 476 36\" role=\"img\" aria-label=\"Colour scale: "
+      "bright is a low error rate, dark a high one.\">\n";
   for (int i = 0; i < steps; ++i) {
     const double percent = lowest_error * std::pow(highest_error / lowest_error, (i + 0.5) / steps);
     svg += fmt::format(
@@ -212,7 +213,8 @@ std::string scale_svg() {
   return svg + tick(highest_error, "≥ ") + "\n</svg>\n";
 }
 
-/// One grid: a choice of estimators, a map per engine and estimator, a line that reads out a cell.
+/// One grid: a choice of estimators, a line for the numbers of a cell, a map per engine and
+/// estimator.
 std::string grid_html(const Rows& rows, const NoiseGrid& grid,
                       const std::vector<std::string>& simulators, const std::string& name) {
   const bool fine = levels(rows, grid.x).size() > 8;
@@ -243,11 +245,12 @@ std::string grid_html(const Rows& rows, const NoiseGrid& grid,
   return fmt::format(
       "<div class=\"heatmaps\">\n{}</fieldset>\n<p class=\"readout\" aria-live=\"polite\">Point at "
       "a cell, tap it, or use the arrow keys: its numbers appear here.</p>\n{}{}</div>\n<p "
-      "class=\"note\">Numbers are error rates in percent, the share of steps that are judged "
-      "wrongly: lower is better. Colours are logarithmic, end at {} and {} %, and mean the same in "
+      "class=\"note\">Numbers are error rates in percent, the share of steps with a wrong "
+      "decision: "
+      "lower is better. The colour scale is logarithmic, ends at {} and {} %, and is the same in "
       "every map of every report. Lines run between cells below and above {} %. A struck-out cell "
-      "does no better than always saying “contact”. The success rates are in the table “Success” "
-      "below.</p>\n</div>\n",
+      "does not beat always contact. The table “Accuracy” below lists the accuracies.</p>\n"
+      "</div>\n",
       choice, scale_svg(), maps, lowest_error, highest_error, fmt::join(error_levels, ", "));
 }
 
@@ -257,7 +260,7 @@ ReportSection heatmap_section(const ReportSubject& subject) {
   ReportSection section{"noise", "Under sensor noise", {}};
   const noise::NoiseGridConfig& noise = subject.experiment.noise;
   const std::vector<std::string>& simulators = subject.experiment.simulators;
-  // The other grid's diagonal may have levels that this one does not have.
+  // The other grid's diagonal may have levels that this grid lacks.
   const Rows alike = rows_that(
       [&](const experiments::CellSummary& row) { return is_among(noise.torque, row.cell.torque); },
       subject.summary.cells);
@@ -278,9 +281,9 @@ ReportSection heatmap_section(const ReportSubject& subject) {
   if (std::any_of(apart.begin(), apart.end(), [](const experiments::CellSummary& row) {
         return row.cell.knee != row.cell.wheel;
       })) {
-    section.html +=
-        fmt::format("<h3>Knees and wheels apart</h3>\n<p>Accelerometer noise {:.4g} m/s².</p>\n",
-                    joints.accelerometer);
+    section.html += fmt::format(
+        "<h3>Separate noise on knees and wheels</h3>\n<p>Accelerometer noise {:.4g} m/s².</p>\n",
+        joints.accelerometer);
     section.html +=
         grid_html(apart,
                   {{&noise::NoiseCell::wheel, "wheel torque noise (N·m)", "N·m", "wheel noise"},

@@ -5,7 +5,7 @@
 
 namespace touchdown::render {
 
-/// Maps of the error rate over the study's noise grids; nothing for a single setting.
+/// Maps of the error rate over the study's noise grids; empty for a single noise setting.
 ReportSection heatmap_section(const ReportSubject& subject);
 
 }  // namespace touchdown::render

@@ -11,7 +11,7 @@ namespace touchdown::render {
 
 namespace {
 
-/// ", built from commit a1b2c3d4e5f6", of the program that computed the numbers.
+/// ", built from commit a1b2c3d4e5f6": the commit of the program that computed the numbers.
 std::string built_from(const nlohmann::ordered_json& manifest) {
   const auto versions = manifest.find("versions");
   if (versions == manifest.end() || !versions->is_object()) return {};

@@ -9,8 +9,8 @@
 
 namespace touchdown::render {
 
-/// Writes a page that needs no network: what its header says, a list of contents, and the sections
-/// that say something.
+/// Writes a page that needs no network: the header, a list of contents, and all sections that are
+/// not empty.
 void write_page(const ReportSubject& subject, const std::filesystem::path& path,
                 const std::string& header_html, std::vector<ReportSection> sections);
 

@@ -32,18 +32,19 @@ void add_rows(const nlohmann::ordered_json& manifest, const char* key, const std
   }
 }
 
-/// The command, versions, seeds and configuration that lead to the same numbers again.
+/// The command, versions, seeds and configuration that reproduce the numbers.
 ReportSection reproduce_section(const ReportSubject& subject) {
   const auto& manifest = subject.manifest;
   std::string html =
-      "<p>One command computes everything on this page again, from the configuration that lies "
-      "beside it; the same program gives the same numbers, to the last digit:</p>\n"
+      "<p>One command computes everything on this page again, from the configuration beside it. "
+      "The "
+      "same program gives the same numbers, to the last digit:</p>\n"
       "<pre><code>touchdown run config.yaml</code></pre>\n";
   if (manifest.contains("command") && manifest["command"].is_string()) {
-    html += fmt::format("<p>This is what was typed:</p>\n<pre><code>{}</code></pre>\n",
+    html += fmt::format("<p>The command of this run:</p>\n<pre><code>{}</code></pre>\n",
                         escaped(manifest["command"].get<std::string>()));
   }
-  Table table{{"what", "value"}, {}};
+  Table table{{"quantity", "value"}, {}};
   for (const char* key : {"id", "finished_at"}) {
     if (manifest.contains(key)) table.rows.push_back({key, text_of(manifest[key])});
   }
@@ -54,7 +55,7 @@ ReportSection reproduce_section(const ReportSubject& subject) {
   for (auto& row : table.rows) {
     std::replace(row[0].begin(), row[0].end(), '_', ' ');
   }
-  html += table_html({"Versions, seeds and how long it took", "versions and seeds", table}, 1);
+  html += table_html({"Versions, seeds and computing times", "versions and seeds", table}, 1);
   if (manifest.contains("failed_runs") && manifest["failed_runs"].is_array() &&
       !manifest["failed_runs"].empty()) {
     Table failed{{"recording", "outcome"}, {}};
@@ -67,16 +68,16 @@ ReportSection reproduce_section(const ReportSubject& subject) {
       "<details><summary>The configuration, every default written out</summary>\n"
       "<pre tabindex=\"0\"><code>{}</code></pre></details>\n",
       escaped(subject.config_text));
-  return {"reproduce", "Reproduce it", html};
+  return {"reproduce", "Reproduction", html};
 }
 
-/// Where the benchmark's own page is.
+/// A link to the benchmark's own page.
 ReportSection benchmark_section(const ReportSubject& subject) {
   ReportSection section{"scenes", "Scene by scene", {}};
   if (subject.experiment.benchmark) {
     section.html =
-        "<p><a href=\"benchmark.html\">Which estimator, where?</a> Every scene by itself, on every "
-        "robot with its sensors, has a page of its own.</p>\n";
+        "<p><a href=\"benchmark.html\">Which estimator works where?</a> The benchmark's page shows "
+        "every scene, for every robot with its sensors.</p>\n";
   }
   return section;
 }
@@ -86,7 +87,7 @@ ReportSection benchmark_section(const ReportSubject& subject) {
 fs::path write_report(const ReportSubject& subject, const std::string& film_html) {
   fs::path path = subject.directory / "report.html";
   write_page(subject, path, header_html(subject),
-             {{"film", "Watch it", film_html},
+             {{"film", "Film", film_html},
               estimators_section(subject),
               results_section(subject),
               benchmark_section(subject),

@@ -7,11 +7,10 @@
 
 namespace touchdown::render {
 
-/// Write `report.html` into an experiment's run directory: one file that opens without a network,
-/// with everything inside that the directory's `manifest.json`, `config.yaml`, `tables/` and
-/// `figures/` tell, and `film_html`. What the directory lacks is left out. Returns the file.
-/// Errors: `InputError` when one of these files is broken; `Error` when the report cannot be
-/// written.
+/// Writes `report.html` into an experiment's run directory: one file that opens without a network.
+/// It contains the contents of the directory's `manifest.json`, `config.yaml`, `tables/` and
+/// `figures/`, and `film_html`. Missing parts are left out. Returns the file. Errors: `InputError`
+/// when one of these files is broken; `Error` when the report cannot be written.
 std::filesystem::path write_report(const ReportSubject& subject, const std::string& film_html);
 
 }  // namespace touchdown::render

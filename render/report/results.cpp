@@ -53,15 +53,17 @@ std::string header_html(const ReportSubject& subject) {
   }
   std::string html = fmt::format(
       "<p class=\"kicker\">Contact estimation on a wheeled biped</p>\n<h1>{}</h1>\n"
-      "<p class=\"lead\">Does the robot touch the ground? {} answer from joint torques and an "
-      "accelerometer, in {}, through sensor noise.</p>\n<dl class=\"facts\">\n",
+      "<p class=\"lead\">Is each wheel in contact with the ground? {} {} it from joint torques and "
+      "an "
+      "accelerometer, in {}, under sensor noise.</p>\n<dl class=\"facts\">\n",
       escaped(experiment.name), experiments::plural(experiment.estimators.size(), "estimator"),
+      experiment.estimators.size() == 1 ? "estimates" : "estimate",
       escaped(in_words(engines_of(experiment))));
   html += fact_html("physics engines", std::to_string(experiment.simulators.size()));
   html += fact_html("test runs scored", std::to_string(test_runs));
-  html += fact_html("flights in them", std::to_string(flights));
+  html += fact_html("flights in these runs", std::to_string(flights));
   html += fact_html("noise settings", std::to_string(settings.size()));
-  html += fact_html("noise seeds each", std::to_string(experiment.noise.seeds));
+  html += fact_html("noise seeds per run", std::to_string(experiment.noise.seeds));
   html += "</dl>\n";
   html += fmt::format("<p class=\"note\">{}", escaped(experiments::conditions_text(experiment)));
   if (unusable > 0) {
@@ -72,7 +74,7 @@ std::string header_html(const ReportSubject& subject) {
 }
 
 ReportSection results_section(const ReportSubject& subject) {
-  ReportSection section{"results", "What came out", {}};
+  ReportSection section{"results", "Results", {}};
   const std::vector<experiments::CellSummary>& scores = subject.summary.cells;
   if (scores.empty()) return section;
   section.html = findings_html(subject);
@@ -82,11 +84,11 @@ ReportSection results_section(const ReportSubject& subject) {
   for (const noise::NoiseCell& cell : cells) {
     experiments::CaptionedTable table{
         fmt::format(
-            "Share of steps that are judged rightly, with torque noise of {} N·m and "
-            "accelerometer noise of {} m/s², and takeoffs per minute and wheel that "
-            "were announced and were none. “Always contact” is what a constant answer earns{}.",
+            "Accuracy, the share of steps with a correct decision, and false takeoffs per minute "
+            "and wheel, with torque noise of {} N·m and accelerometer noise of {} m/s². “Always "
+            "contact” is the constant answer{}.",
             cell.torque, cell.accelerometer, experiments::setup_caption(experiment)),
-        fmt::format("success rates at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
+        fmt::format("accuracies at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
         {{"estimator"}, {}}};
     for (const std::string& engine : engines_of(experiment)) {
       table.table.header.insert(table.table.header.end(), {engine, "false takeoffs/min"});
@@ -114,7 +116,7 @@ ReportSection results_section(const ReportSubject& subject) {
 }
 
 ReportSection paper_section(const ReportSubject& subject) {
-  ReportSection section{"paper", "Beside the paper", {}};
+  ReportSection section{"paper", "Comparison with the paper", {}};
   for (const noise::NoiseCell& cell : subject.experiment.highlights) {
     const std::vector<experiments::ScoreSummary> scores = rows_at(subject.summary.scores, cell);
     if (scores.empty()) continue;
@@ -131,7 +133,7 @@ ReportSection paper_section(const ReportSubject& subject) {
     if (!compared.empty()) {
       experiments::CaptionedTable table = experiments::difference_text_table(compared);
       table.caption =
-          "Paired differences: both estimators heard the same runs through the same noise. " + how;
+          "Paired differences: both estimators processed the same runs with the same noise. " + how;
       tables += with_engine_titles(table);
     }
     section.html +=
@@ -139,13 +141,12 @@ ReportSection paper_section(const ReportSubject& subject) {
                     section.html.empty() ? " open" : "", cell.torque, cell.accelerometer, tables);
   }
   if (!section.html.empty()) {
-    section.html =
-        fmt::format(
-            "<p>The last column repeats what the paper measured on the real robot: another "
-            "machine, ten other drops, labels by hand, no intervals. It is a reference, not "
-            "a mark to pass. {}</p>\n",
-            escaped(experiments::conditions_text(subject.experiment))) +
-        section.html;
+    section.html = fmt::format(
+                       "<p>The last column repeats the paper's measurements on the real robot: "
+                       "another machine, ten other drops, labels by hand, no intervals. It is a "
+                       "reference, not a target. {}</p>\n",
+                       escaped(experiments::conditions_text(subject.experiment))) +
+                   section.html;
   }
   return section;
 }

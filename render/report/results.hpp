@@ -7,10 +7,10 @@
 
 namespace touchdown::render {
 
-/// Title, one sentence, and the numbers that say how much was done.
+/// The title, one sentence, and the numbers of engines, runs, flights and noise settings.
 std::string header_html(const ReportSubject& subject);
 
-/// What came out at the highlighted noise settings, in words and as success rates.
+/// The results at the highlighted noise settings, in words and as tables of accuracies.
 ReportSection results_section(const ReportSubject& subject);
 
 /// The paper's tables at the highlighted noise settings, with the paper's numbers beside ours.

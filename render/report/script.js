@@ -3,13 +3,13 @@
 (() => {
   const all = (selector, root = document) => [...root.querySelectorAll(selector)];
 
-  // Heatmaps: pointing, tapping or the arrow keys choose a cell, whose numbers are read out.
+  // Heatmaps: pointing, tapping or the arrow keys choose a cell, and the readout shows its numbers.
   for (const section of all(".heatmaps")) {
     const readout = section.querySelector(".readout");
     const choose = (cell) => {
       for (const other of all(".cell.chosen", section)) other.classList.remove("chosen");
       cell.classList.add("chosen");
-      readout.textContent = cell.dataset.say;
+      readout.textContent = cell.dataset.readout;
     };
     for (const map of all("svg.map", section)) {
       const cells = all(".cell", map);
@@ -38,7 +38,7 @@
     }
   }
 
-  // Tables of shares: a heading sorts the rows by its column, the best first, then the worst.
+  // Accuracy tables: a heading sorts the rows by its column, the best first, then the worst.
   for (const table of all("table.shares")) {
     const body = table.tBodies[0];
     for (const button of all("button.sort", table)) {
@@ -54,7 +54,7 @@
     }
   }
 
-  // Drops: a button takes its video to shortly before the takeoff.
+  // Drops: a button plays the video from shortly before the takeoff.
   for (const film of all(".film")) {
     const video = film.querySelector("video");
     const drops = all(".drop", film);

@@ -10,7 +10,7 @@
 
 namespace touchdown::render {
 
-/// What a report is about: a run directory's experiment and what it found out.
+/// The subject of a report: a run directory's experiment and its results.
 struct ReportSubject {
   std::filesystem::path directory;
   nlohmann::ordered_json manifest;
@@ -19,10 +19,11 @@ struct ReportSubject {
   experiments::Summary summary;
 };
 
-/// Errors: `InputError` when it is no run directory or one of its files is broken.
+/// Reads a run directory. Errors: `InputError` when it is not a run directory or one of its files
+/// is broken.
 ReportSubject read_subject(const std::filesystem::path& run_directory);
 
-/// The names of those that the scores tell of, in their order.
+/// The names of the estimators in the scores, in their order.
 std::vector<std::string> scored_estimators(const std::vector<experiments::CellSummary>& scores);
 
 }  // namespace touchdown::render

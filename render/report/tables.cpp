@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_rows = 400;
 
-/// The number in ink, its interval quieter.
+/// The cell with its interval marked up, which the page shows in a lighter colour.
 std::string cell_html(const std::string& cell) {
   const std::size_t interval = cell.find(" [");
   if (interval == std::string::npos) return escaped(cell);
@@ -42,6 +44,15 @@ std::string readable_cell(const std::string& name, const std::string& cell) {
   return cell;
 }
 
+/// The files' name for accuracy is `success`.
+std::string with_accuracy(std::string name) {
+  constexpr std::string_view success = "success";
+  if (name.ends_with(success)) {
+    name.replace(name.size() - success.size(), success.size(), "accuracy");
+  }
+  return name;
+}
+
 std::string readable_name(std::string name) {
   static const std::vector<std::pair<std::string, std::string>> units = {
       {"_nm", " (N·m)"}, {"_mps2", " (m/s²)"}, {"_ms", " (ms)"}, {"_s", " (s)"}};
@@ -53,16 +64,16 @@ std::string readable_name(std::string name) {
     break;
   }
   std::replace(name.begin(), name.end(), '_', ' ');
-  return name + unit;
+  return with_accuracy(std::move(name)) + unit;
 }
 
-/// Where the end of an interval stands: "latency_ms", "_low" → "latency_low_ms".
+/// The column of an interval's end: "latency_ms", "_low" → "latency_low_ms".
 std::string interval_column(const std::string& name, const std::string& end) {
   if (name.ends_with("_ms")) return name.substr(0, name.size() - 3) + end + "_ms";
   return name + end;
 }
 
-/// Columns `x`, `x_low`, `x_high` as one; names as people write them.
+/// The table with columns `x`, `x_low`, `x_high` merged, and with readable names.
 Table readable(const Table& table) {
   const std::vector<std::string>& names = table.header;
   const auto column = [&](const std::string& name) {
@@ -91,7 +102,7 @@ Table readable(const Table& table) {
 }
 
 std::string title_of(const fs::path& file) {
-  std::string title = file.stem().string();
+  std::string title = with_accuracy(file.stem().string());
   std::replace(title.begin(), title.end(), '_', ' ');
   if (!title.empty() && title[0] >= 'a' && title[0] <= 'z')
     title[0] = static_cast<char>(title[0] - 32);

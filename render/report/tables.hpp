@@ -9,13 +9,14 @@
 
 namespace touchdown::render {
 
-/// The number that a cell of a CSV table begins with; NaN where there is none.
+/// The number at the beginning of a CSV table's cell; NaN without one.
 double number(const std::string& cell);
 
-/// The table with a caption; the first `text_columns` name the row.
+/// The table as HTML, with its caption. The first `text_columns` name the row.
 std::string table_html(const experiments::CaptionedTable& table, std::size_t text_columns);
 
-/// Every CSV table of the run directory, as people write it: columns `x`, `x_low`, `x_high` as one.
+/// Every CSV table of the run directory in readable form: columns `x`, `x_low`, `x_high` are
+/// merged.
 ReportSection more_tables_section(const ReportSubject& subject);
 
 }  // namespace touchdown::render

@@ -19,11 +19,11 @@ cv::Point fixed(double x, double y) {
           static_cast<int>(std::lround(y * (1 << subpixel_bits)))};
 }
 
-/// A piece of the run as a picture at twice the size.
-struct Piece {
+/// A part of the run and its image at twice the size.
+struct TimeSpan {
   cv::Mat& image;
   double begin, end;         ///< s
-  double pixels_per_second;  ///< of the picture
+  double pixels_per_second;  ///< of the image
 
   double x(const StripRow& row, std::size_t k) const {
     return (static_cast<double>(k) * row.period - begin) * pixels_per_second;
@@ -33,49 +33,49 @@ struct Piece {
   }
 };
 
-/// Green where wheels truly touch the ground.
-void draw_contact(const Piece& piece, const StripRow& row, const PlotArea& area) {
+/// Tints the time of true contact green.
+void draw_contact(const TimeSpan& span, const StripRow& row, const PlotArea& area) {
   const auto& contact = row.wheels_in_contact;
-  for (std::size_t k = Piece::row_at(row, piece.begin, contact.size());
-       k < Piece::row_at(row, piece.end, contact.size());) {
+  for (std::size_t k = TimeSpan::row_at(row, span.begin, contact.size());
+       k < TimeSpan::row_at(row, span.end, contact.size());) {
     std::size_t end = k + 1;
     while (end < contact.size() && contact[end] == contact[k]) ++end;
     if (contact[k] > 0) {
-      cv::rectangle(piece.image, fixed(piece.x(row, k), area.top),
-                    fixed(piece.x(row, end), area.bottom - 1),
+      cv::rectangle(span.image, fixed(span.x(row, k), area.top),
+                    fixed(span.x(row, end), area.bottom - 1),
                     contact[k] > 1 ? two_wheels : one_wheel, cv::FILLED, cv::LINE_8, subpixel_bits);
     }
     k = end;
   }
 }
 
-void draw_grid(const Piece& piece, const StripRow& row, const PlotArea& area) {
+void draw_grid(const TimeSpan& span, const StripRow& row, const PlotArea& area) {
   for (const double share : {0.0, 0.5, 1.0}) {
     const float value = row.low + static_cast<float>(share) * (row.high - row.low);
     const auto at = static_cast<int>(std::lround(plot_y(row, area, value)));
-    cv::line(piece.image, {0, at}, {piece.image.cols, at}, grid, oversampling);
+    cv::line(span.image, {0, at}, {span.image.cols, at}, grid, oversampling);
   }
 }
 
-void draw_curve(const Piece& piece, const StripRow& row, const PlotArea& area,
+void draw_curve(const TimeSpan& span, const StripRow& row, const PlotArea& area,
                 const StripCurve& curve) {
-  constexpr double margin = 0.1;  // s: a line's end must not show at the picture's edge
+  constexpr double margin = 0.1;  // s: the end of a line must not be visible at the image's edge
   const std::size_t size = curve.values.size();
-  const std::size_t last = Piece::row_at(row, piece.end + margin, size);
+  const std::size_t last = TimeSpan::row_at(row, span.end + margin, size);
   const int thickness = oversampling * (curve.emphasis ? 2 : 1);
   std::vector<cv::Point> line;
   const auto flush = [&] {
     if (line.size() > 1) {
-      cv::polylines(piece.image, line, false, curve.colour, thickness, cv::LINE_AA, subpixel_bits);
+      cv::polylines(span.image, line, false, curve.colour, thickness, cv::LINE_AA, subpixel_bits);
     }
     line.clear();
   };
-  for (std::size_t k = Piece::row_at(row, piece.begin - margin, size); k < last; ++k) {
+  for (std::size_t k = TimeSpan::row_at(row, span.begin - margin, size); k < last; ++k) {
     if (!std::isfinite(curve.values[k])) {
       flush();
       continue;
     }
-    line.push_back(fixed(piece.x(row, k), plot_y(row, area, curve.values[k])));
+    line.push_back(fixed(span.x(row, k), plot_y(row, area, curve.values[k])));
   }
   flush();
 }
@@ -126,13 +126,13 @@ const cv::Mat& StripPlots::tile(int number, int half_pixels) {
 
 cv::Mat StripPlots::drawn_tile(int number) const {
   cv::Mat image(height_ * oversampling, (width_ + 1) * oversampling, CV_8UC3, strip_paper);
-  const Piece piece{image, number * seconds_, (number + 1) * seconds_ + 0.1,
-                    width_ * oversampling / seconds_};
+  const TimeSpan span{image, number * seconds_, (number + 1) * seconds_ + 0.1,
+                      width_ * oversampling / seconds_};
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const PlotArea area{areas_[i].top * oversampling, areas_[i].bottom * oversampling};
-    draw_contact(piece, rows_[i], area);
-    draw_grid(piece, rows_[i], area);
-    for (const StripCurve& curve : rows_[i].curves) draw_curve(piece, rows_[i], area, curve);
+    draw_contact(span, rows_[i], area);
+    draw_grid(span, rows_[i], area);
+    for (const StripCurve& curve : rows_[i].curves) draw_curve(span, rows_[i], area, curve);
   }
   return image;
 }

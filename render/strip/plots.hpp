@@ -20,33 +20,34 @@ struct StripCurve {
   bool emphasis = true;       ///< false: thin and without a dot
 };
 
-/// One plot: curves over bands that say what was true.
+/// One plot: curves over bands of true contact.
 struct StripRow {
   std::string title;
   float low = 0.0f, high = 1.0f;
   std::vector<StripCurve> curves;
-  /// Per row of the recording, how many wheels were truly in contact; may be empty.
+  /// The number of wheels in true contact, per row of the recording; may be empty.
   std::vector<std::uint8_t> wheels_in_contact;
   double period = 1e-3;  ///< between rows (s)
 };
 
-/// Fractional bits of the coordinates that OpenCV is given.
+/// Fractional bits of the coordinates in calls of OpenCV.
 inline constexpr int subpixel_bits = 4;
 
 /// Colours of the strip.
 inline const Colour strip_paper = rgb(0xf7f8fa);
 inline const Colour strip_ink = rgb(0x22262b);
 
-/// Where a row's plot is (pixels from the strip's top).
+/// The vertical extent of a row's plot (pixels from the strip's top).
 struct PlotArea {
   int top, bottom;
 };
 
-/// The height at which `area` shows a value; values beyond the row's range run along its edge.
+/// The vertical position of a value in `area` (px). Values beyond the row's range are drawn along
+/// its edge.
 float plot_y(const StripRow& row, const PlotArea& area, float value);
 
-/// The plots of a whole run as one very wide picture, drawn piece by piece when they are needed: at
-/// twice the size and averaged, once for each half of a pixel that a window may begin at.
+/// The plots of a whole run as one very wide image. Tiles of it are drawn on demand, at twice the
+/// size and averaged. There are two sets of tiles, because a window may begin at half a pixel.
 class StripPlots {
  public:
   /// Keeps a reference to `rows`. A window is `width` pixels wide and shows `seconds`.

@@ -10,8 +10,8 @@ namespace touchdown::render {
 namespace {
 
 constexpr double window_seconds = 4.0;
-constexpr double present = 0.75;  ///< where in the window now is
-constexpr int wide = 1000;        ///< from this width on there is room for names beside the plots
+constexpr double present = 0.75;  ///< position of the present in the window
+constexpr int wide = 1000;        ///< from this width on, names fit beside the plots
 
 }  // namespace
 
@@ -79,8 +79,9 @@ void SignalStrip::draw_names_beside(std::size_t i) {
   pen_.write(background_, rows_[i].title, left, top, letters_, strip_ink);
   top += line;
   int x = left;
+  // The first curve of the legend is drawn last.
   for (auto curve = rows_[i].curves.rbegin(); curve != rows_[i].curves.rend(); ++curve) {
-    if (!curve->emphasis) continue;  // the first one is drawn last
+    if (!curve->emphasis) continue;
     if (x > left && x + legend_width(*curve) > left_ - letters_ * 2) {
       x = left;
       top += line;

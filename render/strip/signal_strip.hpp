@@ -9,14 +9,14 @@
 
 namespace touchdown::render {
 
-/// Plots that run along below the view: a window of 4 s with the present at three quarters, the
-/// future faded. Titles and legends stand left of the plots, or above them in a narrow strip.
+/// Moving plots below the view: a window of 4 s with the present at three quarters and the future
+/// faded. Titles and legends are left of the plots, or above them in a narrow strip.
 class SignalStrip {
  public:
-  /// Of `width`·`height` pixels.
+  /// A strip of `width`·`height` pixels.
   SignalStrip(std::vector<StripRow> rows, int width, int height);
 
-  /// Draws into `image`, whose size must be width·height (8UC3), as of `time` (s).
+  /// Draws the strip at `time` (s) into `image`, which must have width·height pixels (8UC3).
   void draw(cv::Mat image, double time);
 
  private:

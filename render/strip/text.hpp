@@ -7,13 +7,13 @@
 
 namespace touchdown::render {
 
-/// Colours are B, G, R here, as OpenCV has them.
+/// A colour in OpenCV's order: B, G, R.
 using Colour = cv::Scalar;
 
 constexpr double colour_part(unsigned value, int shift) {
   return static_cast<double>((value >> shift) & 0xffu);
 }
-/// From 0xRRGGBB.
+/// The colour of 0xRRGGBB.
 inline Colour rgb(unsigned value) {
   return {colour_part(value, 0), colour_part(value, 8), colour_part(value, 16), 255.0};
 }
@@ -23,12 +23,13 @@ class TextPen {
  public:
   TextPen();
 
-  /// `left`, `top` of the text's line box of `height` pixels; returns the text's width in pixels.
+  /// Writes at the position of the text's line box of `height` pixels. Returns the text's width
+  /// (px).
   int write(cv::Mat& image, const std::string& text, int left, int top, int height,
             const Colour& colour) const;
   int width(const std::string& text, int height) const;
 
-  /// White text on a filled box at (left, top) of `height` pixels; returns the box's width.
+  /// Writes white text on a filled box of `height` pixels. Returns the box's width (px).
   int chip(cv::Mat& image, const std::string& text, int left, int top, int height,
            const Colour& fill) const;
 

@@ -25,7 +25,7 @@
 namespace touchdown::render {
 namespace {
 
-/// Forked processes that are gone when this is gone.
+/// Forked processes. The destructor kills those that still run and waits for all.
 class Workers {
  public:
   Workers() = default;
@@ -40,7 +40,7 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// False when the system has no process left to give.
+  /// False when the system cannot create another process.
   template <typename Work>
   bool start(const Work& work_in_child) {
     const pid_t parent = ::getpid();
@@ -55,8 +55,8 @@ class Workers {
     return true;
   }
 
-  /// Whether a worker is gone; remembers it.
-  bool gone(std::size_t worker) {
+  /// Whether a worker has exited.
+  bool has_exited(std::size_t worker) {
     if (pids_[worker] < 0) return true;
     if (::waitpid(pids_[worker], nullptr, WNOHANG) == 0) return false;
     pids_[worker] = -1;
@@ -69,23 +69,23 @@ class Workers {
   std::vector<pid_t> pids_;
 };
 
-/// Frames that a worker may be ahead of the consumer.
+/// The number of frames by which a worker may be ahead of the consumer.
 constexpr std::size_t frame_slots = 4;
 
-/// One worker's side of the shared memory; the frames follow all of these.
-struct Lane {
-  std::size_t workers;  ///< how many there are; known with the first free slot
+/// One worker's channel in the shared memory. The frames follow all channels.
+struct Channel {
+  std::size_t workers;  ///< the number of workers; set before the first free slot
   sem_t free;           ///< slots that may be painted into
   sem_t ready;          ///< slots that may be consumed
   std::atomic<bool> failed;
   std::array<char, 512> message;
 };
 
-/// Memory that this process and the ones forked from it share; it has no name, so that nothing is
-/// left of it when they are gone.
-class SharedBatch {
+/// Memory shared by this process and the ones forked from it. It has no name, so that the system
+/// frees it when the processes exit.
+class SharedFrames {
  public:
-  SharedBatch(std::size_t count, std::size_t frame_bytes)
+  SharedFrames(std::size_t count, std::size_t frame_bytes)
       : count_(count), frame_bytes_((frame_bytes + 63) / 64 * 64) {
     size_ = header() + count * frame_slots * frame_bytes_;
     void* const memory =
@@ -95,24 +95,24 @@ class SharedBatch {
     }
     memory_ = static_cast<std::uint8_t*>(memory);
     for (std::size_t i = 0; i < count; ++i) {
-      Lane* const fresh = new (memory_ + i * sizeof(Lane)) Lane{};
-      ::sem_init(&fresh->free, 1, 0);
-      ::sem_init(&fresh->ready, 1, 0);
+      Channel* const channel = new (memory_ + i * sizeof(Channel)) Channel{};
+      ::sem_init(&channel->free, 1, 0);
+      ::sem_init(&channel->ready, 1, 0);
     }
   }
-  ~SharedBatch() { ::munmap(memory_, size_); }
-  SharedBatch(const SharedBatch&) = delete;
-  SharedBatch& operator=(const SharedBatch&) = delete;
+  ~SharedFrames() { ::munmap(memory_, size_); }
+  SharedFrames(const SharedFrames&) = delete;
+  SharedFrames& operator=(const SharedFrames&) = delete;
 
-  Lane& lane(std::size_t worker) {
-    return *std::launder(reinterpret_cast<Lane*>(memory_ + worker * sizeof(Lane)));
+  Channel& channel(std::size_t worker) {
+    return *std::launder(reinterpret_cast<Channel*>(memory_ + worker * sizeof(Channel)));
   }
   std::uint8_t* slot(std::size_t worker, std::size_t number) {
     return memory_ + header() + (worker * frame_slots + number % frame_slots) * frame_bytes_;
   }
 
  private:
-  std::size_t header() const { return (count_ * sizeof(Lane) + 63) / 64 * 64; }
+  std::size_t header() const { return (count_ * sizeof(Channel) + 63) / 64 * 64; }
 
   std::size_t count_;
   std::size_t frame_bytes_;
@@ -120,46 +120,47 @@ class SharedBatch {
   std::uint8_t* memory_ = nullptr;
 };
 
-/// A worker's life: never returns.
-[[noreturn]] void work(std::size_t worker, int frames, SharedBatch& lanes,
+/// The main function of a worker process; it never returns.
+[[noreturn]] void work(std::size_t worker, int frames, SharedFrames& shared,
                        const std::function<PaintFrame()>& prepare) {
-  Lane& lane = lanes.lane(worker);
+  Channel& channel = shared.channel(worker);
   try {
-    // One rasteriser thread per process, and no thread pool: the parent's did not survive the fork.
+    // One rasteriser thread per process, and no thread pool: a fork does not copy the parent's
+    // threads.
     ::setenv("LP_NUM_THREADS", "0", 1);
     cv::setNumThreads(1);
     const PaintFrame paint = prepare();
     std::size_t number = 0;
     for (std::size_t frame = worker; frame < static_cast<std::size_t>(frames);
-         frame += lane.workers) {
-      while (::sem_wait(&lane.free) != 0 && errno == EINTR) {
+         frame += channel.workers) {
+      while (::sem_wait(&channel.free) != 0 && errno == EINTR) {
       }
-      paint(static_cast<int>(frame), lanes.slot(worker, number++));
-      ::sem_post(&lane.ready);
+      paint(static_cast<int>(frame), shared.slot(worker, number++));
+      ::sem_post(&channel.ready);
     }
   } catch (const std::exception& error) {
-    std::strncpy(lane.message.data(), error.what(), lane.message.size() - 1);
-    lane.failed = true;
-    ::sem_post(&lane.ready);
+    std::strncpy(channel.message.data(), error.what(), channel.message.size() - 1);
+    channel.failed = true;
+    ::sem_post(&channel.ready);
     ::_exit(1);
   }
   ::_exit(0);
 }
 
-void wait_for_frame(Lane& lane, Workers& workers, std::size_t worker) {
+void wait_for_frame(Channel& channel, Workers& workers, std::size_t worker) {
   while (true) {
     timespec until = {};
     ::clock_gettime(CLOCK_REALTIME, &until);
     until.tv_nsec += 100'000'000;
     until.tv_sec += until.tv_nsec / 1'000'000'000;
     until.tv_nsec %= 1'000'000'000;
-    if (::sem_timedwait(&lane.ready, &until) == 0) break;
-    // Gone, but perhaps only after its last frame: look once more.
-    if (errno == ETIMEDOUT && workers.gone(worker) && ::sem_trywait(&lane.ready) != 0) {
+    if (::sem_timedwait(&channel.ready, &until) == 0) break;
+    // The worker may have exited after its last frame: check once more.
+    if (errno == ETIMEDOUT && workers.has_exited(worker) && ::sem_trywait(&channel.ready) != 0) {
       throw Error("a process that paints frames was killed");
     }
   }
-  if (lane.failed) throw Error(lane.message.data());
+  if (channel.failed) throw Error(channel.message.data());
 }
 
 }  // namespace
@@ -171,34 +172,33 @@ void paint_in_order(int frames, std::size_t frame_bytes, int workers,
   if (frames <= 0) return;
   if (workers <= 0) workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const auto wanted = static_cast<std::size_t>(std::min(workers, frames));
-  SharedBatch lanes(wanted, frame_bytes);
+  SharedFrames shared(wanted, frame_bytes);
 
   Workers processes;
   for (std::size_t i = 0; i < wanted; ++i) {
-    if (!processes.start([&, i] { work(i, frames, lanes, prepare); })) break;
+    if (!processes.start([&, i] { work(i, frames, shared, prepare); })) break;
   }
   const std::size_t count = processes.count();
   if (begin) begin();
   if (count == 0) {
     const PaintFrame paint = prepare();
     for (int frame = 0; frame < frames; ++frame) {
-      paint(frame, lanes.slot(0, 0));
-      consume(frame, lanes.slot(0, 0));
+      paint(frame, shared.slot(0, 0));
+      consume(frame, shared.slot(0, 0));
     }
     return;
   }
-  // A worker must know how many there are before it paints: only now is it sure how many the system
-  // gave.
+  // Workers must know their number before they paint. It is certain only after the last fork.
   for (std::size_t i = 0; i < count; ++i) {
-    lanes.lane(i).workers = count;
-    for (std::size_t slot = 0; slot < frame_slots; ++slot) ::sem_post(&lanes.lane(i).free);
+    shared.channel(i).workers = count;
+    for (std::size_t slot = 0; slot < frame_slots; ++slot) ::sem_post(&shared.channel(i).free);
   }
   for (int frame = 0; frame < frames; ++frame) {
     const std::size_t worker = static_cast<std::size_t>(frame) % count;
-    Lane& lane = lanes.lane(worker);
-    wait_for_frame(lane, processes, worker);
-    consume(frame, lanes.slot(worker, static_cast<std::size_t>(frame) / count));
-    ::sem_post(&lane.free);
+    Channel& channel = shared.channel(worker);
+    wait_for_frame(channel, processes, worker);
+    consume(frame, shared.slot(worker, static_cast<std::size_t>(frame) / count));
+    ::sem_post(&channel.free);
   }
 }
 

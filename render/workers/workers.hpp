@@ -9,21 +9,21 @@ namespace touchdown::render {
 /// Fills `pixels` with frame `frame`.
 using PaintFrame = std::function<void(int frame, std::uint8_t* pixels)>;
 
-/// Paint frames 0..frames−1 of `frame_bytes` each in forked processes and hand them to `consume`,
-/// in this process and in order.
+/// Paints frames 0..frames−1 of `frame_bytes` each in forked processes and passes them to
+/// `consume`, in this process and in order.
 ///
-/// Each worker calls `prepare` once and then the painter it returned, for every `workers`-th frame,
-/// so no pixel may depend on which worker painted it or what it painted before. `workers` 0 means
-/// one per core; if the system gives fewer processes, fewer work, and if it gives none this one
-/// paints. Workers die with this process or when this function returns or throws; nothing with a
-/// name is created.
+/// Each worker calls `prepare` once, and then the returned painter for every `workers`-th frame. No
+/// pixel may depend on the worker or on the frames that it painted before. `workers` 0 means one
+/// per core. If the system creates fewer processes, fewer work; if it creates none, this process
+/// paints. Workers exit with this process, or when this function returns or throws. No named object
+/// is created.
 ///
-/// `begin`, if there is one, is called in this process before anything is painted and after the
-/// workers are forked: what `consume` needs threads for starts them there, for a fork among threads
-/// inherits the locks that they hold just then, and nobody to release them.
+/// `begin`, if given, is called in this process after the workers are forked and before anything is
+/// painted. Threads that `consume` needs must be started there: a fork copies locks that another
+/// thread holds, but not the thread that would release them.
 ///
-/// This process must not have an OpenGL context. Errors: `Error` with the worker's own message when
-/// painting throws, or when a worker dies; whatever `begin` and `consume` throw.
+/// This process must not have an OpenGL context. Errors: `Error` with the worker's message when
+/// painting throws, or when a worker dies; all exceptions of `begin` and `consume`.
 void paint_in_order(int frames, std::size_t frame_bytes, int workers,
                     const std::function<PaintFrame()>& prepare,
                     const std::function<void(int frame, const std::uint8_t* pixels)>& consume,

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # scripts/slurm/submit.sh EXPERIMENT SHARDS [SBATCH OPTION...]
 # Runs an experiment on a Slurm cluster: an array job of SHARDS tasks, and a job that merges their
-# results when all of them are done. To be called where the results shall go, on a file system that
-# all nodes share; TOUCHDOWN names the program if it is not this checkout's. See docs/shards.md.
+# results when all are done. Call it in the folder for the results, on a file system that all nodes
+# share. TOUCHDOWN names the program if it is not this checkout's. See docs/shards.md.
 set -euo pipefail
 
 complain() {
@@ -19,7 +19,7 @@ experiment="$1"
 shards="$2"
 shift 2
 [[ "$shards" =~ ^[1-9][0-9]{0,4}$ ]] || complain "'$shards' is no number of shards: expected 1 to 99999"
-command -v sbatch >/dev/null || complain "no sbatch here: this is to be called where Slurm's commands are" 1
+command -v sbatch >/dev/null || complain "no sbatch here: call this where Slurm's commands are installed" 1
 
 if [[ -n "${TOUCHDOWN:-}" ]]; then
   program="$TOUCHDOWN"
@@ -32,7 +32,7 @@ fi
   complain "no program ${program:-$checkout/build/release/touchdown}: build it first, with 'make build'" 1
 program="$(realpath "$program")"
 
-# Asked once here, so that what is wrong with the experiment is not found out by every task.
+# A dry run here reports errors of the experiment once, instead of in every task.
 plan="$("$program" run "$experiment" --dry-run)" || exit $?
 directory="$(sed -n 's/^results *//p' <<<"$plan")"
 parts="$(sed -n 's/^parts *//p' <<<"$plan")"
@@ -44,7 +44,7 @@ mkdir -p "$directory/logs"
 log="$directory/logs/%x_%A_%a.txt"
 array="$(sbatch --parsable --output="$log" --job-name="shard" "$@" --array="1-$shards" \
   "$task" shard "$program" "$experiment" "$shards")" || exit $?
-array="${array%%;*}" # a cluster's name may follow
+array="${array%%;*}" # the name of a cluster may follow
 merge="$(sbatch --parsable --output="$directory/logs/%x_%j.txt" --job-name="merge" "$@" \
   --dependency="afterok:$array" --kill-on-invalid-dep=yes "$task" merge "$program" "$directory")" ||
   complain "the shards are job $array; when they are done: touchdown merge $directory" 1

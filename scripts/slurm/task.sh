@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# What submit.sh submits: one task of the array, or the merge.
+# submit.sh submits this: one task of the array, or the merge.
 #   task.sh shard PROGRAM EXPERIMENT SHARDS
 #   task.sh merge PROGRAM DIRECTORY
-# A task that Slurm requeues, because it was preempted or its node failed, goes on from what it has
-# saved; one whose program is killed, or whose time runs out, goes back to the queue by itself.
+# A task that Slurm requeues, because it was preempted or its node failed, continues from its saved
+# parts. A task requeues itself if its program is killed or its time runs out.
 #SBATCH --cpus-per-task=4
 #SBATCH --requeue
 #SBATCH --open-mode=append
 #SBATCH --signal=B:USR1@60
 set -u
 
-# Killed again and again, or never getting anywhere in its time: something is wrong.
+# Limits for tasks that are killed repeatedly, or make no progress in their time.
 most_kills=3
 most_restarts=100
 
@@ -31,13 +31,13 @@ to_the_queue() {
 }
 
 out_of_time=
-# The program stops within a second and has then saved what is finished.
+# The program stops within a second, after it has saved its finished parts.
 trap 'out_of_time=yes; kill -TERM "$child" 2>/dev/null' USR1
 "$program" "${command[@]}" &
 child=$!
 wait "$child"
 status=$?
-while kill -0 "$child" 2>/dev/null; do # the trap has ended the waiting
+while kill -0 "$child" 2>/dev/null; do # the trap ended the wait
   wait "$child"
   status=$?
 done

@@ -4,7 +4,7 @@ namespace touchdown::simulators {
 
 namespace {
 
-/// Share of the newest acceleration. With 1, stiff servos of robots that stand ring; 0.5 suffices.
+/// Weight of the newest acceleration. With 1, stiff standing robots oscillate; 0.5 suffices.
 constexpr double smoothing = 0.25;
 
 btVector3 axis_in_world(const btMultiBody& robot, int link) {
@@ -28,7 +28,7 @@ Rotors::Rotors(const models::RobotModel& model, const BulletWorld& world) {
   }
 }
 
-void Rotors::take_back(btMultiBody& robot, double period) {
+void Rotors::compensate(btMultiBody& robot, double period) {
   for (Rotor& rotor : rotors_) {
     const int above = robot.getParent(rotor.link);
     const btVector3 axis = axis_in_world(robot, rotor.link);

@@ -44,7 +44,7 @@ void BulletSimulator::advance(const JointTorques& torques,
     robot.addBaseForce(to_bullet(wrench.force));
     robot.addBaseTorque(to_bullet(torque_about(base_com_, wrench, state())));
   }
-  rotors_->take_back(robot, physics_period());
+  rotors_->compensate(robot, physics_period());
   // Zero sub-steps: one step of exactly this length.
   world_->world().stepSimulation(physics_period(), 0);
 }
@@ -74,7 +74,7 @@ void BulletSimulator::read(ContactForces& forces) const {
         robot_is_first ? *manifold.getBody0() : *manifold.getBody1();
     for (int p = 0; p < manifold.getNumContacts(); ++p) {
       const btManifoldPoint& point = manifold.getContactPoint(p);
-      // Contact points linger in the manifold while apart: only an impulse is contact.
+      // The manifold keeps contact points of separated shapes: only an impulse is contact.
       if (point.getAppliedImpulse() <= 0.0) continue;
       const auto wheel =
           world_->tyres().wheel_of(robot_part, robot_is_first ? point.m_index0 : point.m_index1);

@@ -10,8 +10,8 @@ namespace touchdown::simulators {
 class BulletWorld;
 class Rotors;
 
-/// Bullet behind the `Simulator` seam, in double precision. Every reset builds the world afresh:
-/// only a fresh world repeats itself bit by bit.
+/// Bullet as a `Simulator`, in double precision. Every reset builds a new world: only a new world
+/// gives the same bits again.
 class BulletSimulator : public Simulator {
  public:
   BulletSimulator(const std::shared_ptr<const models::RobotModel>& model,
@@ -21,7 +21,7 @@ class BulletSimulator : public Simulator {
   std::string_view name() const override { return "bullet"; }
 
  protected:
-  /// The engine's own world; a reset makes another.
+  /// The engine's own world; a reset replaces it.
   BulletWorld& bullet() { return *world_; }
 
   void place(const RobotState& start) override;

@@ -11,8 +11,8 @@ BulletTyres::BulletTyres(const models::RobotModel& robot, const SimulatorOptions
       stiffness_(options.contact.bullet_stiffness),
       damping_(options.contact.bullet_damping) {
   if (!springs_) return;
-  // Bullet's spring works where the step ends, F = k·(δ + h·δ̇) + c·δ̇, and so damps. The tyre's is
-  // to work where the step begins, as in MuJoCo: what it damps is taken off the damper.
+  // Bullet's spring acts at the end of the step, F = k·(δ + h·δ̇) + c·δ̇, which adds damping. The
+  // tyre's acts at its beginning, as in MuJoCo, so the added damping is subtracted from the damper.
   const double step = 1e-6 * static_cast<double>(options.steps.physics_us);
   const auto strips = static_cast<double>(robot.tyre.strips().size());
   stiffness_ = robot.tyre.stiffness / strips;
@@ -37,7 +37,7 @@ std::optional<std::size_t> BulletTyres::wheel_of(const btCollisionObject& object
   return strip ? std::optional(strips_[*strip].wheel) : std::nullopt;
 }
 
-void BulletTyres::choose_contacts(btDispatcher& dispatcher) const {
+void BulletTyres::select_contacts(btDispatcher& dispatcher) const {
   if (!springs_) return;
   std::vector<TyreContact> contacts;
   std::vector<std::pair<btPersistentManifold*, int>> points;
@@ -56,8 +56,8 @@ void BulletTyres::choose_contacts(btDispatcher& dispatcher) const {
       points.emplace_back(&manifold, p);
     }
   }
-  const std::vector<bool> counts = that_count(contacts);
-  // The last first: its manifold's last point takes the place of one that is removed.
+  const std::vector<bool> counts = counted_contacts(contacts);
+  // In reverse order: removing a point moves the manifold's last point into its place.
   for (std::size_t i = points.size(); i-- > 0;) {
     if (!counts[i]) points[i].first->removeContactPoint(points[i].second);
   }
@@ -65,7 +65,7 @@ void BulletTyres::choose_contacts(btDispatcher& dispatcher) const {
 
 void WorldWithTyres::performDiscreteCollisionDetection() {
   btMultiBodyDynamicsWorld::performDiscreteCollisionDetection();
-  tyres_.choose_contacts(*getDispatcher());
+  tyres_.select_contacts(*getDispatcher());
 }
 
 }  // namespace touchdown::simulators

@@ -12,19 +12,19 @@
 
 namespace touchdown::simulators {
 
-/// The tyres of a robot in Bullet: which shapes they are, and how they press.
+/// The tyres of a robot in Bullet: their shapes, stiffness and damping.
 class BulletTyres {
  public:
   BulletTyres(const models::RobotModel& robot, const SimulatorOptions& options);
 
-  /// Child shape `child` of what `collider` is made of is a strip of `wheel`'s tyre.
+  /// Registers child shape `child` of `collider` as a strip of `wheel`'s tyre.
   void add(btCollisionObject& collider, int child, std::size_t wheel);
 
-  /// Which wheel's tyre a child shape of a collision object is of, if any.
+  /// The wheel with a tyre that contains this child shape of a collision object, if any.
   std::optional<std::size_t> wheel_of(const btCollisionObject& object, int child) const;
 
-  /// After collision detection, for tyres that are springs: removes contacts that do not count.
-  void choose_contacts(btDispatcher& dispatcher) const;
+  /// Removes contacts that do not count, after collision detection, if tyres are springs.
+  void select_contacts(btDispatcher& dispatcher) const;
 
  private:
   struct Strip {
@@ -36,12 +36,12 @@ class BulletTyres {
   std::optional<std::size_t> strip_of(const btCollisionObject& object, int child) const;
 
   bool springs_;
-  double stiffness_;  ///< of a strip, as Bullet wants it (N/m)
-  double damping_;    ///< likewise (N·s/m)
+  double stiffness_;  ///< of a strip, for Bullet (N/m)
+  double damping_;    ///< of a strip, for Bullet (N·s/m)
   std::vector<Strip> strips_;
 };
 
-/// A world in which tyres choose their contacts.
+/// A Bullet world that removes tyre contacts that do not count.
 class WorldWithTyres : public btMultiBodyDynamicsWorld {
  public:
   WorldWithTyres(const BulletTyres& tyres, btDispatcher& dispatcher,

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int robot_group = 1;
 constexpr int terrain_group = 2;
-/// Bullet's boxes have edges that are rounded by 4 cm: a groove wherever two of them meet, which a
-/// tyre that is a spring feels (m).
+/// Rounding radius of box edges (m). Bullet's default of 4 cm makes a groove where two boxes meet,
+/// which excites tyres that are springs.
 constexpr double edge_radius = 1e-4;
 
 std::unique_ptr<btCollisionShape> convex_hull(const mjModel& model, int mesh) {
@@ -54,14 +54,14 @@ std::unique_ptr<btCollisionShape> shape_of(const mjModel& model, int geom) {
   }
 }
 
-/// A body's principal inertia frame in its own body frame: where Bullet puts the link.
+/// A body's principal inertia frame, in its body frame. Bullet uses it as the frame of the link.
 struct InertiaFrame {
   Eigen::Vector3d position;
   Eigen::Quaterniond orientation;
   Eigen::Vector3d inertia;  ///< about its axes (kg·m²)
 };
 
-/// A joint's rotor turns with the joint's link (see rotors.hpp), which so has other principal axes.
+/// Includes the rotor of the body's joint (see rotors.hpp), which changes the principal axes.
 InertiaFrame inertia_frame(const mjModel& mj, int body) {
   InertiaFrame frame = {models::vector_at(mj.body_ipos, body),
                         models::quaternion_at(mj.body_iquat, body),
@@ -81,7 +81,7 @@ InertiaFrame inertia_frame(const mjModel& mj, int body) {
   return frame;
 }
 
-/// Place of a geom in the inertia frame of its body.
+/// Pose of a geom in the inertia frame of its body.
 btTransform geom_in_link(const mjModel& mj, int geom, const InertiaFrame& frame) {
   const Eigen::Quaterniond to_frame = frame.orientation.conjugate();
   return btTransform(to_bullet(to_frame * models::quaternion_at(mj.geom_quat, geom)),

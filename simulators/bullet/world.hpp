@@ -17,7 +17,7 @@
 
 namespace touchdown::simulators {
 
-// Between Bullet's and Eigen's vectors and quaternions.
+// Conversions between Bullet's and Eigen's vectors and quaternions.
 
 inline btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 inline btQuaternion to_bullet(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
@@ -28,11 +28,11 @@ inline Eigen::Quaterniond to_eigen(const btQuaternion& q) { return {q.w(), q.x()
 /// `btMultiBody`, the terrain as static bodies. Bullet's frames are the bodies' principal inertia
 /// frames, with the base's frame at its centre of mass.
 ///
-/// Friction follows the model's rule that the terrain's coefficient counts: Bullet multiplies the
-/// two, so the robot's colliders have one.
+/// The terrain's friction coefficient counts, as in the model. Bullet multiplies both coefficients,
+/// so that of the robot's colliders is 1.
 class BulletWorld {
  public:
-  /// Errors: `InputError` for what Bullet cannot represent: ellipsoids and height fields.
+  /// Errors: `InputError` for shapes that Bullet cannot represent: ellipsoids and height fields.
   BulletWorld(const models::RobotModel& model, const SimulatorOptions& options);
 
   btMultiBodyDynamicsWorld& world() { return world_; }
@@ -50,10 +50,10 @@ class BulletWorld {
   void add_joint_limits(const models::RobotModel& model);
   void add_colliders(const models::RobotModel& model);
   void add_terrain(const models::RobotModel& model);
-  /// Kept alive as long as the world.
+  /// The shape of a geom. It lives as long as the world.
   btCollisionShape* make_shape(const mjModel& mj, int geom);
 
-  // In the order of construction: the world refers to all above it and must go first.
+  // In order of construction: the world refers to everything above it and is destroyed first.
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;

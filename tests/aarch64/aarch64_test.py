@@ -1,11 +1,11 @@
-"""Compiles the estimator and its tests for aarch64, runs the tests in qemu, and holds what every kind
-of estimator believes of a made-up run against what it believes on this processor.
+"""Compiles the estimator and its tests for aarch64 and runs the tests in qemu. Compares the beliefs of
+every kind of estimator for a synthetic run with its beliefs on this processor.
 
     aarch64_test.py SOURCE BUILD BELIEFS [TOUCHDOWN]
 
-BUILD is kept from one time to the next; BELIEFS is this processor's program. With TOUCHDOWN, the program,
-also builds examples/robot against what is installed, a fitted model compiled in, and runs it. Exit code 77: there is no
-compiler for aarch64 here, no qemu, or no source of GoogleTest.
+BUILD stays for the next run; BELIEFS is this processor's program. With the program TOUCHDOWN, the test
+also fits a model, builds examples/robot with it against the installed library, and runs it. Exit code 77:
+the compiler for aarch64, qemu, or the source of GoogleTest is missing.
 """
 
 import os
@@ -18,9 +18,9 @@ import sys
 # These compute in single precision.
 TOLERANCE = {'neural': 1e-5, 'decision_network': 1e-5, 'evidence_pairs': 1e-5, 'touchdown': 1e-5}
 DOUBLE = 1e-12
-# What qemu would take minutes for.
+# Tests that take minutes in qemu.
 SLOW = ('*PhaseFilter*', '*BayesFilter*', '*SlidingDft*', '*TransitionSpectrum*', 'PhaseModel*',
-        'MeasurementOnly*', 'NeuralForward*', 'Decision*', 'PairedDecision*', 'Evidence*',
+        'MeasurementOnly*', 'NeuralForward*', 'Decision*', 'PairedDecision*', 'Evidence*', 'FeatureExtractor*',
         'TouchdownEstimator*', 'Faults*')
 NEEDED = {
     'g++-aarch64-linux-gnu': shutil.which('aarch64-linux-gnu-g++'),
@@ -37,7 +37,7 @@ def run(*command):
 
 
 def beliefs(text):
-    """By estimator, for every step its probabilities, and its decisions with the status."""
+    """By estimator: for every step its probabilities, and its decisions with the status."""
     steps = {}
     for line in text.splitlines():
         name, _, *numbers = line.split()
@@ -46,7 +46,7 @@ def beliefs(text):
 
 
 def robots_program(source, build, touchdown, qemu):
-    """A robot's program, outside of the tree: ten lines, and a model that was fitted here."""
+    """Builds and runs a robot's program outside of the source tree, with a model that is fitted here."""
     work = build / 'robot'
     shutil.rmtree(work, ignore_errors=True)
     shutil.copytree(source / 'examples/robot', work / 'source')
@@ -90,7 +90,7 @@ def main():
         found = there[name]
         assert len(found) == len(expected), name
         left = [p[0] for p, _ in expected]
-        assert max(left) - min(left) > 0.2, f'{name} was not made to think'
+        assert max(left) - min(left) > 0.2, f'{name}: beliefs hardly vary'
         difference = max(abs(a - b) for (p, _), (q, _) in zip(found, expected) for a, b in zip(p, q))
         decisions = sum(d != e for (_, d), (_, e) in zip(found, expected))
         print(f'{name}: {len(found)} steps, beliefs within {difference:.1e}, '

@@ -1,6 +1,6 @@
-// Fits every kind of estimator that the library has to a made-up run, lets it listen to another
-// one, and prints what it believed: "name step P(left) P(right) P(any) P(both) left right status".
-// What the same program prints on another processor has to be the same up to rounding.
+// Fits every kind of estimator of the library to a synthetic run, runs it on another one, and
+// prints its beliefs: "name step P(left) P(right) P(any) P(both) left right status". The output on
+// another processor must be the same up to rounding.
 
 #include <cmath>
 #include <cstdio>
@@ -19,10 +19,11 @@ namespace {
 
 constexpr double rate = 1000.0;  // Hz
 
-/// As a sensor gives it: the same bits, however this processor's library rounds a sine.
+/// Rounds like a sensor, so that the bits do not depend on how this processor's library rounds a
+/// sine.
 void round_to_grid(double& value) { value = std::nearbyint(value * 0x1p20) * 0x1p-20; }
 
-/// What `phase_run` leaves out: positions, velocities, the other axes of the IMU.
+/// `phase_run` with positions, velocities and the other axes of the IMU.
 test::PhaseRun whole_run(int drops, std::uint32_t seed) {
   test::PhaseRun run = test::phase_run(drops, seed, 6, 0.05);
   test::Normal normal(seed + 1);
@@ -55,8 +56,8 @@ test::PhaseRun whole_run(int drops, std::uint32_t seed) {
   return run;
 }
 
-/// The run that is listened to has what a robot's has: lost reports, a gap, a sensor that hangs.
-std::vector<Signals> heard_run() {
+/// The run for the estimators, with the faults of a robot's: lost reports, a gap, a frozen sensor.
+std::vector<Signals> faulty_run() {
   std::vector<Signals> signals = whole_run(3, 11).signals;
   for (std::size_t k = 1200; k < 1230; ++k) {
     signals[k].leg[0].knee.torque = std::numeric_limits<double>::quiet_NaN();
@@ -88,7 +89,8 @@ LabelledRun labelled(const test::PhaseRun& run) {
   return {run.signals, {run.contact[0], run.contact[1]}, rate};
 }
 
-void listen(const char* name, ContactEstimator&& estimator, const std::vector<Signals>& signals) {
+void print_beliefs(const char* name, ContactEstimator&& estimator,
+                   const std::vector<Signals>& signals) {
   for (std::size_t k = 0; k < signals.size(); ++k) {
     const Belief& b = estimator.update(signals[k]);
     std::printf("%s %zu %.17g %.17g %.17g %.17g %d %d %d\n", name, k, b.wheel[0].p_contact,
@@ -97,33 +99,35 @@ void listen(const char* name, ContactEstimator&& estimator, const std::vector<Si
   }
 }
 
-void listen_all() {
+void print_all_beliefs() {
   const test::PhaseRun run = whole_run(2, 7);
-  const std::vector<Signals> heard = heard_run();
+  const std::vector<Signals> signals = faulty_run();
   for (const char* const name : {"paper", "reference", "robust"}) {
     const BayesFilterConfig config = test::named(name);
-    listen(name, BayesFilter(fitted(run, config.measurement), config), heard);
+    print_beliefs(name, BayesFilter(fitted(run, config.measurement), config), signals);
   }
   const BayesFilterConfig robust = BayesFilterConfig::robust();
-  listen("measurement_only", MeasurementOnly(fitted(run, robust.measurement), robust), heard);
+  print_beliefs("measurement_only", MeasurementOnly(fitted(run, robust.measurement), robust),
+                signals);
   PhaseFilterConfig phase;
   phase.fit = test::small_phase_fit();
   const std::vector<PhaseFitRun> runs = {run.view()};
-  listen("phase", PhaseFilter(fit_phase_model(runs, rate, phase.fit), phase), heard);
-  listen("neural", NeuralEstimator(test::shared(test::random_network())), heard);
-  listen("free_fall", FreeFall(), heard);
-  listen("support_force", SupportForce(), heard);
+  print_beliefs("phase", PhaseFilter(fit_phase_model(runs, rate, phase.fit), phase), signals);
+  print_beliefs("neural", NeuralEstimator(test::shared(test::random_network())), signals);
+  print_beliefs("free_fall", FreeFall(), signals);
+  print_beliefs("support_force", SupportForce(), signals);
   const std::vector<LabelledRun> labels = {labelled(run)};
-  listen("load_logistic", LoadLogistic(fit_load_logistic(labels)), heard);
-  listen("force_kinematics", ForceKinematics(fit_force_kinematics(labels)), heard);
-  listen("decision_network", DecisionNetwork(test::random_model(2)), heard);
-  listen("evidence_pairs", EvidenceCurves(test::random_curves(2)), heard);
-  listen("touchdown", TouchdownEstimator({test::random_curves(3, false), test::random_model(3)}),
-         heard);
-  listen("upkie_observer", UpkieObserver(), heard);
+  print_beliefs("load_logistic", LoadLogistic(fit_load_logistic(labels)), signals);
+  print_beliefs("force_kinematics", ForceKinematics(fit_force_kinematics(labels)), signals);
+  print_beliefs("decision_network", DecisionNetwork(test::random_model(2)), signals);
+  print_beliefs("evidence_pairs", EvidenceCurves(test::random_curves(2)), signals);
+  print_beliefs("touchdown",
+                TouchdownEstimator({test::random_curves(3, false), test::random_model(3)}),
+                signals);
+  print_beliefs("upkie_observer", UpkieObserver(), signals);
 }
 
 }  // namespace
 }  // namespace touchdown
 
-int main() { touchdown::listen_all(); }
+int main() { touchdown::print_all_beliefs(); }

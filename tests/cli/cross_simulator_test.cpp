@@ -10,7 +10,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// One engine's fit cannot gain a whole 1 over always contact: with `smallest_gain` of 1 the
+/// One engine's fit cannot gain 1 over always contact. With a `smallest_gain` of 1 the
 /// verdict must fail, with -1 and a `largest_loss` of 1 it must hold.
 Ended check(const ScratchFolder& folder, double largest_loss, double smallest_gain,
             const std::string& demanded) {

@@ -19,7 +19,7 @@ const std::string small =
     " --set test.runs=1 --set noise.seeds=1 --set noise.torque=[1] --set noise.accelerometer=[5]"
     " --set estimators=[robust,phase]";
 
-/// Data and scripts of the figures of drops.
+/// Data and scripts of the drop figures.
 std::map<std::string, std::string> data_in(const fs::path& run_directory) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::directory_iterator(run_directory / "figures")) {
@@ -32,7 +32,7 @@ std::map<std::string, std::string> data_in(const fs::path& run_directory) {
   return files;
 }
 
-TEST(DropFigures, AreDrawnForBothEnginesWhoeverComputesTheExperiment) {
+TEST(DropFigures, AreTheSameForARunAndForItsShards) {
   const ScratchFolder folder;
   const std::string experiment =
       write_tiny_experiment(folder) + small + " --set detail.seed=0 --set posterior.drop=0";
@@ -62,7 +62,7 @@ TEST(DropFigures, AreDrawnForBothEnginesWhoeverComputesTheExperiment) {
   EXPECT_TRUE(data_in(folder.path() / "b") == files);
 }
 
-TEST(DropFigures, AMissingDropIsSaidAndDoesNotCostTheExperiment) {
+TEST(DropFigures, AMissingDropIsReportedAndTheExperimentCompletes) {
   const ScratchFolder folder;
   const std::string experiment =
       write_tiny_experiment(folder) + small + " --set detail.drop=9 --set posterior.drop=9";

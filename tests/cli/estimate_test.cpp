@@ -57,10 +57,10 @@ class Estimate : public ::testing::Test {
     const recordings::Recording fitted = test::synthetic_log(3.0);
     const experiments::RunSignals run =
         experiments::signals_of(fitted, {}, {}, scoring::SampleUnit::run);
-    const std::vector<const experiments::RunSignals*> heard = {&run};
+    const std::vector<const experiments::RunSignals*> runs = {&run};
     MeasurementConfig config = BayesFilterConfig::robust().measurement;
     config.fit.knee_count = config.fit.wheel_count = 60;
-    recordings::write_measurement_model(experiments::fit(heard, config, {}), folder_ / "m.npz");
+    recordings::write_measurement_model(experiments::fit(runs, config, {}), folder_ / "m.npz");
   }
 
   void log(const std::string& name, const recordings::Recording& recording) const {
@@ -91,14 +91,14 @@ class Estimate : public ::testing::Test {
     return BayesFilter(recordings::read_measurement_model(folder_ / "m.npz"), config);
   }
 
-  void expect_beliefs(const Lines& lines, const recordings::Recording& heard,
+  void expect_beliefs(const Lines& lines, const recordings::Recording& recording,
                       BayesFilter filter) const {
-    ASSERT_EQ(lines.size(), heard.steps());
+    ASSERT_EQ(lines.size(), recording.steps());
     double command = 0.0;
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      const Belief& b = filter.update(recordings::signals_from(heard.observation[k], command));
-      command = recordings::ground_velocity_command(heard.action[k]);
-      const std::vector<double> expected = {heard.observation[k].time,
+      const Belief& b = filter.update(recordings::signals_from(recording.observation[k], command));
+      command = recordings::ground_velocity_command(recording.action[k]);
+      const std::vector<double> expected = {recording.observation[k].time,
                                             b.wheel[0].p_contact,
                                             b.wheel[1].p_contact,
                                             b.wheel[0].contact ? 1.0 : 0.0,
@@ -117,40 +117,40 @@ class Estimate : public ::testing::Test {
   const ScratchFolder folder_;
 };
 
-TEST_F(Estimate, WritesWhatTheLibrarysFilterBelieves) {
-  const recordings::Recording heard = test::synthetic_log(2.0);
-  log("a.mpack", heard);
+TEST_F(Estimate, WritesTheBeliefsOfTheLibrarysFilter) {
+  const recordings::Recording recording = test::synthetic_log(2.0);
+  log("a.mpack", recording);
   EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
               AllOf(StartsWith("a.mpack: 2000 steps, 2.000 s at 1000 Hz, Bayes filter (robust)"),
                     HasSubstr("signals      all good")));
-  expect_beliefs(table("b.csv"), heard, filter(1000.0, 128));
+  expect_beliefs(table("b.csv"), recording, filter(1000.0, 128));
 }
 
-TEST_F(Estimate, OfASlowerLogHearsAWindowOfTheSameLength) {
-  const recordings::Recording heard = test::synthetic_log(2.0, 5000);
-  log("a.mpack", heard);
+TEST_F(Estimate, OfASlowerLogUsesAWindowOfTheSameLength) {
+  const recordings::Recording recording = test::synthetic_log(2.0, 5000);
+  log("a.mpack", recording);
   EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
               HasSubstr("400 steps, 2.000 s at 200 Hz"));
-  expect_beliefs(table("b.csv"), heard, filter(200.0, 26));
+  expect_beliefs(table("b.csv"), recording, filter(200.0, 26));
 }
 
-TEST_F(Estimate, TakesAJitteringClockForTheRateItMeans) {
-  recordings::Recording heard = test::robot_log(1.0);
-  for (std::size_t k = 0; k < heard.steps(); ++k) {
-    heard.observation[k].time = 1.0007e-3 * static_cast<double>(k) + (k % 3 == 1 ? 4e-6 : 0.0);
+TEST_F(Estimate, RoundsAJitteringClockToItsNominalRate) {
+  recordings::Recording recording = test::robot_log(1.0);
+  for (std::size_t k = 0; k < recording.steps(); ++k) {
+    recording.observation[k].time = 1.0007e-3 * static_cast<double>(k) + (k % 3 == 1 ? 4e-6 : 0.0);
   }
-  log("a.mpack", heard);
+  log("a.mpack", recording);
   EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"), HasSubstr("at 1000 Hz"));
   expect_beliefs(table("b.csv"), recordings::read_recording(folder_ / "a.mpack"),
                  filter(1000.0, 128));
   EXPECT_THAT(estimate("a.mpack --estimator nmn"), HasSubstr("NMN"));
 }
 
-TEST_F(Estimate, CountsAgainstTheTruthAsExperimentsDo) {
-  const recordings::Recording heard = test::synthetic_log(3.0);
-  log("a.mpack", heard);
+TEST_F(Estimate, ScoresAgainstTheTruthAsExperimentsDo) {
+  const recordings::Recording recording = test::synthetic_log(3.0);
+  log("a.mpack", recording);
   const experiments::RunSignals run =
-      experiments::signals_of(heard, {}, {}, scoring::SampleUnit::run);
+      experiments::signals_of(recording, {}, {}, scoring::SampleUnit::run);
   BayesFilter scored = filter(1000.0, 128);
   const scoring::RobotScore score =
       touchdown::scoring::score(
@@ -159,7 +159,7 @@ TEST_F(Estimate, CountsAgainstTheTruthAsExperimentsDo) {
           .front();
   const scoring::Score wheels = score.wheels();
   const std::string summary = estimate("a.mpack --model m.npz");
-  EXPECT_THAT(summary, HasSubstr(fmt::format("success {:.4f},", wheels.points.success())));
+  EXPECT_THAT(summary, HasSubstr(fmt::format("accuracy {:.4f},", wheels.points.success())));
   EXPECT_THAT(summary, HasSubstr(fmt::format("Brier {:.4f}", wheels.calibration.brier())));
   EXPECT_THAT(summary, HasSubstr("takeoffs 6 of 6 found"));
   EXPECT_THAT(summary, HasSubstr("left wheel   takeoffs at (s) 0.6"));
@@ -167,25 +167,25 @@ TEST_F(Estimate, CountsAgainstTheTruthAsExperimentsDo) {
   EXPECT_THAT(estimate("robot.mpack --model m.npz"), ::testing::Not(HasSubstr("truth")));
 }
 
-TEST_F(Estimate, CountsAgainstLabelsWhereThereAreSome) {
+TEST_F(Estimate, ScoresAgainstLabelsIfGiven) {
   const auto truth = [&](const std::string& arguments) {
     const std::string summary = estimate(arguments + " --model m.npz");
     const std::size_t begin = summary.find("truth");
     return begin == std::string::npos ? "none"
                                       : summary.substr(begin, summary.find("model") - begin);
   };
-  log("told.mpack", test::synthetic_log(4.0));
+  log("labelled.mpack", test::synthetic_log(4.0));
   log("robot.mpack", test::robot_log(4.0));
   EXPECT_EQ(truth("robot.mpack"), "none");
   folder_.write("all.csv", test::synthetic_labels(0, 4));
-  EXPECT_EQ(truth("robot.mpack --labels all.csv"), truth("told.mpack"));
-  // A stretch is scored as a run: four takeoffs of wheels in two seconds.
+  EXPECT_EQ(truth("robot.mpack --labels all.csv"), truth("labelled.mpack"));
+  // An interval is scored as a run: four takeoffs of wheels in two seconds.
   folder_.write("middle.csv", test::synthetic_labels(1, 3));
   EXPECT_THAT(truth("robot.mpack --labels middle.csv"), HasSubstr("takeoffs 4 of 4 found"));
-  // What is said goes before what the log says itself.
+  // Labels take precedence over the log's own ground truth.
   folder_.write("hangs.csv", "start,end,contact\n0,4,0\n");
-  EXPECT_THAT(truth("told.mpack --labels hangs.csv"), HasSubstr("takeoffs 0 of 0 found"));
-  EXPECT_THAT(complaint_about("told.mpack --labels hangs.csv --model m.npz -o hangs.csv"),
+  EXPECT_THAT(truth("labelled.mpack --labels hangs.csv"), HasSubstr("takeoffs 0 of 0 found"));
+  EXPECT_THAT(complaint_about("labelled.mpack --labels hangs.csv --model m.npz -o hangs.csv"),
               HasSubstr("hangs.csv"));
 }
 
@@ -212,7 +212,7 @@ TEST_F(Estimate, WritesBeliefsIntoTheLogAndKeepsTheRest) {
   EXPECT_EQ(after.peek(), std::char_traits<char>::eof());
 }
 
-TEST_F(Estimate, SaysWhichSignalsCouldNotBeUsed) {
+TEST_F(Estimate, ReportsUnusableSignals) {
   recordings::Recording broken = test::synthetic_log(1.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 400; k < 410; ++k) broken.observation[k].servo[1].torque = nan;
@@ -230,7 +230,7 @@ TEST_F(Estimate, SaysWhichSignalsCouldNotBeUsed) {
   }
 }
 
-TEST_F(Estimate, SaysWhatTheLogsClockSays) {
+TEST_F(Estimate, ReportsTheLogsTimesGapsAndStepsBack) {
   recordings::Recording robot = test::robot_log(1.0);
   for (std::size_t k = 0; k < robot.steps(); ++k) {
     robot.observation[k].time += 10.0 + (k >= 700 ? 0.5 : 0.0);
@@ -245,14 +245,14 @@ TEST_F(Estimate, SaysWhatTheLogsClockSays) {
               HasSubstr("time         from 8.700 to 10.699 s; it goes back 1 time\n"));
   EXPECT_THAT(read_file(folder_ / "fig.gp"), HasSubstr("set xrange [8.7:10.69"));
   experiments::LogSummary summary(0.001, {});
-  EXPECT_THAT(summary.text({}), StartsWith("time         never a finite number\n"));
+  EXPECT_THAT(summary.text({}), StartsWith("time         no finite value\n"));
   summary.add(0.0, {});
   EXPECT_THAT(
       summary.text({}, 1234.5),
       StartsWith("time         from 0.000 to 0.000 s, 0 being 1234.500 s of the log's clock\n"));
 }
 
-TEST_F(Estimate, OfATruncatedLogKeepsWhatWasReadAndSaysWhereItEnds) {
+TEST_F(Estimate, OfATruncatedLogKeepsTheReadStepsAndReportsTheEnd) {
   log("whole.mpack", test::synthetic_log(0.5));
   const std::string whole = read_file(folder_ / "whole.mpack");
   folder_.write("cut.mpack", whole.substr(0, whole.size() - 10));
@@ -275,7 +275,7 @@ TEST_F(Estimate, OfSeveralLogsNamesEachResultAfterItsLog) {
   EXPECT_EQ(table("out/b_x.csv").size(), 500U);
 }
 
-TEST_F(Estimate, TellsAPhaseModelFromAGrid) {
+TEST_F(Estimate, DistinguishesAPhaseModelFromAGrid) {
   log("a.mpack", test::synthetic_log(2.0));
   ASSERT_EQ(touchdown_program("fit a.mpack -o p.npz --estimator phase", folder_.path()).exit_code,
             0);
@@ -287,7 +287,7 @@ TEST_F(Estimate, TellsAPhaseModelFromAGrid) {
               HasSubstr("did you mean --estimator robust?"));
 }
 
-TEST_F(Estimate, KnowsWhoseParametersAModelHolds) {
+TEST_F(Estimate, RecognizesTheEstimatorOfAParameterModel) {
   log("a.mpack", test::synthetic_log(3.0));
   ASSERT_EQ(
       touchdown_program("fit a.mpack -o l.npz --estimator load_logistic", folder_.path()).exit_code,
@@ -307,7 +307,7 @@ TEST_F(Estimate, KnowsWhoseParametersAModelHolds) {
   EXPECT_THAT(complaint_about("a.mpack --model l.npz"), HasSubstr("unknown estimator 'lode'"));
 }
 
-TEST_F(Estimate, DrawsThePartOfTheLogThatWasAskedFor) {
+TEST_F(Estimate, DrawsTheRequestedPartOfTheLog) {
   log("a.mpack", test::synthetic_log(1.0));
   EXPECT_THAT(estimate("a.mpack --model m.npz --figure fig.png --from 0.4999 --to 0.7001"),
               HasSubstr("figure       fig.png"));
@@ -318,8 +318,8 @@ TEST_F(Estimate, DrawsThePartOfTheLogThatWasAskedFor) {
               HasSubstr("no step between"));
 }
 
-/// A gnuplot that finds no room on the disk writes nothing and ends with exit code 0.
-TEST_F(Estimate, AFigureThatFindsNoRoomIsAFailureAndLeavesTheOldOne) {
+/// On a full disk, gnuplot writes nothing and ends with exit code 0.
+TEST_F(Estimate, AFigureOnAFullDiskIsAnErrorAndKeepsTheOldOne) {
   log("a.mpack", test::synthetic_log(1.0));
   estimate("a.mpack --model m.npz --figure fig.png");
   const std::string before = read_file(folder_ / "fig.pdf");
@@ -365,7 +365,7 @@ TEST_F(Estimate, AnswersWrongRequestsInOneLine) {
   EXPECT_FALSE(fs::exists(folder_ / "b.csv"));
 }
 
-TEST_F(Estimate, ExplainsItselfWithALineToCopy) {
+TEST_F(Estimate, HelpBeginsWithAnExample) {
   const Ended ended = touchdown_program("estimate --help", folder_.path());
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_THAT(ended.output, ::testing::StartsWith("touchdown estimate "));

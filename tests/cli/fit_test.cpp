@@ -36,7 +36,7 @@ class Fit : public ::testing::Test {
     return ended.output;
   }
 
-  /// The one line that a wrong request is answered with; no model is written.
+  /// The one-line message about a wrong request. No model is written.
   std::string complaint_about(const std::string& arguments) const {
     const Ended ended = touchdown_program("fit " + arguments, folder_.path());
     EXPECT_EQ(ended.exit_code, 2) << ended.errors;
@@ -63,7 +63,7 @@ void expect_same(const MeasurementModel& a, const MeasurementModel& b) {
   }
 }
 
-TEST_F(Fit, OfLabelledLogsIsTheFitThatExperimentsMake) {
+TEST_F(Fit, OfLabelledLogsEqualsTheFitOfExperiments) {
   log("a.mpack", test::synthetic_log(4.0));
   log("b.mpack", test::synthetic_log(2.5));
   for (const std::string name : {"robust", "reference", "paper", "measurement_only"}) {
@@ -73,29 +73,29 @@ TEST_F(Fit, OfLabelledLogsIsTheFitThatExperimentsMake) {
       runs.push_back(experiments::signals_of(recordings::read_recording(folder_ / file), {}, {},
                                              scoring::SampleUnit::run));
     }
-    const std::vector<const experiments::RunSignals*> heard = {&runs[0], &runs[1]};
+    const std::vector<const experiments::RunSignals*> signals = {&runs[0], &runs[1]};
     expect_same(recordings::read_measurement_model(folder_ / "m.npz"),
                 touchdown::experiments::fit(
-                    heard, experiments::estimator_entry(name).config->measurement, {}));
+                    signals, experiments::estimator_entry(name).config->measurement, {}));
   }
 }
 
-TEST_F(Fit, ByLabelsThatSayTheTruthIsTheFitToTheTruth) {
-  log("told.mpack", test::synthetic_log(3.0));
+TEST_F(Fit, ToCorrectLabelsEqualsTheFitToTheTruth) {
+  log("with_truth.mpack", test::synthetic_log(3.0));
   log("robot.mpack", test::synthetic_log(3.0, 1000, false));
   folder_.write("robot.csv", test::synthetic_labels(0, 3));
   for (const std::string name : {"robust", "phase", "load_logistic"}) {
     EXPECT_EQ(fit("robot.mpack --labels robot.csv -o m.npz --estimator " + name),
-              fit("told.mpack -o m.npz --estimator " + name))
+              fit("with_truth.mpack -o m.npz --estimator " + name))
         << "as many samples, the same bandwidths";
   }
-  fit("told.mpack -o told.npz");
+  fit("with_truth.mpack -o with_truth.npz");
   fit("robot.mpack --labels robot.csv -o labelled.npz");
   expect_same(recordings::read_measurement_model(folder_ / "labelled.npz"),
-              recordings::read_measurement_model(folder_ / "told.npz"));
+              recordings::read_measurement_model(folder_ / "with_truth.npz"));
 }
 
-TEST_F(Fit, LeavesOutWhatNoLabelSaysAnythingAbout) {
+TEST_F(Fit, LeavesOutUnlabelledSteps) {
   log("robot.mpack", test::robot_log(4.0));
   folder_.write("robot.csv", test::synthetic_labels(1, 3));
   EXPECT_THAT(fit("robot.mpack --labels robot.csv -o f.npz"), HasSubstr("2.000 s of 1 log"));
@@ -107,14 +107,14 @@ TEST_F(Fit, LeavesOutWhatNoLabelSaysAnythingAbout) {
               HasSubstr("learns from takeoffs, and the logs hold none"));
   folder_.write("late.csv", test::synthetic_labels(7, 8));
   EXPECT_THAT(complaint_about("robot.mpack --labels late.csv -o m.npz"),
-              HasSubstr("s, is about a step of robot.mpack, which ends at 3.999 s"));
+              HasSubstr("s, covers a step of robot.mpack, which ends at 3.999 s"));
   EXPECT_THAT(complaint_about("robot.mpack robot.mpack --labels robot.csv -o m.npz"),
               HasSubstr("a file for each log, in their order: 1 for 2"));
   EXPECT_THAT(complaint_about("robot.mpack --labels robot.csv -o robot.csv"),
               HasSubstr("robot.csv"));
 }
 
-TEST_F(Fit, OfLogsThatAreOneClassTakesTheirWordForIt) {
+TEST_F(Fit, UsesLogsOfOneClassAsDeclared) {
   const recordings::Recording rolling = test::one_class_log(2.0, true);
   const recordings::Recording hanging = test::one_class_log(1.0, false);
   log("rolling.mpack", rolling);
@@ -141,13 +141,13 @@ TEST_F(Fit, OfLogsThatAreOneClassTakesTheirWordForIt) {
               fit_measurement_model(samples(rolling), samples(hanging), config.fit));
 }
 
-TEST_F(Fit, OfThePhaseFilterIsTheOneThatExperimentsMake) {
+TEST_F(Fit, OfThePhaseFilterEqualsTheFitOfExperiments) {
   log("a.mpack", test::synthetic_log(3.0));
   EXPECT_THAT(fit("a.mpack -o m.npz --estimator phase"), HasSubstr("2.700 s of 1 log"));
   const experiments::RunSignals run = experiments::signals_of(
       recordings::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
-  const std::vector<const experiments::RunSignals*> heard = {&run};
-  const PhaseModel expected = experiments::fit_phases(heard, PhaseFilterConfig{}.fit, 0.3).model;
+  const std::vector<const experiments::RunSignals*> runs = {&run};
+  const PhaseModel expected = experiments::fit_phases(runs, PhaseFilterConfig{}.fit, 0.3).model;
   const recordings::PhaseModelFile written = recordings::read_phase_model(folder_ / "m.npz");
   EXPECT_EQ(written.model.transition, expected.transition);
   ASSERT_EQ(written.model.torque.size(), expected.torque.size());
@@ -156,7 +156,7 @@ TEST_F(Fit, OfThePhaseFilterIsTheOneThatExperimentsMake) {
   EXPECT_EQ(written.provenance.at("seed:run"), "5:0");
 }
 
-TEST_F(Fit, OfParametersIsTheOneThatExperimentsMake) {
+TEST_F(Fit, OfParametersEqualsTheFitOfExperiments) {
   log("a.mpack", test::synthetic_log(3.0));
   const experiments::RunSignals run = experiments::signals_of(
       recordings::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
@@ -172,7 +172,7 @@ TEST_F(Fit, OfParametersIsTheOneThatExperimentsMake) {
   }
 }
 
-TEST_F(Fit, OfParametersTakesLogsOfOneClassAtTheirWord) {
+TEST_F(Fit, OfParametersUsesLogsOfOneClassAsDeclared) {
   log("both.mpack", test::synthetic_log(2.0));
   log("rolling.mpack", test::one_class_log(2.0, true));
   EXPECT_THAT(fit("both.mpack --contact rolling.mpack -o m.npz --estimator load_logistic"),
@@ -189,10 +189,10 @@ TEST_F(Fit, OfParametersTakesLogsOfOneClassAtTheirWord) {
 
 TEST_F(Fit, RefusesLabelsThatTheLogsOwnTruthContradicts) {
   const auto with_truth = [](recordings::Recording recording, double force) {
-    recordings::Recording told = test::synthetic_log(2.0);
-    for (models::GroundTruth& truth : told.truth) truth.wheel_normal_force = {force, force};
-    recording.truth = told.truth;
-    recording.info = told.info;
+    recordings::Recording simulated = test::synthetic_log(2.0);
+    for (models::GroundTruth& truth : simulated.truth) truth.wheel_normal_force = {force, force};
+    recording.truth = simulated.truth;
+    recording.info = simulated.info;
     return recording;
   };
   log("rolling.mpack", with_truth(test::one_class_log(2.0, true), 26.0));
@@ -201,8 +201,8 @@ TEST_F(Fit, RefusesLabelsThatTheLogsOwnTruthContradicts) {
     EXPECT_THAT(complaint_about("--contact hanging.mpack --no-contact rolling.mpack -o m.npz "
                                 "--estimator " +
                                 estimator),
-                AllOf(HasSubstr("hanging.mpack: is declared --contact, and by its own ground truth "
-                                "100.0 % of it are the other"),
+                AllOf(HasSubstr("hanging.mpack: is declared --contact, but its own ground truth "
+                                "contradicts this for 100.0 % of the steps"),
                       HasSubstr("swapped?")));
   }
   fit("--contact rolling.mpack --no-contact hanging.mpack -o m.npz");
@@ -223,7 +223,7 @@ TEST_F(Fit, LeavesOutTorquesThatAreNotFinite) {
               HasSubstr("a.mpack: at 1.000 s: a torque or the acceleration is not finite"));
 }
 
-TEST_F(Fit, OfATruncatedLogUsesWhatThereIs) {
+TEST_F(Fit, OfATruncatedLogUsesTheCompleteSteps) {
   log("a.mpack", test::synthetic_log(3.0));
   const std::string whole = read_file(folder_ / "a.mpack");
   folder_.write("cut.mpack", whole.substr(0, whole.size() - 100));
@@ -244,7 +244,7 @@ TEST_F(Fit, RefusesRunsOfReservedSeeds) {
   EXPECT_THAT(complaint_about("--contact a.mpack -o m.npz"), HasSubstr("reserved"));
 }
 
-TEST_F(Fit, NeedsBothClassesAndSomebodyWhoKnowsThem) {
+TEST_F(Fit, NeedsBothClassesAndTheirLabels) {
   log("robot.mpack", test::robot_log(1.0));
   log("rolling.mpack", test::one_class_log(1.0, true));
   log("short.mpack", test::synthetic_log(0.5));
@@ -279,7 +279,7 @@ TEST_F(Fit, AnswersWrongRequestsInOneLine) {
               AllOf(HasSubstr("phase filter"), Not(HasSubstr("takeoffs"))));
 }
 
-TEST_F(Fit, ExplainsItselfWithALineToCopy) {
+TEST_F(Fit, HelpBeginsWithAnExample) {
   const Ended ended = touchdown_program("fit --help", folder_.path());
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_THAT(ended.output, ::testing::StartsWith("touchdown fit "));

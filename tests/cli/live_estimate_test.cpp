@@ -21,7 +21,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// `touchdown estimate - --estimator free_fall` with both its ends in our hands.
+/// Runs `touchdown estimate - --estimator free_fall` with pipes at its input and output.
 class LiveEstimate : public ::testing::Test {
  protected:
   LiveEstimate() {
@@ -52,7 +52,7 @@ class LiveEstimate : public ::testing::Test {
 
   std::string errors() const { return (folder_ / "errors").string(); }
 
-  void say(std::string_view bytes) const {
+  void send(std::string_view bytes) const {
     while (!bytes.empty()) {
       const ssize_t written = ::write(to_, bytes.data(), bytes.size());
       ASSERT_GT(written, 0);
@@ -64,8 +64,8 @@ class LiveEstimate : public ::testing::Test {
     to_ = -1;
   }
 
-  /// Waits until so many lines were printed in all, or until the program's end.
-  const std::string& heard(std::ptrdiff_t lines) {
+  /// Waits until the program has printed `lines` lines in total, or has ended. Returns its output.
+  const std::string& wait_for_output(std::ptrdiff_t lines) {
     std::array<char, 4096> buffer = {};
     while (std::count(output_.begin(), output_.end(), '\n') < lines) {
       const ssize_t size = ::read(from_, buffer.data(), buffer.size());
@@ -89,7 +89,7 @@ class LiveEstimate : public ::testing::Test {
   std::string output_;
 };
 
-/// Records one by one.
+/// The log's records, one text each.
 std::vector<std::string> records(const recordings::Recording& log) {
   std::ostringstream stream;
   recordings::LogWriter writer(stream, log.info, recordings::WrittenTruth::none);
@@ -107,28 +107,28 @@ constexpr std::ptrdiff_t everything = 1'000'000;
 TEST_F(LiveEstimate, PrintsALineForEveryRecordAsSoonAsItIsThere) {
   const std::vector<std::string> log = records(test::robot_log(0.3));
   // The rate is measured first, over 200 records.
-  for (std::size_t k = 0; k < 200; ++k) say(log[k]);
+  for (std::size_t k = 0; k < 200; ++k) send(log[k]);
   std::ptrdiff_t lines = 201;
-  heard(lines);
+  wait_for_output(lines);
   for (std::size_t k = 200; k < 210; ++k) {
-    say(std::string_view(log[k]).substr(0, 100));
-    say(std::string_view(log[k]).substr(100));
-    const std::string& output = heard(++lines);
+    send(std::string_view(log[k]).substr(0, 100));
+    send(std::string_view(log[k]).substr(100));
+    const std::string& output = wait_for_output(++lines);
     ASSERT_EQ(std::count(output.begin(), output.end(), '\n'), lines) << "after record " << k;
     EXPECT_THAT(output, HasSubstr(fmt::format("\n{},", 0.001 * static_cast<double>(k))));
   }
   close_input();
-  heard(everything);
+  wait_for_output(everything);
   EXPECT_EQ(exit_code(), 0);
   EXPECT_THAT(read_file(errors()), HasSubstr("standard input: 210 steps"));
 }
 
 TEST_F(LiveEstimate, EndsInOrderOnCtrlC) {
   const std::vector<std::string> log = records(test::robot_log(0.25));
-  for (const std::string& record : log) say(record);
-  heard(251);
+  for (const std::string& record : log) send(record);
+  wait_for_output(251);
   ::kill(program_, SIGINT);
-  const std::string& output = heard(everything);
+  const std::string& output = wait_for_output(everything);
   EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 251);
   EXPECT_EQ(output.back(), '\n');
   EXPECT_EQ(exit_code(), 0);
@@ -136,26 +136,27 @@ TEST_F(LiveEstimate, EndsInOrderOnCtrlC) {
               AllOf(HasSubstr("standard input: 250 steps"), HasSubstr("left wheel")));
 }
 
-TEST_F(LiveEstimate, SaysWhatItHeardBeforeGarbage) {
+TEST_F(LiveEstimate, PrintsTheBeliefsBeforeGarbage) {
   const std::vector<std::string> log = records(test::robot_log(0.25));
-  for (const std::string& record : log) say(record);
-  say("garbage");
+  for (const std::string& record : log) send(record);
+  send("garbage");
   close_input();
-  const std::string& output = heard(everything);
+  const std::string& output = wait_for_output(everything);
   EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 251);
   EXPECT_EQ(exit_code(), 2);
   EXPECT_THAT(read_file(errors()), HasSubstr("standard input: byte "));
 }
 
-TEST_F(LiveEstimate, SaysTheSameAsFromAFile) {
+TEST_F(LiveEstimate, PrintsTheSameAsFromAFile) {
   const recordings::Recording log = test::robot_log(0.7);
-  std::ptrdiff_t said = 0;
+  std::ptrdiff_t sent = 0;
   for (const std::string& record : records(log)) {
-    say(record);
-    if (++said >= 200) heard(said + 1);  // or its full pipe would stop it, and it us
+    send(record);
+    if (++sent >= 200)
+      wait_for_output(sent + 1);  // a full pipe would block the program, and then the test
   }
   close_input();
-  const std::string printed = heard(everything);
+  const std::string printed = wait_for_output(everything);
   EXPECT_EQ(exit_code(), 0);
   recordings::write_recording(log, folder_ / "a.mpack");
   touchdown_program("estimate a.mpack --estimator free_fall -o a.csv", folder_.path());

@@ -14,19 +14,19 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// What bash offers after these words; the last is the one being typed.
+/// The completions that bash offers for the last of these words.
 std::string offered(const std::filesystem::path& share, const std::string& words) {
   const std::string script = fmt::format(
       "source {}/bash-completion/completions/touchdown; COMP_WORDS=({}); "
       "COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); _touchdown; echo -n ${{COMPREPLY[*]}}",
       share.string(), words);
   FILE* pipe = ::popen(fmt::format("bash -c '{}' 2>&1", script).c_str(), "r");
-  std::string said;
+  std::string output;
   for (int letter = std::fgetc(pipe); letter != EOF; letter = std::fgetc(pipe)) {
-    said += static_cast<char>(letter);
+    output += static_cast<char>(letter);
   }
-  EXPECT_EQ(::pclose(pipe), 0) << said;
-  return said;
+  EXPECT_EQ(::pclose(pipe), 0) << output;
+  return output;
 }
 
 struct Manual : ::testing::Test {

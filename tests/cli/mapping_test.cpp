@@ -25,7 +25,7 @@ std::string six(const char* what) {
   return fmt::format("lh_{0}, lk_{0}, lw_{0}, rh_{0}, rk_{0}, rw_{0}", what);
 }
 
-/// As Upkie would have it, a number per cell that reads back to the same bits.
+/// The run as CSV in Upkie's units. Each number reads back to the same bits.
 std::string si_csv(const recordings::Recording& run) {
   std::string csv =
       fmt::format("t, {}, {}, {}, qw, qx, qy, qz, gx, gy, gz, ax, ay, az, px, py, pz\n", six("q"),
@@ -61,10 +61,11 @@ imu:
                      six("q"), six("v"), six("tau"));
 }
 
-/// The same run as a robot logs it that shares nothing with Upkie: a clock in milliseconds that
-/// began long ago; joints from right to left, wheels first, in degrees and turns per minute, both
-/// legs alike, knees that are zero when bent; torques in mN·m, of what the world does to the joint;
-/// an IMU with x forward, y left and z up that knows east, north and up, and measures g.
+/// The same run in the log format of a robot that differs from Upkie in everything. The clock is in
+/// milliseconds and does not begin at 0. Joints run from right to left, wheels first, in degrees
+/// and turns per minute. Both legs have the same signs, and knees are zero when bent. Torques are
+/// in mN·m and act on the joint from outside. The IMU has x forward, y left and z up, an
+/// east-north-up reference, and measures in g.
 std::string odd_csv(const recordings::Recording& run) {
   constexpr double degree = std::numbers::pi / 180.0;
   constexpr std::array<std::size_t, 6> order = {5, 4, 3, 2, 1, 0};
@@ -106,7 +107,7 @@ std::string odd_csv(const recordings::Recording& run) {
   return csv;
 }
 
-/// `joint` is how a joint's column is called: "pos[3]".
+/// `six_of` gives the mapping of a quantity's six joint columns, such as "pos".
 std::string odd_mapping(const std::string& stamp,
                         const std::function<std::string(const char*)>& six_of,
                         const std::string& orientation, const std::string& rate,
@@ -143,7 +144,7 @@ std::string odd_npz_mapping() {
   return odd_mapping("stamp", six_of, "quaternion", "rate", "acc", "[left, right]");
 }
 
-/// From the CSV file above, by nobody's code but NumPy's.
+/// Writes the CSV file above as .npz with NumPy alone.
 constexpr const char* to_npz = R"(
 import csv, sys, numpy as np
 rows = list(csv.DictReader(open('odd.csv', newline='', encoding='utf-8-sig')))
@@ -153,7 +154,7 @@ feet = of('foot_l', 'foot_r')
 np.savez('odd.npz', stamp=of('stamp, ms')[:, 0], quaternion=np.asfortranarray(of(*'xyzw')),
          rate=of('rate_x', 'rate_y', 'rate_z'), acc=of('acc_x', 'acc_y', 'acc_z'),
          left=feet[:, 0] > 1.0, right=(feet[:, 1] > 1.0).astype('i8') * 2,
-         names=np.array(['what', 'nobody', 'reads']), **joints)
+         names=np.array(['an', 'unused', 'array']), **joints)
 )";
 
 using Numbers = std::vector<std::vector<double>>;
@@ -167,7 +168,7 @@ Numbers numbers_in(const std::filesystem::path& csv) {
   return rows;
 }
 
-/// By how much the numbers of two tables differ at most.
+/// Largest absolute difference between the numbers of two tables; infinite for different sizes.
 double difference(const Numbers& a, const Numbers& b) {
   if (a.size() != b.size()) return INFINITY;
   double most = 0.0;
@@ -213,7 +214,7 @@ class Mapping : public ::testing::Test {
 ScratchFolder* Mapping::folder = nullptr;
 recordings::Recording* Mapping::run = nullptr;
 
-TEST_F(Mapping, LogInOurUnitsIsBelievedToTheBitAsTheRunItself) {
+TEST_F(Mapping, LogInUpkiesUnitsGivesTheSameBeliefsAsTheRun) {
   folder->write("si.csv", si_csv(*run));
   folder->write("si.yaml", si_mapping());
   EXPECT_THAT(ran("export si.csv --mapping si.yaml -o si.mpack"),
@@ -223,13 +224,14 @@ TEST_F(Mapping, LogInOurUnitsIsBelievedToTheBitAsTheRunItself) {
   EXPECT_EQ(read_file(*folder / "si_beliefs.csv"), read_file(*folder / "run.csv"));
 }
 
-TEST_F(Mapping, RobotThatSharesNothingWithUpkieIsBelievedLikeIt) {
+TEST_F(Mapping, LogWithOtherUnitsAxesAndOrderGivesTheSameBeliefs) {
   folder->write("odd.csv", odd_csv(*run));
   folder->write("odd_csv.yaml", odd_csv_mapping());
   ran("export odd.csv --mapping odd_csv.yaml -o odd.mpack --labels odd_labels.csv");
-  const std::string said =
+  const std::string output =
       ran("estimate odd.mpack --model model.npz --labels odd_labels.csv -o odd_beliefs.csv");
-  EXPECT_THAT(said, AllOf(HasSubstr("5000.000"), HasSubstr("success"), Not(HasSubstr("upside"))));
+  EXPECT_THAT(output,
+              AllOf(HasSubstr("5000.000"), HasSubstr("accuracy"), Not(HasSubstr("upside"))));
   const Numbers beliefs = numbers_in(*folder / "odd_beliefs.csv");
   ASSERT_GT(beliefs.size(), 1000U);
   EXPECT_LT(difference(beliefs, numbers_in(*folder / "run.csv")), 1e-6);
@@ -246,18 +248,18 @@ TEST_F(Mapping, RobotThatSharesNothingWithUpkieIsBelievedLikeIt) {
   EXPECT_EQ(read_file(*folder / "npz_labels.csv"), read_file(*folder / "odd_labels.csv"));
 }
 
-TEST_F(Mapping, ExampleIsTheOneThatTheDocumentsShow) {
+TEST_F(Mapping, ExampleIsTheOneInTheDocuments) {
   const std::string example = TOUCHDOWN_SOURCE_DIR "/examples/mapping/robot";
   EXPECT_THAT(read_file(TOUCHDOWN_SOURCE_DIR "/docs/robot.md"),
               HasSubstr("```yaml\n" + read_file(example + ".yaml") + "```\n"));
   EXPECT_THAT(
       ran(fmt::format("export {0}.csv --mapping {0}.yaml -o example.mpack --labels example.csv",
                       example)),
-      AllOf(HasSubstr("10 records, from 81.000 to 81.009 s"), HasSubstr("3 stretches"),
+      AllOf(HasSubstr("10 records, from 81.000 to 81.009 s"), HasSubstr("3 intervals"),
             Not(HasSubstr("lack"))));
   const auto recorded = recordings::read_recording(*folder / "example.mpack");
   ASSERT_EQ(recorded.steps(), 10U);
-  // It stands: both knees bent backwards, torques that carry it, gravity gone but for rounding.
+  // The robot stands: knees bent backwards, torques that carry it, no gravity except for rounding.
   const models::Observation& o = recorded.observation.front();
   EXPECT_NEAR(o.servo[1].position, -45.3 * std::numbers::pi / 180.0, 1e-12);
   EXPECT_NEAR(o.servo[4].position, 45.2 * std::numbers::pi / 180.0, 1e-12);
@@ -267,14 +269,14 @@ TEST_F(Mapping, ExampleIsTheOneThatTheDocumentsShow) {
   EXPECT_NEAR(o.pitch, 0.0174, 1e-4);
 }
 
-TEST_F(Mapping, WhatDoesNotGoTogetherIsRefusedAndNothingIsWritten) {
+TEST_F(Mapping, InconsistentRequestsAreRefusedAndNothingIsWritten) {
   folder->write("si.yaml", si_mapping());
   folder->write("bad.csv", "t,lh_q\n0,1\n");
   EXPECT_THAT(refused("export bad.csv --mapping si.yaml -o bad.mpack"),
               HasSubstr("si.yaml:3:20: joints.position.from: bad.csv has no column 'lk_q' (did you "
                         "mean 'lh_q'?)"));
   EXPECT_THAT(refused("export bad.csv --mapping si.yaml -o bad.csv"),
-              HasSubstr("bad.csv: expected a log, whose name ends with .mpack"));
+              HasSubstr("bad.csv: expected a log with the extension .mpack"));
   EXPECT_THAT(refused("export bad.csv --mapping si.yaml --benchmark d"),
               HasSubstr("--mapping: expected -o"));
   EXPECT_THAT(refused("export bad.csv --labels l.csv -o bad.mpack"),
@@ -286,7 +288,7 @@ TEST_F(Mapping, WhatDoesNotGoTogetherIsRefusedAndNothingIsWritten) {
   EXPECT_THAT(refused("export bad.csv --mapping none.yaml -o bad.mpack"), HasSubstr("none.yaml"));
   folder->write("good.csv", si_csv(*run));
   EXPECT_THAT(refused("export good.csv --mapping si.yaml -o bad.mpack --labels bad_labels.csv"),
-              HasSubstr("--labels: good.csv says nothing about contact"));
+              HasSubstr("--labels: good.csv has no contact labels"));
   EXPECT_THAT(refused("export good.csv --mapping si.yaml -o bad.mpack --labels good.csv"),
               HasSubstr("good.csv"));
   EXPECT_FALSE(std::filesystem::exists(*folder / "bad.mpack"));

@@ -30,20 +30,20 @@ class Mcap : public ::testing::Test {
     EXPECT_EQ(ended.exit_code, 0) << arguments << "\n" << ended.errors;
     return ended.output;
   }
-  /// What another program, which knows nothing but the format's specification, finds in a file.
+  /// The messages that an independent reader, written from the format's specification, finds.
   std::vector<Message> read(const std::string& file) {
     const std::string command = fmt::format("cd '{}' && python3 " TOUCHDOWN_SOURCE_DIR
-                                            "/tests/cli/read_mcap.py {} > said 2>&1",
+                                            "/tests/cli/read_mcap.py {} > messages 2>&1",
                                             folder_.path().string(), file);
     const int status = std::system(command.c_str());
-    EXPECT_EQ(status, 0) << read_file(folder_ / "said").substr(0, 2000);
+    EXPECT_EQ(status, 0) << read_file(folder_ / "messages").substr(0, 2000);
     std::vector<Message> messages;
-    std::ifstream said(folder_ / "said");
-    while (status == 0 && said.peek() != std::ifstream::traits_type::eof()) {
+    std::ifstream output(folder_ / "messages");
+    while (status == 0 && output.peek() != std::ifstream::traits_type::eof()) {
       Message& message = messages.emplace_back();
       std::string json;
-      said >> message.topic >> message.time;
-      std::getline(said, json);
+      output >> message.topic >> message.time;
+      std::getline(output, json);
       message.json = nlohmann::json::parse(json);
     }
     return messages;
@@ -51,7 +51,7 @@ class Mcap : public ::testing::Test {
   const ScratchFolder folder_;
 };
 
-TEST_F(Mcap, HoldsWhatWasMeasuredAndBelievedAtEveryStep) {
+TEST_F(Mcap, HoldsSignalsAndBeliefsOfEveryStep) {
   // More than one chunk, and a clock that does not begin at 0.
   recordings::Recording log = test::synthetic_log(1.5);
   for (models::Observation& o : log.observation) o.time += 0.25;
@@ -67,16 +67,16 @@ TEST_F(Mcap, HoldsWhatWasMeasuredAndBelievedAtEveryStep) {
   ASSERT_EQ(beliefs.rows.size(), 1500U);
   EXPECT_GT(std::filesystem::file_size(folder_ / "with.mcap"), 2U << 20U);
   for (std::size_t k = 0; k < 1500; ++k) {
-    const Message& heard = messages[2 * k];
+    const Message& observed = messages[2 * k];
     const Message& believed = messages[2 * k + 1];
-    ASSERT_EQ(heard.topic, "/upkie/observation");
+    ASSERT_EQ(observed.topic, "/upkie/observation");
     ASSERT_EQ(believed.topic, "/touchdown/beliefs");
-    ASSERT_EQ(heard.time, 250'000'000U + 1'000'000U * k);
-    ASSERT_EQ(believed.time, heard.time);
+    ASSERT_EQ(observed.time, 250'000'000U + 1'000'000U * k);
+    ASSERT_EQ(believed.time, observed.time);
     const models::Observation& o = log.observation[k];
-    ASSERT_EQ(heard.json["servo"]["right_knee"]["torque"], o.servo[4].torque);
-    ASSERT_EQ(heard.json["imu"]["linear_acceleration"][2], o.imu.linear_acceleration.z());
-    ASSERT_FALSE(heard.json.contains("contact_filter"));
+    ASSERT_EQ(observed.json["servo"]["right_knee"]["torque"], o.servo[4].torque);
+    ASSERT_EQ(observed.json["imu"]["linear_acceleration"][2], o.imu.linear_acceleration.z());
+    ASSERT_FALSE(observed.json.contains("contact_filter"));
     const auto& filter = believed.json["contact_filter"];
     ASSERT_EQ(filter["left_wheel"]["p_contact"], std::stod(beliefs.rows[k][1]));
     ASSERT_EQ(filter["right_wheel"]["contact"], beliefs.rows[k][4] == "1");
@@ -104,7 +104,7 @@ TEST_F(Mcap, OfNoLogIsRefusedAndNothingIsWritten) {
   folder_.write("text.mpack", "no log");
   EXPECT_THAT(refused("export text.mpack -o a.mcap"), HasSubstr("text.mpack: byte 0: expected"));
   EXPECT_THAT(refused("export none.mpack -o a.mcap"), HasSubstr("none.mpack: no such file"));
-  // A map's key that is a number, beside a whole record: no JSON has it.
+  // A record with an additional key that is a number, which JSON does not allow.
   recordings::write_recording(test::robot_log(0.002), folder_ / "keys.mpack");
   std::string bytes = read_file(folder_ / "keys.mpack");
   const auto entries = static_cast<unsigned char>(bytes[0]);

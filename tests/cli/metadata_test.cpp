@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A model that `fit` made of a log, and what becomes of it.
+/// A model that `fit` wrote, and its later uses.
 class Metadata : public ::testing::Test {
  protected:
   Metadata() {
@@ -45,7 +45,7 @@ class Metadata : public ::testing::Test {
   const ScratchFolder folder_;
 };
 
-TEST_F(Metadata, SaysForWhomAtWhichRateAndToWhatAModelWasFitted) {
+TEST_F(Metadata, NamesEstimatorRateAndRobotOfAModel) {
   const ModelMetadata metadata = load_metadata(folder_ / "m.npz");
   EXPECT_EQ(metadata.estimator, "robust");
   EXPECT_EQ(metadata.sample_rate, 1000.0);
@@ -57,21 +57,21 @@ TEST_F(Metadata, SaysForWhomAtWhichRateAndToWhatAModelWasFitted) {
                         metadata.fingerprint + "\n"));
 }
 
-TEST_F(Metadata, SaysWhichConstantsTheFitWasTold) {
+TEST_F(Metadata, HoldsTheHyperparametersOfTheFit) {
   run("fit a.mpack -o other.npz --robot tall --grid 60 60 --set threshold=0.5");
   EXPECT_EQ(load_metadata(folder_ / "other.npz").configuration.at("threshold"), "0.5");
   EXPECT_EQ(load_metadata(folder_ / "m.npz").configuration.at("threshold"), "0.8");
   run("estimate a.mpack --model other.npz -o fitted_so.csv");
   run("estimate a.mpack --model m.npz --set threshold=0.5 -o run_so.csv");
   run("estimate a.mpack --model m.npz -o usual.csv");
-  const std::string told = read_file(folder_ / "fitted_so.csv");
-  EXPECT_EQ(told, read_file(folder_ / "run_so.csv"));
-  EXPECT_NE(told, read_file(folder_ / "usual.csv"));
+  const std::string fitted_so = read_file(folder_ / "fitted_so.csv");
+  EXPECT_EQ(fitted_so, read_file(folder_ / "run_so.csv"));
+  EXPECT_NE(fitted_so, read_file(folder_ / "usual.csv"));
   EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --set thresold=0.5"),
-              AllOf(HasSubstr("'robust' has no constant 'thresold'"),
+              AllOf(HasSubstr("'robust' has no hyperparameter 'thresold'"),
                     HasSubstr("did you mean 'threshold'")));
   EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --set bandwidth_floor=0.01"),
-              HasSubstr("'bandwidth_floor' is decided by the fit: touchdown fit --set"));
+              HasSubstr("'bandwidth_floor' is fixed by the fit: touchdown fit --set"));
   EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set thresold=0.5"),
               HasSubstr("did you mean 'threshold'"));
   EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set threshold=half"),
@@ -98,14 +98,14 @@ TEST_F(Metadata, OfARobotsFileHasItsLegs) {
   EXPECT_EQ(metadata.robot, "upkie_long_legs");
   EXPECT_EQ(metadata.configuration.at("geometry.upper_length"), "0.2352") << "1.4 times 0.168 m";
 
-  const auto beliefs = [&](const std::string& of_whom) {
-    run("estimate a.mpack --model long.npz -o beliefs.csv " + of_whom);
+  const auto beliefs = [&](const std::string& flags) {
+    run("estimate a.mpack --model long.npz -o beliefs.csv " + flags);
     return read_file(folder_ / "beliefs.csv");
   };
-  const std::string told = beliefs("");
-  EXPECT_EQ(beliefs(robot), told);
-  EXPECT_EQ(beliefs("--robot upkie --transfer"), told) << "a name says nothing of legs";
-  EXPECT_NE(beliefs("--robot models/upkie.xml --transfer"), told);
+  const std::string expected = beliefs("");
+  EXPECT_EQ(beliefs(robot), expected);
+  EXPECT_EQ(beliefs("--robot upkie --transfer"), expected) << "a name does not specify legs";
+  EXPECT_NE(beliefs("--robot models/upkie.xml --transfer"), expected);
   EXPECT_THAT(complaint_about("estimate a.mpack --model long.npz --robot models/upkie.xml"),
               HasSubstr("was fitted to the robot 'upkie_long_legs', not to 'upkie' (--transfer"));
   for (const char* verb : {"estimate a.mpack --model long.npz", "fit a.mpack -o x.npz"}) {
@@ -115,19 +115,19 @@ TEST_F(Metadata, OfARobotsFileHasItsLegs) {
   }
 }
 
-TEST_F(Metadata, OfAModelThatIsToldAnotherRobotsLegsHasThem) {
+TEST_F(Metadata, OfAModelExportedForAnotherRobotHasItsLegs) {
   const std::string shipped = "models/touchdown.npz";
   EXPECT_THAT(run("export " + shipped + " --robot models/upkie_long_legs.yaml -o long.npz"),
               AllOf(HasSubstr("model     long.npz, for 'touchdown' at 1000 Hz on "
                               "'upkie_long_legs', fingerprint "),
                     HasSubstr("next      touchdown estimate LOG --model long.npz\n")));
-  const auto beliefs = [&](const std::string& of_whom) {
-    run("estimate a.mpack -o beliefs.csv --model " + of_whom);
+  const auto beliefs = [&](const std::string& model_and_flags) {
+    run("estimate a.mpack -o beliefs.csv --model " + model_and_flags);
     return read_file(folder_ / "beliefs.csv");
   };
-  const std::string told = beliefs("long.npz");
-  EXPECT_EQ(told, beliefs(shipped + " --robot models/upkie_long_legs.yaml --transfer"));
-  EXPECT_NE(told, beliefs(shipped));
+  const std::string expected = beliefs("long.npz");
+  EXPECT_EQ(expected, beliefs(shipped + " --robot models/upkie_long_legs.yaml --transfer"));
+  EXPECT_NE(expected, beliefs(shipped));
 
   run("export long.npz --robot models/upkie.xml --set leave_below=0.25 -o quiet.npz");
   EXPECT_EQ(beliefs("quiet.npz"), beliefs(shipped + " --set leave_below=0.25"));
@@ -166,16 +166,16 @@ TEST_F(Metadata, ChoosesTheEstimatorThatAGridWasFittedFor) {
   EXPECT_THAT(run("estimate a.mpack --model paper.npz"), HasSubstr("Bayes filter (paper)"));
 }
 
-TEST_F(Metadata, IsNotNeededByFilesThatAreOlder) {
+TEST_F(Metadata, IsNotNeededByOlderFiles) {
   recordings::NpzArrays arrays = read_npz(folder_ / "m.npz");
   arrays.erase("metadata");
   recordings::write_npz(arrays, folder_ / "old.npz");
   EXPECT_THAT(run("estimate a.mpack --model old.npz --estimator reference"),
-              HasSubstr("model        old.npz: has no passport, being older or from elsewhere: "
-                        "taken for 'reference'\n"));
+              HasSubstr("model        old.npz: has no metadata (an older or external file): "
+                        "used with 'reference'\n"));
 }
 
-TEST_F(Metadata, TellsThatAModelWasChangedAfterItWasFitted) {
+TEST_F(Metadata, DetectsAModelThatWasChangedAfterItsFit) {
   recordings::NpzArrays arrays = read_npz(folder_ / "m.npz");
   arrays["contact_likelihood"].data[100] += 1.0;
   recordings::write_npz(arrays, folder_ / "m.npz");
@@ -183,7 +183,7 @@ TEST_F(Metadata, TellsThatAModelWasChangedAfterItWasFitted) {
               HasSubstr("m.npz: its numbers are not those that were fitted"));
 }
 
-TEST_F(Metadata, GoesWithAModelThatIsExportedAsAHeader) {
+TEST_F(Metadata, IsPartOfAModelExportedAsAHeader) {
   EXPECT_THAT(run("export m.npz -o out/my-model.hpp"),
               HasSubstr("touchdown::make_estimator(touchdown::compiled::my_model)"));
   EXPECT_THAT(
@@ -198,13 +198,13 @@ TEST_F(Metadata, GoesWithAModelThatIsExportedAsAHeader) {
   EXPECT_THAT(complaint_about("export a.mpack -o m.hpp"), HasSubstr("a.mpack: is not a readable"));
 }
 
-TEST_F(Metadata, IsNotAskedOfAFolder) {
+TEST_F(Metadata, OfAFolderIsAnError) {
   std::filesystem::create_directory(folder_ / "folder");
   EXPECT_THAT(complaint_about("estimate a.mpack --model folder"), HasSubstr("folder: is a folder"));
 }
 
-/// Today's answer to it was "all good".
-TEST_F(Metadata, OfNoModelSavesAnImuThatIsUpsideDown) {
+/// A regression: the summary once reported "all good" for such a log.
+TEST_F(Metadata, AnImuThatIsUpsideDownIsReported) {
   recordings::Recording robot = test::robot_log(2.0);
   for (models::Observation& o : robot.observation) {
     o.imu.raw_linear_acceleration = o.imu.linear_acceleration + Eigen::Vector3d(0.0, 0.0, 9.81);

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-/// Whatever is asked for, what is read stays as it was.
+/// No request changes the files that it reads.
 class Overwrite : public ::testing::Test {
  protected:
   Overwrite() {
@@ -74,7 +74,7 @@ TEST_F(Overwrite, OfALogOrModelByWhatIsEstimatedIsRefused) {
   }
   expect_refused(estimate + "-o m.csv", "m.csv: is the model itself");
   expect_refused("estimate - --model m.csv -o ./a.mpack <a.mpack", "is the log itself");
-  // A figure brings its data and its script along.
+  // A figure also writes its data and its script.
   expect_refused("estimate a.dat --model m.csv --figure a.png", "a.dat: is the log itself");
   fs::create_hard_link(folder_ / "a.mpack", folder_ / "style.gp");
   expect_refused(estimate + "--figure new.png", "style.gp: is the log itself");
@@ -96,15 +96,13 @@ TEST_F(Overwrite, OfARecordingByItsFilmIsRefused) {
   expect_refused("render run -o run/config.yaml", "is the run's config.yaml itself");
 }
 
-TEST_F(Overwrite, IsNoQuestionWhereTheNameIsOfAnotherKindOfFile) {
+TEST_F(Overwrite, IsRefusedFirstByTheOutputsExtension) {
   expect_refused("simulate step.yaml -o run.mp4",
-                 "run.mp4: expected a recording, whose name ends with .mpack");
-  expect_refused("fit a.mpack -o model.txt",
-                 "model.txt: expected a model, whose name ends with .npz");
-  expect_refused("render a.mpack -o film.avi",
-                 "film.avi: expected a film, whose name ends with .mp4");
+                 "run.mp4: expected a recording with the extension .mpack");
+  expect_refused("fit a.mpack -o model.txt", "model.txt: expected a model with the extension .npz");
+  expect_refused("render a.mpack -o film.avi", "film.avi: expected a film with the extension .mp4");
   expect_refused("render a.mpack --poster -o film.mp4",
-                 "film.mp4: expected a picture, whose name ends with .png or .jpg");
+                 "film.mp4: expected a picture with the extension .png or .jpg");
 }
 
 TEST_F(Overwrite, ByTheOtherOutputIsRefused) {

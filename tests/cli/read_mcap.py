@@ -1,5 +1,5 @@
-"""Reads an MCAP file by the words of its specification (https://mcap.dev/spec) and complains of whatever
-is not as they say. Prints each topic's messages as lines of TOPIC, time (ns) and JSON.
+"""Reads an MCAP file according to its specification (https://mcap.dev/spec) and fails at every
+deviation from it. Prints each topic's messages as lines of TOPIC, time (ns) and JSON.
 
     read_mcap.py FILE
 """
@@ -50,7 +50,7 @@ class Fields:
 
 
 def records(data, begin, end):
-    """Opcode, where the record begins and ends, and its fields."""
+    """Yields opcode, begin, end and fields of each record."""
     while begin < end:
         op, size = struct.unpack_from('<BQ', data, begin)
         assert begin + 9 + size <= end, 'a record goes on behind its section'
@@ -148,13 +148,13 @@ def read(data):
             sys.exit(f'opcode {op} in the summary')
         fields.end()
     assert again == (schemas, channels) and indexed == set(chunks)
-    told = {}
+    listed = {}
     for op, _, end, fields in records(data, offsets, footer_at):
         assert op == 0x0E
         kind, start, size = fields.numbers('BQQ')
-        told[kind] = (start, start + size)
+        listed[kind] = (start, start + size)
         fields.end()
-    assert told == groups
+    assert listed == groups
     for topic in channels:
         numbers = [one[1] for one in messages if one[0] == topic]
         assert numbers == list(range(len(numbers)))
@@ -162,7 +162,7 @@ def read(data):
 
 
 def fits(value, schema):
-    """Whether a message is what its schema says; null stands for a number that is none."""
+    """Whether a message matches its schema; null stands for NaN."""
     kind = schema.get('type')
     if kind == 'object':
         return isinstance(value, dict) and all(fits(v, schema['properties'].get(k, {}))

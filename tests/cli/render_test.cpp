@@ -50,14 +50,14 @@ class Render : public ::testing::Test {
   const ScratchFolder folder_;
 };
 
-TEST_F(Render, FilmsAPieceInSlowMotion) {
+TEST_F(Render, FilmsASegmentInSlowMotion) {
   const Ended ended = render("a.mpack -o x.mp4 --from 0.5 --to 1 --speed 0.25");
   ASSERT_EQ(ended.exit_code, 0) << ended.errors;
   EXPECT_THAT(ended.output, HasSubstr("x.mp4: 21 frames"));
   EXPECT_EQ(read_file(folder_ / "x.mp4").substr(4, 4), "ftyp");
 }
 
-TEST_F(Render, ShowsTwoRecordingsBesideEachOther) {
+TEST_F(Render, ShowsTwoRecordingsSideBySide) {
   const Ended ended = render("a.mpack a.mpack -o x.mp4 --layout side-by-side --to 0.5");
   ASSERT_EQ(ended.exit_code, 0) << ended.errors;
   EXPECT_THAT(ended.output, HasSubstr("6 frames"));
@@ -73,8 +73,9 @@ TEST_F(Render, MakesPosters) {
   EXPECT_NE(read_file(folder_ / "scene.png"), read_file(folder_ / "x.png"));
 }
 
-TEST_F(Render, ShowsTheRobotAsItWasNotAsItsFileHasIt) {
-  // Wheels twice as large, by the robot's file and by this robot's deviation: one and the same.
+TEST_F(Render, ShowsTheRobotWithItsDeviations) {
+  // Wheels of twice the size, once by the robot's file and once by a deviation, give the same
+  // picture.
   write_atomically(folder_ / "large.yaml",
                    "mjcf: " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml\nwheel_radius: 0.1\n");
   const std::string simulate = "simulate step.yaml --set end.duration=0.01 ";
@@ -146,7 +147,7 @@ TEST_F(Render, RecordingsOfAnotherRobotAreRefusedInOneLine) {
   folder_.write("model.mpack", altered(log, "upkie.xml", "other.xml"));
   const std::string model = complaint_about("model.mpack -o x.mp4", 2);
   EXPECT_THAT(model, HasSubstr("other.xml"));
-  // A real robot's log says nothing of a terrain.
+  // A real robot's log has no terrain.
   folder_.write("real.mpack", altered(log, "touchdown", "something"));
   const std::string real = complaint_about("real.mpack -o x.mp4", 2);
   EXPECT_THAT(real, HasSubstr("terrain"));
@@ -232,7 +233,8 @@ TEST_P(Interrupted, LeavesNoProcessNoSharedMemoryAndNoPartialFile) {
     EXPECT_FALSE(is_alive(worker));
   }
   EXPECT_EQ(names_in(folder_.path()), before);
-  // What the program shares with its workers has no name: a segment of its own would be here.
+  // The memory that the program shares with its workers is anonymous. A named segment would be
+  // here.
   for (const std::string& name : names_in("/dev/shm")) {
     EXPECT_EQ(name.find("touchdown"), std::string::npos) << name;
   }

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <regex>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/table.hpp"
 #include "program.hpp"
 
 namespace touchdown::cli {
@@ -14,7 +16,7 @@ using ::testing::StartsWith;
 
 constexpr int wrong_request = 2;
 
-/// The one line a wrong request is answered with.
+/// The one-line message about a wrong request.
 std::string complaint_about(const std::string& arguments, const ScratchFolder& folder) {
   const Ended ended = touchdown_program(arguments, folder.path());
   EXPECT_EQ(ended.exit_code, wrong_request) << ended.errors;
@@ -91,7 +93,7 @@ TEST(WrongRequest, AnUnknownSimulatorSuggestsTheNearestOne) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.mpack"));
 }
 
-TEST(WrongRequest, AFileOfAnotherKindIsSentToItsVerb) {
+TEST(WrongRequest, AFileOfAnotherKindSuggestsItsVerb) {
   EXPECT_THAT(complaint_about("run experiments/nmn.yaml", {}),
               HasSubstr("experiments/nmn.yaml: is a training file; try: touchdown train "));
   EXPECT_THAT(complaint_about("run scenarios/stairs.yaml", {}),
@@ -106,7 +108,7 @@ TEST(WrongRequest, AnUnknownEstimatorSuggestsTheNearestOne) {
   EXPECT_THAT(complaint_about("run x.yaml", folder), HasSubstr("did you mean 'robust'?"));
 }
 
-TEST(WrongRequest, AHighlightBesideTheGridIsRefused) {
+TEST(WrongRequest, AHighlightOutsideTheGridIsRefused) {
   const ScratchFolder folder;
   folder.write("x.yaml", minimal("highlights: [{torque: 0.5, accelerometer: 0.0}]\n"));
   EXPECT_THAT(complaint_about("run x.yaml", folder), HasSubstr("highlights.0.torque"));
@@ -121,13 +123,13 @@ TEST(WrongRequest, AnOverrideOfAnUnknownKeyIsRefused) {
               HasSubstr("key=value"));
 }
 
-TEST(WrongRequest, WhatIsNoYamlIsShownWithItsPlace) {
+TEST(WrongRequest, InvalidYamlIsShownWithItsPlace) {
   const ScratchFolder folder;
   folder.write("x.yaml", "name: [tiny\n");
   EXPECT_THAT(complaint_about("run x.yaml", folder), HasSubstr("not valid YAML"));
 }
 
-TEST(WrongRequest, ALogThatIsNoneIsRefused) {
+TEST(WrongRequest, AnInvalidLogIsRefused) {
   const ScratchFolder folder;
   folder.write("x.mpack", "no log");
   complaint_about("render x.mpack -o x.mp4", folder);
@@ -140,7 +142,7 @@ TEST(WrongRequest, ALogThatIsNoneIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.mp4"));
 }
 
-TEST(Help, BeginsWithALineToCopy) {
+TEST(Help, BeginsWithAnExample) {
   for (const std::string verb : {"", "run", "simulate", "render"}) {
     const Ended ended = touchdown_program(verb + " --help", ScratchFolder().path());
     EXPECT_EQ(ended.exit_code, 0);
@@ -148,13 +150,27 @@ TEST(Help, BeginsWithALineToCopy) {
   }
 }
 
-TEST(List, NamesWhatThereIs) {
+TEST(List, NamesExperimentsScenariosEnginesAndEstimators) {
   const Ended ended = touchdown_program("list", ScratchFolder().path());
   EXPECT_EQ(ended.exit_code, 0);
   for (const char* name : {"experiments/stairs.yaml", "scenarios/stairs.yaml", "mujoco", "bullet",
                            "robust", "always_contact"}) {
     EXPECT_THAT(ended.output, HasSubstr(name));
   }
+}
+
+TEST(List, DescribesEachFileInOneShortSentence) {
+  constexpr std::size_t longest = 95;
+  const Ended ended = touchdown_program("list", ScratchFolder().path());
+  const std::regex file_line("\n  \\S+\\.yaml +([^\n]*)");
+  int files = 0;
+  for (std::sregex_iterator found(ended.output.begin(), ended.output.end(), file_line), end;
+       found != end; ++found, ++files) {
+    const std::string sentence = found->str(1);
+    EXPECT_THAT(sentence, ::testing::EndsWith("."));
+    EXPECT_LE(width(sentence), longest) << sentence;
+  }
+  EXPECT_GE(files, 50);
 }
 
 }  // namespace

@@ -22,14 +22,15 @@ namespace fs = std::filesystem;
 std::vector<fs::path> saved_parts(const fs::path& run_directory) {
   std::vector<fs::path> parts;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(run_directory / "state" / "evaluation", ignored)) {
+  for (const auto& entry :
+       fs::directory_iterator(run_directory / "state" / "evaluation", ignored)) {
     if (entry.path().filename().string().rfind('.', 0) != 0) parts.push_back(entry.path());
   }
   std::sort(parts.begin(), parts.end());
   return parts;
 }
 
-/// Runs it to its end and returns what it told on the way.
+/// Runs the program to its end and returns its messages on standard error.
 std::string run_through(const std::string& arguments, const ScratchFolder& folder) {
   const Ended ended = touchdown_program(arguments, folder.path());
   EXPECT_EQ(ended.exit_code, 0) << ended.errors;
@@ -60,7 +61,7 @@ TEST(Restart, AfterKillsAtRandomMomentsEndsInTheBytesOfAnUndisturbedRun) {
   EXPECT_GT(kills, 0);
 }
 
-TEST(Restart, DoesNotBelieveWhatIsNotWhole) {
+TEST(Restart, ComputesDamagedPartsAgain) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out a";
   run_through(run, folder);
@@ -81,14 +82,14 @@ TEST(Restart, DoesNotBelieveWhatIsNotWhole) {
     for (const fs::path& part : parts) times.push_back(fs::last_write_time(part));
     return times;
   }();
-  EXPECT_THAT(run_through(run, folder), HasSubstr("12/12 parts (10 of them were there)"));
+  EXPECT_THAT(run_through(run, folder), HasSubstr("12/12 parts (10 of them done before)"));
   for (std::size_t i = 0; i < parts.size(); ++i) {
     EXPECT_EQ(fs::last_write_time(parts[i]) == written[i], i != 2 && i != 7) << parts[i];
   }
   EXPECT_THAT(different_files(result_files(folder / "a"), expected), IsEmpty());
 }
 
-TEST(Interrupt, SaysWhatIsSavedAndTheSameCommandGoesOnFromThere) {
+TEST(Interrupt, ReportsWhatIsSavedAndTheSameCommandContinues) {
   const ScratchFolder folder;
   const std::string run =
       "run " + write_tiny_experiment(folder) + " --no-pictures --set noise.seeds=60 --out ";
@@ -106,12 +107,13 @@ TEST(Interrupt, SaysWhatIsSavedAndTheSameCommandGoesOnFromThere) {
     EXPECT_THAT(
         ended.errors,
         HasSubstr("touchdown: stopped; 8 of 8 recordings and " + std::to_string(parts.size()) +
-                  " of 360 parts of the listening are saved in a; the same command goes "
-                  "on from there\n"));
+                  " of 360 parts of the evaluation are saved in a; the same command "
+                  "continues from there\n"));
   }
   for (const fs::path& part : parts) written.push_back(fs::last_write_time(part));
-  EXPECT_THAT(run_through(run + "a", folder),
-              HasSubstr("360/360 parts (" + std::to_string(parts.size()) + " of them were there)"));
+  EXPECT_THAT(
+      run_through(run + "a", folder),
+      HasSubstr("360/360 parts (" + std::to_string(parts.size()) + " of them done before)"));
   for (std::size_t i = 0; i < parts.size(); ++i) {
     EXPECT_EQ(fs::last_write_time(parts[i]), written[i]);
   }
@@ -120,7 +122,7 @@ TEST(Interrupt, SaysWhatIsSavedAndTheSameCommandGoesOnFromThere) {
               IsEmpty());
 }
 
-TEST(Interrupt, BeforeAnythingIsSavedSaysSo) {
+TEST(Interrupt, BeforeAnythingIsSavedReportsThat) {
   const ScratchFolder folder;
   StartedProgram program("run " + write_long_experiment(folder) + " --out a", folder.path());
   while (program.is_running() && !fs::exists(folder / "a/state/key")) program.let_run(0.002);

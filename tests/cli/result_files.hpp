@@ -11,7 +11,7 @@
 
 namespace touchdown::cli {
 
-/// What stands in a folder.
+/// The names in a folder.
 inline std::set<std::string> names_in(const std::filesystem::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -20,9 +20,9 @@ inline std::set<std::string> names_in(const std::filesystem::path& folder) {
   return names;
 }
 
-/// Every file of a run directory that must not depend on when, where and in how many attempts it
-/// was computed, hidden ones included, by its path there, and what tells its content apart. The
-/// manifest and the report say what was typed and when.
+/// Files of a run directory, hidden ones included, by their paths there, with hashes of their
+/// contents. They must not depend on when, where and in how many attempts they were computed. The
+/// manifest and the report are left out, because they contain the command line and the time.
 inline std::map<std::string, std::size_t> result_files(const std::filesystem::path& directory) {
   std::map<std::string, std::size_t> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
@@ -35,7 +35,7 @@ inline std::map<std::string, std::size_t> result_files(const std::filesystem::pa
   return files;
 }
 
-/// The names of those that two run directories do not have in common.
+/// The names of files that are missing or different in one of two run directories.
 inline std::vector<std::string> different_files(const std::map<std::string, std::size_t>& a,
                                                 const std::map<std::string, std::size_t>& b) {
   std::vector<std::string> names;

@@ -22,7 +22,7 @@ using ::testing::StartsWith;
 
 namespace fs = std::filesystem;
 
-/// The results that must not depend on when, where and by how many threads they were computed.
+/// The results that must not depend on time, place and number of threads.
 std::map<std::string, std::string> reproducible_files(const fs::path& run_directory) {
   std::map<std::string, std::string> files;
   for (const char* folder : {"tables", "recordings", "models"}) {
@@ -70,7 +70,7 @@ std::vector<std::vector<std::string>> cells_of(const fs::path& csv) {
   return rows;
 }
 
-TEST(Run, DrawsFiguresOfWhatItsTablesSay) {
+TEST(Run, DrawsFiguresThatAgreeWithItsTables) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
   run_tiny(folder, "--out a");
@@ -88,7 +88,7 @@ TEST(Run, DrawsFiguresOfWhatItsTablesSay) {
   }
   EXPECT_THAT(read_file(folder / "a/figures/latency_mujoco.gp"),
               HasSubstr("# Caption: 3 test runs × 2 noise seeds"));
-  // Where both wheels are pooled, what the figure says was found is what the table counts.
+  // For both wheels pooled, the figure's detected events are those of the table.
   const std::string latency = read_file(folder / "a/figures/latency_mujoco.dat");
   const std::string reliability = read_file(folder / "a/figures/reliability_mujoco.dat");
   const auto column = [](const std::vector<std::string>& header, const std::string& name) {
@@ -140,13 +140,13 @@ TEST(Run, LeavesADirectoryThatExplainsItself) {
   }
 }
 
-TEST(Run, EndsWithWhatCameOutWhereItIsAndWhatToDoNext) {
+TEST(Run, EndsWithResultsPathsAndNextCommands) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
   const Ended ended = touchdown_program("run tiny.yaml --out a", folder.path());
   ASSERT_EQ(ended.exit_code, 0) << ended.errors;
-  const std::string last = ended.output.substr(ended.output.find("Share of time"));
-  EXPECT_THAT(last, StartsWith("Share of time in which contact was told right, torque noise 1 N·m, "
+  const std::string last = ended.output.substr(ended.output.find("Contact accuracy"));
+  EXPECT_THAT(last, StartsWith("Contact accuracy, torque noise 1 N·m, "
                                "accelerometer noise 5 m/s²\n"));
   for (const auto& row : cells_of(folder / "a/tables/success.csv")) {
     if (row[1] != "robust" || row[2] != "1" || row[3] != "5") continue;
@@ -168,7 +168,7 @@ TEST(Run, OfItsOwnResolvedConfigurationGivesTheSameResults) {
   EXPECT_EQ(reproducible_files(folder.path() / "a"), reproducible_files(folder.path() / "b"));
 }
 
-TEST(Run, UsesRecordingsThatAreThereAlready) {
+TEST(Run, UsesExistingRecordings) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
   run_tiny(folder, "--out a");
@@ -181,7 +181,7 @@ TEST(Run, UsesRecordingsThatAreThereAlready) {
   EXPECT_EQ(reproducible_files(folder.path() / "a"), before);
 }
 
-TEST(Run, KeepsTheRecordingsThatItIsAskedForAndTheSameTables) {
+TEST(Run, KeepsTheRequestedRecordingsAndTheSameTables) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
   run_tiny(folder, "--no-pictures --out all");
@@ -202,7 +202,7 @@ TEST(Run, KeepsTheRecordingsThatItIsAskedForAndTheSameTables) {
   }
 }
 
-TEST(Run, WithoutRecordingsGoesOnAndMergesToTheSameBytes) {
+TEST(Run, WithoutRecordingsContinuesAndMergesToTheSameBytes) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
   const std::string none = "--no-pictures --set recordings=none --out ";

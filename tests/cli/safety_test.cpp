@@ -23,7 +23,7 @@ using ::testing::StartsWith;
 
 namespace fs = std::filesystem;
 
-/// The one line that a command which does nothing says.
+/// The one-line message of a command that is refused.
 std::string refusal(const ScratchFolder& folder, const std::string& arguments, int code = 2) {
   const Ended ended = touchdown_program(arguments, folder.path());
   EXPECT_EQ(ended.exit_code, code) << arguments << ": " << ended.errors;
@@ -49,7 +49,7 @@ std::vector<std::string> files_below(const fs::path& folder) {
   return names;
 }
 
-/// Those of them that no run made.
+/// The files in a run directory that are not files of a run.
 std::vector<std::string> untracked_files_in(const fs::path& directory) {
   std::vector<std::string> names = files_below(directory);
   std::erase(names, "state/key");
@@ -126,7 +126,7 @@ TEST(RunDirectory, OfAnotherBuildIsComputedAnewWithoutAsking) {
               IsEmpty());
 }
 
-TEST(RunDirectory, WhoseStateWasRemovedIsComputedAnew) {
+TEST(RunDirectory, WithoutItsStateIsComputedAnew) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out a";
   succeed(folder, run);
@@ -138,7 +138,7 @@ TEST(RunDirectory, WhoseStateWasRemovedIsComputedAnew) {
   EXPECT_EQ(result_files(folder / "a"), before);
 }
 
-TEST(RunDirectory, HoldsNoFileThatItsRunsDoNotKnowAgain) {
+TEST(RunDirectory, HoldsNoUntrackedFile) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) +
                           " --set video.enabled=true --set detail.seed=0 --set paper_tables=true"
@@ -149,7 +149,7 @@ TEST(RunDirectory, HoldsNoFileThatItsRunsDoNotKnowAgain) {
   EXPECT_THAT(untracked_files_in(folder / "a"), IsEmpty());
 }
 
-TEST(RunDirectory, OfAKilledStartIsGoneOnWith) {
+TEST(RunDirectory, OfAKilledStartIsContinued) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out a";
   folder.write("a/state/lock", "");
@@ -182,7 +182,7 @@ TEST(Name, OfAScenarioOrAnExperimentLeadsNowhereElse) {
   EXPECT_EQ(after, before);
 }
 
-TEST(Lock, OfARunRefusesWhoeverWouldWriteThereAndNamesIt) {
+TEST(Lock, OfARunRefusesOtherWritersAndNamesItsOwner) {
   const ScratchFolder folder;
   const std::string run = "run " + write_long_experiment(folder) + " --out a";
   {
@@ -199,11 +199,11 @@ TEST(Lock, OfARunRefusesWhoeverWouldWriteThereAndNamesIt) {
     running.send(SIGKILL);
     running.end();
   }
-  // A killed holder is in nobody's way.
+  // A killed owner does not block others.
   EXPECT_THAT(refusal(folder, "merge a"), HasSubstr("parts are missing"));
 }
 
-TEST(Lock, OfAShardLetsOtherShardsInAndNobodyElse) {
+TEST(Lock, OfAShardAdmitsOnlyOtherShards) {
   const ScratchFolder folder;
   const std::string run =
       "run " + write_tiny_experiment(folder) + " --no-pictures --set noise.seeds=200 --out a";
@@ -222,7 +222,7 @@ TEST(Lock, LeavesShardsThatStartTogetherToAgreeOnTheirDirectory) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out ";
   {
-    // Each from a folder of its own, where it says what it does.
+    // Each shard has a folder of its own for its output.
     std::vector<std::unique_ptr<ScratchFolder>> terminals;
     std::vector<std::unique_ptr<StartedProgram>> shards;
     for (const char* shard : {"1/5", "2/5", "3/5", "4/5", "5/5"}) {
@@ -243,7 +243,7 @@ TEST(Lock, LeavesShardsThatStartTogetherToAgreeOnTheirDirectory) {
               IsEmpty());
 }
 
-TEST(Clean, LeavesRunsThatAreInUseAndFilesThatNoRunMade) {
+TEST(Clean, LeavesRunsThatAreInUseAndUntrackedFiles) {
   const ScratchFolder folder;
   const std::string run =
       "run " + write_tiny_experiment(folder) + " --no-pictures --set noise.seeds=";
@@ -259,7 +259,7 @@ TEST(Clean, LeavesRunsThatAreInUseAndFilesThatNoRunMade) {
     const Ended cleaned = touchdown_program("clean", folder.path());
     EXPECT_EQ(cleaned.exit_code, 0) << cleaned.errors;
     EXPECT_THAT(cleaned.output,
-                AllOf(HasSubstr("1 files stay that no run made"), HasSubstr("is in use by process"),
+                AllOf(HasSubstr("1 untracked files remain"), HasSubstr("is in use by process"),
                       HasSubstr("(touchdown x)")));
   }
   EXPECT_EQ(read_file(directories[0] / "notes.md"), "precious");
@@ -270,7 +270,7 @@ TEST(Clean, LeavesRunsThatAreInUseAndFilesThatNoRunMade) {
   EXPECT_TRUE(fs::exists(directories[2] / "tables/success.csv"));
 }
 
-/// What `from` is replaced by in a file that holds it.
+/// Replaces `from`, which the file must contain, by `to`.
 void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
   std::string content = read_file(file);
   const std::size_t at = content.find(from);
@@ -294,7 +294,7 @@ TEST(Merge, RefusesAnExperimentThatWasChangedSinceItsPartsWereComputed) {
     write_atomically(folder / file, before);
   }
   EXPECT_FALSE(fs::exists(folder / "a/tables"));
-  // From anywhere, and with a comment more, it is the same experiment.
+  // From another folder and with one more comment it is the same experiment.
   replace_in(folder / "a/config.yaml", "name: tiny", "name: tiny  # of mine");
   fs::create_directory(folder / "elsewhere");
   EXPECT_EQ(touchdown_program("merge ../a --no-pictures", folder / "elsewhere").exit_code, 0);
@@ -315,14 +315,14 @@ TEST(Merge, RefusesPartsOfOtherTasksByName) {
       AllOf(HasSubstr("a/state/evaluation/" + one + ": holds '"),
             HasSubstr(" part " + other + "', expected '"), HasSubstr(" part " + one + "'")));
   EXPECT_FALSE(fs::exists(folder / "a/tables"));
-  // The run itself knows what to do.
+  // The run itself computes the parts again.
   succeed(folder, run + "a --no-pictures");
   succeed(folder, run + "whole --no-pictures");
   EXPECT_THAT(different_files(result_files(folder / "a"), result_files(folder / "whole")),
               IsEmpty());
 }
 
-TEST(Shards, OfAnEmptyTextAreNone) {
+TEST(Shards, OfAnEmptyTextAreRefused) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) + " --out a --shard ";
   EXPECT_THAT(refusal(folder, run + "''"), HasSubstr("'' is no shard: expected k/n"));
@@ -330,7 +330,7 @@ TEST(Shards, OfAnEmptyTextAreNone) {
   EXPECT_FALSE(fs::exists(folder / "a"));
 }
 
-TEST(Run, ThatNoMachineCanHoldSaysHowMuchItNeedsAndWhy) {
+TEST(Run, ThatExceedsTheMemoryReportsHowMuchItNeedsAndWhy) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) +
                           " --out a --set test.runs=100000 --set noise.seeds=100000";

@@ -18,7 +18,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// What a run of the tiny experiment wrote.
+/// Runs the tiny experiment and returns its result files.
 std::map<std::string, std::size_t> run_with(const ScratchFolder& folder, const std::string& out,
                                             const std::string& flags = "") {
   const Ended ended = touchdown_program(
@@ -37,7 +37,7 @@ TEST(Sensors, ThatAreIdealGiveTheBytesOfAnExperimentThatNamesNone) {
   EXPECT_THAT(read_file(folder / "none/tables/tables.md"), Not(HasSubstr("sensors as in")));
 }
 
-TEST(Sensors, ChangeWhatIsHeardAndFittedAndNotWhatIsRecorded) {
+TEST(Sensors, ChangeSignalsAndFitsButNotRecordings) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
   const auto none = run_with(folder, "none");
@@ -78,7 +78,7 @@ TEST(Sensors, OfAProfileThatWasEditedAreAnotherRequest) {
   const Ended other = touchdown_program(run, folder.path());
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.errors, HasSubstr("holds experiment 'tiny'"));
-  // What was run is drawn by what was run.
+  // A merge uses the profile of the run, not the edited file.
   const Ended merged = touchdown_program("merge a", folder.path());
   EXPECT_EQ(merged.exit_code, 0) << merged.errors;
 }
@@ -102,7 +102,7 @@ TEST(Sensors, OfAProfileThatIsWrongStopTheRunBeforeItBegins) {
                     HasSubstr("did you mean 'sensors/upkie.yaml'?")));
 }
 
-TEST(Sensors, AreListedWithWhatTheyAre) {
+TEST(Sensors, AreListedWithADescription) {
   const ScratchFolder folder;
   const Ended listed = touchdown_program("list", folder.path());
   EXPECT_THAT(listed.output, HasSubstr("sensors/upkie.yaml   Upkie: servos by moteus"));

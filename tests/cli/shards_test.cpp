@@ -64,7 +64,7 @@ TEST(Shards, AreNotComputedTwice) {
   const std::string run = "run " + write_tiny_experiment(folder) + " --out a --shard ";
   EXPECT_THAT(in(folder, run + "2/3").output, HasSubstr("4 parts, 4 computed now"));
   EXPECT_THAT(in(folder, run + "2/3").output, HasSubstr("4 parts, 0 computed now"));
-  // Other shares of the same work.
+  // Another division of the same work.
   EXPECT_THAT(in(folder, run + "1/1").output, HasSubstr("12 parts, 8 computed now"));
 }
 
@@ -82,14 +82,14 @@ TEST(Shards, WrongOnesAreRefusedInOneLine) {
   EXPECT_FALSE(fs::exists(folder / "a"));
 }
 
-TEST(DryRun, SaysWhereResultsWouldGoAndLeavesNothing) {
+TEST(DryRun, PrintsTheRunDirectoryAndWritesNothing) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder);
-  const std::string said = in(folder, run + " --dry-run").output;
-  EXPECT_THAT(said, AllOf(HasSubstr("results   runs/tiny/"), HasSubstr("\nparts     12\n")));
+  const std::string output = in(folder, run + " --dry-run").output;
+  EXPECT_THAT(output, AllOf(HasSubstr("results   runs/tiny/"), HasSubstr("\nparts     12\n")));
   EXPECT_FALSE(fs::exists(folder / "runs"));
   in(folder, run + " --shard 1/12");
-  const std::string directory = said.substr(10, said.find('\n') - 10);
+  const std::string directory = output.substr(10, output.find('\n') - 10);
   EXPECT_TRUE(fs::exists(folder / directory / "state/key")) << directory;
 }
 

@@ -9,12 +9,12 @@
 
 namespace touchdown::cli {
 
-/// The `touchdown` that was built, at work in `folder` while the test does something else. It does
-/// not outlive this object.
+/// Runs the `touchdown` of this build in `folder` while the test does something else. The process
+/// does not outlive this object.
 class StartedProgram {
  public:
-  /// `arguments` are separated by blanks; `environment` is what it gets besides this process's,
-  /// NAME=VALUE each.
+  /// `arguments` are separated by blanks. `environment` adds NAME=VALUE entries to those of this
+  /// process.
   StartedProgram(const std::string& arguments, const std::filesystem::path& folder,
                  std::vector<std::string> environment = {});
   StartedProgram(const StartedProgram&) = delete;
@@ -22,11 +22,11 @@ class StartedProgram {
   ~StartedProgram();
 
   void send(int signal) const;
-  /// Whether it has not ended yet.
+  /// Whether the process has not ended yet.
   bool is_running();
-  /// Sleeps so long, or until it ends.
+  /// Sleeps for this time (s), or until the process ends.
   void let_run(double seconds);
-  /// Its end: the exit code, or minus the number of the signal that killed it.
+  /// Waits for the end. The exit code is minus the signal's number if a signal killed the process.
   Ended end();
 
  private:

@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 namespace fs = std::filesystem;
 
-/// Exit code of the program with standard streams as the shell makes them.
+/// Exit code of the program with standard streams that the shell redirects.
 int exit_code(const std::string& arguments_and_streams, const ScratchFolder& folder) {
   const std::string command = fmt::format("cd '{}' && '{}' {}", folder.path().string(),
                                           TOUCHDOWN_PROGRAM, arguments_and_streams);
@@ -27,7 +27,7 @@ int exit_code(const std::string& arguments_and_streams, const ScratchFolder& fol
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-TEST(StandardError, ThatTakesNothingStopsNoWork) {
+TEST(StandardError, ThatIsFullOrClosedDoesNotStopARun) {
   const ScratchFolder folder;
   const std::string experiment = write_tiny_experiment(folder);
   ASSERT_EQ(exit_code("run " + experiment + " --no-pictures --out plain >plain.txt 2>&1", folder),
@@ -41,18 +41,18 @@ TEST(StandardError, ThatTakesNothingStopsNoWork) {
   }
 }
 
-TEST(StandardError, ThatTakesNothingKeepsTheExitCodeOfAComplaint) {
+TEST(StandardError, ThatIsFullOrClosedKeepsTheExitCode) {
   const ScratchFolder folder;
   for (const std::string stream : {"2>/dev/full", "2>&-", "<&- >&- 2>&-"}) {
     EXPECT_EQ(exit_code("fit missing.mpack -o m.npz " + stream, folder), 2) << stream;
   }
 }
 
-TEST(StandardError, ThatIsClosedIsNoFileThatIsWritten) {
+TEST(StandardError, ThatIsClosedDoesNotEndUpInAFile) {
   const ScratchFolder folder;
   recordings::write_recording(test::synthetic_log(1.0), folder / "a.mpack");
   const std::string bytes = read_file(folder / "a.mpack");
-  folder.write("cut.mpack", bytes.substr(0, bytes.size() - 5));  // which is warned about
+  folder.write("cut.mpack", bytes.substr(0, bytes.size() - 5));  // which causes a warning
   const std::string estimate = "estimate cut.mpack --estimator free_fall -o ";
   ASSERT_EQ(exit_code(estimate + "plain.csv >plain.txt 2>warning.txt", folder), 0);
   EXPECT_THAT(read_file(folder / "warning.txt"), HasSubstr("cut off"));
@@ -60,7 +60,7 @@ TEST(StandardError, ThatIsClosedIsNoFileThatIsWritten) {
   EXPECT_EQ(read_file(folder / "b.csv"), read_file(folder / "plain.csv"));
 }
 
-TEST(StandardOutput, ThatIsFullOrClosedIsComplainedAbout) {
+TEST(StandardOutput, ThatIsFullOrClosedIsAnError) {
   const ScratchFolder folder;
   for (const std::string stream : {">/dev/full", ">&-"}) {
     EXPECT_EQ(exit_code("list " + stream + " 2>errors.txt", folder), 1) << stream;
@@ -73,7 +73,7 @@ TEST(StandardOutput, ThatIsFullOrClosedIsComplainedAbout) {
   EXPECT_THAT(read_file(folder / "errors.txt"), IsEmpty());
 }
 
-TEST(StandardOutput, ThatIsFullDoesNotKeepAnExperimentFromItsReport) {
+TEST(StandardOutput, ThatIsFullDoesNotPreventTheReport) {
   const ScratchFolder folder;
   const std::string experiment = write_tiny_experiment(folder);
   EXPECT_EQ(exit_code("run " + experiment + " --out out >/dev/full 2>errors.txt", folder), 1);

@@ -74,7 +74,7 @@ std::vector<std::vector<std::string>> rows_of(const fs::path& run, const std::st
   return rows;
 }
 
-/// Beliefs that never change, about every test file of an export.
+/// Writes constant beliefs for every test file of an export.
 void write_constant(const ScratchFolder& folder, const std::string& signals,
                     const std::string& beliefs, const std::string& p) {
   for (const auto& row : from_csv(read_file(folder / signals / "index.csv")).rows) {
@@ -84,7 +84,7 @@ void write_constant(const ScratchFolder& folder, const std::string& signals,
   }
 }
 
-/// A benchmark that ran and was exported.
+/// A finished and exported benchmark.
 class Submission : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -98,28 +98,28 @@ class Submission : public ::testing::Test {
 };
 ScratchFolder* Submission::folder = nullptr;
 
-TEST_F(Submission, ProgramThatFollowsTheSameEquationsHasTheScoresOfOurOwnToTheLastDigit) {
+TEST_F(Submission, ProgramWithTheSameEquationsHasTheSameScores) {
   const std::string python = python_with_numpy();
   if (python.empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
   const std::string script = TOUCHDOWN_SOURCE_DIR "/examples/enter/free_fall.py";
   ASSERT_TRUE(shell(fmt::format("{} {} signals falls", python, script), *folder));
   ran("report run", *folder);
-  const std::string said = ran("score run --beliefs falls", *folder);
-  EXPECT_THAT(said, AllOf(HasSubstr("\n  falls "), HasSubstr("falls: 16 runs scored"),
-                          Not(HasSubstr("No beliefs")), Not(HasSubstr("no belief"))));
+  const std::string output = ran("score run --beliefs falls", *folder);
+  EXPECT_THAT(output, AllOf(HasSubstr("\n  falls "), HasSubstr("falls: 16 runs scored"),
+                            Not(HasSubstr("No beliefs")), Not(HasSubstr("no belief"))));
   const auto ours = rows_of(*folder / "run", "free_fall");
   ASSERT_EQ(ours.size(), 8U);  // two kinds of sensors, two scenes, two noise settings
   EXPECT_EQ(rows_of(*folder / "run", "falls"), ours);
   EXPECT_THAT(read_file(*folder / "run/benchmark.html"), HasSubstr("scope=\"row\">falls</th>"));
 }
 
-TEST_F(Submission, ProgramThatTheDocumentsShowIsTheOneThatIsTried) {
+TEST_F(Submission, ProgramInTheDocumentsIsTheTestedOne) {
   const std::string script = read_file(TOUCHDOWN_SOURCE_DIR "/examples/enter/free_fall.py");
   EXPECT_THAT(read_file(TOUCHDOWN_SOURCE_DIR "/docs/enter.md"),
               HasSubstr("```python\n" + script.substr(script.find("import csv")) + "```\n"));
 }
 
-TEST_F(Submission, ScoresStayBesideEachOtherAndAreReplacedByName) {
+TEST_F(Submission, ScoresAreKeptAndReplacedByName) {
   write_constant(*folder, "signals", "first", "1");
   write_constant(*folder, "signals", "second", "0");
   ran("score run --beliefs first", *folder);
@@ -130,7 +130,7 @@ TEST_F(Submission, ScoresStayBesideEachOtherAndAreReplacedByName) {
   EXPECT_NE(second, rows_of(*folder / "run", "first"));
   ran("score run --beliefs first --name second", *folder);
   EXPECT_EQ(rows_of(*folder / "run", "second"), rows_of(*folder / "run", "first"));
-  // The same experiment again, its shards' merger and its report keep them.
+  // Running the experiment again, merging it and writing its report keep the scores.
   const std::string table = read_file(*folder / "run/tables/benchmark.csv");
   EXPECT_THAT(ran("run bench.yaml --out run --no-pictures", *folder), HasSubstr("\n  second "));
   EXPECT_EQ(read_file(*folder / "run/tables/benchmark.csv"), table);
@@ -140,14 +140,14 @@ TEST_F(Submission, ScoresStayBesideEachOtherAndAreReplacedByName) {
   EXPECT_THAT(read_file(*folder / "run/benchmark.html"), HasSubstr("scope=\"row\">second</th>"));
 }
 
-TEST_F(Submission, RunsThatNothingIsHandedInForAreNamedAndNotScored) {
+TEST_F(Submission, RunsWithoutBeliefsAreNamedAndNotScored) {
   write_constant(*folder, "signals", "part", "1");
   const std::string stem = "upkie/ideal/mujoco_step_test_001_noise_0_seed_1";
   fs::remove(*folder / "part" / (stem + ".csv"));  // one draw of a run's noise
   fs::remove_all(*folder / "part/upkie/harsh");
-  const std::string said = ran("score run --beliefs part", *folder);
-  EXPECT_THAT(said, AllOf(HasSubstr("part: 7 runs scored"),
-                          HasSubstr("No beliefs about 17 files, which are not scored: " + stem)));
+  const std::string output = ran("score run --beliefs part", *folder);
+  EXPECT_THAT(output, AllOf(HasSubstr("part: 7 runs scored"),
+                            HasSubstr("No beliefs about 17 files, which are not scored: " + stem)));
   const auto rows = rows_of(*folder / "run", "part");
   ASSERT_EQ(rows.size(), 4U);
   std::map<std::string, int> runs;
@@ -160,16 +160,16 @@ TEST_F(Submission, RunsOfSomeScenesAreInTheColumnsOfTheirScenesAndHaveNoMean) {
   for (const auto& file : fs::directory_iterator(*folder / "rolls/upkie/ideal")) {
     if (file.path().string().find("_step_") != std::string::npos) fs::remove(file);
   }
-  const std::string said = ran("score run --beliefs rolls", *folder);
-  EXPECT_THAT(said, ::testing::ContainsRegex("\n  rolls +– +1.000 +– +–\n"));
+  const std::string output = ran("score run --beliefs rolls", *folder);
+  EXPECT_THAT(output, ::testing::ContainsRegex("\n  rolls +– +1.000 +– +–\n"));
 }
 
 TEST_F(Submission, BeliefsThatAreMissingAreCounted) {
   write_constant(*folder, "signals", "sparse", "1");
-  // Of 801 steps all but the first, in four files of ideal sensors for each of two runs.
-  const std::string said = ran("score run --beliefs sparse", *folder);
-  EXPECT_THAT(said, ::testing::ContainsRegex(
-                        "[0-9]+ steps in 32 files have no belief: the last one stands there"));
+  // Of 801 steps all except the first, in four files of ideal sensors for each of two runs.
+  const std::string output = ran("score run --beliefs sparse", *folder);
+  EXPECT_THAT(output, ::testing::ContainsRegex(
+                          "[0-9]+ steps in 32 files have no belief: the previous belief is used"));
 }
 
 TEST_F(Submission, FilesThatAreWrongAreRefusedAndChangeNothing) {
@@ -200,7 +200,7 @@ TEST_F(Submission, FilesThatAreWrongAreRefusedAndChangeNothing) {
   EXPECT_THAT(different_files(result_files(*folder / "run"), before), IsEmpty());
 }
 
-TEST_F(Submission, FilesOfOneRunCanBeHandedInAlone) {
+TEST_F(Submission, FilesOfOneRunCanBeScoredAlone) {
   folder->write("bullet.yaml",
                 "name: once\nsimulators: [bullet]\nestimators: [free_fall]\n"
                 "fit: {scenarios: [roll.yaml]}\ntest: {scenarios: [roll.yaml], runs: 1}\n"
@@ -219,7 +219,7 @@ TEST_F(Submission, FilesOfOneRunCanBeHandedInAlone) {
               HasSubstr("the benchmark has 2 runs of this name"));
 }
 
-TEST_F(Submission, RunsThatFellAreNotHandedOutAndCountAsOurs) {
+TEST_F(Submission, RunsThatFellAreNotExportedAndCountAsFailed) {
   const std::string step = read_file(*folder / "step.yaml");
   folder->write("deep.yaml", std::regex_replace(step, std::regex("rise: 0.25"), "rise: 0.7"));
   folder->write("falls.yaml",
@@ -239,7 +239,7 @@ TEST_F(Submission, RunsThatFellAreNotHandedOutAndCountAsOurs) {
   EXPECT_EQ(rows_of(*folder / "fell", "stays"), ours);
 }
 
-TEST_F(Submission, RunsThatAreNoFinishedBenchmarkAreRefused) {
+TEST_F(Submission, UnfinishedBenchmarksAndOtherRunsAreRefused) {
   EXPECT_THAT(refused("score nowhere --beliefs signals", *folder),
               HasSubstr("nowhere: holds no part of an experiment"));
   ran("run tiny.yaml --no-pictures --out tiny", *folder);
@@ -284,7 +284,7 @@ TEST_F(Submission, ExportsAreTheSameBytesFromRecordingsAndWhereTheseAreGone) {
   const auto recorded = result_files(*folder / "recorded");
   EXPECT_THAT(different_files(recorded, result_files(*folder / "simulated")), IsEmpty());
   EXPECT_FALSE(fs::exists(*folder / "kept/recordings"));
-  // Another request by its digest, which the page names, and the same signals.
+  // The README names the request's digest, which differs. The signals are the same.
   EXPECT_THAT(different_files(recorded, result_files(*folder / "signals")),
               ElementsAre("README.md", "SHA256SUMS"));
 }
@@ -325,7 +325,7 @@ TEST(Export, ThatIsInterruptedLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(folder / "empty"));
 }
 
-TEST(Export, ThatNoDiskCanHoldSaysSoBeforeItBegins) {
+TEST(Export, ThatExceedsTheDiskIsRefusedBeforeItBegins) {
   const ScratchFolder folder;
   write_benchmark(folder);
   folder.write("roll.yaml", "name: roll\nend: {duration: 100000}\n");

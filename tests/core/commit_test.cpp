@@ -21,8 +21,8 @@ int run(const std::string& command) { return std::system((command + " >/dev/null
 
 class Commit : public ::testing::Test {
  protected:
-  /// What the build notes about sources in this folder.
-  std::string noted(const fs::path& sources) const {
+  /// The commit that the build records for sources in this folder.
+  std::string recorded_commit(const fs::path& sources) const {
     const fs::path note = scratch_ / "share/touchdown/commit";
     EXPECT_EQ(run("cmake -DSOURCE='" + sources.string() + "' -DFILE='" + note.string() + "' -P '" +
                   TOUCHDOWN_SOURCE_DIR "/cmake/RecordCommit.cmake'"),
@@ -39,29 +39,31 @@ class Commit : public ::testing::Test {
   const ScratchFolder scratch_;
 };
 
-TEST_F(Commit, IsThatOfTheSourcesAndSaysWhetherTheyWereChanged) {
+TEST_F(Commit, IsThatOfTheSourcesAndMarksChanges) {
   if (run("git --version") != 0) GTEST_SKIP() << "git is not installed";
   scratch_.write("sources/a.cpp", "1");
   git("init");
   git("add a.cpp");
   git("commit -m first");
-  const std::string first = noted(scratch_ / "sources");
+  const std::string first = recorded_commit(scratch_ / "sources");
   EXPECT_THAT(first, MatchesRegex("[0-9a-f]{12}"));
-  EXPECT_EQ(noted(scratch_ / "sources"), first);
+  EXPECT_EQ(recorded_commit(scratch_ / "sources"), first);
   scratch_.write("sources/a.cpp", "2");
-  EXPECT_EQ(noted(scratch_ / "sources"), first + "-dirty");
+  EXPECT_EQ(recorded_commit(scratch_ / "sources"), first + "-dirty");
   git("commit -a -m second");
-  EXPECT_THAT(noted(scratch_ / "sources"), MatchesRegex("[0-9a-f]{12}"));
-  EXPECT_NE(noted(scratch_ / "sources"), first);
+  EXPECT_THAT(recorded_commit(scratch_ / "sources"), MatchesRegex("[0-9a-f]{12}"));
+  EXPECT_NE(recorded_commit(scratch_ / "sources"), first);
 }
 
-/// An archive that was unpacked below somebody else's checkout must not bear its commit.
+/// An archive that was unpacked inside another checkout must not get the commit of that checkout.
 TEST_F(Commit, IsUnknownForSourcesWithoutTheirOwnHistory) {
   scratch_.write("sources/archive/a.cpp", "1");
-  EXPECT_THAT(noted(scratch_ / "sources/archive"), StartsWith("unknown: built from sources"));
+  EXPECT_THAT(recorded_commit(scratch_ / "sources/archive"),
+              StartsWith("unknown: built from sources"));
   if (run("git --version") != 0) return;
   git("init");
-  EXPECT_THAT(noted(scratch_ / "sources/archive"), StartsWith("unknown: built from sources"));
+  EXPECT_THAT(recorded_commit(scratch_ / "sources/archive"),
+              StartsWith("unknown: built from sources"));
 }
 
 TEST_F(Commit, IsFoundWhereTheProgramWasInstalled) {

@@ -52,7 +52,7 @@ void describe(Fields& fields, Car& car) {
   fields.list("wheels", car.wheels);
   fields.list_if_any("more_wheels", car.more_wheels);
   fields.check("owner", [&] {
-    if (car.owner == "nobody") throw InputError("expected somebody");
+    if (car.owner == "none") throw InputError("expected a person");
   });
 }
 
@@ -93,9 +93,9 @@ TEST(Fields, AListThatIsThereReplacesTheDefault) {
   Car car;
   car.wheels = {{"left"}, {"right"}};
   const YamlDocument document = YamlDocument::parse("wheels: [{name: only}]", "car.yaml");
-  const YamlDocument silent = YamlDocument::parse("owner: bob", "car.yaml");
+  const YamlDocument without = YamlDocument::parse("owner: bob", "car.yaml");
   EXPECT_EQ(from_yaml(document, car).wheels.size(), 1U);
-  EXPECT_EQ(from_yaml(silent, car).wheels.size(), 2U);
+  EXPECT_EQ(from_yaml(without, car).wheels.size(), 2U);
 }
 
 TEST(Fields, ComplainWithTheirPlace) {
@@ -106,7 +106,7 @@ TEST(Fields, ComplainWithTheirPlace) {
   EXPECT_THAT(complaint("place: [1]\n"),
               AllOf(StartsWith("car.yaml:1:8: place: "), HasSubstr("two numbers")));
   EXPECT_THAT(complaint("colour: gren\n"), HasSubstr("did you mean 'green'?"));
-  EXPECT_THAT(complaint("owner: nobody\n"), HasSubstr("car.yaml:1:8: owner: expected somebody"));
+  EXPECT_THAT(complaint("owner: none\n"), HasSubstr("car.yaml:1:8: owner: expected a person"));
 }
 
 TEST(Fields, ListWhatIsKnownOnceWhereNothingIsNear) {
@@ -120,7 +120,7 @@ TEST(Fields, NamesAreKnownDifferentAndNotNone) {
   EXPECT_THAT(complaint("drivers: [bop]\n"),
               HasSubstr("'bop' is not one of ann, bob (did you mean 'bob'?)"));
   EXPECT_THAT(complaint("drivers: [bob, bob]\n"),
-              AllOf(StartsWith("car.yaml:1:16: drivers: "), HasSubstr("'bob' stands there twice")));
+              AllOf(StartsWith("car.yaml:1:16: drivers: "), HasSubstr("'bob' appears twice")));
 }
 
 TEST(Fields, ANumberBetweenQuotesHasNoLeadingZeroEither) {

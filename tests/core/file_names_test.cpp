@@ -24,7 +24,7 @@ TEST(NameWord, IsNothingThatLeadsElsewhereOrMovesATerminal) {
   EXPECT_FALSE(is_name_word(std::string(101, 'x')));
 }
 
-TEST(PartName, IsKnownAgainAndKeepsTheExtension) {
+TEST(PartName, IsRecognisedAndKeepsTheExtension) {
   const std::filesystem::path file = part_path("folder/success.csv");
   EXPECT_EQ(file.parent_path(), "folder");
   EXPECT_EQ(file.extension(), ".csv");
@@ -34,7 +34,7 @@ TEST(PartName, IsKnownAgainAndKeepsTheExtension) {
   EXPECT_NE(part_path("a"), part_path("a"));
 }
 
-TEST(PartName, IsNothingThatSomebodyElseWouldChoose) {
+TEST(PartName, IsNotMistakenForOtherHiddenNames) {
   for (const char* name : {".part", ".my.part.notes", ".config.part", "success.12.0123abcd.part",
                            ".a.partition", ".film.12.part.mkv", ".film.part.12.0123abcd",
                            ".film.12.0123abcd.part.tar.gz", ".film.12.0123abcd.parts"}) {

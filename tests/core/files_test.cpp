@@ -85,8 +85,8 @@ TEST_F(Files, MissingFilesAndFoldersCannotBeRead) {
   EXPECT_THROW(read_file(folder_), InputError);
 }
 
-TEST_F(Files, APartFolderIsNewWhateverSomebodyPutUnderItsName) {
-  // A name that could be guessed would lead into somebody's folder.
+TEST_F(Files, APartFolderIsNewEvenIfItsNameIsGuessed) {
+  // A link under a guessed name would lead into another folder.
   const auto elsewhere = folder_ / "elsewhere";
   std::filesystem::create_directory(elsewhere);
   write_atomically(elsewhere / "precious", "x");

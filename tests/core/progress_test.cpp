@@ -15,37 +15,38 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-TEST(Progress, LeavesOnePlainLineWhereNobodyWatches) {
+TEST(Progress, PrintsOnePlainLineWithoutATerminal) {
   testing::internal::CaptureStderr();
   {
-    Progress progress("listening", "parts", 5);
+    Progress progress("evaluation", "parts", 5);
     progress.skip(2);
     for (int i = 0; i < 3; ++i) progress.advance();
   }
-  const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_THAT(said, AllOf(StartsWith("listening: 5/5 parts"), HasSubstr("2 of them were there")));
-  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
-  EXPECT_EQ(said.find('\x1b'), std::string::npos);
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(text, AllOf(StartsWith("evaluation: 5/5 parts"), HasSubstr("2 of them done before")));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
 }
 
-TEST(Progress, SaysNothingAboutNothing) {
+TEST(Progress, PrintsNothingIfNothingWasDone) {
   testing::internal::CaptureStderr();
-  { const Progress progress("listening", "parts", 5); }
+  { const Progress progress("evaluation", "parts", 5); }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-/// What becomes of a process that tells something on a standard error of the test's choice.
+/// Exit status of a process that prints messages after `spoil` has changed its standard error. A
+/// signal that ended it is negative.
 template <typename Spoil>
-int status_of_teller(const Spoil& spoil) {
+int status_of_printer(const Spoil& spoil) {
   const pid_t process = ::fork();
   if (process == 0) {
     ::signal(SIGPIPE, SIG_DFL);
     spoil();
     {
-      Progress progress("listening", "parts", 2);
+      Progress progress("evaluation", "parts", 2);
       progress.advance();
     }
-    tell(std::string(1 << 20, 'x'));
+    print_message(std::string(1 << 20, 'x'));
     ::_exit(7);
   }
   int status = -1;
@@ -53,12 +54,12 @@ int status_of_teller(const Spoil& spoil) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-TEST(Tell, NeverStopsAnybodyWhateverBecameOfStandardError) {
-  EXPECT_EQ(status_of_teller([] { ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO); }), 7);
-  EXPECT_EQ(status_of_teller([] { ::dup2(::open("/dev/full", O_WRONLY), STDERR_FILENO); }), 7);
-  EXPECT_EQ(status_of_teller([] { ::dup2(::open("/dev/null", O_RDONLY), STDERR_FILENO); }), 7);
-  EXPECT_EQ(status_of_teller([] { ::close(STDERR_FILENO); }), 7);
-  EXPECT_EQ(status_of_teller([] {  // a pipe that nobody reads any more
+TEST(PrintMessage, NeverEndsTheProcessWhateverStandardErrorIs) {
+  EXPECT_EQ(status_of_printer([] { ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO); }), 7);
+  EXPECT_EQ(status_of_printer([] { ::dup2(::open("/dev/full", O_WRONLY), STDERR_FILENO); }), 7);
+  EXPECT_EQ(status_of_printer([] { ::dup2(::open("/dev/null", O_RDONLY), STDERR_FILENO); }), 7);
+  EXPECT_EQ(status_of_printer([] { ::close(STDERR_FILENO); }), 7);
+  EXPECT_EQ(status_of_printer([] {  // a pipe without a reader
               int ends[2];
               if (::pipe(ends) != 0) return;
               ::dup2(ends[1], STDERR_FILENO);
@@ -68,9 +69,9 @@ TEST(Tell, NeverStopsAnybodyWhateverBecameOfStandardError) {
             7);
 }
 
-TEST(Tell, LeavesABrokenPipeElsewhereAsItIs) {
-  EXPECT_EQ(status_of_teller([] {
-              tell("");
+TEST(PrintMessage, LeavesOtherBrokenPipesAlone) {
+  EXPECT_EQ(status_of_printer([] {
+              print_message("");
               int ends[2];
               if (::pipe(ends) != 0) return;
               ::close(ends[0]);

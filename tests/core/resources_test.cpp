@@ -19,7 +19,7 @@ using ::testing::ThrowsMessage;
 std::string missing_in(YamlDocument document, const std::string& assignment = "") {
   if (!assignment.empty()) document.override_value(assignment);
   try {
-    require_resources(document, {"robot", "fit.scenarios", "fit.pieces.scenario"});
+    require_resources(document, {"robot", "fit.scenarios", "fit.segments.scenario"});
   } catch (const InputError& error) {
     return error.what();
   }
@@ -43,7 +43,7 @@ TEST(RequiredResources, ThatAreMissingAreNamedWhereTheyStand) {
                     EndsWith("(did you mean 'scenarios/stairs.yaml'?)")));
   EXPECT_THAT(
       missing_in("fit:\n  segments:\n    - {runs: 1}\n    - {scenario: scenarios/hnag.yaml}\n"),
-      StartsWith("x.yaml:4:18: fit.pieces.1.scenario: scenarios/hnag.yaml: no such file"));
+      StartsWith("x.yaml:4:18: fit.segments.1.scenario: scenarios/hnag.yaml: no such file"));
 }
 
 TEST(RequiredFile, ThatIsNotThereBringsTheNearestOfItsKindToMind) {
@@ -62,7 +62,7 @@ TEST(RequiredFile, ThatIsNotThereBringsTheNearestOfItsKindToMind) {
   EXPECT_NO_THROW(require_file("/dev/null"));
 }
 
-TEST(RequiredResources, ThatSomebodySetAreBlamedOnThat) {
+TEST(RequiredResources, ThatAreOverriddenAreReportedAtTheOverride) {
   EXPECT_THAT(missing_in("robot: models/upkie_actuated.yaml\n", "robot=models/upkei.xml"),
               StartsWith("--set robot=models/upkei.xml: robot: models/upkei.xml: no such file"));
 }

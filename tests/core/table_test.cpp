@@ -8,8 +8,8 @@ namespace touchdown {
 namespace {
 
 TEST(Csv, QuotesWhatWouldBreakALine) {
-  EXPECT_EQ(to_csv({{"a", "b"}, {{"x,y", "say \"hi\""}, {"1", "2"}}}),
-            "a,b\n\"x,y\",\"say \"\"hi\"\"\"\n1,2\n");
+  EXPECT_EQ(to_csv({{"a", "b"}, {{"x,y", "a \"b\""}, {"1", "2"}}}),
+            "a,b\n\"x,y\",\"a \"\"b\"\"\"\n1,2\n");
 }
 
 TEST(Csv, IsReadAsItWasWritten) {
@@ -27,7 +27,7 @@ TEST(TextTable, AlignsByCharactersNotBytes) {
   EXPECT_EQ(to_text({{}, {{"a", "b"}, {"cc", "d"}}}, 2), "  a    b\n  cc   d\n");
 }
 
-TEST(Numbers, ReadBackExactlyAndSayWhatIsUndefined) {
+TEST(Numbers, ReadBackExactlyAndMarkUndefinedValues) {
   EXPECT_EQ(exact(0.25), "0.25");
   EXPECT_EQ(std::stod(exact(0.1 + 0.2)), 0.1 + 0.2);
   EXPECT_EQ(metric(2.0 / 3.0), "0.666667");
@@ -37,11 +37,12 @@ TEST(Numbers, ReadBackExactlyAndSayWhatIsUndefined) {
 }
 
 TEST(IntervalColumns, KeepTheUnitLastAndHoldMetrics) {
-  const Table table{header_with_intervals({"who"}, {"success", "latency_ms"}, {"steps"}),
+  const Table table{header_with_intervals({"estimator"}, {"success", "latency_ms"}, {"steps"}),
                     {row_with_intervals({"a"}, {{0.5, 0.25, 0.75}, {NAN, NAN, NAN}}, {"7"})}};
-  EXPECT_EQ(to_csv(table),
-            "who,success,success_low,success_high,latency_ms,latency_low_ms,latency_high_ms,steps\n"
-            "a,0.500000,0.250000,0.750000,nan,nan,nan,7\n");
+  EXPECT_EQ(
+      to_csv(table),
+      "estimator,success,success_low,success_high,latency_ms,latency_low_ms,latency_high_ms,steps\n"
+      "a,0.500000,0.250000,0.750000,nan,nan,nan,7\n");
 }
 
 }  // namespace

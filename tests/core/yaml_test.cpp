@@ -127,7 +127,7 @@ TEST(Yaml, AnUnknownKeyThatIsNearToNothingListsTheKnownOnes) {
                                                    Not(HasSubstr("did you mean"))));
 }
 
-TEST(Yaml, AWrongTypeSaysWhatWasExpectedAndWhere) {
+TEST(Yaml, AWrongTypeIsReportedWithTheExpectedTypeAndPosition) {
   EXPECT_THAT(complaint_of("duration: long\n"),
               AllOf(StartsWith("test.yaml:1:11: duration: "), HasSubstr("a number")));
   EXPECT_THAT(complaint_of("count: 2.5\n"), HasSubstr("a whole number"));
@@ -139,7 +139,7 @@ TEST(Yaml, AWrongTypeSaysWhatWasExpectedAndWhere) {
   EXPECT_THAT(complaint_of("runs: [3]\n"), HasSubstr("runs.0: expected a mapping"));
 }
 
-TEST(Yaml, AValueOutOfRangeSaysTheRange) {
+TEST(Yaml, AValueOutOfRangeIsReportedWithTheRange) {
   EXPECT_THAT(complaint_of("duration: -1\n"),
               AllOf(StartsWith("test.yaml:1:11: duration: "), HasSubstr("from 0 to 100")));
   EXPECT_THAT(complaint_of("count: 11\n"), HasSubstr("from 1 to 10"));
@@ -196,14 +196,14 @@ TEST(YamlOverride, AddsKeysThatTheFileLeavesOut) {
   EXPECT_EQ(read_yaml("name: x\n", {"noise.seeds=5"}).noise.seeds, 5);
 }
 
-TEST(YamlOverride, AnUnknownKeyIsCaughtByWhoeverReads) {
+TEST(YamlOverride, AnUnknownKeyIsReportedWhenItIsRead) {
   EXPECT_THAT(complaint_of(good, {"noise.seedz=5"}),
               AllOf(StartsWith("--set noise.seedz=5: noise.seedz: "), HasSubstr("'seeds'")));
   EXPECT_THAT(complaint_of(good, {"duration=-2"}),
               StartsWith("--set duration=-2: duration: expected a number from 0"));
 }
 
-TEST(YamlOverride, IsBlamedForWhatItSetAndForNothingElse) {
+TEST(YamlOverride, IsNamedInErrorsOfItsValueOnly) {
   EXPECT_THAT(complaint_of(good, {"noise={seeds: 1, seedz: 5}"}),
               StartsWith("--set noise={seeds: 1, seedz: 5}: noise.seedz: unknown key"));
   EXPECT_THAT(complaint_of(good, {"duration=1", "duration=-3"}), StartsWith("--set duration=-3: "));

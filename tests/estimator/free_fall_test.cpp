@@ -12,7 +12,7 @@ namespace {
 /// Steps of one millisecond under a constant vertical acceleration.
 class Fall {
  public:
-  const Belief& feel(double acceleration, int steps) {
+  const Belief& update(double acceleration, int steps) {
     for (int i = 0; i < steps; ++i) {
       signals_.time += 0.001;
       // Real accelerometers never repeat themselves to the bit.
@@ -31,43 +31,43 @@ class Fall {
 
 TEST(FreeFall, StandingIsContactAndFallingIsNot) {
   Fall fall;
-  EXPECT_GT(fall.feel(0.0, 1000).wheel[0].p_contact, 0.99);
-  EXPECT_TRUE(fall.feel(0.0, 1).wheel[1].contact);
-  EXPECT_LT(fall.feel(-9.81, 100).p_any_wheel, 0.01);
-  EXPECT_FALSE(fall.feel(-9.81, 1).wheel[0].contact);
-  EXPECT_TRUE(fall.feel(0.0, 100).wheel[0].contact);
+  EXPECT_GT(fall.update(0.0, 1000).wheel[0].p_contact, 0.99);
+  EXPECT_TRUE(fall.update(0.0, 1).wheel[1].contact);
+  EXPECT_LT(fall.update(-9.81, 100).p_any_wheel, 0.01);
+  EXPECT_FALSE(fall.update(-9.81, 1).wheel[0].contact);
+  EXPECT_TRUE(fall.update(0.0, 100).wheel[0].contact);
 }
 
 TEST(FreeFall, DecidesWhenTheLowPassHasComeHalfWay) {
   // −g (1 − e^(−t/τ)) = −4.9 at t = τ ln(g / (g − 4.9)) = 6.92 ms.
   Fall fall;
-  fall.feel(0.0, 1000);
-  EXPECT_TRUE(fall.feel(-9.81, 6).wheel[0].contact);
-  EXPECT_FALSE(fall.feel(-9.81, 1).wheel[0].contact);
+  fall.update(0.0, 1000);
+  EXPECT_TRUE(fall.update(-9.81, 6).wheel[0].contact);
+  EXPECT_FALSE(fall.update(-9.81, 1).wheel[0].contact);
 }
 
-TEST(FreeFall, KnowsNothingOfHanging) {
+TEST(FreeFall, TakesHangingForContact) {
   Fall fall;
-  EXPECT_TRUE(fall.feel(0.0, 500).wheel[0].contact) << "a rope carries as well as the ground";
+  EXPECT_TRUE(fall.update(0.0, 500).wheel[0].contact) << "a rope carries as well as the ground";
 }
 
 TEST(FreeFall, FadesToThePriorWithoutAnAcceleration) {
   Fall fall;
-  fall.feel(-9.81, 200);
-  const Belief& belief = fall.feel(std::nan(""), 2000);
+  fall.update(-9.81, 200);
+  const Belief& belief = fall.update(std::nan(""), 2000);
   EXPECT_NEAR(belief.wheel[0].p_contact, 0.5, 1e-6);
   EXPECT_EQ(belief.status, SignalStatus::invalid);
-  EXPECT_TRUE(fall.feel(0.0, 100).wheel[0].contact);
+  EXPECT_TRUE(fall.update(0.0, 100).wheel[0].contact);
 }
 
 TEST(FreeFall, StartsAgainAfterReset) {
   Fall fall;
-  fall.feel(-9.81, 200);
+  fall.update(-9.81, 200);
   fall.estimator().reset();
-  EXPECT_GT(fall.feel(0.0, 1).wheel[0].p_contact, 0.99);
+  EXPECT_GT(fall.update(0.0, 1).wheel[0].p_contact, 0.99);
 }
 
-TEST(FreeFall, RefusesWhatMakesNoSense) {
+TEST(FreeFall, RefusesInvalidValues) {
   EXPECT_THROW(FreeFall({.width = 0.0}), InputError);
   EXPECT_THROW(FreeFall({.low_pass = -1.0}), InputError);
   EXPECT_THROW(FreeFall({.sample_rate = 0.0}), InputError);

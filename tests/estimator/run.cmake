@@ -1,4 +1,4 @@
-# Runs a command below WORK_DIR; what it prints goes to `output`. One that fails ends the script.
+# Runs a command in WORK_DIR and sets `output` to what it prints. A command that fails ends the script.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output
                   ERROR_VARIABLE output WORKING_DIRECTORY ${WORK_DIR})

@@ -4,7 +4,7 @@
 
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
-# A copy, so that nothing of the source tree can be found by accident.
+# Copies the example, so that its build cannot find the source tree by accident.
 function(build_example name)
   file(COPY ${SOURCE_DIR}/examples/${name} DESTINATION ${WORK_DIR})
   run(${CMAKE_COMMAND} -S ${WORK_DIR}/${name} -B ${WORK_DIR}/build_${name} -G ${GENERATOR}
@@ -26,7 +26,7 @@ if(PROGRAM)
   build_example(robot -DMODEL_HEADER=${WORK_DIR}/model.hpp)
   build_example(c_interface)
   run(${WORK_DIR}/build_c_interface/c_interface model.npz)
-  # From the file and compiled in the robot believes the same, to the last digit.
+  # With the model from the file or compiled in, the beliefs are equal to the last digit.
   run(${WORK_DIR}/build_robot/robot model.npz)
   string(REGEX REPLACE "update:.*" "" from_file "${output}")
   run(${WORK_DIR}/build_robot/robot_without_files)
@@ -34,7 +34,7 @@ if(PROGRAM)
   if(NOT from_file MATCHES "takes off, P\\(contact\\) 0\\.[0-9]+" OR NOT from_file STREQUAL compiled_in)
     message(FATAL_ERROR "from the file:\n${from_file}\ncompiled in:\n${compiled_in}")
   endif()
-  # A model of something else stops the robot before it moves.
+  # A model of another robot stops the program before the robot moves.
   run(${PROGRAM} fit stairs.mpack --robot tall -o tall.npz)
   execute_process(COMMAND ${WORK_DIR}/build_robot/robot ${WORK_DIR}/tall.npz
                   RESULT_VARIABLE result ERROR_VARIABLE output)

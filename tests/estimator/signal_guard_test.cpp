@@ -20,7 +20,7 @@ TEST(SignalGuard, AcceptsASteadyStream) {
   }
 }
 
-TEST(SignalGuard, SeesGapsForwardsAndBackwards) {
+TEST(SignalGuard, DetectsGapsForwardsAndBackwards) {
   SignalGuard guard({}, 1000.0);
   guard.check(1.0, 0.1);
   EXPECT_EQ(guard.check(1.019, 0.2).status, SignalStatus::good);
@@ -84,7 +84,7 @@ TEST(SignalGuard, NoticesAFrozenAccelerometerAndItsRecovery) {
   EXPECT_EQ(guard.check(0.3, 0.1250001).status, SignalStatus::good);
 }
 
-TEST(SignalGuard, CanBeToldThatRepetitionIsFine) {
+TEST(SignalGuard, AllowsRepetitionIfConfigured) {
   SignalGuardConfig config;
   config.frozen_after = 0.0;
   SignalGuard guard(config, 1000.0);
@@ -107,7 +107,7 @@ TEST(SignalGuard, RelaxesToTheFlatPriorAtItsTimeConstant) {
   EXPECT_NEAR(p, guard.relaxed(0.9, 0.2), 1e-12) << "many small steps are one large one";
 }
 
-TEST(SignalGuard, RefusesNonsense) {
+TEST(SignalGuard, RefusesInvalidValues) {
   EXPECT_THROW(SignalGuard({}, 0.0), InputError);
   SignalGuardConfig config;
   config.relaxation = 0.0;

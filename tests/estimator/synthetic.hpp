@@ -10,8 +10,8 @@
 
 namespace touchdown::test {
 
-/// A robot that rolls for 0.8 s, falls for 0.2 s, lands with a shock, and so on. Crude, but each
-/// part of the filter has something to do.
+/// A robot that rolls for 0.8 s, falls for 0.2 s, lands with a shock, and repeats. Crude, but it
+/// exercises each part of the filter.
 inline std::vector<Signals> drops(std::size_t steps, double sample_rate = 1000.0,
                                   std::uint32_t seed = 1) {
   Normal normal(seed);
@@ -39,7 +39,7 @@ inline std::vector<Signals> drops(std::size_t steps, double sample_rate = 1000.0
 
 inline bool in_the_air(const Signals& s) { return std::fmod(s.time, 1.0) >= 0.8; }
 
-/// Samples of both legs as the configuration wants them, apart by contact.
+/// Samples of both legs under a torque configuration, split by contact.
 struct LabelledSamples {
   std::vector<TorqueSample> contact;
   std::vector<TorqueSample> no_contact;

@@ -10,7 +10,7 @@ namespace {
 constexpr double dt = 0.001;
 constexpr double pi = 3.14159265358979;
 
-/// Runs a wheel of the given inertia that a sinusoidal torque accelerates; returns the last word.
+/// Runs a wheel of the given inertia under a sinusoidal torque. Returns the last decision.
 bool drive(WheelContactObserver& observer, double inertia, double torque_amplitude,
            double seconds) {
   double velocity = 0.0;
@@ -33,9 +33,9 @@ TEST(WheelContactObserver, LetsGoBelowTheLiftoffInertiaAndReturnsAboveTheTouchdo
   EXPECT_TRUE(observer.contact());
   EXPECT_TRUE(drive(observer, 0.0067, 0.3, 2.0)) << "half the robot on one wheel";
   EXPECT_FALSE(drive(observer, 1.7e-4, 0.05, 2.0)) << "the wheel alone";
-  EXPECT_FALSE(drive(observer, 0.002, 0.3, 2.0)) << "between both thresholds: as it was";
+  EXPECT_FALSE(drive(observer, 0.002, 0.3, 2.0)) << "between both thresholds: unchanged";
   EXPECT_TRUE(drive(observer, 0.0067, 0.3, 2.0));
-  EXPECT_TRUE(drive(observer, 0.002, 0.3, 2.0)) << "between both thresholds: as it was";
+  EXPECT_TRUE(drive(observer, 0.002, 0.3, 2.0)) << "between both thresholds: unchanged";
 }
 
 TEST(WheelContactObserver, TouchesDownOnlyUnderAccelerationAndTorque) {
@@ -48,7 +48,7 @@ TEST(WheelContactObserver, TouchesDownOnlyUnderAccelerationAndTorque) {
   EXPECT_FALSE(drive(weak, 0.0067, 0.3, 3.0));
 }
 
-TEST(WheelContactObserver, HoldsItsWordForAWheelAtRest) {
+TEST(WheelContactObserver, KeepsItsDecisionForAWheelAtRest) {
   for (const bool initially : {true, false}) {
     WheelContactConfig config;
     config.initially_in_contact = initially;
@@ -60,7 +60,7 @@ TEST(WheelContactObserver, HoldsItsWordForAWheelAtRest) {
   }
 }
 
-TEST(WheelContactObserver, SkipsWhatIsNotANumber) {
+TEST(WheelContactObserver, SkipsValuesThatAreNotFinite) {
   WheelContactObserver observer;
   drive(observer, 0.0067, 0.3, 2.0);
   const double inertia = observer.inertia();
@@ -73,7 +73,7 @@ TEST(WheelContactObserver, SkipsWhatIsNotANumber) {
   EXPECT_EQ(observer.inertia(), 0.0);
 }
 
-TEST(UpkieObserver, FeelsTheFloorThroughItsLegsToo) {
+TEST(UpkieObserver, DetectsTheFloorThroughItsLegsToo) {
   UpkieObserverConfig config;
   config.wheel.initially_in_contact = false;
   UpkieObserver observer(config);

@@ -1,4 +1,4 @@
-// Counts every call of malloc and its siblings, which operator new ends in, by this thread.
+// Counts all calls of malloc and its siblings by this thread. operator new ends in one of them.
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -89,7 +89,7 @@ class RealTime : public testing::Test {
   }
 };
 
-TEST_F(RealTime, TheCountIsNotBlind) {
+TEST_F(RealTime, CountsAllocations) {
   EXPECT_GE(allocations_of([] {
               std::vector<double> values(1000);
               const auto pointer = std::make_unique<double>(values.data()[7]);
@@ -133,7 +133,7 @@ TEST_F(RealTime, UpdateAndResetAllocateNothing) {
 TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
   auto stream = test::drops(3000);
   for (Signals& s : stream) {
-    for (const double sign : {1.0, -1.0}) {  // bent, so that there are forces
+    for (const double sign : {1.0, -1.0}) {  // bent legs, which have observable forces
       LegSignals& leg = s.leg[sign > 0.0 ? 0 : 1];
       leg.hip.position = 0.455 * sign;
       leg.knee.position = -0.791 * sign;
@@ -167,19 +167,19 @@ TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
   }
 }
 
-TEST_F(RealTime, LanesAllocateNothing) {
+TEST_F(RealTime, BatchesAllocateNothing) {
   const auto stream = test::drops(1000);
   for (const char* name : {"paper", "reference", "robust"}) {
     const BayesFilterConfig config = test::named(name);
     const auto samples = test::labelled(test::drops(3000), config.measurement.torque);
     const std::vector<experiments::BatchNoise> levels{
         {0.0, 0.0, 0.0}, {1.0, 1.0, 5.0}, {3.0, 3.0, 10.0}};
-    experiments::BatchedBayesFilter lanes(
+    experiments::BatchedBayesFilter batch(
         fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit), config,
         levels);
     EXPECT_EQ(allocations_of([&] {
                 for (const Signals& s : stream) {
-                  lanes.update(s, experiments::NoiseStep{});
+                  batch.update(s, experiments::NoiseStep{});
                 }
               }),
               0)

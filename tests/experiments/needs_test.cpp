@@ -19,13 +19,13 @@ Experiment experiment_with(const std::string& assignment) {
   return experiment_from_yaml(document);
 }
 
-TEST(Needs, CountWhatThePlanHolds) {
+TEST(Needs, ApproximateThePlan) {
   for (const char* file : {"stairs", "cross_simulator", "phase_study", "tables"}) {
     const RunRequest request = request_of(experiment_from_yaml(
         YamlDocument::load(std::string(TOUCHDOWN_SOURCE_DIR "/experiments/") + file + ".yaml")));
     const Needs needs = needs_of(request);
     const Plan plan = whole_plan(request);
-    // What is not counted, runs that the studies add, is little.
+    // Needs omit the few runs that studies add.
     EXPECT_LE(needs.runs, static_cast<double>(plan.runs.size())) << file;
     EXPECT_GE(needs.runs, 0.4 * static_cast<double>(plan.runs.size())) << file;
     EXPECT_LE(needs.parts, static_cast<double>(plan.tasks.size())) << file;
@@ -33,7 +33,7 @@ TEST(Needs, CountWhatThePlanHolds) {
   }
 }
 
-TEST(Needs, ThatDoNotFitNameTheSettingsThatMakeThem) {
+TEST(Needs, NameTheSettingsToLowerIfMemoryIsTooSmall) {
   const RunRequest few = request_of(experiment_with("seed=3"));
   EXPECT_NO_THROW(require_memory(few, 1.0, 4e9));
   const RunRequest many = request_of(experiment_with("noise.seeds=100000"));
@@ -47,7 +47,7 @@ TEST(Needs, ThatDoNotFitNameTheSettingsThatMakeThem) {
   EXPECT_NO_THROW(require_memory(longer, 1e-5, 4e9));
 }
 
-TEST(Needs, OfPartsAreWholeBlocksOfADisk) {
+TEST(Needs, CountPartsInWholeDiskBlocks) {
   const Plan plan = whole_plan(request_of(experiment_with("seed=3")));
   EXPECT_GE(bytes_of_parts(plan), 4096.0 * static_cast<double>(plan.tasks.size()));
   EXPECT_LE(bytes_of_parts(plan), 1e6 * static_cast<double>(plan.tasks.size()));

@@ -10,8 +10,8 @@
 
 namespace touchdown::experiments {
 
-/// A run with a flight in every second, as estimators might hear one, without a simulator: the
-/// right wheel lags a little behind the left one. Two statistical pieces.
+/// A synthetic run with one flight per second, without a simulator. The right wheel lags slightly
+/// behind the left one. It has two statistical segments.
 inline RunSignals synthetic_run(std::int64_t number, std::size_t steps = 4000) {
   RunSignals run;
   run.info.scenario = "synthetic";
@@ -24,12 +24,12 @@ inline RunSignals synthetic_run(std::int64_t number, std::size_t steps = 4000) {
     const double phase = std::fmod(0.001 * static_cast<double>(k), 1.0);
     Signals s;
     s.time = 0.001 * static_cast<double>(k);
-    const bool falls = phase >= 0.6 && phase < 0.8;
+    const bool in_flight = phase >= 0.6 && phase < 0.8;
     const double shock = phase >= 0.8 ? std::exp(-(phase - 0.8) / 0.02) : 0.0;
     const double jitter =
         0.2 * noise::standard_normal(key, noise::NoiseChannel::left_hip_position, k);
     s.vertical_acceleration =
-        falls ? -9.81 + jitter : 60.0 * shock * std::cos(900.0 * phase) + jitter;
+        in_flight ? -9.81 + jitter : 60.0 * shock * std::cos(900.0 * phase) + jitter;
     s.linear_acceleration = {0.1 * jitter, 0.0, -s.vertical_acceleration};
     for (std::size_t side = 0; side < models::wheel_count; ++side) {
       const double lag = side == 0 ? 0.0 : 0.008;
@@ -50,7 +50,7 @@ inline RunSignals synthetic_run(std::int64_t number, std::size_t steps = 4000) {
   return run;
 }
 
-/// An experiment on such runs that listens with every estimator there is.
+/// An experiment on such runs with these estimators.
 inline Experiment synthetic_experiment(const std::vector<std::string>& estimators) {
   Experiment experiment;
   experiment.name = "synthetic";
@@ -63,7 +63,7 @@ inline Experiment synthetic_experiment(const std::vector<std::string>& estimator
   return experiment;
 }
 
-/// The same as `sweep_run`, one estimator and one cell after the other: what it has to equal.
+/// The reference for `sweep_run`: one estimator and one cell after the other.
 inline std::vector<scoring::Classification> sweep_run_one_by_one(
     std::span<const Condition> conditions, std::span<const noise::NoiseCell> cells,
     const RunSignals& run, const NoiseRun& noise, const FittedModels& models,

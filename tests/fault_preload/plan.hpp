@@ -8,7 +8,7 @@
 
 namespace touchdown::faults {
 
-/// What the system can refuse.
+/// Kinds of calls that can be made to fail.
 enum class Kind : std::uint8_t {
   read,
   write,
@@ -24,25 +24,25 @@ constexpr std::size_t kinds = 9;
 constexpr std::array<const char*, kinds> kind_names = {
     "read", "write", "open", "rename", "flush", "folder", "link", "resize", "allocation"};
 
-/// What the processes of one program and its test share: a file that all of them map. The test says
-/// what is to happen, the preload what did. Counted are files below `root` and standard output, for
-/// standard error cannot complain of itself.
+/// Shared by a test and the processes of one program, as a mapped file. The test specifies the
+/// faults, the preload reports them. Calls on files below `root` and on standard output are
+/// counted. Standard error is not: its faults cannot be reported.
 struct Plan {
   std::array<char, 256> root{};
-  std::array<char, 64> only{};       ///< what their paths hold
-  std::uint32_t counted = 0;         ///< a bit for each kind
-  std::uint64_t nth = 0;             ///< of what is counted, from 1; 0 is none
-  bool from_then_on = false;         ///< whether those after it fail too
-  bool kills = false;                ///< the program is killed instead, by SIGKILL
-  int error = 0;                     ///< errno of what fails
-  std::int64_t disk = -1;            ///< bytes that fit onto it; less than 0 is no limit
-  std::uint64_t shortest_segment = 0;  ///< allocations below it are neither counted nor refused
+  std::array<char, 64> only{};            ///< counted paths contain this text
+  std::uint32_t counted = 0;              ///< kinds that are counted, one bit each
+  std::uint64_t nth = 0;                  ///< counted call that fails, from 1; 0: none
+  bool from_then_on = false;              ///< whether later calls fail too
+  bool kills = false;                     ///< instead, the program is killed by SIGKILL
+  int error = 0;                          ///< errno of failing calls
+  std::int64_t disk = -1;                 ///< capacity (bytes); negative: no limit
+  std::uint64_t smallest_allocation = 0;  ///< smaller ones (bytes) are neither counted nor refused
 
-  std::atomic<std::uint64_t> seen{0};
+  std::atomic<std::uint64_t> seen{0};  ///< counted calls so far
   std::array<std::atomic<std::uint64_t>, kinds> of_kind{};
   std::atomic<std::int64_t> written{0};  ///< bytes
   std::atomic<std::uint64_t> refused{0};
-  /// The first that were refused.
+  /// A refused call.
   struct Refused {
     Kind what{};
     std::array<char, 512> path{};
@@ -52,7 +52,7 @@ struct Plan {
   pid_t program = 0;
 };
 
-/// The environment variable that names the file.
+/// The environment variable with the path of the mapped file.
 constexpr const char* plan_variable = "TOUCHDOWN_FAULTS";
 
 }  // namespace touchdown::faults

@@ -1,13 +1,13 @@
-// Loaded into the real program before everything else (LD_PRELOAD), by tests only: lets the calls
+// Tests load this library into the real program before all others (LD_PRELOAD). It makes the calls
 // that its `Plan` names fail.
 //
-// A wrapper of write() would not see what the C library writes itself, for fclose() or fwrite(). So
-// the kernel is asked to send every system call of interest back as a signal (seccomp), and the
-// signal's handler makes the call, or says that it failed. It makes calls from one instruction at
-// an address that is the same in every process: the only one that the kernel lets through. Programs
-// that the program starts inherit the filter, and load this again. Memory is refused where it is
-// asked for, in malloc and its kin, and from main() on: what libraries ask for before it, no
-// program can complain of.
+// A wrapper of write() would miss the calls that the C library itself makes for fclose() or
+// fwrite(). So a seccomp filter turns every system call of interest into a signal. The signal
+// handler makes the call, or returns an error. It makes calls from one instruction at an address
+// that is the same in every process, the only address that the filter lets through. Child programs
+// inherit the filter and load this library again. Memory is refused in malloc and related
+// functions, from main() on: a program cannot report allocation failures of libraries before
+// main().
 
 #include <algorithm>
 #include <cerrno>
@@ -28,21 +28,21 @@
 
 #include "tests/fault_preload/plan.hpp"
 
-/// The C library's sigaction(), which no sanitizer has put something in front of.
+/// The C library's sigaction(), without the wrappers of sanitizers.
 extern "C" int __sigaction(int signal, const struct sigaction* action,  // NOLINT: its name
                            struct sigaction* before);
 
 namespace touchdown::faults {
 namespace {
 
-// A signal's handler and malloc can reach nothing but globals.
+// A signal handler and malloc can access globals only.
 Plan* plan = nullptr;
 int (*program)(int count, char** arguments, char** environment) = nullptr;
 std::atomic<bool> has_begun{false};
 
 using Call = long (*)(long number, long a, long b, long c, long d, long e, long f);
 constexpr std::uintptr_t call_address = 0x6f0000000000;
-/// The C library's syscall() without errno: arguments move by one, then `syscall`, `ret`.
+/// The C library's syscall() without errno: shifts the arguments by one, then `syscall`, `ret`.
 constexpr std::array<std::uint8_t, 26> call_code = {
     0x48, 0x89, 0xf8, 0x48, 0x89, 0xf7, 0x48, 0x89, 0xd6, 0x48, 0x89, 0xca, 0x4d,
     0x89, 0xc2, 0x4d, 0x89, 0xc8, 0x4c, 0x8b, 0x4c, 0x24, 0x08, 0x0f, 0x05, 0xc3};
@@ -60,8 +60,8 @@ long call(long number, long a = 0, long b = 0, long c = 0, long d = 0, long e = 
 struct Trapped {
   int number;
   Kind kind;
-  int path;        ///< which argument is one; -1: the first is a descriptor
-  int flags = -1;  ///< of an open: which argument
+  int path;        ///< index of the path argument; -1: the first argument is a descriptor
+  int flags = -1;  ///< index of the flags argument of an open
 };
 constexpr std::array trapped = {
     Trapped{SYS_read, Kind::read, -1},       Trapped{SYS_pread64, Kind::read, -1},
@@ -78,7 +78,7 @@ constexpr std::array trapped = {
     Trapped{SYS_symlinkat, Kind::link, 2},   Trapped{SYS_ftruncate, Kind::resize, -1},
     Trapped{SYS_truncate, Kind::resize, 0},  Trapped{SYS_fallocate, Kind::resize, -1}};
 
-/// The path that a call is about, as far as it fits.
+/// The path of a call, truncated to the array.
 std::array<char, 512> path_of(const Trapped& which, const greg_t* registers) {
   static constexpr std::array<int, 4> arguments = {REG_RDI, REG_RSI, REG_RDX, REG_R10};
   std::array<char, 512> path{};
@@ -88,7 +88,7 @@ std::array<char, 512> path_of(const Trapped& which, const greg_t* registers) {
     if (text != nullptr) std::strncpy(path.data(), text, path.size() - 1);
     return path;
   }
-  // copy_file_range and sendfile differ in which descriptor is written to.
+  // copy_file_range and sendfile write to different descriptors.
   const bool second = which.number == SYS_copy_file_range;
   long descriptor = registers[second ? REG_RDX : REG_RDI];
   std::array<char, 32> link = {"/proc/self/fd/"};
@@ -105,7 +105,8 @@ std::array<char, 512> path_of(const Trapped& which, const greg_t* registers) {
   return path;
 }
 
-/// Below the plan's root, or relative and so below it, too. Standard error is nobody's.
+/// Whether a call is counted: its path is below the plan's root, or relative and so below it too.
+/// Calls on standard error are not.
 bool is_counted(const Trapped& which, const greg_t* registers, const char* path) {
   if (which.path < 0 && registers[REG_RDI] == STDERR_FILENO) return false;
   const bool is_relative = which.path >= 0 && path[0] != '/';
@@ -114,7 +115,7 @@ bool is_counted(const Trapped& which, const greg_t* registers, const char* path)
          std::strstr(path, plan->only.data()) != nullptr;
 }
 
-void note(Kind kind, const char* path) {
+void record_refusal(Kind kind, const char* path) {
   const std::uint64_t number = plan->refused.fetch_add(1);
   if (number >= plan->first.size()) return;
   Plan::Refused& refused = plan->first.at(number);
@@ -122,15 +123,15 @@ void note(Kind kind, const char* path) {
   std::memcpy(refused.path.data(), path, ::strnlen(path, refused.path.size() - 1));
 }
 
-/// Whether this one, which is counted now, is to fail; a killed program does not come back.
-bool falls(Kind kind, const char* path) {
+/// Counts a call, and returns whether it fails. Does not return if the program is killed.
+bool should_fail(Kind kind, const char* path) {
   if ((plan->counted >> static_cast<unsigned>(kind) & 1U) == 0) return false;
   plan->of_kind.at(static_cast<std::size_t>(kind)).fetch_add(1);
   const std::uint64_t number = plan->seen.fetch_add(1) + 1;
   if (plan->nth == 0 || number < plan->nth || (number > plan->nth && !plan->from_then_on)) {
     return false;
   }
-  note(kind, path);
+  record_refusal(kind, path);
   if (plan->kills) {
     call(SYS_kill, plan->program, SIGKILL);
     for (;;) call(SYS_pause);
@@ -138,42 +139,43 @@ bool falls(Kind kind, const char* path) {
   return true;
 }
 
-/// What still fits of so many bytes. Standard output lies elsewhere.
-std::int64_t room_for(std::int64_t size, long descriptor) {
+/// How many of `size` bytes still fit on the disk. Standard output is not on it.
+std::int64_t space_for(std::int64_t size, long descriptor) {
   if (descriptor == STDOUT_FILENO) return size;
   const std::int64_t before = plan->written.fetch_add(size);
   if (plan->disk < 0) return size;
   return std::clamp<std::int64_t>(plan->disk - before, 0, size);
 }
 
-/// The first bytes of several pieces, as many as fit.
-long write_segments(greg_t* registers, const char* path) {
+/// Writes the first bytes of several buffers, as many as fit.
+long write_buffers(greg_t* registers, const char* path) {
   const auto* given = reinterpret_cast<const iovec*>(registers[REG_RSI]);  // NOLINT
-  std::array<iovec, 16> pieces{};
-  const std::size_t count = std::min(static_cast<std::size_t>(registers[REG_RDX]), pieces.size());
+  std::array<iovec, 16> buffers{};
+  const std::size_t count = std::min(static_cast<std::size_t>(registers[REG_RDX]), buffers.size());
   std::int64_t size = 0;
   for (std::size_t i = 0; i < count; ++i) size += static_cast<std::int64_t>(given[i].iov_len);
-  std::int64_t left = room_for(size, registers[REG_RDI]);
+  std::int64_t left = space_for(size, registers[REG_RDI]);
   if (left == 0 && size > 0) {
-    note(Kind::write, path);
+    record_refusal(Kind::write, path);
     return -ENOSPC;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    pieces.at(i) = {given[i].iov_base, std::min(given[i].iov_len, static_cast<std::size_t>(left))};
-    left -= static_cast<std::int64_t>(pieces.at(i).iov_len);
+    buffers.at(i) = {given[i].iov_base, std::min(given[i].iov_len, static_cast<std::size_t>(left))};
+    left -= static_cast<std::int64_t>(buffers.at(i).iov_len);
   }
-  return call(registers[REG_RAX], registers[REG_RDI], reinterpret_cast<long>(pieces.data()),
+  return call(registers[REG_RAX], registers[REG_RDI], reinterpret_cast<long>(buffers.data()),
               static_cast<long>(count), registers[REG_R10], registers[REG_R8]);
 }
 
-long write_what_fits(greg_t* registers, const char* path) {
+/// Writes as many bytes as fit; makes other calls unchanged.
+long write_within_capacity(greg_t* registers, const char* path) {
   const long number = registers[REG_RAX];
-  if (number == SYS_writev || number == SYS_pwritev) return write_segments(registers, path);
+  if (number == SYS_writev || number == SYS_pwritev) return write_buffers(registers, path);
   if (number == SYS_write || number == SYS_pwrite64) {
     const long size = registers[REG_RDX];
-    registers[REG_RDX] = room_for(size, registers[REG_RDI]);
+    registers[REG_RDX] = space_for(size, registers[REG_RDI]);
     if (registers[REG_RDX] == 0 && size > 0) {
-      note(Kind::write, path);
+      record_refusal(Kind::write, path);
       return -ENOSPC;
     }
   }
@@ -181,7 +183,8 @@ long write_what_fits(greg_t* registers, const char* path) {
               registers[REG_R10], registers[REG_R8], registers[REG_R9]);
 }
 
-void answer(int /*signal*/, siginfo_t* info, void* context) {
+/// Signal handler of trapped calls: makes the call or fails it.
+void handle_call(int /*signal*/, siginfo_t* info, void* context) {
   greg_t* const registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;  // NOLINT
   registers[REG_RAX] = info->si_syscall;
   const auto* const which = std::find_if(trapped.begin(), trapped.end(), [&](const Trapped& one) {
@@ -192,15 +195,15 @@ void answer(int /*signal*/, siginfo_t* info, void* context) {
   if (!is_counted(*which, registers, path.data())) {
     result = call(registers[REG_RAX], registers[REG_RDI], registers[REG_RSI], registers[REG_RDX],
                   registers[REG_R10], registers[REG_R8], registers[REG_R9]);
-  } else if (falls(which->kind, path.data())) {
+  } else if (should_fail(which->kind, path.data())) {
     result = -plan->error;
   } else {
-    result = write_what_fits(registers, path.data());
+    result = write_within_capacity(registers, path.data());
   }
   registers[REG_RAX] = result;
 }
 
-/// The kernel's filter, for good: a call of the list is trapped unless it is made from our address.
+/// Installs a permanent filter that traps the listed calls unless they come from `call_address`.
 void install_filter() {
   std::array<sock_filter, 8 + 5 * trapped.size()> code{};
   std::size_t size = 0;
@@ -215,7 +218,7 @@ void install_filter() {
   add(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
   load(offsetof(seccomp_data, nr));
   for (const Trapped& one : trapped) {
-    // A program that is started reads its libraries before it loads this.
+    // A child program reads its libraries before it loads this one.
     if (one.kind == Kind::read && (plan->counted & 1U << static_cast<unsigned>(Kind::read)) == 0) {
       continue;
     }
@@ -237,7 +240,7 @@ void install_filter() {
   }
 }
 
-/// The variable of the environment, or null. The C library may not be set up yet.
+/// The value of an environment variable, or null. The C library may not be initialised yet.
 const char* value_of(const char* variable, char** environment) {
   const std::size_t length = std::strlen(variable);
   for (char** entry = environment; *entry != nullptr; ++entry) {
@@ -248,7 +251,7 @@ const char* value_of(const char* variable, char** environment) {
   return nullptr;
 }
 
-/// Before all other libraries (-z initfirst): theirs may begin with a call that comes back.
+/// Runs before the constructors of other libraries (-z initfirst), which may make trapped calls.
 __attribute__((constructor)) void begin(int /*count*/, char** /*arguments*/, char** environment) {
   const char* const file = value_of(plan_variable, environment);
   if (file == nullptr) return;
@@ -259,10 +262,10 @@ __attribute__((constructor)) void begin(int /*count*/, char** /*arguments*/, cha
   std::memcpy(code, call_code.data(), call_code.size());
   ::mprotect(code, call_code.size(), PROT_READ | PROT_EXEC);
   struct sigaction action = {};
-  action.sa_sigaction = answer;
+  action.sa_sigaction = handle_call;
   action.sa_flags = static_cast<int>(SA_SIGINFO | SA_NODEFER);
   ::__sigaction(SIGSYS, &action, nullptr);
-  // From here on calls may come back: a program that inherits the filter opens with this very call.
+  // From here on, calls may be trapped: a program that inherits the filter already traps this one.
   const long descriptor =
       call(SYS_openat, AT_FDCWD, reinterpret_cast<long>(file), O_RDWR | O_CLOEXEC);
   void* const shared = descriptor < 0 ? MAP_FAILED
@@ -276,33 +279,33 @@ __attribute__((constructor)) void begin(int /*count*/, char** /*arguments*/, cha
   install_filter();
 }
 
-/// The program's main().
-int begun(int count, char** arguments, char** environment) {
+/// Calls the program's main().
+int counted_main(int count, char** arguments, char** environment) {
   has_begun = true;
   return program(count, arguments, environment);
 }
 
 [[maybe_unused]] bool is_refused(std::size_t size) {
-  return has_begun && plan != nullptr && size >= plan->shortest_segment &&
-         falls(Kind::allocation, "memory");
+  return has_begun && plan != nullptr && size >= plan->smallest_allocation &&
+         should_fail(Kind::allocation, "memory");
 }
 
 }  // namespace
 }  // namespace touchdown::faults
 
-/// The C library's own, by which every program calls its main().
+/// Replaces the C library's function, which calls main() in every program.
 extern "C" int __libc_start_main(decltype(touchdown::faults::program) main,  // NOLINT: its name
                                  int count, char** arguments, void (*begin)(), void (*end)(),
                                  void (*unload)(), void* stack) {
   touchdown::faults::program = main;
   const auto start = reinterpret_cast<decltype(&__libc_start_main)>(
       ::dlsym(RTLD_NEXT, "__libc_start_main"));  // NOLINT
-  return start(touchdown::faults::begun, count, arguments, begin, end, unload, stack);
+  return start(touchdown::faults::counted_main, count, arguments, begin, end, unload, stack);
 }
 
 #ifndef TOUCHDOWN_LEAVES_MEMORY
 
-// The C library's own, under the names that it exports for who replaces these.
+// The C library's own functions, under the names that it exports for replacements.
 // NOLINTBEGIN(readability-identifier-naming): its names
 extern "C" {
 void* __libc_malloc(std::size_t);

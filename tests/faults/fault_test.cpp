@@ -22,19 +22,19 @@ cli::Ended ended(const std::string& command, const ScratchFolder& folder,
   return cli::StartedProgram(command, folder.path(), environment).end();
 }
 
-/// Smaller ones are of names and lines, and too many to refuse each.
-constexpr std::uint64_t shortest_segment = 2048;
+/// Smaller allocations (bytes) hold names and lines; there are too many to refuse each.
+constexpr std::uint64_t smallest_allocation = 2048;
 
-/// Writes what it needs and returns it.
+/// Writes the files of a command and returns the command.
 using Command = std::function<std::string(const ScratchFolder&)>;
 
-/// A command, what it makes undisturbed, and how much of everything it asks the system for.
+/// A command, its files without faults, and its numbers of calls of each kind.
 struct Case {
   Case(Command given, std::uint32_t counted) : command(std::move(given)) {
     const ScratchFolder folder;
     const Injection injection(folder.path());
     injection->counted = counted;
-    injection->shortest_segment = shortest_segment;
+    injection->smallest_allocation = smallest_allocation;
     const cli::Ended end = ended(command(folder), folder, injection.environment());
     EXPECT_EQ(end.exit_code, 0) << end.errors;
     expected = files_of(folder / "a");
@@ -42,7 +42,7 @@ struct Case {
     bytes = static_cast<std::uint64_t>(injection->written);
   }
 
-  /// What is wrong when `disturb` had its way, and then when the same command is given again.
+  /// Errors of a run that `disturb` disturbs, and of the same command afterwards.
   template <typename Disturb>
   std::vector<std::string> wrong(const Disturb& disturb) const {
     const ScratchFolder folder;
@@ -67,7 +67,7 @@ struct Case {
   Command command;
 };
 
-/// Refuses calls of these kinds: `some` of each, evenly, or `many` of them where all are asked for.
+/// Refuses calls of these kinds, evenly spaced: `some` of each, or `many` if all are requested.
 void expect_nothing_wrong(const Case& one, const std::vector<Kind>& refused, std::uint64_t some,
                           std::uint64_t many = std::numeric_limits<std::uint64_t>::max()) {
   std::size_t wrong_outcomes = 0;
@@ -78,7 +78,7 @@ void expect_nothing_wrong(const Case& one, const std::vector<Kind>& refused, std
     for (std::uint64_t n = 1 + step / 2; n <= calls; n += step) {
       const std::vector<std::string> wrong = one.wrong([&](Plan& plan) {
         plan.counted = bit(kind);
-        plan.shortest_segment = shortest_segment;
+        plan.smallest_allocation = smallest_allocation;
         plan.nth = n;
         plan.error = kind == Kind::allocation ? ENOMEM : n % 2 == 0 ? EIO : ENOSPC;
       });
@@ -93,7 +93,7 @@ void expect_nothing_wrong(const Case& one, const std::vector<Kind>& refused, std
   std::cout << fmt::format("{} wrong outcomes\n", wrong_outcomes);
 }
 
-TEST(Faults, OfFilesLeaveThemWholeOrAbsentAndAreSaid) {
+TEST(Faults, OfFilesLeaveThemWholeOrAbsentAndAreReported) {
   const Case one(small_run_without_pictures, all_files | bit(Kind::allocation));
   expect_nothing_wrong(one,
                        {Kind::read, Kind::write, Kind::open, Kind::rename, Kind::flush,
@@ -101,23 +101,23 @@ TEST(Faults, OfFilesLeaveThemWholeOrAbsentAndAreSaid) {
                        2);
 }
 
-TEST(Faults, OfMemoryLeaveFilesWholeOrAbsentAndAreSaid) {
+TEST(Faults, OfMemoryLeaveFilesWholeOrAbsentAndAreReported) {
   const Case one(small_run_without_pictures, all_files | bit(Kind::allocation));
   expect_nothing_wrong(one, {Kind::allocation}, 6);
 }
 
-TEST(Faults, OfWhatDrawsLeaveFilesWholeOrAbsentAndAreSaid) {
+TEST(Faults, OfDrawingLeaveFilesWholeOrAbsentAndAreReported) {
   const Case one(small_run, all_files & ~bit(Kind::read));
   expect_nothing_wrong(one, {Kind::write, Kind::open, Kind::rename, Kind::flush, Kind::folder}, 1,
                        12);
 }
 
-TEST(Faults, OfAFilmLeaveItWholeOrAbsentAndAreSaid) {
+TEST(Faults, OfAFilmLeaveItWholeOrAbsentAndAreReported) {
   const Case one(small_film, all_files & ~bit(Kind::read));
   expect_nothing_wrong(one, {Kind::write, Kind::open, Kind::rename, Kind::flush, Kind::folder}, 1);
 }
 
-TEST(Disk, ThatIsFullAtAnySizeLeavesFilesWholeOrAbsentAndIsSaid) {
+TEST(Disk, ThatIsFullAtAnySizeLeavesFilesWholeOrAbsentAndIsReported) {
   const Case one(small_run_without_pictures, all_files | bit(Kind::allocation));
   constexpr std::uint64_t page = 4096;
   const std::uint64_t step = all_of_them() ? page : page * (1 + one.bytes / page / 8);

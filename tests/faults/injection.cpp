@@ -17,7 +17,7 @@ std::string name_of(const Plan::Refused& refused) {
   if (path.filename() == ".started.stdout") return "standard output";
   static const std::regex part(R"(\.(.+)\.\d+\.[0-9a-f]{8}\.part(\..+)?)");
   std::smatch match;
-  // A part of a figure lies in a folder that is a part.
+  // A partial figure lies in a partial folder.
   for (const std::filesystem::path& name : path) {
     const std::string text = name.string();
     if (std::regex_match(text, match, part)) return match[1].str() + match[2].str();
@@ -43,7 +43,7 @@ Injection::Injection(const std::filesystem::path& root) : file_(root / ".faults"
 Injection::~Injection() { ::munmap(plan_, sizeof(Plan)); }
 
 std::vector<std::string> Injection::environment() const {
-  // Under a sanitizer, which wants to be the first itself.
+  // ASan would require to be loaded first.
   return {"LD_PRELOAD=" TOUCHDOWN_FAULT_PRELOAD, std::string(plan_variable) + "=" + file_.string(),
           "ASAN_OPTIONS=verify_asan_link_order=0:detect_leaks=0"};
 }

@@ -9,10 +9,10 @@
 namespace touchdown::faults {
 
 constexpr std::uint32_t bit(Kind kind) { return 1U << static_cast<unsigned>(kind); }
-/// Whatever goes to files.
+/// All kinds of calls on files.
 constexpr std::uint32_t all_files = bit(Kind::allocation) - 1;
 
-/// A plan of what goes wrong in one program that is started below `root`, and in what it starts.
+/// A plan of faults for a program that runs below `root`, and for its child processes.
 class Injection {
  public:
   explicit Injection(const std::filesystem::path& root);
@@ -22,10 +22,10 @@ class Injection {
 
   Plan& operator*() const { return *plan_; }
   Plan* operator->() const { return plan_; }
-  /// What the program needs in its environment.
+  /// Environment variables for the program.
   std::vector<std::string> environment() const;
-  /// Names of what was refused first, one of which a complaint has to hold: a file's own one, if it
-  /// is a part of it that could not be written.
+  /// Names of the first refused files, or "memory"; an error message must contain one of them. For
+  /// a partial file, it is the final name.
   std::vector<std::string> subjects() const;
   bool has_refused(Kind kind) const;
 

@@ -22,21 +22,21 @@ namespace fs = std::filesystem;
 
 using Command = std::function<std::string(const ScratchFolder&)>;
 
-/// When in a stage the time begins after which a program is killed.
+/// The point in a stage from which the waiting time until a kill counts.
 enum class From { any_call, last_call, start };
 
-/// A part of a program's work, known by the files that it writes: their paths hold `only`.
+/// A part of a program's work, identified by the files that it writes: their paths contain `only`.
 struct Stage {
   const char* name;
   Command command;
   const char* only;
   double longest_wait;  ///< (s)
   From from = From::any_call;
-  bool grows = false;         ///< its files are whole at more than one time
-  bool leaves_parts = false;  ///< somewhere in a folder of the user's
+  bool grows = false;         ///< its files are complete more than once
+  bool leaves_parts = false;  ///< partial files in a folder of the user
 };
 
-/// Kills programs and counts.
+/// Kills programs in one stage, and counts kills and differing files.
 class Kills {
  public:
   explicit Kills(const Stage& stage) : stage_(stage) {
@@ -51,8 +51,7 @@ class Kills {
     EXPECT_GT(calls_, 0U) << stage.name;
   }
 
-  /// Kills it once, at a call of the stage by chance or a moment after, and lets the same command
-  /// end.
+  /// Kills the program once, at or after a random call, and lets the same command finish.
   void kill(std::mt19937& random) {
     const ScratchFolder folder;
     const std::string command = stage_.command(folder);
@@ -60,24 +59,23 @@ class Kills {
     watch(injection);
     const std::uint64_t any = std::uniform_int_distribution<std::uint64_t>(1, calls_)(random);
     const double wait = std::uniform_real_distribution<double>(0.0, stage_.longest_wait)(random);
-    const bool whole_run = stage_.from == From::any_call && random() % 2 == 0;
+    const bool kill_at_call = stage_.from == From::any_call && random() % 2 == 0;
     const std::uint64_t at = stage_.from == From::any_call ? any
                              : stage_.from == From::start  ? 0
                                                            : calls_;
-    if (whole_run) {
+    if (kill_at_call) {
       injection->nth = at;
       injection->kills = true;
     }
     cli::StartedProgram program(command, folder.path(), injection.environment());
     while (program.is_running() && injection->seen < at) program.let_run(0.0005);
-    if (!whole_run) {
+    if (!kill_at_call) {
       program.let_run(wait);
       program.send(SIGKILL);
     }
     if (program.end().exit_code == -SIGKILL) ++kills_;
     Files left = files_of(folder / "a");
-    // Shards leave notes until they are merged; a training's files grow from iteration to
-    // iteration.
+    // Shards leave files until they are merged. The files of a training grow with every iteration.
     std::erase_if(left, [&](const auto& file) {
       return file.first.starts_with("state/shards/") || stage_.grows;
     });
@@ -90,7 +88,7 @@ class Kills {
       wrong.push_back(one);
     }
     EXPECT_THAT(wrong, IsEmpty()) << stage_.name << " killed at " << at << " of " << calls_
-                                  << (whole_run ? "" : fmt::format(" and {:.4f} s", wait));
+                                  << (kill_at_call ? "" : fmt::format(" and {:.4f} s", wait));
     wrong_ += wrong.size();
   }
 
@@ -115,7 +113,7 @@ class Kills {
   std::size_t wrong_ = 0;
 };
 
-void expect_should_continue(const Stage& stage, int some, int all) {
+void expect_recovery(const Stage& stage, int some, int all) {
   std::mt19937 random(20261122);
   Kills kills(stage);
   const int count = all_of_them() ? all : some;
@@ -136,42 +134,42 @@ std::string merge(const ScratchFolder& folder) {
 }
 
 TEST(Kills, WhileItSimulates) {
-  expect_should_continue({"simulating", small_run_without_pictures, "/recordings/", 0.02}, 3, 30);
+  expect_recovery({"simulating", small_run_without_pictures, "/recordings/", 0.02}, 3, 30);
 }
 
-TEST(Kills, WhileItListens) {
-  expect_should_continue({"listening", small_run_without_pictures, "/listening/", 0.01}, 1, 15);
+TEST(Kills, WhileItEvaluates) {
+  expect_recovery({"evaluating", small_run_without_pictures, "/evaluation/", 0.01}, 1, 15);
 }
 
 TEST(Kills, WhileItWritesModels) {
-  expect_should_continue({"models", small_run_without_pictures, "/models/", 0.01}, 1, 10);
+  expect_recovery({"models", small_run_without_pictures, "/models/", 0.01}, 1, 10);
 }
 
 TEST(Kills, WhileItWritesTables) {
-  expect_should_continue({"tables", small_run_without_pictures, "/tables/", 0.01}, 1, 15);
+  expect_recovery({"tables", small_run_without_pictures, "/tables/", 0.01}, 1, 15);
 }
 
-TEST(Kills, WhileItDraws) { expect_should_continue({"drawing", small_run, "/figures/", 0.1}, 1, 20); }
+TEST(Kills, WhileItDraws) { expect_recovery({"drawing", small_run, "/figures/", 0.1}, 1, 20); }
 
 TEST(Kills, WhileItFilms) {
-  expect_should_continue({"filming", small_film, "", 1.0, From::start, false, true}, 1, 10);
+  expect_recovery({"filming", small_film, "", 1.0, From::start, false, true}, 1, 10);
   if (!all_of_them()) return;
-  expect_should_continue({"filming a run", small_run_with_film, "/figures/", 2.0, From::last_call}, 0, 10);
+  expect_recovery({"filming a run", small_run_with_film, "/figures/", 2.0, From::last_call}, 0, 10);
 }
 
-TEST(Kills, WhileBeliefsSteer) {
-  expect_should_continue({"closed loop", small_closed_loop, "/closed_loop/", 0.02}, 1, 15);
+TEST(Kills, WhileItRunsClosedLoops) {
+  expect_recovery({"closed loop", small_closed_loop, "/closed_loop/", 0.02}, 1, 15);
 }
 
-TEST(Kills, WhileItMerges) { expect_should_continue({"merging", merge, "", 0.02}, 1, 15); }
+TEST(Kills, WhileItMerges) { expect_recovery({"merging", merge, "", 0.02}, 1, 15); }
 
 #ifdef TOUCHDOWN_HAS_TRAINER
 TEST(Kills, WhileItTrains) {
-  expect_should_continue({"training", small_training, "", 0.2, From::any_call, true}, 1, 20);
+  expect_recovery({"training", small_training, "", 0.2, From::any_call, true}, 1, 20);
 }
 #endif
 
-/// Starts a command and lets it be for as long as it takes to make so many calls.
+/// Starts a command and waits until it has made `calls` calls.
 std::unique_ptr<cli::StartedProgram> started(const std::string& command,
                                              const ScratchFolder& folder,
                                              const Injection& injection, std::uint64_t calls) {
@@ -182,13 +180,13 @@ std::unique_ptr<cli::StartedProgram> started(const std::string& command,
   return program;
 }
 
-/// The small run from another folder, where it says what it does, into that one's directory.
+/// The small run, started in folder `from`, where its messages go, into the directory of `folder`.
 std::string run_into(const ScratchFolder& folder, const ScratchFolder& from) {
   small_run(from);
   return "run small.yaml --no-pictures --out " + (folder / "a").string();
 }
 
-/// Two programs in one directory at a time, the first of which is killed.
+/// Two programs in one directory at the same time; the first is killed.
 struct Together : ::testing::Test {
   Together() {
     const ScratchFolder alone;
@@ -210,7 +208,7 @@ TEST_F(Together, AShardThatIsKilledBesideAnotherIsComputedAgain) {
     const ScratchFolder elsewhere;
     const std::string run = small_run_without_pictures(folder);
     const Injection injection(folder.path());
-    // Until its end it makes more than a hundred calls.
+    // The shard makes more than a hundred calls.
     const auto first = started(run + " --shard 2/2", folder, injection, 1 + random() % 100);
     cli::StartedProgram second(run_into(folder, elsewhere) + " --shard 1/2", elsewhere.path());
     first->let_run(0.0005 * static_cast<double>(random() % 100));
@@ -227,7 +225,7 @@ TEST_F(Together, AShardThatIsKilledBesideAnotherIsComputedAgain) {
   std::cout << fmt::format("one of two shards: {} kills\n", kills);
 }
 
-TEST_F(Together, ASecondRunIsRefusedAndGoesOnOnceTheFirstIsKilled) {
+TEST_F(Together, ASecondRunIsRefusedAndContinuesOnceTheFirstIsKilled) {
   int kills = 0;
   for (int i = 0; i < times(1, 10); ++i) {
     const ScratchFolder folder;

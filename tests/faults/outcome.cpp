@@ -16,10 +16,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string told(const std::string& name, std::string content) {
+/// The part of a file that must be reproduced.
+std::string comparable_content(const std::string& name, std::string content) {
   if (name == "manifest.json" || name == "models/nmn.json")
     return nlohmann::json::accept(content) ? "whole" : content;
-  // Libtorch names the moments of a checkpoint by where in memory their weights were.
+  // libtorch names the moments in a checkpoint by the memory addresses of their weights.
   if (name.ends_with(".pt")) return "whole";
   if (name == "report.html") return content.ends_with("</html>\n") ? "whole" : content;
   return content;
@@ -31,8 +32,8 @@ bool is_part(const fs::path& path) {
   });
 }
 
-/// What was said besides how far it is.
-std::vector<std::string> complaints(const std::string& errors) {
+/// Lines of standard error other than progress.
+std::vector<std::string> messages_in(const std::string& errors) {
   static const std::regex progress(R"([a-z ]+: \d+/\d+ .*)");
   std::vector<std::string> lines;
   std::istringstream text(errors);
@@ -51,7 +52,7 @@ std::vector<std::string> missing_or_other(const Files& left, const Files& expect
   for (const auto& [name, content] : left) {
     const auto should = expected.find(name);
     if (should == expected.end() || should->second != content) {
-      wrong.push_back(name + (should == expected.end() ? " is too much" : " is another"));
+      wrong.push_back(name + (should == expected.end() ? " is unexpected" : " differs"));
     }
   }
   return wrong;
@@ -65,7 +66,7 @@ Files files_of(const fs::path& directory) {
   for (const auto& entry : fs::recursive_directory_iterator(directory)) {
     const fs::path name = entry.path().lexically_relative(directory);
     if (!entry.is_regular_file() || name == "state/lock" || is_part(name)) continue;
-    files[name.string()] = told(name.string(), read_file(entry.path()));
+    files[name.string()] = comparable_content(name.string(), read_file(entry.path()));
   }
   return files;
 }
@@ -83,23 +84,23 @@ std::vector<std::string> parts_in(const fs::path& directory) {
 std::vector<std::string> wrong_in(const cli::Ended& ended, const Injection& injection,
                                   const Files& left, const Files& expected) {
   std::vector<std::string> wrong = missing_or_other(left, expected);
-  const std::vector<std::string> said = complaints(ended.errors);
+  const std::vector<std::string> messages = messages_in(ended.errors);
   if (ended.exit_code == 0) {
     if (injection.has_refused(Kind::flush)) wrong.push_back("succeeded, and did not flush");
-    if (!said.empty()) wrong.push_back("succeeded, and said: " + ended.errors);
+    if (!messages.empty()) wrong.push_back("succeeded, with messages: " + ended.errors);
     return wrong;
   }
   std::erase_if(wrong, [](const std::string& one) { return one.ends_with(" is missing"); });
   if (ended.exit_code != 1) wrong.push_back(fmt::format("ended with {}", ended.exit_code));
   const std::vector<std::string> subjects = injection.subjects();
   const bool is_named =
-      said.size() == 1 && said.front().starts_with("touchdown: ") &&
+      messages.size() == 1 && messages.front().starts_with("touchdown: ") &&
       std::any_of(subjects.begin(), subjects.end(), [&](const std::string& subject) {
-        return said.front().find(subject) != std::string::npos;
+        return messages.front().find(subject) != std::string::npos;
       });
   if (!is_named) {
-    wrong.push_back(fmt::format("expected one line about '{}', said: {}", fmt::join(subjects, ", "),
-                                ended.errors));
+    wrong.push_back(fmt::format("expected one line about '{}', found: {}",
+                                fmt::join(subjects, ", "), ended.errors));
   }
   return wrong;
 }

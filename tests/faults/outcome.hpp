@@ -10,24 +10,23 @@
 
 namespace touchdown::faults {
 
-/// Every file of a run directory under its final name, by its path there, and its content; of the
-/// manifest and the report, which say when and how they were made, whether they are whole. Not the
-/// lock, in which everybody signs.
+/// The files of a run directory by path, with their content. Of the manifest and the report, which
+/// contain times, only whether they are complete. Partial files and the lock are left out.
 using Files = std::map<std::string, std::string>;
 Files files_of(const std::filesystem::path& directory);
-/// What processes left half written.
+/// Partial files and folders that processes left.
 std::vector<std::string> parts_in(const std::filesystem::path& directory);
 
-/// What is wrong with how a disturbed program ended, one line each: a file that is neither whole
-/// nor absent, success without all files, a complaint that is not one line or does not name what
-/// was refused.
+/// Errors in how a disturbed program ended, one line each: a file that is neither whole nor absent,
+/// success without all files, an error message that is not one line or does not name the refused
+/// file.
 std::vector<std::string> wrong_in(const cli::Ended& ended, const Injection& injection,
                                   const Files& left, const Files& expected);
 
-/// What is neither absent nor whole, of files that are written once.
+/// Files that are neither absent nor whole, of those that are written once.
 std::vector<std::string> half_written(const Files& left, const Files& expected);
 
-/// The same of the same command without a disturbance.
+/// Errors after the same command has run again without faults.
 std::vector<std::string> wrong_after(const cli::Ended& again,
                                      const std::filesystem::path& directory, const Files& expected);
 

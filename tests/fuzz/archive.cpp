@@ -26,7 +26,7 @@ void put(std::string& bytes, std::size_t number, int size) {
 std::string archive_of(std::string_view input, const std::vector<std::string>& names) {
   std::string file;
   std::string directory;
-  std::set<std::string> there;
+  std::set<std::string> present;
   while (input.size() >= 3) {
     const auto byte = [&](std::size_t i) {
       return static_cast<std::size_t>(static_cast<unsigned char>(input[i]));
@@ -34,9 +34,9 @@ std::string archive_of(std::string_view input, const std::vector<std::string>& n
     const std::string name = names[byte(0) % names.size()] + ".npy";
     const std::string_view content = input.substr(3, byte(1) | byte(2) << 8U);
     input.remove_prefix(3 + content.size());
-    if (!there.insert(name).second) continue;
+    if (!present.insert(name).second) continue;
     const std::size_t offset = file.size();
-    std::string about;  // what the local and the central header have in common
+    std::string about;  // common part of the local and the central header
     put(about, 20, 2);  // version
     put(about, 0, 2);   // flags
     put(about, 0, 2);   // stored
@@ -59,8 +59,8 @@ std::string archive_of(std::string_view input, const std::vector<std::string>& n
   }
   std::string end = "PK\x05\x06";
   put(end, 0, 4);
-  put(end, there.size(), 2);
-  put(end, there.size(), 2);
+  put(end, present.size(), 2);
+  put(end, present.size(), 2);
   put(end, directory.size(), 4);
   put(end, file.size(), 4);
   put(end, 0, 2);

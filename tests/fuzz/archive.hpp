@@ -6,9 +6,9 @@
 
 namespace touchdown::fuzz {
 
-/// A `.npz` of arrays that the input holds one after the other: a byte that chooses one of `names`,
-/// two bytes with the size (little endian), and so many bytes of a `.npy`. Sizes and checksums of
-/// the archive are right, so that what is fuzzed are the arrays.
+/// A `.npz` of the arrays in the input. Each is a byte that chooses one of `names`, two bytes with
+/// the size (little endian), and that many bytes of a `.npy`. Sizes and checksums of the archive
+/// are valid, so only the arrays are fuzzed.
 std::string archive_of(std::string_view input, const std::vector<std::string>& names);
 
 }  // namespace touchdown::fuzz

@@ -10,7 +10,7 @@
 
 namespace touchdown::fuzz {
 
-/// Beliefs in a format that the bytes need not be of, or a person's labels.
+/// Bytes read as every format of beliefs, and as a person's contact labels.
 TOUCHDOWN_FUZZ(beliefs) {
   const fuzz::MemoryFile file(input);
   const std::filesystem::path path = file.path();
@@ -21,7 +21,7 @@ TOUCHDOWN_FUZZ(beliefs) {
            [&] { (void)recordings::read_contact_intervals(path); }}) {
     try {
       read();
-    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
     }
   }
 }

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string_view>
 
-/// Begins the definition of a fuzzed function of `std::string_view input`, which may do with any
-/// input what it likes but crash, hang or throw anything that is no `touchdown::Error`. In a fuzzer
-/// it is what libFuzzer calls; in the replay of the corpus all of them are linked together.
+/// Begins the definition of a fuzzed function of `std::string_view input`. For any input, it must
+/// not crash, hang, or throw anything but `touchdown::Error`. A fuzzer makes it libFuzzer's entry
+/// point; the replay of the corpus links all of them together.
 #ifdef TOUCHDOWN_FUZZER
 #define TOUCHDOWN_FUZZ(name)                                                          \
   static void fuzz_##name(std::string_view input);                                    \

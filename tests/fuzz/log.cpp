@@ -12,16 +12,16 @@ namespace touchdown::fuzz {
 
 namespace {
 
-/// Reads a log as `touchdown estimate` does and writes beliefs into it. The first byte times
-/// 16 is how many bytes a read gives, as from a live stream; 0 for all.
+/// Reads a log as `touchdown estimate` does and writes beliefs into it. `chunk` is the number of
+/// bytes per read, as from a live stream; 0: all.
 struct Annotated {
   std::size_t rows = 0;
   std::string log;
 };
 
-Annotated annotated(std::string_view bytes, std::size_t piece) {
+Annotated annotated(std::string_view bytes, std::size_t chunk) {
   const recordings::ByteSource source = [&](std::span<char> buffer) {
-    const std::size_t most = piece == 0 ? buffer.size() : std::min(buffer.size(), piece);
+    const std::size_t most = chunk == 0 ? buffer.size() : std::min(buffer.size(), chunk);
     const std::size_t size = bytes.copy(buffer.data(), most);
     bytes.remove_prefix(size);
     return size;
@@ -45,13 +45,13 @@ Annotated annotated(std::string_view bytes, std::size_t piece) {
 
 }  // namespace
 
-/// A log. What was written into one reads back as the same number of rows.
+/// A log, annotated and read again. The first byte times 16 is the chunk size.
 TOUCHDOWN_FUZZ(log) {
   if (input.empty()) return;
-  const auto piece = 16 * static_cast<std::size_t>(static_cast<unsigned char>(input.front()));
+  const auto chunk = 16 * static_cast<std::size_t>(static_cast<unsigned char>(input.front()));
   Annotated once;
   try {
-    once = annotated(input.substr(1), piece);
+    once = annotated(input.substr(1), chunk);
   } catch (const Error&) {
     return;
   }

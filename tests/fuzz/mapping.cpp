@@ -8,7 +8,7 @@
 
 namespace touchdown::fuzz {
 
-/// A mapping file, and behind a line of dashes the log that it is for.
+/// A mapping file, a line of dashes, and the log that it maps.
 TOUCHDOWN_FUZZ(mapping) {
   static const ScratchFolder folder;
   constexpr std::string_view between = "\n---\n";
@@ -19,7 +19,7 @@ TOUCHDOWN_FUZZ(mapping) {
     (void)recordings::convert_log(folder.write("log.csv", std::string(log)),
                                   folder.write("map.yaml", std::string(input.substr(0, end))),
                                   stream);
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
   }
 }
 

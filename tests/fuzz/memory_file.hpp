@@ -5,7 +5,7 @@
 
 namespace touchdown::fuzz {
 
-/// A file that no disk sees.
+/// A file in memory.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view content);

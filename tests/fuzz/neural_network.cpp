@@ -15,7 +15,7 @@ TOUCHDOWN_FUZZ(neural_network) {
               "second_bias", "heads_weight", "heads_bias"}));
   try {
     (void)recordings::read_neural_network(file.path());
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
   }
 }
 

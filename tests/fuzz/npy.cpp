@@ -5,7 +5,7 @@
 
 namespace touchdown::fuzz {
 
-/// A `.npy`; what it holds is written and read again.
+/// A `.npy`; its array is written and read again.
 TOUCHDOWN_FUZZ(npy) {
   recordings::NpyArray array;
   try {

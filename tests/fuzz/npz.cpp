@@ -6,13 +6,13 @@
 
 namespace touchdown::fuzz {
 
-/// A `.npz` as it is.
+/// A raw `.npz`.
 TOUCHDOWN_FUZZ(npz) {
   const fuzz::MemoryFile file(input);
   try {
     (void)recordings::npz_names(file.path());
     (void)recordings::read_npz(file.path());
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
   }
 }
 

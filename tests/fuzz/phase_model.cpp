@@ -16,7 +16,7 @@ TOUCHDOWN_FUZZ(phase_model) {
               "acceleration_0_axis", "acceleration_0_log_density", "acceleration_1_noise"}));
   try {
     (void)recordings::read_phase_model(file.path());
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
   }
 }
 

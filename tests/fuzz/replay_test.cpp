@@ -35,7 +35,7 @@ struct Target {
 
 class Corpus : public ::testing::TestWithParam<Target> {};
 
-/// What a fuzzer found, or was given to begin with, does no harm; under sanitizers less so.
+/// Inputs of the corpus cause no errors; under sanitizers, more are found.
 TEST_P(Corpus, IsReplayed) {
   const fs::path folder = fs::path(TOUCHDOWN_SOURCE_DIR) / "tests/fuzz/corpus" / GetParam().name;
   std::vector<fs::path> files;

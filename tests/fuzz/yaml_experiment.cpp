@@ -7,14 +7,14 @@
 
 namespace touchdown::fuzz {
 
-/// An experiment file, and what is written of it again.
+/// An experiment file, read, written and read again.
 TOUCHDOWN_FUZZ(yaml_experiment) {
   try {
     const YamlDocument document = YamlDocument::parse(std::string(input), "fuzz.yaml");
     experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
     const std::string written = to_yaml(experiments::experiment_from_yaml(document));
     (void)experiments::experiment_from_yaml(YamlDocument::parse(written, "again.yaml"));
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
   }
 }
 

@@ -7,11 +7,11 @@
 
 namespace touchdown::fuzz {
 
-/// A file about a robot, without the MJCF that it names.
+/// A robot file, without the MJCF that it names.
 TOUCHDOWN_FUZZ(yaml_robot) {
   try {
     (void)from_yaml<models::RobotDescription>(YamlDocument::parse(std::string(input), "fuzz.yaml"));
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
   }
 }
 

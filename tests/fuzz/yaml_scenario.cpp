@@ -6,13 +6,13 @@
 
 namespace touchdown::fuzz {
 
-/// A scenario file, and what is written of it again.
+/// A scenario file, read, written and read again.
 TOUCHDOWN_FUZZ(yaml_scenario) {
   try {
     const YamlDocument document = YamlDocument::parse(std::string(input), "fuzz.yaml");
     const std::string written = to_yaml(scenarios::scenario_from_yaml(document));
     (void)scenarios::scenario_from_yaml(YamlDocument::parse(written, "again.yaml"));
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
   }
 }
 

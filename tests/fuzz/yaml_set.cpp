@@ -7,7 +7,7 @@
 
 namespace touchdown::fuzz {
 
-/// What follows `--set`, one assignment a line, on a scenario.
+/// Arguments of `--set` for a scenario, one assignment per line.
 TOUCHDOWN_FUZZ(yaml_set) {
   try {
     YamlDocument document = YamlDocument::parse(
@@ -20,7 +20,7 @@ TOUCHDOWN_FUZZ(yaml_set) {
       document.override_value(line);
     }
     (void)to_yaml(scenarios::scenario_from_yaml(document));
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
   }
 }
 

@@ -98,7 +98,7 @@ TEST_F(NamingContract, MissingFileIsAnInputError) {
   EXPECT_THROW((void)compile_robot_model(folder_ / "nothing.xml", Terrain{}), InputError);
 }
 
-TEST_F(NamingContract, SomebodyElsesRobotWorksWithItsIncludesAndDefaults) {
+TEST_F(NamingContract, AnotherRobotWorksWithItsIncludesAndDefaults) {
   // Degrees, hostile defaults, and the actuators in an included file beside the robot's.
   std::string text = read_file(upkie_mjcf);
   const std::size_t begin = text.find("<actuator>");

@@ -153,7 +153,7 @@ TEST_F(RobotOfAnotherSize, HasItsStanceInItsFile) {
   EXPECT_EQ(robot_description(upkie_mjcf).stance.hip, 0.455);
 }
 
-TEST_F(RobotOfAnotherSize, SaysWhereABadValueIsAndWhatWasExpected) {
+TEST_F(RobotOfAnotherSize, ReportsABadValueWithItsPositionAndTheExpectation) {
   EXPECT_THAT(complaint_about("mas: 1.5\n"),
               AllOf(HasSubstr("robot.yaml:2:1"), HasSubstr("did you mean 'mass'?")));
   EXPECT_THAT(complaint_about("mass: heavy\n"), HasSubstr("robot.yaml:2:7: mass: expected"));
@@ -166,7 +166,7 @@ TEST_F(RobotOfAnotherSize, SaysWhereABadValueIsAndWhatWasExpected) {
   EXPECT_THAT(complaint_about("stance: {hip: 3}\n"), HasSubstr("stance.hip: expected"));
 }
 
-TEST_F(RobotOfAnotherSize, WhoseLegsAreNoChainOfTwoLinksSaysSo) {
+TEST_F(RobotOfAnotherSize, IsRefusedIfALegIsNotAChainOfTwoLinks) {
   std::string text = read_file(upkie_mjcf);
   const std::string lower = "<body name=\"left_lower_leg\"";
   text.replace(text.find(lower), lower.size(), "<body name=\"shim\">" + lower);

@@ -55,7 +55,7 @@ TEST_F(RobotFile, GivesBothLegsTheirActuators) {
   EXPECT_TRUE(robot.actuator[index(Servo::left_hip)].is_ideal());
 }
 
-TEST_F(RobotFile, ThatSaysNothingMoreIsTheMjcfItself) {
+TEST_F(RobotFile, WithTheMjcfAloneIsTheMjcfItself) {
   const RobotModel plain = compile_robot_model(upkie_mjcf, Terrain{});
   const RobotModel described = compile_robot_model(with("mjcf: upkie.xml\n"), Terrain{});
   ASSERT_EQ(plain.mj->nbuffer, described.mj->nbuffer);
@@ -64,7 +64,7 @@ TEST_F(RobotFile, ThatSaysNothingMoreIsTheMjcfItself) {
       std::equal(bytes, bytes + plain.mj->nbuffer, static_cast<const char*>(described.mj->buffer)));
 }
 
-TEST_F(RobotFile, JointsOfAnMjcfMaySayTheirFrictionThemselves) {
+TEST_F(RobotFile, TakesFrictionFromTheJointsOfAnMjcf) {
   std::string text = read_file(upkie_mjcf);
   const std::string knee = "<joint name=\"left_knee\"";
   text.replace(text.find(knee), knee.size(),
@@ -80,7 +80,7 @@ TEST_F(RobotFile, JointsOfAnMjcfMaySayTheirFrictionThemselves) {
   EXPECT_EQ(robot.mj->dof_damping[dof], 0.0);
 }
 
-TEST_F(RobotFile, WithABadValueSaysWhereAndWhatWasExpected) {
+TEST_F(RobotFile, WithABadValueReportsItsPositionAndTheExpectation) {
   EXPECT_THAT(complaint_about("mjcf: upkie.xml\nactuators:\n  knee: {friction: -1}\n"),
               AllOf(HasSubstr("robot.yaml:3:20"), HasSubstr("friction")));
   EXPECT_THAT(complaint_about("mjcf: upkie.xml\nactuators:\n  knee: {command_delay: -0.1}\n"),

@@ -20,7 +20,7 @@ std::vector<Terrain> all_terrains() {
                              Ramp{15.0, -0.3}}}};
 }
 
-/// Height of what a ball would land on beside the robot.
+/// Height of the ground that a falling ball would hit beside the robot.
 double highest_collider(const mjModel& model, const mjData& data, double x, double y = -1.1) {
   const mjtNum down[3] = {0, 0, -1};
   const mjtByte groups[mjNGROUP] = {0, 0, 0, 1, 0, 0};  // planes are hit whatever their group
@@ -36,7 +36,7 @@ double highest_collider(const mjModel& model, const mjData& data, double x, doub
   }
 }
 
-/// A ray from above hits the collision geoms where the profile says the ground is.
+/// A ray from above hits the collision geoms at the height of the profile.
 TEST(TerrainGeometry, CollisionSurfaceIsTheHeight) {
   for (const Terrain& terrain : all_terrains()) {
     const RobotModel robot = compile_robot_model(upkie_mjcf, terrain);
@@ -139,7 +139,7 @@ TEST(TerrainMesh, NormalsPointOutOfTheirFaces) {
   }
 }
 
-/// Rests a ball on the terrain: what counts is the terrain's friction, not the robot's.
+/// A ball at rest on the terrain has the terrain's friction, not the robot's.
 TEST(TerrainGeometry, TerrainDecidesFrictionAndStiffness) {
   Terrain terrain;
   terrain.friction = 0.37;

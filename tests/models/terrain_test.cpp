@@ -116,10 +116,10 @@ TEST(Terrain, RepeatedPartsAreLaidDownInTurn) {
                                           DoubleNear(2.02, 1e-9), DoubleNear(3.23, 1e-9)));
 }
 
-TEST(Terrain, OfMoreThanAnybodyCanUseIsRefused) {
+TEST(Terrain, WithTooManySegmentsIsRefused) {
   const Repetition many{1000, {Repetition{1000, {Repetition{1000, {Flat{0.1}}}}}}};
   EXPECT_THAT([&] { (void)edges(Terrain{.pieces = {many}}); },
-              ThrowsMessage<InputError>(HasSubstr("more than 10000 stretches of ground")));
+              ThrowsMessage<InputError>(HasSubstr("more than 10000 segments of ground")));
 }
 
 TEST(TerrainYaml, ReadsWhatIsRepeatedAndWhatLiesBeside) {

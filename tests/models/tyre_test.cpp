@@ -41,7 +41,7 @@ class TyreInARobotFile : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(TyreInARobotFile, IsTheEnginesUnlessItSaysOtherwise) {
+TEST_F(TyreInARobotFile, IsTheEnginesByDefault) {
   EXPECT_EQ(compile_robot_model(upkie_mjcf, Terrain{}).tyre.law, Tyre::Law::engine);
   EXPECT_EQ(robot_with("{}").tyre.law, Tyre::Law::engine);
   EXPECT_EQ(robot_with("{law: engine}").tyre.law, Tyre::Law::engine);
@@ -52,7 +52,7 @@ TEST_F(TyreInARobotFile, IsTheEnginesUnlessItSaysOtherwise) {
   EXPECT_EQ(robot.tyre_strips[0], std::vector<int>{robot.tyre_geom[0]}) << "one sphere";
 }
 
-TEST_F(TyreInARobotFile, OfSomeWidthIsSpheresBesideEachOtherThatWeighNothing) {
+TEST_F(TyreInARobotFile, OfSomeWidthIsMasslessSpheresBesideEachOther) {
   const RobotModel plain = compile_robot_model(upkie_mjcf, Terrain{});
   const RobotModel robot = robot_with("{law: spring_damper, width: 0.03}");
   for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
@@ -82,7 +82,7 @@ TEST_F(TyreInARobotFile, OfSomeWidthIsSpheresBesideEachOtherThatWeighNothing) {
   }
 }
 
-TEST_F(TyreInARobotFile, WithABadValueSaysWhereAndWhatWasExpected) {
+TEST_F(TyreInARobotFile, WithABadValueReportsItsPositionAndTheExpectation) {
   EXPECT_THAT(complaint_about("{law: spring_damper, stiffness: 5}"),
               AllOf(HasSubstr("robot.yaml:2:"), HasSubstr("tyre.stiffness"), HasSubstr("100")));
   EXPECT_THAT(complaint_about("{law: spring_damper, damping: 0}"), HasSubstr("tyre.damping"));

@@ -51,26 +51,27 @@ TEST(ContactOdometry, FollowsIdealSensors) {
 }
 
 TEST(ContactOdometry, TakesOffAndLandsByTheImuAlone) {
-  // Wheels that stand still in the air say nothing, if nobody believes that they touch.
+  // Stopped wheels in the air must not brake the estimate if P(contact) is 0.
   const RollingRobot robot;
-  ContactOdometry believes, knows;
-  for (ContactOdometry* odometry : {&believes, &knows}) odometry->reset(at(robot.pose(0.0)));
+  ContactOdometry always_contact, true_contact;
+  for (ContactOdometry* odometry : {&always_contact, &true_contact})
+    odometry->reset(at(robot.pose(0.0)));
   for (int k = 0; k <= 5000; ++k) {
     OdometrySample sample = robot.sample(k);
     if (k % 1000 > 700) {
       for (LegJoints& leg : sample.leg) leg.velocity[2] = 0.0;
     }
-    believes.update(sample);
+    always_contact.update(sample);
     if (k % 1000 > 700) sample.p_contact = {0.0, 0.0};
-    knows.update(sample);
+    true_contact.update(sample);
   }
   const ExtendedPose truth = robot.pose(5.0);
-  EXPECT_LT((knows.state().pose.position - truth.position).norm(), 2e-3);
-  EXPECT_GT((believes.state().pose.position - truth.position).norm(), 5e-2);
+  EXPECT_LT((true_contact.state().pose.position - truth.position).norm(), 2e-3);
+  EXPECT_GT((always_contact.state().pose.position - truth.position).norm(), 5e-2);
 }
 
 TEST(ContactOdometry, WeighsAWheelByItsProbability) {
-  // Both wheels claim to stand; the less they are believed, the less it slows the robot down.
+  // Both wheels report standstill. The lower P(contact), the less this slows the estimate down.
   const RollingRobot robot;
   double last = -1.0;
   for (const double p : {1.0, 0.99, 0.9, 0.5, 0.1, 0.01, 0.0}) {
@@ -88,11 +89,10 @@ TEST(ContactOdometry, WeighsAWheelByItsProbability) {
   }
 }
 
-TEST(ContactOdometry, LinearisesTheMeasurementAsDifferencesSay) {
-  // One update after an error of each kind alone (but of heading, which is not seen), small: what
-  // is left of it must be what the covariance expects. With prior variance s² along one direction
-  // and a tight measurement, errors along what is measured vanish; H is right where they do so
-  // together. The oracle: the same wheel velocities, computed here from the disturbed state.
+TEST(ContactOdometry, LinearisesTheMeasurementAsFiniteDifferencesDo) {
+  // One update after a small error in one direction only. Heading is left out, as it is not
+  // observable. With prior variance in this direction only and a tight measurement, the error must
+  // vanish if H is right.
   const RollingRobot robot;
   OdometryConfig config;
   config.slope = 0.0;
@@ -116,9 +116,9 @@ TEST(ContactOdometry, LinearisesTheMeasurementAsDifferencesSay) {
   }
 }
 
-TEST(ContactOdometry, IsAsWrongAsItSays) {
-  // Normalised estimation error squared over many draws of noise, biases and starts. Sideways and
-  // upwards the wheels of this robot make no errors at all, so that it is somewhat less wrong.
+TEST(ContactOdometry, HasErrorsThatMatchItsCovariance) {
+  // Normalised estimation error squared over many draws of noise, biases and initial states. The
+  // wheels of this robot have no sideways and vertical errors, so that the mean is somewhat lower.
   OdometryConfig config;
   config.gyroscope_noise = 5e-4;
   config.accelerometer_noise = 1e-2;
@@ -172,8 +172,8 @@ TEST(ContactOdometry, IsAsWrongAsItSays) {
   EXPECT_GT(horizontal, 0.8);
 }
 
-TEST(ContactOdometry, DoesNotKnowWhereItIsNorWhereItHeads) {
-  // The same sensors from another start, turned about the vertical: the same way, moved and turned.
+TEST(ContactOdometry, CannotObservePositionAndHeading) {
+  // The same measurements from another start give the same path, moved and rotated.
   const RollingRobot robot;
   ExtendedPose moved;
   moved.rotation = Eigen::AngleAxisd(2.1, Vector3d::UnitZ()).toRotationMatrix();
@@ -182,7 +182,7 @@ TEST(ContactOdometry, DoesNotKnowWhereItIsNorWhereItHeads) {
   start.covariance.diagonal().head<3>().setConstant(1e-3);
   OdometryState elsewhere = start;
   elsewhere.pose = moved * start.pose;
-  // Errors as the world sees them turn with it.
+  // Errors are in the world frame, so their covariance rotates, too.
   Eigen::Matrix<double, 15, 15> turn = Eigen::Matrix<double, 15, 15>::Identity();
   turn.topLeftCorner<9, 9>() = adjoint(moved);
   elsewhere.covariance = turn * start.covariance * turn.transpose();
@@ -195,7 +195,7 @@ TEST(ContactOdometry, DoesNotKnowWhereItIsNorWhereItHeads) {
     sample.leg[0].velocity[2] += 0.5 * std::sin(0.01 * k);  // something to correct
     here.update(sample);
     there.update(sample);
-    // Heading and place, along (e_z, 0, 0) and (0, 0, e_i): no measurement makes them surer.
+    // Heading (e_z, 0, 0) and position (0, 0, e_i): no measurement reduces their variance.
     ASSERT_GE(here.state().covariance(2, 2), heading);
     ASSERT_GE(here.state().covariance(6, 6), 1e-8);
   }
@@ -217,7 +217,7 @@ TEST(ContactOdometry, FindsItsTiltAndItsBiases) {
   EXPECT_LT(error.segment<2>(9).norm(), 1e-3);
 }
 
-TEST(ContactOdometry, BeginsLevelAsItsAccelerometerSays) {
+TEST(ContactOdometry, StartsWithTheTiltOfItsAccelerometer) {
   OdometrySample sample;
   const Eigen::Matrix3d tilt =
       (Eigen::AngleAxisd(0.2, Vector3d::UnitY()) * Eigen::AngleAxisd(-0.1, Vector3d::UnitX()))
@@ -229,7 +229,7 @@ TEST(ContactOdometry, BeginsLevelAsItsAccelerometerSays) {
   EXPECT_NEAR(odometry.state().planar().heading, 0.0, 1e-12);
 }
 
-TEST(ContactOdometry, DoesNotUseWhatIsNoNumber) {
+TEST(ContactOdometry, IgnoresValuesThatAreNotFinite) {
   const RollingRobot robot;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   ContactOdometry odometry;

@@ -16,7 +16,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
-/// The 5 × 5 matrix that the group's definition is about.
+/// The 5 × 5 matrix of a group element.
 Matrix5 matrix_of(const ExtendedPose& x) {
   Matrix5 matrix = Matrix5::Identity();
   matrix.topLeftCorner<3, 3>() = x.rotation;
@@ -25,7 +25,7 @@ Matrix5 matrix_of(const ExtendedPose& x) {
   return matrix;
 }
 
-/// The algebra's matrix.
+/// The 5 × 5 matrix of an element of the algebra.
 Matrix5 matrix_of(const Vector9& xi) {
   Matrix5 matrix = Matrix5::Zero();
   matrix.topLeftCorner<3, 3>() = hat(xi.head<3>());

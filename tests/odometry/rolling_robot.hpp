@@ -10,14 +10,14 @@
 
 namespace touchdown::odometry::test {
 
-/// A wheeled biped with straight legs that rolls over level ground and leans while it does: its
-/// wheels roll without slipping by construction. Everything follows from closed forms of time, and
-/// what sensors say from differences of these.
+/// A wheeled biped with straight legs that rolls over level ground and leans. Its wheels roll
+/// without slip by construction. The motion is in closed form; the measurements are its
+/// differences.
 class RollingRobot {
  public:
   static constexpr double step = 1e-3;  ///< s
 
-  /// How it is at a time, as odometry believes it: IMU, axes of the base.
+  /// The true pose at a time as odometry defines it: of the IMU, with the axes of the base.
   ExtendedPose pose(double time) const {
     ExtendedPose pose;
     pose.rotation = orientation(time);
@@ -27,8 +27,8 @@ class RollingRobot {
     return pose;
   }
 
-  /// What ideal sensors say at step `k`; the accelerometer's mean over the step is of the turned
-  /// frame at its end.
+  /// The measurements of ideal sensors at step `k`. The accelerometer's mean over the step is in
+  /// the frame at its end.
   OdometrySample sample(int k) const {
     const double time = k * step;
     constexpr double h = 1e-5;
@@ -42,7 +42,7 @@ class RollingRobot {
         to_imu * orientation(time).transpose() *
         ((pose(time).velocity - pose(time - step).velocity) / step + Eigen::Vector3d(0, 0, 9.81));
     for (std::size_t leg = 0; leg < 2; ++leg) {
-      // What the wheel has turned in the world, less how the base has turned.
+      // The rotation of the wheel in the world minus the rotation of the base.
       const double side = robot.leg[leg].hip.y();
       const auto rolled = [&](double t) {
         return (distance(t) - side * heading(t)) / robot.wheel_radius - lean(t);
@@ -79,14 +79,14 @@ class RollingRobot {
       const double speed = 0.5 - 0.26 * std::cos(1.3 * s);
       return {speed * std::cos(heading(s)), speed * std::sin(heading(s)), 0.0};
     };
-    constexpr double piece = 0.01;
-    const auto whole = static_cast<int>(std::floor(t / piece));
+    constexpr double interval = 0.01;
+    const auto whole = static_cast<int>(std::floor(t / interval));
     while (static_cast<int>(table_.size()) <= whole) {
-      const double from = piece * static_cast<double>(table_.size() - 1);
-      table_.push_back(table_.back() + simpson(slope, from, from + piece));
+      const double from = interval * static_cast<double>(table_.size() - 1);
+      table_.push_back(table_.back() + simpson(slope, from, from + interval));
     }
     if (whole < 0) return simpson(slope, 0.0, t);
-    return table_[static_cast<std::size_t>(whole)] + simpson(slope, whole * piece, t);
+    return table_[static_cast<std::size_t>(whole)] + simpson(slope, whole * interval, t);
   }
 
   template <typename Slope>

@@ -7,7 +7,7 @@
 namespace touchdown::odometry {
 namespace {
 
-TEST(WheeledLeg, IsWhereTheGeometryOfAPlaneLegSays) {
+TEST(WheeledLeg, IsWhereThePlanarGeometryPutsIt) {
   // x = L₁ sin q₁ + L₂ sin(q₁ + q₂), z = −L₁ cos q₁ − L₂ cos(q₁ + q₂); both forward positive, which
   // is minus the right leg's joints.
   for (const std::size_t side : {0U, 1U}) {
@@ -20,7 +20,7 @@ TEST(WheeledLeg, IsWhereTheGeometryOfAPlaneLegSays) {
   }
 }
 
-TEST(WheeledLeg, MovesAsItsPlacesDiffer) {
+TEST(WheeledLeg, HasTheVelocityOfFiniteDifferences) {
   for (const WheeledLeg& leg : upkie().leg) {
     LegJoints joints{{0.5, -0.9, 3.0}, {1.5, -2.5, 20.0}};
     constexpr double h = 1e-6;

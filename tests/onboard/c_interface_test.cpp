@@ -67,7 +67,7 @@ TEST_F(CInterface, BelievesWhatTheLibraryBelieves) {
   touchdown_destroy(estimator);
 }
 
-TEST_F(CInterface, SaysWhatIsWrongInsteadOfThrowing) {
+TEST_F(CInterface, ReportsErrorsInsteadOfThrowing) {
   std::array<char, 200> error{};
   touchdown_use use = {nullptr, 200.0, nullptr};
   EXPECT_EQ(touchdown_create(model().c_str(), &use, error.data(), error.size()), nullptr);
@@ -82,7 +82,7 @@ TEST_F(CInterface, SaysWhatIsWrongInsteadOfThrowing) {
   touchdown_destroy(nullptr);
 }
 
-TEST_F(CInterface, TellsWhatIsWrongWithARecord) {
+TEST_F(CInterface, ReportsFaultsOfARecord) {
   touchdown_estimator* const estimator = touchdown_create(model().c_str(), nullptr, nullptr, 0);
   ASSERT_NE(estimator, nullptr);
   const touchdown_record nothing = touchdown_empty_record();

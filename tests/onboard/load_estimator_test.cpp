@@ -38,7 +38,7 @@ class LoadEstimator : public ::testing::Test {
   const ScratchFolder folder_;
 };
 
-std::vector<double> told(ContactEstimator& estimator) {
+std::vector<double> beliefs_of(ContactEstimator& estimator) {
   std::vector<double> all;
   for (const Signals& s : test::drops(1200)) {
     const Belief& b = estimator.update(s);
@@ -51,13 +51,13 @@ TEST_F(LoadEstimator, BelievesWhatWasFitted) {
   for (const std::string name :
        {"robust", "phase", "decision_network", "evidence_pairs", "touchdown"}) {
     const ModelArrays arrays = test::fitted_model(name);
-    EXPECT_EQ(told(*load_estimator(file("m.npz", arrays), {.robot = "upkie"})),
-              told(*make_estimator(arrays)))
+    EXPECT_EQ(beliefs_of(*load_estimator(file("m.npz", arrays), {.robot = "upkie"})),
+              beliefs_of(*make_estimator(arrays)))
         << name;
   }
 }
 
-TEST_F(LoadEstimator, NamesTheFileInEveryComplaint) {
+TEST_F(LoadEstimator, NamesTheFileInEveryError) {
   const auto m = file("m.npz", test::fitted_model("robust"));
   EXPECT_THAT(complaint([&] { load_estimator(m, {.sample_rate = 200.0}); }),
               AllOf(StartsWith(m.string()), EndsWith(": was fitted at 1000 Hz, not at 200 Hz")));
@@ -73,24 +73,38 @@ TEST_F(LoadEstimator, NamesTheFileInEveryComplaint) {
               HasSubstr("changed.npz: its numbers are not those that were fitted"));
 }
 
-TEST_F(LoadEstimator, LeavesAloneWhatSomebodyKeepsBesideAGrid) {
+TEST_F(LoadEstimator, IgnoresOtherArraysBesideAGrid) {
   ModelArrays arrays = test::fitted_model("robust");
   arrays["my_notes"] = {{2}, {1.0, 2.0}};
-  EXPECT_EQ(told(*load_estimator(file("m.npz", arrays))),
-            told(*make_estimator(test::fitted_model("robust"))));
+  EXPECT_EQ(beliefs_of(*load_estimator(file("m.npz", arrays))),
+            beliefs_of(*make_estimator(test::fitted_model("robust"))));
 }
 
-TEST_F(LoadEstimator, KnowsWhoseAModelIs) {
+TEST_F(LoadEstimator, LoadsTheMetadata) {
   const ModelMetadata metadata = load_metadata(file("m.npz", test::fitted_model("phase", "tall")));
   EXPECT_EQ(metadata.estimator, "phase");
   EXPECT_EQ(metadata.robot, "tall");
   EXPECT_EQ(metadata.configuration, default_configuration("phase", 1000.0));
 }
 
-TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveAPassport) {
+TEST_F(LoadEstimator, RefusesMetadataUnderTheirFormerName) {
+  for (const std::string name : {"robust", "phase", "load_logistic"}) {
+    ModelArrays arrays = test::fitted_model(name);
+    auto metadata = arrays.extract(std::string(metadata_array));
+    metadata.key() = former_metadata_array;
+    arrays.insert(std::move(metadata));
+    const auto m = file("m.npz", arrays);
+    EXPECT_THAT(complaint([&] {
+                  load_estimator(m, {name, 1000.0, "upkie"});
+                }),
+                AllOf(HasSubstr("m.npz: its array"), HasSubstr("is now called 'metadata'")));
+  }
+}
+
+TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveMetadata) {
   const auto grid = file("grid.npz", test::fitted_arrays("robust"));
   EXPECT_THAT(complaint([&] { recordings::header_of_model(grid, "grid"); }),
-              HasSubstr("grid.npz: has no passport"));
+              HasSubstr("grid.npz: has no metadata"));
   EXPECT_THAT(recordings::header_of_model(grid, "grid", {"reference", 1000.0, "upkie"}),
               AllOf(HasSubstr("inline constexpr CompiledArray grid[] = {"),
                     HasSubstr("for 'reference' at 1000 Hz on the robot 'upkie'"),

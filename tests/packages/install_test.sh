@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# install_test.sh SOURCE: what scripts/install_packages.sh asks apt for, on a release that this test makes
-# up: it has `new`, `other` and `plain`, never had `old`, and `here` is installed.
+# install_test.sh SOURCE: tests what scripts/install_packages.sh requests from apt, on a made-up release. It
+# has `new`, `other` and `plain`, lacks `old`, and `here` is installed.
 set -euo pipefail
 
 folder="$(mktemp -d)"
@@ -15,20 +15,20 @@ fake() {
   chmod +x "$folder/bin/$1"
 }
 fake dpkg-query 'echo "installed here"; exit 1'
-# shellcheck disable=SC2016 # for the made-up programs
+# shellcheck disable=SC2016 # expanded in the fake programs
 fake apt-cache 'case "$2" in new | other | plain) echo "  Candidate: 1.0" ;; old) echo "  Candidate: (none)" ;; esac'
 # shellcheck disable=SC2016
-fake apt-get 'echo "$*" >>"$(dirname "$0")/../asked"'
+fake apt-get 'echo "$*" >>"$(dirname "$0")/../requested"'
 # shellcheck disable=SC2016
 fake sudo '[[ "$1" == -n ]] && shift; exec "$@"'
 
-asked() {
-  rm -f "$folder/asked"
+requested() {
+  rm -f "$folder/requested"
   PATH="$folder/bin:$PATH" "$folder/scripts/install_packages.sh" "$@" >/dev/null </dev/null
-  tail -n 1 "$folder/asked"
+  tail -n 1 "$folder/requested"
 }
 expect() {
   [[ "$2" == "$1" ]] || { printf 'expected: %s\nfound:    %s\n' "$1" "$2" && exit 1; }
 }
-expect 'install -q -y --no-install-recommends plain new new' "$(asked program)"
-expect 'install -q -y --no-install-recommends other' "$(asked tests)"
+expect 'install -q -y --no-install-recommends plain new new' "$(requested program)"
+expect 'install -q -y --no-install-recommends other' "$(requested tests)"

@@ -25,7 +25,7 @@ models::Observation crouched(double hip, double knee) {
   return seen;
 }
 
-/// What a balancer asks of the legs, step by step.
+/// Leg commands of a balancer, step by step.
 std::vector<models::Action> followed(const CrouchScript& script, double hip, double knee,
                                      double seconds) {
   WheelBalancer policy({}, {}, 0.05, control_period, script);

@@ -86,7 +86,7 @@ TEST(Lqr, IsWhereRiccatisRecursionEnds) {
   }
 }
 
-TEST(Lqr, WhereNothingHelpsSaysSo) {
+TEST(Lqr, RefusesASystemThatCannotBeStabilised) {
   // The unstable state is out of reach.
   EXPECT_THROW((void)lqr({matrix(2, 2, {1.1, 0, 0, 0.5}), matrix(2, 1, {0, 1})},
                          MatrixXd::Identity(2, 2), MatrixXd::Identity(1, 1)),

@@ -44,7 +44,7 @@ TEST(SideView, HasItsCentreOfMassWhereTheEngineHasIt) {
   EXPECT_NEAR(view.mass, robot.mj->body_subtreemass[robot.base_body], 1e-12);
 }
 
-/// A soft lander that is told what a test says, and the observation that it sees.
+/// A soft lander with contact set by the test, and its observation.
 class SoftLanding : public ::testing::Test {
  protected:
   SoftLanding() {
@@ -55,14 +55,14 @@ class SoftLanding : public ::testing::Test {
     policy_.reset(seen_);
   }
 
-  models::Action step(bool touches) {
-    touches_ = touches;
+  models::Action step(bool in_contact) {
+    in_contact_ = in_contact;
     seen_.time += 1e-3;
     return policy_.act(seen_);
   }
-  models::Action steps(int count, bool touches) {
+  models::Action steps(int count, bool in_contact) {
     models::Action action;
-    for (int k = 0; k < count; ++k) action = step(touches);
+    for (int k = 0; k < count; ++k) action = step(in_contact);
     return action;
   }
   void roll_at(double speed) {  // m/s
@@ -74,12 +74,13 @@ class SoftLanding : public ::testing::Test {
   }
 
   models::Observation seen_;
-  bool touches_ = true;
+  bool in_contact_ = true;
   bool right_in_contact_too_ = true;
-  SoftLander policy_{WheelBalancerConfig{}, Course{{}, {}, 0.05, 1e-3}, side_view(upkie_model()),
-                     [this](const models::Observation&, double) {
-                       return std::array<bool, 2>{touches_, touches_ && right_in_contact_too_};
-                     }};
+  SoftLander policy_{
+      WheelBalancerConfig{}, Course{{}, {}, 0.05, 1e-3}, side_view(upkie_model()),
+      [this](const models::Observation&, double) {
+        return std::array<bool, 2>{in_contact_, in_contact_ && right_in_contact_too_};
+      }};
 };
 
 TEST_F(SoftLanding, KeepsTheGroundsSpeedInTheAir) {
@@ -122,12 +123,12 @@ TEST_F(SoftLanding, BalancesOnThroughAFalseAlarmAsIfThereWereNone) {
   }
   calm.reset(still);
   for (int k = 0; k < 200; ++k) {
-    const models::Action told = step(k < 100 || k >= 155);
+    const models::Action action = step(k < 100 || k >= 155);
     const models::Action expected = calm.act(seen_);
     for (std::size_t i = 0; i < models::servo_count; ++i) {
-      EXPECT_EQ(told.servo[i].velocity, expected.servo[i].velocity) << k;
-      EXPECT_EQ(told.servo[i].feedforward_torque, expected.servo[i].feedforward_torque) << k;
-      EXPECT_EQ(told.servo[i].kp_scale, expected.servo[i].kp_scale) << k;
+      EXPECT_EQ(action.servo[i].velocity, expected.servo[i].velocity) << k;
+      EXPECT_EQ(action.servo[i].feedforward_torque, expected.servo[i].feedforward_torque) << k;
+      EXPECT_EQ(action.servo[i].kp_scale, expected.servo[i].kp_scale) << k;
     }
   }
 }

@@ -93,7 +93,7 @@ TEST(WheelBalancer, TurnsRightWhenItIsLeftOfTheCourse) {
   EXPECT_GT(left - right, 0.1);
 }
 
-TEST(WheelBalancer, StartsAskewAndComesRoundUnlessToldToKeepItsHeading) {
+TEST(WheelBalancer, TurnsToTheCourseUnlessItKeepsItsHeading) {
   models::Observation askew;
   askew.yaw = 0.4;
   WheelBalancer comes_round = balancer();
@@ -128,7 +128,7 @@ TEST(WheelBalancer, HoldsThePostureOfTheReset) {
   EXPECT_TRUE(std::isnan(action.servo[models::index(models::Servo::left_wheel)].position));
 }
 
-/// What it commands over a second of a made-up rocking motion.
+/// The commands over one second of a synthetic rocking motion.
 std::vector<double> commands(WheelBalancer& policy) {
   std::vector<double> trace;
   policy.reset({});

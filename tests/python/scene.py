@@ -1,4 +1,4 @@
-"""What the tests share: the program, a short run with flights, a folder of their own."""
+"""Shared by the tests: the program, a short run with flights, an empty folder per test."""
 import functools
 import os
 import pathlib
@@ -16,17 +16,17 @@ SHORT = {"end.duration": 3.2}  # s: one hop, of both wheels
 
 @functools.cache
 def hop() -> touchdown.Recording:
-    """To be copied by who writes into it."""
+    """A shared run: a test that writes into it copies it first."""
     return touchdown.simulate(HOP, overrides=SHORT)
 
 
 def program(*arguments, check=True):
-    """What the program says, called from where the test stands."""
+    """Runs the program in the current folder and returns its result."""
     return subprocess.run([PROGRAM, *map(str, arguments)], check=check, capture_output=True, text=True)
 
 
 class InFolder(unittest.TestCase):
-    """Every test stands in an empty folder."""
+    """Every test runs in an empty folder."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="touchdown_")

@@ -12,12 +12,12 @@ NAMES = ("time", "position", "velocity", "torque", "linear_acceleration", "angul
 
 
 def steps_of(run):
-    """The run as `Estimator.update` takes it."""
+    """The steps of a run, as arguments of `Estimator.update`."""
     return ({name: run[name][k] for name in NAMES} for k in range(len(run["time"])))
 
 
 def spine_observation(run, k):
-    """One step as Upkie's PyBullet backend has it in info["spine_observation"]: without a time."""
+    """One step as in info["spine_observation"] of Upkie's PyBullet backend, which has no time."""
     servos = ("left_hip", "left_knee", "left_wheel", "right_hip", "right_knee", "right_wheel")
     return {
         "base_orientation": {"pitch": run["pitch"][k], "angular_velocity": np.zeros(3)},
@@ -65,7 +65,7 @@ class Fit(InFolder):
 
 
 class Run(InFolder):
-    def test_believes_what_the_program_does(self):
+    def test_gives_the_beliefs_of_the_program(self):
         run = hop()
         run.save("hop.mpack")
         model = touchdown.fit(run)
@@ -84,7 +84,7 @@ class Run(InFolder):
             self.assertEqual([touchdown.STATUS[status] for status in beliefs["status"]],
                              [row["status"] for row in rows])
 
-    def test_is_the_updates_one_after_the_other(self):
+    def test_equals_successive_updates(self):
         run = hop()
         estimator = touchdown.Estimator(model=touchdown.fit(run))
         whole_run = estimator.run(run)
@@ -94,13 +94,13 @@ class Run(InFolder):
             self.assertEqual(belief.p_contact, tuple(whole_run["p_contact"][k]))
             self.assertEqual(belief.contact, tuple(whole_run["contact"][k]))
         self.assertEqual(belief.status, "good")
-        # From the beginning each time.
+        # Each call starts from the initial belief.
         np.testing.assert_array_equal(estimator.run(run)["p_contact"], whole_run["p_contact"])
 
-    def test_hears_what_was_written_into_arrays_of_any_layout(self):
+    def test_reads_changed_arrays_of_any_layout(self):
         run = hop()
         falling = {name: np.asfortranarray(run[name]) for name in NAMES}
-        # These hear every joint: torques, and a leg's geometry.
+        # These estimators use every joint: torques, and a leg's geometry.
         for model in (touchdown.fit(run), touchdown.fit(run, "load_logistic"), touchdown.fit(run, "decision_network")):
             estimator = touchdown.Estimator(model=model)
             expected = estimator.run(run)["p_contact"]
@@ -110,18 +110,21 @@ class Run(InFolder):
         falling["vertical_acceleration"] = np.full(run.steps, -9, dtype=np.int16)
         self.assertFalse(touchdown.Estimator("free_fall").run(falling)["contact"][100:].any())
 
-    def test_keeps_its_belief_where_nothing_is_heard(self):
+    def test_keeps_its_belief_at_steps_without_a_record(self):
         run = {name: hop()[name].copy() for name in NAMES}
-        run["heard"] = np.ones(len(run["time"]))
-        run["heard"][500:1500] = 0
+        run["has_record"] = np.ones(len(run["time"]))
+        run["has_record"][500:1500] = 0
         run["vertical_acceleration"][500:1500] = -9.81
         beliefs = touchdown.Estimator("free_fall").run(run)
         self.assertEqual(set(beliefs["p_contact"][500:1500, 0]), {beliefs["p_contact"][499, 0]})
         # A file of a benchmark has these names.
-        np.savez("handed_out.npz", contact=hop()["contact"], **run)
-        with np.load("handed_out.npz") as arrays:
+        np.savez("exported.npz", contact=hop()["contact"], **run)
+        with np.load("exported.npz") as arrays:
             np.testing.assert_array_equal(touchdown.Estimator("free_fall").run(arrays)["p_contact"],
                                           beliefs["p_contact"])
+        run["heard"] = run.pop("has_record")
+        with self.assertRaisesRegex(touchdown.InputError, "signals: 'heard' was renamed: expected 'has_record'"):
+            touchdown.Estimator("free_fall").run(run)
 
     def test_refuses_another_rate_and_arrays_that_do_not_fit(self):
         run = dict(hop())
@@ -141,26 +144,26 @@ class Run(InFolder):
     def test_needs_the_model_that_the_estimator_is_fitted_with(self):
         for name, model, words in (("robust", None, "'robust' has to be fitted"),
                                    ("free_fall", touchdown.fit(hop()), "one of 'robust', which 'free_fall' cannot use"),
-                                   ("oracle", None, "does not listen to logs"),
+                                   ("oracle", None, "does not run on logs"),
                                    ("robusd", None, "did you mean 'robust'")):
             with self.assertRaisesRegex(touchdown.InputError, words):
                 touchdown.Estimator(name, model)
-        # The paper's filter and its robust form do not share densities; its ablation does.
+        # The paper's filter and its robust form have different densities; its ablation shares them.
         self.assertEqual(touchdown.Estimator("measurement_only", touchdown.fit(hop())).name, "measurement_only")
 
 
 class Spine(unittest.TestCase):
-    def test_is_heard_as_the_recording_is(self):
+    def test_gives_the_beliefs_of_the_recording(self):
         run = hop()
         estimator = touchdown.Estimator(model=touchdown.fit(run))
         whole_run = estimator.run(run)["p_contact"]
         estimator.reset()
         beliefs = [estimator.update_from_spine(spine_observation(run, k), run["ground_velocity_command"][k])
                    for k in range(run.steps)]
-        # Times differ in the last digits: here they are counted.
+        # Times differ in the last digits, because steps are counted here.
         np.testing.assert_allclose([belief.p_contact for belief in beliefs], whole_run, atol=1e-12)
 
-    def test_without_torques_is_a_leg_that_failed(self):
+    def test_without_torques_has_invalid_signals(self):
         run = hop()
         estimator = touchdown.Estimator(model=touchdown.fit(run))
         whole = spine_observation(run, 0)
@@ -175,13 +178,13 @@ class Spine(unittest.TestCase):
         del observation["servo"]["left_wheel"]
         self.assertEqual(estimator.update_from_spine(observation).status, "invalid")
 
-    def test_keeps_to_the_time_that_it_says(self):
+    def test_uses_its_own_time(self):
         estimator = touchdown.Estimator("free_fall")
         for time, status in ((0.0, "good"), (0.001, "good"), (0.9, "gap")):
             belief = estimator.update_from_spine({**spine_observation(hop(), 0), "time": time})
             self.assertEqual(belief.status, status)
 
-    def test_refuses_what_is_no_observation(self):
+    def test_refuses_other_dictionaries(self):
         estimator = touchdown.Estimator("free_fall")
         whole = spine_observation(hop(), 0)
         for broken, words in (
@@ -196,7 +199,7 @@ class Spine(unittest.TestCase):
                 estimator.update_from_spine(broken)
 
     def test_of_a_gym_environment_gets_beliefs(self):
-        class Environment:  # as Upkie's are, seen from outside
+        class Environment:  # with the interface of Upkie's environments
             spec = "Upkie"
             step_count = 0
 

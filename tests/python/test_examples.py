@@ -9,12 +9,12 @@ from scene import SOURCE, InFolder
 
 
 def block(page, which):
-    """The Python in a page of the documents."""
+    """One block of Python code in a page of the documents."""
     return re.findall(r"```python\n(.*?)```", (SOURCE / page).read_text(encoding="utf-8"), re.DOTALL)[which]
 
 
 class Examples(InFolder):
-    def said(self, *command, **env):
+    def output_of(self, *command, **env):
         done = subprocess.run([sys.executable, *map(str, command)], capture_output=True, text=True, check=False,
                               env={**os.environ, **env})
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -24,12 +24,12 @@ class Examples(InFolder):
         (self.folder / "none/matplotlib").mkdir(parents=True)
         (self.folder / "none/matplotlib/__init__.py").write_text("raise ImportError('none here')")
         path = f"{self.folder}/none{os.pathsep}{os.environ['PYTHONPATH']}"
-        text = self.said(SOURCE / "examples/python/first_steps.py", PYTHONPATH=path)
-        self.assertRegex(text, r"robust +success 0\.\d{4}, takeoffs told after")
+        text = self.output_of(SOURCE / "examples/python/first_steps.py", PYTHONPATH=path)
+        self.assertRegex(text, r"robust +success 0\.\d{4}, mean takeoff latency")
         self.assertIn("no matplotlib", text)
 
-    def test_first_steps_draws_where_it_can(self):
-        # A matplotlib of the test's own, so that what is drawn is looked at wherever this runs.
+    def test_first_steps_draws_with_matplotlib(self):
+        # A fake matplotlib, so that the drawing is tested everywhere.
         (self.folder / "drawn/matplotlib").mkdir(parents=True)
         (self.folder / "drawn/matplotlib/__init__.py").write_text("def use(backend): assert backend == 'Agg'")
         (self.folder / "drawn/matplotlib/pyplot.py").write_text(textwrap.dedent("""\
@@ -40,18 +40,18 @@ class Examples(InFolder):
             figure.savefig = lambda path, dpi: print("drawn", path, *(axes[0].plot.call_args[0][1].shape))
             """))
         path = f"{self.folder}/drawn{os.pathsep}{os.environ['PYTHONPATH']}"
-        text = self.said(SOURCE / "examples/python/first_steps.py", "picture.png", PYTHONPATH=path)
+        text = self.output_of(SOURCE / "examples/python/first_steps.py", "picture.png", PYTHONPATH=path)
         self.assertRegex(text, r"drawn picture.png \d{5} 2")
 
     def test_own_estimator(self):
-        text = self.said(SOURCE / "examples/python/own_estimator.py")
+        text = self.output_of(SOURCE / "examples/python/own_estimator.py")
         self.assertRegex(text, r"robust +success 0\.\d{4}\nmine +success 0\.\d{4}\n")
         rows = re.findall(r"python:__main__\.FallsOrPushes +\d N·m, \d m/s²: 0\.\d{4} \[", text)
         self.assertEqual(len(rows), 4)
         self.assertEqual(len(re.findall(r"^robust .* N·m", text, re.MULTILINE)), 4)
 
     def test_labelled_seconds(self):
-        text = self.said(SOURCE / "examples/python/labelled_seconds.py", "--seconds", "2", "4", "--estimators",
+        text = self.output_of(SOURCE / "examples/python/labelled_seconds.py", "--seconds", "2", "4", "--estimators",
                          "load_logistic", "--scenes", "stairs", "hang", "--draws", "2")
         rows = re.findall(r"^load_logistic +(2|4) +(0\.\d{3}) \[(0\.\d{3}), ([01]\.\d{3})\] ", text, re.MULTILINE)
         self.assertEqual([seconds for seconds, *_ in rows], ["2", "4"])
@@ -61,7 +61,7 @@ class Examples(InFolder):
     def test_in_the_documents(self):
         for which in range(3):
             (self.folder / "page.py").write_text(block("docs/python.md", which))
-            self.said("page.py")
+            self.output_of("page.py")
 
 
 if __name__ == "__main__":

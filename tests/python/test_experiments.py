@@ -31,7 +31,7 @@ ESTIMATORS = textwrap.dedent('''\
     import touchdown
 
     class Same:
-        """Says what free_fall says."""
+        """Gives the beliefs of free_fall."""
         title = "The same"
         sensors = ["acceleration"]
         threads, calls = set(), []
@@ -41,7 +41,7 @@ ESTIMATORS = textwrap.dedent('''\
             self.calls.append(signals["torque"].shape)
             return touchdown.Estimator("free_fall", sample_rate=signals["sample_rate"]).run(signals)
 
-    class HearsEverything(Same):
+    class UsesEverySensor(Same):
         sensors = touchdown.experiment.SENSORS
         calls = []
 
@@ -64,7 +64,7 @@ ESTIMATORS = textwrap.dedent('''\
         def run(self, signals):
             return signals["knee_torque"] > 1.0
 
-    class Deaf(Never):
+    class UnknownSensor(Never):
         sensors = ["acceleratoin"]
     ''')
 
@@ -94,9 +94,9 @@ class Experiment(InExperimentFolder):
         scores = result.tables["success"]
         self.assertEqual(set(scores["estimator"]), {"free_fall", "robust", "always_contact"})
         self.assertEqual(scores["success"].dtype, np.float64)
-        self.assertEqual(len(result.summary["runs"]), 3)  # one is fitted to
+        self.assertEqual(len(result.summary["runs"]), 3)  # one of them for fitting
 
-    def test_takes_overrides_as_python_has_them(self):
+    def test_takes_python_values_as_overrides(self):
         result = touchdown.run("hops.yaml", overrides={"test.runs": 1, "noise.torque": np.array([0.0, 1.0]),
                                                        "estimators": ["free_fall"], "noise.seeds": 1})
         self.assertEqual(result.path.parent, pathlib.Path("runs/hops"))
@@ -127,7 +127,7 @@ class WrittenInPython(InExperimentFolder):
             numbers[table] = {key: values[its] for key, values in columns.items() if key != "estimator"}
         return numbers
 
-    def test_takes_part_and_scores_what_it_says(self):
+    def test_is_scored_by_its_beliefs(self):
         import mine
 
         result = touchdown.run("hops.yaml", overrides={"estimators": ["free_fall", "python:mine.Same", mine.Never]})
@@ -140,17 +140,17 @@ class WrittenInPython(InExperimentFolder):
         never = self.rows(result, "python:mine.Never")["classification"]
         self.assertTrue((never["contact_recall"] == 0.0).all())
 
-    def test_hears_whole_runs_and_noise_that_matters_to_it_alone(self):
+    def test_gets_whole_runs_and_only_the_noise_of_its_sensors(self):
         import mine
 
-        touchdown.run("hops.yaml", overrides={"estimators": [mine.Same, mine.HearsEverything]})
+        touchdown.run("hops.yaml", overrides={"estimators": [mine.Same, mine.UsesEverySensor]})
         # 2 runs × 2 seeds, counted at different levels of 4 cells, then scored at 2 highlights.
-        per_task = {"Same": 2 + 2, "HearsEverything": 4 + 2}
+        per_task = {"Same": 2 + 2, "UsesEverySensor": 4 + 2}
         for name, calls in per_task.items():
             self.assertEqual(len(getattr(mine, name).calls), 4 * calls, name)
             self.assertEqual(set(getattr(mine, name).calls), {(3201, 6)})
 
-    def test_whose_source_has_changed_is_heard_again(self):
+    def test_with_changed_source_is_evaluated_again(self):
         import mine
 
         first = touchdown.run("hops.yaml", overrides={"estimators": [mine.Never]})
@@ -164,14 +164,14 @@ class WrittenInPython(InExperimentFolder):
         self.assertNotEqual(changed.id, first.id)
         self.assertTrue((changed.tables["classification"]["contact_recall"] == 1.0).all())
 
-    def test_of_the_program_is_one_clear_error(self):
-        said = program("run", "hops.yaml", "--set", "estimators=[robust,python:mine.Never]", check=False)
-        self.assertEqual(said.returncode, 2)
+    def test_is_one_clear_error_in_the_program(self):
+        done = program("run", "hops.yaml", "--set", "estimators=[robust,python:mine.Never]", check=False)
+        self.assertEqual(done.returncode, 2)
         self.assertIn("'python:mine.Never' is written in Python: run the experiment from there, by "
-                      "'python3 -m touchdown run' or touchdown.run", said.stderr)
-        self.assertEqual(said.stderr.count("\n"), 1)
+                      "'python3 -m touchdown run' or touchdown.run", done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
 
-    def test_that_fails_raises_what_it_raised(self):
+    def test_that_fails_raises_its_own_exception(self):
         try:
             touchdown.run("hops.yaml", overrides={"estimators": ["python:mine.Breaks"]})
         except ZeroDivisionError as error:
@@ -180,29 +180,29 @@ class WrittenInPython(InExperimentFolder):
         else:
             self.fail("nothing was raised")
 
-    def test_that_is_wrong_is_said_in_one_line(self):
+    def test_that_is_wrong_is_reported_in_one_line(self):
         for name, words in (
                 ("python:mine.Short", "python:mine.Short: beliefs about 3 steps, expected 3201"),
-                ("python:mine.Nobody", "module 'mine' has no 'Nobody'"),
+                ("python:mine.Unknown", "module 'mine' has no 'Unknown'"),
                 ("python:mine.Nevr", "^--set estimators=.*: estimators: 'python:mine.Nevr'.*did you mean 'Never'"),
-                ("python:nowhere.Nobody", "there is no module 'nowhere' in .* or where Python looks"),
+                ("python:nowhere.Unknown", "there is no module 'nowhere' in .* or where Python looks"),
                 ("python:mine", "expected python:module.Class"),
                 ("python:mine.WithoutRun", r"expected a class with a method run\(self, signals\)"),
-                ("python:mine.Deaf", "sensors: 'acceleratoin' is not one of .*did you mean 'acceleration'"),
+                ("python:mine.UnknownSensor", "sensors: 'acceleratoin' is not one of .*did you mean 'acceleration'"),
                 ("robusd", "did you mean 'robust'"),
         ):
             with self.assertRaisesRegex(touchdown.InputError, words):
                 touchdown.run("hops.yaml", overrides={"estimators": [name]})
 
-    def test_that_is_wrong_in_a_file_is_said_with_its_place(self):
+    def test_that_is_wrong_in_a_file_is_reported_with_its_place(self):
         text = (self.folder / "hops.yaml").read_text()
         line = next(line for line in text.splitlines() if line.startswith("estimators:"))
-        (self.folder / "wrong.yaml").write_text(text.replace(line, "estimators: [free_fall, python:mine.Nobody]"))
+        (self.folder / "wrong.yaml").write_text(text.replace(line, "estimators: [free_fall, python:mine.Unknown]"))
         number = 1 + text.splitlines().index(line)
-        with self.assertRaisesRegex(touchdown.InputError, f"^wrong.yaml:{number}:25: estimators: 'python:mine.Nobody'"):
+        with self.assertRaisesRegex(touchdown.InputError, f"^wrong.yaml:{number}:25: estimators: 'python:mine.Unknown'"):
             touchdown.run("wrong.yaml")
 
-    def test_that_asks_for_a_signal_that_is_not_there_is_told_which_are(self):
+    def test_with_an_unknown_signal_gets_the_known_names(self):
         try:
             touchdown.run("hops.yaml", overrides={"estimators": ["python:mine.Misspells"]})
         except KeyError as error:
@@ -216,15 +216,15 @@ class WrittenInPython(InExperimentFolder):
         import contextlib
         import io
 
-        said = io.StringIO()
-        with contextlib.redirect_stdout(said):
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output):
             code = touchdown.experiment.main(["run", "hops.yaml", "--set", "estimators=[python:mine.Never]", "--set",
                                               "test.runs=1", "--out", "out"])
         self.assertEqual(code, 0)
-        self.assertIn("results   out", said.getvalue())
-        with contextlib.redirect_stderr(said):
+        self.assertIn("results   out", output.getvalue())
+        with contextlib.redirect_stderr(output):
             self.assertEqual(touchdown.experiment.main(["run", "hop.yaml"]), 2)
-        self.assertIn("touchdown simulate", said.getvalue())
+        self.assertIn("touchdown simulate", output.getvalue())
 
 
 if __name__ == "__main__":

@@ -27,7 +27,7 @@ INTERRUPTED = textwrap.dedent("""\
 
 class LongCalls(InFolder):
     def interrupted(self, call, after):
-        """Seconds from the call to its end, and its note, when Ctrl-C comes after so many."""
+        """Seconds from the call to its end, and its note, with Ctrl-C `after` seconds."""
         done = subprocess.run([sys.executable, "-c", INTERRUPTED.format(call=call), str(after)], check=True,
                               capture_output=True, text=True)
         seconds, note = done.stdout.splitlines()
@@ -38,17 +38,17 @@ class LongCalls(InFolder):
         seconds, _ = self.interrupted(call, 1.0)
         self.assertLess(seconds, 3.0)
 
-    def test_of_an_experiment_end_by_ctrl_c_and_say_what_is_saved(self):
+    def test_of_an_experiment_end_by_ctrl_c_and_report_what_is_saved(self):
         call = ('touchdown.run("experiments/stairs.yaml", out="out", '
                 'overrides={"estimators": ["robust"], "recordings": "none", "video.enabled": False, '
                 '"posterior.enabled": False, "detail.enabled": False, "video.estimators": ["robust"], '
                 '"detail.estimators": ["robust"]})')
         seconds, note = self.interrupted(call, 1.5)
         self.assertLess(seconds, 6.0)
-        self.assertRegex(note, "stopped; .* parts of the listening are saved in out; the same command goes on")
+        self.assertRegex(note, "stopped; .* parts of the evaluation are saved in out; the same command continues")
 
     def test_leave_handlers_and_other_threads_alone(self):
-        # Another thread works on while this one simulates; a signal's own handler is called, and nothing stops.
+        # Another thread runs while this one simulates. A signal handler is called, and nothing stops.
         ticks, done, handled = [], threading.Event(), []
 
         def tick():
@@ -65,7 +65,7 @@ class LongCalls(InFolder):
         began = time.monotonic()
         run = touchdown.simulate("scenarios/roam.yaml", overrides={"end.duration": 60})
         seconds = time.monotonic() - began
-        timer.join()  # on a machine that is faster than the timer: nobody else handles the signal
+        timer.join()  # on a machine faster than the timer, so that the signal is still handled here
         done.set()
         thread.join()
         self.assertEqual(run.info["outcome"], "finished")
@@ -73,20 +73,20 @@ class LongCalls(InFolder):
         between = [tick for tick in ticks if tick > began]
         self.assertGreater(len(between), 20.0 * seconds)  # of a thousand per second, on a busy machine
 
-    def test_of_one_estimator_come_one_after_the_other(self):
+    def test_of_one_estimator_exclude_each_other(self):
         run = touchdown.simulate(HOP, overrides={"end.duration": 0.5})
         long = {name: np.concatenate([values] * 200) for name, values in run.items()}
         estimator = touchdown.Estimator("free_fall")
         done = threading.Event()
 
-        def listen():  # again and again: one call may be over before the other thread has its turn
+        def estimate():  # repeatedly: one call may end before the other thread runs
             while not done.is_set():
                 try:
                     estimator.run(long)
                 except touchdown.InputError:
                     pass  # the other thread's reset was first
 
-        thread = threading.Thread(target=listen)
+        thread = threading.Thread(target=estimate)
         thread.start()
         refusals, began = [], time.monotonic()
         while not refusals and time.monotonic() - began < 60.0:
@@ -96,7 +96,7 @@ class LongCalls(InFolder):
                 refusals.append(str(error))
         done.set()
         thread.join()
-        self.assertEqual(refusals, ["this estimator listens in another thread"])
+        self.assertEqual(refusals, ["this estimator is in use in another thread"])
         estimator.reset()
 
 

@@ -15,8 +15,8 @@ PIP = all(importlib.util.find_spec(module) for module in ("pip", "venv", "setupt
 WORKS = "import touchdown; print(touchdown.simulate('scenarios/hop.yaml', overrides={'end.duration': 0.1}).steps)"
 
 
-def said(*command, **options):
-    """What it prints; without our own package on Python's path."""
+def output_of(*command, **options):
+    """The output of a command, without the built package on Python's path."""
     environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False,
                           env={**environment, **options.pop("env", {})}, **options)
@@ -27,12 +27,12 @@ def said(*command, **options):
 
 class Installed(InFolder):
     def check(self, python, package, env):
-        """It works from anywhere, with what it brought along."""
-        self.assertEqual(said(python, "-c", WORKS, cwd="/", env=env), "101")
+        """Checks that the package works from any folder, with its own files."""
+        self.assertEqual(output_of(python, "-c", WORKS, cwd="/", env=env), "101")
         own = package / "share/touchdown/scenarios/found_beside_the_module.yaml"
         own.write_text("name: here\n")
         find = "import touchdown; print(touchdown._touchdown.find_resource('scenarios/found_beside_the_module.yaml'))"
-        self.assertEqual(said(python, "-c", find, cwd="/", env=env), str(own))
+        self.assertEqual(output_of(python, "-c", find, cwd="/", env=env), str(own))
         for brought in ("models/upkie.xml", "models/nmn.npz", "scenarios/stairs.yaml", "experiments/stairs.yaml",
                         "sensors/upkie.yaml", "commit"):
             self.assertTrue((package / "share/touchdown" / brought).is_file(), brought)
@@ -40,26 +40,26 @@ class Installed(InFolder):
 
     @unittest.skipUnless(PIP, "needs Debian's python3-pip, python3-venv, python3-setuptools, python3-wheel")
     def test_by_pip_without_a_network(self):
-        said(sys.executable, "-m", "venv", "--system-site-packages", "venv")
+        output_of(sys.executable, "-m", "venv", "--system-site-packages", "venv")
         python = self.folder / "venv/bin/python"
-        # What pip compiles is compiled already.
-        said(python, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-cache-dir", SOURCE,
+        # pip uses the existing build.
+        output_of(python, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-cache-dir", SOURCE,
              env={"TOUCHDOWN_BUILD": os.environ["TOUCHDOWN_BUILD"]})
-        package = pathlib.Path(said(python, "-c", "import touchdown; print(touchdown.__path__[0])", cwd="/"))
+        package = pathlib.Path(output_of(python, "-c", "import touchdown; print(touchdown.__path__[0])", cwd="/"))
         self.assertEqual(package.parents[3], self.folder / "venv")
         self.check(python, package, {})
         self.assertLess(sum(path.stat().st_size for path in package.rglob("*")), 10e6)
-        self.assertIn(f"Version: {touchdown.__version__}", said(python, "-m", "pip", "show", "touchdown"))
-        self.assertIn("--set KEY=VALUE", said(python, "-m", "touchdown", "run", "--help"))
+        self.assertIn(f"Version: {touchdown.__version__}", output_of(python, "-m", "pip", "show", "touchdown"))
+        self.assertIn("--set KEY=VALUE", output_of(python, "-m", "touchdown", "run", "--help"))
 
     def test_by_cmake(self):
-        said("cmake", "--install", os.environ["TOUCHDOWN_BUILD"], "--component", "python", "--prefix", self.folder)
+        output_of("cmake", "--install", os.environ["TOUCHDOWN_BUILD"], "--component", "python", "--prefix", self.folder)
         package, = self.folder.glob("lib/python*/dist-packages/touchdown")
         self.check(sys.executable, package, {"PYTHONPATH": str(package.parent)})
 
 
 class Stubs(unittest.TestCase):
-    def test_name_what_the_module_has(self):
+    def test_match_the_module(self):
         tree = ast.parse((SOURCE / "python/touchdown/_touchdown.pyi").read_text(encoding="utf-8"))
         module = touchdown._touchdown
         written = {node.name: node for node in tree.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
@@ -80,11 +80,11 @@ class Stubs(unittest.TestCase):
 
     @staticmethod
     def arguments(function):
-        """By name, of a function of the module: they stand in its documentation's first line."""
+        """Argument names of a function of the module, from the first line of its docstring."""
         names = re.findall(r"(?:\(|, )(\w+): ", function.__doc__.splitlines()[0])
         return names
 
-    def test_of_what_users_call_say_types_and_what_it_does(self):
+    def test_public_names_have_types_and_docstrings(self):
         for name in touchdown.__all__:
             thing = getattr(touchdown, name)
             if not callable(thing) or inspect.isclass(thing) and issubclass(thing, Exception):

@@ -23,7 +23,7 @@ class Simulation(InFolder):
         np.testing.assert_allclose(run["time"], 0.001 * np.arange(run.steps), atol=1e-12)
         np.testing.assert_allclose(np.linalg.norm(run["orientation"], axis=1), 1.0, atol=1e-9)
 
-    def test_agrees_with_itself(self):
+    def test_is_consistent(self):
         run = hop()
         # γ^z: the acceleration turned by the quaternion w x y z, along the axis that points down, reversed.
         w, x, y, z = run["orientation"].T
@@ -34,7 +34,7 @@ class Simulation(InFolder):
         np.testing.assert_allclose(run["ground_velocity_command"][1:],
                                    0.5 * 0.05 * (wheels[:-1, 2] - wheels[:-1, 5]), atol=1e-12)
         self.assertEqual(run["ground_velocity_command"][0], 0.0)
-        # It stands, flies, and stands again, on 5.3 kg.
+        # The robot of 5.3 kg stands, flies, and stands again.
         self.assertAlmostEqual(run["normal_force"][900].sum(), 5.3 * 9.81, delta=5.0)
         self.assertFalse(run["contact"][:, 0].all())
         self.assertTrue(run["contact"][-1].all())
@@ -58,7 +58,7 @@ class Simulation(InFolder):
                 "program.mpack")
         self.assertEqual((self.folder / "python.mpack").read_bytes(), (self.folder / "program.mpack").read_bytes())
 
-    def test_saves_what_was_written_into_it(self):
+    def test_saves_changed_arrays(self):
         run = touchdown.simulate(HOP, overrides={"end.duration": 0.2})
         run["torque"][50] = 0.25
         run["orientation"] = np.tile([1.0, 0.0, 0.0, 0.0], (run.steps, 1))
@@ -68,7 +68,7 @@ class Simulation(InFolder):
         self.assertEqual(read["torque"][50].tolist(), [0.25] * 6)
         self.assertEqual(read["orientation"][7].tolist(), [1.0, 0.0, 0.0, 0.0])
 
-    def test_arrays_look_into_the_run_and_keep_it_alive(self):
+    def test_arrays_view_the_run_and_keep_it_alive(self):
         run = touchdown.simulate(HOP, overrides={"end.duration": 0.2})
         torque, position = run["torque"], run["position"]
         self.assertFalse(torque.flags.owndata)
@@ -76,17 +76,17 @@ class Simulation(InFolder):
         kept = torque.copy()
         del run, position
         gc.collect()
-        touchdown.simulate(HOP, overrides={"end.duration": 0.2})  # takes what memory was given back
+        touchdown.simulate(HOP, overrides={"end.duration": 0.2})  # reuses freed memory
         np.testing.assert_array_equal(torque, kept)
 
-    def test_of_robots_whose_actuators_are_not_ideal_has_what_joints_feel(self):
+    def test_of_non_ideal_actuators_has_applied_torques(self):
         run = touchdown.simulate(HOP, overrides={"end.duration": 0.1, "robot": "models/upkie_actuated.yaml"})
         self.assertEqual(run["joint_torque"].shape, (run.steps, 6))
         run.save("actuated.mpack")
         np.testing.assert_array_equal(touchdown.Recording.load("actuated.mpack")["joint_torque"], run["joint_torque"])
         self.assertNotIn("joint_torque", hop())
 
-    def test_complains_in_the_program_s_words(self):
+    def test_raises_the_program_s_messages(self):
         requests = [
             (["scenarios/hops.yaml"], {}, ["simulate", "scenarios/hops.yaml"]),
             ([HOP], {"overrides": {"end.duratio": 1}}, ["simulate", HOP, "--set", "end.duratio=1"]),
@@ -94,11 +94,11 @@ class Simulation(InFolder):
             (["experiments/stairs.yaml"], {}, ["simulate", "experiments/stairs.yaml"]),
         ]
         for arguments, options, command in requests:
-            said = program(*command, "-o", "x.mpack", check=False)
-            self.assertEqual(said.returncode, 2)
+            done = program(*command, "-o", "x.mpack", check=False)
+            self.assertEqual(done.returncode, 2)
             with self.assertRaises(touchdown.InputError) as raised:
                 touchdown.simulate(*arguments, **options)
-            self.assertEqual(said.stderr, f"touchdown: {raised.exception}\n")
+            self.assertEqual(done.stderr, f"touchdown: {raised.exception}\n")
         self.assertTrue(issubclass(touchdown.InputError, (touchdown.Error, ValueError)))
         with self.assertRaisesRegex(touchdown.InputError, "run: expected a number of at least 0"):
             touchdown.simulate(HOP, run=-1)
@@ -124,7 +124,7 @@ class Labels(unittest.TestCase):
         light = touchdown.contact_labels(run["normal_force"], run.period, force_threshold=1000.0)
         self.assertFalse(light.any())
 
-    def test_forget_what_is_shorter_than_the_debounce(self):
+    def test_ignore_states_shorter_than_the_debounce(self):
         force = np.full((100, 2), 20.0)
         force[40:44, 0] = 0.0
         force[60:70, 1] = 0.0
@@ -147,9 +147,9 @@ class Scores(unittest.TestCase):
             self.assertEqual(view["landing_latency_ms"], 0.0)
             self.assertEqual(view["brier"], 0.0)
 
-    def test_count_what_is_told_wrong_and_late(self):
-        late = np.roll(self.truth, 30, axis=0)
-        scores = touchdown.score(late, self.recording)["wheels"]
+    def test_count_wrong_and_delayed_contact(self):
+        delayed = np.roll(self.truth, 30, axis=0)
+        scores = touchdown.score(delayed, self.recording)["wheels"]
         self.assertAlmostEqual(scores["takeoff_latency_ms"], 30.0)
         # 60 of the 1700 steps after the first 0.3 s.
         self.assertAlmostEqual(scores["success"], 1.0 - 60 / 1700)
@@ -159,7 +159,7 @@ class Scores(unittest.TestCase):
         self.assertAlmostEqual(touchdown.score(np.full(2000, 0.9), self.recording, skip=0.0)["wheels"]["brier"],
                                (1800 * 0.01 + 200 * 0.81) / 2000)
 
-    def test_refuse_what_is_no_belief_about_the_run(self):
+    def test_refuse_beliefs_that_do_not_fit_the_run(self):
         with self.assertRaisesRegex(touchdown.InputError, "beliefs about 7 steps, expected 2000"):
             touchdown.score(np.ones(7), self.recording)
         with self.assertRaisesRegex(touchdown.InputError, "nan at step 3: expected a probability, from 0 to 1"):

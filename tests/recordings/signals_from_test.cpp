@@ -32,7 +32,7 @@ TEST(SignalsFrom, AccelerationIsProjectedUpwards) {
   EXPECT_NEAR(signals_from(o, 0.0).vertical_acceleration, 2.0, 1e-12);
 }
 
-TEST(SignalsFrom, AQuaternionThatIsNoOrientationKnowsNoVertical) {
+TEST(SignalsFrom, AnInvalidQuaternionGivesNoVertical) {
   models::Observation o;
   o.imu.linear_acceleration = {0.0, 0.0, 2.0};
   for (const double length : {0.0, 1e-3, 0.5, 0.98, 1.02, 2.0, 1e200, HUGE_VAL, std::nan("")}) {

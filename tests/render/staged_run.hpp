@@ -15,8 +15,8 @@ inline models::Terrain staged_terrain() {
   return {.pieces = {models::Flat{3.0}, models::StairFlight{}}};
 }
 
-/// A run down the stairs that no physics engine made: constant speed, free fall after each edge.
-/// Pictures of it depend on nothing but the renderer.
+/// A run down the stairs without a physics engine: constant speed, free fall after each edge. Its
+/// pictures depend on the renderer alone.
 inline recordings::Recording staged_run(double seconds, const std::string& simulator = "mujoco") {
   constexpr double speed = 0.5, period = 1e-3, gravity = 9.81, radius = 0.05;
   constexpr double hip = 0.455, knee = 0.791;
@@ -63,8 +63,12 @@ inline recordings::Recording staged_run(double seconds, const std::string& simul
 
 /// An estimator that follows the truth with a lag.
 inline BeliefTrack staged_beliefs(const recordings::Recording& recording, const std::string& name,
-                                  float gain = 0.05f) {
-  BeliefTrack track{.name = name, .p_contact = {}, .p_takeoff = {}, .p_landing = {}};
+                                  std::size_t line_type = 1, float gain = 0.05f) {
+  BeliefTrack track{.name = name,
+                    .colour = line_colour(line_type),
+                    .p_contact = {},
+                    .p_takeoff = {},
+                    .p_landing = {}};
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     float p = 1.0f;
     for (const models::GroundTruth& truth : recording.truth) {

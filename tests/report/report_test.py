@@ -1,5 +1,6 @@
 """Runs a small experiment and opens its report in a headless Chromium, wide and as a phone, light
-and dark: nothing complains, everything is loaded, the heatmap answers, drops seek the video.
+and dark. The console has no message, everything is loaded, the heatmap shows a cell's numbers, and
+drops seek the video.
 
     report_test.py TOUCHDOWN [--report REPORT.html] [--screenshots FOLDER]
 
@@ -41,7 +42,7 @@ const waits = [];
 for (const image of document.images) { image.loading = 'eager'; waits.push(image.decode()); }
 for (const video of document.querySelectorAll('video')) {
   if (video.readyState < 2) waits.push(new Promise((good, bad) => {
-    video.addEventListener('loadeddata', good); video.addEventListener('error', () => bad(video.error.message));
+    video.onloadeddata = good; video.onerror = () => bad(video.error.message);
   }));
 }
 Promise.all(waits).then(() => done('loaded'), (error) => done(String(error)));
@@ -63,7 +64,7 @@ if (document.querySelectorAll('h1').length !== 1) wrong.push('not one main headi
 return wrong;
 """
 
-# The contrast of every text with what lies behind it (WCAG: 4.5 for normal text).
+# The contrast of every text with its background (WCAG: 4.5 for normal text).
 CONTRAST = """
 const canvas = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
 const rgb = (colour) => { canvas.clearRect(0, 0, 1, 1); canvas.fillStyle = colour; canvas.fillRect(0, 0, 1, 1);
@@ -86,7 +87,7 @@ return [...poor];
 
 SEEK = """
 const film = document.querySelector('.film'), video = film.querySelector('video'), drop = film.querySelector('.drop');
-video.addEventListener('seeked', () => done([video.currentTime, Number(drop.dataset.seek), video.duration]), {once: true});
+video.onseeked = () => done([video.currentTime, Number(drop.dataset.seek), video.duration]);
 drop.click();
 """
 
@@ -114,10 +115,10 @@ def check_page(page, report, name, width, height, dark, touch, screenshots, must
         page.click(cell)
     else:
         page.hover(cell)
-    said = page.run(readout)
-    check(said != before and "success rate 0." in said and "[" in said, f"the heatmap said '{said}'")
+    text = page.run(readout)
+    check(text != before and "accuracy 0." in text and "[" in text, f"the heatmap shows '{text}'")
     page.keys("figure:not([hidden]) svg.map", "\ue014")  # arrow right
-    check(page.run(readout) not in (said, before), "the arrow keys chose nothing")
+    check(page.run(readout) not in (text, before), "the arrow keys chose nothing")
     hidden = "return [...document.querySelectorAll('[data-estimator]')].filter((map) => map.hidden).length"
     maps = page.run("return document.querySelectorAll('[data-estimator]').length")
     check(0 < page.run(hidden) < maps, "not one estimator is shown")
@@ -138,7 +139,7 @@ def check_page(page, report, name, width, height, dark, touch, screenshots, must
         page.run("scrollTo({top: 0, behavior: 'instant'})")
         page.screenshot(screenshots / f"report_{name}.png")
     messages = page.console()
-    check(not messages, f"{name}: the console says {messages}")
+    check(not messages, f"{name}: messages on the console: {messages}")
 
 
 def main():

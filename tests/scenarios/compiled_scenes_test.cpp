@@ -16,7 +16,7 @@ Scenario stairs() {
   return scenario;
 }
 
-TEST(CompiledScenes, SharesTheModelOfScenariosThatDifferInOtherThings) {
+TEST(CompiledScenes, SharesTheModelOfScenariosWithTheSameScene) {
   CompiledScenes scenes;
   const Scenario scenario = stairs();
   Scenario faster = scenario;
@@ -32,7 +32,7 @@ TEST(CompiledScenes, SharesTheModelOfScenariosThatDifferInOtherThings) {
   EXPECT_NE(scenes.of(smoother), model);
 }
 
-TEST(CompiledScenes, AreOfTheRobotAsItDeviates) {
+TEST(CompiledScenes, ApplyTheDeviationsOfTheRobot) {
   CompiledScenes scenes;
   Scenario scenario = stairs();
   scenario.robot = find_resource("models/upkie_actuated.yaml");
@@ -52,12 +52,12 @@ TEST(CompiledScenes, AreOfTheRobotAsItDeviates) {
     EXPECT_EQ(other->actuator[i].friction, 2.0 * model->actuator[i].friction);
     EXPECT_EQ(other->actuator[i].torque_error, scenario.deviations.torque_error[i]);
   }
-  // They are part of what a recording is played again from.
+  // The recorded scenario, which a run is repeated from, contains them.
   const Scenario again = scenario_from_yaml(YamlDocument::parse(to_yaml(scenario), "again.yaml"));
   EXPECT_TRUE(again.deviations == scenario.deviations);
 }
 
-TEST(CompiledScenes, ForgetsScenesThatNobodyNeedsAnyMore) {
+TEST(CompiledScenes, ReleasesScenesThatAreNoLongerUsed) {
   CompiledScenes scenes;
   Scenario scenario = stairs();
   const std::weak_ptr<const models::RobotModel> first = scenes.of(scenario);
@@ -68,7 +68,7 @@ TEST(CompiledScenes, ForgetsScenesThatNobodyNeedsAnyMore) {
   EXPECT_TRUE(first.expired());
 }
 
-TEST(CompiledScenes, RunsOfASharedSceneAreThoseOfTheirOwn) {
+TEST(CompiledScenes, GiveTheSameRunsAsSceneCompiledForOneRun) {
   const Scenario scenario = stairs();
   CompiledScenes scenes;
   for (const std::string& name : simulators::simulator_names()) {

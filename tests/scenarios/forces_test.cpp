@@ -21,7 +21,7 @@ double mean_load(const recordings::Recording& recording, double from, double to)
 
 class ForcesOf : public InEveryEngine {};
 
-TEST_P(ForcesOf, TheGroundCarriesTheWeightLessTheLift) {
+TEST_P(ForcesOf, TheGroundCarriesTheWeightMinusTheLift) {
   Scenario lifted = standing(6.0);
   lifted.forces = {{.time = 2.0, .duration = 4.0, .force = {0.0, 0.0, 20.0}}};
   const recordings::Recording recording = play(lifted, GetParam());
@@ -47,19 +47,18 @@ TEST_P(ForcesOf, AForceBeyondTheWeightThrowsTheRobotUpByTheSurplus) {
   const double force = 80.0;
   thrown.forces = {{.time = 0.5, .duration = 0.3, .force = {0.0, 0.0, force}}};
   const recordings::Recording recording = play(thrown, GetParam());
-  // The momentum gained is what the force and gravity left over; the ground lets go at once, but
-  // for what its springs give back.
+  // Momentum from the force minus gravity. Contact ends at once; the soft ground adds some.
   const double rise = recording.truth.back().base_linear_velocity.z();
   const double expected = (force * 0.3 / mass) - g * (0.9 - 0.5);
   EXPECT_NEAR(rise, expected, 0.15);
 }
 
-TEST_P(ForcesOf, TheTetherCarriesWhatHangsOnIt) {
+TEST_P(ForcesOf, TheTetherCarriesTheHangingRobot) {
   Scenario hung = scenario_called("hang");
   hung.end.duration = 6.0;
   hung.velocity.clear();
   const recordings::Recording recording = play(hung, GetParam());
-  // At rest the rope's stretch is the weight over its stiffness.
+  // At rest the rope's elongation is the weight over its stiffness.
   const models::GroundTruth& end = recording.truth.back();
   const policies::Tether& tether = *hung.tether;
   const Eigen::Vector3d held = end.base_position + end.base_orientation * tether.point_in_base;
@@ -67,7 +66,7 @@ TEST_P(ForcesOf, TheTetherCarriesWhatHangsOnIt) {
   EXPECT_NEAR(policies::tether_force(tether, end).norm(), mass * g, 0.3);
 }
 
-TEST_P(ForcesOf, ForcesAreGatheredFromAllThatActs) {
+TEST_P(ForcesOf, AllForcesThatActAreIncluded) {
   Scenario scenario = standing(1.0);
   scenario.tether = policies::Tether{.anchor = {0.0, 0.0, 2.0}, .length = 1.0};
   scenario.guides = {policies::Guide{.x = 1.0}};

@@ -34,8 +34,8 @@ TEST(LegGeometry, OfUpkieIsTheEstimatorsDefaultToTheBit) {
   EXPECT_EQ(large, LegGeometry{}) << "all but the wheels' inertia";
 }
 
-/// By MuJoCo's inverse dynamics: what torque accelerates the left wheel alone, without weight and
-/// with its centre put on its axle.
+/// By MuJoCo's inverse dynamics: the torque that accelerates the left wheel alone by 1 rad/s²,
+/// without gravity and with its centre of mass on its axle.
 double inertia_by_inverse_dynamics(const models::RobotModel& robot) {
   robot.mj->opt.disableflags |= mjDSBL_GRAVITY | mjDSBL_CONTACT;
   const int body = robot.mj->geom_bodyid[robot.tyre_geom[0]];
@@ -47,7 +47,7 @@ double inertia_by_inverse_dynamics(const models::RobotModel& robot) {
   return data->qfrc_inverse[wheel];
 }
 
-TEST(LegGeometry, HasTheWheelsInertiaOfTheRobotsModel) {
+TEST(LegGeometry, HasTheInertiaOfTheWheelInTheModel) {
   const ScratchFolder folder;
   const auto with_rotors = folder.write(
       "rotors.yaml",
@@ -66,7 +66,7 @@ TEST(LegGeometry, HasTheWheelsInertiaOfTheRobotsModel) {
   EXPECT_NEAR(of(with_rotors), upkie + 2e-4, 1e-8);
 }
 
-TEST(LegGeometry, OfLongerLegsAndOfMoreMassIsWhatTheirFilesSay) {
+TEST(LegGeometry, OfLongerAndHeavierLegsFollowsTheirFiles) {
   const LegGeometry upkie;
   const LegGeometry longer = of_robot("models/upkie_long_legs.yaml");
   EXPECT_NEAR(longer.upper_length, 1.4 * upkie.upper_length, 1e-6);
@@ -81,8 +81,8 @@ TEST(LegGeometry, OfLongerLegsAndOfMoreMassIsWhatTheirFilesSay) {
   EXPECT_EQ(heavy.lower_length, upkie.lower_length);
 }
 
-/// What the estimators' ear for wheels hears while wheels are spun in the air, to and fro.
-TEST(LegGeometry, LeavesNoReactionOfTheGroundToWheelsThatSpinFreely) {
+/// The estimators' ground reaction on wheels that spin to and fro in the air.
+TEST(LegGeometry, GivesNoGroundReactionForFreelySpinningWheels) {
   const ScratchFolder folder;
   const auto with_rotors = folder.write(
       "rotors.yaml",
@@ -98,37 +98,37 @@ TEST(LegGeometry, LeavesNoReactionOfTheGroundToWheelsThatSpinFreely) {
       const simulators::RobotState start = simulators::at_height(5.0);
       simulator->reset(start);
       const LegGeometry geometry = leg_geometry(*robot);
-      LegFeatureExtractor listener({.geometry = geometry}, false);
+      LegFeatureExtractor extractor({.geometry = geometry}, false);
       models::Action action = simulators::stiff_legs(start);
       double largest_torque = 0.0;
       double largest_reaction = 0.0;
       for (int step = 0; step < 200; ++step) {
         const double torque = 0.2 * std::sin(60.0 * 0.001 * step);
-        // Both wheels are mirrored joints: the same torque turns them against each other, and
-        // nothing else turns.
+        // The wheels are mirrored joints: equal torques spin them in opposite directions, and the
+        // robot does not turn.
         for (const models::Servo wheel : models::wheel_servos) {
           action.servo[models::index(wheel)].feedforward_torque = torque;
         }
         simulator->step(action);
-        const Signals heard = recordings::signals_from(simulator->observation(), 0.0);
-        const LegSignals& leg = heard.leg[0];
-        const double reaction =
-            listener
-                .update(leg, foot_jacobian(geometry, leg, false), heard.vertical_acceleration, 0.0)
-                .reaction;
+        const Signals signals = recordings::signals_from(simulator->observation(), 0.0);
+        const LegSignals& leg = signals.leg[0];
+        const double reaction = extractor
+                                    .update(leg, foot_jacobian(geometry, leg, false),
+                                            signals.vertical_acceleration, 0.0)
+                                    .reaction;
         largest_torque = std::max(largest_torque, std::abs(leg.wheel.torque));
         if (step > 10) largest_reaction = std::max(largest_reaction, std::abs(reaction));
       }
       EXPECT_GT(largest_torque, 0.19) << file << ' ' << engine;
-      // The difference over five milliseconds lags behind the torque by half of them: a seventh.
+      // The difference over 5 ms lags the torque by 2.5 ms: a seventh of its amplitude.
       EXPECT_LT(largest_reaction, 0.17 * largest_torque) << file << ' ' << engine;
     }
   }
 }
 
-/// A leg whose links are rods of known mass, written by hand: the thigh .3 m long with its mass in
-/// the middle and a brace that is welded to it, the shank .4 m with its mass at three quarters.
-/// Hips stand aside of knees, which bending does not feel.
+/// A leg made of rods of known mass. The thigh is .3 m long, with its mass in the middle and a
+/// brace welded to it; the shank is .4 m long, with its mass at three quarters. Hips and knees have
+/// lateral offsets, which do not change how the leg bends.
 TEST(LegGeometry, IsMeasuredInThePlaneInWhichTheLegBends) {
   const auto leg = [](const std::string& side, double y) {
     const std::string s = side == "left" ? "" : "-";

@@ -23,19 +23,19 @@ TEST_P(OutcomeOf, ARobotThatCannotBalanceFalls) {
 }
 
 TEST_P(OutcomeOf, NotArrivingInTimeIsATimeout) {
-  Scenario delay = standing(1.0);
-  delay.end.x = 5.0;
-  const recordings::Recording recording = play(delay, GetParam());
+  Scenario slow = standing(1.0);
+  slow.end.x = 5.0;
+  const recordings::Recording recording = play(slow, GetParam());
   EXPECT_EQ(recording.info.outcome, recordings::Outcome::timed_out);
   EXPECT_NEAR(recording.observation.back().time, 1.0, 1e-9);
   EXPECT_EQ(recording.steps(), 1001U);
 }
 
-TEST_P(OutcomeOf, OutlastingTheTimeIsTheEndWhereThereIsNoOther) {
+TEST_P(OutcomeOf, WithoutFinishLineTheDurationIsTheEnd) {
   EXPECT_EQ(play(standing(0.5), GetParam()).info.outcome, recordings::Outcome::finished);
 }
 
-TEST_P(OutcomeOf, TheEndIsSettledBeforeItCounts) {
+TEST_P(OutcomeOf, TheRunFinishesAfterTheSettlingTime) {
   Scenario driving = standing(10.0);
   driving.velocity = {{0.2, 0.5, 0.0}};
   driving.end.x = 0.5;
@@ -55,7 +55,7 @@ TEST_P(OutcomeOf, AnAbsurdForceIsADivergence) {
   EXPECT_LT(recording.observation.back().time, 0.3);
 }
 
-TEST_P(OutcomeOf, ARunThatWasStoppedHasNone) {
+TEST_P(OutcomeOf, AStoppedRunHasNoOutcome) {
   int reports = 0;
   const recordings::Recording recording = play(standing(10.0), GetParam(), 3, 4, [&](double time) {
     ++reports;
@@ -68,7 +68,7 @@ TEST_P(OutcomeOf, ARunThatWasStoppedHasNone) {
   EXPECT_LT(recording.observation.back().time, 1.5);
 }
 
-TEST_P(OutcomeOf, TheRecordingHoldsAScenarioThatPlaysAgain) {
+TEST_P(OutcomeOf, TheRecordedScenarioRepeatsTheRun) {
   Scenario scenario = perturbed(scenario_called("push_off"), 11, 2);
   scenario.end.duration = 2.0;
   const recordings::Recording first = play(scenario, GetParam());

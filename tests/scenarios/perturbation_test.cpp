@@ -70,7 +70,7 @@ TEST(Perturbed, StaysWithinTheHalfWidthsAndReachesThem) {
   EXPECT_GT(highest, 0.095);
 }
 
-TEST(Perturbed, OneQuantityMoreChangesNoOther) {
+TEST(Perturbed, AddingAQuantityChangesNoOtherDraw) {
   Scenario less = base();
   less.perturbation = {};
   less.perturbation.yaw = 0.3;
@@ -89,7 +89,7 @@ TEST(Perturbed, OneQuantityMoreChangesNoOther) {
   }
 }
 
-TEST(Perturbed, ARobotThatVariesChangesNoOtherDrawAndEachOfItsDrawsIsItsOwn) {
+TEST(Perturbed, DeviationsOfTheRobotAreIndependentAndChangeNoOtherDraw) {
   Scenario fixed = base();
   fixed.perturbation.com_x = fixed.perturbation.com_z = fixed.perturbation.torque_error = 0.0;
   fixed.perturbation.wheel_radius_scale = fixed.perturbation.actuator_friction_scale = 0.0;
@@ -107,22 +107,22 @@ TEST(Perturbed, ARobotThatVariesChangesNoOtherDrawAndEachOfItsDrawsIsItsOwn) {
     EXPECT_EQ(to_yaml(all), to_yaml(perturbed(fixed, 9, run)));
   }
   EXPECT_THAT(to_yaml(fixed), ::testing::Not(::testing::HasSubstr("com_x")))
-      << "scenarios of before read and write as before";
+      << "scenarios without deviations stay unchanged";
 }
 
-TEST(Perturbed, NothingAllowedIsNothingChanged) {
+TEST(Perturbed, WithoutPerturbationNothingChanges) {
   Scenario still = base();
   still.perturbation = {};
   EXPECT_EQ(to_yaml(perturbed(still, 4, 2)), to_yaml(still));
 }
 
-TEST(Perturbed, WhatWasDrawnIsNotDrawnAgain) {
+TEST(Perturbed, APerturbedScenarioIsNotPerturbedAgain) {
   const Scenario once = perturbed(base(), 4, 2);
   EXPECT_EQ(to_yaml(perturbed(once, 8, 8)), to_yaml(once));
 }
 
 TEST(Perturbed, QuantitiesAreIndependent) {
-  // The correlation of two streams over many runs is that of chance.
+  // The correlation of two streams over many runs is within four standard errors of zero.
   double product = 0.0;
   const int runs = 4000;
   for (int run = 0; run < runs; ++run) {

@@ -27,7 +27,7 @@ class Policies : public InEveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Engines, Policies, ::testing::ValuesIn(simulators::simulator_names()),
                          engine_name);
 
-TEST_P(Policies, ASoftLanderComesDownStepsFromWhichTheBalancerFalls) {
+TEST_P(Policies, ASoftLanderDescendsStepsThatTheBalancerFallsFrom) {
   Scenario steps = high_steps(0.7);
   EXPECT_EQ(play(steps, GetParam()).info.outcome, Outcome::fell);
   for (const PolicyConfig& policy : {soft("truth"), soft("truth", 0.08), soft("support_force")}) {
@@ -36,7 +36,7 @@ TEST_P(Policies, ASoftLanderComesDownStepsFromWhichTheBalancerFalls) {
   }
 }
 
-TEST_P(Policies, ASoftLanderLosesNothingOnTheGround) {
+TEST_P(Policies, ASoftLanderFinishesWhereTheBalancerDoes) {
   for (const char* name : {"flat", "roam", "stairs", "push_off"}) {
     Scenario scenario = scenario_called(name);
     for (const char* contact : {"truth", "upkie_observer"}) {
@@ -46,7 +46,7 @@ TEST_P(Policies, ASoftLanderLosesNothingOnTheGround) {
   }
 }
 
-TEST_P(Policies, RepeatThemselvesToTheBit) {
+TEST_P(Policies, AreDeterministic) {
   Scenario scenario = high_steps(0.5);
   scenario.policy = soft("support_force", 0.005);
   const recordings::Recording once = play(scenario, GetParam());
@@ -55,28 +55,30 @@ TEST_P(Policies, RepeatThemselvesToTheBit) {
   EXPECT_EQ(once.truth.back().base_position, again.truth.back().base_position);
 }
 
-TEST(PolicyContact, OfTheTruthComesLateByWhatTheFileSays) {
+TEST(PolicyContact, OfTheTruthHasTheConfiguredDelay) {
   Scenario scenario = standing(1.0);
   scenario.start.clearance = 0.5;  // falls first
   const auto simulator = make_simulator(scenario, "mujoco");
   simulator->reset(start_pose(simulator->model(), scenario.terrain, scenario.start));
   scenario.policy = soft("truth");
-  const policies::WheelContact whole_run = policy_contact(scenario, *simulator);
+  const policies::WheelContact immediate = policy_contact(scenario, *simulator);
   scenario.policy.delay = 0.01;
-  const policies::WheelContact delay = policy_contact(scenario, *simulator);
-  std::vector<bool> told, reported_late;
+  const policies::WheelContact delayed = policy_contact(scenario, *simulator);
+  std::vector<bool> contact, delayed_contact;
   for (int k = 0; k < 450; ++k) {
-    told.push_back(whole_run(simulator->observation(), 0.0)[0]);
-    reported_late.push_back(delay(simulator->observation(), 0.0)[0]);
-    EXPECT_EQ(told[static_cast<std::size_t>(k)],
+    contact.push_back(immediate(simulator->observation(), 0.0)[0]);
+    delayed_contact.push_back(delayed(simulator->observation(), 0.0)[0]);
+    EXPECT_EQ(contact[static_cast<std::size_t>(k)],
               k == 0 || in_contact(simulator->ground_truth(), 0));
     simulator->step(models::Action{});
   }
-  EXPECT_FALSE(told[100]);
-  for (std::size_t k = 10; k < told.size(); ++k) EXPECT_EQ(reported_late[k], told[k - 10]);
+  EXPECT_FALSE(contact[100]);
+  for (std::size_t k = 10; k < contact.size(); ++k) {
+    EXPECT_EQ(delayed_contact[k], contact[k - 10]);
+  }
 }
 
-TEST(PolicyFile, IsReadBackAndNotWrittenWhereItIsTheBalancer) {
+TEST(PolicyFile, IsReadBackAndOmittedForTheDefault) {
   Scenario scenario = standing(1.0);
   EXPECT_THAT(to_yaml(scenario), Not(HasSubstr("policy")));
   scenario.policy = soft("truth", 0.25);
@@ -86,7 +88,7 @@ TEST(PolicyFile, IsReadBackAndNotWrittenWhereItIsTheBalancer) {
 }
 
 TEST(PolicyFile, ComplainsOnTheLine) {
-  const auto said_of = [](const std::string& text) -> std::string {
+  const auto error_of = [](const std::string& text) -> std::string {
     try {
       (void)scenario_from_yaml(YamlDocument::parse("name: x\n" + text, "s.yaml"));
     } catch (const InputError& error) {
@@ -94,10 +96,12 @@ TEST(PolicyFile, ComplainsOnTheLine) {
     }
     return "no complaint";
   };
-  EXPECT_THAT(said_of("policy: {contact: trut}\n"),
+  EXPECT_THAT(error_of("policy: {contact: trut}\n"),
               AllOf(HasSubstr("s.yaml:2:"), HasSubstr("did you mean 'truth'?")));
-  EXPECT_THAT(said_of("policy: {law: soft}\n"), HasSubstr("soft_landing"));
-  EXPECT_THAT(said_of("policy: {late: -1}\n"), HasSubstr("policy.late"));
+  EXPECT_THAT(error_of("policy: {law: soft}\n"), HasSubstr("soft_landing"));
+  EXPECT_THAT(error_of("policy: {delay: -1}\n"), HasSubstr("policy.delay"));
+  EXPECT_THAT(error_of("policy: {late: 0.1}\n"),
+              AllOf(HasSubstr("policy.late"), HasSubstr("delay")));
 }
 
 }  // namespace

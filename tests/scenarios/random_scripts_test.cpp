@@ -33,7 +33,7 @@ TEST(RandomDrive, HoldsEachCommandWithinItsRange) {
   EXPECT_NEAR(static_cast<double>(standing) / commands, 0.25, 0.04);
 }
 
-TEST(RandomDrive, IsAFunctionOfSeedAndRunAndALongerOneBeginsTheSame) {
+TEST(RandomDrive, DependsOnSeedAndRunOnlyAndALongerScriptBeginsTheSame) {
   const policies::VelocityScript one = random_drive(drive, 20.0, 3, 1);
   const policies::VelocityScript longer = random_drive(drive, 40.0, 3, 1);
   const policies::VelocityScript other = random_drive(drive, 20.0, 3, 2);
@@ -88,7 +88,7 @@ TEST(RandomCrouches, HoldEachHeightWithinItsRange) {
   EXPECT_NEAR(mean / commands, -0.05 + 0.32 / 2.35, 0.005);  // the mean of U^1.35 is 1/2.35
 }
 
-TEST(RandomCrouches, AreAFunctionOfSeedAndRunAndALongerOneBeginsTheSame) {
+TEST(RandomCrouches, DependOnSeedAndRunOnlyAndALongerScriptBeginsTheSame) {
   const policies::CrouchScript one = random_crouches(crouches, 20.0, 3, 1);
   const policies::CrouchScript longer = random_crouches(crouches, 40.0, 3, 1);
   ASSERT_GT(longer.size(), one.size());
@@ -111,7 +111,7 @@ TEST(RandomCrouches, ChangeNoOtherDraw) {
   EXPECT_EQ(to_yaml(with), to_yaml(without));
 }
 
-TEST(RandomScripts, ReplaceTheSticksAndAddToTheForces) {
+TEST(RandomScripts, ReplaceTheVelocitiesAndAddToTheForces) {
   Scenario scenario = standing(10.0);
   scenario.velocity = {{1.0, 0.5, 0.0}};
   scenario.forces = {{.time = 0.5, .duration = 0.1, .force = {1.0, 0.0, 0.0}}};

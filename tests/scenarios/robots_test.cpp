@@ -12,7 +12,7 @@
 namespace touchdown::scenarios {
 namespace {
 
-/// Every robot file of the project, and its MJCF alone.
+/// Every robot file of the project, MJCF files included.
 std::vector<std::string> robots() {
   std::vector<std::string> files;
   for (const char* extension : {".yaml", ".xml"}) {
@@ -57,22 +57,22 @@ TEST_P(Robot, ComesDownAStep) {
   EXPECT_GE(flights(recording, 0.1).size(), 1U);
 }
 
-TEST_P(Robot, IsLiftedOffTheGroundWhateverItWeighs) {
+TEST_P(Robot, IsLiftedOffTheGroundForAnyMass) {
   Scenario scenario = of_this_robot("lift_slowly");
   scenario.end.duration = 2.5;
   const recordings::Recording recording = play(perturbed(scenario, 7, 0), engine());
   EXPECT_GE(flights(recording, 0.1).size(), 1U);
 }
 
-/// The sum of both equations of motion, in which the wheels' torques cancel, over a time in which
-/// they push: D·Δθ̇ + (C/r)·Δṡ = G·∫θ.
-TEST_P(Robot, MovesLikeThePendulumThatItsGainsAreFoundFor) {
+/// Sums both equations of motion, so that the wheels' torques cancel, over an interval with wheel
+/// torque: D·Δθ̇ + (C/r)·Δṡ = G·∫θ.
+TEST_P(Robot, MovesLikeThePendulumOfItsGains) {
   Scenario scenario = of_this_robot("one_step");
   scenario.terrain = {};
   scenario.simulation.contact.rolling_resistance = 0.0;
   scenario.robot = find_resource(scenario.robot);
   const auto model = std::make_shared<models::RobotModel>(compile_robot(scenario));
-  model->actuator = {};  // ideal ones: the joints feel what is asked for
+  model->actuator = {};  // ideal: the joints get the commanded torques
   const auto simulator = make_simulator(scenario, engine(), model);
   const simulators::RobotState start = start_pose(*model, scenario.terrain, scenario.start);
   const policies::WheeledPendulum pendulum =
@@ -104,11 +104,11 @@ TEST_P(Robot, MovesLikeThePendulumThatItsGainsAreFoundFor) {
   const double pushed = pendulum.coupling / pendulum.wheel_radius * rolled();
   const double pulled = pendulum.gravity * leaned;
   EXPECT_GT(std::abs(turned), 0.05);
-  EXPECT_LT(pushed * turned, 0.0) << "the wheels go the other way";
+  EXPECT_LT(pushed * turned, 0.0) << "the wheels move in the opposite direction";
   EXPECT_NEAR(turned + pushed, pulled, 0.05 * std::abs(turned));
 }
 
-/// Four times Upkie's mass on legs twice as long, with motors to match.
+/// Four times Upkie's mass, legs twice as long, and stronger motors.
 class LargeRobot : public InEveryEngine {
  protected:
   LargeRobot() {

@@ -31,11 +31,11 @@ inline bool in_contact(const models::GroundTruth& truth, std::size_t wheel) {
   return truth.wheel_normal_force[wheel] > 1.0;
 }
 
-/// How long each phase without contact of both wheels lasted, from `shortest` on (s).
+/// Durations of the phases without contact of both wheels that last at least `shortest` (s).
 inline std::vector<double> flights(const recordings::Recording& recording, double shortest) {
   std::vector<double> durations;
   std::size_t steps = 0;
-  for (std::size_t k = 1; k < recording.steps(); ++k) {  // nothing has acted yet at step 0
+  for (std::size_t k = 1; k < recording.steps(); ++k) {  // no force has acted yet at step 0
     const models::GroundTruth& truth = recording.truth[k];
     if (!in_contact(truth, 0) && !in_contact(truth, 1)) {
       ++steps;

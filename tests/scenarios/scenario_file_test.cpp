@@ -16,7 +16,7 @@ using ::testing::ThrowsMessage;
 
 class ScenarioOfARobot : public ::testing::Test {
  protected:
-  /// A scenario of a robot about Upkie.
+  /// A scenario with a robot file that is based on Upkie.
   Scenario with(const std::string& robot, const std::string& scenario) const {
     write_atomically(folder_ / "robot.yaml",
                      "mjcf: " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml\n" + robot);
@@ -36,7 +36,7 @@ class ScenarioOfARobot : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(ScenarioOfARobot, StandsAsTheRobotDoesUnlessItSaysHow) {
+TEST_F(ScenarioOfARobot, HasTheStanceOfTheRobotByDefault) {
   const std::string stance = "stance: {hip: 0.1, knee: 0.17}\n";
   EXPECT_EQ(with(stance, "").start.hip, 0.1);
   EXPECT_EQ(with(stance, "").start.knee, 0.17);
@@ -45,7 +45,7 @@ TEST_F(ScenarioOfARobot, StandsAsTheRobotDoesUnlessItSaysHow) {
   EXPECT_EQ(with("", "").start.hip, 0.455);
 }
 
-TEST_F(ScenarioOfARobot, BalancesAsTheRobotDoesUnlessItSaysHow) {
+TEST_F(ScenarioOfARobot, HasTheBalancerOfTheRobotByDefault) {
   const std::string gains = "balancer: {gains: upkie, max_velocity: 1.5}\n";
   EXPECT_EQ(with(gains, "").balancer.pitch_damping, 1.8);
   EXPECT_EQ(with(gains, "").balancer.max_velocity, 1.5);
@@ -53,10 +53,10 @@ TEST_F(ScenarioOfARobot, BalancesAsTheRobotDoesUnlessItSaysHow) {
   EXPECT_EQ(with(gains, "balancer: {pitch_damping: 4}\n").balancer.pitch_stiffness, 20.0);
   EXPECT_EQ(with(gains, "balancer: {gains: touchdown}\n").balancer.pitch_damping, 5.5);
   EXPECT_EQ(with(gains, "balancer: {gains: touchdown}\n").balancer.max_velocity, 1.5)
-      << "no gain, but the robot's";
+      << "not a gain, so it stays that of the robot";
 }
 
-TEST_F(ScenarioOfARobot, FindsGainsForTheStanceItStartsIn) {
+TEST_F(ScenarioOfARobot, ComputesGainsForItsStartingStance) {
   const Scenario bent = with("balancer: {gains: lqr}\n", "");
   const Scenario straight = with("balancer: {gains: lqr}\n", "start: {hip: 0, knee: 0}\n");
   EXPECT_NEAR(bent.balancer.pitch_damping, 6.37, 0.01);
@@ -68,7 +68,7 @@ TEST_F(ScenarioOfARobot, FindsGainsForTheStanceItStartsIn) {
   EXPECT_EQ(with("", "balancer: {gains: lqr, pitch_damping: 2}\n").balancer.pitch_damping, 2.0);
 }
 
-TEST_F(ScenarioOfARobot, IsNumbersThatNeedNoRobotAfterwards) {
+TEST_F(ScenarioOfARobot, IsReadBackWithoutTheRobot) {
   const Scenario scenario = with("stance: {hip: 0.1}\nbalancer: {gains: lqr}\n", "");
   std::filesystem::remove(folder_ / "robot.yaml");
   const Scenario again = scenario_from_yaml(YamlDocument::parse(to_yaml(scenario), "again.yaml"));
@@ -76,12 +76,12 @@ TEST_F(ScenarioOfARobot, IsNumbersThatNeedNoRobotAfterwards) {
   EXPECT_EQ(again.balancer.pitch_damping, scenario.balancer.pitch_damping);
 }
 
-TEST_F(ScenarioOfARobot, FeelsForcesMeantForUpkieInProportionToItsMass) {
+TEST_F(ScenarioOfARobot, ScalesForcesWrittenForUpkieToItsMass) {
   const std::string pushes =
       "forces: [{time: 1, duration: 1, force: [2, 0, 10]}]\n"
       "perturbation: {lift: {force: [53, 57]}}\n";
-  const auto force_on = [&](const std::string& robot, const std::string& meant_for) {
-    const Scenario scenario = with(robot, pushes + meant_for);
+  const auto force_on = [&](const std::string& robot, const std::string& reference) {
+    const Scenario scenario = with(robot, pushes + reference);
     EXPECT_NEAR(scenario.forces[0].force.x(), 0.2 * scenario.forces[0].force.z(), 1e-12);
     EXPECT_NEAR(scenario.perturbation.lift->force.high,
                 57.0 / 53.0 * scenario.perturbation.lift->force.low, 1e-12);
@@ -91,14 +91,14 @@ TEST_F(ScenarioOfARobot, FeelsForcesMeantForUpkieInProportionToItsMass) {
   EXPECT_EQ(force_on("", "forces_for_mass: 5.33922\n"), 10.0) << "to the bit";
   EXPECT_NEAR(force_on("mass: 1.5\n", "forces_for_mass: 5.33922\n"), 15.0, 1e-5);
   EXPECT_NEAR(force_on("mass: 1.5\n", "forces_for_mass: 8\n"), 10.01104, 1e-5);
-  EXPECT_EQ(force_on("mass: 1.5\n", ""), 10.0) << "newtons are newtons unless it says whose";
+  EXPECT_EQ(force_on("mass: 1.5\n", ""), 10.0) << "without forces_for_mass, forces are not scaled";
 
   const std::string resolved = to_yaml(with("mass: 1.5\n", pushes + "forces_for_mass: 5.33922\n"));
   EXPECT_EQ(to_yaml(complete_scenario(YamlDocument::parse(resolved, "again.yaml"))), resolved)
       << "once";
 }
 
-TEST_F(ScenarioOfARobot, OfAnMjcfAloneIsWhatItSaysItself) {
+TEST_F(ScenarioOfARobot, OfAnMjcfIsAsWritten) {
   for (const char* name : {"stairs", "roam_crouching", "hang"}) {
     const std::string file = std::string("scenarios/") + name + ".yaml";
     Scenario alone = load_scenario(TOUCHDOWN_SOURCE_DIR "/" + file);
@@ -108,7 +108,7 @@ TEST_F(ScenarioOfARobot, OfAnMjcfAloneIsWhatItSaysItself) {
   }
 }
 
-TEST_F(ScenarioOfARobot, ThatIsNotThereSaysWhoNamesIt) {
+TEST_F(ScenarioOfARobot, ThatIsMissingIsReportedWhereItIsNamed) {
   const std::string missing = (folder_ / "robto.yaml").string();
   write_atomically(folder_ / "robot.yaml", "mjcf: upkie.xml\n");
   write_atomically(folder_ / "scene.yaml", "name: x\nrobot: " + missing + "\n");
@@ -119,10 +119,10 @@ TEST_F(ScenarioOfARobot, ThatIsNotThereSaysWhoNamesIt) {
                                               HasSubstr("robot.yaml'?)"))));
   EXPECT_THAT([&] { (void)find_scenario(scene, missing); },
               ThrowsMessage<InputError>(StartsWith(missing + ": no such file")))
-      << "somebody else names it";
+      << "not named by the scenario";
 }
 
-TEST_F(ScenarioOfARobot, WhoseMjcfIsNotThereDoesNotBlameItsGains) {
+TEST_F(ScenarioOfARobot, WithAMissingMjcfIsReportedAtTheMjcf) {
   write_atomically(folder_ / "robot.yaml", "balancer: {gains: lqr}\nmjcf: upky.xml\n");
   write_atomically(folder_ / "scene.yaml",
                    "name: x\nrobot: " + (folder_ / "robot.yaml").string() + "\n");
@@ -130,7 +130,7 @@ TEST_F(ScenarioOfARobot, WhoseMjcfIsNotThereDoesNotBlameItsGains) {
               ThrowsMessage<InputError>(HasSubstr("robot.yaml:2:7: mjcf: ")));
 }
 
-TEST_F(ScenarioOfARobot, WithABadValueSaysInWhichFile) {
+TEST_F(ScenarioOfARobot, WithABadValueIsReportedWithTheFile) {
   EXPECT_THAT(complaint_about("balancer: {pitch_stifness: 3}\n", ""),
               AllOf(HasSubstr("robot.yaml:2:12: balancer.pitch_stifness"),
                     HasSubstr("did you mean 'pitch_stiffness'?")));
@@ -149,7 +149,7 @@ TEST_F(ScenarioOfARobot, WithABadValueSaysInWhichFile) {
               AllOf(HasSubstr("scene.yaml:3:28"), HasSubstr("six numbers")));
   EXPECT_THROW((void)complete_scenario(YamlDocument::parse("name: x\nrobot: no.yaml\n", "s")),
                InputError);
-  // Who reads a scenario alone cannot know the robot.
+  // Reading a scenario alone does not read the robot.
   EXPECT_THROW(
       (void)scenario_from_yaml(YamlDocument::parse("name: x\nbalancer: {gains: lqr}\n", "s")),
       InputError);

@@ -6,7 +6,7 @@ namespace {
 
 class ScenarioFile : public InEveryEngine {};
 
-TEST_P(ScenarioFile, StairsAreTakenInSevenFlights) {
+TEST_P(ScenarioFile, StairsGiveSevenFlights) {
   const Scenario stairs = scenario_called("stairs");
   for (int run = 0; run < 8; ++run) {
     const recordings::Recording recording = play(perturbed(stairs, 7, run), GetParam(), 7, run);
@@ -76,7 +76,7 @@ TEST_P(ScenarioFile, RoamingIsAlwaysContact) {
   }
 }
 
-/// Five seconds of it, with the actuators that Upkie has.
+/// Five seconds of a scenario, with Upkie's real actuators.
 Scenario crouching(const std::string& name, int run) {
   Scenario scenario = scenario_called(name);
   scenario.robot = TOUCHDOWN_SOURCE_DIR "/models/upkie_actuated.yaml";
@@ -89,7 +89,7 @@ TEST_P(ScenarioFile, RoamingAndCrouchingStaysUprightAndInContact) {
     const Scenario scenario = crouching("roam_crouching", run);
     const recordings::Recording recording = play(scenario, GetParam());
     expect_contact(recording, 0.0);
-    // The hip follows what the script says at the end, if it had the time to get there.
+    // At the end the hip is at its last command, if there was time to reach it.
     const policies::CrouchCommand& last = *policies::crouch_at(scenario.crouch, 5.0);
     if (last.time > 3.0) continue;
     const std::size_t hip = models::index(models::Servo::left_hip);
@@ -105,13 +105,13 @@ TEST_P(ScenarioFile, HangingAndCrouchingIsNeverContact) {
   }
 }
 
-TEST_P(ScenarioFile, PushedOffAskewOneWheelGoesFirst) {
+TEST_P(ScenarioFile, WhenPushedOffAskewOneWheelLeavesFirst) {
   Scenario askew = scenario_called("push_off");
   askew.start.yaw = 0.5;
   const recordings::Recording recording = play(askew, GetParam());
   EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
   EXPECT_EQ(flights(recording, 0.05).size(), 1U);
-  // Heading left, the right wheel comes to the edge first.
+  // The robot heads left, so the right wheel reaches the edge first.
   int right_alone_off = 0;
   for (std::size_t k = 1; k < recording.steps(); ++k) {
     const models::GroundTruth& truth = recording.truth[k];

@@ -6,7 +6,7 @@
 namespace touchdown::scenarios {
 namespace {
 
-/// Where MuJoCo puts the tyres and the centre of mass in `state`.
+/// Positions of the tyres and the centre of mass in `state`, by MuJoCo's kinematics.
 struct Pose {
   Eigen::Vector3d left, right, centre_of_mass;
 };
@@ -51,7 +51,7 @@ TEST(StartPose, StandsOnItsWheelsWithTheCentreOfMassAboveThem) {
   }
 }
 
-TEST(StartPose, KneesThatBendAsCrouchesDoKeepTheTorsoUpright) {
+TEST(StartPose, OfACrouchKeepsTheTorsoUpright) {
   const models::RobotModel model =
       models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml", {});
   const auto lean = [&](double hip, double knee_per_hip) {
@@ -67,7 +67,7 @@ TEST(StartPose, KneesThatBendAsCrouchesDoKeepTheTorsoUpright) {
   EXPECT_NEAR(lean(0.455, 2.0), 0.066, 0.002);
 }
 
-TEST(StartPose, LegsThatDifferStandOnOneAxleAndTheShorterOneKeepsItsAngles) {
+TEST(StartPose, OfUnequalLegsBendsTheLongerOneToShareOneAxle) {
   const models::RobotModel model =
       models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie_asymmetric.yaml", {});
   for (const double hip : {-0.3, -0.05, 0.0, 0.1, 0.455, 0.6}) {
@@ -78,8 +78,7 @@ TEST(StartPose, LegsThatDifferStandOnOneAxleAndTheShorterOneKeepsItsAngles) {
     EXPECT_NEAR(at.right.z(), model.wheel_radius, 1e-9) << hip;
     EXPECT_NEAR(at.left.x(), at.right.x(), 1e-9) << hip;
     EXPECT_NEAR(at.centre_of_mass.x(), at.left.x(), 1e-3) << hip;
-    // The left leg is the longer one: it gives way, by bending more to the side that its knee is
-    // on.
+    // The left leg is the longer one: it bends more, to the side of its knee.
     EXPECT_EQ(state.joint_position[models::index(models::Servo::right_hip)], -start.hip);
     EXPECT_EQ(state.joint_position[models::index(models::Servo::right_knee)], start.knee);
     const double side = start.knee < 0.0 ? -1.0 : 1.0;
@@ -93,7 +92,7 @@ TEST(StartPose, LegsThatDifferStandOnOneAxleAndTheShorterOneKeepsItsAngles) {
   }
 }
 
-TEST(StartPose, LegsThatCannotStandOnOneAxleAreRefused) {
+TEST(StartPose, RefusesLegsThatCannotShareOneAxle) {
   models::RobotModel model =
       models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml", {});
   models::scale_leg(*model.mj, 0, 4.0);

@@ -3,7 +3,7 @@
 namespace touchdown::scenarios {
 namespace {
 
-/// What one stair is measured by.
+/// Measurements of a drop from one stair.
 struct Drop {
   std::vector<double> flights;  ///< s
   double peak = 0.0;            ///< largest vertical acceleration (m/s²)
@@ -32,7 +32,7 @@ TEST(RubberTyres, MakeTheSameFlightsAndLandingsInBothEngines) {
   EXPECT_NEAR(mujoco.flights[0], bullet.flights[0], 0.01);
   EXPECT_NEAR(mujoco.peak, bullet.peak, 0.05 * bullet.peak);
   EXPECT_GT(drop_of("upkie.xml", "bullet").peak, 1.2 * drop_of("upkie.xml", "mujoco").peak)
-      << "which the engines' own contacts do not";
+      << "the engines' own contacts differ more";
 }
 
 }  // namespace

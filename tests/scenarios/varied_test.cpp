@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-TEST(Varied, ChangesTheNumberThatAKeyLeadsToAndNothingElse) {
+TEST(Varied, ChangesTheNumberUnderTheKeyAndNothingElse) {
   const Scenario stairs = find_scenario("scenarios/stairs.yaml");
   const std::string key = "terrain.pieces.1.stairs.rise";
   EXPECT_EQ(number_at(stairs, key), 0.25);
@@ -24,7 +24,7 @@ TEST(Varied, ChangesTheNumberThatAKeyLeadsToAndNothingElse) {
   EXPECT_EQ(number_at(varied(stairs, "velocity.0.velocity", 0.4, "x"), "velocity.0.velocity"), 0.4);
 }
 
-TEST(Varied, KnowsNoNumberWhereThereIsNone) {
+TEST(Varied, HasNoNumberForUnknownKeys) {
   const Scenario stairs = find_scenario("scenarios/stairs.yaml");
   for (const char* key : {"", "terrain", "terrain.pieces.7.stairs.rise", "terrain.pieces.-1",
                           "name", "terrain.pieces.1.stairs.rise.more"}) {
@@ -32,7 +32,7 @@ TEST(Varied, KnowsNoNumberWhereThereIsNone) {
   }
 }
 
-TEST(Varied, RefusesWhatTheScenarioRefuses) {
+TEST(Varied, RefusesValuesOutOfRange) {
   const Scenario stairs = find_scenario("scenarios/stairs.yaml");
   EXPECT_THAT([&] { (void)varied(stairs, "terrain.friction", -1.0, "stairs.yaml"); },
               ThrowsMessage<InputError>(HasSubstr("terrain.friction")));

@@ -28,7 +28,7 @@ double exponential(std::uint64_t seed, std::uint64_t stream, std::uint64_t i) {
   return -std::log(uniform01(seed, stream, i));
 }
 
-TEST(Bootstrap, CoversTheMeanOfAnExponentialAsOftenAsItSays) {
+TEST(Bootstrap, CoversTheMeanOfAnExponentialAtItsLevel) {
   int covered = 0;
   constexpr int studies = 500;
   for (std::uint64_t study = 0; study < studies; ++study) {
@@ -44,7 +44,7 @@ TEST(Bootstrap, CoversTheMeanOfAnExponentialAsOftenAsItSays) {
   EXPECT_LT(covered, 0.98 * studies);
 }
 
-TEST(Bootstrap, CoversARatioOfSumsWhoseSamplesWeighDifferently) {
+TEST(Bootstrap, CoversARatioOfSumsOfUnequalWeights) {
   // Each sample: Poisson-like weight w in 1..20 and w·q successes with q = 0.8 ± 0.2 per sample.
   int covered = 0;
   constexpr int studies = 500;
@@ -80,7 +80,7 @@ TEST(Bootstrap, OfADifferenceIsNarrowerWhenItsSamplesArePaired) {
   EXPECT_GT(alone.high - alone.low, 0.2);
 }
 
-TEST(Bootstrap, GivesTheSameIntervalTwiceAndAnotherForAnotherSeed) {
+TEST(Bootstrap, DependsOnItsSeedOnly) {
   std::vector<Mean> samples(20);
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = {exponential(9, 0, i), 1.0};
   const Interval once = bootstrap<Mean>(samples, {mean}, {.seed = 4}).front();
@@ -99,7 +99,7 @@ TEST(Bootstrap, OfOneOrEqualSamplesHasNoWidth) {
   EXPECT_EQ(interval.high, 0.5);
 }
 
-/// P(at most or at least so many of n), summed term by term.
+/// P(from ≤ k ≤ to) of a binomial distribution, summed term by term.
 double binomial_tail(int n, double p, int from, int to) {
   double sum = 0.0;
   for (int k = from; k <= to; ++k) {
@@ -109,7 +109,7 @@ double binomial_tail(int n, double p, int from, int to) {
   return sum;
 }
 
-TEST(ExactEnd, IsWhereAllOrNoneWouldBeSeenAsRarelyAsTheLevelSays) {
+TEST(ExactEnd, HasTheTailProbabilityOfTheLevel) {
   for (const int n : {1, 3, 70, 400}) {
     const Interval all = with_exact_end({1.0, 1.0, 1.0}, n, 0.95);
     EXPECT_NEAR(binomial_tail(n, all.low, n, n), 0.025, 1e-9) << n;
@@ -121,14 +121,14 @@ TEST(ExactEnd, IsWhereAllOrNoneWouldBeSeenAsRarelyAsTheLevelSays) {
   EXPECT_NEAR(with_exact_end({1.0, 1.0, 1.0}, 70, 0.95).low, 0.949, 5e-4);
 }
 
-TEST(ExactEnd, LeavesIntervalsThatTheBootstrapKnows) {
+TEST(ExactEnd, KeepsOtherIntervals) {
   const Interval some = with_exact_end({0.9, 0.8, 1.0}, 10, 0.95);
   EXPECT_EQ(some.low, 0.8);
   EXPECT_EQ(some.high, 1.0);
   EXPECT_EQ(with_exact_end({1.0, 1.0, 1.0}, 0, 0.95).low, 1.0);
 }
 
-TEST(Bootstrap, LeavesOutResamplesWithNothingToDivideBy) {
+TEST(Bootstrap, LeavesOutResamplesWithZeroDenominator) {
   std::vector<Mean> samples(4);
   samples[0] = {0.5, 1.0};
   const Interval interval = bootstrap<Mean>(samples, {mean}, {}).front();

@@ -7,7 +7,7 @@
 namespace touchdown::scoring {
 namespace {
 
-TEST(ExactShare, IsThatOfTheTablesOfClopperAndPearson) {
+TEST(ExactShare, MatchesTheTablesOfClopperAndPearson) {
   const Interval half = exact_share(5, 10, 0.95);
   EXPECT_EQ(half.estimate, 0.5);
   EXPECT_NEAR(half.low, 0.1871, 5e-5);
@@ -27,14 +27,14 @@ TEST(ExactShare, OfNoneAndOfAllHasOneEndInClosedForm) {
   EXPECT_NEAR(exact_share(1, 1, 0.95).low, 0.025, 1e-12);
 }
 
-TEST(ExactShare, OfManyTrialsIsThatOfTheNormalDistribution) {
+TEST(ExactShare, OfManyTrialsMatchesTheNormalDistribution) {
   const Interval many = exact_share(30'000, 100'000, 0.95);
   const double half_width = 1.96 * std::sqrt(0.3 * 0.7 / 1e5);
   EXPECT_NEAR(many.low, 0.3 - half_width, 0.02 * half_width);
   EXPECT_NEAR(many.high, 0.3 + half_width, 0.02 * half_width);
 }
 
-TEST(ExactShare, OfNothingIsNoNumber) { EXPECT_TRUE(std::isnan(exact_share(0, 0, 0.95).low)); }
+TEST(ExactShare, WithoutTrialsIsNaN) { EXPECT_TRUE(std::isnan(exact_share(0, 0, 0.95).low)); }
 
 }  // namespace
 }  // namespace touchdown::scoring

@@ -7,8 +7,9 @@
 namespace touchdown::scoring {
 namespace {
 
-/// One flight from 1000 to 1200 of 2000 steps of 1 ms on both wheels, told `delay` steps late at its
-/// takeoff and in time at its landing; the load is light for 100 steps before the takeoff.
+/// Scores one flight from 1000 to 1200 of 2000 steps of 1 ms on both wheels. Its takeoff is
+/// predicted `delay` steps late, its landing in time. The load is 5 N for 100 steps before the
+/// takeoff.
 ExtendedScore score_of_a_flight(std::size_t delay) {
   std::array<ContactSequence, 2> truth;
   std::array<std::vector<double>, 2> force;
@@ -27,17 +28,17 @@ ExtendedScore score_of_a_flight(std::size_t delay) {
   return extended_score(truth, force, prediction, 1000, {});
 }
 
-TEST(ExtendedScore, LeavesOutWhatIsNearEventsAndWhatTouchesLightly) {
-  const ExtendedScore close = score_of_a_flight(30);
+TEST(ExtendedScore, LeavesOutStepsNearEventsAndLightlyLoadedContact) {
+  const ExtendedScore score = score_of_a_flight(30);
   // Of 1700 scored steps on each wheel, 40 and 10 are near the takeoff and the landing; 10 of the
-  // 30 late ones lie further away than 20 ms.
-  EXPECT_EQ(close.away_from_events.points(), 2 * (1700 - 50));
-  EXPECT_EQ(close.away_from_events.flight_as_contact, 2 * 10);
-  EXPECT_EQ(close.loaded.points(), 2 * (1700 - 100));
-  EXPECT_EQ(close.loaded.flight_as_contact, 2 * 30);
+  // 30 delayed steps are more than 20 ms from the takeoff.
+  EXPECT_EQ(score.away_from_events.points(), 2 * (1700 - 50));
+  EXPECT_EQ(score.away_from_events.flight_as_contact, 2 * 10);
+  EXPECT_EQ(score.loaded.points(), 2 * (1700 - 100));
+  EXPECT_EQ(score.loaded.flight_as_contact, 2 * 30);
 }
 
-TEST(ExtendedScore, TellsLatenciesToTheMillisecond) {
+TEST(ExtendedScore, ReportsLatenciesToTheMillisecond) {
   ExtendedScore sum = score_of_a_flight(7);
   for (int i = 0; i < 8; ++i) sum += score_of_a_flight(12);
   sum += score_of_a_flight(33);
@@ -47,7 +48,7 @@ TEST(ExtendedScore, TellsLatenciesToTheMillisecond) {
   EXPECT_TRUE(std::isnan(ExtendedScore{}.takeoff.percentile(0.5)));
 }
 
-TEST(ExtendedScore, TellsEarlyFromLateAndHowFarOff) {
+TEST(ExtendedScore, ReportsSignedAndAbsoluteLatencies) {
   Latencies latencies;
   for (const std::int64_t ms : {-20, -3, 0, 1, 4}) latencies.add(1000 * ms);
   EXPECT_EQ(latencies.percentile(0.5), 0.0);
@@ -58,10 +59,10 @@ TEST(ExtendedScore, TellsEarlyFromLateAndHowFarOff) {
   EXPECT_EQ(score_of_a_flight(7).landing.percentile(1.0), 0.0);
 }
 
-/// One wheel's told contact beside a flight from 1000 to 1200 of 2000 steps of 1 ms, the other
-/// wheel always in contact and told so.
-ExtendedScore score_of(const std::vector<Flight>& told,
-                    const std::vector<Flight>& truth = {{1000, 1200}}) {
+/// Scores one wheel's predicted flights against a true flight from 1000 to 1200 of 2000 steps of 1
+/// ms. The other wheel is always in contact, and predicted so.
+ExtendedScore score_of(const std::vector<Flight>& predicted,
+                       const std::vector<Flight>& truth = {{1000, 1200}}) {
   std::array<ContactSequence, 2> contact = {ContactSequence(2000, 1), ContactSequence(2000, 1)};
   Prediction prediction;
   prediction.fill({ContactSequence(2000, 1), std::vector<double>(2000, 1.0)});
@@ -71,7 +72,7 @@ ExtendedScore score_of(const std::vector<Flight>& told,
     }
   };
   mark(truth, contact[0]);
-  mark(told, prediction[0].contact);
+  mark(predicted, prediction[0].contact);
   const std::array<std::vector<double>, 2> force = {std::vector<double>(2000, 26.0),
                                                     std::vector<double>(2000, 26.0)};
   return extended_score(contact, force, prediction, 1000, {});
@@ -86,35 +87,35 @@ TEST(Flights, MatchWhereTheyShareMoreThanHalfOfTheirUnion) {
   EXPECT_TRUE(std::isnan(score_of({}, {}).flights.f1()));
 }
 
-TEST(Flights, ThatFlickerAreToldMoreThanOnce) {
-  // ContactTrace in two parts of 150 and 40 steps with a gap, and once where there is none.
-  const ExtendedScore close = score_of({{1000, 1150}, {1160, 1200}, {1500, 1510}});
-  EXPECT_EQ(close.flights.truth, 1);
-  EXPECT_EQ(close.flights.told, 3);
-  EXPECT_EQ(close.flights.matched, 1);
-  EXPECT_DOUBLE_EQ(close.flights.f1(), 2.0 / 4.0);
+TEST(Flights, ThatFlickerAreCountedMoreThanOnce) {
+  // Predicted in two parts of 150 and 40 steps with a gap, and once where there is no flight.
+  const ExtendedScore score = score_of({{1000, 1150}, {1160, 1200}, {1500, 1510}});
+  EXPECT_EQ(score.flights.truth, 1);
+  EXPECT_EQ(score.flights.predicted, 3);
+  EXPECT_EQ(score.flights.matched, 1);
+  EXPECT_DOUBLE_EQ(score.flights.f1(), 2.0 / 4.0);
   // Six switches, of which one takeoff and one landing are detections.
-  EXPECT_EQ(close.extra_switches, 4);
+  EXPECT_EQ(score.extra_switches, 4);
 }
 
-TEST(Flights, ThatAreTooShortMayBeToldOrNot) {
+TEST(Flights, ThatAreTooShortDoNotCount) {
   EXPECT_EQ(score_of({}, {{1000, 1030}}).flights.truth, 0);
-  EXPECT_EQ(score_of({{1002, 1030}}, {{1000, 1030}}).flights.told, 0);
+  EXPECT_EQ(score_of({{1002, 1030}}, {{1000, 1030}}).flights.predicted, 0);
   EXPECT_EQ(score_of({{1002, 1030}}, {{1000, 1030}}).extra_switches, 0);
 }
 
 TEST(Flights, BeforeTheScoredPartAreNone) {
-  const ExtendedScore close = score_of({{100, 200}}, {{100, 200}});
-  EXPECT_EQ(close.flights.truth, 0);
-  EXPECT_EQ(close.flights.told, 0);
-  EXPECT_EQ(close.extra_switches, 0);
+  const ExtendedScore score = score_of({{100, 200}}, {{100, 200}});
+  EXPECT_EQ(score.flights.truth, 0);
+  EXPECT_EQ(score.flights.predicted, 0);
+  EXPECT_EQ(score.extra_switches, 0);
 }
 
-TEST(LogLoss, IsBoundedWhereAnEstimatorIsSureAndWrong) {
-  // 200 steps in the air of 2 × 1700 scored ones are said to be contact with probability one.
-  const ExtendedScore close = score_of({});
-  EXPECT_EQ(close.steps, 2 * 1700);
-  EXPECT_NEAR(close.log_loss, -200.0 * std::log(1e-6), 1e-6);
+TEST(LogLoss, IsBoundedForCertainButWrongEstimates) {
+  // Of 2 × 1700 scored steps, 200 in the air are predicted as contact with probability one.
+  const ExtendedScore score = score_of({});
+  EXPECT_EQ(score.steps, 2 * 1700);
+  EXPECT_NEAR(score.log_loss, -200.0 * std::log(1e-6), 1e-6);
 }
 
 }  // namespace

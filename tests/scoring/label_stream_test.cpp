@@ -26,10 +26,10 @@ Streamed stream(const std::vector<double>& force, const LabelConfig& config) {
   return result;
 }
 
-TEST(LabelStream, LabelsAsTheWholeSequenceIsLabelled) {
+TEST(LabelStream, LabelsLikeTheWholeSequence) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 2000; ++trial) {
-    // Stretches of chatter and of quiet.
+    // Intervals of chatter and of constant contact.
     std::vector<double> force;
     const std::size_t steps = random() % 400;
     while (force.size() < steps) {
@@ -44,15 +44,15 @@ TEST(LabelStream, LabelsAsTheWholeSequenceIsLabelled) {
   }
 }
 
-TEST(LabelStream, LabelsQuietStepsAtOnce) {
+TEST(LabelStream, LabelsConstantStatesWithShortDelay) {
   std::vector<double> force(10'000, 26.0);
   for (std::size_t k = 5000; k < 5100; ++k) force[k] = k % 2 == 0 ? 0.0 : 26.0;
   EXPECT_LE(stream(force, {}).largest_delay, 105U);
 }
 
-TEST(LabelStream, HasNothingToSayAboutNothing) { EXPECT_TRUE(stream({}, {}).labels.empty()); }
+TEST(LabelStream, GivesNoLabelsWithoutForces) { EXPECT_TRUE(stream({}, {}).labels.empty()); }
 
-TEST(LabelStream, GivesUpWaitingForEndlessChatterToEnd) {
+TEST(LabelStream, LabelsEndlessChatterAfterAMinute) {
   std::vector<double> force(200'000);
   for (std::size_t k = 0; k < force.size(); ++k) force[k] = k % 4 < 2 ? 0.0 : 26.0;
   const Streamed result = stream(force, {});

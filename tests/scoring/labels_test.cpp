@@ -43,18 +43,18 @@ TEST(Debounce, LeavesEmptyAndSingleStatesAlone) {
   EXPECT_EQ(debounced(sequence({{1, 3}}), 5), sequence({{1, 3}}));
 }
 
-TEST(Annotator, MarksWhatTheLastPictureShows) {
-  // Pictures at steps 0, 10, 20, ...; the wheel is in the air from 14 to 27.
+TEST(Annotator, MarksTheStateOfTheLastFrame) {
+  // Frames at steps 0, 10, 20, ...; the wheel is in the air from 14 to 27.
   const ContactSequence contact = sequence({{1, 14}, {0, 13}, {1, 23}});
   EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.01}), sequence({{1, 20}, {0, 10}, {1, 20}}));
 }
 
-TEST(Annotator, MissesAFlightBetweenTwoPictures) {
+TEST(Annotator, MissesAFlightBetweenTwoFrames) {
   const ContactSequence contact = sequence({{1, 11}, {0, 8}, {1, 31}});
   EXPECT_EQ(annotated(contact, 1e-3, {.frame = 0.01}), sequence({{1, 50}}));
 }
 
-TEST(Annotator, IsLateOrEarlyByAsMuchAsItSays) {
+TEST(Annotator, DelaysTakeoffsAndLandings) {
   const ContactSequence contact = sequence({{1, 15}, {0, 20}, {1, 15}});
   EXPECT_EQ(
       annotated(contact, 1e-3, {.frame = 0.0, .takeoff_delay = -0.007, .landing_delay = 0.003}),
@@ -63,21 +63,21 @@ TEST(Annotator, IsLateOrEarlyByAsMuchAsItSays) {
             sequence({{1, 50}}));
 }
 
-TEST(Annotator, KnowsThatEndsOfARunAreNoEvents) {
+TEST(Annotator, DoesNotDelayTheEndsOfARun) {
   const ContactSequence contact = sequence({{0, 10}, {1, 30}, {0, 10}});
   EXPECT_EQ(
       annotated(contact, 1e-3, {.frame = 0.0, .takeoff_delay = 0.004, .landing_delay = 0.004}),
       sequence({{0, 14}, {1, 30}, {0, 6}}));
 }
 
-TEST(Annotator, SeesFlightsThatRunIntoEachOtherAsOne) {
+TEST(Annotator, MergesFlightsThatOverlap) {
   const ContactSequence contact = sequence({{1, 10}, {0, 10}, {1, 5}, {0, 10}, {1, 15}});
   EXPECT_EQ(
       annotated(contact, 1e-3, {.frame = 0.0, .takeoff_delay = -0.003, .landing_delay = 0.003}),
       sequence({{1, 7}, {0, 31}, {1, 12}}));
 }
 
-TEST(Annotator, SeesEveryStepOfAFilmAsFastAsTheRobot) {
+TEST(Annotator, SeesEveryStepAtTheFrameRateOfTheRobot) {
   ContactSequence contact;
   for (int k = 0; k < 1000; ++k) contact.push_back(static_cast<std::uint8_t>(k * k % 7 < 3));
   EXPECT_EQ(annotated(contact, 1e-3, {.frame = 1e-3}), contact);
@@ -87,7 +87,7 @@ TEST(Annotator, SeesEveryStepOfAFilmAsFastAsTheRobot) {
 TEST(ContactLabels, AreAnnotatedAfterTheyAreDebounced) {
   std::vector<double> force(40, 50.0);
   std::fill(force.begin() + 8, force.begin() + 11, 0.0);   // shorter than the debounce
-  std::fill(force.begin() + 18, force.begin() + 32, 0.0);  // of pictures 20 and 30
+  std::fill(force.begin() + 18, force.begin() + 32, 0.0);  // contains the frames at 20 and 30
   EXPECT_EQ(contact_labels(force, 1e-3, {.annotator = Annotator{.frame = 0.01}}),
             sequence({{1, 20}, {0, 20}}));
 }
@@ -110,7 +110,7 @@ TEST(Flights, IncludeThoseAtTheEnds) {
   EXPECT_TRUE(flights(sequence({{1, 3}})).empty());
 }
 
-TEST(DropSegments, CutMidwayBetweenDropsAndKeepBouncesTogether) {
+TEST(DropSegments, EndMidwayBetweenDropsAndIncludeBounces) {
   // Drops at [100, 200) with a bounce at [210, 220), and at [1220, 1300).
   const ContactSequence contact =
       sequence({{1, 100}, {0, 100}, {1, 10}, {0, 10}, {1, 1000}, {0, 80}, {1, 100}});

@@ -19,8 +19,8 @@ TEST(OperatingPoint, LeavesBelowOneThresholdAndReturnsAboveTheOther) {
 
 using BothWheels = std::array<ContactSequence, models::wheel_count>;
 
-/// Contact of 3 s at 1 kHz but for these flights, the right wheel always in contact.
-BothWheels contact_but(const std::vector<Flight>& flights) {
+/// Contact of 3 s at 1 kHz. The left wheel has these flights, the right one is always in contact.
+BothWheels contact_except(const std::vector<Flight>& flights) {
   BothWheels contact = {ContactSequence(3000, 1), ContactSequence(3000, 1)};
   for (const Flight& flight : flights) {
     for (std::size_t k = flight.takeoff; k < flight.landing; ++k) contact[0][k] = 0;
@@ -28,11 +28,11 @@ BothWheels contact_but(const std::vector<Flight>& flights) {
   return contact;
 }
 
-TEST(OperatingPoint, CountsWhatIsToldBesidesTheFlights) {
-  // ContactTrace 4 ms late, interrupted for 3 ms, and once where there is none.
+TEST(OperatingPoint, CountsSwitchesThatDetectNoFlight) {
+  // The flight is predicted 4 ms late and interrupted for 3 ms; a second one is false.
   const OperatingScore score =
-      operating_score(contact_but({{1000, 1200}}),
-                      contact_but({{1004, 1100}, {1103, 1200}, {2000, 2010}}), 1000, {});
+      operating_score(contact_except({{1000, 1200}}),
+                      contact_except({{1004, 1100}, {1103, 1200}, {2000, 2010}}), 1000, {});
   EXPECT_EQ(score.flights, 1);
   EXPECT_EQ(score.found, 1);
   EXPECT_DOUBLE_EQ(score.takeoff_error(), 0.004);
@@ -46,19 +46,19 @@ TEST(OperatingPoint, CountsWhatIsToldBesidesTheFlights) {
   EXPECT_DOUBLE_EQ(score.false_takeoffs_per_minute(), 60.0 / 5.4);
 }
 
-TEST(OperatingPoint, AnEarlyTakeoffIsAsFarOffAsALateOne) {
-  const BothWheels truth = contact_but({{1000, 1200}});
-  EXPECT_DOUBLE_EQ(operating_score(truth, contact_but({{990, 1200}}), 1000, {}).takeoff_error(),
+TEST(OperatingPoint, CountsEarlyAndLateTakeoffErrorsAlike) {
+  const BothWheels truth = contact_except({{1000, 1200}});
+  EXPECT_DOUBLE_EQ(operating_score(truth, contact_except({{990, 1200}}), 1000, {}).takeoff_error(),
                    0.010);
-  EXPECT_DOUBLE_EQ(operating_score(truth, contact_but({{1010, 1200}}), 1000, {}).takeoff_error(),
+  EXPECT_DOUBLE_EQ(operating_score(truth, contact_except({{1010, 1200}}), 1000, {}).takeoff_error(),
                    0.010);
 }
 
 TEST(OperatingPoint, ScoresOfRunsAdd) {
   const OperatingScore found =
-      operating_score(contact_but({{1000, 1200}}), contact_but({{1002, 1200}}), 1000, {});
+      operating_score(contact_except({{1000, 1200}}), contact_except({{1002, 1200}}), 1000, {});
   const OperatingScore missed =
-      operating_score(contact_but({{1000, 1200}}), contact_but({}), 1000, {});
+      operating_score(contact_except({{1000, 1200}}), contact_except({}), 1000, {});
   OperatingScore sum = found;
   sum += missed;
   EXPECT_EQ(sum.flights, 2);
@@ -66,8 +66,8 @@ TEST(OperatingPoint, ScoresOfRunsAdd) {
   EXPECT_DOUBLE_EQ(sum.takeoff_error(), 0.002);
   EXPECT_EQ(sum.scored_us, 2 * 5'400'000);
   EXPECT_TRUE(std::isnan(missed.takeoff_error()));
-  EXPECT_TRUE(std::isnan(
-      operating_score(contact_but({}), contact_but({}), 1000, {}).extra_switches_per_flight()));
+  EXPECT_TRUE(std::isnan(operating_score(contact_except({}), contact_except({}), 1000, {})
+                             .extra_switches_per_flight()));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace touchdown::scoring {
 namespace {
 
-/// A run of random flights, and an estimator that is late, early, chatters and misses.
+/// A run of random flights, and beliefs with delays, chatter and missed flights.
 struct NoisyRun {
   std::array<std::vector<double>, models::wheel_count> force;
   std::vector<Belief> belief;
@@ -27,8 +27,8 @@ NoisyRun random_run(unsigned seed, std::size_t steps, std::size_t longest_quiet)
     Belief belief;
     for (std::size_t wheel = 0; wheel < 2; ++wheel) {
       const std::size_t lag = 20 + wheel * 7;
-      const bool touches = run.force[wheel][k < lag ? 0 : k - lag] > 1.0;
-      const bool contact = random() % 2000 == 0 ? !touches : touches;
+      const bool in_contact = run.force[wheel][k < lag ? 0 : k - lag] > 1.0;
+      const bool contact = random() % 2000 == 0 ? !in_contact : in_contact;
       belief.wheel[wheel] = {contact ? 0.9 : 0.2, contact};
     }
     belief.p_any_wheel = 0.95;
@@ -86,7 +86,7 @@ TEST(ScoreStream, ScoresLongRunsAsAWhole) {
   }
 }
 
-TEST(ScoreStream, ScoresRunsWithoutAQuietPlaceAsAWhole) {
+TEST(ScoreStream, ScoresRunsWithoutAConstantIntervalAsAWhole) {
   const NoisyRun run = random_run(1, 60'000, 300);
   expect_equal(streamed(run), whole(run));
 }

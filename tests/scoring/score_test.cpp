@@ -22,7 +22,7 @@ ContactSequence random_truth(std::uint64_t seed) {
   return truth;
 }
 
-/// Certain of what it decides, `delay` steps late (early if negative).
+/// Decisions with probabilities of 0 and 1, `delay` steps late (early if negative).
 Track delayed(const ContactSequence& truth, std::ptrdiff_t delay) {
   Track track;
   const auto last = static_cast<std::ptrdiff_t>(truth.size()) - 1;
@@ -86,7 +86,7 @@ TEST(Score, CountsPointsAfterTheSkippedBeginning) {
   EXPECT_EQ(classify(truth, track.contact, {0}, period_us, {}).front(), points);
 }
 
-TEST(Score, OfThePiecesAddsUpToTheWhole) {
+TEST(Score, OfSegmentsAddsUpToTheWhole) {
   const ContactSequence truth = random_truth(3);
   const Track track = delayed(truth, 30);
   const std::vector<std::size_t> segments = drop_segments(truth, 250);
@@ -125,7 +125,7 @@ TEST(Score, CountsFalseTakeoffsPerMinuteOfEachWheel) {
     std::fill_n(left.contact.begin() + begin, 30, 0);
   }
   const RobotScore robot = score(truth, prediction, {0}, period_us, {}).front();
-  // Two in the 6 s that are scored.
+  // Two in the 6 scored seconds.
   EXPECT_DOUBLE_EQ(robot[View::left_wheel].false_takeoffs_per_minute(), 20.0);
   EXPECT_EQ(robot[View::right_wheel].false_takeoffs_per_minute(), 0.0);
   EXPECT_DOUBLE_EQ(robot.wheels().false_takeoffs_per_minute(), 10.0);

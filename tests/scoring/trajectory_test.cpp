@@ -17,26 +17,26 @@ using Eigen::Vector3d;
 
 Quaterniond turned(double yaw) { return Quaterniond(AngleAxisd(yaw, Vector3d::UnitZ())); }
 
-/// At rest.
+/// A pose at rest.
 TimedPose at(double time, const Vector3d& position,
              const Quaterniond& orientation = Quaterniond::Identity()) {
   return {time, position, orientation, Vector3d::Zero()};
 }
 
-/// Along x in steps of `stride`, `scale` times as far as it is told.
+/// A straight path along x in steps of `stride`, scaled by `scale`.
 Trajectory straight(int count, double stride, double scale = 1.0) {
-  Trajectory way;
+  Trajectory path;
   for (int k = 0; k < count; ++k) {
-    way.push_back({0.1 * k,
-                   {scale * stride * k, 0, 0},
-                   Quaterniond::Identity(),
-                   {10.0 * scale * stride, 0, 0}});
+    path.push_back({0.1 * k,
+                    {scale * stride * k, 0, 0},
+                    Quaterniond::Identity(),
+                    {10.0 * scale * stride, 0, 0}});
   }
-  return way;
+  return path;
 }
 
-TEST(TrajectoryScore, OfATooShortWayIsTheOneByHand) {
-  // Truth at 0, 1, 2, 3 m; told at 0, .9, 1.8, 2.7 m: errors 0, .1, .2, .3 m.
+TEST(TrajectoryScore, OfATooShortPathMatchesHandCalculation) {
+  // Truth at 0, 1, 2, 3 m; estimate at 0, .9, 1.8, 2.7 m: errors 0, .1, .2, .3 m.
   const TrajectoryScore score = score_trajectory(straight(4, 1.0, 0.9), straight(4, 1.0));
   EXPECT_EQ(score.steps, 4);
   EXPECT_EQ(score.runs, 1);
@@ -45,45 +45,45 @@ TEST(TrajectoryScore, OfATooShortWayIsTheOneByHand) {
   EXPECT_NEAR(score.height_rms(), 0.0, 1e-12);
   EXPECT_NEAR(score.distance, 3.0, 1e-12);
   EXPECT_NEAR(score.end_per_metre(), 0.1, 1e-12);
-  // Marks at 1, 2, 3 m: two segments, each .1 m short.
+  // Segments end at 1, 2, 3 m: two are scored, each .1 m too short.
   EXPECT_EQ(score.segments, 2);
   EXPECT_NEAR(score.error_per_metre(), 0.1, 1e-12);
   EXPECT_NEAR(score.rpe(), 0.1, 1e-12);
-  // Laid on each other at their middles the errors are ±.15 and ±.05 m.
+  // Aligned at their centres, the errors are ±.15 and ±.05 m.
   EXPECT_NEAR(score.ate(), std::sqrt((2 * 0.0225 + 2 * 0.0025) / 4), 1e-12);
 }
 
-TEST(TrajectoryScore, DoesNotAskForTheOriginAndTheHeading) {
+TEST(TrajectoryScore, IgnoresTheOriginAndTheHeading) {
   const Trajectory truth = straight(50, 0.1);
-  Trajectory told = truth;
-  for (TimedPose& pose : told) {
+  Trajectory estimate = truth;
+  for (TimedPose& pose : estimate) {
     pose.position = turned(1.0) * pose.position + Vector3d(5, 6, 7);
     pose.orientation = turned(1.0) * pose.orientation;
     pose.velocity = turned(1.0) * pose.velocity;
   }
-  const TrajectoryScore score = score_trajectory(told, truth);
+  const TrajectoryScore score = score_trajectory(estimate, truth);
   EXPECT_LT(score.rms() + score.velocity_rms() + score.ate() + score.rpe() + score.height_rms(),
             1e-9);
 }
 
-TEST(TrajectoryScore, OfAWrongHeadingGrowsWithTheWay) {
-  // Begins right, believes to head .1 rad to the left from then on: chords of 2 sin(.05).
+TEST(TrajectoryScore, OfAWrongHeadingGrowsWithTheDistance) {
+  // The estimate starts correctly, then heads .1 rad to the left: chords of 2 sin(.05).
   const Trajectory truth = straight(41, 0.1);
-  Trajectory told = truth;
-  for (std::size_t k = 1; k < told.size(); ++k) {
-    told[k].position = turned(0.1) * told[k].position;
-    told[k].orientation = turned(0.1);
+  Trajectory estimate = truth;
+  for (std::size_t k = 1; k < estimate.size(); ++k) {
+    estimate[k].position = turned(0.1) * estimate[k].position;
+    estimate[k].orientation = turned(0.1);
   }
-  const TrajectoryScore score = score_trajectory(told, truth);
+  const TrajectoryScore score = score_trajectory(estimate, truth);
   EXPECT_NEAR(score.end, 4.0 * 2.0 * std::sin(0.05), 1e-12);
-  EXPECT_NEAR(score.ate(), 0.0, 1e-9);  // the whole way can be laid on the truth
-  EXPECT_NEAR(score.rpe(), 0.0, 1e-9);  // and so can each metre, as its first pose is turned
+  EXPECT_NEAR(score.ate(), 0.0, 1e-9);  // the whole path can be aligned with the truth
+  EXPECT_NEAR(score.rpe(), 0.0, 1e-9);  // and so can each metre, with its rotated first pose
 }
 
-TEST(TrajectoryScore, TellsHeightFromPlace) {
-  Trajectory told = straight(21, 0.1);
-  for (TimedPose& pose : told) pose.position.z() = 0.2 * pose.position.x();
-  const TrajectoryScore score = score_trajectory(told, straight(21, 0.1));
+TEST(TrajectoryScore, SeparatesHeightFromHorizontalErrors) {
+  Trajectory estimate = straight(21, 0.1);
+  for (TimedPose& pose : estimate) pose.position.z() = 0.2 * pose.position.x();
+  const TrajectoryScore score = score_trajectory(estimate, straight(21, 0.1));
   EXPECT_NEAR(score.rms(), 0.0, 1e-12);
   EXPECT_NEAR(score.error_per_metre(), 0.0, 1e-12);
   EXPECT_NEAR(score.rpe(), 0.2, 1e-12);
@@ -93,14 +93,14 @@ TEST(TrajectoryScore, TellsHeightFromPlace) {
 }
 
 TEST(TrajectoryScore, LeavesOutTheBeginning) {
-  Trajectory told = straight(31, 0.1);
-  for (std::size_t k = 0; k < 10; ++k) told[k].position.y() = 3.0;
-  EXPECT_GT(score_trajectory(told, straight(31, 0.1)).rms(), 1.0);
-  const TrajectoryScore score = score_trajectory(told, straight(31, 0.1), 10);
+  Trajectory estimate = straight(31, 0.1);
+  for (std::size_t k = 0; k < 10; ++k) estimate[k].position.y() = 3.0;
+  EXPECT_GT(score_trajectory(estimate, straight(31, 0.1)).rms(), 1.0);
+  const TrajectoryScore score = score_trajectory(estimate, straight(31, 0.1), 10);
   EXPECT_EQ(score.steps, 21);
   EXPECT_NEAR(score.rms(), 0.0, 1e-12);
   EXPECT_NEAR(score.distance, 2.0, 1e-12);
-  EXPECT_TRUE(std::isnan(score_trajectory(told, straight(31, 0.1), 31).rms()));
+  EXPECT_TRUE(std::isnan(score_trajectory(estimate, straight(31, 0.1), 31).rms()));
 }
 
 TEST(TrajectoryScore, OfSeveralRunsIsThatOfTheirSums) {
@@ -113,11 +113,11 @@ TEST(TrajectoryScore, OfSeveralRunsIsThatOfTheirSums) {
   EXPECT_NEAR(both.end_per_metre(), 0.05, 1e-12);
 }
 
-TEST(TrajectoryScore, RefusesWaysOfDifferentLength) {
+TEST(TrajectoryScore, RefusesTrajectoriesOfDifferentLength) {
   EXPECT_THROW(score_trajectory(straight(4, 1.0), straight(5, 1.0)), Error);
 }
 
-TEST(Alignment, FindsTheMotionBetweenTwoWays) {
+TEST(Alignment, FindsTheMotionBetweenTwoTrajectories) {
   Trajectory from;
   for (int k = 0; k < 20; ++k) {
     from.push_back(at(0.0, {std::cos(0.5 * k), 0.1 * k, std::sin(0.3 * k)}));
@@ -142,17 +142,17 @@ TEST(Alignment, IsNeverAMirrorImage) {
   EXPECT_LT((found * Vector3d(1, 2, 0) - Vector3d(-1, 2, 0)).norm(), 1e-12);
 }
 
-TEST(Marks, StandWhereTheWaySinceTheLastHasCome) {
-  EXPECT_THAT(marks(straight(12, 0.25), 1.0), ::testing::ElementsAre(4, 8));
-  EXPECT_THAT(marks(straight(3, 0.25), 1.0), ::testing::IsEmpty());
+TEST(SegmentEnds, AreAtMultiplesOfTheLength) {
+  EXPECT_THAT(segment_ends(straight(12, 0.25), 1.0), ::testing::ElementsAre(4, 8));
+  EXPECT_THAT(segment_ends(straight(3, 0.25), 1.0), ::testing::IsEmpty());
 }
 
 TEST(Tum, IsALinePerPoseWithTheScalarLast) {
-  const Trajectory way = {at(0.0, {1, 2, 3}), at(0.5, {0.1, 0, -4}, Quaterniond(0, 0, 0, 1)),
-                          at(1.0, {7, 8, 9}, Quaterniond(0, 1, 0, 0))};
-  EXPECT_EQ(to_tum(way),
+  const Trajectory path = {at(0.0, {1, 2, 3}), at(0.5, {0.1, 0, -4}, Quaterniond(0, 0, 0, 1)),
+                           at(1.0, {7, 8, 9}, Quaterniond(0, 1, 0, 0))};
+  EXPECT_EQ(to_tum(path),
             "# t x y z qx qy qz qw\n0 1 2 3 0 0 0 1\n0.5 0.1 0 -4 0 0 1 0\n1 7 8 9 1 0 0 0\n");
-  EXPECT_EQ(to_tum(way, 2), "# t x y z qx qy qz qw\n0 1 2 3 0 0 0 1\n1 7 8 9 1 0 0 0\n");
+  EXPECT_EQ(to_tum(path, 2), "# t x y z qx qy qz qw\n0 1 2 3 0 0 0 1\n1 7 8 9 1 0 0 0\n");
 }
 
 }  // namespace

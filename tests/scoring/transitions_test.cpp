@@ -15,7 +15,7 @@ using enum Judgement;
 
 constexpr double millisecond = 1e-3;
 
-/// Contact everywhere but in the given stretches [takeoff, landing).
+/// Contact everywhere except in the given intervals [takeoff, landing).
 ContactSequence with_flights(std::size_t steps, const std::vector<Flight>& all) {
   ContactSequence contact(steps, 1);
   for (const Flight& flight : all) {
@@ -45,14 +45,14 @@ TEST(Transitions, AnEarlyDetectionInsideTheWindowHasNegativeLatency) {
                           JudgedTransition{landing, detected, 1200, -20}));
 }
 
-TEST(Transitions, ATakeoffAnnouncedBeforeItsWindowIsMissedAndAFalseAlarm) {
+TEST(Transitions, ATakeoffPredictedBeforeItsWindowIsMissedAndAFalseAlarm) {
   EXPECT_THAT(judge(one_flight, {{939, 1200}}),
               ElementsAre(JudgedTransition{takeoff, missed, 1000, 0},
                           JudgedTransition{takeoff, false_alarm, 939, 0},
                           JudgedTransition{landing, detected, 1200, 0}));
 }
 
-TEST(Transitions, ATakeoffAnnouncedAfterTheFlightIsMissed) {
+TEST(Transitions, ATakeoffPredictedAfterTheFlightIsMissed) {
   EXPECT_THAT(judge(one_flight, {{1200, 1230}}),
               ElementsAre(JudgedTransition{takeoff, missed, 1000, 0},
                           JudgedTransition{landing, detected, 1200, 30}));
@@ -80,7 +80,7 @@ TEST(Transitions, FalseAlarmsFartherApartThanTheHoldOffCountEach) {
                           JudgedTransition{landing, false_alarm, 1261, 0}));
 }
 
-TEST(Transitions, ALandingThatIsNeverAnnouncedIsMissed) {
+TEST(Transitions, ALandingThatIsNeverPredictedIsMissed) {
   EXPECT_THAT(judge(one_flight, {{1005, 3000}}),
               ElementsAre(JudgedTransition{takeoff, detected, 1000, 5},
                           JudgedTransition{landing, missed, 1200, 0}));
@@ -90,26 +90,26 @@ TEST(Transitions, AFlightAtTheEndHasNoLandingAndCountsIfItsWindowFits) {
   EXPECT_THAT(judge({{2700, 3000}}, {{2720, 3000}}),
               ElementsAre(JudgedTransition{takeoff, detected, 2700, 20}));
   EXPECT_THAT(judge({{2700, 3000}}, {}), ElementsAre(JudgedTransition{takeoff, missed, 2700, 0}));
-  // 200 of the 250 ms in which it could be found are there: neither found nor missed.
+  // Only 200 of the 250 ms window are in the run: neither found nor missed.
   EXPECT_THAT(judge({{2800, 3000}}, {}), IsEmpty());
   EXPECT_THAT(judge({{2800, 3000}}, {{2810, 3000}}), IsEmpty());
 }
 
-TEST(Transitions, WhatHappensInTheSkippedBeginningDoesNotCount) {
+TEST(Transitions, EventsInTheSkippedBeginningDoNotCount) {
   EXPECT_THAT(judge({}, {{50, 299}}), IsEmpty());
   // The window of a takeoff at 340 would open at 280.
   EXPECT_THAT(judge({{340, 500}}, {{340, 500}}),
               ElementsAre(JudgedTransition{landing, detected, 500, 0}));
 }
 
-TEST(Transitions, AShortFlightNeedNotBeFoundAndExcusesWhoFindsIt) {
+TEST(Transitions, AShortFlightIsNeitherMissedNorAFalseAlarm) {
   EXPECT_THAT(judge({{1000, 1049}}, {}), IsEmpty());
   EXPECT_THAT(judge({{1000, 1049}}, {{1010, 1060}}), IsEmpty());
   EXPECT_EQ(judge({{1000, 1050}}, {}).size(), 2U);
 }
 
-TEST(Transitions, OneDetectionServesOneEvent) {
-  // A takeoff announced once, during the first of two flights 100 ms apart, is not the second's.
+TEST(Transitions, OnePredictionDetectsOneEvent) {
+  // A takeoff predicted once, in the first of two flights 100 ms apart, does not detect the second.
   EXPECT_THAT(judge({{1000, 1200}, {1300, 1500}}, {{1050, 1510}}),
               ElementsAre(JudgedTransition{takeoff, detected, 1000, 50},
                           JudgedTransition{takeoff, missed, 1300, 0},
@@ -123,7 +123,7 @@ TEST(Transitions, EmptyAndConstantSequencesHaveNone) {
   EXPECT_THAT(judge({{0, 3000}}, {{0, 3000}}), IsEmpty());
 }
 
-TEST(TransitionCounts, AreWhatThePaperCallsPrecisionRecallAndLatency) {
+TEST(TransitionCounts, GiveThePrecisionRecallAndLatencyOfThePaper) {
   TransitionCounts counts;
   for (const std::int64_t latency : {10, 20, 60}) {
     counts.add({takeoff, detected, 0, latency}, 1000);
@@ -137,7 +137,7 @@ TEST(TransitionCounts, AreWhatThePaperCallsPrecisionRecallAndLatency) {
   EXPECT_NEAR(counts.latency_deviation(), 1e-3 * std::sqrt(700.0), 1e-15);
 }
 
-TEST(LatencyHistogram, CountsEventsAroundItsCentresAndKeepsWhatLiesBeyond) {
+TEST(LatencyHistogram, CountsEventsAroundItsCentresAndClampsOutliers) {
   LatencyHistogram histogram;
   const auto bin_of = [](std::int64_t us) {
     LatencyHistogram one;
@@ -158,8 +158,8 @@ TEST(LatencyHistogram, CountsEventsAroundItsCentresAndKeepsWhatLiesBeyond) {
   EXPECT_EQ(histogram.events[bin_of(0)], 2);
 }
 
-/// The histogram and the sums tell of the same events: only those that were detected.
-TEST(LatencyHistogram, HoldsWhatWasDetected) {
+/// The histogram and the sums count the same events: the detected ones.
+TEST(LatencyHistogram, CountsDetectedEventsOnly) {
   TransitionCounts counts;
   counts.add({EventKind::takeoff, Judgement::detected, 100, 20}, 1000);
   counts.add({EventKind::takeoff, Judgement::detected, 200, -5}, 1000);

@@ -1,5 +1,5 @@
 """A Slurm cluster of one node on loopback: munged, slurmctld and slurmd, in a scratch folder, on
-free ports, without systemd and without touching the machine's own Slurm. Needs to be root."""
+free ports, without systemd and without affecting the machine's own Slurm. Requires root."""
 
 import os
 import pathlib
@@ -14,8 +14,8 @@ import guarded
 DAEMONS = ('munged', 'slurmctld', 'slurmd')
 COMMANDS = ('sbatch', 'scontrol', 'squeue', 'sinfo')
 
-# An empty SlurmctldParameters is fatal: what has no value is not named. A requeued task waits for
-# as long as a credential lives, two minutes by default.
+# An empty SlurmctldParameters is fatal, so options without a value are left out. A requeued task waits
+# for the lifetime of a credential, two minutes by default.
 CONFIGURATION = """ClusterName=touchdown
 SlurmctldHost=localhost(127.0.0.1)
 SlurmctldPort={controller_port}
@@ -46,13 +46,13 @@ NodeName=here NodeHostname={host} NodeAddr=127.0.0.1 CPUs={cpus} State=UNKNOWN
 PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
 
-# Nothing here uses control groups, but slurmd looks for a file system of them and refuses to start
-# where there is none, as in a bare chroot. ContactTrace which version, it does not look.
+# Control groups are not used, but slurmd looks for their file system and does not start without it, as
+# in a bare chroot. With a given version it does not look.
 CGROUPS = 'CgroupPlugin=cgroup/v1\n'
 
 
 def missing():
-    """What is needed here and is not there; empty if nothing is."""
+    """Missing requirements; empty if there are none."""
     if os.geteuid() != 0:
         return 'Slurm\'s daemons need to be started by root'
     os.environ['PATH'] += ':/usr/sbin:/sbin'
@@ -76,7 +76,7 @@ class DoesNotStart(Exception):
 
 
 class Cluster(guarded.Guarded):
-    """To be used with `with`: it runs inside, and nothing of it is left outside."""
+    """A context manager: the cluster runs inside `with`, and leaves nothing afterwards."""
 
     def __init__(self, cpus, scheduling='sched_interval=1,bf_interval=1,batch_sched_delay=0'):
         self.cpus = cpus
@@ -95,7 +95,7 @@ class Cluster(guarded.Guarded):
                     f'--socket={munge}/socket', f'--pid-file={munge}/pid',
                     f'--seed-file={munge}/seed', f'--log-file={munge}/log')
         self.wait_for('munged', lambda: (munge / 'socket').exists())
-        for _ in range(3):  # another program may have taken a port that was free
+        for _ in range(3):  # another program may take a free port meanwhile
             controller_port, node_port = free_ports(2)
             (self.folder / 'slurm.conf').write_text(CONFIGURATION.format(
                 folder=self.folder, cpus=self.cpus, host=socket.gethostname().split('.')[0],
@@ -127,6 +127,6 @@ class Cluster(guarded.Guarded):
         return ended
 
     def job(self, job):
-        """What `scontrol show job` says, by name: of one array task as '12_3'."""
+        """Fields of `scontrol show job` by name; '12_3' is one array task."""
         shown = self.run('scontrol', '-o', 'show', 'job', job, check=False).stdout
         return dict(word.split('=', 1) for word in shown.split() if '=' in word)

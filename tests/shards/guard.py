@@ -1,10 +1,10 @@
-"""Holds what a test starts, and leaves nothing of it behind.
+"""Parent of all processes that a test starts; it leaves none of them behind.
 
     guard.py FOLDER
 
-Starts what it is told to, one JSON list of arguments per line on standard input, and answers with
-the process id. When standard input ends, because the test is over or because it was killed, it
-kills everything that descends from what it started, daemons included, and removes FOLDER.
+Reads one JSON list of arguments per line from standard input, starts that process and prints its id.
+When standard input ends, because the test is over or was killed, it kills all descendants of these
+processes, daemons included, and removes FOLDER.
 """
 
 import ctypes
@@ -22,18 +22,18 @@ PR_SET_CHILD_SUBREAPER = 36
 libc = ctypes.CDLL(None, use_errno=True)
 
 
-HURRY = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+END_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def prepare():
-    """In a child: it does not outlive the guard, and what the guard ignores may end it."""
+    """In a child: it does not outlive the guard, and the signals that the guard ignores end it."""
     libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-    for hurry in HURRY:
-        signal.signal(hurry, signal.SIG_DFL)
+    for number in END_SIGNALS:
+        signal.signal(number, signal.SIG_DFL)
 
 
 def start(arguments, folder):
-    """A child with a log of its own."""
+    """Starts a child with its own log."""
     log = folder / (pathlib.Path(arguments[0]).name + '.out')
     with open(log, 'ab') as output:
         return subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=output, stderr=output,
@@ -48,7 +48,7 @@ def descendants():
                 after_name = (entry / 'stat').read_text().rpartition(')')[2].split()
                 parents[int(entry.name)] = int(after_name[1])
             except OSError:
-                pass  # it is gone
+                pass  # the process has ended
     found, new = set(), {os.getpid()}
     while new:
         new = {pid for pid, parent in parents.items() if parent in new} - found
@@ -57,7 +57,7 @@ def descendants():
 
 
 def reap():
-    """Takes note of every child that has ended; whether there are others."""
+    """Reaps every child that has ended. Returns whether there are others."""
     try:
         while os.waitpid(-1, os.WNOHANG)[0]:
             pass
@@ -67,7 +67,7 @@ def reap():
 
 
 def kill_all():
-    """Orphans become the guard's children: when it has none left, nothing is left."""
+    """Kills all descendants. Orphans become the guard's children, so none is left when it has none."""
     for _ in range(200):
         for pid in descendants():
             try:
@@ -82,8 +82,8 @@ def kill_all():
 def main():
     folder = pathlib.Path(sys.argv[1])
     libc.prctl(PR_SET_CHILD_SUBREAPER, 1)
-    for hurry in HURRY:
-        signal.signal(hurry, signal.SIG_IGN)  # standard input ends then too
+    for number in END_SIGNALS:
+        signal.signal(number, signal.SIG_IGN)  # standard input ends then too
     signal.signal(signal.SIGCHLD, lambda *_: reap())
     try:
         for line in sys.stdin:

@@ -1,4 +1,4 @@
-"""What the tests of shards share: a scratch folder whose processes do not outlive the test."""
+"""Shared by the tests of shards: a scratch folder with processes that do not outlive the test."""
 
 import json
 import os
@@ -10,8 +10,8 @@ import time
 
 
 class Guarded:
-    """To be used with `with`: a folder, and processes that end with it, even if the test is killed
-    (see guard.py)."""
+    """A context manager: a folder, and processes that end with it, even if the test is killed (see
+    guard.py)."""
 
     def __enter__(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix='touchdown_shards_'))
@@ -36,13 +36,13 @@ class Guarded:
         self.guard.wait()
 
     def prepare(self):
-        """Before anything is started: what all processes find in their environment."""
+        """Sets the environment of all processes, before any is started."""
 
     def start(self):
-        """What has to run before the test begins."""
+        """Starts the processes that the test needs."""
 
     def process(self, *arguments):
-        """Starts it, and returns its id."""
+        """Starts a process and returns its id."""
         self.guard.stdin.write(json.dumps([str(a) for a in arguments]) + '\n')
         self.guard.stdin.flush()
         return int(self.guard.stdout.readline())

@@ -1,5 +1,5 @@
-"""Runs a small experiment by the recipe for GNU parallel in docs/shards.md, on this machine alone:
-every file has to be that of a run in one piece.
+"""Runs a small experiment by the recipe for GNU parallel in docs/shards.md, on this machine only:
+every file must equal that of a single run.
 
     parallel_test.py TOUCHDOWN
 
@@ -18,19 +18,19 @@ from work import check
 
 def test(folder, touchdown):
     work.write_experiment(folder.work, runs=2, seeds=4)
-    said = folder.run(work.recipe('GNU parallel', experiment='tiny.yaml', out='out', shards='3',
+    output = folder.run(work.recipe('GNU parallel', experiment='tiny.yaml', out='out', shards='3',
                                   hosts=':'))
     for shard in (1, 2, 3):
-        check(f'shard {shard}/3: ' in said, said)
+        check(f'shard {shard}/3: ' in output, output)
     work.compare_with_local_run(folder.work / 'out', touchdown, folder.work)
-    said = folder.run(work.recipe('GNU parallel', experiment='tiny.yaml', out='out', shards='3',
+    output = folder.run(work.recipe('GNU parallel', experiment='tiny.yaml', out='out', shards='3',
                                   hosts=':'))
-    check(said.count(' 0 computed now') == 3, f'something was computed twice: {said}')
+    check(output.count(' 0 computed now') == 3, f'something was computed twice: {output}')
 
-    # A shard that fails is no result: the merge is not even tried.
-    said = folder.run(work.recipe('GNU parallel', experiment='tinny.yaml', out='no', shards='2',
+    # After a failed shard, the merge is not started.
+    output = folder.run(work.recipe('GNU parallel', experiment='tinny.yaml', out='no', shards='2',
                                   hosts=':'), fails=True)
-    check('tinny.yaml: no such file' in said and 'merge' not in said, said)
+    check('tinny.yaml: no such file' in output and 'merge' not in output, output)
 
 
 def main():

@@ -1,4 +1,4 @@
-"""A folder in which recipes of docs/shards.md are run, with the program in the path."""
+"""A folder that runs recipes of docs/shards.md, with the program in the path."""
 
 import os
 import pathlib
@@ -8,7 +8,7 @@ import guarded
 
 
 class Recipes(guarded.Guarded):
-    """To be used with `with`."""
+    """A context manager."""
 
     def __init__(self, touchdown):
         self.touchdown = touchdown
@@ -18,10 +18,10 @@ class Recipes(guarded.Guarded):
         self.work = self.folder / 'work'
         self.bin.mkdir()
         self.work.mkdir()
-        # No link: the program finds its files, and knows its build, by where it is.
+        # No link: the program finds its files and its build relative to its own location.
         self.script('touchdown', f'exec \'{self.touchdown}\' "$@"')
         self.environment['PATH'] = f'{self.bin}:{self.environment["PATH"]}'
-        # GNU parallel asks for a citation once in every home, and keeps its notes there.
+        # GNU parallel asks for a citation once in every home, and saves the answer there.
         self.environment['PARALLEL_HOME'] = str(self.folder / 'parallel')
         (self.folder / 'parallel').mkdir()
         (self.folder / 'parallel' / 'will-cite').touch()
@@ -32,7 +32,7 @@ class Recipes(guarded.Guarded):
         (self.bin / name).chmod(0o755)
 
     def begin(self, recipe):
-        """Starts it, as the leader of a group of processes. Returns its process."""
+        """Starts a recipe as the leader of a process group. Returns its process."""
         self.count += 1
         name = f'recipe_{self.count}'
         (self.folder / f'{name}.sh').write_text(recipe)
@@ -42,27 +42,27 @@ class Recipes(guarded.Guarded):
         return self.process('/usr/bin/setsid', '--wait', self.bin / name)
 
     def end(self):
-        """Waits for what was begun last. Returns how it ended, and what it said."""
+        """Waits for the last recipe. Returns its exit status and its output."""
         status = self.folder / f'recipe_{self.count}.status'
         self.wait_for('the recipe', status.exists, 200)
-        # The guard names logs after what it starts, and appends.
+        # The guard names a log after its program, and appends.
         log = self.folder / 'setsid.out'
-        said = log.read_text(errors='replace')
+        output = log.read_text(errors='replace')
         log.rename(self.folder / f'recipe_{self.count}.log')
-        print(said, end='')
-        return int(status.read_text()), said
+        print(output, end='')
+        return int(status.read_text()), output
 
     def run(self, recipe, fails=False):
-        """What the commands say, all together."""
+        """Runs a recipe and returns the output of all its commands."""
         self.begin(recipe)
-        status, said = self.end()
+        status, output = self.end()
         if (status != 0) != fails:
-            raise AssertionError(f'ended with {status}\n{said}')
-        return said
+            raise AssertionError(f'ended with {status}\n{output}')
+        return output
 
 
 def processes_in(folder):
-    """Those of the program that work in this folder or below it."""
+    """Processes of the program with a working directory in this folder or below it."""
     found = []
     for entry in pathlib.Path('/proc').iterdir():
         try:
@@ -70,12 +70,12 @@ def processes_in(folder):
             if entry.name.isdigit() and inside and b'\0--shard\0' in (entry / 'cmdline').read_bytes():
                 found.append(int(entry.name))
         except OSError:
-            pass  # it is gone, or somebody else's
+            pass  # the process has ended, or belongs to another user
     return found
 
 
 def interrupt(process):
-    """Ctrl-C in the terminal of what `begin` started."""
+    """Stops a recipe of `begin`, as Ctrl-C in its terminal does."""
     children = pathlib.Path(f'/proc/{process}/task/{process}/children').read_text().split()
     for leader in children or [process]:
         os.killpg(os.getpgid(int(leader)), signal.SIGTERM)

@@ -1,6 +1,6 @@
-"""Runs a small experiment as an array job on a real Slurm cluster of its own (see cluster.py). In
-the middle of their work one task is killed, one is requeued, and one runs out of time; every file
-has to be that of an undisturbed run without Slurm.
+"""Runs a small experiment as an array job on its own Slurm cluster (see cluster.py). During their work
+one task is killed, one is requeued, and one runs out of time. Every file must equal that of an
+undisturbed run without Slurm.
 
     slurm_test.py TOUCHDOWN
 
@@ -23,7 +23,7 @@ from work import check
 SUBMIT = pathlib.Path(__file__).resolve().parents[2] / 'scripts' / 'slurm' / 'submit.sh'
 SHARDS = 3
 PARTS = 80  # of each shard
-# The program, but a shard's first attempt waits for the test before it begins.
+# A wrapper of the program: a shard's first attempt stops until the test continues it.
 PROGRAM = """#!/bin/sh
 case "${{SLURM_RESTART_COUNT:-first}} $*" in
   first*--shard*) kill -STOP $$ ;;
@@ -33,16 +33,16 @@ exec '{program}' "$@"
 
 
 def stopped_process_of(shard, folder):
-    """The touchdown in this folder that is to compute this shard and is stopped, or None."""
-    asked = f'\0--shard\0{shard}/{SHARDS}\0'.encode()
+    """The stopped process of the program that computes this shard in this folder, or None."""
+    arguments = f'\0--shard\0{shard}/{SHARDS}\0'.encode()
     for entry in pathlib.Path('/proc').iterdir():
         try:
             if (entry.name.isdigit() and os.readlink(entry / 'cwd') == str(folder)
-                    and asked in (entry / 'cmdline').read_bytes()
+                    and arguments in (entry / 'cmdline').read_bytes()
                     and (entry / 'stat').read_text().rpartition(')')[2].split()[0] == 'T'):
                 return int(entry.name)
         except OSError:
-            pass  # it is gone
+            pass  # the process has ended
     return None
 
 
@@ -51,23 +51,23 @@ class Array:
 
     def __init__(self, slurm, folder):
         self.slurm, self.folder = slurm, folder
-        said = slurm.run(SUBMIT, 'tiny.yaml', SHARDS, '--cpus-per-task=1', cwd=folder).stdout
-        print(said, end='')
+        output = slurm.run(SUBMIT, 'tiny.yaml', SHARDS, '--cpus-per-task=1', cwd=folder).stdout
+        print(output, end='')
         self.job, self.merge, results = re.search(
             rf'^array +(\d+): {SHARDS} tasks, {PARTS} to {PARTS} of 240 parts each\n'
-            r'merge +(\d+):.*\nresults +(\S+)\n', said).groups()
+            r'merge +(\d+):.*\nresults +(\S+)\n', output).groups()
         self.results = folder / results
 
     def parts(self, shard):
-        """How many of a shard's parts are saved."""
+        """Number of a shard's parts that are saved."""
         done = {path.name for path in (self.results / 'state' / 'evaluation').glob('[!.]*')}
         every = [f'{engine}_step_test_{run:03}_seed_{seed:04}'
                  for engine in ('mujoco', 'bullet') for run in range(3) for seed in range(40)]
         return len(done.intersection(every[PARTS * (shard - 1):PARTS * shard]))
 
     def in_the_middle(self, shard):
-        """Lets a shard's process work until some of it is saved, and stops it there. Returns the
-        process and how much is saved."""
+        """Lets a shard's process work until some parts are saved, and stops it there. Returns the
+        process and the number of saved parts."""
         self.slurm.wait_for(f'shard {shard}', lambda: stopped_process_of(shard, self.folder))
         process = stopped_process_of(shard, self.folder)
         while self.parts(shard) < 2:
@@ -92,7 +92,7 @@ class Array:
 
 
 def check_errors(slurm, folder):
-    """What is wrong is said in one line, before anything is submitted."""
+    """Errors are reported in one line, before anything is submitted."""
     def complaint(*arguments, **environment):
         ended = subprocess.run([str(a) for a in (SUBMIT, *arguments)], cwd=folder, text=True,
                                capture_output=True, env={**slurm.environment, **environment})
@@ -124,15 +124,15 @@ def test(slurm, touchdown):
     array = Array(slurm, folder)
     stopped = {shard: array.in_the_middle(shard) for shard in (1, 2, 3)}
     os.kill(stopped[1][0], signal.SIGKILL)
-    # As when its node fails, or a job of more importance takes its place.
+    # As when its node fails, or a job of higher priority takes its place.
     slurm.run('scontrol', 'requeue', f'{array.job}_2')
-    # What Slurm sends a minute before a task's time is over.
+    # The signal that Slurm sends a minute before a task's time is over.
     slurm.run('scancel', '--batch', '--signal=USR1', f'{array.job}_3')
     for shard in (2, 3):
         try:
             os.kill(stopped[shard][0], signal.SIGCONT)
         except ProcessLookupError:
-            pass  # Slurm did so before it ended it
+            pass  # Slurm continued the process before it ended it
     for shard in stopped:
         array.wait_for_restart(shard)
 
@@ -142,8 +142,8 @@ def test(slurm, touchdown):
         print(f'--- shard {shard}, stopped after {saved} parts\n{logs[shard]}', end='')
         computed = int(re.search(rf'shard {shard}/3: {PARTS} parts, (\d+) computed', logs[shard])[1])
         check(0 < computed <= PARTS - saved, f'{computed} were computed, {saved} were saved before')
-    check('killed by signal 9; back to the queue' in logs[1], 'the killed task does not say so')
-    check('out of time; back to the queue' in logs[3], 'the task out of time does not say so')
+    check('killed by signal 9; back to the queue' in logs[1], 'the killed task does not report it')
+    check('out of time; back to the queue' in logs[3], 'the task out of time does not report it')
     check(array.state(array.merge) == 'COMPLETED', array.log(f'merge_{array.merge}.txt'))
 
     work.compare_with_local_run(array.results, touchdown, folder)

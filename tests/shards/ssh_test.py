@@ -1,9 +1,9 @@
-"""Runs a small experiment by the two recipes for ssh in docs/shards.md, against a server of its own
-on loopback: every file has to be that of a run in one piece.
+"""Runs a small experiment by the two recipes for ssh in docs/shards.md, with its own server on
+loopback: every file must equal that of a single run.
 
     ssh_test.py TOUCHDOWN
 
-Exit code 77: there is no ssh, no sshd or no rsync here, or sshd does not start or lets nobody in.
+Exit code 77: there is no ssh, no sshd or no rsync here, or sshd does not start or refuses logins.
 """
 
 import getpass
@@ -22,7 +22,7 @@ from work import check
 HOSTS = ('node1', 'node2', 'node3')
 SEEDS = 60
 PARTS = 2 * SEEDS  # of each shard: three runs in two engines
-# Whoever runs the test is the only one who may come in, by one key, from this machine.
+# Only the user who runs the test may log in, with one key, from this machine.
 SERVER = """ListenAddress 127.0.0.1
 Port {port}
 HostKey {folder}/host_key
@@ -52,19 +52,19 @@ CLIENT = """Host {hosts}
 
 
 class DoesNotStart(Exception):
-    """What is needed is installed, but does not run in this environment."""
+    """The required programs are installed, but do not run in this environment."""
 
 
 class Hosts(recipes.Recipes):
-    """Three names of this machine, which `ssh` knows without a password."""
+    """Three host names of this machine, for `ssh` without a password."""
 
     def start(self):
         for name in ('host_key', 'client_key'):
             subprocess.run(['ssh-keygen', '-q', '-t', 'ed25519', '-N', '', '-C', name,
                             '-f', self.folder / name], check=True)
-        if os.geteuid() == 0:  # as its service would make it
+        if os.geteuid() == 0:  # normally created by its service
             pathlib.Path('/run/sshd').mkdir(mode=0o755, exist_ok=True)
-        for _ in range(3):  # another program may have taken a port that was free
+        for _ in range(3):  # another program may take a free port meanwhile
             values = {'folder': self.folder, 'port': cluster.free_ports(1)[0],
                       'user': getpass.getuser(), 'hosts': ' '.join(HOSTS),
                       'path': self.environment['PATH']}
@@ -72,8 +72,8 @@ class Hosts(recipes.Recipes):
             (self.folder / 'ssh_config').write_text(CLIENT.format(**values))
             key = (self.folder / 'host_key.pub').read_text()
             (self.folder / 'known_hosts').write_text(f'[127.0.0.1]:{values["port"]} {key}')
-            # Each name has a home of its own, as another machine would: what a recipe runs there
-            # starts in it.
+            # Each host name has its own home, like another machine. Remote commands of a recipe start
+            # in it.
             self.script('ssh', self.client())
             server = self.process(shutil.which('sshd'), '-D', '-e', '-f',
                                   self.folder / 'sshd_config')
@@ -82,11 +82,11 @@ class Hosts(recipes.Recipes):
         raise DoesNotStart('sshd does not start\n' + self.logs())
 
     def client(self):
-        """`ssh` with our configuration, which goes to the home of the host that is named."""
+        """A wrapper of `ssh` with the test's configuration, which starts in the home of the named host."""
         homes = '\n'.join(f'mkdir -p \'{self.folder}/home_{host}\'' for host in HOSTS)
         return f'''{homes}
 words=("$@")
-{'' if os.geteuid() == 0 else 'words=("${words[@]/#-tt/-T}") # a terminal is for root to give'}
+{'' if os.geteuid() == 0 else 'words=("${words[@]/#-tt/-T}") # only root may allocate a terminal'}
 for ((i = 0; i < ${{#words[@]}}; i++)); do
   case "${{words[i]}}" in
     {'|'.join(HOSTS)})
@@ -100,15 +100,15 @@ done
 exec '{shutil.which('ssh')}' -F '{self.folder}/ssh_config' "${{words[@]}}"'''
 
     def answers(self, server):
-        """Whether somebody can come in; False if the server is gone."""
+        """Waits until a login works; False if the server has ended."""
         end = time.monotonic() + 20.0
         while pathlib.Path(f'/proc/{server}').exists():
-            said = subprocess.run([self.bin / 'ssh', HOSTS[0], 'command -v touchdown'], text=True,
+            output = subprocess.run([self.bin / 'ssh', HOSTS[0], 'command -v touchdown'], text=True,
                                   capture_output=True, env=self.environment, check=False)
-            if said.stdout.strip() == str(self.bin / 'touchdown'):
+            if output.stdout.strip() == str(self.bin / 'touchdown'):
                 return True
             if time.monotonic() > end:
-                raise DoesNotStart('sshd lets nobody in: ' + said.stderr + self.logs())
+                raise DoesNotStart('sshd refuses logins: ' + output.stderr + self.logs())
             time.sleep(0.1)
         return False
 
@@ -119,13 +119,13 @@ def shared(**changes):
 
 
 def stop_in_the_middle(hosts):
-    """As by Ctrl-C: nothing goes on over there."""
+    """Stops the recipe as Ctrl-C does: remote shards must stop too."""
     loop = hosts.begin(shared())
-    listening = hosts.work / 'out' / 'state' / 'evaluation'
-    hosts.wait_for('some work to be done', lambda: len(list(listening.glob('[!.]*'))) > 3)
+    evaluation = hosts.work / 'out' / 'state' / 'evaluation'
+    hosts.wait_for('some work to be done', lambda: len(list(evaluation.glob('[!.]*'))) > 3)
     recipes.interrupt(loop)
     hosts.wait_for('the shards to stop', lambda: not recipes.processes_in(hosts.work), 20)
-    saved = len(list(listening.glob('[!.]*')))
+    saved = len(list(evaluation.glob('[!.]*')))
     check(3 < saved < 3 * PARTS, f'{saved} of {3 * PARTS} parts: it was over before it could be stopped')
     print(f'stopped after {saved} parts')
 
@@ -134,27 +134,27 @@ def test(hosts, touchdown):
     work.write_experiment(hosts.work, runs=3, seeds=SEEDS)
     if os.geteuid() == 0:
         stop_in_the_middle(hosts)
-    said = hosts.run(shared())
+    output = hosts.run(shared())
     for shard in (1, 2, 3):
-        check(f'shard {shard}/3: {PARTS} parts' in said, said)
+        check(f'shard {shard}/3: {PARTS} parts' in output, output)
     work.compare_with_local_run(hosts.work / 'out', touchdown, hosts.work)
 
-    said = hosts.run(shared(out='no', experiment='tinny.yaml'), fails=True)
-    check('tinny.yaml: no such file' in said and 'merge' not in said, said)
+    output = hosts.run(shared(out='no', experiment='tinny.yaml'), fails=True)
+    check('tinny.yaml: no such file' in output and 'merge' not in output, output)
 
-    # GNU parallel by ssh, if it is here, to hosts that work at the same time.
+    # GNU parallel over ssh, if it is installed, with hosts in parallel.
     if shutil.which('parallel'):
-        said = hosts.run(work.recipe('GNU parallel', experiment='tiny.yaml', out='parallel',
+        output = hosts.run(work.recipe('GNU parallel', experiment='tiny.yaml', out='parallel',
                                      shards='5', hosts='node1,node2'))
-        check(said.count('computed now') == 5, said)
+        check(output.count('computed now') == 5, output)
         work.compare_with_local_run(hosts.work / 'parallel', touchdown, hosts.work)
 
-    # Folders that are not shared: each host sees but its own.
+    # Folders that are not shared: each host has only its own.
     alone = hosts.folder / 'alone'
     alone.mkdir()
     for name in ('step.yaml', 'tiny.yaml'):
         shutil.copy(hosts.work / name, alone)
-    said = hosts.run(f'cd \'{alone}\'\n' + work.recipe(
+    output = hosts.run(f'cd \'{alone}\'\n' + work.recipe(
         'ssh, without a shared folder', experiment='tiny.yaml', out='out',
         hosts='(node1 node2 node3)', there='shards'))
     for shard, host in enumerate(HOSTS, 1):

@@ -1,4 +1,4 @@
-"""A small experiment, and what has to be equal of two runs of it."""
+"""A small experiment, and the comparison of two runs of it."""
 
 import hashlib
 import re
@@ -34,13 +34,13 @@ def check(good, what):
 
 
 def results_in(path):
-    """All of a file but how it was computed, which the report tells at its end."""
+    """The content of a file without the section of the report on how it was computed."""
     content = path.read_bytes()
     return content.partition(b'id="reproduce"')[0] if path.name == 'report.html' else content
 
 
 def checksums(directory):
-    """Of all results, by name. The manifest tells times and host, state/ and logs/ of the way."""
+    """Checksums of all results by name, without the manifest, state/ and logs/, which contain times."""
     return {str(path.relative_to(directory)): hashlib.sha256(results_in(path)).hexdigest()
             for path in directory.rglob('*')
             if path.is_file() and path.name != 'manifest.json'
@@ -48,28 +48,28 @@ def checksums(directory):
 
 
 def write_experiment(folder, runs, seeds):
-    """tiny.yaml, of `runs` runs in two engines, each heard under `seeds` seeds."""
+    """Writes tiny.yaml: `runs` runs in two engines, each evaluated with `seeds` noise seeds."""
     (folder / 'step.yaml').write_text(SCENARIO)
     (folder / 'tiny.yaml').write_text(
         EXPERIMENT.replace('{runs}', str(runs)).replace('{seeds}', str(seeds)))
 
 
 def compare_with_local_run(results, touchdown, folder):
-    """Complains of every file in `results` that is not the one of a run in one piece."""
+    """Checks that every file in `results` equals that of a single run."""
     local = folder / 'local'
     if not local.exists():
         subprocess.run([touchdown, 'run', 'tiny.yaml', '--out', local], cwd=folder, check=True,
                        stdout=subprocess.DEVNULL)
-    ours, theirs = checksums(results), checksums(local)
-    check(len(theirs) > 20 and 'tables/success.csv' in theirs, theirs)
-    different = {name for name in ours.keys() | theirs.keys() if ours.get(name) != theirs.get(name)}
+    found, expected = checksums(results), checksums(local)
+    check(len(expected) > 20 and 'tables/success.csv' in expected, expected)
+    different = {name for name in found.keys() | expected.keys() if found.get(name) != expected.get(name)}
     check(not different, f'not the files of a local run: {sorted(different)}')
-    print(f'{len(ours)} files are those of a local run')
+    print(f'{len(found)} files are those of a local run')
 
 
 def recipe(title, **variables):
-    """The commands that docs/shards.md shows under this title, with other values for the variables
-    of their first line."""
+    """The commands under this title in docs/shards.md, with other values for the variables of their
+    first line."""
     text = (pathlib.Path(__file__).resolve().parents[2] / 'docs' / 'shards.md').read_text()
     lines = re.search(rf'^## {re.escape(title)}$.*?^```bash\n(.*?)^```$', text, re.M | re.S)[1]
     first, rest = lines.split('\n', 1)

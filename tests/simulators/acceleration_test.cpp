@@ -5,7 +5,7 @@ namespace {
 
 using Accelerations = Eigen::Matrix<double, 6 + models::servo_count, 1>;
 
-/// Of the base (linear, angular) and the joints, over one microsecond.
+/// Accelerations of the base (linear, angular) and the joints, over one microsecond.
 Accelerations accelerations(Simulator& simulator, const RobotState& start,
                             const JointTorques& torque) {
   simulator.reset(start);

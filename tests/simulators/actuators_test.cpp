@@ -16,8 +16,8 @@ using models::Servo;
 
 constexpr std::size_t left_wheel = models::index(Servo::left_wheel);
 
-/// Weightless, from the left upper leg up too heavy to move: what the left knee and wheel do is
-/// their own doing.
+/// Without gravity, and with a base and left upper leg too heavy to move: only the left lower leg
+/// and wheel move.
 void hold_all_but_a_lower_leg(models::RobotModel& robot) {
   without_gravity(robot);
   const int lower = robot.mj->body_parentid[robot.mj->geom_bodyid[robot.tyre_geom[0]]];
@@ -27,7 +27,7 @@ void hold_all_but_a_lower_leg(models::RobotModel& robot) {
   }
 }
 
-/// The wheel's inertia about its axle (kg·m²), with its centre put there.
+/// Puts the wheel's centre of mass on its axle and returns its inertia about it (kg·m²).
 double centred_wheel(models::RobotModel& robot) {
   const int body = robot.mj->geom_bodyid[robot.tyre_geom[0]];
   robot.mj->body_ipos[3 * body] = robot.mj->body_ipos[3 * body + 2] = 0.0;
@@ -36,7 +36,7 @@ double centred_wheel(models::RobotModel& robot) {
   return (axes * inertia.asDiagonal() * axes.transpose())(1, 1);
 }
 
-/// With these actuators, as the compiler of models puts them into the model.
+/// Sets the actuator of a servo, as compiling a robot file does.
 void set(models::RobotModel& robot, std::size_t servo, const Actuator& actuator) {
   robot.actuator[servo] = actuator;
   robot.mj->dof_armature[robot.dof_address[servo]] = actuator.armature;
@@ -45,7 +45,7 @@ void set(models::RobotModel& robot, std::size_t servo, const Actuator& actuator)
 
 class Actuated : public EveryEngine {
  protected:
-  /// The left wheel alone in weightlessness.
+  /// The left wheel alone, without gravity.
   std::unique_ptr<Simulator> wheel_with(const Actuator& actuator, double velocity = 0.0) {
     const auto model = upkie([&](models::RobotModel& robot) {
       hold_all_but_a_lower_leg(robot);
@@ -76,7 +76,7 @@ class Actuated : public EveryEngine {
 
 TEST_P(Actuated, WheelIsSlowedDownEvenlyByCoulombFriction) {
   const auto simulator = wheel_with({.friction = 0.01, .presliding_stiffness = 20.0}, 50.0);
-  push(*simulator, 0.0, 200);  // in some ten milliseconds the presliding is over
+  push(*simulator, 0.0, 200);  // presliding ends after some ten milliseconds
   const double before = spin(*simulator);
   push(*simulator, 0.0, 300);
   EXPECT_NEAR(before - spin(*simulator), 0.3 * 0.01 / inertia_, 1e-3 * 0.3 * 0.01 / inertia_);
@@ -87,23 +87,23 @@ TEST_P(Actuated, WheelDoesNotCreepUnderLessThanItsFriction) {
   const auto simulator = wheel_with(actuator);
   push(*simulator, 0.008, 1000);
   const double settled = simulator->state().joint_position[left_wheel];
-  EXPECT_NEAR(settled, 0.008 / 20.0, 1e-6) << "where the presliding's spring holds it";
+  EXPECT_NEAR(settled, 0.008 / 20.0, 1e-6) << "at the equilibrium of the presliding spring";
   push(*simulator, 0.008, 2000);
   EXPECT_NEAR(simulator->state().joint_position[left_wheel], settled, 1e-9);
   push(*simulator, 0.012, 1000);
-  EXPECT_GT(spin(*simulator), 0.1) << "more than friction moves it";
+  EXPECT_GT(spin(*simulator), 0.1) << "it moves under more than friction";
 }
 
-TEST_P(Actuated, WheelFallsAsleepExponentiallyInViscousFriction) {
+TEST_P(Actuated, WheelSlowsDownExponentiallyByViscousFriction) {
   const double viscous = 1e-3;
   const auto simulator = wheel_with({.viscous = viscous}, 30.0);
   push(*simulator, 0.0, 300);
-  const double each = 1.0 - 1e-3 * viscous / inertia_;  // of the explicit step
+  const double each = 1.0 - 1e-3 * viscous / inertia_;  // per explicit step
   EXPECT_NEAR(spin(*simulator), 30.0 * std::pow(each, 300), 1e-3 * 30.0);
   EXPECT_NEAR(spin(*simulator), 30.0 * std::exp(-0.3 * viscous / inertia_), 0.05);
 }
 
-TEST_P(Actuated, RotorResistsAsItsInertiaDoes) {
+TEST_P(Actuated, RotorAddsItsInertia) {
   const double rotor = 0.003;
   const auto simulator = wheel_with({.armature = rotor});
   push(*simulator, 0.5, 100);
@@ -120,7 +120,7 @@ TEST_P(Actuated, TorqueLagsBehindItsCommandAsAFirstOrderSystem) {
   }
 }
 
-TEST_P(Actuated, CommandsArriveLaterByWholeSteps) {
+TEST_P(Actuated, CommandsAreDelayedByWholeSteps) {
   const auto simulator = wheel_with({.command_delay = 0.003});
   push(*simulator, 0.1, 10);
   for (int k = 0; k < 3; ++k) {
@@ -131,10 +131,10 @@ TEST_P(Actuated, CommandsArriveLaterByWholeSteps) {
   EXPECT_EQ(simulator->observation().servo[left_wheel].torque, 0.2);
   simulator->reset(at_height(5.0));
   push(*simulator, 0.3, 1);
-  EXPECT_EQ(simulator->observation().servo[left_wheel].torque, 0.3) << "a reset forgets";
+  EXPECT_EQ(simulator->observation().servo[left_wheel].torque, 0.3) << "a reset clears the delay";
 }
 
-TEST_P(Actuated, ServoReportsWhatItBelievesAndTruthSaysWhatTheJointFeels) {
+TEST_P(Actuated, ServoReportsItsTorqueAndTruthTheAppliedTorque) {
   const Actuator actuator{
       .maximum_torque = 0.5, .ripple = 0.02, .ripple_cycles = 7.0, .torque_error = 0.1};
   const auto simulator = wheel_with(actuator);
@@ -150,7 +150,7 @@ TEST_P(Actuated, ServoReportsWhatItBelievesAndTruthSaysWhatTheJointFeels) {
   EXPECT_GT(std::abs(position), 1.0);
 }
 
-TEST_P(Actuated, AnIdealOneHasNoTruthOfItsOwn) {
+TEST_P(Actuated, AnIdealActuatorHasNoSeparateTruth) {
   const auto simulator = wheel_with({});
   push(*simulator, 0.1, 3);
   EXPECT_FALSE(simulator->ground_truth().joint_torque);
@@ -160,17 +160,17 @@ TEST_P(Actuated, StiffPreslidingOfALightJointStaysStable) {
   const auto simulator = wheel_with({.friction = 0.05, .presliding_stiffness = 1e5}, 5.0);
   push(*simulator, 0.0, 3000);
   EXPECT_LT(std::abs(spin(*simulator)), 5.0);
-  EXPECT_LT(std::abs(simulator->state().joint_position[left_wheel]), 1.0) << "it came to rest";
+  EXPECT_LT(std::abs(simulator->state().joint_position[left_wheel]), 1.0) << "at rest";
 }
 
-/// Every joint of a robot in free flight.
+/// Sets every actuator of a robot without gravity.
 void all_joints(models::RobotModel& robot, const Actuator& leg, const Actuator& of_wheel) {
   without_gravity(robot);
   for (std::size_t i = 0; i < models::servo_count; ++i) set(robot, i, i % 3 == 2 ? of_wheel : leg);
 }
 
-/// The largest difference between the engines' joint and base velocities relative to the largest
-/// velocity of all, while sine torques play.
+/// The largest difference between the engines' joint and base velocities under sine torques,
+/// relative to the largest velocity.
 double disagreement(const std::shared_ptr<const models::RobotModel>& model) {
   const SimulatorOptions options = steps_of(100);
   const auto mujoco = make_simulator("mujoco", model, options);
@@ -204,7 +204,7 @@ TEST_P(Actuated, RobotOnStiffLegsStandsWithHeavyRotors) {
       if (i % 3 != 2) set(robot, i, {.armature = 0.003});
     }
   });
-  for (const double hip : {0.0, 0.455}) {  // straight legs ring first
+  for (const double hip : {0.0, 0.455}) {  // straight legs oscillate first
     const auto simulator = make(model);
     RobotState start = upright();
     start.joint_position = {hip, 1.7385 * hip, 0.0, -hip, -1.7385 * hip, 0.0};

@@ -7,8 +7,8 @@
 
 namespace touchdown::simulators {
 
-/// What mechanics conserves, summed over the robot's bodies by textbook kinematics from the numbers
-/// of the compiled model: an oracle that shares no code with either engine.
+/// Quantities that mechanics conserves, summed over the robot's bodies by textbook kinematics from
+/// the numbers of the compiled model. It shares no code with either engine.
 struct Motion {
   double mass = 0.0;                                         ///< kg
   Eigen::Vector3d centre_of_mass = Eigen::Vector3d::Zero();  ///< in the world (m)

@@ -8,7 +8,7 @@ namespace {
 
 const models::Terrain stairs = {.pieces = {models::Flat{3.0}, models::StairFlight{}}};
 
-TEST(CollisionModel, KeepsExactlyWhatCanTouch) {
+TEST(CollisionModel, KeepsExactlyTheGeomsThatCollide) {
   const auto robot = upkie({}, stairs);
   const mjModel& full = *robot->mj;
   const models::MjModelPtr lean = collision_model(full);
@@ -59,7 +59,7 @@ TEST(CollisionModel, StepsToTheSameBitsAsTheFullModel) {
       ASSERT_EQ(full->qpos[j], simulator.engine_data().qpos[j]) << "step " << i;
     }
   }
-  EXPECT_GT(most_contacts, 2);  // it tumbled
+  EXPECT_GT(most_contacts, 2);  // the robot tumbled
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ TEST_P(Contact, StandingWheelsCarryTheWeight) {
   EXPECT_NEAR(truth.wheel_normal_force[0] + truth.wheel_normal_force[1], weight, 1e-7 * weight);
   EXPECT_NEAR(truth.wheel_normal_force[0], 0.5 * weight, 0.02 * weight);
   EXPECT_FALSE(truth.body_touches_terrain);
-  // Soft ground gives, but not much.
+  // Soft ground gives way, but little.
   EXPECT_NEAR(simulator->state().position.z(), 0.557, 1.5e-3);
 }
 
@@ -28,7 +28,7 @@ TEST_P(Contact, TheForceIsAveragedOverTheControlStep) {
   start.position.z() += 0.05;
   coarse->reset(start);
   fine->reset(start);
-  // Held servos are not the same as refreshed ones, hence limp legs: they fold alike.
+  // The legs are limp, because servos that update at different rates differ.
   double largest = 0.0;
   for (int i = 0; i < 30; ++i) {
     std::array<double, models::wheel_count> sum = {};
@@ -47,7 +47,7 @@ TEST_P(Contact, TheForceIsAveragedOverTheControlStep) {
   EXPECT_GT(largest, 100.0);
 }
 
-TEST_P(Contact, NothingTouchesInTheAir) {
+TEST_P(Contact, ThereIsNoContactInTheAir) {
   const auto simulator = make(upkie());
   simulator->reset(at_height(2.0));
   for (int i = 0; i < 100; ++i) {
@@ -70,8 +70,8 @@ TEST_P(Contact, ATorsoOnTheFloorIsNotAWheel) {
   EXPECT_TRUE(touched);
 }
 
-TEST_P(Contact, FrictionIsTheTerrains) {
-  // Sliding on locked wheels: the level force on the robot is friction times load.
+TEST_P(Contact, FrictionIsThatOfTheTerrain) {
+  // Sliding on locked wheels: the horizontal force on the robot is friction times load.
   for (const double friction : {0.2, 0.5}) {
     models::Terrain terrain;
     terrain.friction = friction;
@@ -96,7 +96,7 @@ TEST_P(Contact, FrictionIsTheTerrains) {
   }
 }
 
-/// Wheel speeds after 0.2 s of coasting at `speed`, without and with resistance.
+/// Difference of the wheel speeds (rad/s) without and with resistance.
 double slowed_by(const Simulator& plain, const Simulator& resisting) {
   const auto speed = [](const Simulator& s) {
     return s.state().joint_velocity[models::index(models::Servo::left_wheel)] -
@@ -105,7 +105,7 @@ double slowed_by(const Simulator& plain, const Simulator& resisting) {
   return 0.5 * (speed(plain) - speed(resisting));
 }
 
-TEST_P(Contact, RollingResistanceSlowsEitherWayAndIsNotMeasured) {
+TEST_P(Contact, RollingResistanceOpposesBothDirectionsAndIsNotReported) {
   for (const double speed : {1.0, -1.0}) {
     SimulatorOptions options;
     options.contact.rolling_resistance = 0.0;
@@ -126,8 +126,8 @@ TEST_P(Contact, RollingResistanceSlowsEitherWayAndIsNotMeasured) {
     }
     const double slowed = slowed_by(*plain, *resisting);
     EXPECT_GT(slowed * speed, 0.0);
-    // At least the deceleration of a point mass: 0.004·g/r of wheel speed per second is what a
-    // rigid robot would lose by c·N/r; tipping changes it by a factor, not in sign.
+    // By c·N/r, a rigid robot loses 0.004·g/r of wheel speed per second. Tipping changes that by a
+    // factor, not in sign.
     EXPECT_GT(std::abs(slowed), 0.1 * 0.004 * 9.81 / (0.05 * 0.05) * 0.2);
     EXPECT_LT(std::abs(slowed), 10.0 * 0.004 * 9.81 / (0.05 * 0.05) * 0.2);
   }

@@ -16,7 +16,7 @@ TEST_P(ExternalWrenchOn, AFreeRobotAcceleratesItsCentreByForceOverMass) {
     const Motion before = motion(simulator->model(), simulator->state());
     simulator->step(torques(), wrench);
     const Motion after = motion(simulator->model(), simulator->state());
-    // What the integrator itself adds to the momentum in one step, without the wrench.
+    // The change of momentum that the integrator itself makes in one step, without the wrench.
     simulator->reset(start);
     simulator->step(torques());
     const Motion idle = motion(simulator->model(), simulator->state());

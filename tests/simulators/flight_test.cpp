@@ -8,7 +8,7 @@ namespace touchdown::simulators {
 namespace {
 
 constexpr double upkie_mass = 5.33922;  // kg, from the robot's official description
-TEST(Flight, BulletsLinksWeighWhatTheRobotWeighs) {
+TEST(Flight, BulletsLinksHaveTheMassOfTheRobot) {
   BulletWorld world(*upkie(), {});
   double mass = world.robot().getBaseMass();
   for (int link = 0; link < world.robot().getNumLinks(); ++link) {
@@ -21,7 +21,7 @@ TEST(Flight, BulletsLinksWeighWhatTheRobotWeighs) {
 class Flight : public EveryEngine {};
 
 /// Semi-implicit Euler adds h to the time of every velocity: z = z0 − g·h²·n·(n + 1)/2.
-TEST_P(Flight, FreeFallIsThatOfSemiImplicitEuler) {
+TEST_P(Flight, FreeFallMatchesSemiImplicitEuler) {
   const auto simulator = make(upkie());
   RobotState start = at_height(10.0);
   start.joint_position = {0.3, -0.6, 1.0, -0.3, 0.6, 2.0};
@@ -40,7 +40,7 @@ struct Drift {
   double momentum, spin, energy;
 };
 
-/// What should not change over 0.15 s of tumbling with every joint turning freely, relative.
+/// Relative change of conserved quantities over 0.15 s of tumbling with free joints.
 Drift drift(Simulator& simulator, const RobotState& start) {
   simulator.reset(start);
   const Motion before = motion(simulator.model(), start);
@@ -60,14 +60,14 @@ TEST_P(Flight, ConservesMomentumAndEnergy) {
   Draws draw(1);
   for (int i = 0; i < 5; ++i) {
     RobotState start = random_state(draw);
-    start.joint_position = {};  // room to turn in before the limits
+    start.joint_position = {};  // far from the joint limits
     for (double& velocity : start.joint_velocity) velocity *= 0.5;
     const Drift rough = drift(*coarse, start);
     const Drift smooth = drift(*fine, start);
     EXPECT_LT(smooth.momentum, 2e-3);
     EXPECT_LT(smooth.spin, 2e-3);
     EXPECT_LT(smooth.energy, 2e-3);
-    // What is left is the integrator's: a tenth of the step, a tenth of the drift.
+    // The remaining drift is that of the integrator, proportional to the step.
     EXPECT_LT(smooth.momentum, 0.2 * rough.momentum + 1e-9);
     EXPECT_LT(smooth.spin, 0.2 * rough.spin + 1e-9);
     EXPECT_LT(smooth.energy, 0.2 * rough.energy + 1e-9);

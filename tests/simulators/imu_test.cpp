@@ -14,21 +14,21 @@ void expect_near(const Eigen::Vector3d& value, const Eigen::Vector3d& expected, 
 
 class Imu : public EveryEngine {};
 
-TEST_P(Imu, AtRestItFeelsTheGroundPushUp) {
+TEST_P(Imu, MeasuresGravityAtRest) {
   const auto simulator = make(upkie());
   simulator->reset(upright());
   stand(*simulator, 3.0);
-  const models::Observation& seen = simulator->observation();
-  // Its z points down, its x back: a lean forward shows there.
-  expect_near(seen.imu.raw_linear_acceleration,
-              {g * std::sin(seen.pitch), 0.0, -g * std::cos(seen.pitch)}, 1e-3);
-  EXPECT_NEAR(seen.pitch, 0.0, 0.01);
-  expect_near(seen.imu.linear_acceleration, Eigen::Vector3d::Zero(), 1e-3);
-  expect_near(seen.imu.angular_velocity, Eigen::Vector3d::Zero(), 1e-3);
-  EXPECT_NEAR(models::vertical_acceleration(seen.imu), 0.0, 1e-3);
+  const models::Observation& observation = simulator->observation();
+  // The IMU's z points down and its x back, so a forward pitch shows in x.
+  expect_near(observation.imu.raw_linear_acceleration,
+              {g * std::sin(observation.pitch), 0.0, -g * std::cos(observation.pitch)}, 1e-3);
+  EXPECT_NEAR(observation.pitch, 0.0, 0.01);
+  expect_near(observation.imu.linear_acceleration, Eigen::Vector3d::Zero(), 1e-3);
+  expect_near(observation.imu.angular_velocity, Eigen::Vector3d::Zero(), 1e-3);
+  EXPECT_NEAR(models::vertical_acceleration(observation.imu), 0.0, 1e-3);
 }
 
-TEST_P(Imu, InFreeFallItFeelsNothing) {
+TEST_P(Imu, MeasuresNoSpecificForceInFreeFall) {
   const auto simulator = make(upkie());
   RobotState start = at_height(5.0);
   start.orientation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -0.5).normalized());
@@ -40,14 +40,14 @@ TEST_P(Imu, InFreeFallItFeelsNothing) {
   EXPECT_NEAR(imu.linear_acceleration.norm(), g, 1e-9);
 }
 
-/// A base that nothing turns or slows: it spins about its centre of mass for ever.
+/// A base so heavy that it spins about its centre of mass at constant speed.
 void make_flywheel(models::RobotModel& robot) {
   without_gravity(robot);
   robot.mj->body_mass[robot.base_body] = 1e8;
   for (int i = 0; i < 3; ++i) robot.mj->body_inertia[3 * robot.base_body + i] = 1e8;
 }
 
-TEST_P(Imu, FeelsTheCentripetalAccelerationOfItsMount) {
+TEST_P(Imu, MeasuresTheCentripetalAccelerationOfItsMount) {
   const auto model = upkie(make_flywheel);
   const auto simulator = make(model, steps_of(100));
   const Eigen::Vector3d com = models::vector_at(model->mj->body_ipos, model->base_body);
@@ -68,7 +68,7 @@ TEST_P(Imu, FeelsTheCentripetalAccelerationOfItsMount) {
   EXPECT_NEAR(simulator->observation().pitch_rate, 3.0, 1e-6);
 }
 
-TEST_P(Imu, TurningAboutEachAxisReadsInItsOwnFrame) {
+TEST_P(Imu, MeasuresAngularVelocityInItsOwnFrame) {
   const auto simulator = make(upkie(without_gravity));
   RobotState start = at_height(5.0);
   start.angular_velocity = {0.1, 0.2, 0.3};
@@ -77,23 +77,23 @@ TEST_P(Imu, TurningAboutEachAxisReadsInItsOwnFrame) {
   EXPECT_NEAR(simulator->observation().yaw_rate, 0.3, 1e-12);
 }
 
-TEST_P(Imu, LeaningForwardIsPositivePitchAndTurningLeftPositiveYaw) {
+TEST_P(Imu, PitchIsPositiveForwardAndYawToTheLeft) {
   const auto simulator = make(upkie());
   RobotState start = at_height(5.0);
   start.orientation = Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()) *
                       Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());
   simulator->reset(start);
-  const models::Observation& seen = simulator->observation();
-  EXPECT_NEAR(seen.pitch, 0.3, 1e-12);
-  EXPECT_NEAR(seen.yaw, 0.4, 1e-12);
-  // Forward and a little down is where the base's x axis, the IMU's −x, points in the world; in the
-  // attitude reference system y and z are turned round.
-  const Eigen::Vector3d ahead = seen.imu.orientation * Eigen::Vector3d(-1.0, 0.0, 0.0);
+  const models::Observation& observation = simulator->observation();
+  EXPECT_NEAR(observation.pitch, 0.3, 1e-12);
+  EXPECT_NEAR(observation.yaw, 0.4, 1e-12);
+  // The base's x axis, the IMU's −x, points forward and a little down in the world. In the attitude
+  // reference system y and z are reversed.
+  const Eigen::Vector3d ahead = observation.imu.orientation * Eigen::Vector3d(-1.0, 0.0, 0.0);
   expect_near(ahead, {std::cos(0.3) * std::cos(0.4), -std::cos(0.3) * std::sin(0.4), std::sin(0.3)},
               1e-12);
 }
 
-TEST_P(Imu, TheAccelerationIsTheVelocitysDifference) {
+TEST_P(Imu, TheAccelerationIsTheDifferenceOfVelocities) {
   const auto simulator = make(upkie());
   RobotState start = upright();
   start.position.z() += 0.1;

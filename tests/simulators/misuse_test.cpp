@@ -21,7 +21,7 @@ std::string complaint(F&& attempt) {
   return "no complaint";
 }
 
-TEST(Misuse, AnUnknownSimulatorIsNamedWithTheKnownOnes) {
+TEST(Misuse, AnUnknownSimulatorIsReportedWithTheKnownOnes) {
   const auto robot = upkie();
   const auto of = [&](const char* name) {
     return complaint([&] { (void)make_simulator(name, robot, {}); });
@@ -32,7 +32,7 @@ TEST(Misuse, AnUnknownSimulatorIsNamedWithTheKnownOnes) {
   EXPECT_THAT(of(""), HasSubstr("unknown simulator ''"));
 }
 
-TEST(Misuse, BulletSaysWhatItCannotRepresent) {
+TEST(Misuse, BulletRefusesShapesThatItCannotRepresent) {
   const auto make = [](auto&& change) {
     const auto robot = upkie(change);
     return complaint([&] { (void)make_simulator("bullet", robot, {}); });
@@ -66,7 +66,7 @@ TEST_P(Robust, AResetGivesTheSameBitsAgain) {
   EXPECT_EQ(simulator->observation().time, 0.4);
 }
 
-TEST_P(Robust, NotANumberIsIllHealthNotACrash) {
+TEST_P(Robust, NanIsUnhealthyNotACrash) {
   for (const bool in_the_air : {true, false}) {
     const auto simulator = make(upkie());
     simulator->reset(in_the_air ? at_height(3.0) : upright());
@@ -75,7 +75,7 @@ TEST_P(Robust, NotANumberIsIllHealthNotACrash) {
     action.servo[0].feedforward_torque = nan;
     for (int i = 0; i < 5; ++i) simulator->step(action);
     EXPECT_FALSE(simulator->healthy());
-    // And it does not become well by itself, only by a reset.
+    // Only a reset makes it healthy again.
     for (int i = 0; i < 5; ++i) simulator->step(torques());
     EXPECT_FALSE(simulator->healthy());
     simulator->reset(upright());
@@ -84,7 +84,7 @@ TEST_P(Robust, NotANumberIsIllHealthNotACrash) {
   }
 }
 
-TEST_P(Robust, AForceThatIsNotANumberIsIllHealthToo) {
+TEST_P(Robust, ANanForceIsUnhealthyToo) {
   const auto simulator = make(upkie());
   simulator->reset(upright());
   for (int i = 0; i < 5; ++i) {
@@ -93,7 +93,7 @@ TEST_P(Robust, AForceThatIsNotANumberIsIllHealthToo) {
   EXPECT_FALSE(simulator->healthy());
 }
 
-TEST_P(Robust, AbsurdVelocitiesAreIllHealth) {
+TEST_P(Robust, AbsurdVelocitiesAreUnhealthy) {
   const auto simulator = make(upkie());
   RobotState start = at_height(3.0);
   start.linear_velocity.x() = 2e3;

@@ -24,7 +24,7 @@ std::string complaint_about(const std::string& text) {
   return "no complaint";
 }
 
-TEST(SimulatorOptions, ReadsWhatIsThereAndKeepsDefaults) {
+TEST(SimulatorOptions, ReadsGivenValuesAndKeepsDefaults) {
   const SimulatorOptions options =
       read("physics_step_us: 500\ncontrol_step_us: 5000\ncontact: {bullet_stiffness: 1000}\n");
   EXPECT_EQ(options.steps.physics_us, 500);

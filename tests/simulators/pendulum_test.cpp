@@ -4,14 +4,15 @@
 namespace touchdown::simulators {
 namespace {
 
-constexpr double heavy = 1e7;  // kg: what the legs pull it about is below every tolerance here
+constexpr double heavy =
+    1e7;  // kg: its motion under the legs' forces is below every tolerance here
 
 void make_heavy(models::RobotModel& robot, int body) {
   robot.mj->body_mass[body] = heavy;
   for (int axis = 0; axis < 3; ++axis) robot.mj->body_inertia[3 * body + axis] = heavy;
 }
 
-/// Legs from a base that only a force equal to its weight holds up.
+/// Makes the base so heavy that a force equal to its weight holds it in place.
 void hold_base(models::RobotModel& robot) { make_heavy(robot, robot.base_body); }
 
 ExternalWrench base_weight(const models::RobotModel& robot) {
@@ -20,7 +21,7 @@ ExternalWrench base_weight(const models::RobotModel& robot) {
           models::vector_at(robot.mj->body_ipos, base)};
 }
 
-TEST(Pendulum, SwingsAlikeInBothEngines) {
+TEST(Pendulum, SwingsEquallyInBothEngines) {
   const auto model = upkie(hold_base);
   const auto mujoco = make_simulator("mujoco", model, {});
   const auto bullet = make_simulator("bullet", model, {});
@@ -43,8 +44,8 @@ TEST(Pendulum, SwingsAlikeInBothEngines) {
   EXPECT_LT(largest, 1e-9);
 }
 
-/// A compound pendulum: the left lower leg with the wheel's mass at its end. The wheel's own centre
-/// is put on its axle, so that it does not turn with the leg.
+/// A compound pendulum: the left lower leg with the wheel's mass at its end. The wheel's centre of
+/// mass is on its axle, so the wheel does not turn with the leg.
 struct CompoundPendulum {
   double stiffness;  ///< g·(m·l of all parts) over the inertia about the knee (1/s²)
   double offset;     ///< angle of the centre of mass ahead of straight down (rad)
@@ -89,7 +90,7 @@ std::pair<double, double> runge_kutta(const CompoundPendulum& pendulum, double a
 
 class LowerLeg : public EveryEngine {
  protected:
-  /// Base and upper legs held: the upper legs balance on their hips and are too heavy to turn.
+  /// Holds base and upper legs: the upper legs balance on their hips and are too heavy to turn.
   static void hold_all_above(models::RobotModel& robot) {
     hold_base(robot);
     for (const int tyre : robot.tyre_geom) {
@@ -121,7 +122,7 @@ TEST_P(LowerLeg, SwingsLikeACompoundPendulum) {
   RobotState start = at_height(5.0);
   start.joint_position[models::index(models::Servo::left_knee)] = 0.8;
   simulator->reset(start);
-  // The same equation by semi-implicit Euler, which is what the engines do.
+  // The same equation by semi-implicit Euler, as in the engines.
   double angle = 0.8;
   double rate = 0.0;
   const double h = simulator->control_period();

@@ -16,7 +16,7 @@ struct Case {
 
 TEST(Servo, FollowsTheLaw) {
   const Case table[] = {
-      {"nothing asked", {.kd_scale = 0.0}, 1.0, 2.0, 16.0, 0.0},
+      {"no command", {.kd_scale = 0.0}, 1.0, 2.0, 16.0, 0.0},
       {"by default it brakes", {}, 1.0, 2.0, 16.0, -2.0},
       {"feedforward adds", {.feedforward_torque = 3.0}, 0.0, 1.0, 16.0, 2.0},
       {"position", {.position = 0.5}, 0.4, 0.0, 16.0, 2.0},
@@ -24,7 +24,7 @@ TEST(Servo, FollowsTheLaw) {
       {"no position", {.position = no_position, .kp_scale = 2.0}, 0.4, 0.0, 16.0, 0.0},
       {"velocity", {.velocity = 3.0}, 0.0, 1.0, 16.0, 2.0},
       {"velocity scaled", {.velocity = 3.0, .kd_scale = 0.2}, 0.0, 1.0, 16.0, 0.4},
-      {"all of it",
+      {"all terms",
        {.feedforward_torque = 1.0,
         .position = 0.1,
         .velocity = 1.0,
@@ -54,7 +54,7 @@ TEST(Servo, FollowsTheLaw) {
        0.0,
        1.7,
        0.0},
-      {"an infinite wish", {.velocity = infinity}, 0.0, 0.0, 16.0, 16.0},
+      {"an infinite command", {.velocity = infinity}, 0.0, 0.0, 16.0, 16.0},
   };
   for (const Case& c : table) {
     EXPECT_NEAR(servo_torque(c.command, c.position, c.velocity, c.effort), c.torque, 1e-12)
@@ -74,7 +74,7 @@ TEST_P(ServoOf, TheRobotReportsTheTorqueItApplied) {
   }
 }
 
-TEST_P(ServoOf, TheLegsGoWhereTheyAreTold) {
+TEST_P(ServoOf, TheLegsReachTheirCommandedPositions) {
   const auto simulator = make(upkie(without_gravity));
   simulator->reset(at_height(5.0));
   models::Action action = torques();

@@ -17,14 +17,14 @@ inline models::Action locked(const RobotState& state) {
   return action;
 }
 
-/// A level spring and damper that keeps the base above the origin: it adds nothing vertical.
+/// A horizontal spring and damper that keeps the base above the origin, without vertical force.
 inline ExternalWrench guide(const RobotState& state) {
   Eigen::Vector3d force = -400.0 * state.position - 80.0 * state.linear_velocity;
   force.z() = 0.0;
   return {force, Eigen::Vector3d::Zero()};
 }
 
-/// Stand for `seconds`.
+/// Lets the robot stand for `seconds`.
 inline void stand(Simulator& simulator, double seconds) {
   const models::Action action = locked(simulator.state());
   const auto steps = std::lround(seconds / simulator.control_period());

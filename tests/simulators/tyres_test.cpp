@@ -15,7 +15,7 @@ using models::Tyre;
 
 constexpr double half_track = 0.1524;  ///< from Upkie's middle plane to that of a tyre (m)
 
-/// The robot of a shipped file, after `change` had its way with it.
+/// The robot of a shipped file, modified by `change`.
 std::shared_ptr<models::RobotModel> robot_called(
     const std::string& file, const Terrain& terrain = {},
     const std::function<void(models::RobotModel&)>& change = {}) {
@@ -25,7 +25,7 @@ std::shared_ptr<models::RobotModel> robot_called(
   return model;
 }
 
-/// Upkie on rubber whose torso's mass is in the middle: with straight legs it is one mass.
+/// Upkie on rubber with its torso's mass in the middle: with straight legs it acts as one mass.
 std::shared_ptr<models::RobotModel> one_mass() {
   return robot_called("upkie_rubber.yaml", {}, [](models::RobotModel& robot) {
     robot.mj->body_ipos[3 * robot.base_body] = 0.0;
@@ -34,13 +34,13 @@ std::shared_ptr<models::RobotModel> one_mass() {
   });
 }
 
-/// What a drop is measured by.
+/// Measurements of a drop.
 struct Landing {
-  double rebound = 0.0;  ///< height of the flight after it (m)
-  double peak = 0.0;     ///< largest acceleration upwards, averaged over milliseconds (m/s²)
+  double rebound = 0.0;  ///< height of the rebound (m)
+  double peak = 0.0;     ///< largest upward acceleration, averaged over 1 ms (m/s²)
 };
 
-/// A mass that falls on a spring and damper: Newton's law in steps of a microsecond.
+/// A mass that falls on a spring and damper, by Newton's law in steps of 1 µs.
 Landing textbook_landing(double mass, const Tyre& tyre, double drop) {
   constexpr double step = 1e-6;
   Landing landing;
@@ -60,7 +60,7 @@ Landing textbook_landing(double mass, const Tyre& tyre, double drop) {
   return landing;
 }
 
-/// The same of a robot that falls on both tyres, its joints held as `action` says.
+/// The same for a robot that falls on both tyres, with its joints held by `action`.
 Landing landing_of(Simulator& simulator, const RobotState& start, double drop,
                    const models::Action& action) {
   RobotState raised = start;
@@ -84,7 +84,7 @@ Landing landing_of(Simulator& simulator, const RobotState& start, double drop,
 
 class TyreOfRubber : public EveryEngine {};
 
-TEST_P(TyreOfRubber, SagsAsItsSpringDoesUnderTheWeight) {
+TEST_P(TyreOfRubber, SagsUnderTheWeightByItsStiffness) {
   const auto simulator = make(one_mass());
   simulator->reset(upright());
   stand(*simulator, 1.5);
@@ -92,11 +92,11 @@ TEST_P(TyreOfRubber, SagsAsItsSpringDoesUnderTheWeight) {
   const double sag = 0.5 * weight / simulator->model().tyre.stiffness;
   EXPECT_NEAR(upright().position.z() - simulator->state().position.z(), sag, 0.01 * sag);
   const auto& force = simulator->ground_truth().wheel_normal_force;
-  EXPECT_NEAR(force[0] + force[1], weight, 1e-5 * weight) << "what labels are made from";
+  EXPECT_NEAR(force[0] + force[1], weight, 1e-5 * weight) << "the force that labels use";
   EXPECT_FALSE(simulator->ground_truth().body_touches_terrain);
 }
 
-TEST_P(TyreOfRubber, LandsAndReboundsAsAMassOnItsSpringAndDamper) {
+TEST_P(TyreOfRubber, LandsAndReboundsLikeAMassOnSpringAndDamper) {
   const auto simulator = make(one_mass());
   const double mass = motion(simulator->model(), upright()).mass;
   for (const double drop : {0.02, 0.05, 0.25}) {
@@ -111,10 +111,10 @@ TEST(Rubber, ReboundsToAThirdOfTheHeightOfAStair) {
   const auto model = one_mass();
   const double mass = motion(*model, upright()).mass;
   EXPECT_NEAR(textbook_landing(0.5 * mass, model->tyre, 0.25).rebound, 0.25 / 3, 0.002);
-  EXPECT_NEAR(0.5 * mass * g / model->tyre.stiffness, 1.3e-3, 0.02e-3) << "and sags so far (m)";
+  EXPECT_NEAR(0.5 * mass * g / model->tyre.stiffness, 1.3e-3, 0.02e-3) << "static sag (m)";
 }
 
-TEST_P(TyreOfRubber, MakesPhysicsStepsAsShortAsItsSpringWantsThem) {
+TEST_P(TyreOfRubber, ShortensPhysicsStepsForItsStiffnessAndDamping) {
   const auto step = [&](const std::string& file, double stiffness, StepSizes steps = {},
                         double damping = 80.0) {
     SimulatorOptions options;
@@ -128,17 +128,17 @@ TEST_P(TyreOfRubber, MakesPhysicsStepsAsShortAsItsSpringWantsThem) {
     EXPECT_EQ(simulator->options().steps.control_us, steps.control_us);
     return simulator->options().steps.physics_us;
   };
-  EXPECT_EQ(step("upkie.xml", 2e4), 1000) << "whose contact is the engine's";
+  EXPECT_EQ(step("upkie.xml", 2e4), 1000) << "the engine's own contact";
   EXPECT_EQ(step("upkie_rubber.yaml", 2e4), 250);
   EXPECT_EQ(step("upkie_rubber.yaml", 4 * 2e4), 125);
-  EXPECT_EQ(step("upkie_rubber.yaml", 2e2), 500) << "as its damper wants them";
+  EXPECT_EQ(step("upkie_rubber.yaml", 2e2), 500) << "limited by the damper";
   EXPECT_EQ(step("upkie_rubber.yaml", 2e2, {}, 20.0), 1000);
-  EXPECT_EQ(step("upkie_rubber.yaml", 2e4, {100, 1000}), 100) << "no longer than asked for";
+  EXPECT_EQ(step("upkie_rubber.yaml", 2e4, {100, 1000}), 100) << "no longer than configured";
   EXPECT_EQ(step("upkie_rubber.yaml", 2e4, {5000, 5000}), 250);
 }
 
-/// Upkie with straight legs rolls along x at half a metre per second, pushed at two heights and
-/// kept from turning, but free to lean and to drift.
+/// Upkie with straight legs that rolls along x at 0.5 m/s. Forces at two heights push it and
+/// prevent yaw; it is free to lean and to drift.
 class Roller {
  public:
   Roller(std::unique_ptr<Simulator> simulator, double y, double ground)
@@ -153,7 +153,7 @@ class Roller {
     legs_ = stiff_legs(start);
   }
 
-  void roll(int steps, const std::function<void()>& look = {}) {
+  void roll(int steps, const std::function<void()>& observe = {}) {
     for (int i = 0; i < steps; ++i) {
       const double couple =
           20.0 * simulator_->observation().yaw + 4.0 * simulator_->observation().yaw_rate;
@@ -162,17 +162,17 @@ class Roller {
           ExternalWrench{{couple, 0.0, 0.0}, {0.0, 0.5, 0.0}},
           ExternalWrench{{-couple, 0.0, 0.0}, {0.0, -0.5, 0.0}}};
       simulator_->step(legs_, wrenches);
-      if (look) look();
+      if (observe) observe();
     }
   }
 
   const Simulator& simulator() const { return *simulator_; }
-  /// To the left (rad).
+  /// Lean to the left (rad).
   double lean() const {
     const Eigen::Vector3d left = simulator_->state().orientation * Eigen::Vector3d::UnitY();
     return -std::asin(left.z());
   }
-  /// Where the middle between the wheels is across (m).
+  /// Lateral position of the midpoint between the wheels (m).
   double y() const {
     const Eigen::Vector3d axle(0.0, 0.0, -0.507);
     return (simulator_->state().position + simulator_->state().orientation * axle).y();
@@ -185,8 +185,8 @@ class Roller {
     const RobotState& state = simulator_->state();
     const Eigen::Vector3d arm = state.orientation * point;
     const Eigen::Vector3d velocity = state.linear_velocity + state.angular_velocity.cross(arm);
-    const double delay = speed * simulator_->observation().time - state.position.x() - arm.x();
-    return {{400.0 * delay + 80.0 * (speed - velocity.x()), 0.0, 0.0}, point};
+    const double lag = speed * simulator_->observation().time - state.position.x() - arm.x();
+    return {{400.0 * lag + 80.0 * (speed - velocity.x()), 0.0, 0.0}, point};
   }
 
   std::unique_ptr<Simulator> simulator_;
@@ -220,7 +220,7 @@ TEST_P(TyreOfRubber, RollsAsSmoothlyAsASphere) {
               sphere.simulator().state().joint_velocity[wheel], 0.01);
 }
 
-TEST_P(TyreOfRubber, DoesNotNoticeJointsOfTheGround) {
+TEST_P(TyreOfRubber, RollsSmoothlyOverJointsOfTheGround) {
   Terrain terrain;
   terrain.start_x = -1.0;
   terrain.pieces = {models::Flat{1.5}, models::Flat{3.0}, models::Step{.drop = 0.25}};
@@ -255,7 +255,7 @@ TEST_P(TyreOfRubber, IsCarriedByAnEdgeBelowAnyPartOfItsWidth) {
   }
 }
 
-TEST_P(TyreOfRubber, RepeatsItselfBitByBitAfterAReset) {
+TEST_P(TyreOfRubber, GivesTheSameBitsAfterAReset) {
   const auto simulator = make(robot_called("upkie_rubber.yaml"));
   const auto run = [&] {
     RobotState start = upright();
@@ -272,7 +272,7 @@ TEST_P(TyreOfRubber, RepeatsItselfBitByBitAfterAReset) {
   EXPECT_EQ(run(), first);
 }
 
-TEST_P(TyreOfRubber, ThatMeetsNotANumberIsIllHealthNotACrash) {
+TEST_P(TyreOfRubber, WithNanIsUnhealthyNotACrash) {
   const auto simulator = make(robot_called("upkie_rubber.yaml"));
   simulator->reset(upright());
   models::Action action = torques();
@@ -300,15 +300,15 @@ TEST(TyreParity, LandingOfACrouchedRobot) {
   EXPECT_GT(bullet.peak, 100.0);
 }
 
-TEST(ContactsOfTyres, CountOnceWhereTheyPressTheSameWay) {
+TEST(ContactsOfTyres, CountOnceInTheSameDirection) {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d back = -Eigen::Vector3d::UnitX();
   const auto counted = [](const std::vector<TyreContact>& contacts) {
-    return that_count(contacts);
+    return counted_contacts(contacts);
   };
   EXPECT_EQ(counted({}), std::vector<bool>{});
   EXPECT_EQ(counted({{0, 1e-3, up}, {0, 2e-3, up}}), (std::vector{false, true}));
-  EXPECT_EQ(counted({{0, 1e-3, up}, {0, 1e-3, up}}), (std::vector{true, false})) << "one of both";
+  EXPECT_EQ(counted({{0, 1e-3, up}, {0, 1e-3, up}}), (std::vector{true, false})) << "only one";
   EXPECT_EQ(counted({{0, 1e-3, up}, {1, 2e-3, up}}), (std::vector{true, true})) << "two strips";
   EXPECT_EQ(counted({{0, 1e-3, up}, {0, 2e-3, back}}), (std::vector{true, true})) << "a kerb";
 }

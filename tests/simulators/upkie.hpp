@@ -16,7 +16,7 @@ namespace touchdown::simulators {
 
 inline constexpr double g = 9.81;  ///< m/s²
 
-/// Upkie on a floor, after `change` had its way with the compiled model.
+/// Upkie on a floor; `change` modifies the compiled model.
 inline std::shared_ptr<const models::RobotModel> upkie(
     const std::function<void(models::RobotModel&)>& change = {},
     const models::Terrain& terrain = {}) {
@@ -39,7 +39,7 @@ inline SimulatorOptions steps_of(std::int64_t microseconds) {
   return options;
 }
 
-/// An action whose servos are limp but for these torques.
+/// An action with these torques and no servo gains.
 inline models::Action torques(const JointTorques& torque = {}) {
   models::Action action;
   for (std::size_t i = 0; i < models::servo_count; ++i) {
@@ -66,7 +66,7 @@ inline RobotState at_height(double z) {
   return state;
 }
 
-/// A stream of uniform numbers that are the same everywhere.
+/// A stream of uniform numbers, the same on every machine.
 class Draws {
  public:
   explicit Draws(std::uint64_t seed) : seed_(seed) {}
@@ -84,7 +84,7 @@ class Draws {
   std::uint64_t count_ = 0;
 };
 
-/// High up, every way round, everything moving; the joints away from their limits.
+/// A random state high above the ground, with moving joints away from their limits.
 inline RobotState random_state(Draws& draw) {
   RobotState state;
   state.position = Eigen::Vector3d(0.0, 0.0, 50.0) + draw.vector(1.0);

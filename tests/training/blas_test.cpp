@@ -8,21 +8,21 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(Blas, WarnsOfTheReferenceLibraryAndSaysWhatToInstall) {
+TEST(Blas, WarnsOfTheReferenceLibraryAndNamesThePackage) {
   EXPECT_THAT(blas_warning("/usr/lib/x86_64-linux-gnu/blas/libblas.so.3.11.0"),
               HasSubstr("install the package libopenblas0-openmp"));
 }
 
-TEST(Blas, WarnsOfThreadsThatFightEachOther) {
+TEST(Blas, WarnsOfCompetingThreads) {
   EXPECT_THAT(blas_warning("/usr/lib/x86_64-linux-gnu/openblas-pthread/libblas.so.3"),
               HasSubstr("openblas-pthread"));
 }
 
-TEST(Blas, IsContentWithTheOneThatIsAskedFor) {
+TEST(Blas, AcceptsTheRecommendedLibrary) {
   EXPECT_THAT(blas_warning("/usr/lib/x86_64-linux-gnu/openblas-openmp/libblas.so.3"), IsEmpty());
 }
 
-TEST(Blas, FindsTheOneThatIsLoaded) { EXPECT_THAT(blas_in_use(), HasSubstr("blas")); }
+TEST(Blas, FindsTheLoadedLibrary) { EXPECT_THAT(blas_in_use(), HasSubstr("blas")); }
 
 }  // namespace
 }  // namespace touchdown::training

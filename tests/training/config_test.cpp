@@ -14,7 +14,7 @@ TrainingConfig parsed(const std::string& text) {
   return training_from_yaml(YamlDocument::parse(text, "t.yaml"));
 }
 
-TEST(TrainingConfig, TheShippedFileIsThePapers) {
+TEST(TrainingConfig, TheShippedFileMatchesThePaper) {
   const TrainingConfig c =
       training_from_yaml(YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/nmn.yaml"));
   EXPECT_EQ(c.rollout.simulators, std::vector<std::string>{"bullet"});
@@ -27,7 +27,7 @@ TEST(TrainingConfig, TheShippedFileIsThePapers) {
   EXPECT_EQ(c.network.hidden, 128);
 }
 
-TEST(TrainingConfig, WritesItselfOutInFull) {
+TEST(TrainingConfig, WritesEveryValue) {
   const TrainingConfig c = parsed(
       "{name: x, seed: 7, rollout: {contact: both_wheels, steps: 30, noise: {acceleration: 0.3}}, "
       "network: {hidden: 3}, optimiser: {parts: 2}}");
@@ -38,7 +38,7 @@ TEST(TrainingConfig, WritesItselfOutInFull) {
   EXPECT_EQ(parsed(text).optimiser.parts, 2);
 }
 
-TEST(TrainingConfig, PointsAtWhatIsWrong) {
+TEST(TrainingConfig, NamesTheWrongValue) {
   const auto complaint = [](const char* text, const char* message) {
     EXPECT_THAT([&] { parsed(text); }, ThrowsMessage<InputError>(HasSubstr(message)));
   };

@@ -27,7 +27,7 @@ TEST(TrainingHistory, ChoosesTheFirstOfTheBest) {
   EXPECT_EQ(best_iteration(history({1.0})), 0U);
 }
 
-TEST(TrainingHistory, StopsAfterSoManyWithoutABetterOne) {
+TEST(TrainingHistory, StopsAfterThePatience) {
   EXPECT_FALSE(stopped_improving({}, 1));
   EXPECT_FALSE(stopped_improving(history({2.0, 1.0}), 1));
   EXPECT_FALSE(stopped_improving(history({1.0, 2.0}), 2));
@@ -59,7 +59,7 @@ TEST_F(HistoryFile, ReadsBackToTheBit) {
   EXPECT_EQ(read[0].validation.accuracy, written[0].validation.accuracy);
 }
 
-TEST_F(HistoryFile, NamesTheLineThatIsWrong) {
+TEST_F(HistoryFile, NamesTheWrongLine) {
   write_history(history({1.0, 2.0}), path_);
   std::ifstream file(path_);
   const std::string good((std::istreambuf_iterator<char>(file)), {});

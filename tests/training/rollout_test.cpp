@@ -14,7 +14,7 @@
 namespace touchdown::training {
 namespace {
 
-bool go_on() { return true; }
+bool should_continue() { return true; }
 
 RolloutConfig config() {
   RolloutConfig c;
@@ -29,9 +29,9 @@ RolloutScenes scene(const RolloutConfig& c, double duration = 2.0) {
   return scenes;
 }
 
-TEST(Rollout, HasContactAndFlightAndNumbersThatMakeSense) {
+TEST(Rollout, HasContactFlightAndPlausibleNumbers) {
   const RolloutConfig c = config();
-  const EpisodeBatch batch = roll_out(c, scene(c), 1, 0, 16, go_on);
+  const EpisodeBatch batch = roll_out(c, scene(c), 1, 0, 16, should_continue);
   ASSERT_EQ(batch.contact.size(), 1600U);
   ASSERT_EQ(batch.input.size(), 1600U * neural_input_count);
   const double contact = std::accumulate(batch.contact.begin(), batch.contact.end(), 0.0) / 1600.0;
@@ -42,7 +42,7 @@ TEST(Rollout, HasContactAndFlightAndNumbersThatMakeSense) {
   EXPECT_TRUE(std::all_of(batch.input.begin(), batch.input.end(),
                           [](float x) { return std::abs(x) < 1e4F; }));
   EXPECT_DOUBLE_EQ(batch.seconds(0.005), 8.0);
-  // It falls and rises: the vertical velocity is there, and follows from the forces.
+  // The robot falls and rises: the vertical velocity is plausible for the forces.
   float fastest = 0.0F;
   for (std::size_t row = 0; row < 1600; ++row) {
     fastest = std::max(fastest, std::abs(batch.velocity[row * 3 + 2]));
@@ -56,10 +56,10 @@ TEST(Rollout, CutsEpisodesFromRunsWithoutAGap) {
   const RolloutScenes scenes = scene(c);
   ASSERT_EQ(episodes_per_run(c, scenes.scenes[0].scenario), 4);
   EXPECT_EQ(runs_for(c, scenes, 9), 3);
-  const EpisodeBatch batch = roll_out(c, scenes, 1, 0, 4, go_on);
+  const EpisodeBatch batch = roll_out(c, scenes, 1, 0, 4, should_continue);
   RolloutConfig whole = c;
   whole.steps = 400;
-  const EpisodeBatch run = roll_out(whole, scenes, 1, 0, 1, go_on);
+  const EpisodeBatch run = roll_out(whole, scenes, 1, 0, 1, should_continue);
   for (std::size_t episode = 0; episode < 4; ++episode) {
     for (std::size_t step = 0; step < 100; ++step) {
       ASSERT_EQ(batch.contact[step * 4 + episode], run.contact[episode * 100 + step]);
@@ -74,7 +74,7 @@ TEST(Rollout, DependsNeitherOnThreadsNorOnOtherRuns) {
   const RolloutScenes scenes = scene(c);
   const auto rolled = [&](std::size_t threads, std::int64_t first, int environments) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return roll_out(c, scenes, 3, first, environments, go_on);
+    return roll_out(c, scenes, 3, first, environments, should_continue);
   };
   const EpisodeBatch one = rolled(1, 0, 8);
   const EpisodeBatch many = rolled(4, 0, 8);
@@ -88,12 +88,12 @@ TEST(Rollout, DependsNeitherOnThreadsNorOnOtherRuns) {
   EXPECT_NE(second_run.input, rolled(2, 0, 4).input);
 }
 
-TEST(Rollout, MarksWhereAnotherRunBegins) {
+TEST(Rollout, MarksTheBeginningsOfRuns) {
   RolloutConfig c = config();
   c.steps = 200;
   RolloutScenes scenes = scene(c, 1.0);
-  scenes.scenes[0].scenario.end.fall_tilt = 0.02;  // falls all the time
-  const EpisodeBatch batch = roll_out(c, scenes, 1, 0, 4, go_on);
+  scenes.scenes[0].scenario.end.fall_tilt = 0.02;  // every small tilt is a fall
+  const EpisodeBatch batch = roll_out(c, scenes, 1, 0, 4, should_continue);
   const auto starts = std::count(batch.keep.begin(), batch.keep.end(), 0.0F);
   EXPECT_GT(starts, 4);
   EXPECT_LT(starts, static_cast<std::ptrdiff_t>(batch.keep.size()));
@@ -103,7 +103,7 @@ TEST(Rollout, GivesUpOnARobotThatCannotStand) {
   const RolloutConfig c = config();
   RolloutScenes scenes = scene(c);
   scenes.scenes[0].scenario.end.fall_tilt = 1e-6;
-  EXPECT_THROW(roll_out(c, scenes, 1, 0, 1, go_on), InputError);
+  EXPECT_THROW(roll_out(c, scenes, 1, 0, 1, should_continue), InputError);
 }
 
 TEST(Rollout, StopsWhenAsked) {
@@ -111,23 +111,24 @@ TEST(Rollout, StopsWhenAsked) {
   EXPECT_THROW(roll_out(c, scene(c), 1, 0, 4, [] { return false; }), Stopped);
 }
 
-TEST(Rollout, RefusesAControlStepThatCutsPhysicsSteps) {
+TEST(Rollout, RefusesAControlStepThatIsNoMultipleOfThePhysicsStep) {
   RolloutConfig c = config();
   c.control_step_us = 1500;
   EXPECT_THROW(training_scenes(c), InputError);
 }
 
-TEST(Rollout, TakesScenesInTurnAndThenTheNextEngine) {
+TEST(Rollout, UsesScenesInTurnThenTheNextEngine) {
   RolloutConfig c = config();
   c.scenarios.push_back(TOUCHDOWN_SOURCE_DIR "/scenarios/hang.yaml");
   c.simulators = {"bullet", "mujoco"};
   const RolloutScenes scenes = scene(c, 0.5);
   ASSERT_EQ(scenes.scenes.size(), 4U);
-  const EpisodeBatch batch = roll_out(c, scenes, 1, 0, 4, go_on);
+  const EpisodeBatch batch = roll_out(c, scenes, 1, 0, 4, should_continue);
   for (std::size_t i = 0; i < 4; ++i) {
     RolloutScenes alone = scenes;
     alone.scenes = {scenes.scenes[i]};
-    const EpisodeBatch one = roll_out(c, alone, 1, static_cast<std::int64_t>(i), 1, go_on);
+    const EpisodeBatch one =
+        roll_out(c, alone, 1, static_cast<std::int64_t>(i), 1, should_continue);
     for (std::size_t step = 0; step < 100; ++step) {
       ASSERT_EQ(batch.contact[step * 4 + i], one.contact[step]) << i;
       ASSERT_EQ(batch.velocity[(step * 4 + i) * 3], one.velocity[step * 3]) << i;
@@ -136,7 +137,7 @@ TEST(Rollout, TakesScenesInTurnAndThenTheNextEngine) {
   }
 }
 
-TEST(Rollout, LetsRunsOfManyLengthsFillTheSameEnvironments) {
+TEST(Rollout, FillsEnvironmentsFromRunsOfDifferentLengths) {
   RolloutConfig c = config();
   c.scenarios.push_back(c.scenarios.front());
   RolloutScenes scenes = scene(c, 1.5);
@@ -144,7 +145,7 @@ TEST(Rollout, LetsRunsOfManyLengthsFillTheSameEnvironments) {
   EXPECT_EQ(runs_for(c, scenes, 4), 2);
   EXPECT_EQ(runs_for(c, scenes, 5), 3);
   EXPECT_EQ(runs_for(c, scenes, 8), 4);
-  const EpisodeBatch batch = roll_out(c, scenes, 1, 0, 5, go_on);
+  const EpisodeBatch batch = roll_out(c, scenes, 1, 0, 5, should_continue);
   EXPECT_EQ(std::count(batch.keep.begin(), batch.keep.begin() + 5, 0.0F), 3) << "runs begin";
 }
 
@@ -153,7 +154,7 @@ TEST(Rollout, AveragesAccelerationsOverTheNetworksStep) {
   c.control_step_us = 1000;
   c.steps = 40;
   const RolloutScenes scenes = scene(c, 0.2);
-  const EpisodeBatch batch = roll_out(c, scenes, 7, 0, 1, go_on);
+  const EpisodeBatch batch = roll_out(c, scenes, 7, 0, 1, should_continue);
   scenarios::Scenario drawn = scenarios::perturbed(scenes.scenes[0].scenario, 7, 0);
   drawn.end.duration = 0.2;
   const recordings::Recording run = scenarios::play(drawn, "bullet", 7, 0);
@@ -169,35 +170,36 @@ TEST(Rollout, AveragesAccelerationsOverTheNetworksStep) {
   }
 }
 
-TEST(Rollout, HearsThroughSensorsAndWithAShareOfTheNoise) {
+TEST(Rollout, AppliesSensorsAndTheNoiseShare) {
   RolloutConfig c = config();
   const RolloutScenes ideal = scene(c);
-  const EpisodeBatch clean = roll_out(c, ideal, 1, 0, 8, go_on);
-  const auto deviation = [&](const EpisodeBatch& heard, std::size_t first, std::size_t count) {
+  const EpisodeBatch clean = roll_out(c, ideal, 1, 0, 8, should_continue);
+  const auto deviation = [&](const EpisodeBatch& batch, std::size_t first, std::size_t count) {
     double sum = 0.0;
     for (std::size_t step = 0; step < 100; ++step) {
       for (std::size_t i = first; i < first + count; ++i) {
         const std::size_t at = (step * 8 + i) * neural_input_count;
-        sum += std::pow(heard.input[at] - clean.input[at], 2);
+        sum += std::pow(batch.input[at] - clean.input[at], 2);
       }
     }
     return std::sqrt(sum / (100.0 * static_cast<double>(count)));
   };
   c.noise.acceleration = 2.0;
-  EXPECT_NEAR(deviation(roll_out(c, ideal, 1, 0, 8, go_on), 0, 8), 2.0, 0.2);
+  EXPECT_NEAR(deviation(roll_out(c, ideal, 1, 0, 8, should_continue), 0, 8), 2.0, 0.2);
   c.noise_share = {0.0, 0.0};
-  EXPECT_EQ(deviation(roll_out(c, ideal, 1, 0, 8, go_on), 0, 8), 0.0);
+  EXPECT_EQ(deviation(roll_out(c, ideal, 1, 0, 8, should_continue), 0, 8), 0.0);
   c.noise_share = {0.0, 1.0};
-  const EpisodeBatch shared = roll_out(c, ideal, 1, 0, 8, go_on);
-  EXPECT_GT(std::abs(deviation(shared, 0, 4) - deviation(shared, 4, 4)), 0.05) << "by run";
+  const EpisodeBatch shared = roll_out(c, ideal, 1, 0, 8, should_continue);
+  EXPECT_GT(std::abs(deviation(shared, 0, 4) - deviation(shared, 4, 4)), 0.05)
+      << "the share differs by run";
   c.noise.acceleration = 0.0;
   c.sensors = TOUCHDOWN_SOURCE_DIR "/sensors/upkie.yaml";
-  const EpisodeBatch reported = roll_out(c, scene(c), 1, 0, 8, go_on);
+  const EpisodeBatch reported = roll_out(c, scene(c), 1, 0, 8, should_continue);
   EXPECT_GT(deviation(reported, 0, 8), 0.01);
-  EXPECT_EQ(reported.contact, clean.contact) << "labels are the truth's";
+  EXPECT_EQ(reported.contact, clean.contact) << "labels are those of the truth";
 }
 
-TEST(Rollout, IsValidatedOnScenesOfItsOwnIfThereAreAny) {
+TEST(Rollout, UsesSeparateValidationScenesIfGiven) {
   RolloutConfig c = config();
   EXPECT_EQ(validation_scenes(c).scenes.at(0).scenario.name, "lift_drive");
   c.validation_scenarios = {TOUCHDOWN_SOURCE_DIR "/scenarios/hang.yaml"};

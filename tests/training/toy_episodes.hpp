@@ -8,8 +8,8 @@
 
 namespace touchdown::training::test {
 
-/// Episodes whose labels follow from the inputs by a rule that takes memory to know: contact is
-/// whether the first input was positive three steps ago, velocity is a mix of the present inputs.
+/// Episodes with labels that follow from the inputs by a rule with memory: contact is whether the
+/// first input was positive three steps ago, velocity is a mix of the present inputs.
 inline EpisodeBatch toy_episodes(int environments, int steps = 40, std::uint32_t seed = 1) {
   constexpr int delay = 3;
   std::mt19937 engine(seed);

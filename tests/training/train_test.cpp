@@ -41,7 +41,7 @@ class Train : public testing::Test {
   const std::filesystem::path folder_ = scratch_.path();
 };
 
-TEST_F(Train, LeavesWeightsCurvesAndAManifestBehind) {
+TEST_F(Train, WritesWeightsCurvesAndAManifest) {
   const TrainingResult result = run("a");
   ASSERT_EQ(result.history.size(), 3U);
   EXPECT_EQ(result.history[2].data_seconds, 3 * 8 * 50 * 0.005);
@@ -56,16 +56,16 @@ TEST_F(Train, LeavesWeightsCurvesAndAManifestBehind) {
             to_yaml(config_));
 }
 
-TEST_F(Train, TheSameSeedGivesTheSameFileWhateverTheThreads) {
+TEST_F(Train, TheSameSeedGivesTheSameFileForAnyNumberOfThreads) {
   const std::string one = read_file(run("one", 1).network);
   EXPECT_EQ(one, read_file(run("four", 4).network));
   config_.seed = 2;
   EXPECT_NE(one, read_file(run("other").network));
 }
 
-TEST_F(Train, GoesOnWhereItWasStopped) {
+TEST_F(Train, ResumesWhereItWasStopped) {
   const TrainingResult straight = run("straight");
-  // One iteration, then the rest: the folder of a training that was stopped after its first.
+  // One iteration, then the rest, as for a training that was stopped after its first.
   config_.optimiser.iterations = 1;
   run("stopped");
   config_.optimiser.iterations = 3;
@@ -75,7 +75,7 @@ TEST_F(Train, GoesOnWhereItWasStopped) {
   EXPECT_EQ(read_file(straight.network), read_file(resumed.network));
 }
 
-TEST_F(Train, RemovesWhatAKilledOneLeftHalfWritten) {
+TEST_F(Train, RemovesPartialFilesOfAKilledTraining) {
   const std::filesystem::path part = folder_ / "a/checkpoints/.0003.12.0abcdef0.part.pt";
   write_atomically(part, "half");
   run("a");
@@ -90,7 +90,7 @@ TEST_F(Train, LeavesTheDirectoryOfAnExperimentAlone) {
   EXPECT_EQ(read_file(taken / "config.yaml"), "name: stairs\n");
 }
 
-TEST_F(Train, SavesNothingHalfWhenAskedToStop) {
+TEST_F(Train, SavesNothingPartialWhenStopped) {
   const std::atomic<bool> stop = true;
   TrainingRequest request;
   request.out = folder_ / "halt";
@@ -99,7 +99,7 @@ TEST_F(Train, SavesNothingHalfWhenAskedToStop) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "halt" / "models" / "nmn.npz"));
 }
 
-TEST_F(Train, StopsEarlyWhenNothingGetsBetter) {
+TEST_F(Train, StopsEarlyWithoutImprovement) {
   config_.optimiser.learning_rate = 1e-12;  // nothing learned
   config_.optimiser.patience = 1;
   config_.optimiser.iterations = 20;

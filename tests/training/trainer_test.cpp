@@ -31,10 +31,10 @@ bool equal(const NeuralNetwork& a, const NeuralNetwork& b) {
          same(a.first, b.first) && same(a.second, b.second) && same(a.heads, b.heads);
 }
 
-TEST(InitialNetwork, StandardisesTheDataAndIsAFunctionOfTheSeed) {
+TEST(InitialNetwork, StandardisesTheDataAndDependsOnTheSeed) {
   EpisodeBatch data = test::toy_episodes(50);
   for (std::size_t row = 0; row < data.contact.size(); ++row) {
-    data.input[row * neural_input_count + 4] = 7.0F;  // a joint that holds still
+    data.input[row * neural_input_count + 4] = 7.0F;  // a joint that does not move
     data.input[row * neural_input_count + 5] *= 100.0F;
   }
   const NeuralNetwork network = start(data);
@@ -49,7 +49,7 @@ TEST(InitialNetwork, StandardisesTheDataAndIsAFunctionOfTheSeed) {
   EXPECT_GT(network.gru_hidden.weight.cwiseAbs().maxCoeff(), 0.24F);
 }
 
-TEST(Trainer, ComputesWhatEigenComputes) {
+TEST(Trainer, MatchesTheEigenImplementation) {
   const EpisodeBatch batch = test::toy_episodes(3, 100);
   const Trainer trainer(start(batch, {128, 256, 128}), {});
   const std::vector<float> outputs = trainer.outputs(batch);
@@ -71,17 +71,17 @@ TEST(Trainer, KeepsTheNetworkToTheBit) {
   EXPECT_TRUE(equal(Trainer(network, {}).network(), network));
 }
 
-TEST(Trainer, ForgetsWhereARunBegins) {
+TEST(Trainer, ResetsTheHiddenStateWhereARunBegins) {
   EpisodeBatch batch = test::toy_episodes(1);
   const Trainer trainer(start(batch), {});
   const std::vector<float> carried = trainer.outputs(batch);
   batch.keep[2] = 0.0F;
-  const std::vector<float> forgotten = trainer.outputs(batch);
-  EXPECT_EQ(carried[19 * neural_output_count], forgotten[19 * neural_output_count]);
-  EXPECT_NE(carried[20 * neural_output_count], forgotten[20 * neural_output_count]);
+  const std::vector<float> reset = trainer.outputs(batch);
+  EXPECT_EQ(carried[19 * neural_output_count], reset[19 * neural_output_count]);
+  EXPECT_NE(carried[20 * neural_output_count], reset[20 * neural_output_count]);
 }
 
-TEST(Trainer, LearnsARuleThatTakesMemory) {
+TEST(Trainer, LearnsARuleWithMemory) {
   const EpisodeBatch batch = test::toy_episodes(64);
   const EpisodeBatch unseen = test::toy_episodes(64, 40, 2);
   Trainer trainer(start(batch, {32, 32, 16}), {.learning_rate = 5e-3});
@@ -94,7 +94,7 @@ TEST(Trainer, LearnsARuleThatTakesMemory) {
   EXPECT_NEAR(after.total, after.contact + after.velocity, 1e-12);
 }
 
-TEST(Trainer, GivesTheSameBitsWhateverTheNumberOfThreads) {
+TEST(Trainer, GivesTheSameBitsForAnyNumberOfThreads) {
   const EpisodeBatch batch = test::toy_episodes(10);
   const auto trained = [&](int count) {
     set_training_threads(count);
@@ -114,7 +114,7 @@ class Checkpoint : public testing::Test {
   const std::filesystem::path path_ = scratch_ / "trainer.pt";
 };
 
-TEST_F(Checkpoint, GoesOnToTheBit) {
+TEST_F(Checkpoint, ResumesToTheBit) {
   const EpisodeBatch batch = test::toy_episodes(8);
   Trainer straight(start(batch), {});
   straight.train_epoch(batch);
@@ -127,7 +127,7 @@ TEST_F(Checkpoint, GoesOnToTheBit) {
   EXPECT_TRUE(equal(straight.network(), resumed.network()));
 }
 
-TEST_F(Checkpoint, ComplainsOnceAboutWhatIsNone) {
+TEST_F(Checkpoint, RefusesOtherFiles) {
   const EpisodeBatch batch = test::toy_episodes(2);
   Trainer trainer(start(batch), {});
   const auto expect_complaint = [&] {

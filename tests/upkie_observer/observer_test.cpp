@@ -19,7 +19,7 @@ using upkie::cpp::observers::Dictionary;
 using upkie::cpp::observers::Observer;
 using upkie::cpp::observers::TouchdownObserver;
 
-/// What a spine knows when its observers run.
+/// Fills the observation that a spine passes to its observers.
 void observe(const Signals& s, Dictionary& observation) {
   observation("time") = s.time;
   for (std::size_t side = 0; side < 2; ++side) {
@@ -64,12 +64,12 @@ class UpkiesObserver : public ::testing::Test {
   Dictionary config_;
 };
 
-TEST_F(UpkiesObserver, WritesWhatTheLibraryBelievesWhereConsumersLook) {
+TEST_F(UpkiesObserver, WritesTheBeliefsOfTheLibrary) {
   const std::shared_ptr<Observer> observer = std::make_shared<TouchdownObserver>(params_);
   const auto expected = make_estimator(test::fitted_model("robust"));
   EXPECT_EQ(observer->prefix(), "floor_contact");
   Dictionary observation;
-  // As FloorContact leaves it.
+  // The output of Upkie's FloorContact.
   observation("floor_contact")("contact") = true;
   observation("floor_contact")("upper_leg_torque") = 3.25;
   observation("floor_contact")("left_wheel")("inertia") = 0.002;
@@ -97,7 +97,7 @@ TEST_F(UpkiesObserver, WritesWhatTheLibraryBelievesWhereConsumersLook) {
   EXPECT_EQ(observation("floor_contact")("left_wheel").get<double>("inertia"), 0.002);
 }
 
-TEST_F(UpkiesObserver, LeavesTheDecisionToFloorContactIfItIsToldTo) {
+TEST_F(UpkiesObserver, LeavesTheDecisionToFloorContactIfConfigured) {
   config_("touchdown")("decides") = false;
   TouchdownObserver observer(params_);
   observer.reset(config_);
@@ -112,13 +112,13 @@ TEST_F(UpkiesObserver, LeavesTheDecisionToFloorContactIfItIsToldTo) {
   EXPECT_GT(observation("floor_contact").get<double>("p_any_wheel"), 0.9);
 }
 
-TEST_F(UpkiesObserver, LivesWithWhatASpineDoesNotHaveYet) {
+TEST_F(UpkiesObserver, AcceptsIncompleteObservations) {
   TouchdownObserver observer(params_);
   Dictionary observation;
   observer.read(observation);
   observer.write(observation);
   EXPECT_EQ(observation("floor_contact").get<std::string>("status"), "invalid");
-  // A report of torque fails now and then, and some simulators know no time.
+  // A torque is missing now and then, and some simulators report no time.
   double least = 1.0;
   for (const Signals& s : test::drops(700)) {
     Dictionary record;
@@ -132,7 +132,7 @@ TEST_F(UpkiesObserver, LivesWithWhatASpineDoesNotHaveYet) {
   EXPECT_GT(least, 0.8);
 }
 
-TEST_F(UpkiesObserver, SaysWhichModelItRuns) {
+TEST_F(UpkiesObserver, NamesItsModel) {
   EXPECT_THAT(TouchdownObserver(params_).model(), HasSubstr("robust, 1000 Hz, robot upkie, "));
 }
 
@@ -149,7 +149,7 @@ TEST_F(UpkiesObserver, RefusesAModelOfAnotherFrequencyOrRobotBeforeTheRobotMoves
   EXPECT_THROW(observer.reset(config_), std::runtime_error);
 }
 
-TEST_F(UpkiesObserver, TakesAModelFromTheConfigurationAndOneThatIsCompiledIn) {
+TEST_F(UpkiesObserver, LoadsAModelFromTheConfigurationOrCompiledIn) {
   config_("touchdown")("model") = params_.model;
   params_.model.clear();
   TouchdownObserver observer(params_);

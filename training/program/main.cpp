@@ -71,8 +71,8 @@ int run_program(int argc, char** argv) {
       ->allow_extra_args(false);
   try {
     program.parse(argc, argv);
-  } catch (const CLI::Success& asked) {  // --help
-    return program.exit(asked);
+  } catch (const CLI::Success& success) {  // --help
+    return program.exit(success);
   } catch (const CLI::ParseError& error) {
     return complain(fmt::format("train: {}", error.what()), wrong_request);
   }
@@ -83,7 +83,8 @@ int run_program(int argc, char** argv) {
     return complain(error.what(), wrong_request);
   } catch (const Stopped&) {
     return complain(
-        "stopped; finished iterations are saved, and the same command goes on from there", failed);
+        "stopped; finished iterations are saved, and the same command continues from there",
+        failed);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

@@ -17,8 +17,8 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/sweep_run.hpp"
 #include "experiments/run_directory/directory.hpp"
-#include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/own_files.hpp"
+#include "experiments/run_directory/owner.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "recordings/models/neural_network.hpp"
 #include "render/gnuplot/process.hpp"
@@ -70,9 +70,9 @@ void draw(const SampleEfficiencyConfig& config, const std::filesystem::path& run
                             text + "unset multiplot\n");
 }
 
-/// One play of a scenario file.
-experiments::RunSignals heard(const std::string& file, const std::string& simulator,
-                              std::uint64_t seed, std::int64_t run, double longest) {
+/// Signals of one run of a scenario file, of at most `longest` seconds.
+experiments::RunSignals simulated_signals(const std::string& file, const std::string& simulator,
+                                          std::uint64_t seed, std::int64_t run, double longest) {
   scenarios::Scenario scenario = scenarios::find_scenario(file);
   scenario.end.duration = std::min(scenario.end.duration, longest);
   return experiments::signals_of(
@@ -90,8 +90,9 @@ class SampleEfficiencyStudy {
     Progress progress("test runs", "runs", static_cast<std::int64_t>(tests_.size()));
     tbb::parallel_for(std::size_t{0}, tests_.size(), [&](std::size_t i) {
       const auto run = static_cast<std::int64_t>(i / config.simulators.size());
-      tests_[i] = heard(config.test_scenario, config.simulators[i % config.simulators.size()],
-                        config.seed, run, no_limit);
+      tests_[i] =
+          simulated_signals(config.test_scenario, config.simulators[i % config.simulators.size()],
+                            config.seed, run, no_limit);
       progress.advance();
     });
   }
@@ -108,7 +109,7 @@ class SampleEfficiencyStudy {
     if (request_.wants_stop()) throw Stopped();
   }
 
-  /// Equal parts of every scenario, as many runs as it takes.
+  /// Equal amounts from every scenario, with as many runs as needed.
   std::vector<experiments::RunSignals> labelled_runs(double seconds) const {
     std::vector<experiments::RunSignals> runs;
     const scoring::ScoringConfig scoring;
@@ -116,9 +117,9 @@ class SampleEfficiencyStudy {
       double missing = seconds / static_cast<double>(config_.fit_scenarios.size());
       for (std::int64_t run = experiments::first_fit_run; missing > 1e-9; ++run) {
         check_stop();
-        // What is not used for fitting is no labelled data.
-        runs.push_back(
-            heard(file, config_.fit_simulator, config_.seed, run, missing + scoring.skip));
+        // The skipped beginning is not used for fitting, so it does not count.
+        runs.push_back(simulated_signals(file, config_.fit_simulator, config_.seed, run,
+                                         missing + scoring.skip));
         const double used = static_cast<double>(runs.back().steps()) * 1e-6 *
                                 static_cast<double>(runs.back().info.control_period_us) -
                             scoring.skip;
@@ -138,7 +139,7 @@ class SampleEfficiencyStudy {
       model.measurement = experiments::fit(pointers, entry.config->measurement, {});
       add(entry.title, seconds, [&] { return entry.make(entry, {test_rate(), &model}); });
     } catch (const InputError& error) {
-      tell(fmt::format("{}, {} s: {}\n", entry.title, seconds, error.what()));
+      print_message(fmt::format("{}, {} s: {}\n", entry.title, seconds, error.what()));
     }
   }
 
@@ -165,7 +166,7 @@ class SampleEfficiencyStudy {
     add_network(episodes * episode, std::make_shared<const NeuralNetwork>(trainer.network()));
   }
 
-  /// The last point: all the data that the shipped network has seen.
+  /// The last point: the shipped network, with the amount of data it was trained on.
   void try_shipped_network() {
     const auto network =
         std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network("nmn"));
@@ -185,7 +186,7 @@ class SampleEfficiencyStudy {
     return 1e6 / static_cast<double>(tests_.front().info.control_period_us);
   }
 
-  /// Lets an estimator listen to all test runs and writes a row per engine.
+  /// Evaluates an estimator on all test runs and adds a row per engine.
   template <typename Make>
   void add(const std::string& method, double seconds, const Make& make) {
     const noise::SensorNoise level = config_.noise.levels();

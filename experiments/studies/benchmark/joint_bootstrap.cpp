@@ -24,12 +24,12 @@ Resampled balanced_accuracy(const FitsAndRuns& scores, std::uint64_t scene,
   const auto resamples = static_cast<std::uint64_t>(runs < 2 ? 0 : bootstrap.resamples);
   for (std::uint64_t r = 0; r < resamples; ++r) {
     const std::size_t refits = scores.of_refit.size();
-    const auto& heard =
+    const auto& scored =
         refits == 0 ? scores.runs
                     : scores.of_refit[drawn(refits, uniform01(bootstrap.seed, fit_stream, r))];
     scoring::Classification sum;
     for (std::size_t i = 0; i + 1 < runs; ++i) {
-      sum += heard[drawn(runs, uniform01(bootstrap.seed, run_stream + scene, r * runs + i))];
+      sum += scored[drawn(runs, uniform01(bootstrap.seed, run_stream + scene, r * runs + i))];
     }
     result.values.push_back(sum.balanced_accuracy());
   }

@@ -9,8 +9,8 @@
 
 namespace touchdown::experiments {
 
-/// One estimator in one scene: what was counted in each of its runs (the statistical samples), by
-/// the estimator as it was fitted and by its refits.
+/// One estimator in one scene: counts of each run (the statistical samples), for the estimator's
+/// fit and for its refits.
 struct FitsAndRuns {
   std::vector<scoring::Classification> runs;
   std::vector<std::vector<scoring::Classification>> of_refit = {};
@@ -19,18 +19,19 @@ struct FitsAndRuns {
 /// Balanced accuracy over all runs, and over each of the resamples.
 struct Resampled {
   double estimate = 0.0;
-  std::vector<double> values = {};  ///< none of a single run
+  std::vector<double> values = {};  ///< none for a single run
 };
 
-/// A bootstrap over fits and runs together. Of n runs a resample holds n − 1, drawn with
-/// replacement: of few clusters as many as there are would have too little variance, by (n − 1)/n
-/// (Rao and Wu 1988). If there are refits, each resample hears a refit drawn with it; equal
-/// `bootstrap` draw the same of them in every scene, as estimators are fitted once for all of them.
-/// `scene` keeps the draws of runs of different scenes apart.
+/// A bootstrap over fits and runs together. A resample holds n − 1 of n runs, drawn with
+/// replacement: n draws would underestimate the variance by the factor (n − 1)/n (Rao and Wu 1988).
+/// Each resample also draws one of the refits, if there are any. Equal `bootstrap` draws the same
+/// refits in every scene, since estimators are fitted once for all scenes. `scene` separates the
+/// draws of runs of different scenes.
 Resampled balanced_accuracy(const FitsAndRuns& scores, std::uint64_t scene,
                             const scoring::BootstrapConfig& bootstrap);
 
-/// The mean of things that were resampled together. Those without resamples make it one without.
+/// The mean of quantities that were resampled together. It has no resamples if one of them has
+/// none.
 Resampled mean(const std::vector<const Resampled*>& all);
 
 Interval interval_of(const Resampled& resampled, double level);

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <numeric>
 
-#include "experiments/studies/benchmark/plan.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/studies/benchmark/plan.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-/// What two fitted densities have in common, ∫ min(p, q), over the first one's grid: in contact or
-/// in the air. Each is taken to be one on its own grid: kernels reach below a torque of zero.
+/// The overlap ∫ min(p, q) of two fitted densities on the first one's grid, in contact or in the
+/// air. Each density is normalised on its own grid, because kernels reach below a torque of zero.
 double common_part(const MeasurementModel& first, const MeasurementModel& second,
                    double Likelihoods::*density, std::vector<double> LikelihoodGrids::*grid) {
   const auto share = [&](const LikelihoodGrids& grids) {
@@ -49,10 +49,10 @@ void write_overlap(const FittedModels& models, const Evaluation& evaluation,
         return estimator_entry(name).fits() == ModelKind::measurement;
       });
   if (estimator == experiment.estimators.end()) return;
-  const auto setups = benchmark_settings(evaluation.request, evaluation.plan);
+  const auto setups = benchmark_setups(evaluation.request, evaluation.plan);
   for (const std::string& simulator : experiment.simulators) {
-    const auto model = [&](const BenchmarkSetup& setting) -> const MeasurementModel& {
-      return *models.at(simulator + setting.setting.fit).at(*estimator).measurement;
+    const auto model = [&](const BenchmarkSetup& setup) -> const MeasurementModel& {
+      return *models.at(simulator + setup.robot_and_sensors.fit).at(*estimator).measurement;
     };
     for (const BenchmarkSetup& first : setups) {
       for (const BenchmarkSetup& second : setups) {

@@ -5,9 +5,9 @@
 
 namespace touchdown::experiments {
 
-/// `density_overlap.csv`: how much the densities of every two robots and sensors have in common,
-/// ∫ min(p, q), in contact and in the air: those of the first estimator that has some. Nothing
-/// where none has.
+/// Writes `density_overlap.csv`: the overlap ∫ min(p, q) of the fitted densities of every two
+/// setups, in contact and in the air. The densities are those of the first estimator that has some;
+/// without one, no file is written.
 void write_overlap(const FittedModels& models, const Evaluation& evaluation,
                    const RunDirectory& directory);
 

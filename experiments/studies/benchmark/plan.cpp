@@ -11,7 +11,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// "sensors/harsh.yaml" → "harsh"; no file: ideal ones.
+/// "sensors/harsh.yaml" → "harsh"; without a file: "ideal".
 std::string short_name(const std::string& file) {
   return file.empty() ? "ideal" : std::filesystem::path(file).stem().string();
 }
@@ -22,7 +22,7 @@ std::vector<std::string> and_own(std::string own, const std::vector<std::string>
   return all;
 }
 
-/// Tables tell them apart by these names.
+/// Tables distinguish the files by these names.
 void require_different(const std::vector<std::string>& files, const char* key) {
   for (auto file = files.begin(); file != files.end(); ++file) {
     const auto same = std::find_if(files.begin(), file, [&](const std::string& other) {
@@ -39,26 +39,28 @@ std::size_t index_of(const Items& items, const Is& is) {
   return static_cast<std::size_t>(std::find_if(items.begin(), items.end(), is) - items.begin());
 }
 
-/// Estimators that were fitted in one of these settings, or in the other engine, as guests.
-void add_guests(const Experiment& experiment, const std::vector<BenchmarkSetup>& setups,
-                RunGroup& group) {
+/// Adds estimators that were fitted in one of the other setups, or in the other engine.
+void add_transfers(const Experiment& experiment, const std::vector<BenchmarkSetup>& setups,
+                   RunGroup& group) {
   for (const Condition& own : own_engine_conditions(experiment)) {
     if (!estimator_entry(own.estimator).fits()) continue;
     for (const BenchmarkSetup& other : setups) {
-      if (other.setting.fit == group.fit) continue;
+      if (other.robot_and_sensors.fit == group.fit) continue;
       group.conditions.push_back(
-          {own.fit_simulator, own.test_simulator, own.estimator, other.setting.fit});
+          {own.fit_simulator, own.test_simulator, own.estimator, other.robot_and_sensors.fit});
     }
     for (const std::string& engine : experiment.simulators) {
-      const Condition guest{engine, own.test_simulator, own.estimator, group.fit};
+      const Condition transferred{engine, own.test_simulator, own.estimator, group.fit};
       const auto& all = group.conditions;
-      if (std::find(all.begin(), all.end(), guest) == all.end()) group.conditions.push_back(guest);
+      if (std::find(all.begin(), all.end(), transferred) == all.end()) {
+        group.conditions.push_back(transferred);
+      }
     }
   }
   group.scores_transfer = true;
 }
 
-/// The refits of those that are at home in a group, after all others.
+/// Adds the refits of the in-domain conditions of a group, after all others.
 void add_refits(const BenchmarkConfig& benchmark, RunGroup& group) {
   const std::vector<Condition> all = group.conditions;
   for (const Condition& condition : all) {
@@ -77,7 +79,7 @@ int refits_of(const BenchmarkConfig& benchmark, const std::string& fit) {
   return fit.empty() || benchmark.refits_everywhere ? benchmark.refits : 0;
 }
 
-std::vector<BenchmarkSetup> benchmark_settings(const RunRequest& request, const Plan& plan) {
+std::vector<BenchmarkSetup> benchmark_setups(const RunRequest& request, const Plan& plan) {
   const Experiment& experiment = request.experiment;
   const std::string own_robot =
       scenario_of(request, experiment.test.scenarios.front()).scenario.robot;
@@ -88,17 +90,19 @@ std::vector<BenchmarkSetup> benchmark_settings(const RunRequest& request, const 
   std::vector<BenchmarkSetup> all;
   for (std::size_t r = 0; r < robots.size(); ++r) {
     for (std::size_t s = 0; s < sensors.size(); ++s) {
-      BenchmarkSetup setting{short_name(robots[r]), short_name(sensors[s]), {}, 0};
-      if (r > 0) setting.setting.robot = robots[r];
-      if (!all.empty()) setting.setting.fit = fmt::format("_{}_{}", setting.robot, setting.sensors);
+      BenchmarkSetup setup{short_name(robots[r]), short_name(sensors[s]), {}, 0};
+      if (r > 0) setup.robot_and_sensors.robot = robots[r];
+      if (!all.empty())
+        setup.robot_and_sensors.fit = fmt::format("_{}_{}", setup.robot, setup.sensors);
       if (s > 0) {
-        setting.setting.sensors = index_of(plan.sensors, [&](const PlannedSensors& heard) {
-          return heard.name == setting.sensors;
-        });
+        setup.robot_and_sensors.sensors =
+            index_of(plan.sensors,
+                     [&](const PlannedSensors& planned) { return planned.name == setup.sensors; });
       }
-      setting.group = index_of(
-          plan.groups, [&](const RunGroup& group) { return group.fit == setting.setting.fit; });
-      all.push_back(std::move(setting));
+      setup.group = index_of(plan.groups, [&](const RunGroup& group) {
+        return group.fit == setup.robot_and_sensors.fit;
+      });
+      all.push_back(std::move(setup));
     }
   }
   return all;
@@ -109,24 +113,24 @@ void add_benchmark(const RunRequest& request, Plan& plan) {
   for (const std::string& file : experiment.benchmark->sensors) {
     plan.sensors.push_back({short_name(file), profile_of(request.sensors, file)});
   }
-  const std::vector<BenchmarkSetup> setups = benchmark_settings(request, plan);
+  const std::vector<BenchmarkSetup> setups = benchmark_setups(request, plan);
   const std::size_t first = plan.runs.size();
-  for (const BenchmarkSetup& setting : setups) {
-    const RobotAndSensors& where = setting.setting;
+  for (const BenchmarkSetup& setup : setups) {
+    const RobotAndSensors& where = setup.robot_and_sensors;
     if (where.fit.empty()) {
       plan.groups.front().has_extended_scores = true;
-      if (experiment.benchmark->transfer) add_guests(experiment, setups, plan.groups.front());
+      if (experiment.benchmark->transfer) add_transfers(experiment, setups, plan.groups.front());
       add_refits(*experiment.benchmark, plan.groups.front());
       continue;
     }
-    RunGroup group{fmt::format("{} {}", setting.robot, setting.sensors),
+    RunGroup group{fmt::format("{} {}", setup.robot, setup.sensors),
                    own_engine_conditions(experiment),
                    {},
                    experiment.highlights};
     for (Condition& condition : group.conditions) condition.fit = where.fit;
     group.has_extended_scores = true;
     group.fit = where.fit;
-    if (experiment.benchmark->transfer) add_guests(experiment, setups, group);
+    if (experiment.benchmark->transfer) add_transfers(experiment, setups, group);
     add_refits(*experiment.benchmark, group);
     plan_runs(request, RunRole::fit, where, 0, plan);
     plan_segments(request, where, plan);

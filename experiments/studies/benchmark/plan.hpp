@@ -7,22 +7,22 @@
 
 namespace touchdown::experiments {
 
-/// A robot and its sensors, as tables name them.
+/// A robot with its sensors, by their names in tables.
 struct BenchmarkSetup {
-  std::string robot;    ///< "upkie_heavy"; of the experiment's own: of its first scenario
+  std::string robot;    ///< "upkie_heavy"; the experiment's own is that of its first scenario
   std::string sensors;  ///< "harsh", "ideal"
-  RobotAndSensors setting;      ///< of its runs; its sensors are those of the plan
-  std::size_t group = 0;
+  RobotAndSensors robot_and_sensors;  ///< of its runs in the plan
+  std::size_t group = 0;              ///< of its runs in the plan
 };
 
-/// How often the fit of this name is repeated.
+/// Number of refits of the fit with this name.
 int refits_of(const BenchmarkConfig& benchmark, const std::string& fit);
 
 /// Every combination of a robot and sensors, the experiment's own first.
-std::vector<BenchmarkSetup> benchmark_settings(const RunRequest& request, const Plan& plan);
+std::vector<BenchmarkSetup> benchmark_setups(const RunRequest& request, const Plan& plan);
 
-/// Adds, for every setting but the experiment's own, runs to fit to and runs to test on; all of
-/// them are scored at the highlighted noise, and looked at closely.
+/// Adds runs for fitting and for testing, for every setup but the experiment's own. All test runs
+/// are scored at the highlighted noise, with extended scores.
 void add_benchmark(const RunRequest& request, Plan& plan);
 
 }  // namespace touchdown::experiments

@@ -7,8 +7,8 @@
 
 namespace touchdown::experiments {
 
-/// As many runs, drawn from these with replacement, scene by scene and engine by engine, so that
-/// none loses its place in the fit. The draw depends on the seed and its number alone.
+/// Draws as many runs from these with replacement, within each scene and engine, so that every
+/// scene and engine keeps its number of runs. The draw depends only on `seed` and `number`.
 std::vector<RunSignals> drawn_anew(const std::vector<RunSignals>& runs, std::uint64_t seed,
                                    int number);
 

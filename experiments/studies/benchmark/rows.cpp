@@ -26,11 +26,11 @@ std::vector<std::size_t> runs_in_scene(const Plan& plan, const Experiment& exper
 
 std::string fitted_on(const Condition& condition, const BenchmarkSetup& here,
                       const std::vector<BenchmarkSetup>& setups) {
-  if (condition.is_fitted_in_domain(here.setting.fit)) return "own";
+  if (condition.is_fitted_in_domain(here.robot_and_sensors.fit)) return "own";
   if (condition.fit_simulator != condition.test_simulator) return condition.fit_simulator;
-  const auto there = std::find_if(
-      setups.begin(), setups.end(),
-      [&](const BenchmarkSetup& setting) { return setting.setting.fit == condition.fit; });
+  const auto there = std::find_if(setups.begin(), setups.end(), [&](const BenchmarkSetup& setup) {
+    return setup.robot_and_sensors.fit == condition.fit;
+  });
   return fmt::format("{} {}", there->robot, there->sensors);
 }
 
@@ -40,7 +40,7 @@ std::vector<scoring::Classification> points_of(const std::vector<scoring::RobotS
   return points;
 }
 
-/// What an estimator's refits have in one cell, each in the same runs as the estimator itself.
+/// The counts of an estimator's refits in one cell, each in the same runs as the estimator's own.
 std::vector<std::vector<scoring::Classification>> points_of_refits(const CollectedCounts& counts,
                                                                    const Condition& fitted,
                                                                    std::size_t cell) {
@@ -53,9 +53,9 @@ std::vector<std::vector<scoring::Classification>> points_of_refits(const Collect
   return all;
 }
 
-/// A number of its own for every scene and engine.
-std::uint64_t place_of(std::size_t scene, const std::string& simulator,
-                       const Experiment& experiment) {
+/// A unique number for every scene and engine.
+std::uint64_t stream_of(std::size_t scene, const std::string& simulator,
+                        const Experiment& experiment) {
   const std::vector<std::string>& engines = experiment.simulators;
   const auto engine = std::find(engines.begin(), engines.end(), simulator) - engines.begin();
   return scene * engines.size() + static_cast<std::size_t>(engine);
@@ -68,23 +68,23 @@ std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation) {
   const std::vector<std::string>& scenes = experiment.test.scenarios;
   const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
   std::vector<BenchmarkRow> rows;
-  const auto setups = benchmark_settings(evaluation.request, evaluation.plan);
-  for (const BenchmarkSetup& setting : setups) {
+  const auto setups = benchmark_setups(evaluation.request, evaluation.plan);
+  for (const BenchmarkSetup& setup : setups) {
     for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
-      const auto runs = runs_in_scene(evaluation.plan, experiment, setting.group, scene);
+      const auto runs = runs_in_scene(evaluation.plan, experiment, setup.group, scene);
       const CollectedCounts counts = collect(evaluation.plan, runs, evaluation.saved);
       for (std::size_t c = 0; c < counts.scored.size(); ++c) {
         const ConditionScores& scored = counts.scored[c];
         if (scored.condition.refit > 0) continue;
         const std::string& simulator = scored.condition.test_simulator;
         BenchmarkRow row{simulator,
-                         setting.robot,
-                         setting.sensors,
+                         setup.robot,
+                         setup.sensors,
                          scenario_of(evaluation.request, scenes[scene]).scenario.name,
                          is_fitted_scene(experiment, scenes[scene]) ? "test" : "unseen",
                          {},
                          scored.condition.estimator,
-                         fitted_on(scored.condition, setting, setups),
+                         fitted_on(scored.condition, setup, setups),
                          {},
                          {},
                          {}};
@@ -101,9 +101,9 @@ std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation) {
                                  points_of_refits(counts, scored.condition, cell)};
           row.refits = fits.of_refit.size();
           row.balanced_accuracy =
-              balanced_accuracy(fits, place_of(scene, simulator, experiment), bootstrap);
+              balanced_accuracy(fits, stream_of(scene, simulator, experiment), bootstrap);
           row.score = scoring::sum(scored.samples[cell]).wheels();
-          row.close = scoring::sum(counts.close[c].samples[cell]);
+          row.extended = scoring::sum(counts.extended[c].samples[cell]);
           rows.push_back(row);
         }
       }

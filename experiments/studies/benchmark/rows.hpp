@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "experiments/evaluation/tasks.hpp"
 #include "experiments/studies/benchmark/joint_bootstrap.hpp"
 #include "experiments/studies/benchmark/plan.hpp"
-#include "experiments/evaluation/tasks.hpp"
 #include "scoring/extended_score.hpp"
 
 namespace touchdown::experiments {
@@ -17,22 +17,21 @@ struct BenchmarkRow {
   std::string robot;
   std::string sensors;
   std::string scene;
-  /// Whether scenes like it were fitted, other draws of which are tested here, or none: "test",
-  /// "unseen".
+  /// "test": other draws of this scene are in the fit; "unseen": none are.
   std::string split;
   noise::NoiseCell noise;
   std::string estimator;
-  /// Where it was fitted: "own", or the other engine or robot and sensors.
+  /// Where the estimator was fitted: "own", or the name of another engine or setup.
   std::string fitted_on;
   Resampled balanced_accuracy;
   scoring::Score score;
-  scoring::ExtendedScore close;
-  std::size_t refits = 0;  ///< that were resampled together with the runs
-  int runs = 0;            ///< that were played
-  int failed = 0;          ///< of these; they are not scored
+  scoring::ExtendedScore extended;
+  std::size_t refits = 0;  ///< resampled together with the runs
+  int runs = 0;            ///< simulated
+  int failed = 0;          ///< of these; not scored
 };
 
-/// By setting, scene, engine, estimator, then noise. A scene without any run to score has no rows.
+/// Rows by setup, scene, engine, estimator, then noise. A scene without a scored run has no rows.
 std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation);
 
 }  // namespace touchdown::experiments

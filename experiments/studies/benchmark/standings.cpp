@@ -65,7 +65,7 @@ double standard_error(const Resampled& resampled) {
   return std::sqrt(squares / count);
 }
 
-/// Bands that hold together with this probability.
+/// Simultaneous bands, which all hold with probability `level`.
 std::vector<Interval> simultaneous(const std::vector<Resampled>& all, double level) {
   std::vector<double> errors;
   std::vector<double> largest;
@@ -91,8 +91,7 @@ std::vector<Interval> simultaneous(const std::vector<Resampled>& all, double lev
   return bands;
 }
 
-/// Without those who were not scored in every run in which somebody was: who is compared has to
-/// have heard the same.
+/// Leaves out estimators that were not scored in every scored run: comparisons need the same runs.
 Rows complete_ones(const Rows& rows) {
   std::map<std::string, int> runs;
   int most = 0;
@@ -119,57 +118,57 @@ std::vector<Standings::Difference> all_pairs(const std::string& scene,
   return pairs;
 }
 
-bool is_upper_bound_place(const Standings::Place& place) { return is_upper_bound(place.estimator); }
+bool is_upper_bound_entry(const Standings::Entry& entry) { return is_upper_bound(entry.estimator); }
 
 double bits_of(const BenchmarkRow& row) {
-  return row.close.log_loss / static_cast<double>(row.close.steps) / std::numbers::ln2;
+  return row.extended.log_loss / static_cast<double>(row.extended.steps) / std::numbers::ln2;
 }
 
-std::vector<Standings::Place> places_of(const Rows& rows, const std::vector<Named>& means,
-                                        double level) {
-  std::vector<Standings::Place> places;
+std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Named>& means,
+                                         double level) {
+  std::vector<Standings::Entry> entries;
   for (const Named& mean : means) {
-    Standings::Place place;
-    place.estimator = mean.name;
-    place.mean = interval_of(mean.value, level);
-    place.worst = 1.0;
+    Standings::Entry entry;
+    entry.estimator = mean.name;
+    entry.mean = interval_of(mean.value, level);
+    entry.worst = 1.0;
     double scored = 0.0;
     for (const BenchmarkRow* row : rows) {
       if (row->estimator == mean.name) {
-        place.log_loss += bits_of(*row);
+        entry.log_loss += bits_of(*row);
         scored += 1.0;
       }
       const double value = row->balanced_accuracy.estimate;
-      if (row->estimator != mean.name || value > place.worst) continue;
-      place.worst = value;
-      place.worst_scene = row->scene;
-      place.worst_simulator = row->simulator;
+      if (row->estimator != mean.name || value > entry.worst) continue;
+      entry.worst = value;
+      entry.worst_scene = row->scene;
+      entry.worst_simulator = row->simulator;
     }
-    place.log_loss /= scored;
-    places.push_back(std::move(place));
+    entry.log_loss /= scored;
+    entries.push_back(std::move(entry));
   }
-  const auto ceiling = std::find_if(places.begin(), places.end(), is_upper_bound_place);
-  for (Standings::Place& place : places) {
-    place.bits_left = ceiling == places.end() ? std::numeric_limits<double>::quiet_NaN()
-                                              : place.log_loss - ceiling->log_loss;
+  const auto upper_bound = std::find_if(entries.begin(), entries.end(), is_upper_bound_entry);
+  for (Standings::Entry& entry : entries) {
+    entry.excess_log_loss = upper_bound == entries.end() ? std::numeric_limits<double>::quiet_NaN()
+                                                         : entry.log_loss - upper_bound->log_loss;
   }
-  std::stable_sort(places.begin(), places.end(), [](const auto& one, const auto& other) {
+  std::stable_sort(entries.begin(), entries.end(), [](const auto& one, const auto& other) {
     return one.mean.estimate > other.mean.estimate;
   });
-  return places;
+  return entries;
 }
 
-/// Those who are not told apart from the first.
-void mark_level_ones(std::vector<Standings::Place>& places,
-                     const std::vector<Standings::Difference>& means) {
-  const auto first = std::find_if_not(places.begin(), places.end(), is_upper_bound_place);
-  if (first == places.end()) return;
+/// Marks estimators that are not significantly worse than the best.
+void mark_not_significantly_worse(std::vector<Standings::Entry>& entries,
+                                  const std::vector<Standings::Difference>& means) {
+  const auto first = std::find_if_not(entries.begin(), entries.end(), is_upper_bound_entry);
+  if (first == entries.end()) return;
   const std::string& best = first->estimator;
-  for (Standings::Place& place : places) {
-    place.is_not_significantly_worse =
-        place.estimator == best || std::any_of(means.begin(), means.end(), [&](const auto& pair) {
-          const bool is_theirs = (pair.first == best && pair.second == place.estimator) ||
-                                 (pair.second == best && pair.first == place.estimator);
+  for (Standings::Entry& entry : entries) {
+    entry.is_not_significantly_worse =
+        entry.estimator == best || std::any_of(means.begin(), means.end(), [&](const auto& pair) {
+          const bool is_theirs = (pair.first == best && pair.second == entry.estimator) ||
+                                 (pair.second == best && pair.first == entry.estimator);
           return is_theirs && pair.value.low <= 0.0 && pair.value.high >= 0.0;
         });
   }
@@ -191,8 +190,8 @@ std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double l
     const Rows alike = complete_ones(scored);
     const std::vector<Named> means = means_by_estimator(alike);
     Standings standings{alike.front()->robot, alike.front()->sensors, alike.front()->noise,
-                        places_of(alike, means, level), all_pairs("", means, level)};
-    mark_level_ones(standings.places, standings.differences);
+                        entries_of(alike, means, level), all_pairs("", means, level)};
+    mark_not_significantly_worse(standings.entries, standings.differences);
     for (const Rows& scene : grouped(alike, [](const auto& row) { return row.scene; })) {
       const auto pairs = all_pairs(scene.front()->scene, means_by_estimator(scene), level);
       standings.differences.insert(standings.differences.end(), pairs.begin(), pairs.end());

@@ -20,45 +20,49 @@ double per_minute(std::int64_t count, std::int64_t microseconds) {
   return 60e6 * scoring::ratio(count, microseconds);
 }
 
-struct Column {
+struct BenchmarkColumn {
   const char* name;
   double (*of)(const BenchmarkRow& row);
 };
 constexpr std::array columns = {
-    Column{"no_contact_precision",
-           [](const BenchmarkRow& r) { return r.score.points.no_contact_precision(); }},
-    Column{"no_contact_recall",
-           [](const BenchmarkRow& r) { return r.score.points.no_contact_recall(); }},
-    Column{"flight_f1", [](const BenchmarkRow& r) { return r.close.flights.f1(); }},
-    Column{"takeoff_latency_median_ms",
-           [](const BenchmarkRow& r) { return r.close.takeoff.absolute_percentile(0.5); }},
-    Column{"landing_latency_median_ms",
-           [](const BenchmarkRow& r) { return r.close.landing.absolute_percentile(0.5); }},
-    Column{"extra_switches_per_minute",
-           [](const BenchmarkRow& r) {
-             return per_minute(r.close.extra_switches, r.score.scored_us);
-           }},
-    Column{"calibration_error",
-           [](const BenchmarkRow& r) { return r.score.calibration.expected_error(); }},
-    Column{"log_loss",
-           [](const BenchmarkRow& r) {
-             return r.close.log_loss / static_cast<double>(r.close.steps);
-           }},
-    Column{"success", [](const BenchmarkRow& r) { return r.score.points.success(); }},
-    Column{"loaded_balanced_accuracy",
-           [](const BenchmarkRow& r) { return r.close.loaded.balanced_accuracy(); }},
-    Column{"false_takeoffs_per_minute",
-           [](const BenchmarkRow& r) { return r.score.false_takeoffs_per_minute(); }},
-    Column{"takeoff_latency_p90_ms",
-           [](const BenchmarkRow& r) { return r.close.takeoff.absolute_percentile(0.9); }},
-    Column{"landing_latency_p90_ms",
-           [](const BenchmarkRow& r) { return r.close.landing.absolute_percentile(0.9); }},
-    Column{"takeoff_early_share",
-           [](const BenchmarkRow& r) { return r.close.takeoff.early_share(); }},
-    Column{"landing_early_share",
-           [](const BenchmarkRow& r) { return r.close.landing.early_share(); }}};
+    BenchmarkColumn{"no_contact_precision",
+                    [](const BenchmarkRow& r) { return r.score.points.no_contact_precision(); }},
+    BenchmarkColumn{"no_contact_recall",
+                    [](const BenchmarkRow& r) { return r.score.points.no_contact_recall(); }},
+    BenchmarkColumn{"flight_f1", [](const BenchmarkRow& r) { return r.extended.flights.f1(); }},
+    BenchmarkColumn{
+        "takeoff_latency_median_ms",
+        [](const BenchmarkRow& r) { return r.extended.takeoff.absolute_percentile(0.5); }},
+    BenchmarkColumn{
+        "landing_latency_median_ms",
+        [](const BenchmarkRow& r) { return r.extended.landing.absolute_percentile(0.5); }},
+    BenchmarkColumn{"extra_switches_per_minute",
+                    [](const BenchmarkRow& r) {
+                      return per_minute(r.extended.extra_switches, r.score.scored_us);
+                    }},
+    BenchmarkColumn{"calibration_error",
+                    [](const BenchmarkRow& r) { return r.score.calibration.expected_error(); }},
+    BenchmarkColumn{"log_loss",
+                    [](const BenchmarkRow& r) {
+                      return r.extended.log_loss / static_cast<double>(r.extended.steps);
+                    }},
+    BenchmarkColumn{"success", [](const BenchmarkRow& r) { return r.score.points.success(); }},
+    BenchmarkColumn{"loaded_balanced_accuracy",
+                    [](const BenchmarkRow& r) { return r.extended.loaded.balanced_accuracy(); }},
+    BenchmarkColumn{"false_takeoffs_per_minute",
+                    [](const BenchmarkRow& r) { return r.score.false_takeoffs_per_minute(); }},
+    BenchmarkColumn{
+        "takeoff_latency_p90_ms",
+        [](const BenchmarkRow& r) { return r.extended.takeoff.absolute_percentile(0.9); }},
+    BenchmarkColumn{
+        "landing_latency_p90_ms",
+        [](const BenchmarkRow& r) { return r.extended.landing.absolute_percentile(0.9); }},
+    BenchmarkColumn{"takeoff_early_share",
+                    [](const BenchmarkRow& r) { return r.extended.takeoff.early_share(); }},
+    BenchmarkColumn{"landing_early_share",
+                    [](const BenchmarkRow& r) { return r.extended.landing.early_share(); }}};
 
-/// Estimators down, scenes across; the worst scene and the mean beside them, of those that were
+/// Rows: estimators. Columns: scenes, then the mean and the worst scene of estimators that were
 /// scored in every scene.
 Table scene_table(std::span<const BenchmarkRow> rows) {
   Table table{{""}, {}};
@@ -99,7 +103,7 @@ Table scene_table(std::span<const BenchmarkRow> rows) {
 
 Table rows_table(const std::vector<BenchmarkRow>& rows, double level) {
   std::vector<std::string> last;
-  for (const Column& column : columns) last.emplace_back(column.name);
+  for (const BenchmarkColumn& column : columns) last.emplace_back(column.name);
   last.insert(last.end(), {"torque_noise_nm", "accelerometer_noise_mps2", "takeoffs", "runs",
                            "failed", "fitted_on", "refits"});
   Table table{
@@ -108,7 +112,7 @@ Table rows_table(const std::vector<BenchmarkRow>& rows, double level) {
       {}};
   for (const BenchmarkRow& row : rows) {
     std::vector<std::string> cells;
-    for (const Column& column : columns) cells.push_back(metric(column.of(row)));
+    for (const BenchmarkColumn& column : columns) cells.push_back(metric(column.of(row)));
     cells.insert(cells.end(),
                  {exact(row.noise.torque), exact(row.noise.accelerometer),
                   std::to_string(row.score.takeoff.events), std::to_string(row.runs),
@@ -120,11 +124,11 @@ Table rows_table(const std::vector<BenchmarkRow>& rows, double level) {
   return table;
 }
 
-/// What the rows of the two tables below begin with.
+/// The first columns of the two tables below.
 const std::vector<std::string> setup_columns = {"robot", "sensors", "torque_noise_nm",
-                                                  "accelerometer_noise_mps2"};
+                                                "accelerometer_noise_mps2"};
 
-std::vector<std::string> setting_cells(const Standings& standings) {
+std::vector<std::string> setup_cells(const Standings& standings) {
   return {standings.robot, standings.sensors, exact(standings.noise.torque),
           exact(standings.noise.accelerometer)};
 }
@@ -136,71 +140,70 @@ std::vector<std::string> followed_by(std::vector<std::string> first, const Texts
 }
 
 Table standings_table(const std::vector<Standings>& all) {
-  Table table{
-      header_with_intervals(followed_by(setup_columns, "estimator"), {"mean_balanced_accuracy"},
-                            {"worst_balanced_accuracy", "worst_scene", "worst_simulator",
-                             "is_not_significantly_worse", "log_loss_bits", "bits_left"}),
-      {}};
+  Table table{header_with_intervals(
+                  followed_by(setup_columns, "estimator"), {"mean_balanced_accuracy"},
+                  {"worst_balanced_accuracy", "worst_scene", "worst_simulator",
+                   "is_not_significantly_worse", "log_loss_bits", "excess_log_loss_bits"}),
+              {}};
   for (const Standings& standings : all) {
-    for (const Standings::Place& place : standings.places) {
+    for (const Standings::Entry& entry : standings.entries) {
       table.rows.push_back(
-          row_with_intervals(followed_by(setting_cells(standings), place.estimator), {place.mean},
-                             {metric(place.worst), place.worst_scene, place.worst_simulator,
-                              place.is_not_significantly_worse ? "1" : "0", metric(place.log_loss),
-                              metric(place.bits_left)}));
+          row_with_intervals(followed_by(setup_cells(standings), entry.estimator), {entry.mean},
+                             {metric(entry.worst), entry.worst_scene, entry.worst_simulator,
+                              entry.is_not_significantly_worse ? "1" : "0", metric(entry.log_loss),
+                              metric(entry.excess_log_loss)}));
     }
   }
   return table;
 }
 
 Table differences_table(const std::vector<Standings>& all) {
-  Table table{header_with_intervals(followed_by(setup_columns, "scene", "first", "second"),
-                                    {"difference"}),
-              {}};
+  Table table{
+      header_with_intervals(followed_by(setup_columns, "scene", "first", "second"), {"difference"}),
+      {}};
   for (const Standings& standings : all) {
     for (const Standings::Difference& pair : standings.differences) {
       table.rows.push_back(row_with_intervals(
-          followed_by(setting_cells(standings), pair.scene, pair.first, pair.second),
-          {pair.value}));
+          followed_by(setup_cells(standings), pair.scene, pair.first, pair.second), {pair.value}));
     }
   }
   return table;
 }
 
 std::string standings_text(const Standings& standings) {
-  const bool has_upper_bound = !std::isnan(standings.places.front().bits_left);
-  Table table{{"", "mean", "level with the first", "worst", "in"}, {}};
-  if (has_upper_bound) table.header.emplace_back("bits left");
-  for (const Standings::Place& place : standings.places) {
-    table.rows.push_back({estimator_title(place.estimator), with_interval(place.mean),
-                          place.is_not_significantly_worse ? "yes" : "",
-                          fmt::format("{:.3f}", place.worst),
-                          fmt::format("{}, {}", place.worst_scene, place.worst_simulator)});
-    if (has_upper_bound) table.rows.back().push_back(fmt::format("{:.3f}", place.bits_left));
+  const bool has_upper_bound = !std::isnan(standings.entries.front().excess_log_loss);
+  Table table{{"", "mean", "not significantly worse than the best", "worst", "in"}, {}};
+  if (has_upper_bound) table.header.emplace_back("excess log loss (bits)");
+  for (const Standings::Entry& entry : standings.entries) {
+    table.rows.push_back({estimator_title(entry.estimator), with_interval(entry.mean),
+                          entry.is_not_significantly_worse ? "yes" : "",
+                          fmt::format("{:.3f}", entry.worst),
+                          fmt::format("{}, {}", entry.worst_scene, entry.worst_simulator)});
+    if (has_upper_bound) table.rows.back().push_back(fmt::format("{:.3f}", entry.excess_log_loss));
   }
-  return fmt::format("\n{}, sensors {}, {}: all scenes and engines\n{}", standings.robot,
+  return fmt::format("\n{}, sensors {}, {}: mean over scenes and engines\n{}", standings.robot,
                      standings.sensors, noise_text(standings.noise), to_text(table));
 }
 
 /// Every scene of one engine, robot, sensors and noise.
-std::string scenes_text(const Standings& setting, const std::string& simulator,
+std::string scenes_text(const Standings& standings, const std::string& simulator,
                         const std::vector<BenchmarkRow>& rows) {
   std::vector<BenchmarkRow> alike;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(alike), [&](const BenchmarkRow& row) {
-    return row.fitted_on == "own" && row.simulator == simulator && row.robot == setting.robot &&
-           row.sensors == setting.sensors && row.noise == setting.noise;
+    return row.fitted_on == "own" && row.simulator == simulator && row.robot == standings.robot &&
+           row.sensors == standings.sensors && row.noise == standings.noise;
   });
   if (alike.empty()) return {};
   std::string text =
-      fmt::format("\n{}, {}, sensors {}, {}\n{}", simulator, setting.robot, setting.sensors,
-                  noise_text(setting.noise), to_text(scene_table(alike)));
+      fmt::format("\n{}, {}, sensors {}, {}\n{}", simulator, standings.robot, standings.sensors,
+                  noise_text(standings.noise), to_text(scene_table(alike)));
   std::set<std::string> failures;
   for (const BenchmarkRow& row : alike) {
     if (row.failed == 0) continue;
     failures.insert(fmt::format("{} of {} in {}", row.failed, row.runs, row.scene));
   }
   if (!failures.empty()) {
-    text += fmt::format("Runs that failed and are not scored: {}\n", fmt::join(failures, ", "));
+    text += fmt::format("Failed runs, not scored: {}\n", fmt::join(failures, ", "));
   }
   return text;
 }

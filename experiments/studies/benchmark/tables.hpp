@@ -3,25 +3,25 @@
 #include <string>
 #include <vector>
 
-#include "experiments/studies/benchmark/standings.hpp"
 #include "experiments/run_directory/directory.hpp"
+#include "experiments/studies/benchmark/standings.hpp"
 
 namespace touchdown::experiments {
 
-/// What a benchmark found out.
+/// The result of a benchmark.
 struct BenchmarkResult {
   std::vector<BenchmarkRow> rows;
   std::vector<Standings> standings;
 };
 
-/// `level`, here and below, is that of the intervals.
+/// Adds the standings. `level`, here and below, is the level of the intervals.
 BenchmarkResult with_standings(std::vector<BenchmarkRow> rows, double level);
 
-/// `benchmark.csv`, `benchmark_standings.csv`, `benchmark_differences.csv`, and all three as
+/// Writes `benchmark.csv`, `benchmark_standings.csv`, `benchmark_differences.csv`, and all three as
 /// `benchmark.json`.
 void write_tables(const BenchmarkResult& result, double level, const RunDirectory& directory);
 
-/// For people: who stands where with every robot and its sensors, and scene by scene with the
+/// The terminal text: standings for every robot with its sensors, and scores by scene for the
 /// experiment's own.
 std::string benchmark_text(const BenchmarkResult& result, const Experiment& experiment);
 

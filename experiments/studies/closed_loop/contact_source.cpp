@@ -12,8 +12,8 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// What is needed from step to step.
-struct Hearing {
+/// The state between control steps.
+struct LoopState {
   std::unique_ptr<ContactEstimator> estimator;
   noise::ReportingSensors sensors;
   noise::SensorNoise levels;
@@ -25,39 +25,40 @@ struct Hearing {
 }  // namespace
 
 policies::WheelContact contact_source(std::unique_ptr<ContactEstimator> estimator,
-                              const ClosedLoopSensors& sensors, double period, ContactTrace& told) {
+                                      const ClosedLoopSensors& sensors, double period,
+                                      ContactTrace& trace) {
   estimator->reset();
-  const auto hearing = std::make_shared<Hearing>(Hearing{
+  const auto state = std::make_shared<LoopState>(LoopState{
       std::move(estimator), noise::ReportingSensors(sensors.profile, sensors.sensor_draws, period),
       sensors.levels, sensors.noise_draws});
-  return [hearing, &told](const models::Observation& observation, double command) {
-    models::Observation heard = observation;
-    hearing->sensors.report(std::span(&heard, 1));
-    if (!std::isnan(heard.time)) {
-      heard = noise::with_noise(heard, hearing->draws, hearing->step, hearing->levels);
-      hearing->belief = hearing->estimator->update(recordings::signals_from(heard, command));
+  return [state, &trace](const models::Observation& observation, double command) {
+    models::Observation reported = observation;
+    state->sensors.report(std::span(&reported, 1));
+    if (!std::isnan(reported.time)) {
+      reported = noise::with_noise(reported, state->draws, state->step, state->levels);
+      state->belief = state->estimator->update(recordings::signals_from(reported, command));
     }
-    ++hearing->step;
-    std::array<bool, models::wheel_count> touches = {};
-    for (std::size_t wheel = 0; wheel < touches.size(); ++wheel) {
-      const auto& belief = hearing->belief.wheel[wheel];
-      touches[wheel] = belief.contact;
-      told.contact[wheel].push_back(belief.contact ? 1 : 0);
-      told.p_contact[wheel].push_back(static_cast<float>(belief.p_contact));
+    ++state->step;
+    std::array<bool, models::wheel_count> in_contact = {};
+    for (std::size_t wheel = 0; wheel < in_contact.size(); ++wheel) {
+      const auto& belief = state->belief.wheel[wheel];
+      in_contact[wheel] = belief.contact;
+      trace.contact[wheel].push_back(belief.contact ? 1 : 0);
+      trace.p_contact[wheel].push_back(static_cast<float>(belief.p_contact));
     }
-    return touches;
+    return in_contact;
   };
 }
 
-policies::WheelContact recorded(policies::WheelContact contact, ContactTrace& told) {
-  return [contact = std::move(contact), &told](const models::Observation& observation,
-                                               double command) {
-    const std::array<bool, models::wheel_count> touches = contact(observation, command);
-    for (std::size_t wheel = 0; wheel < touches.size(); ++wheel) {
-      told.contact[wheel].push_back(touches[wheel] ? 1 : 0);
-      told.p_contact[wheel].push_back(touches[wheel] ? 1.0F : 0.0F);
+policies::WheelContact recorded(policies::WheelContact contact, ContactTrace& trace) {
+  return [contact = std::move(contact), &trace](const models::Observation& observation,
+                                                double command) {
+    const std::array<bool, models::wheel_count> in_contact = contact(observation, command);
+    for (std::size_t wheel = 0; wheel < in_contact.size(); ++wheel) {
+      trace.contact[wheel].push_back(in_contact[wheel] ? 1 : 0);
+      trace.p_contact[wheel].push_back(in_contact[wheel] ? 1.0F : 0.0F);
     }
-    return touches;
+    return in_contact;
   };
 }
 

@@ -12,27 +12,29 @@
 
 namespace touchdown::experiments {
 
-/// What a policy was told, step by step, of each wheel.
+/// The contact that a policy received for each wheel, step by step.
 struct ContactTrace {
   std::array<scoring::ContactSequence, models::wheel_count> contact;
   std::array<std::vector<float>, models::wheel_count> p_contact;
 };
 
-/// Through what an estimator in the loop hears.
+/// Sensors and noise between the robot and an estimator in the loop.
 struct ClosedLoopSensors {
   noise::SensorProfile profile;
-  noise::NoiseKey sensor_draws;  ///< of what the profile leaves to chance
-  noise::SensorNoise levels;     ///< on top of that
+  noise::NoiseKey sensor_draws;  ///< of the random parts of the profile
+  noise::SensorNoise levels;     ///< added to the output of the sensors
   noise::NoiseKey noise_draws;
 };
 
-/// An estimator as it tells a policy about contact: it hears at every control step what it would
-/// hear of the run that is recorded, and where there is no record its last belief stands. `told`
-/// must outlive what is returned.
+/// Makes an estimator the contact source of a policy. At every control step it receives the signals
+/// of an offline evaluation of this run, so that both give the same decisions. At a step without a
+/// record the last belief holds. `period` in seconds. `trace` records the contact and must outlive
+/// the result.
 policies::WheelContact contact_source(std::unique_ptr<ContactEstimator> estimator,
-                              const ClosedLoopSensors& sensors, double period, ContactTrace& told);
+                                      const ClosedLoopSensors& sensors, double period,
+                                      ContactTrace& trace);
 
-/// Whoever else tells, with what is told noted down.
-policies::WheelContact recorded(policies::WheelContact contact, ContactTrace& told);
+/// Another contact source, recorded in `trace`, which must outlive the result.
+policies::WheelContact recorded(policies::WheelContact contact, ContactTrace& trace);
 
 }  // namespace touchdown::experiments

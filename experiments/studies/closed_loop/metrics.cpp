@@ -23,7 +23,7 @@ odometry::LegJoints joints_of(const models::Observation& observation, std::size_
   return joints;
 }
 
-/// Steps at which a wheel lands after a flight of at least so many.
+/// Steps at which a wheel lands after a flight of at least `shortest` steps.
 std::vector<std::size_t> landings(const scoring::ContactSequence& contact, std::size_t shortest) {
   std::vector<std::size_t> steps;
   for (const scoring::Flight& flight : scoring::flights(contact)) {
@@ -77,43 +77,44 @@ std::array<double, models::wheel_count> tyre_speeds(const models::Observation& o
   return speeds;
 }
 
-ClosedLoopMetrics closed_loop_metrics_of(const recordings::Recording& recording,
-                       const std::array<scoring::ContactSequence, models::wheel_count>& told,
-                       const odometry::WheeledBiped& robot, const scoring::LabelConfig& labels,
-                       const scoring::ScoringConfig& scoring) {
-  ClosedLoopMetrics outcome;
-  outcome.runs = 1;
+ClosedLoopMetrics closed_loop_metrics_of(
+    const recordings::Recording& recording,
+    const std::array<scoring::ContactSequence, models::wheel_count>& trace,
+    const odometry::WheeledBiped& robot, const scoring::LabelConfig& labels,
+    const scoring::ScoringConfig& scoring) {
+  ClosedLoopMetrics metrics;
+  metrics.runs = 1;
   const auto how = recording.info.outcome.value_or(recordings::Outcome::finished);
-  outcome.finished = how == recordings::Outcome::finished ? 1 : 0;
-  outcome.fell = how == recordings::Outcome::fell || how == recordings::Outcome::diverged ? 1 : 0;
+  metrics.finished = how == recordings::Outcome::finished ? 1 : 0;
+  metrics.fell = how == recordings::Outcome::fell || how == recordings::Outcome::diverged ? 1 : 0;
   const double period = recording.period();
   const auto shortest = static_cast<std::size_t>(std::llround(scoring.minimum_flight / period));
   const auto contact = scoring::contact_labels(recording, labels);
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     for (const std::size_t step : landings(contact[wheel], shortest)) {
-      // A step before: the ground has not turned it yet.
+      // The step before the landing: the ground has not changed the wheel's speed yet.
       const double speed =
           tyre_speeds(recording.observation[step - 1], recording.truth[step - 1], robot)[wheel];
-      outcome.landings += 1;
-      outcome.squared_landing_speed += speed * speed;
+      metrics.landings += 1;
+      metrics.squared_landing_speed += speed * speed;
     }
   }
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     const auto& force = recording.truth[k].wheel_normal_force;
-    outcome.largest_force = std::max({outcome.largest_force, force[0], force[1]});
-    outcome.largest_pitch =
-        std::max(outcome.largest_pitch, std::abs(recording.observation[k].pitch));
+    metrics.largest_force = std::max({metrics.largest_force, force[0], force[1]});
+    metrics.largest_pitch =
+        std::max(metrics.largest_pitch, std::abs(recording.observation[k].pitch));
   }
-  const scoring::ContactSequence robot_touches = scoring::any_wheel(contact);
+  const scoring::ContactSequence robot_contact = scoring::any_wheel(contact);
   for (const scoring::JudgedTransition& judged :
-       judge_transitions(robot_touches, scoring::any_wheel(told), period, scoring)) {
+       judge_transitions(robot_contact, scoring::any_wheel(trace), period, scoring)) {
     const bool is_false_takeoff = judged.kind == scoring::EventKind::takeoff &&
                                   judged.verdict == scoring::Judgement::false_alarm;
-    outcome.false_takeoffs += is_false_takeoff ? 1 : 0;
+    metrics.false_takeoffs += is_false_takeoff ? 1 : 0;
   }
-  outcome.contact_us =
-      recording.info.control_period_us * std::count(robot_touches.begin(), robot_touches.end(), 1);
-  return outcome;
+  metrics.contact_us =
+      recording.info.control_period_us * std::count(robot_contact.begin(), robot_contact.end(), 1);
+  return metrics;
 }
 
 }  // namespace touchdown::experiments

@@ -14,7 +14,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The points of a scene: one of three has more than one value.
+/// The points of a scene. At most one of values, noise and delay has more than one entry.
 std::vector<ClosedLoopCell> points(const ClosedLoopScene& scene, ClosedLoopCell cell) {
   std::vector<double> values = scene.values;
   if (values.empty()) values = {std::numeric_limits<double>::quiet_NaN()};
@@ -56,11 +56,12 @@ std::vector<ClosedLoopCell> closed_loop_cells(const Experiment& experiment) {
 
 std::size_t closed_loop_runs(const Experiment& experiment) {
   if (!experiment.closed_loop) return 0;
-  return closed_loop_cells(experiment).size() * static_cast<std::size_t>(experiment.closed_loop->runs);
+  return closed_loop_cells(experiment).size() *
+         static_cast<std::size_t>(experiment.closed_loop->runs);
 }
 
 TaskRange closed_loop_runs_of(const Experiment& experiment, const TaskRange& tasks,
-                       std::size_t all_tasks) {
+                              std::size_t all_tasks) {
   const std::size_t runs = closed_loop_runs(experiment);
   return {runs * tasks.begin / all_tasks, runs * tasks.end / all_tasks};
 }
@@ -96,14 +97,14 @@ void require_closed_loop(const RunRequest& request) {
     const ClosedLoopScene& scene = experiment.closed_loop->scenes[cell.scene];
     if (scenario_of(request, cell).simulation.steps.control_us != period) {
       throw InputError(fmt::format(
-          "closed_loop.scenes.{}: {} is controlled at another period than the test runs, at which "
+          "closed_loop.scenes.{}: {} has another control period than the test runs, for which "
           "estimators are fitted",
           cell.scene, scene.scenario));
     }
-    const bool is_ours = !cell.is_oracle() && cell.contact != "always";
-    if (is_ours && estimator_entry(cell.contact).make == nullptr) {
+    const bool is_estimator = !cell.is_oracle() && cell.contact != "always";
+    if (is_estimator && estimator_entry(cell.contact).make == nullptr) {
       throw InputError(fmt::format(
-          "closed_loop.contact: '{}' hears whole runs, and a policy is told step by step",
+          "closed_loop.contact: '{}' needs whole runs, but a policy gets contact step by step",
           cell.contact));
     }
   }

@@ -4,35 +4,35 @@
 #include <vector>
 
 #include "core/interval.hpp"
+#include "experiments/run_directory/directory.hpp"
 #include "experiments/studies/closed_loop/metrics.hpp"
 #include "experiments/studies/closed_loop/rollout.hpp"
-#include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {
 
 /// One point of a survival curve.
 struct SurvivalRow {
   ClosedLoopCell cell;
-  std::string scene;         ///< the scenario's name
-  std::string robot;         ///< its file's stem
-  std::string sensors;       ///< likewise; "ideal"
-  std::string varied;        ///< `varied_quantity`
-  std::string key;           ///< of the scenario, that has the cell's value; empty: none
-  ClosedLoopMetrics outcome = {};  ///< of all runs
-  Interval finished = {};    ///< share, with its exact interval
-  /// Runs that this one finished and the same law told `always` did not, started alike; and the
-  /// other way round. Both 0 where nobody is told always.
+  std::string scene;               ///< the scenario's name
+  std::string robot;               ///< its file's stem
+  std::string sensors;             ///< likewise; "ideal"
+  std::string varied;              ///< `varied_quantity`
+  std::string key;                 ///< of the scenario, with the cell's value; empty: none
+  ClosedLoopMetrics metrics = {};  ///< of all runs
+  Interval finished = {};          ///< share, with its exact interval
+  /// Runs that finish here but not with the contact source `always`, at the same law, start and
+  /// perturbations; and the reverse. Both 0 if `always` is not in the experiment.
   int won_against_always = 0;
   int lost_against_always = 0;
 };
 
-/// In the order of the cells. Errors: `Error` for a run that nobody saved.
+/// Rows in the order of the cells. Errors: `Error` for a run that is not saved.
 std::vector<SurvivalRow> survival_rows(const RunRequest& request, const SavedClosedLoops& saved);
 
-/// `survival.csv`.
+/// Writes `survival.csv`.
 void write_tables(const std::vector<SurvivalRow>& rows, const RunDirectory& directory);
 
-/// The same in short, for people.
+/// A summary for the terminal.
 std::string survival_text(const std::vector<SurvivalRow>& rows, const Experiment& experiment);
 
 }  // namespace touchdown::experiments

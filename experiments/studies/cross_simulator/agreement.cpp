@@ -7,13 +7,13 @@ namespace touchdown::experiments {
 
 namespace {
 
-constexpr double impact_lasts = 0.1;     // s: a landing's peak and its bounces are looked for in it
-constexpr double touch_lasts = 0.05;     // s: longer contacts are no touches
-constexpr double knee_range = 16.0;      // N·m
-constexpr double wheel_range = 1.7;      // N·m
-constexpr std::size_t knee_bins = 3200;  // of 0.01 N·m
-constexpr std::size_t wheel_bins = 1700;  // of 0.002 N·m
-constexpr std::size_t merged = 10;        // bins into one for the overlap: 0.1 and 0.02 N·m
+constexpr double impact_lasts = 0.1;  // s: window after a landing for its peak and its bounces
+constexpr double edge_contact_lasts = 0.05;  // s: longer contacts are no edge contacts
+constexpr double knee_range = 16.0;          // N·m
+constexpr double wheel_range = 1.7;          // N·m
+constexpr std::size_t knee_bins = 3200;      // of 0.01 N·m
+constexpr std::size_t wheel_bins = 1700;     // of 0.002 N·m
+constexpr std::size_t merged = 10;           // bins into one for the overlap: 0.1 and 0.02 N·m
 
 struct QuantityName {
   const char* name;
@@ -34,7 +34,7 @@ Mean& mean_of(RunFacts& facts, Quantity quantity) {
   return facts.quantity[static_cast<std::size_t>(quantity)];
 }
 
-/// Flights, touches between them and landings, of the robot as a whole.
+/// Flights, edge contacts between them and landings, of the robot as a whole.
 void add_drops(const RunSignals& run, const scoring::ScoringConfig& scoring, RunFacts& facts) {
   const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
   const auto steps = [&](double seconds) {
@@ -57,9 +57,9 @@ void add_drops(const RunSignals& run, const scoring::ScoringConfig& scoring, Run
       peak = std::max(peak, std::abs(run.signals[k].vertical_acceleration));
     }
     mean_of(facts, Quantity::peak_acceleration).add(peak);
-    const bool touched =
-        i > 0 && !is_drop(all[i - 1]) && all[i].takeoff - all[i - 1].landing < steps(touch_lasts);
-    mean_of(facts, Quantity::edge_contact_steps).add(touched ? 1.0 : 0.0);
+    const bool has_edge_contact = i > 0 && !is_drop(all[i - 1]) &&
+                                  all[i].takeoff - all[i - 1].landing < steps(edge_contact_lasts);
+    mean_of(facts, Quantity::edge_contacts).add(has_edge_contact ? 1.0 : 0.0);
     double bounces = 0.0;
     for (std::size_t j = i + 1; j < all.size() && all[j].takeoff < end; ++j) bounces += 1.0;
     mean_of(facts, Quantity::bounces).add(bounces);

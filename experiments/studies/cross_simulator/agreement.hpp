@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
-#include "experiments/studies/cross_simulator/histogram.hpp"
 #include "experiments/rollouts/rollouts.hpp"
+#include "experiments/studies/cross_simulator/histogram.hpp"
 #include "scoring/bootstrap.hpp"
 
 namespace touchdown::experiments {
 
-/// A mean whose parts add.
+/// A mean as a sum and a count, so that parts can be added.
 struct Mean {
   double sum = 0.0;
   double count = 0.0;
@@ -29,12 +29,12 @@ struct Mean {
   double value() const { return sum / count; }
 };
 
-/// What is compared between engines before any estimator listens; docs/cross_simulator.md says how
-/// each is measured.
+/// Quantities of the runs that are compared between engines, independent of estimators.
+/// docs/cross_simulator.md defines each.
 enum class Quantity : int {
   flight_duration,    ///< ms
   peak_acceleration,  ///< of a landing (m/s²)
-  edge_contact_steps,       ///< per drop
+  edge_contacts,      ///< per drop
   bounces,            ///< per drop
   contact_ratio,
   descent,  ///< time to the bottom (s)
@@ -45,7 +45,7 @@ inline constexpr std::size_t quantity_count = 6;
 enum class TorqueSet : int { knee_contact, knee_flight, wheel_contact, wheel_flight };
 inline constexpr std::size_t torque_set_count = 4;
 
-/// Everything of one run that is compared; runs add.
+/// The compared quantities of one run; those of several runs can be added.
 struct RunFacts {
   std::array<Mean, quantity_count> quantity;
   std::array<Histogram, torque_set_count> torque;
@@ -55,30 +55,30 @@ struct RunFacts {
 
 RunFacts facts_of(const Rollout& run, const Experiment& experiment);
 
-/// One quantity in both engines and the second's minus the first's on the same runs.
+/// One quantity in both engines, and the second's minus the first's on the same runs.
 struct QuantityAgreement {
   std::string name;
   std::string unit;
   Interval first, second, difference;
 };
 
-/// How far apart the engines' torque distributions are.
+/// The distance between the engines' torque distributions.
 struct TorqueAgreement {
   std::string name;
   Interval distance;  ///< Wasserstein (N·m)
   Interval overlap;
-  /// The distance of one engine's even runs from its odd ones, the greater of the two engines: what
-  /// equal distributions would show (N·m).
+  /// Distance between the even and the odd runs of one engine, the greater of both engines (N·m):
+  /// the value to expect for equal distributions.
   double within_engine = 0.0;
 };
 
 struct Agreement {
-  std::size_t runs = 0;  ///< that both engines got through
+  std::size_t runs = 0;  ///< completed in both engines
   std::vector<QuantityAgreement> quantities;
   std::vector<TorqueAgreement> torques;
 };
 
-/// Entry i of both belongs to the same draw of the perturbations.
+/// Entry i of both has the same draw of the perturbations.
 Agreement agreement(const std::vector<RunFacts>& first, const std::vector<RunFacts>& second,
                     const scoring::BootstrapConfig& config);
 

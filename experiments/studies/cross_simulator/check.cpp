@@ -19,7 +19,7 @@ std::vector<const Rollout*> test_runs(const Evaluation& evaluation, const std::s
   return found;
 }
 
-/// Of the runs that the robot gets through in both engines.
+/// The agreement over the runs that the robot completes in both engines.
 Agreement agreement_of(const Evaluation& evaluation) {
   const Experiment& experiment = evaluation.request.experiment;
   const auto first = test_runs(evaluation, experiment.simulators[0]);
@@ -32,13 +32,12 @@ Agreement agreement_of(const Evaluation& evaluation) {
     second_facts.push_back(facts_of(*second[i], experiment));
   }
   if (first_facts.empty()) {
-    throw Error("there is no test run that the robot gets through in both engines");
+    throw Error("there is no test run that the robot completes in both engines");
   }
   return agreement(first_facts, second_facts, experiment.intervals.bootstrap);
 }
 
-/// One per estimator that was fitted where it is tested, at the experiment's first highlighted
-/// noise setting.
+/// Adds a row per in-domain estimator, at the experiment's first highlighted noise setting.
 void add_sensitivity(const Variation& variation, const Evaluation& evaluation,
                      std::vector<Sensitivity>& all) {
   const Experiment& experiment = evaluation.request.experiment;

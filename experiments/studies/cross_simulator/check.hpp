@@ -9,16 +9,16 @@
 
 namespace touchdown::experiments {
 
-/// How an estimator that was fitted on the nominal scene does in a varied one.
+/// Scores of an estimator, fitted on the nominal scene, in a varied one.
 struct Sensitivity {
   Variation variation;
   std::string estimator;
-  std::size_t runs = 0;    ///< that are scored
-  std::size_t failed = 0;  ///< that fell or diverged
-  Interval success;        ///< NaN when no run is left
+  std::size_t runs = 0;    ///< scored
+  std::size_t failed = 0;  ///< fell or diverged
+  Interval success;        ///< accuracy; NaN without scored runs
 };
 
-/// What the robustness check found out.
+/// The result of the cross-simulator check.
 struct CrossSimulatorResult {
   Experiment experiment;
   Agreement agreement;
@@ -27,9 +27,9 @@ struct CrossSimulatorResult {
   std::vector<Verdict> verdicts;
 };
 
-/// Compares what the two engines did, what estimators lose that were fitted in the other one, and
-/// what one factor at a time changes, and judges. A verdict that fails is a result, not an error.
-/// Errors: `Error` when there is no test run that the robot gets through in both engines.
+/// Compares the runs of the two engines, the loss of estimators that were fitted in the other
+/// engine, and the effect of one factor at a time, and gives verdicts. A failed verdict is a
+/// result, not an error. Errors: `Error` when the robot completes no test run in both engines.
 CrossSimulatorResult check_across_simulators(const Evaluation& evaluation);
 
 }  // namespace touchdown::experiments

@@ -6,8 +6,8 @@
 
 namespace touchdown::experiments {
 
-/// Counts of a quantity in `bins` equal bins over [low, high); what lies beyond counts in the
-/// outermost ones. Histograms over the same bins add; an empty one takes the other's bins.
+/// Counts of a quantity in `bins` equal bins over [low, high). Values beyond count in the outermost
+/// bins. Histograms with the same bins can be added; an empty one takes the other's bins.
 class Histogram {
  public:
   Histogram() = default;
@@ -27,13 +27,12 @@ class Histogram {
   std::vector<std::int64_t> count_;
 };
 
-/// The first Wasserstein distance, ∫ |F(x) − G(x)| dx: how far, in the quantity's own unit, the
-/// mass of one distribution must be moved on average to become the other. Off by at most one bin's
-/// width. NaN when one is empty.
+/// The first Wasserstein distance, ∫ |F(x) − G(x)| dx, in the unit of the quantity. Its error is at
+/// most one bin width. NaN when one histogram is empty.
 double wasserstein_distance(const Histogram& a, const Histogram& b);
 
-/// Σ min(p, q) after adding up every `merged` neighbouring bins: 1 for equal distributions, 0 for
-/// disjoint ones. NaN when one is empty.
+/// Σ min(p, q) over bins that are merged in groups of `merged`: 1 for equal distributions, 0 for
+/// disjoint ones. NaN when one histogram is empty.
 double overlap(const Histogram& a, const Histogram& b, std::size_t merged);
 
 }  // namespace touchdown::experiments

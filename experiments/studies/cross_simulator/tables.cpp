@@ -73,7 +73,7 @@ Table verdicts_csv(const std::vector<Verdict>& verdicts) {
 CaptionedTable agreement_table(const CrossSimulatorResult& result) {
   const std::vector<std::string>& engine = result.experiment.simulators;
   CaptionedTable table{
-      fmt::format("Agreement before any estimator: the same {} runs in both engines{}.",
+      fmt::format("Agreement of the engines without estimators: the same {} runs in both{}.",
                   result.agreement.runs, setup_caption(result.experiment)),
       "agreement",
       {{"quantity", "unit", engine[0], engine[1], engine[1] + " − " + engine[0]}, {}}};
@@ -89,8 +89,8 @@ CaptionedTable agreement_table(const CrossSimulatorResult& result) {
 CaptionedTable torque_table(const CrossSimulatorResult& result) {
   const Agreement& agreement = result.agreement;
   CaptionedTable table{
-      fmt::format("Torque distributions, engine against engine; \"within\" is the distance between "
-                  "one engine's even and odd runs{}.",
+      fmt::format("Torque distributions of both engines; \"within\" is the distance between "
+                  "even and odd runs of one engine{}.",
                   setup_caption(result.experiment)),
       "torques",
       {{"torque", "unit", "Wasserstein distance", "within", "overlap"}, {}}};
@@ -104,11 +104,12 @@ CaptionedTable torque_table(const CrossSimulatorResult& result) {
 
 CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::NoiseCell& cell) {
   CaptionedTable table{
-      fmt::format("Transfer: success rate by engine of the fit and of the test; loss is that of "
-                  "fitting in the other engine ({}{}).",
+      fmt::format("Transfer: accuracy by engine of the fit and of the test; loss of accuracy when "
+                  "fitted in the other engine ({}{}).",
                   noise_text(cell), setup_caption(result.experiment)),
       "transfer",
-      {{"estimator", "fit → test", "success", "no contact recall", "loss", "gain over always"},
+      {{"estimator", "fit → test", "accuracy", "no contact recall", "loss",
+        "gain over always contact"},
        {}}};
   for (const Transfer& t : result.transfers) {
     if (!(t.cell == cell)) continue;
@@ -128,7 +129,7 @@ CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::N
 /// One row per value and engine, one column per estimator.
 CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
   CaptionedTable table{
-      fmt::format("Sensitivity: success rate of estimators fitted on the nominal scene (*), one "
+      fmt::format("Sensitivity: accuracy of estimators fitted on the nominal scene (*), one "
                   "factor at a time, {} runs each ({}{}).",
                   result.experiment.cross_simulator->sensitivity_runs,
                   noise_text(result.experiment.highlights.front()),

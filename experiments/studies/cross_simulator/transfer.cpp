@@ -20,18 +20,18 @@ std::string words_of(const Verdict& verdict, const VerdictConfig& config, double
   const std::string loss =
       estimator.fits()
           ? fmt::format(
-                "fitted in the other engine it loses at most {:.4f} of its success rate (upper end "
-                "of the {}; {}, allowed is less than {})",
-                verdict.loss, interval, keeps ? "good" : "too much", config.largest_loss)
-          : "it has nothing to fit, so there is nothing to lose";
+                "fitted in the other engine it loses at most {:.4f} of accuracy (upper end of the "
+                "{}; {}, limit {})",
+                verdict.loss, interval, keeps ? "passed" : "too much", config.largest_loss)
+          : "it is not fitted, so it loses nothing";
   return fmt::format(
-      "{} {}: {}, and it is at least {:.4f} better than always contact (lower end; {}, asked is "
-      "more than {}).",
+      "{} {}: {}, and its accuracy is at least {:.4f} above always contact (lower end; {}, limit "
+      "{}).",
       estimator.title, verdict.holds ? "holds" : "FAILS", loss, verdict.gain,
-      gains ? "good" : "too little", config.smallest_gain);
+      gains ? "passed" : "too little", config.smallest_gain);
 }
 
-/// Greater or smaller of two; NaN wins, so that it cannot be overlooked.
+/// Greater or smaller of two; NaN if one is NaN, so that undefined values show.
 double worse(double a, double b, bool greater_is_worse) {
   if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::quiet_NaN();
   return greater_is_worse ? std::max(a, b) : std::min(a, b);

@@ -15,7 +15,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The runs of one value draw the same perturbations as the experiment's test runs.
+/// Adds the runs of one value, with the perturbations of the experiment's test runs.
 void plan_runs(const RunRequest& request, const Variation& variation, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const CrossSimulatorConfig& config = *experiment.cross_simulator;

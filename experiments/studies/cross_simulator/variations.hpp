@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/studies/cross_simulator/transfer.hpp"
 #include "experiments/plan/plan.hpp"
+#include "experiments/studies/cross_simulator/transfer.hpp"
 
 namespace touchdown::experiments {
 
@@ -19,17 +19,16 @@ struct Variation {
   bool is_nominal() const { return value == nominal; }
 };
 
-/// Every value of every factor, nominal ones included, in each engine where it means something.
-/// Errors: `InputError` naming the factor when the scenario has no such key.
+/// Every value of every factor, nominal ones included, in each engine of the factor. Errors:
+/// `InputError` that names the factor when the scenario has no such key.
 std::vector<Variation> variations(const RunRequest& request);
 
-/// What the check adds to an experiment's plan: estimators that were fitted in the other engine
-/// listen too, and every value but the nominal ones has a group of runs, which is listened to at
-/// the first highlighted noise setting. Errors: `InputError` naming the factor and the value that
-/// the scenario refuses.
+/// Adds the check to an experiment's plan. Estimators that were fitted in the other engine are
+/// evaluated, too. Every value but the nominal ones gets a group of runs, evaluated at the first
+/// highlighted noise setting. Errors: `InputError` that names the factor and the invalid value.
 void add_cross_simulator(const RunRequest& request, Plan& plan);
 
-/// The runs of one value; of a nominal one, the experiment's own first test runs.
+/// The runs of one value; for a nominal value, the experiment's own first test runs.
 std::vector<std::size_t> runs_of(const Variation& variation, const RunRequest& request,
                                  const Plan& plan);
 

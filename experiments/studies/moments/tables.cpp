@@ -11,18 +11,20 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// A joint in a state of contact, and the real robot's |torque| there (N·m): mean and standard
-/// deviation under the densities that its authors publish as their measurement model, learned while
-/// it roamed and while it hung on a tether. Their grid ends at its largest torque.
-struct Quantity {
+/// The real robot's |torque| (N·m) of a joint in one contact state: mean and standard deviation.
+/// They follow from the densities that the robot's authors publish as their measurement model,
+/// learned from roaming and from hanging on a tether. The grid of the densities ends at the largest
+/// torque.
+struct RobotTorque {
   Joint joint;
   std::size_t contact;
   double robot_mean;
   double robot_deviation;
 };
-constexpr std::array robot = {
-    Quantity{&TorqueSegment::knee, 1, 0.358, 0.229}, Quantity{&TorqueSegment::wheel, 1, 0.109, 0.062},
-    Quantity{&TorqueSegment::knee, 0, 0.083, 0.067}, Quantity{&TorqueSegment::wheel, 0, 0.012, 0.010}};
+constexpr std::array robot = {RobotTorque{&TorqueSegment::knee, 1, 0.358, 0.229},
+                              RobotTorque{&TorqueSegment::wheel, 1, 0.109, 0.062},
+                              RobotTorque{&TorqueSegment::knee, 0, 0.083, 0.067},
+                              RobotTorque{&TorqueSegment::wheel, 0, 0.012, 0.010}};
 constexpr double robot_largest_knee = 1.495;
 constexpr double robot_largest_wheel = 0.366;
 constexpr double robot_overlap = 0.055;
@@ -40,7 +42,7 @@ std::vector<EngineTorques> torques_by_engine(const Evaluation& evaluation) {
   std::vector<EngineTorques> engines;
   for (const std::string& simulator : experiment.simulators) {
     EngineTorques& engine = engines.emplace_back(EngineTorques{simulator});
-    TorqueSegments heard;
+    TorqueSegments segments;
     for (const std::size_t index : evaluation.plan.runs_in(0)) {
       const Rollout& run = evaluation.runs.at(index);
       if (run.plan.simulator != simulator) continue;
@@ -48,14 +50,14 @@ std::vector<EngineTorques> torques_by_engine(const Evaluation& evaluation) {
       if (run.failed()) {
         ++engine.failed;
       } else {
-        add_torques(run.signals, experiment.scoring.skip, heard);
+        add_torques(run.signals, experiment.scoring.skip, segments);
       }
     }
     for (std::size_t i = 0; i < robot.size(); ++i) {
-      engine.distribution[i] = distribution_of(heard[robot[i].contact], robot[i].joint);
-      engine.density[i] = density_of(heard[robot[i].contact], robot[i].joint);
+      engine.distribution[i] = distribution_of(segments[robot[i].contact], robot[i].joint);
+      engine.density[i] = density_of(segments[robot[i].contact], robot[i].joint);
     }
-    engine.overlap = overlap(heard[0], heard[1]);
+    engine.overlap = overlap(segments[0], segments[1]);
   }
   return engines;
 }
@@ -70,20 +72,21 @@ void write_tables(const std::vector<EngineTorques>& engines, const RunDirectory&
   Table overlaps{{"simulator", "overlap", "robot_overlap", "runs", "failed"}, {}};
   for (const EngineTorques& engine : engines) {
     for (std::size_t i = 0; i < robot.size(); ++i) {
-      const Quantity& quantity = robot[i];
-      const TorqueDistribution& heard = engine.distribution[i];
-      const std::vector<std::string> what = {engine.simulator, name(quantity.joint),
-                                             std::to_string(quantity.contact)};
+      const RobotTorque& reference = robot[i];
+      const TorqueDistribution& distribution = engine.distribution[i];
+      const std::vector<std::string> what = {engine.simulator, name(reference.joint),
+                                             std::to_string(reference.contact)};
       moments.rows.push_back(what);
-      for (const double value :
-           {heard.mean, heard.deviation, quantity.robot_mean, quantity.robot_deviation}) {
+      for (const double value : {distribution.mean, distribution.deviation, reference.robot_mean,
+                                 reference.robot_deviation}) {
         moments.rows.back().push_back(metric(value));
       }
       distributions.rows.push_back(what);
-      distributions.rows.back().push_back(std::to_string(heard.samples));
-      for (const double value : heard.quantile) distributions.rows.back().push_back(metric(value));
-      distributions.rows.back().push_back(metric(heard.largest));
-      distributions.rows.back().push_back(metric(1e3 * heard.autocorrelation_time));
+      distributions.rows.back().push_back(std::to_string(distribution.samples));
+      for (const double value : distribution.quantile)
+        distributions.rows.back().push_back(metric(value));
+      distributions.rows.back().push_back(metric(distribution.largest));
+      distributions.rows.back().push_back(metric(1e3 * distribution.autocorrelation_time));
       for (std::size_t c = 0; c < engine.density[i].size(); ++c) {
         densities.rows.push_back(what);
         densities.rows.back().push_back(metric(static_cast<double>(c) * torque_cell));
@@ -101,10 +104,10 @@ void write_tables(const std::vector<EngineTorques>& engines, const RunDirectory&
 
 std::string moments_text(const std::vector<EngineTorques>& engines, const Experiment& experiment) {
   Table table{{"|torque|", "real robot"}, {}};
-  for (const Quantity& quantity : robot) {
+  for (const RobotTorque& reference : robot) {
     table.rows.push_back(
-        {fmt::format("{}, {}", name(quantity.joint), quantity.contact == 1 ? "contact" : "air"),
-         with_deviation(quantity.robot_mean, quantity.robot_deviation)});
+        {fmt::format("{}, {}", name(reference.joint), reference.contact == 1 ? "contact" : "air"),
+         with_deviation(reference.robot_mean, reference.robot_deviation)});
   }
   table.rows.push_back({"knee, largest", fmt::format("{:.3f}", robot_largest_knee)});
   table.rows.push_back({"wheel, largest", fmt::format("{:.3f}", robot_largest_wheel)});
@@ -116,18 +119,19 @@ std::string moments_text(const std::vector<EngineTorques>& engines, const Experi
     double knee = 0.0;
     double wheel = 0.0;
     for (std::size_t i = 0; i < robot.size(); ++i) {
-      const Quantity& quantity = robot[i];
-      const TorqueDistribution& heard = engine.distribution[i];
-      row++->push_back(with_deviation(heard.mean, heard.deviation));
-      double& largest = quantity.joint == &TorqueSegment::knee ? knee : wheel;
-      largest = std::fmax(largest, heard.largest);
+      const RobotTorque& reference = robot[i];
+      const TorqueDistribution& distribution = engine.distribution[i];
+      row++->push_back(with_deviation(distribution.mean, distribution.deviation));
+      double& largest = reference.joint == &TorqueSegment::knee ? knee : wheel;
+      largest = std::fmax(largest, distribution.largest);
     }
     for (const double value : {knee, wheel}) row++->push_back(fmt::format("{:.3f}", value));
     row++->push_back(fmt::format("{:.3f}", engine.overlap));
     row->push_back(fmt::format("{}/{}", engine.failed, engine.runs));
   }
-  return fmt::format("Torques beside the real robot's: mean ± standard deviation in N·m{}\n\n{}",
-                     setup_caption(experiment), to_text(table));
+  return fmt::format(
+      "Torques in simulation and of the real robot: mean ± standard deviation in N·m{}\n\n{}",
+      setup_caption(experiment), to_text(table));
 }
 
 }  // namespace touchdown::experiments

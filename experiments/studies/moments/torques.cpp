@@ -14,7 +14,7 @@ constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
 
 long cell_of(double torque) { return std::lround(torque / torque_cell); }
 
-/// How often each cell of the (knee, wheel) plane was visited, as a share of all steps.
+/// The share of all steps in each cell of the (knee, wheel) plane.
 using SharesByCell = std::map<std::array<long, 2>, double>;
 
 SharesByCell shares_by_cell(const std::vector<TorqueSegment>& segments) {
@@ -29,8 +29,9 @@ SharesByCell shares_by_cell(const std::vector<TorqueSegment>& segments) {
   return shares;
 }
 
-/// Covariance of steps that are `lag` (s) apart, within one stretch; NaN where there are none.
-double autocovariance(const std::vector<TorqueSegment>& segments, Joint joint, double mean, double lag) {
+/// Covariance of steps that are `lag` (s) apart within one segment; NaN without such steps.
+double autocovariance(const std::vector<TorqueSegment>& segments, Joint joint, double mean,
+                      double lag) {
   double sum = 0.0;
   double pairs = 0.0;
   for (const TorqueSegment& segment : segments) {
@@ -55,7 +56,7 @@ double autocorrelation_time(const std::vector<TorqueSegment>& segments, Joint jo
 
 }  // namespace
 
-void add_torques(const RunSignals& run, double skip, TorqueSegments& heard) {
+void add_torques(const RunSignals& run, double skip, TorqueSegments& all) {
   const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
     constexpr int gap = 2;
@@ -64,7 +65,7 @@ void add_torques(const RunSignals& run, double skip, TorqueSegments& heard) {
       const Signals& signals = run.signals[k];
       const int state = has_record(signals) ? run.contact[leg][k] : gap;
       if (state != gap) {
-        std::vector<TorqueSegment>& segments = heard[static_cast<std::size_t>(state)];
+        std::vector<TorqueSegment>& segments = all[static_cast<std::size_t>(state)];
         if (state != last) segments.push_back({period});
         segments.back().knee.push_back(std::abs(signals.leg[leg].knee.torque));
         segments.back().wheel.push_back(std::abs(signals.leg[leg].wheel.torque));

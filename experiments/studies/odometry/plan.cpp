@@ -4,16 +4,16 @@
 
 namespace touchdown::experiments {
 
-std::vector<BenchmarkSetup> odometry_settings(const RunRequest& request, const Plan& plan) {
-  if (request.experiment.benchmark) return benchmark_settings(request, plan);
+std::vector<BenchmarkSetup> odometry_setups(const RunRequest& request, const Plan& plan) {
+  if (request.experiment.benchmark) return benchmark_setups(request, plan);
   RunRequest alone = request;
   alone.experiment.benchmark.emplace();
-  return benchmark_settings(alone, plan);
+  return benchmark_setups(alone, plan);
 }
 
 void add_odometry_study(const RunRequest& request, Plan& plan) {
-  for (const BenchmarkSetup& setting : odometry_settings(request, plan)) {
-    plan.groups[setting.group].odometry = request.experiment.odometry;
+  for (const BenchmarkSetup& setup : odometry_setups(request, plan)) {
+    plan.groups[setup.group].odometry = request.experiment.odometry;
   }
 }
 

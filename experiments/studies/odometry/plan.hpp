@@ -4,14 +4,14 @@
 
 namespace touchdown::experiments {
 
-/// The robots and sensors with which odometry is studied: the experiment's own, and a benchmark's.
-std::vector<BenchmarkSetup> odometry_settings(const RunRequest& request, const Plan& plan);
+/// The setups of the odometry study: the experiment's own, and those of a benchmark.
+std::vector<BenchmarkSetup> odometry_setups(const RunRequest& request, const Plan& plan);
 
-/// Their test runs are heard by odometry too.
+/// Adds odometry to the test runs of these setups.
 void add_odometry_study(const RunRequest& request, Plan& plan);
 
-/// Who tells odometry about contact in a setting, in the order of a task's scores: as tables name
-/// them, on one engine.
+/// The contact sources of odometry in one setup and engine, by their names in tables, in the order
+/// of a task's scores.
 std::vector<std::string> contact_sources_of(const RunGroup& group, const std::string& simulator);
 
 }  // namespace touchdown::experiments

@@ -6,35 +6,34 @@
 
 #include "core/table.hpp"
 #include "experiments/odometry/contact_sources.hpp"
-#include "experiments/studies/odometry/plan.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/studies/odometry/plan.hpp"
 #include "scoring/bootstrap.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-/// What the tasks of one run found out, by who tells, all noise seeds added; nothing of a run that
-/// failed.
+/// The scores of one run by contact source, summed over noise seeds; empty for a failed run.
 std::vector<scoring::TrajectoryScore> scores_of(const Evaluation& evaluation, std::size_t run) {
   std::vector<scoring::TrajectoryScore> sums;
-  for (const TaskCounts& found : findings_of(run, evaluation.plan, evaluation.saved)) {
+  for (const TaskCounts& found : task_counts_of(run, evaluation.plan, evaluation.saved)) {
     sums.resize(std::max(sums.size(), found.odometry.size()));
     for (std::size_t i = 0; i < found.odometry.size(); ++i) sums[i] += found.odometry[i];
   }
   return sums;
 }
 
-/// Rows of one scene in one engine, still without their scores; then the samples of each, a run.
+/// Rows of one scene in one engine without scores, and the samples of each row: its runs.
 struct SceneRows {
   std::vector<OdometryRow> rows;
   std::vector<std::vector<scoring::TrajectoryScore>> samples;
 };
 
-SceneRows scene_rows(const Evaluation& evaluation, const BenchmarkSetup& setting, std::size_t scene,
+SceneRows scene_rows(const Evaluation& evaluation, const BenchmarkSetup& setup, std::size_t scene,
                      const std::string& simulator) {
   const Experiment& experiment = evaluation.request.experiment;
-  const RunGroup& group = evaluation.plan.groups[setting.group];
+  const RunGroup& group = evaluation.plan.groups[setup.group];
   const std::size_t oracles = oracle_names(*group.odometry).size();
   const scenarios::Scenario& scenario =
       scenario_of(evaluation.request, experiment.test.scenarios[scene]).scenario;
@@ -45,12 +44,12 @@ SceneRows scene_rows(const Evaluation& evaluation, const BenchmarkSetup& setting
     row.scene = scenario.name;
     row.contact = contact;
     row.is_oracle = found.rows.size() < oracles;
-    row.robot = setting.robot;
-    row.sensors = setting.sensors;
+    row.robot = setup.robot;
+    row.sensors = setup.sensors;
     found.rows.push_back(row);
   }
   found.samples.resize(found.rows.size());
-  for (const std::size_t index : evaluation.plan.runs_in(setting.group)) {
+  for (const std::size_t index : evaluation.plan.runs_in(setup.group)) {
     const PlannedRun& run = evaluation.plan.runs[index];
     const bool is_its_own = run.simulator == simulator && scene_of(run, experiment) == scene;
     if (!is_its_own) continue;
@@ -78,10 +77,10 @@ std::vector<OdometryRow> odometry_rows(const Evaluation& evaluation) {
       [](const Score& score) { return score.rms(); },
       [](const Score& score) { return score.error_per_metre(); }};
   std::vector<OdometryRow> all;
-  for (const BenchmarkSetup& setting : odometry_settings(evaluation.request, evaluation.plan)) {
+  for (const BenchmarkSetup& setup : odometry_setups(evaluation.request, evaluation.plan)) {
     for (std::size_t scene = 0; scene < experiment.test.scenarios.size(); ++scene) {
       for (const std::string& simulator : experiment.simulators) {
-        SceneRows found = scene_rows(evaluation, setting, scene, simulator);
+        SceneRows found = scene_rows(evaluation, setup, scene, simulator);
         for (std::size_t i = 0; i < found.rows.size(); ++i) {
           const std::vector<Interval> intervals = scoring::bootstrap<Score>(
               found.samples[i], statistics, experiment.intervals.bootstrap);
@@ -141,14 +140,14 @@ void write_tables(const std::vector<OdometryRow>& rows, const RunDirectory& dire
 }
 
 std::string odometry_text(const std::vector<OdometryRow>& rows, const Experiment& experiment) {
-  std::string text = fmt::format("Odometry by who tells it about contact ({}; {}):\n",
-                                 labels_text(experiment), intervals_text(experiment));
+  std::string text = fmt::format("Odometry by contact source ({}; {}):\n", labels_text(experiment),
+                                 intervals_text(experiment));
   Table table;
   for (auto row = rows.begin(); row != rows.end(); ++row) {
     if (table.rows.empty()) {
       table.header = {fmt::format("{}, {}, {} sensors, {}", row->scene, row->robot, row->sensors,
                                   row->simulator),
-                      "RMS, m", "error per metre, %", "height, m", "velocity, m/s"};
+                      "RMS (m)", "error per metre (%)", "height (m)", "velocity (m/s)"};
     }
     table.rows.push_back({contact_title(row->contact), with_interval(row->rms),
                           in_percent(row->error_per_metre),

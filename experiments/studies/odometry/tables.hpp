@@ -9,11 +9,11 @@
 
 namespace touchdown::experiments {
 
-/// What odometry makes of the runs of one scene in one engine, told about contact by one source.
+/// The scores of odometry in one scene and engine, with one contact source.
 struct OdometryRow {
   std::string simulator;
   std::string scene;
-  std::string contact;  ///< who tells: "always", "truth", "truth_20ms_late", an estimator
+  std::string contact;  ///< the source: "always", "truth", "truth_delayed_20ms", an estimator
   bool is_oracle = false;
   std::string robot;
   std::string sensors;
@@ -21,16 +21,16 @@ struct OdometryRow {
   Interval error_per_metre;        ///< m/m
   scoring::TrajectoryScore score;  ///< of all runs
   int runs = 0;
-  int failed = 0;  ///< of these; nothing is heard of them
+  int failed = 0;  ///< of these; not scored
 };
 
-/// RobotAndSensors by setting, scene by scene, engine by engine; the best first.
+/// Setup by setup, scene by scene, engine by engine; the best first.
 std::vector<OdometryRow> odometry_rows(const Evaluation& evaluation);
 
-/// `odometry.csv`.
+/// Writes `odometry.csv`.
 void write_tables(const std::vector<OdometryRow>& rows, const RunDirectory& directory);
 
-/// The same in short, for people.
+/// A summary for the terminal.
 std::string odometry_text(const std::vector<OdometryRow>& rows, const Experiment& experiment);
 
 }  // namespace touchdown::experiments

@@ -12,15 +12,15 @@ namespace {
 
 using Scores = std::vector<scoring::OperatingScore>;
 
-/// What a scene has in one engine, as its tasks have them; empty without any run to score.
+/// The scores of a scene in one engine, in the order of its tasks; empty without scored runs.
 Scores scores_of(const Evaluation& evaluation, std::size_t scene, const std::string& simulator) {
   Scores sums;
   for (const std::size_t index : evaluation.plan.runs_in(0)) {
     const PlannedRun& run = evaluation.plan.runs[index];
-    const bool is_its_own =
+    const bool is_in_scene =
         run.simulator == simulator && scene_of(run, evaluation.request.experiment) == scene;
-    if (!is_its_own) continue;
-    for (const TaskCounts& found : findings_of(index, evaluation.plan, evaluation.saved)) {
+    if (!is_in_scene) continue;
+    for (const TaskCounts& found : task_counts_of(index, evaluation.plan, evaluation.saved)) {
       sums.resize(std::max(sums.size(), found.operating.size()));
       for (std::size_t i = 0; i < found.operating.size(); ++i) sums[i] += found.operating[i];
     }
@@ -28,7 +28,7 @@ Scores scores_of(const Evaluation& evaluation, std::size_t scene, const std::str
   return sums;
 }
 
-/// Likewise: whose scores they are. "Always contact" has no thresholds worth a look.
+/// Adds a row per score. "Always contact" is left out: no threshold changes its decisions.
 void add_rows(const RunGroup& group, const OperatingRow& of_scene, const Scores& scores,
               std::vector<OperatingRow>& rows) {
   const std::vector<scoring::Hysteresis> points = points_of(*group.operating_points);
@@ -48,7 +48,7 @@ void add_rows(const RunGroup& group, const OperatingRow& of_scene, const Scores&
   }
 }
 
-/// A mean of what is defined; NaN where nothing is.
+/// The mean of defined values; NaN without any.
 class MeanOfDefined {
  public:
   void add(double value) {
@@ -65,7 +65,7 @@ class MeanOfDefined {
   double count_ = 0.0;
 };
 
-/// Of one estimator in one noise setting.
+/// The mean over the rows of one estimator in one noise setting.
 OperatingMean mean_of(const std::vector<const OperatingRow*>& rows) {
   MeanOfDefined balanced_accuracy;
   MeanOfDefined extra_switches;
@@ -84,9 +84,9 @@ OperatingMean mean_of(const std::vector<const OperatingRow*>& rows) {
           takeoff_error.value(),     all.extra_switches_per_flight()};
 }
 
-/// Marks those of one estimator in one noise setting that no other does better than.
+/// Marks the points of one estimator in one noise setting that no other point dominates.
 void mark_front(const std::vector<OperatingMean*>& means) {
-  const auto beats = [](const OperatingMean& one, const OperatingMean& other) {
+  const auto dominates = [](const OperatingMean& one, const OperatingMean& other) {
     const bool is_no_worse = one.balanced_accuracy >= other.balanced_accuracy &&
                              one.extra_switches_per_minute <= other.extra_switches_per_minute;
     return is_no_worse && (one.balanced_accuracy > other.balanced_accuracy ||
@@ -94,7 +94,7 @@ void mark_front(const std::vector<OperatingMean*>& means) {
   };
   for (OperatingMean* mean : means) {
     mean->is_on_front = std::none_of(means.begin(), means.end(), [&](const OperatingMean* other) {
-      return beats(*other, *mean);
+      return dominates(*other, *mean);
     });
   }
 }

@@ -13,7 +13,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// Empty cells: an estimator's own decision.
+/// The thresholds as cells; empty for an estimator's own decision.
 std::vector<std::string> cells_of(const std::optional<scoring::Hysteresis>& thresholds) {
   if (!thresholds) return {"", ""};
   return {exact(thresholds->leave_below), exact(thresholds->return_above)};
@@ -66,9 +66,10 @@ std::string switches_text(double per_minute) {
   return fmt::format("{:.{}f}", per_minute, per_minute < 10.0 ? 1 : 0);
 }
 
-/// An estimator's own decision, then the best with at most so many extra switches a minute.
+/// Limits on extra switches per minute.
 constexpr std::array limits = {30.0, 10.0, 3.0, 1.0};
 
+/// Balanced accuracy of an estimator's own decision, then of the best thresholds within each limit.
 std::vector<std::string> short_row(const OperatingMean& own,
                                    const std::vector<OperatingMean>& means) {
   std::vector<std::string> cells = {estimator_title(own.estimator),
@@ -97,12 +98,12 @@ void write_tables(const std::vector<OperatingRow>& rows, const std::vector<Opera
 std::string operating_points_text(const std::vector<OperatingMean>& means,
                                   const Experiment& experiment) {
   std::string text = fmt::format(
-      "Balanced accuracy, mean over scenes and engines, by how many extra switches a minute are "
-      "allowed to thresholds of P(contact) ({}); an estimator's own decision with its own number "
-      "of them in brackets\n",
+      "Balanced accuracy, mean over scenes and engines, of the best thresholds of P(contact) by "
+      "limit on extra switches per minute ({}); own decision: its extra switches per minute in "
+      "brackets\n",
       labels_text(experiment));
   for (const noise::NoiseCell& cell : experiment.highlights) {
-    Table table{{noise_text(cell), "its own"}, {}};
+    Table table{{noise_text(cell), "own decision"}, {}};
     for (const double limit : limits) table.header.push_back(fmt::format("≤ {:.0f}", limit));
     for (const OperatingMean& mean : means) {
       if (!mean.thresholds && mean.noise == cell) table.rows.push_back(short_row(mean, means));

@@ -6,15 +6,15 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "experiments/studies/phase_study/plan.hpp"
 #include "experiments/rollouts/training_segments.hpp"
+#include "experiments/studies/phase_study/plan.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-std::vector<RunSignals> pieces_with(const Experiment& experiment, const Rollouts& runs,
-                                    const std::string& simulator, int number) {
+std::vector<RunSignals> segments_with(const Experiment& experiment, const Rollouts& runs,
+                                      const std::string& simulator, int number) {
   std::vector<TrainingSegments> segments = experiment.training_segments;
   segments.front().runs = number;
   return training_segments_of(runs, simulator, segments);
@@ -36,10 +36,11 @@ void fit_learning_curve(const Experiment& experiment, const Rollouts& runs,
   constexpr double most_seconds = 60.0;
   Experiment phase_alone = experiment;
   phase_alone.estimators = {"phase"};
-  TunedHyperparameters chosen;  // with all pieces
+  TunedHyperparameters chosen;  // with all segments
   for (const std::string& simulator : experiment.simulators) {
     const auto phase = models[simulator].find("phase");
-    if (phase != models[simulator].end()) chosen[simulator]["phase"] = phase->second.hyperparameters;
+    if (phase != models[simulator].end())
+      chosen[simulator]["phase"] = phase->second.hyperparameters;
   }
   for (const int number : learning_curve) {
     std::vector<RunSignals> all;
@@ -49,10 +50,11 @@ void fit_learning_curve(const Experiment& experiment, const Rollouts& runs,
       if (fitted > most_seconds) {
         throw Error(fmt::format("fitted on {:.1f} s, more than {} s", fitted, most_seconds));
       }
-      std::vector<RunSignals> segments = pieces_with(experiment, runs, simulator, number);
+      std::vector<RunSignals> segments = segments_with(experiment, runs, simulator, number);
       std::move(segments.begin(), segments.end(), std::back_inserter(all));
     }
-    for (auto& [simulator, by_estimator] : fit_models(phase_alone, {}, all, should_continue, chosen)) {
+    for (auto& [simulator, by_estimator] :
+         fit_models(phase_alone, {}, all, should_continue, chosen)) {
       models[simulator + segments_fit(number)] = std::move(by_estimator);
     }
   }
@@ -60,7 +62,7 @@ void fit_learning_curve(const Experiment& experiment, const Rollouts& runs,
 
 double fitted_seconds(const Experiment& experiment, const Rollouts& runs,
                       const std::string& simulator, int number) {
-  return seconds(pieces_with(experiment, runs, simulator, number));
+  return seconds(segments_with(experiment, runs, simulator, number));
 }
 
 }  // namespace touchdown::experiments

@@ -51,7 +51,8 @@ std::string segments_fit(int segments) { return fmt::format("_{}_pieces", segmen
 
 void add_phase_study(const RunRequest& request, Plan& plan) {
   const Experiment& experiment = request.experiment;
-  plan_segment_runs(request, {}, 0, experiment.training_segments.front().runs, learning_curve.back(), plan);
+  plan_segment_runs(request, {}, 0, experiment.training_segments.front().runs,
+                    learning_curve.back(), plan);
   RunGroup& stairs = plan.groups.front();
   RunGroup scene{.name = {}, .conditions = {}, .counted = {}, .scored = {}};
   scene.has_extended_scores = stairs.has_extended_scores = true;
@@ -77,7 +78,7 @@ void add_phase_study(const RunRequest& request, Plan& plan) {
     plan.groups.push_back(scene);
   }
 
-  // The study has always drawn its noise so.
+  // The study keeps its original noise draws.
   plan.tasks.clear();
   plan_tasks(experiment, 0, plan);
   for (Task& task : plan.tasks) {

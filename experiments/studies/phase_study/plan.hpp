@@ -6,21 +6,21 @@
 
 namespace touchdown::experiments {
 
-/// Estimators that are compared in every scene.
+/// The estimators that are compared in every scene.
 inline constexpr std::array<const char*, 3> compared_estimators = {"phase", "robust", "nmn"};
 
-/// Scenes besides the experiment's own, where the robot is hung up, lifted, or only drives about.
+/// Scenes besides the experiment's own: the robot hangs, is lifted, or only drives.
 inline constexpr std::array<const char*, 3> more_scenes = {"hang", "lift", "roam"};
 
-/// So many runs of the first scene of `fit.pieces` the learning curve fits.
+/// Numbers of runs of the first scene of `fit.segments` in the learning curve.
 inline constexpr std::array<int, 4> learning_curve = {3, 6, 12, 48};
 
-/// The fit that takes so many, as conditions name it.
+/// The name of the fit with this number of runs, in conditions.
 std::string segments_fit(int segments);
 
-/// What the phase filter's study (docs/protocol.md) adds to an experiment's plan: more runs to cut
-/// pieces from; listeners that were fitted in the other engine or to more or fewer pieces; noise on
-/// knees and wheels apart, disturbances, and more scenes.
+/// Adds the phase filter's study (docs/protocol.md) to an experiment's plan: more runs for training
+/// segments; estimators that were fitted in the other engine or to other numbers of segments; noise
+/// on knees or wheels alone, disturbances, and more scenes.
 void add_phase_study(const RunRequest& request, Plan& plan);
 
 }  // namespace touchdown::experiments

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/table.hpp"
+#include "experiments/plan/sensors.hpp"
 #include "experiments/studies/phase_study/fit.hpp"
 #include "experiments/studies/phase_study/plan.hpp"
-#include "experiments/plan/sensors.hpp"
 #include "scoring/bootstrap.hpp"
 
 namespace touchdown::experiments {
@@ -20,7 +20,7 @@ using Statistic = std::function<double(const scoring::Classification&)>;
 
 const Statistic success = &scoring::Classification::success;
 
-/// Everything that is said about one engine is said of these.
+/// The data of the text about one engine.
 struct Engine {
   const Experiment& experiment;
   const RunGroup& group;
@@ -49,7 +49,7 @@ double success_in(const std::vector<ConditionCounts>& counts, const Condition& c
   return scoring::sum(samples_of(counts, condition, cell)).success();
 }
 
-/// How many cells the torque × accelerometer grid has, which come first.
+/// Number of cells of the torque × accelerometer grid, which come first.
 std::size_t grid_size(const noise::NoiseGridConfig& noise) {
   return noise.torque.size() * noise.accelerometer.size();
 }
@@ -66,7 +66,7 @@ double mean(const std::vector<double>& cells) {
   return std::accumulate(cells.begin(), cells.end(), 0.0) / static_cast<double>(cells.size());
 }
 
-/// What every compared estimator achieves in one cell.
+/// The accuracy of every compared estimator in one cell.
 std::string compared_text(const Engine& engine, const std::vector<ConditionCounts>& counts,
                           std::size_t cell) {
   std::string text;
@@ -79,7 +79,7 @@ std::string compared_text(const Engine& engine, const std::vector<ConditionCount
 std::string grid_text(const Engine& engine, const Condition& phase) {
   const noise::NoiseGridConfig& noise = engine.experiment.noise;
   std::string text =
-      "\nPhase filter: success by torque noise (rows, N·m) and accelerometer noise (m/s²)\n\n| |";
+      "\nPhase filter: accuracy by torque noise (rows, N·m) and accelerometer noise (m/s²)\n\n| |";
   for (const double a : noise.accelerometer) text += fmt::format(" {} |", a);
   text += "\n|---|";
   for (std::size_t i = 0; i < noise.accelerometer.size(); ++i) text += "---|";
@@ -104,7 +104,7 @@ std::string grids_text(const Engine& engine) {
   for (const std::string& other : engine.experiment.simulators) {
     if (other == engine.name) continue;
     const double transferred = mean(grid(engine, {other, engine.name, "phase"}));
-    text += fmt::format("Fitted on {} instead: {:.4f} (loses {:.4f})\n\n", other, transferred,
+    text += fmt::format("Fitted on {} instead: {:.4f} (loss {:.4f})\n\n", other, transferred,
                         mean(grid(engine, own)) - transferred);
   }
   for (const std::string& name : engine.experiment.estimators) {
@@ -120,24 +120,25 @@ std::string details_row(const Engine& engine, std::size_t cell, const Condition&
   const noise::NoiseCell& noise = engine.group.scored[cell];
   const std::vector<scoring::RobotScore>& scores =
       samples_of(engine.counts.scored, condition, cell);
-  const scoring::ExtendedScore close = scoring::sum(samples_of(engine.counts.close, condition, cell));
+  const scoring::ExtendedScore extended =
+      scoring::sum(samples_of(engine.counts.extended, condition, cell));
   const scoring::Score all = scoring::sum(scores).wheels();
   return fmt::format(
       "| {} | ({}, {}) | {} | {:.4f} | {} / {} | {:.3f} / {:.3f} | {:.3f} / {:.3f} | {:.1f} ± "
       "{:.1f} | {:.0f} | {:.1f} ± {:.1f} | {:.4f} |\n",
       condition.estimator, noise.torque, noise.accelerometer,
-      with_bounds(points(scores), success, engine), close.away_from_events.success(),
+      with_bounds(points(scores), success, engine), extended.away_from_events.success(),
       with_bounds(points(scores), &scoring::Classification::no_contact_precision, engine, 3),
       with_bounds(points(scores), &scoring::Classification::no_contact_recall, engine, 3),
       all.takeoff.precision(), all.takeoff.recall(), all.landing.precision(), all.landing.recall(),
       1e3 * all.takeoff.latency_mean(), 1e3 * all.takeoff.latency_deviation(),
-      close.takeoff.percentile(0.95), 1e3 * all.landing.latency_mean(),
+      extended.takeoff.percentile(0.95), 1e3 * all.landing.latency_mean(),
       1e3 * all.landing.latency_deviation(), all.calibration.brier());
 }
 
 std::string details_text(const Engine& engine) {
   std::string text =
-      "\n| estimator | noise | success | away from events | no-contact precision / recall | "
+      "\n| estimator | noise | accuracy | away from events | no-contact precision / recall | "
       "takeoff P / R | landing P / R | takeoff latency (ms) | p95 | landing latency | Brier |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|\n";
   const std::vector<noise::NoiseCell>& cells = engine.group.scored;
@@ -159,7 +160,7 @@ std::string details_text(const Engine& engine) {
   return text;
 }
 
-/// Noise on the knees or on the wheels alone.
+/// Accuracy with noise on the knees or on the wheels alone.
 std::string knees_and_wheels_text(const Engine& engine) {
   std::string text = "\n\nTorque noise (knee, wheel):";
   for (std::size_t c = grid_size(engine.experiment.noise); c < engine.group.counted.size(); ++c) {
@@ -179,10 +180,10 @@ std::string scene_text(const Engine& engine) {
     for (std::size_t cell = 0; cell < engine.group.scored.size(); ++cell) {
       const std::vector<scoring::RobotScore>& scores =
           samples_of(engine.counts.scored, condition, cell);
-      const scoring::ExtendedScore close =
-          scoring::sum(samples_of(engine.counts.close, condition, cell));
-      text += fmt::format("\n    {} (without light contact {:.4f}, {:.2f} false takeoffs/min)",
-                          with_bounds(points(scores), success, engine), close.loaded.success(),
+      const scoring::ExtendedScore extended =
+          scoring::sum(samples_of(engine.counts.extended, condition, cell));
+      text += fmt::format("\n    {} (without contact below 10 N {:.4f}, {:.2f} false takeoffs/min)",
+                          with_bounds(points(scores), success, engine), extended.loaded.success(),
                           scoring::sum(scores).wheels().false_takeoffs_per_minute());
     }
   }
@@ -190,8 +191,8 @@ std::string scene_text(const Engine& engine) {
 }
 
 std::string disturbed_text(const Engine& engine) {
-  constexpr std::array<const char*, 8> names = {"IMU 10 ms late",
-                                                "IMU 5 ms late",
+  constexpr std::array<const char*, 8> names = {"IMU delay 10 ms",
+                                                "IMU delay 5 ms",
                                                 "heavy tails",
                                                 "none",
                                                 "torque bias 0.2 N·m (wheel 0.05)",
@@ -230,8 +231,8 @@ std::string phase_study_text(const Evaluation& evaluation) {
                                  setup_caption(experiment));
   for (const std::string& simulator : experiment.simulators) {
     const Engine engine{experiment, plan.groups.front(), evaluation.own, simulator};
-    const double fitted =
-        fitted_seconds(experiment, evaluation.runs, simulator, experiment.training_segments.front().runs);
+    const double fitted = fitted_seconds(experiment, evaluation.runs, simulator,
+                                         experiment.training_segments.front().runs);
     text += fmt::format(
         "\n## {}\n\nFitted on {:.1f} s; {} stairs runs × {} noise seeds.\n", simulator, fitted,
         samples_of(evaluation.own.counted, engine.own("phase"), 0).size(), experiment.noise.seeds);

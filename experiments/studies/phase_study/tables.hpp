@@ -6,7 +6,7 @@
 
 namespace touchdown::experiments {
 
-/// What the phase filter's study found out, as Markdown.
+/// The result of the phase filter's study, as Markdown.
 std::string phase_study_text(const Evaluation& evaluation);
 
 }  // namespace touchdown::experiments

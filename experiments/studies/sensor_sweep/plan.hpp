@@ -13,12 +13,12 @@ struct SensorVariation {
   double value = 0.0;
 };
 
-/// Every value of every one, in the order of the file.
+/// Every value of every disturbance, in the order of the file.
 std::vector<SensorVariation> sensor_variations(const Experiment& experiment);
 
-/// Adds, for every value, the experiment's own test runs as they are heard through sensors with
-/// that value: by estimators fitted as the experiment's own, at the first highlighted noise
-/// setting. Nothing is simulated for it.
+/// Adds, for every value, the experiment's own test runs with that value in their sensors, at the
+/// first highlighted noise setting. Estimators keep the experiment's own fit. No run is simulated
+/// again.
 void add_sensor_sweep(const RunRequest& request, Plan& plan);
 
 /// The group of a value's runs. Errors: `Error` if the plan has none.

@@ -53,8 +53,8 @@ void write_tables(const std::vector<SensorSweepPoint>& points, const RunDirector
 std::string sensor_sweep_text(const std::vector<SensorSweepPoint>& points,
                               const Experiment& experiment) {
   std::string text = fmt::format(
-      "Success rate by what is wrong with the sensors ({}{}; {}): estimators fitted "
-      "without it\n",
+      "Accuracy by sensor disturbance ({}{}; {}); estimators are fitted without the "
+      "disturbance\n",
       noise_text(experiment.highlights.front()), setup_caption(experiment),
       intervals_text(experiment));
   for (const SensorFactor& factor : experiment.sweep) {

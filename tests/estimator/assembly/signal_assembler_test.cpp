@@ -49,7 +49,7 @@ class Robot {
   std::vector<JointSignals> joints_;
 };
 
-TEST(SignalsOfARecord, TakeTheRobotsOwnOrderSignsUnitsAndZeros) {
+TEST(SignalsOfARecord, ConvertOrderSignsUnitsAndZeros) {
   Robot robot(8);
   AssemblyConfig config;
   config.joints = {{{7, -1.0, 0.5}, {6}, {5}, {4}, {3}, {2, -1.0}}};
@@ -77,7 +77,7 @@ TEST(SignalsOfARecord, FindTheVerticalInAnyAttitudeAndConvention) {
     config.reference_is_z_up = z_up;
     record.linear_acceleration = attitude.conjugate() * (3.0 * up);
     EXPECT_NEAR(signals_of(record, config).vertical_acceleration, 3.0, 1e-12);
-    // The same from what the chip measures, in units of g.
+    // The same from the chip's own measurement, in units of g.
     config.acceleration = AccelerationSource::proper;
     config.units.linear_acceleration = g;
     record.linear_acceleration.setConstant(not_reported);
@@ -86,7 +86,7 @@ TEST(SignalsOfARecord, FindTheVerticalInAnyAttitudeAndConvention) {
   }
 }
 
-TEST(SignalsOfARecord, AreNanWhereNothingWasReported) {
+TEST(SignalsOfARecord, AreNanWhereNotReported) {
   Robot robot(3);
   const Signals signals = signals_of(robot.record(0.0), {});
   EXPECT_EQ(signals.leg[0].wheel.velocity, 30.0);
@@ -96,7 +96,7 @@ TEST(SignalsOfARecord, AreNanWhereNothingWasReported) {
               std::isnan(nothing.leg[0].knee.position) && nothing.linear_acceleration.hasNaN());
 }
 
-TEST(SignalAssembler, FindsNothingWrongWithARobotThatStandsFallsAndLands) {
+TEST(SignalAssembler, FindsNoFaultInARobotThatStandsFallsAndLands) {
   SignalAssembler assembler;
   Robot robot;
   for (int k = 0; k < 3000; ++k) {
@@ -109,14 +109,15 @@ TEST(SignalAssembler, FindsNothingWrongWithARobotThatStandsFallsAndLands) {
   }
 }
 
-/// ContactTrace at the end of half a second that begins upright.
-RecordFaults after_half_a_second_of(const std::array<double, 4>& orientation, bool chip_reports) {
+/// The faults after half a second with this orientation, of a robot at rest.
+RecordFaults faults_after_half_a_second(const std::array<double, 4>& orientation,
+                                        bool chip_reports) {
   SignalAssembler assembler;
   Robot robot;
   for (int k = 0; k < 500; ++k) {
     RobotRecord record = robot.record(1e-3 * k);
     record.orientation = orientation;
-    if (!chip_reports) {  // gravity was taken out by the wrong orientation
+    if (!chip_reports) {  // the robot removed gravity by the wrong orientation
       const Eigen::Quaterniond q(orientation[0], orientation[1], orientation[2], orientation[3]);
       record.linear_acceleration =
           record.proper_acceleration - q.conjugate() * Eigen::Vector3d(0.0, 0.0, -g);
@@ -127,18 +128,18 @@ RecordFaults after_half_a_second_of(const std::array<double, 4>& orientation, bo
   return assembler.faults();
 }
 
-TEST(SignalAssembler, IsToldByGravityThatTheImuIsUpsideDown) {
+TEST(SignalAssembler, DetectsAnUpsideDownImuByGravity) {
   for (const bool chip_reports : {true, false}) {
-    EXPECT_FALSE(after_half_a_second_of(upright, chip_reports).any());
+    EXPECT_FALSE(faults_after_half_a_second(upright, chip_reports).any());
     // Turned about y in place of z, and x y z w instead of w x y z.
-    EXPECT_TRUE(
-        after_half_a_second_of({0.0, 0.0, 1.0, 0.0}, chip_reports).has(RecordFault::upside_down));
-    EXPECT_TRUE(
-        after_half_a_second_of({0.0, 1.0, 0.0, 0.0}, chip_reports).has(RecordFault::upside_down));
+    EXPECT_TRUE(faults_after_half_a_second({0.0, 0.0, 1.0, 0.0}, chip_reports)
+                    .has(RecordFault::upside_down));
+    EXPECT_TRUE(faults_after_half_a_second({0.0, 1.0, 0.0, 0.0}, chip_reports)
+                    .has(RecordFault::upside_down));
   }
 }
 
-TEST(SignalAssembler, LetsNobodyHearAnImuThatIsUpsideDown) {
+TEST(SignalAssembler, WithholdsTheAccelerationOfAnUpsideDownImu) {
   SignalAssembler assembler;
   Robot robot;
   double vertical = 0.0;
@@ -152,7 +153,7 @@ TEST(SignalAssembler, LetsNobodyHearAnImuThatIsUpsideDown) {
   EXPECT_EQ(to_text(RecordFault::upside_down), "upside down");
 }
 
-TEST(SignalAssembler, TellsAnOrientationThatIsNone) {
+TEST(SignalAssembler, ReportsAnInvalidOrientation) {
   SignalAssembler assembler;
   Robot robot;
   RobotRecord record = robot.record(0.0);
@@ -161,7 +162,7 @@ TEST(SignalAssembler, TellsAnOrientationThatIsNone) {
   EXPECT_TRUE(assembler.faults().has(RecordFault::orientation_missing));
 }
 
-TEST(SignalAssembler, TellsServosThatReportNothingOrRepeatThemselves) {
+TEST(SignalAssembler, ReportsMissingAndStaleServos) {
   SignalAssembler assembler;
   Robot robot;
   double knee = 0.0;
@@ -183,7 +184,7 @@ TEST(SignalAssembler, TellsServosThatReportNothingOrRepeatThemselves) {
   EXPECT_EQ(assembler.count(RecordFault::joint_missing), 1U);
 }
 
-TEST(SignalAssembler, WatchesTheClock) {
+TEST(SignalAssembler, ReportsFaultsOfTheClock) {
   SignalAssembler assembler;
   Robot robot;
   const auto faults_at = [&](double time) {
@@ -195,10 +196,10 @@ TEST(SignalAssembler, WatchesTheClock) {
   EXPECT_FALSE(faults_at(99.901).any());
   EXPECT_TRUE(faults_at(99.95).has(RecordFault::clock_gap));
   EXPECT_TRUE(faults_at(std::nan("")).has(RecordFault::clock_missing));
-  EXPECT_FALSE(faults_at(99.952).any());  // the step before was lost, not the clock
+  EXPECT_FALSE(faults_at(99.952).any());  // the previous time was missing, the clock did not jump
 }
 
-TEST(SignalAssembler, TellsAnotherRateThanWasSaid) {
+TEST(SignalAssembler, ReportsAnotherRateThanConfigured) {
   for (const double rate : {500.0, 980.0, 1000.0, 1030.0, 2000.0}) {
     SignalAssembler assembler;
     Robot robot;
@@ -208,7 +209,7 @@ TEST(SignalAssembler, TellsAnotherRateThanWasSaid) {
   }
 }
 
-TEST(SignalAssembler, ForgetsAllWhenItIsReset) {
+TEST(SignalAssembler, ClearsItsStateOnReset) {
   SignalAssembler assembler;
   Robot robot;
   RobotRecord record = robot.record(5.0);
@@ -221,7 +222,7 @@ TEST(SignalAssembler, ForgetsAllWhenItIsReset) {
   EXPECT_FALSE(assembler.faults().any());
 }
 
-TEST(SignalAssembler, RefusesWhatMakesNoSense) {
+TEST(SignalAssembler, RefusesInvalidValues) {
   const auto refuses = [](auto change) {
     AssemblyConfig config;
     change(config);

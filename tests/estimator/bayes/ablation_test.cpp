@@ -11,15 +11,15 @@ namespace {
 
 using Config = BayesFilterConfig;
 
-/// One thing that a configuration decides, and how another one's becomes its own.
-struct Thing {
+/// A group of settings, and how to copy it from another configuration.
+struct Setting {
   const char* name;
   void (*copy)(Config& to, const Config& from);
 };
 
-/// Written down here again, by the fields, and not by what the ladder changes.
-const std::vector<Thing>& things() {
-  static const std::vector<Thing> all = {
+/// Listed here independently, by the fields, and not by the changes of the ablation.
+const std::vector<Setting>& settings() {
+  static const std::vector<Setting> all = {
       {"sample rate", [](Config& to, const Config& from) { to.sample_rate = from.sample_rate; }},
       {"sign of torques",
        [](Config& to, const Config& from) {
@@ -79,33 +79,33 @@ const std::vector<Thing>& things() {
   return all;
 }
 
-/// In which things they differ. Fails if they still differ when all of these are made equal: then a
+/// The settings in which both differ. Fails if they still differ after copying all settings: then a
 /// field is missing above.
 std::vector<std::string> differences(const Config& one, const Config& other) {
   std::vector<std::string> names;
   Config equal = one;
-  for (const Thing& thing : things()) {
+  for (const Setting& setting : settings()) {
     const Config before = equal;
-    thing.copy(equal, other);
-    if (!(equal == before)) names.emplace_back(thing.name);
+    setting.copy(equal, other);
+    if (!(equal == before)) names.emplace_back(setting.name);
   }
   EXPECT_EQ(equal, other);
   return names;
 }
 
-std::vector<Config> whole_ladder() {
+std::vector<Config> whole_ablation() {
   std::vector<Config> all = {Config::paper()};
-  for (const AblationStep& rung : steps_from_paper_to_robust()) all.push_back(rung.config);
+  for (const AblationStep& step : steps_from_paper_to_robust()) all.push_back(step.config);
   all.push_back(Config::robust());
   return all;
 }
 
 TEST(BayesAblation, GoesFromPaperToRobustOneChangeAtATime) {
-  const std::vector<Config> rungs = whole_ladder();
+  const std::vector<Config> steps = whole_ablation();
   std::set<std::string> changed;
-  for (std::size_t i = 0; i + 1 < rungs.size(); ++i) {
-    const std::vector<std::string> change = differences(rungs[i], rungs[i + 1]);
-    ASSERT_EQ(change.size(), 1U) << "after rung " << i;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+    const std::vector<std::string> change = differences(steps[i], steps[i + 1]);
+    ASSERT_EQ(change.size(), 1U) << "after step " << i;
     EXPECT_TRUE(changed.insert(change.front()).second) << change.front() << " changes twice";
   }
   const std::vector<std::string> between_ends = differences(Config::paper(), Config::robust());
@@ -113,15 +113,15 @@ TEST(BayesAblation, GoesFromPaperToRobustOneChangeAtATime) {
   EXPECT_EQ(between_ends.size(), 9U);
 }
 
-TEST(BayesAblation, HasTheOtherReadingOfThePowerBesideItsFirstRung) {
+TEST(BayesAblation, HasTheOtherReadingOfThePowerBesideItsFirstStep) {
   EXPECT_EQ(differences(Config::paper(), Config::paper_rms()), std::vector<std::string>{"power"});
   EXPECT_EQ(Config::paper().transition.power, Config::robust().transition.power);
 }
 
-TEST(BayesAblation, LacksOnlyRowsThatSumToOneOnItsLastRung) {
-  const std::span<const AblationStep> rungs = steps_from_paper_to_robust();
-  ASSERT_FALSE(rungs.empty());
-  Config last = rungs.back().config;
+TEST(BayesAblation, LacksOnlyRowsThatSumToOneAtItsLastStep) {
+  const std::span<const AblationStep> steps = steps_from_paper_to_robust();
+  ASSERT_FALSE(steps.empty());
+  Config last = steps.back().config;
   EXPECT_NE(last, Config::robust());
   last.transition.row_stochastic = true;
   EXPECT_EQ(last, Config::robust());

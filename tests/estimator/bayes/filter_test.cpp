@@ -25,7 +25,7 @@ MeasurementModel fitted(const BayesFilterConfig& config) {
   return fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit);
 }
 
-/// Beliefs never leave [0, 1], whatever happens.
+/// Beliefs stay within [0, 1].
 void expect_sane(const Belief& belief) {
   for (const double p : {belief.wheel[0].p_contact, belief.wheel[1].p_contact, belief.p_any_wheel,
                          belief.p_both_wheels}) {
@@ -58,7 +58,7 @@ TEST_P(NamedBayesFilter, FollowsTheEquationsStepByStep) {
     ASSERT_EQ(belief.status, SignalStatus::good);
     for (std::size_t i = 0; i < 2; ++i) {
       const Likelihoods p = model(channels[i].update(s.leg[i]));
-      // The published matrix says stay = 1 − P(switch), the repaired one stay = 1 − P(leave).
+      // The published matrix has stay = 1 − P(switch), the repaired one stay = 1 − P(leave).
       const double margin = config.transition.margin;
       const auto sigmoids = [&](bool no_switch, bool takeoff) {
         return std::pair{
@@ -87,7 +87,7 @@ TEST_P(NamedBayesFilter, FollowsTheEquationsStepByStep) {
   }
 }
 
-TEST_P(NamedBayesFilter, NeverLeavesProbabilitiesWhateverItIsFed) {
+TEST_P(NamedBayesFilter, GivesProbabilitiesForAnyInput) {
   const BayesFilterConfig config = test::named(GetParam());
   BayesFilter filter(fitted(config), config);
   std::vector<Signals> stream = drops(4000, 1000.0, 9);
@@ -118,7 +118,7 @@ TEST_P(NamedBayesFilter, NeverLeavesProbabilitiesWhateverItIsFed) {
     }
     expect_sane(filter.update(s));
   }
-  // It is as good as new afterwards.
+  // It works afterwards.
   for (Signals s : drops(2000, 1000.0, 10)) {
     s.time += 100.0;
     expect_sane(filter.update(s));
@@ -144,19 +144,19 @@ TEST_P(NamedBayesFilter, StartsAnewAfterAReset) {
 INSTANTIATE_TEST_SUITE_P(Configurations, NamedBayesFilter,
                          testing::Values("paper", "paper_rms", "reference", "robust"));
 
-TEST(BayesFilter, TellsFlightsFromRolling) {
+TEST(BayesFilter, DistinguishesFlightsFromRolling) {
   const BayesFilterConfig config = BayesFilterConfig::robust();
   BayesFilter filter(fitted(config), config);
-  int right = 0;
+  int correct = 0;
   int counted = 0;
   for (const Signals& s : drops(10'000, 1000.0, 21)) {
     const Belief& belief = filter.update(s);
     if (s.time > 0.3) {
       ++counted;
-      right += belief.wheel[0].contact == !in_the_air(s) ? 1 : 0;
+      correct += belief.wheel[0].contact == !in_the_air(s) ? 1 : 0;
     }
   }
-  EXPECT_GT(right, 0.93 * counted);
+  EXPECT_GT(correct, 0.93 * counted);
 }
 
 TEST(BayesFilter, RelaxesToThePriorWithoutAcceleration) {
@@ -177,7 +177,7 @@ TEST(BayesFilter, RelaxesToThePriorWithoutAcceleration) {
   EXPECT_NEAR(filter.belief().wheel[0].p_contact, 0.5 + (before - 0.5) * std::exp(-1.0), 1e-9);
 }
 
-TEST(BayesFilter, LosesOnlyTheLegWhoseTorquesAreLost) {
+TEST(BayesFilter, RelaxesOnlyTheLegWithoutTorques) {
   const BayesFilterConfig config = BayesFilterConfig::robust();
   const MeasurementModel model = fitted(config);
   BayesFilter whole(model, config);
@@ -192,7 +192,7 @@ TEST(BayesFilter, LosesOnlyTheLegWhoseTorquesAreLost) {
   }
 }
 
-TEST(BayesFilter, TakesATorqueThatNoServoHasForALostOne) {
+TEST(BayesFilter, TreatsAnImpossibleTorqueAsMissing) {
   const BayesFilterConfig config = BayesFilterConfig::robust();
   const MeasurementModel model = fitted(config);
   for (const double huge : {1e308, -1e308, 2e4}) {
@@ -223,12 +223,12 @@ TEST(BayesFilter, RestartsItsWindowAfterAGap) {
   Signals later = stream[500];
   later.time = stream.back().time + 2.0;
   EXPECT_EQ(filter.update(later).status, SignalStatus::gap);
-  EXPECT_LT(filter.transition().power, 1.0) << "nothing is left of the flight";
+  EXPECT_LT(filter.transition().power, 1.0) << "the window no longer contains the flight";
   later.time += 0.001;
   EXPECT_EQ(filter.update(later).status, SignalStatus::good);
 }
 
-TEST(BayesFilter, SaysThatItsAccelerometerIsFrozen) {
+TEST(BayesFilter, ReportsAFrozenAccelerometer) {
   const BayesFilterConfig config = BayesFilterConfig::robust();
   BayesFilter filter(fitted(config), config);
   Signals s = drops(501).back();
@@ -254,13 +254,13 @@ TEST(BayesFilter, WorksAtOtherRates) {
     const auto samples = labelled(drops(4000, rate), config.measurement.torque, rate);
     BayesFilter filter(
         fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit), config);
-    int right = 0;
+    int correct = 0;
     for (const Signals& s : drops(4000, rate, 5)) {
       const Belief& belief = filter.update(s);
       ASSERT_EQ(belief.status, SignalStatus::good);
-      right += belief.wheel[1].contact == !in_the_air(s) ? 1 : 0;
+      correct += belief.wheel[1].contact == !in_the_air(s) ? 1 : 0;
     }
-    EXPECT_GT(right, 3400) << rate;
+    EXPECT_GT(correct, 3400) << rate;
   }
 }
 
@@ -281,7 +281,7 @@ TEST(BayesFilterConfig, HasTheNumbersOfItsSources) {
   EXPECT_TRUE(robust.transition.row_stochastic);
 }
 
-TEST(BayesFilterConfig, RefusesNonsense) {
+TEST(BayesFilterConfig, RefusesInvalidValues) {
   const MeasurementModel model = fitted(BayesFilterConfig::robust());
   BayesFilterConfig config;
   config.threshold = 1.5;

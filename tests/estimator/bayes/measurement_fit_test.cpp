@@ -18,13 +18,13 @@ namespace {
 MeasurementModel fitted_one_by_one(const test::LabelledSamples& samples,
                                    const MeasurementFitConfig& config) {
   MeasurementFit fit(config);
-  const auto show = [&](auto use) {
+  const auto for_each_sample = [&](auto use) {
     for (const TorqueSample& sample : samples.no_contact) use(false, sample);
     for (const TorqueSample& sample : samples.contact) use(true, sample);
   };
-  show([&](bool contact, const TorqueSample& sample) { fit.survey(contact, sample); });
+  for_each_sample([&](bool contact, const TorqueSample& sample) { fit.survey(contact, sample); });
   fit.prepare();
-  show([&](bool contact, const TorqueSample& sample) { fit.add(contact, sample); });
+  for_each_sample([&](bool contact, const TorqueSample& sample) { fit.add(contact, sample); });
   return fit.model();
 }
 

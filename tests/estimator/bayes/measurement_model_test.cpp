@@ -25,7 +25,7 @@ std::vector<TorqueSample> cloud(std::size_t count, TorqueSample centre, double d
   return samples;
 }
 
-/// Bilinear functions are what bilinear interpolation must reproduce exactly.
+/// Bilinear functions, which bilinear interpolation must reproduce exactly.
 double contact_plane(double knee, double wheel) { return 10.0 + knee + 2.0 * wheel; }
 double no_contact_plane(double knee, double wheel) { return 7.0 + 3.0 * knee + knee * wheel; }
 
@@ -60,7 +60,7 @@ TEST(MeasurementModel, TakesTheNearestEdgeOutsideTheGrid) {
   EXPECT_TRUE(std::isfinite(model({std::nan(""), std::nan("")}).contact));
 }
 
-TEST(MeasurementModel, GivesItsGridsBack) {
+TEST(MeasurementModel, ReturnsItsGrids) {
   const LikelihoodGrids grids = planes();
   const LikelihoodGrids back = MeasurementModel(grids).grids();
   EXPECT_EQ(back.knee, grids.knee);
@@ -122,7 +122,7 @@ TEST(MeasurementModel, IsFittedWithScottsRuleAboveItsFloor) {
   EXPECT_EQ(grids.no_contact, kernel_density(wheel, knee, 0.05, 0.1, grids.wheel, grids.knee));
 }
 
-TEST(MeasurementModel, CoversItsSamplesUnlessToldOtherwise) {
+TEST(MeasurementModel, CoversItsSamplesByDefault) {
   std::vector<TorqueSample> contact = cloud(50, {1.3, -0.2}, 0.1, 1);
   std::vector<TorqueSample> no_contact = cloud(50, {0.4, 0.0}, 0.01, 2);
   MeasurementFitConfig config;

@@ -30,7 +30,7 @@ TEST(MeasurementOnly, IsTheNormalisedLikelihood) {
   }
 }
 
-TEST(MeasurementOnly, DoesNotListenToTheAccelerometer) {
+TEST(MeasurementOnly, DoesNotUseTheAccelerometer) {
   const MeasurementModel model = fitted();
   MeasurementOnly with(model);
   MeasurementOnly without(model);

@@ -17,7 +17,7 @@ namespace {
 
 using test::Normal;
 
-/// Everything from the definitions, on a whole window.
+/// Power and median of a whole window, by their definitions.
 struct PlainSpectrum {
   double mean_square = 0.0;
   double median = 0.0;  // Hz
@@ -143,8 +143,8 @@ TEST(TransitionModel, MeasuresPowerAsMeanOrAsEnergy) {
   EXPECT_NEAR(energy.transition().power, 128.0 * 0.25, 1e-9);
 }
 
-TEST(TransitionModel, TakesARootMeanSquareOfEightForAnEvenChance) {
-  // The mean square does so for 2.8 m/s².
+TEST(TransitionModel, SwitchesWithProbabilityOneHalfAtARootMeanSquareOfEight) {
+  // With the mean square, 2.8 m/s² have that probability.
   test::Normal normal(4);
   for (const double deviation : {std::sqrt(8.0), 8.0}) {
     TransitionModel square(BayesFilterConfig::paper().transition, 1000.0);
@@ -170,7 +170,7 @@ TEST(TransitionModel, TakesARootMeanSquareOfEightForAnEvenChance) {
   TransitionModel empty(BayesFilterConfig::paper_rms().transition, 1000.0);
   empty.update(300.0);
   for (int t = 0; t < 300; ++t) {
-    EXPECT_GE(empty.update(0.0).power, 0.0);  // whatever rounding leaves
+    EXPECT_GE(empty.update(0.0).power, 0.0);  // despite rounding errors
   }
 }
 
@@ -190,7 +190,7 @@ TEST(TransitionModel, RowsSumToOneOrAsPublished) {
   }
 }
 
-TEST(TransitionModel, RemembersTheMedianLikeTheAuthorsCode) {
+TEST(TransitionModel, LowPassesTheMedianLikeTheAuthorsCode) {
   const TransitionConfig config = BayesFilterConfig::reference().transition;
   TransitionModel model(config, 1000.0);
   Normal normal(8);
@@ -214,7 +214,7 @@ TEST(TransitionModel, KeepsProbabilitiesWithinItsMargin) {
   EXPECT_EQ(model.update(1e4).p_switch, 1.0 - 1e-3);
 }
 
-TEST(TransitionModel, RefusesNonsense) {
+TEST(TransitionModel, RefusesInvalidValues) {
   const TransitionConfig good;
   EXPECT_THROW(TransitionModel(good, 0.0), InputError);
   EXPECT_THROW(TransitionModel(good, std::nan("")), InputError);

@@ -12,7 +12,7 @@
 namespace touchdown {
 namespace {
 
-TEST(LowPassBank, FollowAStepAsFirstOrderLowPassesOfOneToAHundredAndTwentyEightMilliseconds) {
+TEST(LowPassBank, FollowsAStepWithTimeConstantsOfOneTo128Milliseconds) {
   for (const double rate : {1000.0, 200.0}) {
     LowPassBank scales(rate);
     scales.update(2.0);
@@ -28,7 +28,7 @@ TEST(LowPassBank, FollowAStepAsFirstOrderLowPassesOfOneToAHundredAndTwentyEightM
   }
 }
 
-TEST(LowPassBank, BeginAnewWithWhatComesAfterAReset) {
+TEST(LowPassBank, StartsAtTheFirstInputAfterAReset) {
   LowPassBank scales(1000.0);
   scales.update(2.0);
   scales.reset();
@@ -36,21 +36,21 @@ TEST(LowPassBank, BeginAnewWithWhatComesAfterAReset) {
   for (const float value : scales.values()) EXPECT_EQ(value, -7.0F);
 }
 
-TEST(LowPassBank, TakeWhatTheyMissedToHaveBeenAsItIsNow) {
-  LowPassBank heard(1000.0);
-  LowPassBank missed(1000.0);
-  for (LowPassBank* scales : {&heard, &missed}) scales->update(2.0);
-  for (int k = 0; k < 100; ++k) heard.update(5.0);
-  missed.fast_forward(5.0, 0.099);
-  missed.update(5.0);
+TEST(LowPassBank, FastForwardsThroughADropout) {
+  LowPassBank complete(1000.0);
+  LowPassBank dropout(1000.0);
+  for (LowPassBank* scales : {&complete, &dropout}) scales->update(2.0);
+  for (int k = 0; k < 100; ++k) complete.update(5.0);
+  dropout.fast_forward(5.0, 0.099);
+  dropout.update(5.0);
   for (std::size_t i = 0; i < decision_scales; ++i) {
-    EXPECT_NEAR(missed.values()[i], heard.values()[i], 1e-5) << i;
+    EXPECT_NEAR(dropout.values()[i], complete.values()[i], 1e-5) << i;
   }
-  missed.fast_forward(-7.0, std::numeric_limits<double>::infinity());
-  for (const float value : missed.values()) EXPECT_NEAR(value, -7.0F, 1e-5);
+  dropout.fast_forward(-7.0, std::numeric_limits<double>::infinity());
+  for (const float value : dropout.values()) EXPECT_NEAR(value, -7.0F, 1e-5);
 }
 
-TEST(Repetition, IsFrozenAfterSoManyStepsInWhichNothingChangesTheLeast) {
+TEST(Repetition, IsFrozenAfterTheConfiguredTimeWithoutAnyChange) {
   Repetition<2> repetition({.frozen_after = 0.1}, 100.0);
   for (int round = 0; round < 2; ++round) {
     for (int k = 0; k <= 12; ++k) EXPECT_EQ(repetition.update({1.0, 2.0}), k >= 10) << k;
@@ -62,7 +62,7 @@ TEST(Repetition, IsFrozenAfterSoManyStepsInWhichNothingChangesTheLeast) {
   for (int k = 0; k < 1000; ++k) EXPECT_FALSE(never.update({1.0, 2.0}));
 }
 
-/// A robot whose loads, torques, motions and accelerations all wander.
+/// A robot with random loads, torques, motions and accelerations.
 std::vector<Signals> wandering(std::size_t steps) {
   test::Normal normal(5);
   test::CarriedRun run;
@@ -78,14 +78,14 @@ std::vector<Signals> wandering(std::size_t steps) {
   return run.signals;
 }
 
-TEST(FeatureExtractor, HearTheOtherWheelOfAMirroredRobot) {
+TEST(FeatureExtractor, SwapsTheWheelsOfAMirroredRobot) {
   FeatureExtractor robot({});
   FeatureExtractor mirror({});
   for (const Signals& s : wandering(500)) {
     robot.update(s);
-    robot.arrange();
+    robot.compute_inputs();
     mirror.update(test::in_the_mirror(s));
-    mirror.arrange();
+    mirror.compute_inputs();
     for (std::size_t side = 0; side < 2; ++side) {
       for (std::size_t i = 0; i < decision_inputs; ++i) {
         ASSERT_NEAR(mirror.inputs(side)[i], robot.inputs(1 - side)[i], 1e-5) << i;
@@ -95,47 +95,48 @@ TEST(FeatureExtractor, HearTheOtherWheelOfAMirroredRobot) {
   EXPECT_NE(robot.inputs(0), robot.inputs(1));
 }
 
-/// What every channel is compressed by: y → y / (1 + |y| / 4).
-double heard_as(double y) { return y / (1.0 + 0.25 * std::abs(y)); }
+/// The compression of every channel: y → y / (1 + |y| / 4).
+double compressed(double y) { return y / (1.0 + 0.25 * std::abs(y)); }
 
-TEST(FeatureExtractor, CompressEveryChannelSoThatNoneIsLargerThanFour) {
-  FeatureExtractor senses({});
+TEST(FeatureExtractor, CompressesEveryChannelBySoftsign) {
+  FeatureExtractor features({});
   Signals s;
   s.vertical_acceleration = -9.0;
   s.angular_velocity.x() = 0.6;
-  senses.update(s);
-  senses.arrange();
+  features.update(s);
+  features.compute_inputs();
   constexpr std::size_t acceleration = 2 * decision_leg_channels * decision_scales;
   for (std::size_t i = acceleration; i < acceleration + decision_scales; ++i) {
-    EXPECT_NEAR(senses.inputs(0)[i], heard_as(-9.0 / 3.0), 1e-6);
-    EXPECT_NEAR(senses.inputs(0)[i + decision_scales], heard_as(0.6 / 0.3), 1e-6);
-    EXPECT_NEAR(senses.inputs(1)[i + decision_scales], -heard_as(0.6 / 0.3), 1e-6);
+    EXPECT_NEAR(features.inputs(0)[i], compressed(-9.0 / 3.0), 1e-6);
+    EXPECT_NEAR(features.inputs(0)[i + decision_scales], compressed(0.6 / 0.3), 1e-6);
+    EXPECT_NEAR(features.inputs(1)[i + decision_scales], -compressed(0.6 / 0.3), 1e-6);
   }
 }
 
-TEST(FeatureExtractor, EstimateTheNoiseThatTheyHear) {
-  FeatureExtractor senses({});
+TEST(FeatureExtractor, EstimatesTheNoiseOfItsSignals) {
+  FeatureExtractor features({});
   test::Normal normal(6);
   test::CarriedRun run;
   for (int k = 0; k < 4000; ++k) {
     Signals& s = run.add(26.0, 26.0);
     for (LegSignals& leg : s.leg) leg.knee.torque += 0.8 * normal();
     s.vertical_acceleration += 4.0 * normal();
-    senses.update(s);
+    features.update(s);
   }
-  senses.arrange();
-  EXPECT_NEAR(senses.torque_noise(), 0.8, 0.12);
-  EXPECT_NEAR(senses.inputs(1)[decision_inputs - 2], std::log(0.8), 0.15);
-  EXPECT_NEAR(senses.inputs(1)[decision_inputs - 1], std::log(4.0), 0.25);
+  features.compute_inputs();
+  EXPECT_NEAR(features.torque_noise(), 0.8, 0.12);
+  EXPECT_NEAR(features.inputs(1)[decision_inputs - 2], std::log(0.8), 0.15);
+  EXPECT_NEAR(features.inputs(1)[decision_inputs - 1], std::log(4.0), 0.25);
 }
 
-TEST(FeatureExtractor, TakeNoiseAtALowRateForAsMuchAsItLeavesBehindALowPass) {
-  // White noise behind the low-pass of 64 ms: as large at 200 Hz as √5 times as much at 1 kHz.
-  std::array<double, 2> told{};
+TEST(FeatureExtractor, ScalesNoiseToWhatALowPassLeavesAtAnyRate) {
+  // Behind the low-pass of 64 ms, white noise at 200 Hz is as large as √5 times that noise at 1
+  // kHz.
+  std::array<double, 2> estimated{};
   std::array<double, 2> remaining{};
   for (const std::size_t slow : {0U, 1U}) {
     const double rate = slow == 0 ? 1000.0 : 200.0;
-    FeatureExtractor senses({.sample_rate = rate});
+    FeatureExtractor features({.sample_rate = rate});
     test::Normal normal(7);
     const double sigma = slow == 0 ? 0.8 * std::sqrt(5.0) : 0.8;
     double squares = 0.0;
@@ -145,25 +146,25 @@ TEST(FeatureExtractor, TakeNoiseAtALowRateForAsMuchAsItLeavesBehindALowPass) {
       Signals& s = run.add(26.0, 26.0);
       s.time = k / rate;
       for (LegSignals& leg : s.leg) leg.knee.torque += sigma * normal();
-      senses.update(s);
+      features.update(s);
       scales.update(sigma * normal());
       if (k >= 1000) squares += scales.values()[6] * scales.values()[6];
     }
-    told[slow] = senses.torque_noise();
+    estimated[slow] = features.torque_noise();
     remaining[slow] = std::sqrt(squares);
   }
-  EXPECT_NEAR(told[1] / told[0], 1.0, 0.15);
+  EXPECT_NEAR(estimated[1] / estimated[0], 1.0, 0.15);
   EXPECT_NEAR(std::log(remaining[1] / remaining[0]), 0.0, 0.15);
 }
 
-TEST(FeatureExtractor, HandThePairOfWheelsSumsAndDifferencesOfWhatTheyHandEach) {
+TEST(FeatureExtractor, GivesPairInputsAsSumsAndDifferencesOfTheWheelsInputs) {
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
-  FeatureExtractor senses({});
-  for (const Signals& s : wandering(200)) senses.update(s);
-  senses.arrange();
-  const DecisionInputs of_left = senses.inputs(0);
-  const DecisionInputs of_right = senses.inputs(1);
-  const DecisionPairInputs pair = senses.pair_inputs();
+  FeatureExtractor features({});
+  for (const Signals& s : wandering(200)) features.update(s);
+  features.compute_inputs();
+  const DecisionInputs of_left = features.inputs(0);
+  const DecisionInputs of_right = features.inputs(1);
+  const DecisionPairInputs pair = features.pair_inputs();
   for (std::size_t i = 0; i < of_legs; ++i) {
     EXPECT_EQ(pair.common[i], of_left[i] + of_right[i]);
     EXPECT_EQ(pair.difference[i], of_left[i] - of_right[i]);
@@ -176,21 +177,21 @@ TEST(FeatureExtractor, HandThePairOfWheelsSumsAndDifferencesOfWhatTheyHandEach) 
   EXPECT_EQ(pair.common[of_legs + decision_scales + 1], of_left[decision_inputs - 1]);
 }
 
-TEST(FeatureExtractor, TakeASilentLegToFareLikeTheOther) {
-  FeatureExtractor senses({});
+TEST(FeatureExtractor, CopiesTheOtherLegsFeaturesForAMissingLeg) {
+  FeatureExtractor features({});
   test::CarriedRun run;
-  senses.update(run.add(26.0, 0.0));
-  senses.arrange();
-  EXPECT_NE(senses.inputs(0)[0], senses.inputs(1)[0]);
+  features.update(run.add(26.0, 0.0));
+  features.compute_inputs();
+  EXPECT_NE(features.inputs(0)[0], features.inputs(1)[0]);
   run.add(26.0, 0.0).leg[1].hip.torque = std::nan("");
-  const FeatureExtractor::Step step = senses.update(run.signals.back());
-  senses.arrange();
+  const FeatureExtractor::Step step = features.update(run.signals.back());
+  features.compute_inputs();
   EXPECT_EQ(step.status, SignalStatus::invalid);
   EXPECT_TRUE(step.is_valid[0]);
   EXPECT_FALSE(step.is_valid[1]);
   constexpr std::size_t leg = decision_leg_channels * decision_scales;
   for (std::size_t i = 0; i < leg; ++i) {
-    EXPECT_EQ(senses.inputs(0)[leg + i], senses.inputs(0)[i]);
+    EXPECT_EQ(features.inputs(0)[leg + i], features.inputs(0)[i]);
   }
 }
 

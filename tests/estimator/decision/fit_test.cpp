@@ -12,35 +12,35 @@
 namespace touchdown {
 namespace {
 
-/// Every step that is heard, as it is.
+/// A fit to every step, without augmentation.
 DecisionFitConfig undisturbed() {
   DecisionFitConfig fit{.passes = 1, .rows = 1'000'000, .share_with_resets = 0.0};
-  fit.disturbance = {.largest_torque_noise = 0.0,
-                     .largest_acceleration_noise = 0.0,
-                     .torque_bias = 0.0,
-                     .position_bias = 0.0,
-                     .gain_error = 0.0};
+  fit.augmentation = {.largest_torque_noise = 0.0,
+                      .largest_acceleration_noise = 0.0,
+                      .torque_bias = 0.0,
+                      .position_bias = 0.0,
+                      .gain_error = 0.0};
   return fit;
 }
 
-TEST(DecisionRows, OfSlowHearingsAreWhatARobotHearsThatIsAsSlow) {
+TEST(DecisionRows, OfSlowPassesMatchTheInputsOfASlowRobot) {
   const test::CarriedRun run = test::lifted_run(1, 3);
-  for (const std::size_t apart : {1U, 5U}) {
+  for (const std::size_t interval : {1U, 5U}) {
     DecisionFitConfig fit = undisturbed();
     fit.steps_of_slow = 5;
-    fit.share_slow = apart == 5 ? 1.0 : 0.0;
+    fit.share_slow = interval == 5 ? 1.0 : 0.0;
     const DecisionRows rows = decision_rows(std::vector<LabelledRun>{run.view()}, {}, fit);
-    FeatureExtractor senses({.sample_rate = 1000.0 / static_cast<double>(apart)});
+    FeatureExtractor features({.sample_rate = 1000.0 / static_cast<double>(interval)});
     Eigen::Index row = 0;
-    for (std::size_t k = 0; k < run.signals.size(); k += apart) {
-      senses.update(run.signals[k]);
-      senses.arrange();
+    for (std::size_t k = 0; k < run.signals.size(); k += interval) {
+      features.update(run.signals[k]);
+      features.compute_inputs();
       for (std::size_t side = 0; side < 2; ++side, ++row) {
         ASSERT_LT(row, rows.inputs.cols());
         ASSERT_EQ(rows.is_contact[row], run.contact[side][k] != 0 ? 1.0F : 0.0F);
-        const DecisionInputs heard = senses.inputs(side);
-        for (std::size_t i = 0; i < heard.size(); ++i) {
-          ASSERT_EQ(rows.inputs(static_cast<Eigen::Index>(i), row), heard[i]) << k << ", " << i;
+        const DecisionInputs expected = features.inputs(side);
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+          ASSERT_EQ(rows.inputs(static_cast<Eigen::Index>(i), row), expected[i]) << k << ", " << i;
         }
       }
     }
@@ -48,11 +48,11 @@ TEST(DecisionRows, OfSlowHearingsAreWhatARobotHearsThatIsAsSlow) {
   }
 }
 
-TEST(DecisionRows, OfForgetfulHearingsAreOfLowPassesThatBeganAnewFromTimeToTime) {
-  test::CarriedRun run;  // loads that never stay
+TEST(DecisionRows, ContainRandomStateResets) {
+  test::CarriedRun run;  // loads that always change
   for (int k = 0; k < 20'000; ++k) {
     run.add(20.0 + 0.001 * k, 30.0 - 0.0005 * k, 0.001 * (k % 7));
-    run.touch(k % 2 == 0, true);
+    run.label(k % 2 == 0, true);
   }
   DecisionFitConfig fit = undisturbed();
   fit.share_slow = 0.0;
@@ -60,15 +60,15 @@ TEST(DecisionRows, OfForgetfulHearingsAreOfLowPassesThatBeganAnewFromTimeToTime)
   fit.reset_after = 0.05;
   const DecisionRows rows = decision_rows(std::vector<LabelledRun>{run.view()}, {}, fit);
   ASSERT_EQ(rows.inputs.cols(), 2 * 20'000);
-  int begun = 0;
+  int resets = 0;
   for (Eigen::Index i = 0; i < rows.inputs.cols(); i += 2) {  // the left wheel's load, all scales
     const auto load = rows.inputs.col(i).head(static_cast<Eigen::Index>(decision_scales));
-    begun += (load.array() == load[0]).all() ? 1 : 0;
+    resets += (load.array() == load[0]).all() ? 1 : 0;
   }
-  EXPECT_NEAR(begun, 20.0 / 0.05, 5.0 * std::sqrt(20.0 / 0.05));
+  EXPECT_NEAR(resets, 20.0 / 0.05, 5.0 * std::sqrt(20.0 / 0.05));
 }
 
-TEST(DecisionFitConfig, OfHearingsThatCannotBeIsRefused) {
+TEST(DecisionFitConfig, RefusesInvalidSharesAndTimes) {
   for (const double share : {-0.1, 1.1, std::nan("")}) {
     EXPECT_THROW(check_decision_fit_config({.share_slow = share}), InputError) << share;
   }

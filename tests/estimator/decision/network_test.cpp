@@ -14,9 +14,9 @@
 namespace touchdown {
 namespace {
 
-TEST(DecisionLogit, OfTwoWeightsIsWhatPencilAndPaperSay) {
+TEST(DecisionLogit, OfTwoWeightsMatchesAHandCalculation) {
   DecisionModel model;
-  // Two paths from the fourth input to the output, of which rectifiers leave one open.
+  // Two paths from the fourth input to the output. The rectifiers open one of them.
   model.first_weight[3 * decision_first + 5] = 2.0F;
   model.first_weight[3 * decision_first + 6] = -2.0F;
   model.first_bias[5] = -1.0F;
@@ -35,7 +35,7 @@ TEST(DecisionLogit, OfTwoWeightsIsWhatPencilAndPaperSay) {
   EXPECT_EQ(decision_logit(model, inputs), -2.5F);
 }
 
-TEST(PairedDecisionNetwork, SaysOfEachWheelWhatTheNetworkSaysOfIt) {
+TEST(PairedDecisionNetwork, GivesEachWheelTheLogitOfTheNetwork) {
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
   test::Normal normal(3);
   for (int round = 0; round < 20; ++round) {

@@ -7,7 +7,7 @@
 
 namespace touchdown::test {
 
-/// A network that was fitted to nothing, and believes this and that.
+/// A network with random weights.
 inline DecisionModel random_model(std::uint32_t seed) {
   Normal normal(seed);
   DecisionModel model;

@@ -12,7 +12,7 @@
 namespace touchdown {
 namespace {
 
-/// Rows whose class is a coin that the inputs load: P(contact) = 1 / (1 + exp(−logit)).
+/// Rows with random labels of P(contact) = 1 / (1 + exp(−logit)), a function of the inputs.
 struct Coins {
   DecisionRows rows;
   std::vector<double> p;
@@ -87,7 +87,7 @@ TEST(DecisionLoss, IsTheWeightedCrossEntropy) {
   EXPECT_NEAR(decision_loss(model, rows), loss_of(numbers_of(model), rows), 1e-5);
 }
 
-TEST(DecisionLoss, HasTheGradientThatItsDifferencesHave) {
+TEST(DecisionLoss, HasTheGradientOfItsFiniteDifferences) {
   const DecisionModel model = test::random_model(3);
   const DecisionRows rows = weighted_coins();
   DecisionModel gradient;
@@ -110,9 +110,9 @@ TEST(DecisionLoss, HasTheGradientThatItsDifferencesHave) {
   EXPECT_GT(largest, 0.01);
 }
 
-TEST(DecisionTraining, FindsTheProbabilityThatAWeighedCoinHas) {
-  const Coins seen = coins(40'000, 3.0, 1.0, 5);
-  const DecisionModel model = train_decision_model(seen.rows, {.batch = 256, .epochs = 10});
+TEST(DecisionTraining, FindsTheProbabilityOfABiasedCoin) {
+  const Coins fitted = coins(40'000, 3.0, 1.0, 5);
+  const DecisionModel model = train_decision_model(fitted.rows, {.batch = 256, .epochs = 10});
   const Coins others = coins(4000, 3.0, 1.0, 6);
   double found = 0.0;
   double best = 0.0;

@@ -13,7 +13,7 @@
 namespace touchdown {
 namespace {
 
-double place_of_knot(std::size_t knot, std::size_t knots) {
+double position_of_knot(std::size_t knot, std::size_t knots) {
   return -4.0 + 8.0 * static_cast<double>(knot) / static_cast<double>(knots - 1);
 }
 
@@ -21,7 +21,7 @@ double place_of_knot(std::size_t knot, std::size_t knots) {
 double share_of_knot(double x, std::size_t knot, std::size_t knots) {
   const double inside = std::clamp(x, -4.0, 4.0);
   const double width = 8.0 / static_cast<double>(knots - 1);
-  return std::max(0.0, 1.0 - std::abs(inside - place_of_knot(knot, knots)) / width);
+  return std::max(0.0, 1.0 - std::abs(inside - position_of_knot(knot, knots)) / width);
 }
 
 double logit_of(const EvidenceModel& model, const DecisionInputs& inputs) {
@@ -43,7 +43,7 @@ double logit_of(const EvidenceModel& model, const DecisionInputs& inputs) {
   return sum;
 }
 
-TEST(EvidenceLogit, AddsWhatEveryCurveAndTableSays) {
+TEST(EvidenceLogit, AddsTheContributionsOfAllCurvesAndTables) {
   for (const bool with_pairs : {false, true}) {
     const EvidenceModel model = test::random_curves(1, with_pairs);
     test::Normal normal(2);
@@ -66,7 +66,7 @@ DecisionInputs of_the_other(const DecisionInputs& inputs) {
   return other;
 }
 
-TEST(PairedEvidence, SaysToBothWheelsWhatIsSaidToEachAlone) {
+TEST(PairedEvidence, EqualsTheLogitOfEachWheelAlone) {
   for (const bool with_pairs : {false, true}) {
     const EvidenceModel model = test::random_curves(6, with_pairs);
     const PairedEvidence paired(model);
@@ -83,7 +83,7 @@ TEST(PairedEvidence, SaysToBothWheelsWhatIsSaidToEachAlone) {
   }
 }
 
-TEST(EvidenceLogit, StaysWhatItWasBeyondTheOuterKnots) {
+TEST(EvidenceLogit, IsConstantBeyondTheOuterKnots) {
   const EvidenceModel model = test::random_curves(3);
   for (const float sign : {-1.0F, 1.0F}) {
     DecisionInputs end{};
@@ -94,14 +94,14 @@ TEST(EvidenceLogit, StaysWhatItWasBeyondTheOuterKnots) {
   }
 }
 
-TEST(EvidenceLogit, IsANumberWhateverItHears) {
+TEST(EvidenceLogit, IsFiniteForAnyInput) {
   const EvidenceModel model = test::random_curves(4);
-  for (const float strange :
+  for (const float extreme :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
         -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::max()}) {
     DecisionInputs inputs{};
-    inputs.fill(strange);
-    EXPECT_TRUE(std::isfinite(evidence_logit(model, inputs))) << strange;
+    inputs.fill(extreme);
+    EXPECT_TRUE(std::isfinite(evidence_logit(model, inputs))) << extreme;
   }
 }
 
@@ -125,7 +125,7 @@ TEST(EvidenceModel, IsRefusedWithNumbersThatAreNotFinite) {
   refused(broken);
 }
 
-TEST(EvidencePairs, AreOfTwoDifferentInputsAndNoneIsThereTwice) {
+TEST(EvidencePairs, AreDistinctAndOfTwoDifferentInputs) {
   for (std::size_t p = 0; p < evidence_pairs.size(); ++p) {
     EXPECT_LT(evidence_pairs[p].first, evidence_pairs[p].second);
     EXPECT_LT(evidence_pairs[p].second, decision_inputs);

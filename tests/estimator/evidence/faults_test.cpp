@@ -16,17 +16,17 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-void silence(LegSignals& leg) {
+void remove_signals(LegSignals& leg) {
   for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) *joint = {nan, nan, nan};
 }
 
-/// What becomes of a step's signals while something is at fault; `before`: the last healthy step.
+/// Changes the signals of a faulty step; `before`: the last healthy step.
 using Fault = std::function<void(Signals& signals, const Signals& before)>;
 
-const Fault left_leg_drops_out = [](Signals& s, const Signals&) { silence(s.leg[0]); };
+const Fault left_leg_drops_out = [](Signals& s, const Signals&) { remove_signals(s.leg[0]); };
 const Fault left_torque_drops_out = [](Signals& s, const Signals&) { s.leg[0].knee.torque = nan; };
 const Fault both_legs_drop_out = [](Signals& s, const Signals&) {
-  for (LegSignals& leg : s.leg) silence(leg);
+  for (LegSignals& leg : s.leg) remove_signals(leg);
 };
 const Fault imu_drops_out = [](Signals& s, const Signals&) {
   s.vertical_acceleration = nan;
@@ -49,8 +49,8 @@ const Fault accelerometer_freezes = [](Signals& s, const Signals& before) {
 constexpr std::array<bool, 2> left = {true, false};
 constexpr std::array<bool, 2> both = {true, true};
 
-/// Whether a wheel's belief is the undisturbed one of step k. Within a takeoff or a landing that
-/// one runs through everything in some milliseconds, and may do so this much earlier or later.
+/// Whether a wheel's belief is the undisturbed one of step k. During a takeoff or a landing the
+/// undisturbed belief changes within some milliseconds, and may do so `shift` earlier or later.
 bool is_as_undisturbed(const WheelBelief& belief, const std::vector<Belief>& undisturbed,
                        std::size_t k, std::size_t wheel) {
   constexpr std::size_t shift = 4;  // ms
@@ -63,24 +63,23 @@ bool is_as_undisturbed(const WheelBelief& belief, const std::vector<Belief>& und
     most = std::max(most, other.p_contact);
     is_decided_alike = is_decided_alike || other.contact == belief.contact;
   }
-  // The slowest low-pass still knows a little of the fault.
+  // The slowest low-pass still contains a little of the fault.
   const double expected = undisturbed[k].wheel[wheel].p_contact;
   const double near = expected < 0.05 || expected > 0.95 ? 0.02 : 0.1;
   return is_decided_alike && belief.p_contact >= least - near && belief.p_contact <= most + near;
 }
 
-/// What an estimator says while one after the other stretch of a run is at fault, beside one that
-/// hears all of it.
+/// Compares an estimator on a run with faults at many times to one on the run without faults.
 class Faults : public ::testing::Test {
  protected:
   static constexpr std::size_t first = 700;      // standing on both, noise is estimated
   static constexpr std::size_t recovered = 200;  // ms
-  static constexpr std::size_t watched = 200;    // ms from there on
+  static constexpr std::size_t watched = 200;    // ms after that
 
   Faults() {
     run_ = test::lifted_run(3, 11);
     for (Signals& s : run_.signals) {
-      // What a gyro says of the other axes, and a robot that rolls on.
+      // A gyro that measures the other axes, too, and a robot that rolls.
       s.angular_velocity.y() = 0.01 * std::sin(s.time);
       for (LegSignals& leg : s.leg) leg.wheel.position = s.time;
     }
@@ -88,16 +87,16 @@ class Faults : public ::testing::Test {
     for (const Signals& s : run_.signals) expected_.push_back(healthy.update(s));
   }
 
-  /// From `told` milliseconds of it on the status must say `status`, and the belief of `silent`
-  /// wheels must fade to one half. 200 ms after its end all must be as if nothing had been.
+  /// After `delay` milliseconds of the fault the status must be `status`, and the belief of `lost`
+  /// wheels must fade to one half. 200 ms after its end beliefs must be as without the fault.
   void expect_recovery(const Fault& fault, std::size_t length, SignalStatus status,
-                       std::size_t told, const std::array<bool, 2>& silent) {
+                       std::size_t delay, const std::array<bool, 2>& lost) {
     EvidenceCurves healthy(test::lifted_curves());
-    std::size_t heard = 0;
-    std::size_t places = 0;
+    std::size_t next = 0;
+    std::size_t faults = 0;
     for (std::size_t begin = first; begin + length + recovered + watched < run_.signals.size();
          begin += 83) {
-      for (; heard < begin; ++heard) healthy.update(run_.signals[heard]);
+      for (; next < begin; ++next) healthy.update(run_.signals[next]);
       EvidenceCurves estimator = healthy;
       Belief belief = expected_[begin - 1];
       const std::array<WheelBelief, 2> before = belief.wheel;
@@ -109,13 +108,13 @@ class Faults : public ::testing::Test {
           ASSERT_GT(wheel.p_contact, 0.0);
           ASSERT_LT(wheel.p_contact, 1.0);
         }
-        ASSERT_EQ(belief.status, k < begin + told ? SignalStatus::good : status) << k - begin;
+        ASSERT_EQ(belief.status, k < begin + delay ? SignalStatus::good : status) << k - begin;
       }
-      const double faded = std::exp(-1e-3 * static_cast<double>(length - told) / 0.1);
+      const double faded = std::exp(-1e-3 * static_cast<double>(length - delay) / 0.1);
       for (std::size_t w = 0; w < 2; ++w) {
-        if (!silent[w]) continue;
+        if (!lost[w]) continue;
         EXPECT_LE(std::abs(belief.wheel[w].p_contact - 0.5), 0.5 * faded + 1e-9);
-        if (told == 0) {
+        if (delay == 0) {
           EXPECT_EQ(belief.wheel[w].contact, before[w].contact) << "the last decision stands";
         }
       }
@@ -131,9 +130,9 @@ class Faults : public ::testing::Test {
               << expected_[k].wheel[w].p_contact;
         }
       }
-      ++places;
+      ++faults;
     }
-    EXPECT_GE(places, 30U);
+    EXPECT_GE(faults, 30U);
   }
 
   test::CarriedRun run_;
@@ -157,12 +156,12 @@ TEST_F(Faults, OfRecordsThatAreEmptyAreOverWithin200Milliseconds) {
   expect_recovery(record_is_empty, 100, SignalStatus::invalid, 0, both);
 }
 
-/// A gap that ends while the accelerometer says nothing is a gap all the same.
+/// A gap counts as a gap even if it ends while the accelerometer is missing.
 TEST_F(Faults, OfRecordsThatAreMissingAreOverWithin200Milliseconds) {
   EvidenceCurves healthy(test::lifted_curves());
-  std::size_t heard = 0;
+  std::size_t next = 0;
   for (std::size_t begin = first; begin + 500 < run_.signals.size(); begin += 83) {
-    for (; heard < begin; ++heard) healthy.update(run_.signals[heard]);
+    for (; next < begin; ++next) healthy.update(run_.signals[next]);
     EvidenceCurves estimator = healthy;
     Belief belief;
     for (std::size_t k = begin + 100; k < begin + 500; ++k) {
@@ -189,7 +188,7 @@ TEST_F(Faults, OfAnAccelerometerThatFreezesAreOverWithin200Milliseconds) {
   expect_recovery(accelerometer_freezes, 700, SignalStatus::frozen, 499, both);
 }
 
-TEST_F(Faults, AreNotSensorsThatHoldTheirSamplesOrSayNothing) {
+TEST_F(Faults, DoNotIncludeHeldSamplesOrAMissingGyro) {
   EvidenceCurves estimator(test::lifted_curves());
   Signals held;
   for (std::size_t k = 0; k < run_.signals.size(); ++k) {
@@ -200,7 +199,7 @@ TEST_F(Faults, AreNotSensorsThatHoldTheirSamplesOrSayNothing) {
   }
 }
 
-TEST_F(Faults, AreNotServosOfWhichOneRests) {
+TEST_F(Faults, DoNotIncludeASingleServoAtRest) {
   EvidenceCurves estimator(test::lifted_curves());
   for (Signals s : run_.signals) {
     for (LegSignals& leg : s.leg) leg.hip = {0.455, 0.0, 1.0};
@@ -208,28 +207,28 @@ TEST_F(Faults, AreNotServosOfWhichOneRests) {
   }
 }
 
-TEST_F(Faults, AreNotBlowsThatAnAccelerometerCutsOff) {
+TEST_F(Faults, DoNotIncludeAClippedBlow) {
   constexpr double blow = 80.0;                     // m/s²
   constexpr double range = 58.86;                   // m/s²: 6 g
   for (const std::size_t begin : {1250U, 2950U}) {  // landings
     EvidenceCurves whole(test::lifted_curves());
     EvidenceCurves cut_off(test::lifted_curves());
     std::vector<Belief> expected;
-    std::vector<Belief> told;
+    std::vector<Belief> found;
     for (std::size_t k = 0; k < begin + 400; ++k) {
       Signals s = run_.signals[k];
       if (k >= begin && k < begin + 8) s.vertical_acceleration += blow;
       expected.push_back(whole.update(s));
       s.vertical_acceleration = std::min(s.vertical_acceleration, range);
-      told.push_back(cut_off.update(s));
+      found.push_back(cut_off.update(s));
     }
     std::array<int, 2> delay = {};  // ms
-    for (std::size_t k = 0; k < told.size(); ++k) {
-      ASSERT_EQ(told[k].status, SignalStatus::good);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      ASSERT_EQ(found[k].status, SignalStatus::good);
       for (std::size_t w = 0; w < 2; ++w) {
-        if (told[k].wheel[w].contact != expected[k].wheel[w].contact) ++delay[w];
+        if (found[k].wheel[w].contact != expected[k].wheel[w].contact) ++delay[w];
         if (k >= begin + recovered) {
-          ASSERT_TRUE(is_as_undisturbed(told[k].wheel[w], expected, k, w)) << k;
+          ASSERT_TRUE(is_as_undisturbed(found[k].wheel[w], expected, k, w)) << k;
         }
       }
     }

@@ -8,8 +8,8 @@
 
 namespace touchdown::test {
 
-/// Enough for who stands and who does not. Loads that jump within a step say little to who hears
-/// one in five.
+/// A short fit that suffices to distinguish standing from lifted wheels. No passes at a lower rate:
+/// one step in five gives little information on loads that jump within a step.
 constexpr EvidenceFitConfig brief_fit(bool with_pairs) {
   EvidenceFitConfig config;
   config.descent.passes = 8;
@@ -21,7 +21,7 @@ constexpr EvidenceFitConfig brief_fit(bool with_pairs) {
   return config;
 }
 
-/// What is fitted to some of a robot that stands, lifts its wheels and falls.
+/// Curves fitted to a robot that stands, lifts its wheels and falls.
 inline const EvidenceModel& lifted_curves(bool with_pairs = true) {
   static const std::array<EvidenceModel, 2> models = [] {
     const CarriedRun run = lifted_run(4, 1);

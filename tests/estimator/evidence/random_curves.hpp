@@ -8,7 +8,7 @@
 
 namespace touchdown::test {
 
-/// Curves and tables that were fitted to nothing, and believe this and that.
+/// Random curves and tables.
 inline EvidenceModel random_curves(std::uint32_t seed, bool with_pairs = true) {
   Normal normal(seed);
   EvidenceModel model;

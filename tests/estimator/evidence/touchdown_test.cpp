@@ -18,7 +18,7 @@ namespace {
 
 double log_odds(double p) { return std::log(p / (1.0 - p)); }
 
-TEST(TouchdownEstimator, SaysTheMeanOfWhatCurvesAndNetworkSay) {
+TEST(TouchdownEstimator, GivesTheMeanLogitOfCurvesAndNetwork) {
   const DecisionConfig config{.smoothing = 0.0};
   const TouchdownModel model = {test::lifted_curves(false), test::lifted_network()};
   TouchdownEstimator together(model, config);
@@ -40,10 +40,10 @@ TEST(TouchdownEstimator, SaysTheMeanOfWhatCurvesAndNetworkSay) {
     }
   }
   EXPECT_GT(compared, 3000);
-  EXPECT_GT(apart, 300);  // they do not say the same
+  EXPECT_GT(apart, 300);  // their logits differ
 }
 
-TEST(TouchdownEstimator, IsFittedAsCurvesAndNetworkAreAlone) {
+TEST(TouchdownEstimator, IsFittedLikeCurvesAndNetworkAlone) {
   const test::CarriedRun run = test::lifted_run(1, 4);
   const std::vector<LabelledRun> runs = {run.view()};
   const DecisionFitConfig network{.passes = 1, .rows = 2000, .batch = 64, .epochs = 1};
@@ -57,14 +57,14 @@ TEST(TouchdownEstimator, IsFittedAsCurvesAndNetworkAreAlone) {
   EXPECT_EQ(model.evidence, fit_evidence_model(runs, {}, evidence));
 }
 
-TEST(TouchdownEstimator, TellsWheelsThatCarryFromThoseThatDoNot) {
+TEST(TouchdownEstimator, DistinguishesWheelsThatCarryALoad) {
   TouchdownEstimator estimator({test::lifted_curves(false), test::lifted_network()});
-  EXPECT_GT(test::share_right(estimator, test::lifted_run(2, 2)), 0.99);
+  EXPECT_GT(test::accuracy(estimator, test::lifted_run(2, 2)), 0.99);
   estimator.reset();
-  EXPECT_GT(test::share_right(estimator, test::lifted_run(2, 3, 0.5)), 0.95);
+  EXPECT_GT(test::accuracy(estimator, test::lifted_run(2, 3, 0.5)), 0.95);
 }
 
-TEST(TouchdownEstimator, RefusesWhatMakesNoSense) {
+TEST(TouchdownEstimator, RefusesInvalidValues) {
   const TouchdownModel good = {test::random_curves(1, false), {}};
   EXPECT_NO_THROW(TouchdownEstimator{good});
   EXPECT_THROW((TouchdownEstimator{good, {.sample_rate = 0.0}}), InputError);

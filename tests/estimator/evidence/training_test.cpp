@@ -22,8 +22,8 @@ DecisionRows empty_rows(int count) {
   return rows;
 }
 
-/// One input that is drawn from N(1, 1) in contact and from N(−1, 1) without, as often; all others
-/// are silent. By Bayes' rule the logit is twice the input.
+/// One input, drawn from N(1, 1) in contact and as often from N(−1, 1) without. All others are
+/// zero. By Bayes' rule the logit is twice the input.
 DecisionRows two_gaussians(int count, std::size_t input, std::uint32_t seed) {
   test::Normal normal(seed);
   DecisionRows rows = empty_rows(count);
@@ -46,23 +46,23 @@ float curve_at(const EvidenceModel& model, std::size_t input, float x) {
   return evidence_logit(alone, inputs);
 }
 
-TEST(EvidenceTraining, FindsTheLineThatTwoGaussiansAre) {
-  constexpr std::size_t heard = 3;
-  const EvidenceModel model = train_evidence_model(two_gaussians(40'000, heard, 1), brisk);
+TEST(EvidenceTraining, FindsTheLinearLogitOfTwoGaussians) {
+  constexpr std::size_t input = 3;
+  const EvidenceModel model = train_evidence_model(two_gaussians(40'000, input, 1), brisk);
   for (float x = -2.0F; x <= 2.0F; x += 0.25F) {
-    EXPECT_NEAR(model.bias + curve_at(model, heard, x), 2.0F * x, 0.35F) << x;
+    EXPECT_NEAR(model.bias + curve_at(model, input, x), 2.0F * x, 0.35F) << x;
   }
   EXPECT_NEAR(model.bias, 0.0F, 0.15F);
 }
 
-TEST(EvidenceTraining, LeavesACurveFlatThatWasNeverVisited) {
+TEST(EvidenceTraining, LeavesACurveFlatWhereNoRowsLie) {
   const EvidenceModel model = train_evidence_model(two_gaussians(4000, 3, 2), brisk);
   for (std::size_t i = 0; i < decision_inputs; ++i) {
     if (i == 3) continue;
-    // All rows were at one place: there it says nothing, and nowhere else was anything heard.
+    // All rows have the same value of this input, so it gives no evidence.
     for (const float value : model.curve[i]) ASSERT_NEAR(value, 0.0F, 0.1F) << i;
   }
-  // What lies beyond what was heard follows the last that was.
+  // Beyond the outer knots the curve is constant.
   const auto& [low, high] = model.seen[3];
   EXPECT_LT(low, -3.0F);
   EXPECT_GT(high, 3.0F);
@@ -105,8 +105,8 @@ TEST(EvidenceTraining, CentresEveryCurveOverItsRows) {
   }
 }
 
-/// Contact where both inputs of a pair have one sign: neither says anything alone.
-TEST(EvidenceTraining, HearsInAPairWhatNeitherSaysAlone) {
+/// Contact where both inputs of a pair have the same sign: neither gives evidence alone.
+TEST(EvidenceTraining, FindsAnInteractionInAPair) {
   test::Normal normal(6);
   DecisionRows rows = empty_rows(20'000);
   const auto& [first, second] = evidence_pairs.front();
@@ -125,7 +125,7 @@ TEST(EvidenceTraining, HearsInAPairWhatNeitherSaysAlone) {
   EXPECT_LT(together, 0.5 * alone);
 }
 
-TEST(EvidenceTraining, BendsLessTheMoreBendingCosts) {
+TEST(EvidenceTraining, IsSmootherTheLargerTheSmoothnessCost) {
   const DecisionRows rows = two_gaussians(4000, 3, 7);
   const auto roughness = [&](double smoothness) {
     EvidenceFitConfig config = brisk;
@@ -138,12 +138,12 @@ TEST(EvidenceTraining, BendsLessTheMoreBendingCosts) {
     return sum;
   };
   const double free = roughness(0.0);
-  const double held = roughness(0.01);
-  EXPECT_LT(held, 0.7 * free);
-  EXPECT_LT(roughness(1.0), 0.1 * held);
+  const double smooth = roughness(0.01);
+  EXPECT_LT(smooth, 0.7 * free);
+  EXPECT_LT(roughness(1.0), 0.1 * smooth);
 }
 
-TEST(EvidenceLoss, HasTheGradientThatItsDifferencesHave) {
+TEST(EvidenceLoss, HasTheGradientOfItsFiniteDifferences) {
   const EvidenceModel model = test::random_curves(8);
   DecisionRows rows = empty_rows(30);
   test::Normal normal(9);
@@ -192,7 +192,7 @@ TEST(EvidenceTraining, RepeatsItselfToTheBit) {
   EXPECT_FALSE(train_evidence_model(rows, config) == once);
 }
 
-TEST(EvidenceTraining, RefusesWhatMakesNoSense) {
+TEST(EvidenceTraining, RefusesInvalidValues) {
   EXPECT_THROW(check_evidence_fit_config({.smoothness = -1.0}), InputError);
   EXPECT_THROW(check_evidence_fit_config({.smoothness = std::nan("")}), InputError);
   EXPECT_THROW(check_evidence_fit_config({.descent = {.batch = 0}}), InputError);

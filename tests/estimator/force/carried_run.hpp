@@ -10,12 +10,12 @@
 
 namespace touchdown::test {
 
-/// Steps of one millisecond of a crouching robot whose wheels carry what they are told to.
+/// Steps of one millisecond of a crouching robot with given loads on its wheels.
 struct CarriedRun {
   std::vector<Signals> signals;
   std::array<std::vector<std::uint8_t>, 2> contact;
 
-  /// Adds a step; more of it may be changed afterwards.
+  /// Adds a step with these loads (N). The caller may change the rest of it.
   Signals& add(double left, double right, double acceleration = 0.0) {
     Signals s;
     const auto k = static_cast<double>(signals.size());
@@ -27,15 +27,15 @@ struct CarriedRun {
     for (auto& wheel : contact) wheel.push_back(0);
     return signals.back();
   }
-  /// Whether the wheels touch at the last step.
-  void touch(bool left, bool right) {
+  /// Sets whether the wheels are in contact at the last step.
+  void label(bool left, bool right) {
     contact[0].back() = left ? 1 : 0;
     contact[1].back() = right ? 1 : 0;
   }
   [[nodiscard]] LabelledRun view() const { return {signals, {contact[0], contact[1]}}; }
 };
 
-/// As a mirror at the robot's plane shows it.
+/// The signals of the robot mirrored at its middle plane.
 inline Signals in_the_mirror(Signals s) {
   std::swap(s.leg[0], s.leg[1]);
   for (LegSignals& leg : s.leg) leg = mirrored(leg);

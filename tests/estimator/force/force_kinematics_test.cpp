@@ -29,25 +29,25 @@ double gaussian(double x, double mean, double deviation) {
   return std::exp(-0.5 * z * z) / (deviation * std::sqrt(2.0 * std::numbers::pi));
 }
 
-double likelihood(const WheelState& state, const WheelObservation& seen) {
-  return gaussian(seen.force, state.force_mean, state.force_deviation) *
-         gaussian(seen.axle_velocity, 0.0, state.axle_deviation);
+double likelihood(const WheelState& state, const WheelObservation& observation) {
+  return gaussian(observation.force, state.force_mean, state.force_deviation) *
+         gaussian(observation.axle_velocity, 0.0, state.axle_deviation);
 }
 
-TEST(ForceKinematics, WeighsWhatItSeesByGaussians) {
+TEST(ForceKinematics, WeighsObservationsByGaussians) {
   for (const double force : {0.0, 7.0, 26.0}) {
     for (const double velocity : {-0.8, 0.05}) {
-      const WheelObservation seen = {force, velocity};
-      EXPECT_NEAR(
-          log_likelihood_ratio(model(), seen),
-          std::log(likelihood(model().contact, seen)) - std::log(likelihood(model().air, seen)),
-          1e-9);
+      const WheelObservation observation = {force, velocity};
+      EXPECT_NEAR(log_likelihood_ratio(model(), observation),
+                  std::log(likelihood(model().contact, observation)) -
+                      std::log(likelihood(model().air, observation)),
+                  1e-9);
     }
   }
 }
 
-TEST(ForceKinematics, TakesMoreForceForMoreContact) {
-  // The wider Gaussian alone would take a wheel that pulls for one on the ground.
+TEST(ForceKinematics, RatioIncreasesWithTheForce) {
+  // By the wider Gaussian alone, a wheel that pulls would count as one on the ground.
   double before = -HUGE_VAL;
   for (double force = -60.0; force <= 150.0; force += 5.0) {
     const double ratio = log_likelihood_ratio(model(), {force, 0.0});
@@ -56,7 +56,7 @@ TEST(ForceKinematics, TakesMoreForceForMoreContact) {
   }
 }
 
-/// A short run in which everything moves a little.
+/// A short run with small motions of all joints.
 test::CarriedRun busy(int steps) {
   test::CarriedRun run;
   test::Normal normal(9);
@@ -70,45 +70,45 @@ test::CarriedRun busy(int steps) {
   return run;
 }
 
-TEST(ForceKinematics, BelievesTheSumOverAllWaysItCanHaveBeen) {
+TEST(ForceKinematics, EqualsTheSumOverAllStateSequences) {
   constexpr int steps = 10;
   const test::CarriedRun run = busy(steps);
   const ForceKinematicsConfig config;
   WheelObservations observations(config);
   ForceKinematics filter(model(), config);
-  std::vector<WheelObservation> seen;
+  std::vector<WheelObservation> observed;
   Belief belief;
   for (const Signals& s : run.signals) {
     const bool measured = observations.update(s).is_measured[1];
     belief = filter.update(s);
     if (!measured) continue;
-    seen.push_back(observations.of(1));
+    observed.push_back(observations.of(1));
     // Forces between the means count as they are.
-    seen.back().force = std::clamp(seen.back().force, 0.0, 26.0);
+    observed.back().force = std::clamp(observed.back().force, 0.0, 26.0);
   }
-  ASSERT_EQ(seen.size(), static_cast<std::size_t>(steps));
+  ASSERT_EQ(observed.size(), static_cast<std::size_t>(steps));
   const double takeoff = 1.0 - std::exp(-0.001 * model().contact.leaving_rate);
   const double landing = 1.0 - std::exp(-0.001 * model().air.leaving_rate);
   double contact = 0.0;
   double all = 0.0;
-  for (unsigned path = 0; path < (2U << seen.size()); ++path) {  // bit 0: before the first
+  for (unsigned path = 0; path < (2U << observed.size()); ++path) {  // bit 0: before the first
     double p = 0.5;
-    for (std::size_t k = 0; k < seen.size(); ++k) {
+    for (std::size_t k = 0; k < observed.size(); ++k) {
       const bool from = (path >> k & 1U) != 0;
       const bool to = (path >> (k + 1) & 1U) != 0;
       const double leave = from ? takeoff : landing;
       p *= (from == to ? 1.0 - leave : leave) *
-           likelihood(to ? model().contact : model().air, seen[k]);
+           likelihood(to ? model().contact : model().air, observed[k]);
     }
     all += p;
-    if ((path >> seen.size() & 1U) != 0) contact += p;
+    if ((path >> observed.size() & 1U) != 0) contact += p;
   }
   EXPECT_GT(contact / all, 0.001);
   EXPECT_LT(contact / all, 0.999);
   EXPECT_NEAR(belief.wheel[1].p_contact, contact / all, 1e-9);
 }
 
-TEST(ForceKinematics, TellsOneWheelFromTheOther) {
+TEST(ForceKinematics, DistinguishesTheWheels) {
   ForceKinematics filter(model());
   test::CarriedRun run;
   for (int i = 0; i < 100; ++i) filter.update(run.add(26.0, 26.0));
@@ -120,7 +120,7 @@ TEST(ForceKinematics, TellsOneWheelFromTheOther) {
   EXPECT_LT(belief.wheel[1].p_contact, 0.01);
 }
 
-TEST(AxleMotion, FeelsATorsoFallOnAStiffLegAndNotOnOneThatYields) {
+TEST(AxleMotion, MovesWithTheTorsoOnAStiffLegAndNotOnAYieldingOne) {
   const LegGeometry leg;
   AxleMotion stiff({.leak = 1e6});
   AxleMotion yielding({.leak = 1e6});
@@ -129,8 +129,8 @@ TEST(AxleMotion, FeelsATorsoFallOnAStiffLegAndNotOnOneThatYields) {
   for (int k = 1; k <= 100; ++k) {
     Signals& s = run.add(0.0, 0.0, -5.0);
     stiff.update(s, -5.0);
-    // The hip turns so that the axle stays where it is.
-    const double lever = test::places(leg, 0.455, -0.791).x;
+    // The hip turns so that the axle stays in place.
+    const double lever = test::leg_positions(leg, 0.455, -0.791).x;
     hip_velocity = 5.0 * 0.001 * k / lever;
     s.leg[0].hip.velocity = hip_velocity;
     yielding.update(s, -5.0);
@@ -140,11 +140,11 @@ TEST(AxleMotion, FeelsATorsoFallOnAStiffLegAndNotOnOneThatYields) {
   EXPECT_GT(hip_velocity, 0.0);
 }
 
-TEST(AxleMotion, ForgetsTheTorsosVelocity) {
+TEST(AxleMotion, LeaksTheTorsosVelocity) {
   AxleMotion motion({.leak = 0.2});
   test::CarriedRun run;
   for (int k = 0; k < 2000; ++k) motion.update(run.add(0.0, 0.0), 0.5);
-  EXPECT_NEAR(motion.velocity(0), 0.5 * 0.2, 1e-3);  // what a biased accelerometer leaves
+  EXPECT_NEAR(motion.velocity(0), 0.5 * 0.2, 1e-3);  // the error from a biased accelerometer
 }
 
 TEST(AxleMotion, IsNotMeasuredWithoutVelocities) {
@@ -158,7 +158,7 @@ TEST(AxleMotion, IsNotMeasuredWithoutVelocities) {
   EXPECT_TRUE(motion.is_measured(1));
 }
 
-/// A flight of 0.2 s in every second, with forces and motions whose spread is known.
+/// A flight of 0.2 s in every second, with forces and motions of known spread.
 test::CarriedRun drops(int steps) {
   test::CarriedRun run;
   test::Normal normal(11);
@@ -169,16 +169,16 @@ test::CarriedRun drops(int steps) {
     for (std::size_t side = 0; side < 2; ++side) {
       s.leg[side].hip.velocity = (air ? 4.0 : 0.5) * normal();
     }
-    run.touch(!air, !air);
+    run.label(!air, !air);
   }
   return run;
 }
 
-TEST(ForceKinematics, LearnsWhatTheRunsWereDrawnWith) {
+TEST(ForceKinematics, FindsTheParametersBehindTheRuns) {
   const test::CarriedRun run = drops(20'000);
   const ForceKinematicsModel fitted =
       fit_force_kinematics(std::vector<LabelledRun>{run.view()}, {.low_pass = 0.0});
-  const double lever = std::abs(test::places({}, 0.455, -0.791).x);
+  const double lever = std::abs(test::leg_positions({}, 0.455, -0.791).x);
   EXPECT_NEAR(fitted.air.force_mean, 1.0, 0.1);
   EXPECT_NEAR(fitted.air.force_deviation, 2.0, 0.1);
   EXPECT_NEAR(fitted.air.axle_deviation, 4.0 * lever, 0.03 * 4.0 * lever);
@@ -189,17 +189,17 @@ TEST(ForceKinematics, LearnsWhatTheRunsWereDrawnWith) {
   EXPECT_EQ(fitted.contact.axle_deviation, ForceKinematicsFloors{}.axle_velocity);  // a floor
 }
 
-TEST(ForceKinematics, FollowsRunsLikeThoseItLearnedFrom) {
+TEST(ForceKinematics, FollowsRunsLikeTheFittedOnes) {
   const test::CarriedRun run = drops(10'000);
   ForceKinematics filter(fit_force_kinematics(std::vector<LabelledRun>{run.view()}));
-  int right = 0;
+  int correct = 0;
   for (std::size_t k = 0; k < run.signals.size(); ++k) {
-    right += filter.update(run.signals[k]).wheel[0].contact == (run.contact[0][k] != 0) ? 1 : 0;
+    correct += filter.update(run.signals[k]).wheel[0].contact == (run.contact[0][k] != 0) ? 1 : 0;
   }
-  EXPECT_GT(right, 9'750);
+  EXPECT_GT(correct, 9'750);
 }
 
-TEST(ForceKinematics, IsFittedToBothStates) {
+TEST(ForceKinematics, NeedsBothStatesAndALabelForEveryStep) {
   test::CarriedRun run;
   for (int i = 0; i < 100; ++i) run.add(26.0, 26.0);
   EXPECT_THROW(static_cast<void>(fit_force_kinematics(std::vector<LabelledRun>{run.view()})),
@@ -209,7 +209,7 @@ TEST(ForceKinematics, IsFittedToBothStates) {
                InputError);
 }
 
-TEST(ForceKinematics, RelaxesWhereALegSaysNothing) {
+TEST(ForceKinematics, RelaxesForALegWithoutSignals) {
   ForceKinematics filter(model());
   test::CarriedRun run;
   for (int i = 0; i < 100; ++i) filter.update(run.add(26.0, 26.0));
@@ -229,7 +229,7 @@ TEST(ForceKinematics, RelaxesWhereALegSaysNothing) {
   }
 }
 
-TEST(ForceKinematics, IsNeverNotANumber) {
+TEST(ForceKinematics, GivesProbabilitiesForAnyInput) {
   const test::CarriedRun run = busy(40);
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, -1e300, 9e3}) {
     ForceKinematics filter(model());
@@ -248,9 +248,9 @@ TEST(ForceKinematics, IsNeverNotANumber) {
   }
 }
 
-TEST(ForceKinematics, BeginsWithTheFlatPriorAndForgets) {
+TEST(ForceKinematics, StartsAndResetsToTheFlatPrior) {
   ForceKinematics filter(model());
-  EXPECT_EQ(filter.update(Signals()).wheel[0].p_contact, 0.5);  // straight legs say nothing
+  EXPECT_EQ(filter.update(Signals()).wheel[0].p_contact, 0.5);  // straight legs give no evidence
   test::CarriedRun run;
   for (int i = 0; i < 100; ++i) filter.update(run.add(26.0, 26.0));
   filter.reset();
@@ -259,7 +259,7 @@ TEST(ForceKinematics, BeginsWithTheFlatPriorAndForgets) {
   EXPECT_EQ(filter.update(falling).wheel[0].p_contact, fresh.update(falling).wheel[0].p_contact);
 }
 
-TEST(ForceKinematics, RefusesWhatMakesNoSense) {
+TEST(ForceKinematics, RefusesInvalidValues) {
   const auto refused = [](const ForceKinematicsConfig& config) {
     EXPECT_THROW((ForceKinematics{model(), config}), InputError);
   };

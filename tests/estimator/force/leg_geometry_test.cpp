@@ -13,7 +13,7 @@ using test::gravity;
 using test::holding;
 using test::mirrored;
 
-TEST(VerticalForce, IsTheOneThatTheTorquesHoldAgainst) {
+TEST(VerticalForce, ExplainsTheTorques) {
   for (const LegGeometry& leg :
        {LegGeometry(),
         LegGeometry{
@@ -38,7 +38,7 @@ TEST(VerticalForce, OfAStraightLegIsUnknown) {
   EXPECT_FALSE(std::isfinite(vertical_force({}, straight, false, 0.0)));
 }
 
-TEST(AxleVelocity, IsHowItsHeightChanges) {
+TEST(AxleVelocity, IsTheDerivativeOfItsHeight) {
   const LegGeometry leg;
   for (const double hip : {-0.2, 0.455, 1.0}) {
     for (const double knee : {-1.5, -0.791, 0.3}) {
@@ -47,7 +47,7 @@ TEST(AxleVelocity, IsHowItsHeightChanges) {
       moving.knee = {knee, -2.1, 0.0};
       constexpr double step = 1e-6;
       const auto height = [&](double time) {
-        return test::places(leg, hip + 1.3 * time, knee - 2.1 * time).z;
+        return test::leg_positions(leg, hip + 1.3 * time, knee - 2.1 * time).z;
       };
       const double expected = (height(step) - height(-step)) / (2.0 * step);
       EXPECT_NEAR(axle_velocity(leg, moving), expected, 1e-8);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr LogisticCurve at_ten = {.slope = 0.5, .intercept = -5.0};  // even chance at 10 N
 
-/// Loads of 0 to 20 N whose wheels touch as likely as a curve says.
+/// Loads of 0 to 20 N with contacts drawn with the probability of a curve.
 test::CarriedRun drawn(const LogisticCurve& curve, int steps) {
   test::CarriedRun run;
   test::Normal normal(5);
@@ -24,12 +24,12 @@ test::CarriedRun drawn(const LogisticCurve& curve, int steps) {
     const double left = 20.0 * uniform();
     const double right = 20.0 * uniform();
     run.add(left, right);
-    run.touch(uniform() < curve(left), uniform() < curve(right));
+    run.label(uniform() < curve(left), uniform() < curve(right));
   }
   return run;
 }
 
-TEST(LoadLogistic, FindsTheCurveThatLabelsWereDrawnFrom) {
+TEST(LoadLogistic, FindsTheCurveBehindTheLabels) {
   const test::CarriedRun run = drawn(at_ten, 10'000);
   const std::vector<LabelledRun> runs = {run.view()};
   const LogisticCurve curve = fit_load_logistic(runs, {.low_pass = 0.0});
@@ -37,15 +37,16 @@ TEST(LoadLogistic, FindsTheCurveThatLabelsWereDrawnFrom) {
   EXPECT_NEAR(-curve.intercept / curve.slope, 10.0, 0.15);
 }
 
-TEST(LoadLogistic, IsFittedToWhatItHears) {
-  // Far apart, and stays finite; steps that are skipped or not measured do not count.
+TEST(LoadLogistic, IsFittedToMeasuredSteps) {
+  // The classes are far apart, but the curve stays finite. Skipped and unmeasured steps do not
+  // count.
   test::CarriedRun run;
   for (int i = 0; i < 3000; ++i) {
-    const bool lie = i < 100;
-    const bool touches = i % 1000 < 500;
-    run.add(touches ? 26.0 : 0.0, touches ? 26.0 : 0.0);
+    const bool wrong = i < 100;
+    const bool in_contact = i % 1000 < 500;
+    run.add(in_contact ? 26.0 : 0.0, in_contact ? 26.0 : 0.0);
     if (i % 7 == 0) run.signals.back().leg[0].knee.torque = std::nan("");
-    run.touch(touches != lie, touches != lie);
+    run.label(in_contact != wrong, in_contact != wrong);
   }
   LabelledRun view = run.view();
   view.skip = 100;
@@ -61,13 +62,13 @@ TEST(LoadLogistic, NeedsBothClassesAndALabelForEveryStep) {
   EXPECT_THROW(static_cast<void>(fit_load_logistic(std::vector<LabelledRun>{run.view()})),
                InputError);
   EXPECT_THROW(static_cast<void>(fit_load_logistic({})), InputError);
-  run.touch(true, true);
+  run.label(true, true);
   run.contact[1].pop_back();
   EXPECT_THROW(static_cast<void>(fit_load_logistic(std::vector<LabelledRun>{run.view()})),
                InputError);
 }
 
-TEST(LoadLogistic, BelievesItsCurveOfEachWheelsLoad) {
+TEST(LoadLogistic, AppliesItsCurveToEachWheelsLoad) {
   LoadLogistic estimator(at_ten, {.low_pass = 0.0});
   test::CarriedRun run;
   const Belief& belief = estimator.update(run.add(12.0, 3.0));
@@ -78,7 +79,7 @@ TEST(LoadLogistic, BelievesItsCurveOfEachWheelsLoad) {
   EXPECT_EQ(belief.p_both_wheels, belief.wheel[0].p_contact * belief.wheel[1].p_contact);
 }
 
-TEST(LoadLogistic, HearsTheForceThroughItsLowPass) {
+TEST(LoadLogistic, LowPassesTheForce) {
   LoadLogistic estimator(at_ten, {.low_pass = 0.01});
   test::CarriedRun run;
   estimator.update(run.add(0.0, 0.0));
@@ -87,7 +88,7 @@ TEST(LoadLogistic, HearsTheForceThroughItsLowPass) {
   EXPECT_NEAR(estimator.update(run.signals.back()).wheel[0].p_contact, at_ten(expected), 0.1);
 }
 
-TEST(LoadLogistic, RelaxesWhereALegSaysNothing) {
+TEST(LoadLogistic, RelaxesForALegWithoutSignals) {
   LoadLogistic estimator(at_ten);
   test::CarriedRun run;
   for (int i = 0; i < 100; ++i) estimator.update(run.add(26.0, 26.0));
@@ -105,10 +106,10 @@ TEST(LoadLogistic, RelaxesWhereALegSaysNothing) {
     EXPECT_EQ(estimator.update(run.add(26.0, 26.0)).status, SignalStatus::good);
   }
   estimator.reset();
-  EXPECT_EQ(estimator.update(Signals()).wheel[0].p_contact, 0.5);  // straight legs say nothing
+  EXPECT_EQ(estimator.update(Signals()).wheel[0].p_contact, 0.5);  // straight legs give no evidence
 }
 
-TEST(LoadLogistic, ForgetsSoonWhatAStraightKneeMadeUp) {
+TEST(LoadLogistic, RecoversSoonFromTheForceOfAStraightKnee) {
   LoadLogistic estimator(at_ten);
   test::CarriedRun run;
   for (int i = 0; i < 100; ++i) estimator.update(run.add(0.0, 0.0));
@@ -123,7 +124,7 @@ TEST(LoadLogistic, ForgetsSoonWhatAStraightKneeMadeUp) {
   EXPECT_FALSE(belief.wheel[0].contact);
 }
 
-TEST(LoadLogistic, RefusesWhatMakesNoSense) {
+TEST(LoadLogistic, RefusesInvalidValues) {
   const auto refused = [](const LogisticCurve& curve, const LoadLogisticConfig& config) {
     EXPECT_THROW((LoadLogistic{curve, config}), InputError);
   };

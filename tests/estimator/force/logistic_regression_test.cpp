@@ -57,7 +57,7 @@ Data overlapping() {
   return data;
 }
 
-TEST(LogisticRegression, EndsWhereNothingSlopes) {
+TEST(LogisticRegression, EndsAtAZeroGradient) {
   const Data data = overlapping();
   const auto n = static_cast<double>(data.x.size());
   double mean = 0.0;
@@ -115,7 +115,7 @@ TEST(LogisticRegression, OfAConstantIsTheShareOfOnes) {
   EXPECT_NEAR(curve(123.0), 0.75, 1e-12);
 }
 
-TEST(LogisticRegression, RefusesWhatMakesNoSense) {
+TEST(LogisticRegression, RefusesInvalidValues) {
   Data data;
   data.add(0.0, 1, 2);
   EXPECT_THROW(static_cast<void>(fit_logistic(data.x, data.one, -1.0)), InputError);

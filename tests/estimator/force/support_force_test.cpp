@@ -14,7 +14,7 @@ namespace {
 using test::holding;
 using test::mirrored;
 
-/// Steps of one millisecond of a crouching robot whose wheels carry these forces.
+/// Steps of one millisecond of a crouching robot with these loads on its wheels.
 class Standing {
  public:
   const Belief& carry(double left, double right, int steps, double acceleration = 0.0) {
@@ -25,10 +25,10 @@ class Standing {
       signals_.leg[1] = mirrored(holding({}, 0.455, -0.791, 0.0, right, acceleration));
       estimator_.update(signals_);
     }
-    return feel();
+    return update();
   }
-  /// One step of what is there, whatever it is.
-  const Belief& feel() {
+  /// One step with the present signals.
+  const Belief& update() {
     signals_.time += 0.001;
     signals_.vertical_acceleration += 1e-9;
     return belief_ = estimator_.update(signals_);
@@ -42,7 +42,7 @@ class Standing {
   Belief belief_;
 };
 
-TEST(SupportForce, TellsOneWheelFromTheOther) {
+TEST(SupportForce, DistinguishesTheWheels) {
   Standing robot;
   const Belief& both = robot.carry(26.0, 26.0, 200);
   EXPECT_TRUE(both.wheel[0].contact && both.wheel[1].contact);
@@ -55,13 +55,13 @@ TEST(SupportForce, TellsOneWheelFromTheOther) {
   EXPECT_GT(left_alone.p_any_wheel, 0.99);
 }
 
-TEST(SupportForce, SeesALiftThatIsNoFall) {
+TEST(SupportForce, DetectsALiftWithoutAFall) {
   Standing robot;
   robot.carry(26.0, 26.0, 200);
   EXPECT_LT(robot.carry(0.0, 0.0, 100, 0.5).p_any_wheel, 0.02);
 }
 
-TEST(SupportForce, IsNotFooledByALegThatYields) {
+TEST(SupportForce, KeepsContactOnAYieldingLeg) {
   // The torso falls at 6 m/s² while the wheels still carry a third of it.
   Standing robot;
   robot.carry(26.0, 26.0, 200);
@@ -77,26 +77,27 @@ TEST(SupportForce, HasHysteresis) {
   EXPECT_TRUE(robot.carry(13.0, 13.0, 200).wheel[0].contact);
 }
 
-TEST(SupportForce, RelaxesWhereALegSaysNothing) {
+TEST(SupportForce, RelaxesForALegWithoutSignals) {
   Standing robot;
   robot.carry(26.0, 26.0, 200);
   for (const double bad : {std::nan(""), HUGE_VAL, 1e9}) {
     robot.signals().leg[1].hip.torque = bad;
-    for (int i = 0; i < 1000; ++i) robot.feel();
-    const Belief& belief = robot.feel();
+    for (int i = 0; i < 1000; ++i) robot.update();
+    const Belief& belief = robot.update();
     EXPECT_EQ(belief.status, SignalStatus::invalid);
-    EXPECT_GT(belief.wheel[0].p_contact, 0.99);  // the other leg goes on
+    EXPECT_GT(belief.wheel[0].p_contact, 0.99);  // the other leg continues
     EXPECT_NEAR(belief.wheel[1].p_contact, 0.5, 0.01);
     EXPECT_TRUE(belief.wheel[1].contact);  // the last decision
     EXPECT_EQ(robot.carry(26.0, 26.0, 100).status, SignalStatus::good);
   }
   robot.signals().vertical_acceleration = std::nan("");
-  EXPECT_EQ(robot.feel().status, SignalStatus::invalid);
+  EXPECT_EQ(robot.update().status, SignalStatus::invalid);
 }
 
-TEST(SupportForce, BeginsWithTheFlatPriorAndForgets) {
+TEST(SupportForce, StartsAndResetsToTheFlatPrior) {
   Standing robot;
-  EXPECT_EQ(SupportForce().update(Signals()).wheel[0].p_contact, 0.5);  // straight legs say nothing
+  EXPECT_EQ(SupportForce().update(Signals()).wheel[0].p_contact,
+            0.5);  // straight legs give no evidence
   robot.carry(0.0, 0.0, 100);
   SupportForce estimator;
   estimator.update(robot.signals());
@@ -104,7 +105,7 @@ TEST(SupportForce, BeginsWithTheFlatPriorAndForgets) {
   EXPECT_EQ(estimator.force(Side::left), 0.0);
 }
 
-TEST(SupportForce, RefusesWhatMakesNoSense) {
+TEST(SupportForce, RefusesInvalidValues) {
   const auto refused = [](const SupportForceConfig& config) {
     EXPECT_THROW(SupportForce{config}, InputError);
   };

@@ -30,8 +30,8 @@ std::string complaint_about(const ModelArrays& arrays, const ModelUse& use = {})
   return complaint([&] { make_estimator(arrays, use); });
 }
 
-/// All that an estimator says about a run with flights.
-std::vector<double> told(ContactEstimator& estimator, std::size_t steps = 1500) {
+/// The probabilities and decisions of an estimator for a run with flights.
+std::vector<double> beliefs_of(ContactEstimator& estimator, std::size_t steps = 1500) {
   std::vector<double> all;
   for (const Signals& s : test::drops(steps)) {
     const Belief& b = estimator.update(s);
@@ -46,11 +46,11 @@ std::vector<double> told(ContactEstimator& estimator, std::size_t steps = 1500) 
 TEST(MakeEstimator, MakesTheOneThatTheModelWasFittedFor) {
   const ModelArrays arrays = test::fitted_model("robust");
   BayesFilter expected(measurement_model_of(arrays), BayesFilterConfig::robust());
-  EXPECT_EQ(told(*make_estimator(arrays)), told(expected));
-  EXPECT_EQ(told(*make_estimator(arrays, {"robust", 1000.0, "upkie"})), told(expected));
+  EXPECT_EQ(beliefs_of(*make_estimator(arrays)), beliefs_of(expected));
+  EXPECT_EQ(beliefs_of(*make_estimator(arrays, {"robust", 1000.0, "upkie"})), beliefs_of(expected));
 }
 
-TEST(MakeEstimator, RunsItAsThePassportSays) {
+TEST(MakeEstimator, UsesTheConfigurationInTheMetadata) {
   ModelArrays arrays = test::fitted_arrays("robust");
   BayesFilterConfig config = BayesFilterConfig::robust();
   config.threshold = 0.6;
@@ -58,10 +58,10 @@ TEST(MakeEstimator, RunsItAsThePassportSays) {
   config.transition.power = PowerMeasure::energy;
   add_metadata(arrays, {"robust", 1000.0, "", text_of(config), ""});
   BayesFilter expected(measurement_model_of(arrays), config);
-  EXPECT_EQ(told(*make_estimator(arrays)), told(expected));
+  EXPECT_EQ(beliefs_of(*make_estimator(arrays)), beliefs_of(expected));
 }
 
-TEST(MakeEstimator, SaysWhatAModelWasNotFittedFor) {
+TEST(MakeEstimator, ReportsMismatchesWithTheModel) {
   const ModelArrays robust = test::fitted_model("robust");
   EXPECT_EQ(complaint_about(robust, {.estimator = "reference"}),
             "was fitted for 'robust', which 'reference' cannot use");
@@ -71,29 +71,29 @@ TEST(MakeEstimator, SaysWhatAModelWasNotFittedFor) {
             "was fitted to the robot 'upkie', not to 'tall'");
   EXPECT_THAT(complaint_about(robust, {.estimator = "robst"}),
               HasSubstr("no model is fitted for 'robst': expected one of robust, reference"));
-  // One fit serves both of these, and nobody knows the robot of that one.
+  // One fit serves both of these, and the robot of the second is unknown.
   make_estimator(robust, {.estimator = "measurement_only"});
   make_estimator(test::fitted_model("paper", ""), {.estimator = "paper_rms", .robot = "tall"});
 }
 
-TEST(MakeEstimator, TakesAModelWithoutPassportIfItIsToldTheRest) {
+TEST(MakeEstimator, AcceptsAModelWithoutMetadataIfTheCallerNamesTheRest) {
   const ModelArrays grid = test::fitted_arrays("reference");
   EXPECT_EQ(complaint_about(grid),
-            "has no passport, being older or from elsewhere: name the estimator that it was fitted "
-            "for, and its sample_rate (Hz)");
+            "has no metadata, being older or from another program: name the estimator that it was "
+            "fitted for, and its sample_rate (Hz)");
   EXPECT_THAT(complaint_about(grid, {.sample_rate = 1000.0}), HasSubstr("name the estimator"));
   EXPECT_THAT(complaint_about(test::fitted_arrays("load_logistic")),
               HasSubstr("name its sample_rate (Hz)"));
   EXPECT_THAT(complaint_about(test::fitted_arrays("phase"), {.estimator = "robust"}),
               HasSubstr("was fitted for 'phase'"));
   BayesFilter expected(measurement_model_of(grid), BayesFilterConfig::reference());
-  EXPECT_EQ(told(*make_estimator(grid, {.estimator = "reference", .sample_rate = 1000.0})),
-            told(expected));
-  make_estimator(test::fitted_arrays("phase"));  // says its name and rate by its layout
+  EXPECT_EQ(beliefs_of(*make_estimator(grid, {.estimator = "reference", .sample_rate = 1000.0})),
+            beliefs_of(expected));
+  make_estimator(test::fitted_arrays("phase"));  // its arrays imply its name and rate
   make_estimator(test::fitted_arrays("nmn"), {.sample_rate = 1000.0});
 }
 
-TEST(MakeEstimator, RefusesNumbersThatAreNotTheFitted) {
+TEST(MakeEstimator, RefusesChangedNumbers) {
   ModelArrays arrays = test::fitted_model("load_logistic");
   arrays["slope"].data[0] += 1e-9;
   EXPECT_THAT(complaint_about(arrays), HasSubstr("its numbers are not those that were fitted"));
@@ -102,7 +102,7 @@ TEST(MakeEstimator, RefusesNumbersThatAreNotTheFitted) {
   EXPECT_THAT(complaint_about(arrays), HasSubstr("not those that were fitted"));
 }
 
-TEST(MakeEstimator, RefusesPassportsThatItDoesNotUnderstand) {
+TEST(MakeEstimator, RefusesInvalidMetadata) {
   const auto with = [](const std::string& from, const std::string& to) {
     ModelArrays arrays = test::fitted_model("load_logistic");
     const std::string name(metadata_array);
@@ -126,7 +126,21 @@ TEST(MakeEstimator, RefusesPassportsThatItDoesNotUnderstand) {
               HasSubstr("configuration.threshold: 'high' is no value for it"));
 }
 
-TEST(MakeEstimator, TakesNoRobotWhoseNameIsSeveralLines) {
+TEST(MakeEstimator, RefusesMetadataUnderTheirFormerName) {
+  for (const std::string name : {"robust", "phase", "nmn", "load_logistic", "touchdown"}) {
+    ModelArrays arrays = test::fitted_model(name);
+    auto metadata = arrays.extract(std::string(metadata_array));
+    metadata.key() = former_metadata_array;
+    arrays.insert(std::move(metadata));
+    EXPECT_EQ(complaint([&] { metadata_of(arrays); }),
+              "its array '" + std::string(former_metadata_array) +
+                  "' is now called 'metadata': export the model or fit it again");
+    EXPECT_THAT(complaint_about(arrays, {.estimator = name, .sample_rate = 1000.0}),
+                HasSubstr("is now called 'metadata'"));
+  }
+}
+
+TEST(MakeEstimator, RefusesARobotNameOfSeveralLines) {
   EXPECT_THAT(complaint([] { test::fitted_model("load_logistic", "a\nunits: kgf"); }),
               HasSubstr("expected a name of one line"));
 }
@@ -145,21 +159,21 @@ TEST(MakeEstimator, GivesTheSameFitTheSameFingerprint) {
   EXPECT_EQ(fingerprint(without_derived), robust);
 }
 
-TEST(MakeEstimator, RunsItAsItsUserSaysInsteadOfThePassport) {
+TEST(MakeEstimator, CallersConfigurationReplacesThatOfTheMetadata) {
   const ModelArrays arrays = test::fitted_model("robust");
   BayesFilterConfig config = BayesFilterConfig::robust();
   config.threshold = 0.3;
   BayesFilter expected(measurement_model_of(arrays), config);
   const ModelUse use{.configuration = {{"threshold", "0.3"}}};
-  EXPECT_EQ(told(*make_estimator(arrays, use)), told(expected));
-  EXPECT_NE(told(*make_estimator(arrays)), told(expected));
+  EXPECT_EQ(beliefs_of(*make_estimator(arrays, use)), beliefs_of(expected));
+  EXPECT_NE(beliefs_of(*make_estimator(arrays)), beliefs_of(expected));
   EXPECT_THAT(complaint_about(arrays, {.configuration = {{"thresold", "0.3"}}}),
               AllOf(HasSubstr("has no 'thresold'"), HasSubstr("threshold")));
   EXPECT_THAT(complaint_about(arrays, {.configuration = {{"threshold", "low"}}}),
               HasSubstr("'low' is no value for it"));
 }
 
-TEST(MakeEstimator, TakesTheLegsOfAnotherRobot) {
+TEST(MakeEstimator, UsesTheLegsOfAnotherRobot) {
   const ModelArrays arrays = test::fitted_model("load_logistic");
   LegGeometry longer;
   longer.upper_length = 0.3;
@@ -177,12 +191,12 @@ TEST(MakeEstimator, TakesTheLegsOfAnotherRobot) {
   EXPECT_EQ(left({.geometry = LegGeometry{}}), left({}));
 }
 
-TEST(Configuration, ComesBackFromItsText) {
+TEST(Configuration, ReadsBackFromItsText) {
   for (const char* name : {"robust", "reference", "paper", "paper_rms"}) {
     BayesFilterConfig expected =
         name == std::string("paper_rms") ? BayesFilterConfig::paper_rms() : test::named(name);
     BayesFilterConfig read;
-    read.measurement.fit = expected.measurement.fit;  // no part of it
+    read.measurement.fit = expected.measurement.fit;  // not part of the text
     configure(read, text_of(expected));
     EXPECT_EQ(read, expected) << name;
   }
@@ -203,13 +217,13 @@ TEST(Configuration, ComesBackFromItsText) {
   EXPECT_EQ(decision_read, decision);
 }
 
-TEST(Configuration, OfDecisionNetworksKeepsTheInertiaOfFilesFromBeforeLegsHadIt) {
+TEST(Configuration, ReadsOlderFilesOfDecisionNetworks) {
   DecisionConfig read;
   configure(read, {{"wheel_inertia", "0.125"}});
   EXPECT_EQ(read.geometry.wheel_inertia, 0.125);
   EXPECT_EQ(text_of(read).at("wheel_inertia"), "0.125");
-  EXPECT_EQ(read.geometry.robot_mass, LegGeometry{}.robot_mass) << "which they do not say";
-  // What does not hear how wheels spin and what the robot weighs says nothing of it.
+  EXPECT_EQ(read.geometry.robot_mass, LegGeometry{}.robot_mass) << "which they do not contain";
+  // Configurations of other estimators contain neither the wheel's inertia nor the robot's mass.
   EXPECT_FALSE(text_of(LoadLogisticConfig{}).contains("geometry.wheel_inertia"));
   EXPECT_FALSE(text_of(LoadLogisticConfig{}).contains("robot_mass"));
 }
@@ -220,7 +234,7 @@ TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
   ModelArrays arrays = test::fitted_arrays("robust");
   add_metadata(arrays, {"robust", 500.0, "", default_configuration("robust", 500.0), ""});
   BayesFilter expected(measurement_model_of(arrays), at_rate(BayesFilterConfig::robust(), 500.0));
-  EXPECT_EQ(told(*make_estimator(arrays)), told(expected));
+  EXPECT_EQ(beliefs_of(*make_estimator(arrays)), beliefs_of(expected));
 }
 
 TEST(CompiledModel, BelievesTheSameToTheBit) {
@@ -248,7 +262,8 @@ TEST(CompiledModel, BelievesTheSameToTheBit) {
       }
       compiled.push_back(entry);
     }
-    EXPECT_EQ(told(*make_estimator(compiled), 400), told(*make_estimator(arrays), 400)) << name;
+    EXPECT_EQ(beliefs_of(*make_estimator(compiled), 400), beliefs_of(*make_estimator(arrays), 400))
+        << name;
   }
 }
 

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 const LegGeometry long_legs = {.upper_length = 0.25, .lower_mass = 0.5, .robot_mass = 7.0};
 
 /// P(contact) of both wheels at every step of a run with flights, on bent legs.
-std::vector<double> told(const ModelArrays& arrays, const ModelUse& use = {}) {
+std::vector<double> beliefs_of(const ModelArrays& arrays, const ModelUse& use = {}) {
   const auto estimator = make_estimator(arrays, use);
   std::vector<double> all;
   for (Signals s : test::drops(800)) {
@@ -40,21 +40,22 @@ std::string complaint(const ModelArrays& arrays, const ModelUse& use) {
   return "";
 }
 
-TEST(ModelFor, AnotherRobotBelievesWhatItDoesWhereItsLegsAreToldAtEachLoading) {
+TEST(ModelFor, AnotherRobotStoresItsLegs) {
   for (const char* name : {"touchdown", "decision_network", "evidence_curves", "load_logistic"}) {
     SCOPED_TRACE(name);
     const ModelArrays upkies = test::fitted_model(name);
     const ModelArrays own = model_for(upkies, {.robot = "stilts", .geometry = long_legs});
-    EXPECT_EQ(told(own), told(upkies, {.geometry = long_legs}));
-    EXPECT_NE(told(own), told(upkies));
-    EXPECT_EQ(told(own, {.robot = "stilts"}), told(own));
+    EXPECT_EQ(beliefs_of(own), beliefs_of(upkies, {.geometry = long_legs}));
+    EXPECT_NE(beliefs_of(own), beliefs_of(upkies));
+    EXPECT_EQ(beliefs_of(own, {.robot = "stilts"}), beliefs_of(own));
     EXPECT_THROW(make_estimator(own, {.robot = "upkie"}), InputError);
     EXPECT_NE(metadata_of(own)->fingerprint, metadata_of(upkies)->fingerprint);
-    EXPECT_EQ(told(model_for(own, {.robot = "upkie", .geometry = LegGeometry{}})), told(upkies));
+    EXPECT_EQ(beliefs_of(model_for(own, {.robot = "upkie", .geometry = LegGeometry{}})),
+              beliefs_of(upkies));
   }
 }
 
-TEST(ModelFor, AnotherDecisionHasItsThresholdsAndItsRobotsName) {
+TEST(ModelFor, AnotherConfigurationKeepsTheRest) {
   const ModelArrays usual = test::fitted_model("touchdown");
   const ModelUse use = {.configuration = {{"leave_below", "0.25"}}};
   const ModelArrays quiet = model_for(usual, use);
@@ -63,16 +64,16 @@ TEST(ModelFor, AnotherDecisionHasItsThresholdsAndItsRobotsName) {
   EXPECT_EQ(metadata.configuration.at("return_above"),
             metadata_of(usual)->configuration.at("return_above"));
   EXPECT_EQ(metadata.robot, "upkie");
-  EXPECT_EQ(told(quiet), told(usual, use));
+  EXPECT_EQ(beliefs_of(quiet), beliefs_of(usual, use));
 }
 
-TEST(ModelFor, NobodyInParticularIsTheModel) {
+TEST(ModelFor, NoRequirementIsTheModel) {
   const ModelArrays arrays = test::fitted_model("phase");
   EXPECT_EQ(metadata_of(model_for(arrays, {})), metadata_of(arrays));
   EXPECT_EQ(metadata_of(model_for(arrays, {"phase", 1000.0, "upkie"})), metadata_of(arrays));
 }
 
-TEST(ModelFor, WhoeverSaysWhatItDoesNotIsAPassport) {
+TEST(ModelFor, AModelWithoutMetadataAddsThem) {
   const ModelArrays grid = test::fitted_arrays("robust");
   const ModelMetadata metadata =
       *metadata_of(model_for(grid, {.estimator = "robust", .sample_rate = 500.0, .robot = "tall"}));
@@ -82,12 +83,12 @@ TEST(ModelFor, WhoeverSaysWhatItDoesNotIsAPassport) {
   EXPECT_EQ(metadata.configuration, default_configuration("robust", 500.0));
 }
 
-TEST(ModelFor, WhomItCannotServeIsAnError) {
+TEST(ModelFor, AMismatchIsAnError) {
   const ModelArrays network = test::fitted_model("touchdown");
   EXPECT_THAT(complaint(test::fitted_model("phase"), {.robot = "stilts", .geometry = long_legs}),
               HasSubstr("'phase' uses no kinematics"));
   EXPECT_THAT(complaint(network, {.robot = "stilts"}), HasSubstr("not to 'stilts'"))
-      << "of which nobody knows the legs";
+      << "the legs of that robot are unknown";
   EXPECT_THAT(complaint(network, {.sample_rate = 200.0}), HasSubstr("was fitted at 1000 Hz"));
   EXPECT_THAT(complaint(network, {.configuration = {{"leave_bellow", "0.25"}}}),
               HasSubstr("has no 'leave_bellow': expected one of"));

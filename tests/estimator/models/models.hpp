@@ -16,7 +16,7 @@
 
 namespace touchdown::test {
 
-/// Arrays as a fit of the estimator of this name leaves them.
+/// The arrays of a fit of the estimator of this name.
 inline ModelArrays fitted_arrays(const std::string& name) {
   const auto of_parameters = [&](const Parameters& parameters) {
     ModelArrays arrays;
@@ -46,7 +46,7 @@ inline ModelArrays fitted_arrays(const std::string& name) {
   return arrays_of(fit_measurement_model(samples.contact, samples.no_contact, measurement.fit));
 }
 
-/// As above, with the passport of a fit at 1 kHz.
+/// As above, with the metadata of a fit at 1 kHz.
 inline ModelArrays fitted_model(const std::string& name, const std::string& robot = "upkie") {
   ModelArrays arrays = fitted_arrays(name);
   add_metadata(arrays, {.estimator = name,

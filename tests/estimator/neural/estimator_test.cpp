@@ -20,7 +20,7 @@ std::shared_ptr<const NeuralNetwork> network() {
   return test::shared(test::random_network(24, 16, 12));
 }
 
-/// Signals in which every number that the network hears moves.
+/// Signals in which every input of the network changes.
 std::vector<Signals> moving_robot(std::size_t steps, double rate = 1000.0) {
   test::Normal normal(5);
   std::vector<Signals> stream(steps);
@@ -66,8 +66,8 @@ TEST(NeuralEstimator, ActsEveryFiveMillisecondsAndHoldsInBetween) {
   double expected = 0.5;
   for (std::size_t k = 0; k < stream.size(); ++k) {
     if (k % 5 == 0) {
-      // What a robot with 5 ms control steps would have measured: mean acceleration since the last
-      // step, the command that answered it, all else now.
+      // The measurement of a robot with 5 ms control steps: mean acceleration since the last step,
+      // the command after it, all else now.
       Signals slow = stream[k];
       if (k > 0) {
         slow.linear_acceleration.setZero();
@@ -87,7 +87,7 @@ TEST(NeuralEstimator, ActsEveryFiveMillisecondsAndHoldsInBetween) {
   }
 }
 
-TEST(NeuralEstimator, AtItsOwnRateHearsEverySampleAsItIs) {
+TEST(NeuralEstimator, AtItsOwnRateUsesEverySampleUnchanged) {
   const auto net = network();
   NeuralEstimator estimator(net, {.sample_rate = 200.0, .threshold = 0.8, .guard = {}});
   NeuralForward<1> forward(net);
@@ -98,7 +98,7 @@ TEST(NeuralEstimator, AtItsOwnRateHearsEverySampleAsItIs) {
   }
 }
 
-TEST(NeuralEstimator, StartsUndecidedAndForgetsOnReset) {
+TEST(NeuralEstimator, StartsUndecidedAndClearsItsStateOnReset) {
   NeuralEstimator estimator(network());
   EXPECT_EQ(estimator.belief().p_any_wheel, 0.5);
   EXPECT_FALSE(estimator.belief().wheel[0].contact);
@@ -143,13 +143,13 @@ TEST(NeuralEstimator, RelaxesThroughBadSignalsAndRecovers) {
   EXPECT_GT(std::abs(estimator.belief().p_any_wheel - 0.5), 1e-3);
 }
 
-TEST(NeuralEstimator, TorquesAndOtherUnheardNumbersMayBeAnything) {
+TEST(NeuralEstimator, IgnoresTorques) {
   NeuralEstimator clean(network());
-  NeuralEstimator deaf(network());
+  NeuralEstimator without_torques(network());
   for (Signals s : moving_robot(50)) {
     const double expected = clean.update(s).p_any_wheel;
     for (LegSignals& leg : s.leg) leg.knee.torque = leg.wheel.torque = std::nan("");
-    EXPECT_EQ(deaf.update(s).p_any_wheel, expected);
+    EXPECT_EQ(without_torques.update(s).p_any_wheel, expected);
   }
 }
 
@@ -165,7 +165,7 @@ TEST(NeuralEstimator, StartsAnewAfterAGap) {
               1e-7);
 }
 
-TEST(NeuralEstimator, RefusesWhatItCannotRun) {
+TEST(NeuralEstimator, RefusesInvalidNetworksAndSettings) {
   EXPECT_THAT([] { NeuralEstimator(nullptr); }, ThrowsMessage<InputError>(HasSubstr("network")));
   EXPECT_THAT([] { NeuralEstimator(test::shared({})); },
               ThrowsMessage<InputError>(HasSubstr("gru")));
@@ -180,38 +180,38 @@ TEST(NeuralEstimator, RefusesWhatItCannotRun) {
       ThrowsMessage<InputError>(HasSubstr("threshold")));
 }
 
-TEST(BatchedNeuralNetwork, EqualEstimatorsThatAreFedEachNoiseLevel) {
+TEST(BatchedNeuralNetwork, EqualsOneEstimatorPerNoiseLevel) {
   const auto net = network();
   const std::vector<double> sigmas = {0.0, 0.23, 5.0, 10.0};
   std::vector<NeuralEstimator> estimators(sigmas.size(), NeuralEstimator(net));
   test::Normal normal(9);
   for (const bool again : {false, true}) {
-    experiments::BatchedNeuralNetwork lanes(net, {}, sigmas);
+    experiments::BatchedNeuralNetwork batch(net, {}, sigmas);
     for (auto& estimator : estimators) {
       if (again) estimator.reset();
     }
     for (const Signals& clean : moving_robot(300)) {
       const Eigen::Vector3d draw(normal(), normal(), normal());
-      lanes.update(clean, draw);
+      batch.update(clean, draw);
       for (std::size_t i = 0; i < sigmas.size(); ++i) {
         Signals noisy = clean;
         noisy.linear_acceleration += sigmas[i] * draw;
-        ASSERT_NEAR(lanes.p_contact()[i], estimators[i].update(noisy).p_any_wheel, 1e-5);
+        ASSERT_NEAR(batch.p_contact()[i], estimators[i].update(noisy).p_any_wheel, 1e-5);
       }
     }
   }
 }
 
-TEST(BatchedNeuralNetwork, SkipWhatIsNotFiniteAndRefuseBadLevels) {
+TEST(BatchedNeuralNetwork, SkipsSignalsThatAreNotFiniteAndRefusesInvalidLevels) {
   const auto net = network();
-  experiments::BatchedNeuralNetwork lanes(net, {}, std::vector{1.0});
+  experiments::BatchedNeuralNetwork batch(net, {}, std::vector{1.0});
   const auto stream = moving_robot(20);
-  for (const Signals& s : stream) lanes.update(s, Eigen::Vector3d::Zero());
-  const double before = lanes.p_contact()[0];
+  for (const Signals& s : stream) batch.update(s, Eigen::Vector3d::Zero());
+  const double before = batch.p_contact()[0];
   Signals bad = stream[0];
   bad.angular_velocity.y() = std::nan("");
-  for (int k = 0; k < 20; ++k) lanes.update(bad, Eigen::Vector3d::Zero());
-  EXPECT_EQ(lanes.p_contact()[0], before);
+  for (int k = 0; k < 20; ++k) batch.update(bad, Eigen::Vector3d::Zero());
+  EXPECT_EQ(batch.p_contact()[0], before);
   EXPECT_THROW(experiments::BatchedNeuralNetwork(net, {}, std::vector<double>{}), InputError);
   EXPECT_THROW(experiments::BatchedNeuralNetwork(net, {}, std::vector{-1.0}), InputError);
   EXPECT_THROW(experiments::BatchedNeuralNetwork(net, {}, std::vector{std::nan("")}), InputError);

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 using Numbers = std::vector<double>;
 
-/// The textbook, one number at a time, in double precision.
+/// The textbook algorithm, one number at a time, in double precision.
 class PlainNetwork {
  public:
   explicit PlainNetwork(const NeuralNetwork& network)
@@ -90,24 +90,24 @@ TEST(NeuralForward, AgreesWithTheTextbookOverManySteps) {
   }
 }
 
-TEST(NeuralForward, LanesAreTheSameSequencesSideBySide) {
+TEST(NeuralForward, BatchEqualsSingleSequences) {
   const auto network = test::shared(test::random_network());
-  constexpr int lanes = 7;
-  NeuralForward<Eigen::Dynamic> side_by_side(network, lanes);
-  std::vector<NeuralForward<1>> one_by_one(lanes, NeuralForward<1>(network));
+  constexpr int batch = 7;
+  NeuralForward<Eigen::Dynamic> side_by_side(network, batch);
+  std::vector<NeuralForward<1>> one_by_one(batch, NeuralForward<1>(network));
   test::Normal normal(3);
   for (int step = 0; step < 50; ++step) {
-    NeuralForward<Eigen::Dynamic>::Columns inputs(neural_input_count, lanes);
+    NeuralForward<Eigen::Dynamic>::Columns inputs(neural_input_count, batch);
     for (float& x : inputs.reshaped()) x = static_cast<float>(normal());
     const auto& outputs = side_by_side.step(inputs);
-    for (int lane = 0; lane < lanes; ++lane) {
-      const auto& expected = one_by_one[static_cast<std::size_t>(lane)].step(inputs.col(lane));
-      ASSERT_LT((outputs.col(lane) - expected).cwiseAbs().maxCoeff(), 1e-5F);
+    for (int i = 0; i < batch; ++i) {
+      const auto& expected = one_by_one[static_cast<std::size_t>(i)].step(inputs.col(i));
+      ASSERT_LT((outputs.col(i) - expected).cwiseAbs().maxCoeff(), 1e-5F);
     }
   }
 }
 
-TEST(NeuralForward, ForgetsOnReset) {
+TEST(NeuralForward, ClearsItsStateOnReset) {
   NeuralForward<1> forward(test::shared(test::random_network(16, 8, 8)));
   const NeuralForward<1>::Columns input = NeuralForward<1>::Columns::Ones(neural_input_count);
   const NeuralForward<1>::Columns first = forward.step(input);

@@ -39,7 +39,7 @@ TEST(Axis, IsReadFromRegularPointsOnly) {
   EXPECT_THROW(axis_from_points(std::vector<double>{0.0, std::nan(""), 1.0}), InputError);
 }
 
-TEST(Axis, OfRoundedPointsIsTaken) {
+TEST(Axis, OfRoundedPointsIsAccepted) {
   std::vector<double> single, six_decimals;
   for (int i = 0; i <= 700; ++i) {
     const double point = 0.1 + 1.4 * i / 700.0;
@@ -53,10 +53,10 @@ TEST(Axis, OfRoundedPointsIsTaken) {
   }
 }
 
-TEST(Axis, WithAPointAsideIsRefusedWithAllDigits) {
+TEST(Axis, RefusesIrregularPointsWithAllDigits) {
   try {
     axis_from_points(std::vector<double>{0.0, 1e-7, 2.5e-7});
-    FAIL() << "was taken";
+    FAIL() << "was accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
                  "a grid axis must be equally spaced; point 1 is 1e-07, expected 1.25e-07");

@@ -49,7 +49,7 @@ TEST(KernelDensity, EqualsADirectDoubleSum) {
   }
 }
 
-TEST(KernelDensity, OfSeveralWidthsIsThatOfEachAlone) {
+TEST(KernelDensity, OfSeveralWidthsEqualsEachAlone) {
   // More than one block of samples, the last one not full.
   const std::vector<double> x = normals(700, 0.2, 1.0, 3);
   const std::vector<double> y = normals(700, -0.4, 0.3, 4);
@@ -98,7 +98,7 @@ TEST(KernelDensity, FollowsScottsRule) {
   EXPECT_DOUBLE_EQ(scott_bandwidth(x, 2, 5.0), 5.0);
 }
 
-TEST(KernelDensity, RefusesWhatHasNoDensity) {
+TEST(KernelDensity, RefusesInvalidSamples) {
   const Axis axis{0.0, 1.0, 3};
   const std::vector<double> none;
   const std::vector<double> one{0.5};

@@ -21,7 +21,7 @@ TEST(SineAndCosine, AgreeWithTheLibraryToTwoUnitsInTheLastPlaceOfOne) {
   EXPECT_LT(worst, 4.5e-16);
 }
 
-TEST(SineAndCosine, OfNothingAndOfWhatIsNoNumber) {
+TEST(SineAndCosine, OfZeroAndOfNan) {
   EXPECT_EQ(sine_and_cosine(0.0).sine, 0.0);
   EXPECT_EQ(sine_and_cosine(0.0).cosine, 1.0);
   EXPECT_TRUE(std::isnan(sine_and_cosine(std::nan("")).sine));

@@ -25,7 +25,7 @@ TEST(SquareRoot, IsZeroForZeroAndNextToItForDenormals) {
   EXPECT_LT(tiny, 1e-150);
 }
 
-TEST(SquareRoot, OfManyReachesAll) {
+TEST(SquareRoot, OfManyComputesAll) {
   for (const int count : {0, 1, 2, 6, 8, 12, 35, 64}) {
     std::vector<double> root(static_cast<std::size_t>(count), -1.0);
     square_roots(

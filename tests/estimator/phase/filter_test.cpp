@@ -13,8 +13,8 @@
 namespace touchdown {
 namespace {
 
-/// The forward algorithm as it stands in a textbook: dense sums, densities summed sample by
-/// sample, nothing shared with the filter but its definition.
+/// The forward algorithm of a textbook: dense sums, densities summed sample by sample. It shares
+/// only the definition with the filter.
 class DirectForward {
  public:
   DirectForward(const test::PhaseRun& run, const PhaseFilterConfig& config, PhaseNoise noise)
@@ -36,7 +36,7 @@ class DirectForward {
       torque_[j].push_back({s.leg[0].knee.torque, s.leg[0].wheel.torque});
       torque_[mirror(j)].push_back({-s.leg[1].knee.torque, -s.leg[1].wheel.torque});
     }
-    // In the left leg's eyes: 10 it carries the robot alone, 11 the other one does.
+    // For the left leg: in phase 10 it carries the robot alone, in phase 11 the other leg does.
     is_borrowed_ = static_cast<double>(torque_[10].size()) / 1000.0 < config.fit.least_single_wheel;
     for (int i = 0; i < 12; ++i) {
       double sum = 0.0;
@@ -118,8 +118,8 @@ double nearest_point(const Axis& axis, double value) {
 
 class PhaseForward : public testing::TestWithParam<double> {};
 
-/// With the signals moved to the grids' points, nothing is interpolated and the filter must agree
-/// to the grids' single precision, at a noise level that was prepared.
+/// With the signals moved to the grids' points, at a noise level of the densities, the filter does
+/// not interpolate. It must agree to the grids' single precision.
 TEST_P(PhaseForward, IsTheForwardAlgorithmWithKernelDensities) {
   PhaseFilterConfig config;
   config.fit = test::small_phase_fit();
@@ -131,10 +131,10 @@ TEST_P(PhaseForward, IsTheForwardAlgorithmWithKernelDensities) {
   PhaseFilter filter(model, config);
   DirectForward direct(run, config, *config.noise);
 
-  test::PhaseRun heard = test::phase_run(1, 12, 25, 0.4);
+  test::PhaseRun other = test::phase_run(1, 12, 25, 0.4);
   const PhaseTorqueDensity& grid = model.torque[2];
   for (std::size_t k = 550; k < 1100; ++k) {
-    Signals s = heard.signals[k];
+    Signals s = other.signals[k];
     for (int side = 0; side < 2; ++side) {
       const double sign = side == 0 ? 1.0 : -1.0;
       LegSignals& leg = s.leg[static_cast<std::size_t>(side)];
@@ -167,11 +167,11 @@ TEST_P(PhaseFilterInNoise, InterpolatesCloselyBetweenPointsAndNoiseLevels) {
   const PhaseModel model = fit_phase_model(std::vector{run.view()}, 1000.0, config.fit);
   PhaseFilter filter(model, config);
   DirectForward direct(run, config, *config.noise);
-  const test::PhaseRun heard = test::phase_run(1, 13, 0, 0.3);
+  const test::PhaseRun other = test::phase_run(1, 13, 0, 0.3);
   double difference = 0.0;
   for (std::size_t k = 550; k < 1100; ++k) {
-    const Belief& belief = filter.update(heard.signals[k]);
-    direct.update(heard.signals[k]);
+    const Belief& belief = filter.update(other.signals[k]);
+    direct.update(other.signals[k]);
     difference += std::abs(belief.p_any_wheel - (1.0 - direct.alpha()[4] - direct.alpha()[8]));
   }
   EXPECT_LT(difference / 550.0, 2e-3);
@@ -180,8 +180,9 @@ INSTANTIATE_TEST_SUITE_P(KneeAndWheel, PhaseFilterInNoise,
                          testing::Values(PhaseNoise{0.3, 0.3, 1.5}, PhaseNoise{0.3, 0.06, 1.5},
                                          PhaseNoise{0.1, 0.6, 1.5}, PhaseNoise{0.0, 2.5, 0.0}));
 
-/// Noise on one channel only must not make the filter deaf to the other, nor believe the noisy one.
-TEST(PhaseFilter, TellsNoiseOfTheKneesFromNoiseOfTheWheels) {
+/// With noise on one channel only, the filter must use the other channel and distrust the noisy
+/// one.
+TEST(PhaseFilter, DistinguishesNoiseOfTheKneesFromNoiseOfTheWheels) {
   const test::PhaseRun run = test::phase_run(4, 21);
   PhaseFilter filter(fit_phase_model(std::vector{test::phase_run(4, 7, 6).view()}, 1000.0, {}));
   for (const bool noisy_knee : {false, true}) {
@@ -203,7 +204,7 @@ TEST(PhaseFilter, TellsNoiseOfTheKneesFromNoiseOfTheWheels) {
   }
 }
 
-TEST(PhaseFilter, FindsFlightsThroughNoiseItWasNotToldAbout) {
+TEST(PhaseFilter, FindsFlightsThroughUnknownNoise) {
   const PhaseModel model = test::small_phase_model();
   PhaseFilter filter(model);
   const test::PhaseRun run = test::phase_run(3, 21, 0, 0.3);
@@ -272,7 +273,7 @@ TEST(PhaseFilter, AtFifthOfTheRateFindsTheSameFlights) {
   EXPECT_THROW(PhaseFilter(model, config), InputError);
 }
 
-TEST(PhaseFilter, NeverReturnsNaNAndSaysWhy) {
+TEST(PhaseFilter, GivesProbabilitiesForAnyInput) {
   const PhaseModel model = test::small_phase_model();
   PhaseFilter filter(model);
   const test::PhaseRun run = test::phase_run(3, 4);
@@ -316,7 +317,7 @@ TEST(PhaseFilter, RelaxesToThePriorWithoutSignals) {
   EXPECT_EQ(filter.update(s).status, SignalStatus::gap);
 }
 
-TEST(PhaseFilter, GoesOnWithOneLeg) {
+TEST(PhaseFilter, ContinuesWithOneLeg) {
   const PhaseModel model = test::small_phase_model();
   PhaseFilter filter(model);
   const test::PhaseRun run = test::phase_run(2, 4);
@@ -345,7 +346,7 @@ TEST(PhaseFilter, StartsAgainAfterReset) {
   }
 }
 
-TEST(PhaseFilter, RefusesNonsense) {
+TEST(PhaseFilter, RefusesInvalidValues) {
   const PhaseModel model = test::small_phase_model();
   const auto with = [](const auto& change) {
     PhaseFilterConfig config;

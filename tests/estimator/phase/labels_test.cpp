@@ -12,7 +12,7 @@ namespace {
 
 using Contact = std::vector<std::uint8_t>;
 
-/// At 1 kHz: contact except in the given stretches [begin, end).
+/// At 1 kHz: contact except in the given intervals [begin, end).
 Contact contact_but(std::size_t steps,
                     const std::vector<std::pair<std::size_t, std::size_t>>& off) {
   Contact contact(steps, 1);
@@ -49,7 +49,7 @@ TEST(PhaseLabels, FollowTheClockAroundAFlight) {
   expect(650, 1000, Phase::rolling);
 }
 
-TEST(PhaseLabels, TellTheWheelsApart) {
+TEST(PhaseLabels, DistinguishTheWheels) {
   const std::vector<Phase> phases =
       labels(contact_but(600, {{300, 400}}), contact_but(600, {{330, 380}}));
   EXPECT_EQ(phases[299], Phase::unloading_3);
@@ -61,7 +61,7 @@ TEST(PhaseLabels, TellTheWheelsApart) {
   EXPECT_EQ(phases[400], Phase::impact_1);
 }
 
-TEST(PhaseLabels, ForgiveShortFlights) {
+TEST(PhaseLabels, IgnoreShortFlights) {
   const Contact short_hop = contact_but(500, {{200, 219}});
   for (const Phase phase : labels(short_hop, short_hop)) EXPECT_EQ(phase, Phase::rolling);
   const Contact hop = contact_but(500, {{200, 220}});
@@ -78,14 +78,14 @@ TEST(PhaseLabels, GoByTheNearerEventBetweenTwoFlights) {
   EXPECT_EQ(phases[239], Phase::unloading_3);
 }
 
-TEST(PhaseLabels, CallItHeldWhatDoesNotFall) {
+TEST(PhaseLabels, LabelARobotThatDoesNotFallAsHeld) {
   const Contact both = contact_but(300, {{100, 300}});
   Contact held(300, 0);
   std::fill(held.begin() + 200, held.end(), std::uint8_t{1});
   const std::vector<Phase> phases = labels(both, both, held);
   EXPECT_EQ(phases[150], Phase::flight);
   EXPECT_EQ(phases[250], Phase::held);
-  EXPECT_EQ(phases[50], Phase::unloading_1);  // being held means nothing on the ground
+  EXPECT_EQ(phases[50], Phase::unloading_1);  // on the ground, `held` has no effect
 }
 
 TEST(PhaseLabels, HeldIsFarFromFreeFall) {
@@ -101,7 +101,7 @@ TEST(PhaseLabels, HeldIsFarFromFreeFall) {
   EXPECT_EQ(held[999], 1);
 }
 
-TEST(PhaseLabels, CallItCarriedWhereWheelsTouchLightlyWithoutFalling) {
+TEST(PhaseLabels, LabelLightContactWithoutFallingAsCarried) {
   // A hand takes the weight off both wheels at step 100, and off the ground at step 200.
   const Contact both = contact_but(400, {{200, 300}});
   Contact held(400, 1);

@@ -40,7 +40,7 @@ TEST(PhaseTransitions, BecomeProbabilitiesWithPseudoCounts) {
   EXPECT_NEAR(p[0][0], 98.0 / 110.2, 1e-15);  // 97.8 + 10 + 12 · 0.2 = 110.2
   EXPECT_NEAR(p[0][4], 10.2 / 110.2, 1e-15);
   EXPECT_NEAR(p[0][1], 0.2 / 110.2, 1e-15);
-  EXPECT_NEAR(p[3][7], 1.0 / 12.0, 1e-15);  // never seen: anything may follow
+  EXPECT_NEAR(p[3][7], 1.0 / 12.0, 1e-15);  // never seen: any phase may follow
 }
 
 /// (1 − ε) · mean of Gaussians + ε · uniform, summed directly.
@@ -93,14 +93,14 @@ TEST(PhaseDensities, AreTheDirectSumWithNoiseInTheBandwidth) {
   }
 }
 
-TEST(PhaseDensities, OfASingleWheelAreBorrowedWhereThereAreNone) {
+TEST(PhaseDensities, OfASingleWheelAreBorrowedIfMissing) {
   PhaseSamples samples;
   samples.torque[index(Phase::rolling)] = {{1.0, 0.1}, {1.2, 0.2}};
   samples.torque[index(Phase::flight)] = {{-0.1, 0.0}};
-  const std::array<double, 1> silence = {0.0};
+  const std::array<double, 1> no_noise = {0.0};
   const auto at = [&](std::size_t density) {
     std::vector<float> values;
-    const auto all = fit_torque_densities(samples, silence, silence, test::small_phase_fit())
+    const auto all = fit_torque_densities(samples, no_noise, no_noise, test::small_phase_fit())
                          .front()
                          .log_density;
     for (std::size_t i = density; i < all.size(); i += torque_density_count) {
@@ -127,8 +127,8 @@ TEST(PhaseDensities, AreUniformWithoutSamples) {
 TEST(PhaseModel, FitsItsOwnLabels) {
   const PhaseModel model = test::small_phase_model();
   EXPECT_NO_THROW(check_phase_model(model));
-  // Four drops whose left wheel leaves six steps before the right one; at the beginning of each,
-  // some of the 194 steps of flight still count as held, because the low-pass lags.
+  // In four drops the left wheel takes off six steps before the right one. At the beginning of
+  // each, some of the 194 steps of flight still count as held, because the low-pass lags.
   EXPECT_NEAR(model.seconds[index(Phase::right_only)], 4 * 0.006, 1e-9);
   EXPECT_GT(model.seconds[index(Phase::flight)], 4 * 0.170);
   EXPECT_LE(model.seconds[index(Phase::flight)], 4 * 0.194 + 1e-9);
@@ -138,7 +138,7 @@ TEST(PhaseModel, FitsItsOwnLabels) {
   EXPECT_GT(model.transition[index(Phase::flight)][index(Phase::impact_1)], 0.004);
 }
 
-TEST(PhaseModel, LearnsBeingCarriedOnlyWhereForcesAreKnown) {
+TEST(PhaseModel, LabelsCarriedOnlyWhereForcesAreKnown) {
   const test::PhaseRun run = test::phase_run(2, 1);
   EXPECT_EQ(fit_phase_model(std::vector{run.view()}, 1000.0, test::small_phase_fit())
                 .seconds[index(Phase::carried)],
@@ -156,7 +156,7 @@ TEST(PhaseModel, LearnsBeingCarriedOnlyWhereForcesAreKnown) {
             0.0);
 }
 
-TEST(PhaseModel, RefusesWhatItCannotLearnFrom) {
+TEST(PhaseModel, RefusesRunsThatItCannotBeFittedTo) {
   const PhaseFitConfig config = test::small_phase_fit();
   const test::PhaseRun run = test::phase_run(1, 1);
   PhaseFitRun view = run.view();

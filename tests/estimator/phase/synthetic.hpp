@@ -9,7 +9,7 @@
 
 namespace touchdown::test {
 
-/// A run with truth: rolling, unloading, a flight, an impact; the robot hangs at the end.
+/// A run with ground truth: rolling, unloading, a flight, an impact; the robot hangs at the end.
 struct PhaseRun {
   std::vector<Signals> signals;
   std::array<std::vector<std::uint8_t>, 2> contact;

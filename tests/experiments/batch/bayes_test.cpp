@@ -24,7 +24,7 @@ MeasurementModel fitted(const BayesFilterConfig& config) {
   return fit_measurement_model(samples.contact, samples.no_contact, config.measurement.fit);
 }
 
-/// A grid of levels and a few that stand alone.
+/// A grid of levels and a few single ones.
 std::vector<BatchNoise> bayes_levels() {
   std::vector<BatchNoise> levels;
   for (const double torque : {0.0, 0.25, 1.0, 3.0}) {
@@ -39,13 +39,13 @@ std::vector<BatchNoise> bayes_levels() {
 
 class NamedBatch : public testing::TestWithParam<const char*> {};
 
-TEST_P(NamedBatch, EqualTheScalarFilterInEveryLane) {
+TEST_P(NamedBatch, EqualsTheScalarFilterAtEveryLevel) {
   BayesFilterConfig config = test::named(GetParam());
   config.guard.frozen_after = 0.0;
   const MeasurementModel model = fitted(config);
   const std::vector<BatchNoise> grid = bayes_levels();
-  BatchedBayesFilter lanes(model, config, grid);
-  ASSERT_EQ(lanes.lanes(), grid.size());
+  BatchedBayesFilter batch(model, config, grid);
+  ASSERT_EQ(batch.size(), grid.size());
   BatchedMeasurement measurements(model, config, grid);
   std::vector<BayesFilter> filters(grid.size(), BayesFilter(model, config));
   std::vector<MeasurementOnly> ablations(grid.size(), MeasurementOnly(model, config));
@@ -53,18 +53,18 @@ TEST_P(NamedBatch, EqualTheScalarFilterInEveryLane) {
   double worst = 0.0;
   for (const Signals& clean : drops(20'000, 1000.0, 31)) {
     const NoiseStep draws = draw(normal);
-    lanes.update(clean, draws);
+    batch.update(clean, draws);
     measurements.update(clean, draws);
-    for (std::size_t lane = 0; lane < grid.size(); ++lane) {
-      const Signals s = noisy(clean, draws, grid[lane]);
-      const Belief& belief = filters[lane].update(s);
-      const Belief& measured = ablations[lane].update(s);
+    for (std::size_t level = 0; level < grid.size(); ++level) {
+      const Signals s = noisy(clean, draws, grid[level]);
+      const Belief& belief = filters[level].update(s);
+      const Belief& measured = ablations[level].update(s);
       for (const Side side : {Side::left, Side::right}) {
         const auto i = static_cast<std::size_t>(side);
-        worst = std::max(worst, std::abs(belief.wheel[i].p_contact - lanes.p_contact(side)[lane]));
-        ASSERT_NEAR(belief.wheel[i].p_contact, lanes.p_contact(side)[lane], 1e-12)
-            << lane << " at " << clean.time;
-        ASSERT_NEAR(measured.wheel[i].p_contact, measurements.p_measurement(side)[lane], 1e-12);
+        worst = std::max(worst, std::abs(belief.wheel[i].p_contact - batch.p_contact(side)[level]));
+        ASSERT_NEAR(belief.wheel[i].p_contact, batch.p_contact(side)[level], 1e-12)
+            << level << " at " << clean.time;
+        ASSERT_NEAR(measured.wheel[i].p_contact, measurements.p_measurement(side)[level], 1e-12);
       }
     }
   }
@@ -74,7 +74,7 @@ TEST_P(NamedBatch, EqualTheScalarFilterInEveryLane) {
 INSTANTIATE_TEST_SUITE_P(Configurations, NamedBatch,
                          testing::Values("paper", "paper_rms", "reference", "robust"));
 
-TEST(BatchedBayesFilter, EqualTheScalarFilterForAnyWindow) {
+TEST(BatchedBayesFilter, EqualsTheScalarFilterForAnyWindow) {
   for (const char* name : {"reference", "robust"}) {
     for (const int window : {2, 37, 100, 130, 256}) {
       BayesFilterConfig config = test::named(name);
@@ -82,41 +82,41 @@ TEST(BatchedBayesFilter, EqualTheScalarFilterForAnyWindow) {
       config.transition.window = window;
       const MeasurementModel model = fitted(config);
       const std::vector<BatchNoise> grid = bayes_levels();
-      BatchedBayesFilter lanes(model, config, grid);
+      BatchedBayesFilter batch(model, config, grid);
       std::vector<BayesFilter> filters(grid.size(), BayesFilter(model, config));
       Normal normal(17);
       for (const Signals& clean : drops(1500, 1000.0, 31)) {
         const NoiseStep draws = draw(normal);
-        lanes.update(clean, draws);
-        for (std::size_t lane = 0; lane < grid.size(); ++lane) {
-          const Belief& belief = filters[lane].update(noisy(clean, draws, grid[lane]));
-          ASSERT_NEAR(belief.wheel[0].p_contact, lanes.p_contact(Side::left)[lane], 1e-12)
-              << name << " window " << window << " lane " << lane << " at " << clean.time;
+        batch.update(clean, draws);
+        for (std::size_t level = 0; level < grid.size(); ++level) {
+          const Belief& belief = filters[level].update(noisy(clean, draws, grid[level]));
+          ASSERT_NEAR(belief.wheel[0].p_contact, batch.p_contact(Side::left)[level], 1e-12)
+              << name << " window " << window << " level " << level << " at " << clean.time;
         }
       }
     }
   }
 }
 
-TEST(BatchedBayesFilter, SkipStepsThatAreNotFinite) {
+TEST(BatchedBayesFilter, SkipsStepsThatAreNotFinite) {
   const BayesFilterConfig config = BayesFilterConfig::robust();
   const std::vector<BatchNoise> one{{0.1, 0.1, 1.0}};
-  BatchedBayesFilter lanes(fitted(config), config, one);
+  BatchedBayesFilter batch(fitted(config), config, one);
   Normal normal(3);
   for (const Signals& clean : drops(700)) {
-    lanes.update(clean, draw(normal));
+    batch.update(clean, draw(normal));
   }
-  const double before = lanes.p_contact(Side::left)[0];
+  const double before = batch.p_contact(Side::left)[0];
   Signals bad;
   bad.vertical_acceleration = std::nan("");
-  lanes.update(bad, NoiseStep{});
+  batch.update(bad, NoiseStep{});
   bad.vertical_acceleration = 0.0;
   bad.leg[1].wheel.torque = HUGE_VAL;
-  lanes.update(bad, NoiseStep{});
-  EXPECT_EQ(lanes.p_contact(Side::left)[0], before);
+  batch.update(bad, NoiseStep{});
+  EXPECT_EQ(batch.p_contact(Side::left)[0], before);
 }
 
-TEST(BatchedBayesFilter, RefuseLevelsThatAreNone) {
+TEST(BatchedBayesFilter, RefusesInvalidLevels) {
   const BayesFilterConfig config = BayesFilterConfig::robust();
   const MeasurementModel model = fitted(config);
   const std::vector<BatchNoise> none;

@@ -8,7 +8,7 @@
 
 namespace touchdown::experiments {
 
-/// Unit noise on everything that lanes hear.
+/// Unit noise on all signals of a batch.
 inline NoiseStep draw(test::Normal& normal) {
   NoiseStep draws;
   draws.acceleration = normal();
@@ -16,7 +16,7 @@ inline NoiseStep draw(test::Normal& normal) {
   return draws;
 }
 
-/// What one lane hears, for an estimator alone.
+/// The signals of one batch element, for a scalar estimator.
 inline Signals noisy(Signals s, const NoiseStep& draws, const BatchNoise& level) {
   s.vertical_acceleration += level.acceleration * draws.acceleration;
   for (std::size_t side = 0; side < 2; ++side) {

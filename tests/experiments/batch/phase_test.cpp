@@ -13,7 +13,7 @@
 namespace touchdown::experiments {
 namespace {
 
-/// A grid, and torque noise on knees and wheels apart.
+/// A grid, and levels with torque noise on knees or wheels only.
 std::vector<BatchNoise> phase_levels() {
   std::vector<BatchNoise> levels;
   for (const double torque : {0.0, 0.5, 3.0}) {
@@ -36,21 +36,21 @@ PhaseFilterConfig small_config() {
 void expect_equal_to_scalar_filters(const PhaseFilterConfig& config) {
   const PhaseModel model = test::small_phase_model();
   const std::vector<BatchNoise> grid = phase_levels();
-  BatchedPhaseFilter lanes(model, config, grid);
-  ASSERT_EQ(lanes.lanes(), grid.size());
+  BatchedPhaseFilter batch(model, config, grid);
+  ASSERT_EQ(batch.size(), grid.size());
   std::vector<PhaseFilter> filters(grid.size(), PhaseFilter(model, config));
   test::Normal normal(17);
   std::size_t flights = 0;
   for (const Signals& clean : test::phase_run(6, 31, 4).signals) {
     const NoiseStep draws = draw(normal);
-    lanes.update(clean, draws);
-    for (std::size_t lane = 0; lane < grid.size(); ++lane) {
-      const Belief& belief = filters[lane].update(noisy(clean, draws, grid[lane]));
+    batch.update(clean, draws);
+    for (std::size_t level = 0; level < grid.size(); ++level) {
+      const Belief& belief = filters[level].update(noisy(clean, draws, grid[level]));
       for (std::size_t side = 0; side < 2; ++side) {
-        ASSERT_NEAR(belief.wheel[side].p_contact, lanes.p_contact(static_cast<Side>(side))[lane],
+        ASSERT_NEAR(belief.wheel[side].p_contact, batch.p_contact(static_cast<Side>(side))[level],
                     1e-12)
-            << lane << " at " << clean.time;
-        ASSERT_EQ(belief.wheel[side].contact, lanes.contact(static_cast<Side>(side))[lane] > 0.5);
+            << level << " at " << clean.time;
+        ASSERT_EQ(belief.wheel[side].contact, batch.contact(static_cast<Side>(side))[level] > 0.5);
         flights += belief.wheel[side].contact ? 0U : 1U;
       }
     }
@@ -58,17 +58,17 @@ void expect_equal_to_scalar_filters(const PhaseFilterConfig& config) {
   EXPECT_GT(flights, 1000U);
 }
 
-TEST(BatchedPhaseFilter, EqualTheScalarFilterInEveryLane) {
+TEST(BatchedPhaseFilter, EqualsTheScalarFilterAtEveryLevel) {
   expect_equal_to_scalar_filters(small_config());
 }
 
-TEST(BatchedPhaseFilter, EqualTheScalarFilterThatIsToldTheNoise) {
+TEST(BatchedPhaseFilter, EqualsTheScalarFilterWithGivenNoise) {
   PhaseFilterConfig config = small_config();
   config.noise = PhaseNoise{0.5, 0.2, 1.0};
   expect_equal_to_scalar_filters(config);
 }
 
-TEST(BatchedPhaseFilter, RefuseBadLevels) {
+TEST(BatchedPhaseFilter, RefusesBadLevels) {
   const PhaseModel model = test::small_phase_model();
   const auto with = [&](const std::vector<BatchNoise>& bad) {
     BatchedPhaseFilter(model, small_config(), bad);

@@ -22,10 +22,11 @@ namespace {
 BoostingRows drawn_rows(std::size_t count) {
   BoostingRows rows;
   const std::vector<double> values = test::normals(count * window_features, 0.0, 1.0, 1);
-  const std::vector<double> doubt = test::normals(count, 0.0, 0.5, 2);
+  const std::vector<double> label_noise = test::normals(count, 0.0, 0.5, 2);
   rows.features.assign(values.begin(), values.end());
   for (std::size_t i = 0; i < count; ++i) {
-    rows.is_contact.push_back(values[i * window_features + 7] + doubt[i] > -0.8 ? 1.0F : 0.0F);
+    rows.is_contact.push_back(values[i * window_features + 7] + label_noise[i] > -0.8 ? 1.0F
+                                                                                      : 0.0F);
   }
   return rows;
 }
@@ -39,7 +40,7 @@ WindowFeatures row(const BoostingRows& rows, std::size_t i) {
 
 const BoostingConfig quick = {.trees = 12, .depth = 3};
 
-/// What the library itself makes of the same rows.
+/// The logits that the library itself predicts for the same rows.
 std::vector<float> margins_by_the_library(const BoostingRows& rows, float air_weight) {
   DMatrixHandle matrix = nullptr;
   XGDMatrixCreateFromMat(rows.features.data(), rows.count(), window_features,
@@ -72,7 +73,7 @@ std::vector<float> margins_by_the_library(const BoostingRows& rows, float air_we
   return margins;
 }
 
-TEST(BoostingFit, SaysWhatTheLibrarysOwnPredictionSays) {
+TEST(BoostingFit, EqualsThePredictionOfTheLibrary) {
   const BoostingRows rows = drawn_rows(3000);
   const BoostedTrees trees = fit_trees(rows, quick);
   EXPECT_EQ(trees.trees(), 12U);
@@ -87,7 +88,7 @@ TEST(BoostingFit, SaysWhatTheLibrarysOwnPredictionSays) {
   }
 }
 
-TEST(BoostingFit, LearnsWhichFeatureTells) {
+TEST(BoostingFit, LearnsWhichFeatureIsInformative) {
   const BoostingRows rows = drawn_rows(6000);
   const BoostedTrees trees = fit_trees(rows, quick);
   WindowFeatures features{};
@@ -97,7 +98,7 @@ TEST(BoostingFit, LearnsWhichFeatureTells) {
   EXPECT_LT(trees.logit(features), -0.5F);
 }
 
-TEST(BoostingFit, GivesTheSameTreesOnWhateverThread) {
+TEST(BoostingFit, GivesTheSameTreesOnAllThreads) {
   const BoostingRows rows = drawn_rows(2000);
   const BoostedTrees alone = fit_trees(rows, quick);
   std::array<BoostedTrees, 3> beside;
@@ -113,19 +114,19 @@ TEST(BoostingFit, GivesTheSameTreesOnWhateverThread) {
   }
 }
 
-TEST(BoostingFit, RefusesOneClassAlone) {
+TEST(BoostingFit, RefusesASingleClass) {
   BoostingRows rows = drawn_rows(100);
   std::fill(rows.is_contact.begin(), rows.is_contact.end(), 1.0F);
   EXPECT_THROW(fit_trees(rows, quick), InputError);
   EXPECT_THROW(fit_trees({}, quick), InputError);
 }
 
-TEST(BoostingFit, EndsWhenItIsAskedTo) {
+TEST(BoostingFit, StopsOnRequest) {
   struct Asked {};
   EXPECT_THROW(fit_trees(drawn_rows(500), quick, [] { throw Asked(); }), Asked);
 }
 
-/// A robot whose knees carry it for one second in two.
+/// A robot with load on its knees in every other second.
 struct DrawnRun {
   std::vector<Signals> signals;
   std::vector<std::uint8_t> contact;
@@ -133,22 +134,22 @@ struct DrawnRun {
   explicit DrawnRun(std::uint32_t seed) {
     const std::vector<double> noise = test::normals(8000, 0.0, 0.05, seed);
     for (std::size_t k = 0; k < 4000; ++k) {
-      const bool touches = k / 1000 % 2 == 0;
+      const bool in_contact = k / 1000 % 2 == 0;
       Signals signals_now;
       signals_now.time = 1e-3 * static_cast<double>(k);
       for (std::size_t side = 0; side < 2; ++side) {
         signals_now.leg[side].knee.torque =
-            (side == 0 ? 1.0 : -1.0) * (touches ? 1.3 : 0.0) + noise[2 * k + side];
+            (side == 0 ? 1.0 : -1.0) * (in_contact ? 1.3 : 0.0) + noise[2 * k + side];
       }
-      signals_now.vertical_acceleration = touches ? 0.0 : -9.8;
+      signals_now.vertical_acceleration = in_contact ? 0.0 : -9.8;
       signals.push_back(signals_now);
-      contact.push_back(touches ? 1 : 0);
+      contact.push_back(in_contact ? 1 : 0);
     }
   }
   [[nodiscard]] LabelledRun view() const { return {signals, {contact, contact}, 1000.0, 0}; }
 };
 
-TEST(BoostedTreesEstimator, TellsContactInRunsThatItHasNotSeen) {
+TEST(BoostedTreesEstimator, DetectsContactInUnseenRuns) {
   const DrawnRun seen(1);
   const std::vector<LabelledRun> runs = {seen.view()};
   BoostingConfig config = quick;

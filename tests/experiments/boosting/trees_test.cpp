@@ -10,7 +10,7 @@ namespace touchdown::experiments {
 namespace {
 
 /// x₃ < 1 ? (x₀ < 0 ? 1 : 2) : (x₄ < 5 ? 4 : 8), nine times.
-BoostedTrees nine_alike() {
+BoostedTrees nine_equal_trees() {
   BoostedTrees trees{.depth = 2, .bias = 0.5F};
   for (int i = 0; i < 9; ++i) {
     trees.feature.insert(trees.feature.end(), {3, 0, 4});
@@ -20,8 +20,8 @@ BoostedTrees nine_alike() {
   return trees;
 }
 
-TEST(BoostedTrees, AddTheLeavesThatAreReached) {
-  const BoostedTrees trees = nine_alike();
+TEST(BoostedTrees, AddTheReachedLeaves) {
+  const BoostedTrees trees = nine_equal_trees();
   WindowFeatures features{};
   features[0] = -1.0F;
   EXPECT_EQ(trees.logit(features), 9.5F);
@@ -34,10 +34,10 @@ TEST(BoostedTrees, AddTheLeavesThatAreReached) {
 }
 
 TEST(BoostedTrees, AreRefusedUnlessComplete) {
-  EXPECT_NO_THROW(check_trees(nine_alike()));
+  EXPECT_NO_THROW(check_trees(nine_equal_trees()));
   EXPECT_THROW(check_trees({}), InputError);
   const auto refused = [](const auto& change) {
-    BoostedTrees trees = nine_alike();
+    BoostedTrees trees = nine_equal_trees();
     change(trees);
     EXPECT_THROW(check_trees(trees), InputError);
   };
@@ -45,10 +45,10 @@ TEST(BoostedTrees, AreRefusedUnlessComplete) {
   refused([](BoostedTrees& trees) { trees.feature.pop_back(); });
   refused([](BoostedTrees& trees) { trees.feature[5] = window_features; });
   refused([](BoostedTrees& trees) { trees.depth = 40; });
-  constexpr float endless = std::numeric_limits<float>::infinity();
-  refused([](BoostedTrees& trees) { trees.threshold[1] = endless; });
-  refused([](BoostedTrees& trees) { trees.leaf[1] = endless; });
-  refused([](BoostedTrees& trees) { trees.bias = endless; });
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  refused([](BoostedTrees& trees) { trees.threshold[1] = infinity; });
+  refused([](BoostedTrees& trees) { trees.leaf[1] = infinity; });
+  refused([](BoostedTrees& trees) { trees.bias = infinity; });
 }
 
 }  // namespace

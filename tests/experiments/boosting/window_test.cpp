@@ -55,7 +55,7 @@ TEST(ChannelWindow, KeepsSmallDeviationsOfLargeValues) {
   EXPECT_NEAR(window.features().back(), 1e-3, 1e-8);
 }
 
-TEST(SignalWindow, HearsTheRightLegAsItHearsTheLeft) {
+TEST(SignalWindow, MirrorsTheRightLeg) {
   SignalWindow one(1000.0);
   SignalWindow mirrored(1000.0);
   const std::vector<double> torque = test::normals(150, 0.5, 1.0, 2);
@@ -68,15 +68,15 @@ TEST(SignalWindow, HearsTheRightLegAsItHearsTheLeft) {
   EXPECT_NE(one.features(0), one.features(1));
 }
 
-TEST(SignalWindow, RepeatsWhatIsMissingForAsLongAsAGap) {
+TEST(SignalWindow, RepeatsMissingValuesUpToTheMaximumGap) {
   SignalWindow window(1000.0);
   for (std::size_t k = 0; k < 50; ++k) window.update(step(k, 1.5, 1.0, 0.1));
   const WindowFeatures before = window.features(0);
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 50; k < 69; ++k) {
-    const SignalWindow::Step heard = window.update(step(k, missing, 1.0, 0.1));
-    EXPECT_TRUE(heard.is_valid);
-    EXPECT_EQ(heard.status, SignalStatus::invalid);
+    const SignalWindow::Step result = window.update(step(k, missing, 1.0, 0.1));
+    EXPECT_TRUE(result.is_valid);
+    EXPECT_EQ(result.status, SignalStatus::invalid);
   }
   EXPECT_EQ(window.features(0), before);
   for (std::size_t k = 69; k < 75; ++k) window.update(step(k, missing, 1.0, 0.1));
@@ -84,7 +84,7 @@ TEST(SignalWindow, RepeatsWhatIsMissingForAsLongAsAGap) {
   EXPECT_TRUE(window.update(step(76, 1.5, 1.0, 0.1)).is_valid);
 }
 
-TEST(SignalWindow, ForgetsWhatIsNoLongerBeforeIt) {
+TEST(SignalWindow, ResetsAfterALongGap) {
   SignalWindow window(1000.0);
   for (std::size_t k = 0; k < 100; ++k) window.update(step(k, 5.0, 5.0, 3.0));
   window.update(step(5000, 1.0, 1.0, 0.0));
@@ -93,7 +93,7 @@ TEST(SignalWindow, ForgetsWhatIsNoLongerBeforeIt) {
   EXPECT_EQ(window.features(0), fresh.features(0));
 }
 
-TEST(SignalWindow, HearsNothingBeforeItsFirstTorques) {
+TEST(SignalWindow, IsNotValidBeforeItsFirstTorques) {
   SignalWindow window(1000.0);
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(window.update(step(0, missing, 1.0, 0.1)).is_valid);

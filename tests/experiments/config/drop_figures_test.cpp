@@ -14,7 +14,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
-/// Ten lines; what is appended begins on the eleventh.
+/// Ten lines; appended text begins on the eleventh.
 const char* const head = R"(name: study
 simulators: [mujoco]
 estimators: [robust, phase, measurement_only, reference, paper]
@@ -35,14 +35,14 @@ auto complains(const std::string& place, const std::string& what) {
   return ThrowsMessage<InputError>(AllOf(StartsWith("study.yaml:" + place), HasSubstr(what)));
 }
 
-TEST(DropConfig, NothingIsDrawnUnlessTheFileAsks) {
+TEST(DropConfig, HasNoFiguresByDefault) {
   const Experiment experiment = read("");
   EXPECT_FALSE(experiment.detail.has_value());
   EXPECT_FALSE(experiment.posterior.has_value());
   EXPECT_THAT(to_yaml(experiment), AllOf(Not(HasSubstr("detail")), Not(HasSubstr("posterior"))));
 }
 
-TEST(DropConfig, AnEmptySectionMeansItsDefaults) {
+TEST(DropConfig, UsesDefaultsForAnEmptySection) {
   const Experiment experiment = read("detail: {}\nposterior:\n");
   ASSERT_TRUE(experiment.detail && experiment.posterior);
   EXPECT_THAT(experiment.detail->estimators,
@@ -54,8 +54,8 @@ TEST(DropConfig, AnEmptySectionMeansItsDefaults) {
   EXPECT_EQ(experiment.posterior->choice.drop, 0);
 }
 
-/// Six are readable: whom the user added is shown before anybody is left out.
-TEST(DropConfig, EstimatorsThatTheUserAddedAreShownAsFarAsSixAreReadable) {
+/// The user's own estimators come after the known ones, up to six.
+TEST(DropConfig, ShowsTheUsersEstimatorsUpToSix) {
   YamlDocument document = YamlDocument::parse(std::string(head) + "detail: {}\n", "study.yaml");
   document.override_value("estimators=[free_fall, phase, upkie_observer, robust]");
   EXPECT_THAT(experiment_from_yaml(document).detail->estimators,
@@ -66,7 +66,7 @@ TEST(DropConfig, EstimatorsThatTheUserAddedAreShownAsFarAsSixAreReadable) {
               ElementsAre("robust", "measurement_only", "phase", "oracle", "nmn", "free_fall"));
 }
 
-TEST(DropConfig, ReadsBackToWhatItWrites) {
+TEST(DropConfig, ReadsBackUnchanged) {
   const Experiment first = read(
       "detail: {run: 3, wheels: right, drop: 2, seed: 1, before: 0.2, after: 0.3,\n"
       "         noise: [{torque: 2, accelerometer: 0}], estimators: [phase]}\n"
@@ -86,7 +86,7 @@ TEST(DropConfig, ReadsBackToWhatItWrites) {
   EXPECT_EQ(again.posterior->noise.accelerometer, 7.0);
 }
 
-TEST(DropConfig, WrongKeysAndValuesAreShownWithTheirPlace) {
+TEST(DropConfig, ReportsWrongKeysAndValuesWithTheirPosition) {
   EXPECT_THAT([] { read("detail: {drp: 2}\n"); }, complains("11:10", "did you mean 'drop'?"));
   EXPECT_THAT([] { read("detial: {drop: 2}\n"); }, complains("11:1", "did you mean 'detail'?"));
   EXPECT_THAT([] { read("detail:\n  run: 4\n"); }, complains("12:8", "detail.run"));
@@ -109,7 +109,7 @@ TEST(DropConfig, WrongKeysAndValuesAreShownWithTheirPlace) {
   EXPECT_THAT([] { read("posterior: {noise: [1, 2]}\n"); }, complains("11:", "expected a mapping"));
 }
 
-TEST(DropConfig, ASectionCanBeSwitchedOff) {
+TEST(DropConfig, CanSwitchASectionOff) {
   const Experiment experiment =
       read("detail: {drop: 3, enabled: false}\nposterior: {enabled: false}\n");
   EXPECT_FALSE(experiment.detail.has_value());
@@ -117,7 +117,7 @@ TEST(DropConfig, ASectionCanBeSwitchedOff) {
   EXPECT_THAT([] { read("detail: {enabled: false, drp: 1}\n"); }, complains("11:", "'drop'"));
 }
 
-TEST(DropConfig, APosteriorNeedsThePhaseFilter) {
+TEST(DropConfig, NeedsThePhaseFilterForAPosterior) {
   EXPECT_THAT(
       [] {
         YamlDocument document =

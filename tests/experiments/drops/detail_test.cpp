@@ -40,8 +40,8 @@ struct Study {
     config.noise = {{0.5, 3.0}, {2.0, 8.0}};
     config.estimators = std::move(estimators);
   }
-  DropDetail detail(const RunSignals& heard) const {
-    return drop_detail(experiment, config, rising(heard), heard, models);
+  DropDetail detail(const RunSignals& run) const {
+    return drop_detail(experiment, config, rising(run), run, models);
   }
 
   Experiment experiment;
@@ -49,16 +49,16 @@ struct Study {
   DetailConfig config;
 };
 
-/// What an estimator decides from its probabilities: the phase filter with hysteresis.
+/// The decisions that follow from the probabilities; the phase filter has hysteresis.
 scoring::ContactSequence decisions(const BeliefTrace& trace) {
   const PhaseFilterConfig phase;
   scoring::ContactSequence contact;
-  bool touches = true;
+  bool in_contact = true;
   for (const double p : trace.p_contact) {
-    touches = trace.estimator == "phase"
-                  ? (touches ? p >= phase.leave_below : p > phase.return_above)
-                  : p >= 0.8;
-    contact.push_back(std::uint8_t{touches});
+    in_contact = trace.estimator == "phase"
+                     ? (in_contact ? p >= phase.leave_below : p > phase.return_above)
+                     : p >= 0.8;
+    contact.push_back(std::uint8_t{in_contact});
   }
   return contact;
 }
@@ -88,28 +88,28 @@ TEST(DropDetail, ShowsTheBeliefsThatTheStudyCounts) {
   ASSERT_EQ(detail.time.size(), run.steps());
   const NoiseRun noise = noise_run(run, noise_key(study.experiment, 1, 3));
   const auto count = [&](const scoring::ContactSequence& truth,
-                         const scoring::ContactSequence& said) {
-    return scoring::classify(truth, said, run.segments, run.info.control_period_us,
+                         const scoring::ContactSequence& estimate) {
+    return scoring::classify(truth, estimate, run.segments, run.info.control_period_us,
                              study.experiment.scoring);
   };
   for (const NoisyDrop& drop : detail.noisy) {
     const std::vector<noise::NoiseCell> cells = {drop.noise};
     for (const BeliefTrace& trace : drop.beliefs) {
       const std::vector<Condition> condition = {{"mujoco", "mujoco", trace.estimator}};
-      const auto lanes = sweep_run(condition, cells, run, noise, study.models,
+      const auto swept = sweep_run(condition, cells, run, noise, study.models,
                                    study.experiment.scoring, [] { return true; });
-      // Lanes count both wheels; the right one's part comes from a filter of its own.
+      // The sweep counts both wheels; a second filter gives the right wheel's share.
       const auto estimator = make_estimator(condition[0], study.models, run);
       const auto right = decide(*estimator, run, noise, drop.noise.levels())[1];
       auto both = count(run.contact[0], decisions(trace));
       const auto rights = count(run.contact[1], right);
       for (std::size_t i = 0; i < both.size(); ++i) both[i] += rights[i];
-      EXPECT_EQ(both, lanes) << trace.estimator;
+      EXPECT_EQ(both, swept) << trace.estimator;
     }
   }
 }
 
-TEST(DropDetail, SpectraArePlainTransformsOfWhatTheFilterHeard) {
+TEST(DropDetail, SpectraArePlainTransformsOfTheFiltersInput) {
   const Study study({"measurement_only", "robust"});
   const RunSignals run = synthetic_run(3);
   const DropDetail detail = study.detail(run);
@@ -164,7 +164,7 @@ TEST(DropDetail, TorquesAreTheLeftLegsWithAndWithoutTheStudysNoise) {
   }
 }
 
-TEST(DropDetail, HasSpectraWhereNoEstimatorListensToOne) {
+TEST(DropDetail, HasSpectraWithoutAnEstimatorThatUsesThem) {
   const DropDetail detail = Study({"phase"}).detail(synthetic_run(3));
   EXPECT_EQ(detail.transition_of, "robust");
   EXPECT_EQ(detail.switch_power, 50.0);
@@ -191,7 +191,7 @@ TEST(DropDetail, SurvivesSignalsThatAreNoNumbers) {
   }
 }
 
-TEST(DropDetail, NamesTheDropsThereAreWhereOneIsMissing) {
+TEST(DropDetail, NamesTheExistingDropsIfTheChosenOneIsMissing) {
   Study study({"robust"});
   study.config.choice.drop = 9;
   EXPECT_THAT([&] { study.detail(synthetic_run(3)); },

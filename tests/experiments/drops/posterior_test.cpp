@@ -27,7 +27,7 @@ struct PosteriorStudy {
   PosteriorConfig config;
 };
 
-TEST(DropPosterior, AddsUpToOneAndToWhatTheStudyHears) {
+TEST(DropPosterior, AddsUpToOneAndMatchesTheStudysEstimator) {
   const PosteriorStudy study;
   const RunSignals run = synthetic_run(3);
   const DropPosterior posterior = drop_posterior(study.experiment, study.config, run, study.models);
@@ -52,7 +52,7 @@ TEST(DropPosterior, AddsUpToOneAndToWhatTheStudyHears) {
   }
 }
 
-TEST(DropPosterior, KnowsTheTruePhasesBesideTheBelieved) {
+TEST(DropPosterior, HasTheTruePhasesBesideTheEstimated) {
   const PosteriorStudy study;
   const DropPosterior posterior =
       drop_posterior(study.experiment, study.config, synthetic_run(3), study.models);
@@ -68,7 +68,7 @@ TEST(DropPosterior, KnowsTheTruePhasesBesideTheBelieved) {
 }
 
 /// Eq. of docs/phase_filter.md, done again with the model's transitions.
-TEST(DropPosterior, FollowsFromTheOneBeforeAndTheEvidenceOfTheStep) {
+TEST(DropPosterior, FollowsFromThePreviousPosteriorAndTheStepsEvidence) {
   const PosteriorStudy study;
   const RunSignals run = synthetic_run(3);
   const DropPosterior posterior = drop_posterior(study.experiment, study.config, run, study.models);
@@ -90,7 +90,7 @@ TEST(DropPosterior, FollowsFromTheOneBeforeAndTheEvidenceOfTheStep) {
   }
 }
 
-TEST(DropPosterior, WhatMisleadsAddsUpToWhatItMadeOfTheBelief) {
+TEST(DropPosterior, LogLikelihoodErrorsAddUpToTheLogRatioOfTheBelief) {
   const PosteriorStudy study;
   const DropPosterior posterior =
       drop_posterior(study.experiment, study.config, synthetic_run(3), study.models);
@@ -99,10 +99,10 @@ TEST(DropPosterior, WhatMisleadsAddsUpToWhatItMadeOfTheBelief) {
     const PhaseProbabilities& p = posterior.phases[k];
     const auto first = static_cast<Phase>(std::max_element(p.begin(), p.end()) - p.begin());
     const Phase truth = posterior.truth[k];
-    const LogLikelihoodError& log_likelihood_error = posterior.log_likelihood_error[k];
-    const double sum = log_likelihood_error.left + log_likelihood_error.right + log_likelihood_error.acceleration + log_likelihood_error.memory;
-    const bool is_right =
-        left_in_contact(first) == left_in_contact(truth) && right_in_contact(first) == right_in_contact(truth);
+    const LogLikelihoodError& error = posterior.log_likelihood_error[k];
+    const double sum = error.left + error.right + error.acceleration + error.memory;
+    const bool is_right = left_in_contact(first) == left_in_contact(truth) &&
+                          right_in_contact(first) == right_in_contact(truth);
     if (is_right) {
       EXPECT_EQ(sum, 0.0);
     } else {
@@ -111,10 +111,10 @@ TEST(DropPosterior, WhatMisleadsAddsUpToWhatItMadeOfTheBelief) {
     }
     wrong += is_right ? 0 : 1;
   }
-  EXPECT_GT(wrong, 0U);  // a takeoff is called some steps late
+  EXPECT_GT(wrong, 0U);  // a takeoff is detected some steps late
 }
 
-TEST(DropPosterior, ShowsTheDropsOfTheWheelThatIsAskedFor) {
+TEST(DropPosterior, ShowsDropsOfTheChosenWheel) {
   PosteriorStudy study;
   const auto takeoff = [&](DropWheels wheels) {
     study.config.choice.wheels = wheels;
@@ -130,7 +130,7 @@ TEST(DropPosterior, ShowsTheDropsOfTheWheelThatIsAskedFor) {
   EXPECT_EQ(takeoff(DropWheels::right), std::pair(std::uint8_t{0}, std::uint8_t{0}));
 }
 
-TEST(DropPosterior, ShowsAnyMomentThatIsAskedFor) {
+TEST(DropPosterior, ShowsAChosenTime) {
   PosteriorStudy study;
   study.config.choice.at = 0.3;
   const RunSignals run = synthetic_run(3);
@@ -141,12 +141,11 @@ TEST(DropPosterior, ShowsAnyMomentThatIsAskedFor) {
   EXPECT_EQ(posterior.contact[0][450], run.contact[0][600]);
   EXPECT_NE(posterior.contact[0][449], posterior.contact[0][450]);
   study.config.choice.at = 4.0;
-  EXPECT_THAT(
-      [&] { drop_posterior(study.experiment, study.config, run, study.models); },
-      ThrowsMessage<InputError>(HasSubstr("posterior.at: run 3 in mujoco is over after 4 s")));
+  EXPECT_THAT([&] { drop_posterior(study.experiment, study.config, run, study.models); },
+              ThrowsMessage<InputError>(HasSubstr("posterior.at: run 3 in mujoco ends after 4 s")));
 }
 
-TEST(DropPosterior, NamesTheDropsThereAreWhereOneIsMissing) {
+TEST(DropPosterior, NamesTheExistingDropsIfTheChosenOneIsMissing) {
   PosteriorStudy study;
   study.config.choice.drop = 4;
   EXPECT_THAT(

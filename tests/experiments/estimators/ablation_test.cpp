@@ -15,33 +15,35 @@ namespace {
 
 std::vector<std::string> from_paper_to_robust() {
   std::vector<std::string> names = {"paper"};
-  for (const AblationStep& rung : steps_from_paper_to_robust()) names.emplace_back(rung.name);
+  for (const AblationStep& step : steps_from_paper_to_robust()) names.emplace_back(step.name);
   names.emplace_back("robust");
   return names;
 }
 
-std::array<std::vector<double>, 2> told(const EstimatorEntry& entry, const FittedModel& model,
-                                        const RunSignals& run, const noise::SensorNoise& levels) {
+std::array<std::vector<double>, 2> p_contact_of(const EstimatorEntry& entry,
+                                                const FittedModel& model, const RunSignals& run,
+                                                const noise::SensorNoise& levels) {
   const auto estimator = entry.make(entry, {.model = &model});
   const NoiseRun noise = noise_run(run, {.seed = 5, .run = 1});
   const scoring::Prediction prediction = predict(*estimator, run, noise, levels);
   return {prediction[0].p_contact, prediction[1].p_contact};
 }
 
-TEST(BayesAblation, IsClimbedByItsExperimentFromPaperToRobust) {
-  const std::vector<std::string> climbed =
+TEST(BayesAblation, StepsAreInItsExperimentFromPaperToRobust) {
+  const std::vector<std::string> estimators =
       experiment_from_yaml(YamlDocument::load(std::filesystem::path(TOUCHDOWN_SOURCE_DIR) /
                                               "experiments/ablation.yaml"))
           .estimators;
-  const std::vector<std::string> rungs = from_paper_to_robust();
-  EXPECT_NE(std::search(climbed.begin(), climbed.end(), rungs.begin(), rungs.end()), climbed.end());
+  const std::vector<std::string> steps = from_paper_to_robust();
+  EXPECT_NE(std::search(estimators.begin(), estimators.end(), steps.begin(), steps.end()),
+            estimators.end());
 }
 
-TEST(BayesAblation, EndsInRobustToTheBitOnARunThatWasPlayed) {
+TEST(BayesAblation, EndsInRobustToTheBitOnASimulatedRun) {
   const ScratchFolder folder;
   const std::string scene = folder.write("small_step.yaml", small_step_scene).string();
   Experiment experiment;
-  experiment.name = "climbed";
+  experiment.name = "ablation";
   experiment.simulators = {"mujoco"};
   experiment.estimators = from_paper_to_robust();
   experiment.fit = {.scenarios = {scene}, .runs = 2};
@@ -57,10 +59,10 @@ TEST(BayesAblation, EndsInRobustToTheBitOnARunThatWasPlayed) {
 
   EstimatorEntry last = estimator_entry(steps_from_paper_to_robust().back().name);
   const noise::SensorNoise noise{0.5, 0.5, 3.0};
-  const auto robust = told(estimator_entry("robust"), models.at("robust"), *runs[0], noise);
-  EXPECT_NE(told(last, models.at(last.name), *runs[0], noise), robust);
+  const auto robust = p_contact_of(estimator_entry("robust"), models.at("robust"), *runs[0], noise);
+  EXPECT_NE(p_contact_of(last, models.at(last.name), *runs[0], noise), robust);
   last.config->transition.row_stochastic = true;
-  EXPECT_EQ(told(last, models.at(last.name), *runs[0], noise), robust);
+  EXPECT_EQ(p_contact_of(last, models.at(last.name), *runs[0], noise), robust);
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 #include "estimator/force/support_force.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/fitting/fitting.hpp"
 #include "experiments/evaluation/sweep_run.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/scenario_file.hpp"
@@ -18,7 +18,7 @@
 namespace touchdown::experiments {
 namespace {
 
-TEST(Oracle, ScoresPerfectlyByNameWhateverTheNoise) {
+TEST(Oracle, ScoresPerfectlyForAllNoise) {
   const Experiment experiment = synthetic_experiment({"oracle"});
   const RunSignals run = synthetic_run(3);
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
@@ -47,7 +47,7 @@ TEST(Oracle, ScoresPerfectlyByNameWhateverTheNoise) {
   EXPECT_GT(detected, 0);
 }
 
-TEST(SupportForce, IsTheLoadOfEachWheelInBothEngines) {
+TEST(SupportForce, EqualsTheLoadOfEachWheelInBothEngines) {
   for (const std::string& engine : simulators::simulator_names()) {
     scenarios::Scenario scenario = scenarios::find_scenario("scenarios/flat.yaml");
     scenario.end.duration = 1.5;
@@ -69,7 +69,7 @@ TEST(SupportForce, IsTheLoadOfEachWheelInBothEngines) {
   }
 }
 
-TEST(Oracle, KnowsWhenOneWheelTouches) {
+TEST(Oracle, ReportsSingleWheelContact) {
   Oracle oracle({scoring::ContactSequence{1, 0, 0}, scoring::ContactSequence{1, 1, 0}});
   EXPECT_EQ(oracle.update({}).p_both_wheels, 1.0);
   const Belief one = oracle.update({});
@@ -80,7 +80,7 @@ TEST(Oracle, KnowsWhenOneWheelTouches) {
   EXPECT_EQ(oracle.update({}).p_any_wheel, 0.0);
 }
 
-TEST(Oracle, BelievesThePriorWhereItWasToldNothing) {
+TEST(Oracle, ReportsThePriorWithoutLabels) {
   EXPECT_EQ(Oracle({}).update({}).p_any_wheel, 0.5);
   Oracle oracle({scoring::ContactSequence{1}, scoring::ContactSequence{1}});
   EXPECT_EQ(oracle.update({}).p_any_wheel, 1.0);
@@ -89,19 +89,19 @@ TEST(Oracle, BelievesThePriorWhereItWasToldNothing) {
   EXPECT_EQ(oracle.update({}).p_any_wheel, 1.0);
 }
 
-TEST(Oracle, IsTheOnlyOneThatIsToldTheTruth) {
+TEST(Oracle, IsTheOnlyEstimatorThatUsesLabels) {
   RunSignals run = synthetic_run(3);
   const Experiment experiment = synthetic_experiment(estimator_names());
   const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
-  RunSignals lied = run;
-  for (scoring::ContactSequence& contact : lied.contact) {
-    for (auto& touches : contact) touches = touches == 0 ? 1 : 0;
+  RunSignals inverted = run;
+  for (scoring::ContactSequence& contact : inverted.contact) {
+    for (auto& label : contact) label = label == 0 ? 1 : 0;
   }
   for (const std::string& name : estimator_names()) {
     const Condition condition = {"mujoco", "mujoco", name};
-    const auto said = decide(*make_estimator(condition, models, run), run, noise, {});
-    EXPECT_EQ(said == decide(*make_estimator(condition, models, lied), lied, noise, {}),
+    const auto decided = decide(*make_estimator(condition, models, run), run, noise, {});
+    EXPECT_EQ(decided == decide(*make_estimator(condition, models, inverted), inverted, noise, {}),
               !estimator_entry(name).needs_truth)
         << name;
   }

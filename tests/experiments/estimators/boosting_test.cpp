@@ -20,14 +20,14 @@ TEST(GradientBoostingEntry, KeepsItsTreesToTheBitInAFile) {
   const FittedModel read = read_fitted_model(ModelKind::parameters, folder.path() / "m.npz");
   EXPECT_EQ(read.parameters->parameters, fitted.parameters->parameters);
   const RunSignals other = synthetic_run(3, 1500);
-  const auto told = [&](const FittedModel& model) {
+  const auto p_contact_of = [&](const FittedModel& model) {
     return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
         .p_contact;
   };
-  EXPECT_EQ(told(read), told(fitted));
+  EXPECT_EQ(p_contact_of(read), p_contact_of(fitted));
 }
 
-TEST(GradientBoostingEntry, RefusesTreesThatAreNone) {
+TEST(GradientBoostingEntry, RefusesInvalidTrees) {
   const EstimatorEntry entry = gradient_boosting_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const FittedModel fitted = entry.fit(entry, {.whole = {&run}});

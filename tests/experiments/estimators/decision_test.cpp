@@ -20,31 +20,31 @@ TEST(DecisionNetworkEntry, KeepsItsWeightsToTheBitInAFile) {
   EXPECT_EQ(read.parameters->parameters, fitted.parameters->parameters);
   EXPECT_EQ(read.parameters->estimator, "decision_network");
   const RunSignals other = synthetic_run(3, 1500);
-  const auto told = [&](const FittedModel& model) {
+  const auto p_contact_of = [&](const FittedModel& model) {
     return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
         .p_contact;
   };
-  EXPECT_EQ(told(read), told(fitted));
+  EXPECT_EQ(p_contact_of(read), p_contact_of(fitted));
 }
 
-TEST(DecisionNetworkEntry, LearnsFromPiecesToo) {
+TEST(DecisionNetworkEntry, LearnsFromSegmentsToo) {
   const EstimatorEntry entry = decision_network_entry();
   RunSignals standing = synthetic_run(1'000'000, 600);
   RunSignals segment = synthetic_run(1'000'001, 1500);
-  segment.info.scenario = "piece";
+  segment.info.scenario = "segment";
   EXPECT_THROW(entry.fit(entry, {.whole = {&standing}}), InputError);  // nothing but contact
   const FittedModel fitted = entry.fit(entry, {.whole = {&standing}, .segments = {&segment}});
-  EXPECT_NE(fitted.parameters->provenance.at("scenarios").find("piece"), std::string::npos);
+  EXPECT_NE(fitted.parameters->provenance.at("scenarios").find("segment"), std::string::npos);
 }
 
-TEST(DecisionNetworkEntry, StopsWhenItIsAskedTo) {
+TEST(DecisionNetworkEntry, StopsOnRequest) {
   struct Asked {};
   const EstimatorEntry entry = decision_network_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   EXPECT_THROW(entry.fit(entry, {.whole = {&run}, .before_density = [] { throw Asked(); }}), Asked);
 }
 
-TEST(DecisionNetworkEntry, RefusesAModelThatLacksALayerOrWasFittedToOtherSenses) {
+TEST(DecisionNetworkEntry, RefusesModelsWithoutALayerOrWithOtherFeatures) {
   const EstimatorEntry entry = decision_network_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const recordings::ParameterModelFile good = *entry.fit(entry, {.whole = {&run}}).parameters;

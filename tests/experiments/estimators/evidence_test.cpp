@@ -22,22 +22,22 @@ TEST(EvidenceEntries, KeepTheirCurvesToTheBitInAFile) {
     EXPECT_EQ(read.parameters->estimator, entry.name);
     EXPECT_EQ(evidence_in(read), evidence_in(fitted));
     EXPECT_EQ(evidence_in(read)->table.empty(), entry.name != "evidence_pairs");
-    const auto told = [&](const FittedModel& model) {
+    const auto p_contact_of = [&](const FittedModel& model) {
       return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
           .p_contact;
     };
-    EXPECT_EQ(told(read), told(fitted));
+    EXPECT_EQ(p_contact_of(read), p_contact_of(fitted));
   }
 }
 
-TEST(EvidenceEntries, StopWhenTheyAreAskedTo) {
+TEST(EvidenceEntries, StopOnRequest) {
   struct Asked {};
   const EstimatorEntry entry = evidence_curves_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   EXPECT_THROW(entry.fit(entry, {.whole = {&run}, .before_density = [] { throw Asked(); }}), Asked);
 }
 
-TEST(EvidenceEntries, AreFittedWithTheSmoothnessThatIsChosen) {
+TEST(EvidenceEntries, AreFittedWithTheChosenSmoothness) {
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const EstimatorEntry entry = evidence_curves_entry();
   const EstimatorEntry other = with_hyperparameters(entry, {{"smoothness", 1e-3}});
@@ -45,7 +45,7 @@ TEST(EvidenceEntries, AreFittedWithTheSmoothnessThatIsChosen) {
             evidence_in(other.fit(other, {.whole = {&run}})));
 }
 
-TEST(EvidenceEntries, RefuseModelsThatLackAPartOrAreOfOtherPairsOrSenses) {
+TEST(EvidenceEntries, RefuseIncompleteModelsAndOtherPairsOrFeatures) {
   const EstimatorEntry entry = evidence_pairs_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const recordings::ParameterModelFile good = *entry.fit(entry, {.whole = {&run}}).parameters;
@@ -65,12 +65,12 @@ TEST(EvidenceEntries, RefuseModelsThatLackAPartOrAreOfOtherPairsOrSenses) {
   refused([](recordings::Parameters& all) { all.erase("senses"); });
 }
 
-TEST(EvidenceEntries, DecideByTheThresholdsThatTheirPassportsSay) {
+TEST(EvidenceEntries, DecideByTheThresholdsInTheirMetadata) {
   const EstimatorEntry entry = evidence_curves_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const RunSignals other = synthetic_run(3, 3000);
   FittedModel model = entry.fit(entry, {.whole = {&run}});
-  const auto told = [&](const char* key, const char* value) {
+  const auto decisions_with = [&](const char* key, const char* value) {
     model.metadata = ModelMetadata{.estimator = entry.name,
                                    .sample_rate = 1000.0,
                                    .robot = {},
@@ -80,11 +80,11 @@ TEST(EvidenceEntries, DecideByTheThresholdsThatTheirPassportsSay) {
         predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {});
     return std::array{tracks[0].contact, tracks[1].contact};
   };
-  EXPECT_NE(told("leave_below", "0.0001"), told("leave_below", "0.9"));
-  EXPECT_NE(told("return_above", "0.75"), told("return_above", "0.9999999"));
+  EXPECT_NE(decisions_with("leave_below", "0.0001"), decisions_with("leave_below", "0.9"));
+  EXPECT_NE(decisions_with("return_above", "0.75"), decisions_with("return_above", "0.9999999"));
 }
 
-TEST(EvidenceIn, IsNothingOfOtherModels) {
+TEST(EvidenceIn, IsEmptyForOtherModels) {
   EXPECT_FALSE(evidence_in({}));
   EXPECT_FALSE(evidence_in({.parameters = std::make_shared<recordings::ParameterModelFile>(
                                 recordings::ParameterModelFile{"load_logistic", {}, {}})}));

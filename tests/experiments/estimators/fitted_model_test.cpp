@@ -21,7 +21,7 @@ std::vector<std::string> fitted_estimators() {
   return names;
 }
 
-TEST(FittedModel, BelievesTheSameReadBackFromItsFile) {
+TEST(FittedModel, GivesTheSameBeliefsAfterReadingItsFile) {
   const ScratchFolder folder;
   const RunSignals run = synthetic_run(3);
   const NoiseRun noise = noise_run(run, {});
@@ -34,11 +34,11 @@ TEST(FittedModel, BelievesTheSameReadBackFromItsFile) {
     const ModelKind kind = kind_of_model_file(folder.path() / "m.npz");
     EXPECT_EQ(kind, entry.fits()) << name;
     const FittedModel read = read_fitted_model(kind, folder.path() / "m.npz");
-    const auto told = [&](const FittedModel& model) {
+    const auto p_contact_of = [&](const FittedModel& model) {
       return predict(*entry.make(entry, {.model = &model}), run, noise, {})[0].p_contact;
     };
-    const std::vector<double> expected = told(fitted);
-    const std::vector<double> found = told(read);
+    const std::vector<double> expected = p_contact_of(fitted);
+    const std::vector<double> found = p_contact_of(read);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-6);
     const auto [least, most] = std::minmax_element(found.begin(), found.end());
@@ -56,13 +56,13 @@ TEST(FittedModel, IsNeverFittedToReservedSeeds) {
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), ::testing::HasSubstr("reserved")) << name;
     }
-    // Nor by a fit that nobody else watches over.
+    // A direct call of the entry's fit is refused, too.
     const EstimatorEntry& entry = estimator_entry(name);
     EXPECT_THROW(entry.fit(entry, {.whole = {&reserved}}), InputError) << name;
   }
 }
 
-TEST(FittedModel, OfParametersSaysWhoseTheyAreAndWhereTheyComeFrom) {
+TEST(FittedModel, OfParametersNamesItsEstimatorAndProvenance) {
   const FittedModels models =
       fit_models(synthetic_experiment({"robust", "load_logistic"}), {synthetic_run(first_fit_run)});
   const FittedModel& fitted = models.at("mujoco").at("load_logistic");
@@ -72,7 +72,7 @@ TEST(FittedModel, OfParametersSaysWhoseTheyAreAndWhereTheyComeFrom) {
   EXPECT_EQ(fitted.parameters->provenance.at("seconds"), "3.700");
 }
 
-TEST(FittedModel, IsSharedByThoseWhoseFitIsTheSame) {
+TEST(FittedModel, IsSharedByEstimatorsWithTheSameFit) {
   const auto shares = [](const char* one, const char* other) {
     return share_model(estimator_entry(one), estimator_entry(other));
   };

@@ -1,4 +1,4 @@
-// What a robot loads has to be what experiments and `touchdown estimate` run.
+// Estimators that a robot loads must equal those of experiments and `touchdown estimate`.
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@
 namespace touchdown::experiments {
 namespace {
 
-/// Those that are made for robots.
+/// Estimators for robots.
 std::vector<std::string> installed_estimators() {
   std::vector<std::string> names;
   for (const EstimatorEntry& entry : estimator_entries()) {
@@ -27,12 +27,13 @@ std::vector<std::string> installed_estimators() {
   return names;
 }
 
-std::array<std::vector<double>, 2> told(ContactEstimator& estimator, const RunSignals& run) {
+std::array<std::vector<double>, 2> p_contact_of(ContactEstimator& estimator,
+                                                const RunSignals& run) {
   const scoring::Prediction prediction = predict(estimator, run, noise_run(run, {}), {});
   return {prediction[0].p_contact, prediction[1].p_contact};
 }
 
-TEST(LoadedEstimator, BelievesToTheBitWhatItsEntryDoes) {
+TEST(LoadedEstimator, EqualsItsEntryToTheBit) {
   const ScratchFolder folder;
   const RunSignals run = synthetic_run(3, 2000);
   const FittedModels models =
@@ -42,7 +43,8 @@ TEST(LoadedEstimator, BelievesToTheBitWhatItsEntryDoes) {
     const std::filesystem::path file = folder / (name + ".npz");
     write_fitted_model(models.at("mujoco").at(name), file);
     const FittedModel read = read_fitted_model(*entry.fits(), file);
-    EXPECT_EQ(told(*load_estimator(file), run), told(*entry.make(entry, {.model = &read}), run))
+    EXPECT_EQ(p_contact_of(*load_estimator(file), run),
+              p_contact_of(*entry.make(entry, {.model = &read}), run))
         << name;
     EXPECT_EQ(load_metadata(file).estimator, name);
     EXPECT_EQ(load_metadata(file).sample_rate, 1000.0);
@@ -56,23 +58,23 @@ TEST(LoadedEstimator, OfAShippedNetworkIsNmn) {
     const std::filesystem::path file =
         std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models" / (name + ".npz");
     const EstimatorEntry& entry = estimator_entry(name);
-    EXPECT_EQ(told(*load_estimator(file, {.sample_rate = 1000.0}), run),
-              told(*entry.make(entry, {}), run))
+    EXPECT_EQ(p_contact_of(*load_estimator(file, {.sample_rate = 1000.0}), run),
+              p_contact_of(*entry.make(entry, {}), run))
         << name;
   }
 }
 
-TEST(LoadedEstimator, OfTheShippedModelIsItsEntry) {
+TEST(LoadedEstimator, OfTheShippedModelEqualsItsEntry) {
   const std::filesystem::path file =
       std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/touchdown.npz";
   const RunSignals run = synthetic_run(3, 1000);
   const EstimatorEntry& entry = estimator_entry("touchdown_shipped");
-  EXPECT_EQ(told(*load_estimator(file), run), told(*entry.make(entry, {}), run));
+  EXPECT_EQ(p_contact_of(*load_estimator(file), run), p_contact_of(*entry.make(entry, {}), run));
   EXPECT_EQ(load_metadata(file).estimator, "touchdown");
   EXPECT_EQ(load_metadata(file).robot, "upkie");
 }
 
-TEST(ShippedModel, IsTheOneThatItsManifestNames) {
+TEST(ShippedModel, HasTheChecksumInItsManifest) {
   const std::filesystem::path models = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models";
   const YAML::Node manifest = YamlDocument::load(models / "touchdown.json").root();
   EXPECT_EQ(manifest["sha256"].as<std::string>(), sha256(read_file(models / "touchdown.npz")));

@@ -46,7 +46,7 @@ TEST(PhaseFitting, RefusesRunsOfReservedSeeds) {
   EXPECT_FALSE(is_reserved(fit_seed(first_reserved_seed + 3)));
 }
 
-TEST(PhaseFitting, SkipsTheBeginningAndSaysWhatItUsed) {
+TEST(PhaseFitting, SkipsTheBeginningAndRecordsItsProvenance) {
   const RunSignals run = run_of_seed(3);
   const std::vector<const RunSignals*> runs = {&run};
   const auto& [model, provenance] = fit_phases(runs, coarse(), 0.5);
@@ -56,7 +56,7 @@ TEST(PhaseFitting, SkipsTheBeginningAndSaysWhatItUsed) {
   EXPECT_EQ(provenance.at("simulators"), "mujoco");
 }
 
-TEST(PhaseFitting, KnowsWhatMayHoldTheRobot) {
+TEST(PhaseFitting, DetectsTethers) {
   recordings::RecordingInfo info;
   EXPECT_FALSE(may_be_held(info));
   info.scenario_yaml = "name: stairs\nterrain: {friction: 1}\n";
@@ -65,7 +65,7 @@ TEST(PhaseFitting, KnowsWhatMayHoldTheRobot) {
   EXPECT_TRUE(may_be_held(info));
 }
 
-TEST(PhaseFitting, RefusesNoRunsAndMixedRates) {
+TEST(PhaseFitting, RefusesMissingRunsAndMixedRates) {
   EXPECT_THROW(fit_phases({}, coarse(), 0.0), InputError);
   const RunSignals fast = run_of_seed(1);
   RunSignals slow = run_of_seed(2);

@@ -9,7 +9,7 @@
 namespace touchdown::experiments {
 namespace {
 
-TEST(Registry, TellsEstimatorsApartAndSaysWhatTheyDo) {
+TEST(Registry, HasUniqueNamesAndCompleteEntries) {
   std::set<std::string> names;
   for (const EstimatorEntry& entry : estimator_entries()) {
     EXPECT_TRUE(names.insert(entry.name).second) << entry.name;

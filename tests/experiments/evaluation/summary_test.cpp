@@ -25,7 +25,7 @@ ConditionScores delayed_by(const std::string& estimator, std::ptrdiff_t delay) {
   return scores;
 }
 
-TEST(Summary, SummariseEveryViewWithEveryMetric) {
+TEST(Summary, CoversEveryViewAndMetric) {
   const std::vector<noise::NoiseCell> cells = {{0.25, 0.0}};
   const auto summaries = summarise({delayed_by("robust", 12)}, cells, {.resamples = 50});
   ASSERT_EQ(summaries.size(), scoring::scored_views().size());

@@ -22,14 +22,14 @@ std::vector<noise::SensorNoise> levels_of(const std::vector<noise::NoiseCell>& c
   return levels;
 }
 
-/// Both ways to count, condition by condition. The network's lanes equal it to 1e-5 in probability
-/// only: a step whose probability is that close to the threshold may be decided otherwise, and the
-/// network decides for five steps and two wheels at once.
-void expect_batch_equals_one_by_one(const RunSignals& run, bool batch_apply) {
+/// Compares the counts of batches and of single levels, by condition. The network's batch equals
+/// the network to 1e-5 in probability only. A step with a probability that close to the threshold
+/// may have another decision, and the network decides for five steps and two wheels at once.
+void expect_batch_equals_one_by_one(const RunSignals& run, bool can_batch) {
   const Experiment experiment = synthetic_experiment(estimator_names());
   const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
   const std::vector<noise::NoiseCell> cells = noise::noise_cells(experiment.noise);
-  ASSERT_EQ(needs_no_guard(run, levels_of(cells)), batch_apply);
+  ASSERT_EQ(needs_no_guard(run, levels_of(cells)), can_batch);
   const NoiseRun noise = noise_run(run, noise_key(experiment, 1, run.info.run));
   for (const Condition& condition : own_engine_conditions(experiment)) {
     const std::vector<Condition> one = {condition};
@@ -51,11 +51,11 @@ void expect_batch_equals_one_by_one(const RunSignals& run, bool batch_apply) {
   }
 }
 
-TEST(SweepRun, CountsInLanesWhatItCountsOneByOne) {
+TEST(SweepRun, CountsTheSameInBatchesAsOneByOne) {
   expect_batch_equals_one_by_one(synthetic_run(3), true);
 }
 
-TEST(SweepRun, ListensOneByOneWhereASignalGuardWouldStepIn) {
+TEST(SweepRun, RunsOneByOneWhereASignalGuardWouldReact) {
   RunSignals frozen = synthetic_run(4);
   for (std::size_t k = 1000; k < 1580; ++k) frozen.signals[k].vertical_acceleration = 0.25;
   expect_batch_equals_one_by_one(frozen, false);
@@ -67,7 +67,7 @@ TEST(SweepRun, ListensOneByOneWhereASignalGuardWouldStepIn) {
   expect_batch_equals_one_by_one(broken, false);
 }
 
-TEST(SweepRun, StopsWhenAsked) {
+TEST(SweepRun, StopsOnRequest) {
   const Experiment experiment = synthetic_experiment({"robust"});
   const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
   const RunSignals run = synthetic_run(3);
@@ -77,7 +77,7 @@ TEST(SweepRun, StopsWhenAsked) {
                Stopped);
 }
 
-TEST(NoiseCells, NameEveryCellOnceAndTellKneesFromWheels) {
+TEST(NoiseCells, NameEveryCellOnceAndDistinguishKneesFromWheels) {
   const auto cells = noise::noise_cells(synthetic_experiment({"robust"}).noise);
   ASSERT_EQ(cells.size(), 3U * 3U + 2U * 2U);
   EXPECT_TRUE(std::isnan(cells.back().torque) || cells.back().knee == cells.back().wheel);
@@ -91,7 +91,7 @@ TEST(NoiseCells, NameEveryCellOnceAndTellKneesFromWheels) {
   EXPECT_EQ(noise::noise_cells(same).size(), 4U);
 }
 
-TEST(Listening, AddsUpToWhatEveryConditionConcludesByItself) {
+TEST(Evaluation, EqualsTheSumOfSingleConditions) {
   const ScratchFolder folder;
   Experiment experiment = synthetic_experiment({"robust", "measurement_only"});
   experiment.highlights = {{0.5, 3.0}};
@@ -113,7 +113,7 @@ TEST(Listening, AddsUpToWhatEveryConditionConcludesByItself) {
   const SavedCounts saved(folder.path(), "key");
   const std::vector<std::size_t> both = plan.runs_in(0);
   EXPECT_THROW(collect(plan, both, saved), Error);
-  // In whatever order they come; what is there already is not computed again.
+  // The order of tasks does not matter. Saved tasks are not computed again.
   for (const TaskRange part : {TaskRange{2, 4}, TaskRange{0, 1}}) {
     EXPECT_EQ(evaluate(plan, part, runs, experiment.scoring, models, saved, always), part.size());
   }
@@ -134,17 +134,18 @@ TEST(Listening, AddsUpToWhatEveryConditionConcludesByItself) {
         const auto alone = sweep_run_one_by_one({&conditions[c], 1}, cells, run, noise, models,
                                                 experiment.scoring, always);
         for (std::size_t i = 0; i < alone.size(); ++i) counts[i] += alone[i];
-        const auto judged =
+        const auto scored =
             scoring::score(run.contact,
                            predict(*make_estimator(conditions[c], models, run), run, noise,
                                    experiment.highlights[0].levels()),
                            run.segments, run.info.control_period_us, experiment.scoring);
-        for (std::size_t i = 0; i < scores.size(); ++i) scores[i] += judged[i].wheels();
+        for (std::size_t i = 0; i < scores.size(); ++i) scores[i] += scored[i].wheels();
       }
       for (std::size_t segment = 0; segment < run.segments.size(); ++segment) {
         const std::size_t sample = r * run.segments.size() + segment;
         for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-          EXPECT_EQ(all.counted[c].samples[cell][sample], counts[cell * run.segments.size() + segment]);
+          EXPECT_EQ(all.counted[c].samples[cell][sample],
+                    counts[cell * run.segments.size() + segment]);
         }
         const scoring::Score collected = all.scored[c].samples[0][sample].wheels();
         EXPECT_EQ(collected.points, scores[segment].points);

@@ -8,7 +8,7 @@
 namespace touchdown::experiments {
 namespace {
 
-TEST(FitModels, FitsPhasesToPiecesWhereThereAreAnyAndAllElseToWholeRuns) {
+TEST(FitModels, FitsPhasesToSegmentsAndOtherModelsToWholeRuns) {
   const Experiment experiment = synthetic_experiment({"robust", "phase"});
   const std::vector<RunSignals> whole = {synthetic_run(first_fit_run)};
   const std::vector<RunSignals> segments = {synthetic_run(first_fit_run + 7, 2000)};
@@ -18,7 +18,7 @@ TEST(FitModels, FitsPhasesToPiecesWhereThereAreAnyAndAllElseToWholeRuns) {
     return models.at("mujoco").at("phase").phase->provenance;
   };
   EXPECT_EQ(provenance(without).at("seed:run"), "1:1000000");
-  // The beginning of a whole run is not fitted; a piece is fitted from its first step.
+  // A fit skips the beginning of whole runs, but uses segments from their first step.
   EXPECT_EQ(provenance(without).at("seconds"), "3.700");
   EXPECT_EQ(provenance(with).at("seed:run"), "1:1000007");
   EXPECT_EQ(provenance(with).at("seconds"), "2.000");

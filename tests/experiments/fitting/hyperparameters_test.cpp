@@ -22,9 +22,10 @@ Experiment with(const std::string& more, const std::string& fit = "") {
       "study.yaml"));
 }
 
-const char* const given = "hyperparameters: {phase: {leave_below: 0.125}, free_fall: {half_way: -3}}\n";
+const char* const given =
+    "hyperparameters: {phase: {leave_below: 0.125}, free_fall: {half_way: -3}}\n";
 
-TEST(GivenConstants, AreWhatEstimatorsAreRunAndFittedWith) {
+TEST(GivenHyperparameters, AreUsedByFitsAndEstimators) {
   Experiment experiment = synthetic_experiment({"phase", "free_fall"});
   experiment.hyperparameters = with(given).hyperparameters;
   const std::vector<RunSignals> runs = {synthetic_run(first_fit_run)};
@@ -38,7 +39,7 @@ TEST(GivenConstants, AreWhatEstimatorsAreRunAndFittedWith) {
   EXPECT_EQ(entry_for("free_fall").chosen("half_way"), -3.0);
 }
 
-TEST(GivenConstants, StandBackBehindWhatWasChosen) {
+TEST(GivenHyperparameters, YieldToChosenOnes) {
   const Experiment experiment = with(given);
   const TunedHyperparameters all =
       or_given({{"mujoco", {{"phase", {{"leave_below", 0.3}}}}}}, experiment);
@@ -46,7 +47,7 @@ TEST(GivenConstants, StandBackBehindWhatWasChosen) {
   EXPECT_EQ(all.at("mujoco").at("free_fall").at("half_way"), -3.0);
 }
 
-TEST(GivenConstants, AreWrittenReadAndTold) {
+TEST(GivenHyperparameters, AreWrittenReadAndReported) {
   EXPECT_THAT(to_yaml(with("")), Not(HasSubstr("hyperparameters")));
   const std::string text = to_yaml(with(given));
   EXPECT_EQ(text, to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))));
@@ -54,22 +55,22 @@ TEST(GivenConstants, AreWrittenReadAndTold) {
                                               HasSubstr("half_way of Free fall: -3")));
 }
 
-TEST(GivenConstants, ComplainOnTheLine) {
-  const auto complaint = [&](const std::string& text, const std::string& fit = "") -> std::string {
+TEST(GivenHyperparameters, ReportErrorsWithTheLine) {
+  const auto error_of = [&](const std::string& text, const std::string& fit = "") -> std::string {
     try {
       (void)with(text, fit);
     } catch (const InputError& error) {
       return error.what();
     }
-    return "no complaint";
+    return "no error";
   };
-  EXPECT_THAT(complaint("hyperparameters: {phase: {leave_bellow: 0.5}}\n"),
+  EXPECT_THAT(error_of("hyperparameters: {phase: {leave_bellow: 0.5}}\n"),
               AllOf(HasSubstr("study.yaml:6:"), HasSubstr("did you mean 'leave_below'")));
-  EXPECT_THAT(complaint("hyperparameters: {fase: {leave_below: 0.5}}\n"),
+  EXPECT_THAT(error_of("hyperparameters: {fase: {leave_below: 0.5}}\n"),
               HasSubstr("did you mean 'phase'"));
-  EXPECT_THAT(complaint("hyperparameters: {phase: {leave_below: much}}\n"),
+  EXPECT_THAT(error_of("hyperparameters: {phase: {leave_below: much}}\n"),
               HasSubstr("hyperparameters.phase.leave_below"));
-  EXPECT_THAT(complaint(given, ", tuning: {trials: 2}, runs: 2, perturbed: true"),
+  EXPECT_THAT(error_of(given, ", tuning: {trials: 2}, runs: 2, perturbed: true"),
               HasSubstr("expected no fit.tuning beside it"));
 }
 

@@ -49,21 +49,21 @@ TEST(KeepRecordings, KeepsAllOrNoneOfThem) {
   EXPECT_THAT(kept(experiment), IsEmpty());
 }
 
-/// Fitted in pieces of runs of stairs and of lifting, which has slow control.
-Experiment experiment_with_pieces() {
+/// An experiment with training segments of runs of stairs, and of lifting with slow control.
+Experiment experiment_with_segments() {
   Experiment experiment;
-  experiment.name = "pieces";
+  experiment.name = "segments";
   experiment.seed = 5;
   experiment.estimators = {"robust", "phase"};
   experiment.fit = {{"scenarios/stairs.yaml"}, 2, true};
   experiment.test = {{"scenarios/stairs.yaml"}, 1, true};
   experiment.training_segments = {{.scenario = "scenarios/stairs.yaml", .runs = 3},
-                           {.scenario = "scenarios/lift.yaml", .runs = 1}};
+                                  {.scenario = "scenarios/lift.yaml", .runs = 1}};
   return experiment;
 }
 
-TEST(TrainingSegments, ArePerturbedRunsOfTheirOwnAtTheControlPeriodOfTheTestRuns) {
-  const Experiment experiment = experiment_with_pieces();
+TEST(TrainingSegments, HavePerturbedRunsAtTheControlPeriodOfTheTestRuns) {
+  const Experiment experiment = experiment_with_segments();
   const Plan plan = plan_of(request_of(experiment));
   std::set<std::string> files;
   std::vector<std::int64_t> stairs;
@@ -82,14 +82,14 @@ TEST(TrainingSegments, ArePerturbedRunsOfTheirOwnAtTheControlPeriodOfTheTestRuns
   EXPECT_EQ(plan.runs.size(), 2U * (2U + 3U + 1U + 1U));
 }
 
-TEST(TrainingSegments, AreNotPlayedForEstimatorsThatTakeNone) {
-  Experiment experiment = experiment_with_pieces();
+TEST(TrainingSegments, HaveNoRunsForEstimatorsWithoutSegments) {
+  Experiment experiment = experiment_with_segments();
   experiment.estimators = {"robust"};
   EXPECT_EQ(plan_of(request_of(experiment)).runs.size(), 2U * (2U + 1U));
 }
 
-TEST(TrainingSegments, ArePlayedWhoeverElseListens) {
-  Experiment experiment = experiment_with_pieces();
+TEST(TrainingSegments, HaveRunsForEveryEstimatorWithSegments) {
+  Experiment experiment = experiment_with_segments();
   for (const char* name :
        {"hmm", "decision_network", "evidence_curves", "touchdown", "gradient_boosting"}) {
     experiment.estimators = {name};

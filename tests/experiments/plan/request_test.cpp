@@ -18,7 +18,7 @@ RunRequest shipped(const std::string& name) {
       YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/" + name + ".yaml")));
 }
 
-TEST(Request, ThatIsWrittenIsReadBackAsTheSame) {
+TEST(Request, ReadsBackUnchanged) {
   for (const char* name : {"stairs", "noise_study", "tables", "cross_simulator", "phase_study",
                            "real_robot", "paper_course"}) {
     const ScratchFolder folder;
@@ -31,7 +31,7 @@ TEST(Request, ThatIsWrittenIsReadBackAsTheSame) {
   }
 }
 
-TEST(Request, IsNotWrittenOverAnotherUnasked) {
+TEST(Request, ReplacesAnotherOneOnlyWithOverwrite) {
   const ScratchFolder folder;
   const RunRequest stairs = shipped("stairs");
   const RunRequest tables = shipped("tables");
@@ -46,7 +46,7 @@ TEST(Request, IsNotWrittenOverAnotherUnasked) {
   EXPECT_EQ(read_request(folder.path()).id, tables.id);
 }
 
-TEST(Request, PutsItsRobotIntoEveryScenario) {
+TEST(Request, UsesItsRobotInEveryScenario) {
   RunRequest request = shipped("tables");
   const std::string own = request.id;
   Experiment experiment = request.experiment;
@@ -63,7 +63,7 @@ TEST(Request, PutsItsRobotIntoEveryScenario) {
   EXPECT_EQ(read_request(folder.path()).id, request.id);
 }
 
-TEST(Request, ThatWasChangedSinceIsNotRead) {
+TEST(Request, IsRefusedAfterAChange) {
   const ScratchFolder folder;
   const RunRequest request = shipped("stairs");
   write_request(request, RunDirectory("stairs", request.id, folder.path()), false);

@@ -18,7 +18,7 @@ RunRequest request_with(const std::string& sensors) {
   return request_of(experiment_from_yaml(document));
 }
 
-TEST(RequestedSensors, ThatAreIdealAreTheRequestOfNone) {
+TEST(RequestedSensors, MakeTheSameRequestIfIdealAsNone) {
   const RunRequest none = request_with("");
   const RunRequest ideal = request_with("sensors/ideal.yaml");
   EXPECT_EQ(none.id, ideal.id);
@@ -26,18 +26,18 @@ TEST(RequestedSensors, ThatAreIdealAreTheRequestOfNone) {
   EXPECT_EQ(setup_caption(ideal.experiment), "");
 }
 
-TEST(RequestedSensors, CountByTheirNameAndByWhatTheirFileSays) {
+TEST(RequestedSensors, CountByNameAndFileContent) {
   const ScratchFolder folder;
   const std::string mine = folder.write("mine.yaml", "torque: {white: 0.1}\n").string();
   const std::string first = request_with(mine).id;
   EXPECT_NE(first, request_with("").id);
-  folder.write("mine.yaml", "torque: {white: 1e-1, delay: 0}  # said otherwise\n");
+  folder.write("mine.yaml", "torque: {white: 1e-1, delay: 0}  # in other words\n");
   EXPECT_EQ(request_with(mine).id, first);
   folder.write("mine.yaml", "torque: {white: 0.2}\n");
   EXPECT_NE(request_with(mine).id, first);
 }
 
-TEST(RequestedSensors, AreReadBackAsTheyWereWhenTheyWereWritten) {
+TEST(RequestedSensors, AreReadFromTheCopiesInTheRunDirectory) {
   const ScratchFolder folder;
   const std::string mine = folder.write("mine.yaml", "torque: {white: 0.1}\n").string();
   const RunRequest request = request_with(mine);
@@ -50,7 +50,7 @@ TEST(RequestedSensors, AreReadBackAsTheyWereWhenTheyWereWritten) {
   EXPECT_THROW(read_request(run), InputError);
 }
 
-TEST(RequestedSensors, ReportARunInBothEnginesAlike) {
+TEST(RequestedSensors, GiveARunTheSameErrorsInBothEngines) {
   RunRequest request = request_with("sensors/harsh.yaml");
   std::vector<models::Observation> first(20), again(20), other(20);
   const noise::SensorProfile profile = request.sensors.front().profile;

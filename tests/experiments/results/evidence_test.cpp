@@ -15,7 +15,7 @@ FittedModel model_of(const EvidenceModel& model) {
               recordings::ParameterModelFile{"evidence_curves", parameters_of(model), {}})};
 }
 
-TEST(EvidenceTable, HasWhatEveryCurveSaysWhereItsRowsWere) {
+TEST(EvidenceTable, HasEveryCurveOverTheRangeOfItsRows) {
   EvidenceModel model = test::random_curves(1, false);
   model.seen[3] = {-0.1F, 2.0F};
   const Table table = evidence_table({{"mujoco", {{"evidence_curves", model_of(model)}}}});

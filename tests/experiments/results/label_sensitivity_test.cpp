@@ -34,9 +34,9 @@ class LabelSensitivity : public ::testing::Test {
     return run_experiment(experiment, {folder_ / "out", "", nullptr});
   }
 
-  /// Share of steps with more than `threshold` on the wheel, after the first 300 ms.
+  /// Share of steps with a force above `threshold` (N) on the wheel, after the first 300 ms.
   static double contact_share(const ExperimentResult& result, double threshold) {
-    double touching = 0.0;
+    double in_contact = 0.0;
     double all = 0.0;
     for (const Rollout& rollout : result.runs) {
       if (rollout.plan.role != RunRole::test) continue;
@@ -44,12 +44,12 @@ class LabelSensitivity : public ::testing::Test {
           recordings::read_recording(result.directory.file("recordings", rollout.plan.file));
       for (std::size_t k = 300; k < recording.steps(); ++k) {
         for (const double force : recording.truth[k].wheel_normal_force) {
-          touching += force > threshold ? 1.0 : 0.0;
+          in_contact += force > threshold ? 1.0 : 0.0;
           all += 1.0;
         }
       }
     }
-    return touching / all;
+    return in_contact / all;
   }
 
   const ScratchFolder folder_;
@@ -64,14 +64,14 @@ TEST_F(LabelSensitivity, CountsTheSameDecisionsAgainstEveryDefinitionOfTheTruth)
     success[row[1] + " " + row[2] + " " + row[3]] = std::stod(row[4]);
   }
   ASSERT_EQ(success.size(), 2U * 16U);
-  // Whoever always says contact is right as often as there is contact.
+  // The accuracy of always contact is the share of contact.
   for (const std::string threshold : {"0.1", "1", "5", "10"}) {
     EXPECT_NEAR(success.at("always_contact " + threshold + " 0"),
                 contact_share(result, std::stod(threshold)), 5e-5)
         << threshold;
   }
   EXPECT_LT(success.at("always_contact 10 0"), success.at("always_contact 0.1 0"));
-  // The oracle was told the experiment's own definition, and that is one of the sixteen.
+  // The oracle uses the experiment's own definition, which is one of the sixteen.
   EXPECT_DOUBLE_EQ(success.at("oracle 1 0.005"), 1.0);
   EXPECT_LT(success.at("oracle 10 0"), 1.0);
 }

@@ -9,16 +9,17 @@ namespace {
 using ::testing::HasSubstr;
 
 const CaptionedTable sample = {
-    "Above 1 N > 0, 95 %", "sample", {{"who", "how", "x_y"}, {{"a & b", "c", "1 ± 2"}}}};
+    "Above 1 N > 0, 95 %", "sample", {{"name", "how", "x_y"}, {{"a & b", "c", "1 ± 2"}}}};
 
 TEST(Markdown, HasARuleUnderItsHeader) {
   EXPECT_EQ(to_markdown(sample),
-            "Above 1 N > 0, 95 %\n\n| who | how | x_y |\n|---|---|---:|\n| a & b | c | 1 ± 2 |\n");
+            "Above 1 N > 0, 95 %\n\n| name | how | x_y |\n|---|---|---:|\n| a & b | c | 1 ± 2 |\n");
 }
 
 TEST(Latex, EscapesMarkupAndUsesBooktabs) {
   const std::string latex = to_latex(sample);
-  EXPECT_THAT(latex, HasSubstr("who & how & x\\_y \\\\\n\\midrule\na \\& b & c & 1 $\\pm$ 2 \\\\"));
+  EXPECT_THAT(latex,
+              HasSubstr("name & how & x\\_y \\\\\n\\midrule\na \\& b & c & 1 $\\pm$ 2 \\\\"));
   EXPECT_THAT(latex, HasSubstr("\\begin{tabular}{llr}"));
   EXPECT_THAT(latex, HasSubstr("\\caption{Above 1 N $>$ 0, 95 \\%}"));
 }

@@ -9,7 +9,7 @@
 namespace touchdown::experiments {
 namespace {
 
-TEST(SummaryFile, ReadsBackWhatTheTablesSay) {
+TEST(SummaryFile, ReadsBackAsWrittenAndRoundedAsTheTables) {
   const Condition condition{"bullet", "mujoco", "robust"};
   CellSummary cell;
   cell.condition = condition;

@@ -8,9 +8,9 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// A fitted run of an entry of `fit.pieces` whose signals say which step of which run they are.
+/// A fitted run of an entry of `fit.segments`. The time of its signals is the step's index.
 Rollout run_of(std::size_t entry, std::int64_t number, std::size_t steps,
-                 const std::string& simulator = "mujoco") {
+               const std::string& simulator = "mujoco") {
   Rollout run;
   run.plan.role = RunRole::fit;
   run.plan.group = segment_group(entry);
@@ -37,7 +37,7 @@ std::vector<std::size_t> begins(const std::vector<RunSignals>& segments) {
   return all;
 }
 
-TEST(Pieces, BeginRunByRunAtTheNextPlaceAndTheLastOneEndsWithTheRun) {
+TEST(TrainingSegments, BeginAtTheNextOffsetRunByRun) {
   Rollouts runs;
   for (int i = 0; i < 7; ++i) runs[static_cast<std::size_t>(i)] = run_of(0, i, 1000);
   const std::vector<TrainingSegments> segments = {
@@ -55,7 +55,7 @@ TEST(Pieces, BeginRunByRunAtTheNextPlaceAndTheLastOneEndsWithTheRun) {
   }
 }
 
-TEST(Pieces, AreCutFromTheFirstRunsThatDidNotFailOfTheirOwnEntryAndEngine) {
+TEST(TrainingSegments, ComeFromTheFirstGoodRunsOfTheirEntryAndEngine) {
   Rollouts runs;
   for (std::size_t i = 0; i < 4; ++i) runs[i] = run_of(0, static_cast<std::int64_t>(i), 100);
   runs[4] = run_of(1, 10, 100);
@@ -63,8 +63,9 @@ TEST(Pieces, AreCutFromTheFirstRunsThatDidNotFailOfTheirOwnEntryAndEngine) {
   runs[6] = run_of(0, 30, 100);
   runs[6].plan.role = RunRole::test;
   runs[1].report.outcome = recordings::Outcome::fell;
-  const std::vector<TrainingSegments> segments = {{.scenario = "a", .runs = 2, .after = 0.0, .length = 1.0},
-                                         {.scenario = "b", .runs = 2, .after = 0.0, .length = 1.0}};
+  const std::vector<TrainingSegments> segments = {
+      {.scenario = "a", .runs = 2, .after = 0.0, .length = 1.0},
+      {.scenario = "b", .runs = 2, .after = 0.0, .length = 1.0}};
   std::vector<std::int64_t> numbers;
   for (const RunSignals& segment : training_segments_of(runs, "mujoco", segments)) {
     numbers.push_back(segment.info.run);
@@ -72,7 +73,7 @@ TEST(Pieces, AreCutFromTheFirstRunsThatDidNotFailOfTheirOwnEntryAndEngine) {
   EXPECT_THAT(numbers, ElementsAre(0, 2, 10));
 }
 
-TEST(Pieces, AreShorterWhereTheRunEnds) {
+TEST(TrainingSegments, AreShorterWhereTheRunEnds) {
   const Rollouts runs = {{0, run_of(0, 0, 250)}};
   const std::vector<TrainingSegments> segments = {
       {.scenario = "a", .runs = 1, .after = 0.1, .length = 0.4, .offsets = 5}};

@@ -13,7 +13,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-TEST(FreeSpace, IsAskedForBeforeARunAndItsLackSaysWhatToDo) {
+TEST(FreeSpace, TooLittleForARunIsAnErrorWithAdvice) {
   const ScratchFolder folder;
   EXPECT_NO_THROW(require_free_space(folder.path(), 1));
   EXPECT_THAT(
@@ -22,13 +22,13 @@ TEST(FreeSpace, IsAskedForBeforeARunAndItsLackSaysWhatToDo) {
                                  HasSubstr("recordings=pictured"))));
 }
 
-TEST(FreeSpace, ThatIsLackingIsSaidWithWhatAsksForIt) {
+TEST(FreeSpace, TheErrorNamesThePurposeOfTheSpace) {
   const ScratchFolder folder;
   EXPECT_THAT([&] { require_free_space(folder.path(), std::uintmax_t{1} << 62, "so many parts"); },
               ThrowsMessage<Error>(HasSubstr("may need 4611686018.4 GB (so many parts), and ")));
 }
 
-TEST(FreeSpace, ThatIsLackingForSomethingElseIsSaidWithItsOwnAdvice) {
+TEST(FreeSpace, TheErrorUsesTheGivenAdvice) {
   const ScratchFolder folder;
   EXPECT_THAT(
       [&] {

@@ -50,7 +50,7 @@ TEST_F(Lock, HeldAloneRefusesAllOthersAndNamesItsHolder) {
   EXPECT_TRUE(is_free(Access::alone));
 }
 
-TEST_F(Lock, IsSharedByThoseWhoShareItAndKeptByTheLastCopy) {
+TEST_F(Lock, IsSharedOnRequestAndKeptByTheLastCopy) {
   std::optional<DirectoryLock> first = take(Access::shared, "touchdown run --shard 1/2");
   std::optional<DirectoryLock> second = take(Access::shared, "touchdown run --shard 2/2");
   EXPECT_THAT([&] { take(Access::alone); }, ThrowsMessage<Error>(HasSubstr("--shard 2/2")));
@@ -87,8 +87,8 @@ TEST_F(Lock, OfAKilledProcessIsGone) {
     [[maybe_unused]] const auto written = ::write(ready[1], "x", 1);
     for (;;) ::pause();
   }
-  char said = 0;
-  ASSERT_EQ(::read(ready[0], &said, 1), 1);
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
   EXPECT_THAT([&] { take(Access::alone); },
               ThrowsMessage<Error>(
                   AllOf(HasSubstr("process " + std::to_string(holder)), HasSubstr("killed.yaml"))));
@@ -99,22 +99,22 @@ TEST_F(Lock, OfAKilledProcessIsGone) {
   ::close(ready[1]);
 }
 
-TEST_F(Lock, OfAKilledProcessIsWaitedForWhileThoseItForkedDie) {
+TEST_F(Lock, OfAKilledProcessIsWaitedForWhileItsChildrenDie) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);
   const pid_t holder = ::fork();
   if (holder == 0) {
     const DirectoryLock held = take(Access::alone);
     if (::fork() == 0) {
-      // Outlives it, as a process that is busy when it is told to die.
+      // Outlives its parent, as a busy process does after a signal.
       ::usleep(300'000);
       ::_exit(0);
     }
     [[maybe_unused]] const auto written = ::write(ready[1], "x", 1);
     for (;;) ::pause();
   }
-  char said = 0;
-  ASSERT_EQ(::read(ready[0], &said, 1), 1);
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
   EXPECT_FALSE(is_free(Access::alone));
   ::kill(holder, SIGKILL);
   ::waitpid(holder, nullptr, 0);
@@ -123,13 +123,13 @@ TEST_F(Lock, OfAKilledProcessIsWaitedForWhileThoseItForkedDie) {
   ::close(ready[1]);
 }
 
-TEST_F(Lock, OfADirectoryThatIsRemovedIsWorthNothing) {
+TEST_F(Lock, EndsWhenItsDirectoryIsRemoved) {
   const DirectoryLock held = take(Access::alone);
   fs::remove_all(folder / "state");
   EXPECT_TRUE(is_free(Access::alone));
 }
 
-TEST_F(Lock, ForReadingMakesNoFileAndWaitsForNobodyWhoWrites) {
+TEST_F(Lock, ForReadingMakesNoFileAndIsRefusedDuringWrites) {
   DirectoryLock::for_reading(folder.path(), "touchdown render");
   EXPECT_TRUE(fs::is_empty(folder.path()));
   std::optional<DirectoryLock> held = take(Access::alone, "touchdown run");

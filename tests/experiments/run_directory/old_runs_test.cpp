@@ -37,7 +37,7 @@ TEST_F(OldRuns, AreAllButTheLatestOfEachExperiment) {
   EXPECT_EQ(old[0].bytes, 100U);
 }
 
-TEST_F(OldRuns, LeaveAloneWhatIsNotSurelyOne) {
+TEST_F(OldRuns, LeaveOutFoldersThatMayBeNoRuns) {
   run("without_latest", "aa");
   run("broken_link", "bb");
   fs::create_directory_symlink("gone", folder.path() / "broken_link" / "latest");
@@ -50,7 +50,7 @@ TEST_F(OldRuns, LeaveAloneWhatIsNotSurelyOne) {
   EXPECT_TRUE(old_runs(folder.path()).empty());
 }
 
-TEST_F(OldRuns, OfAFolderThatIsNotThereAreAnError) {
+TEST_F(OldRuns, OfAMissingFolderAreAnError) {
   EXPECT_THAT([&] { old_runs(folder.path() / "rnus"); },
               ThrowsMessage<InputError>(HasSubstr("rnus: expected a folder of runs")));
 }

@@ -14,7 +14,7 @@ using ::testing::UnorderedElementsAreArray;
 
 namespace fs = std::filesystem;
 
-TEST(PartialFiles, ThatKilledWritersLeftAreRemoved) {
+TEST(PartialFiles, OfKilledProcessesAreRemoved) {
   const ScratchFolder folder;
   folder.write("tables/.success.1234.0abc.part.csv", "half");
   folder.write("state/.part.77.0abc.part", "half");
@@ -29,27 +29,27 @@ TEST(PartialFiles, ThatKilledWritersLeftAreRemoved) {
   EXPECT_TRUE(std::filesystem::exists(folder / "tables/my.parts"));
 }
 
-TEST(PartialFiles, OfSomebodyElseStay) {
+TEST(PartialFiles, WithOtherNamesOrInOtherFoldersStay) {
   const ScratchFolder folder;
-  const std::vector<std::string> theirs = {
+  const std::vector<std::string> untracked = {
       ".my.part.notes",  ".config/.a.partition",          "deep/.success.1234.0abc.part.csv",
       "tables/.x.part",  "tables/deep/.x.12.0abc.part",   ".film.12.0abcdef0.part.mp4",
       "tables/a.part",   ".config.12.0abcdef0.part.toml", "figures/.work.part/precious",
       "videos/.part.mp4"};
-  for (const std::string& file : theirs) folder.write(file, "precious");
+  for (const std::string& file : untracked) folder.write(file, "precious");
   const ScratchFolder elsewhere;
   elsewhere.write(".a.12.0abcdef0.part", "precious");
   fs::create_directory_symlink(elsewhere.path(), folder / "models");
   folder.write(".config.12.0abcdef0.part.yaml", "half");
   folder.write(".report.12.0abcdef0.part.html", "half");
   remove_partial_files(folder.path());
-  for (const std::string& file : theirs) EXPECT_TRUE(fs::exists(folder / file)) << file;
+  for (const std::string& file : untracked) EXPECT_TRUE(fs::exists(folder / file)) << file;
   EXPECT_TRUE(fs::exists(elsewhere / ".a.12.0abcdef0.part"));
   EXPECT_FALSE(fs::exists(folder / ".config.12.0abcdef0.part.yaml"));
   EXPECT_FALSE(fs::exists(folder / ".report.12.0abcdef0.part.html"));
 }
 
-/// A run directory with a file of every kind, and files of somebody's own among them.
+/// A run directory with a file of every kind, and untracked files among them.
 struct OwnFiles : ::testing::Test {
   OwnFiles() {
     folder.write("config.yaml", "name: a\nsimulators: [mujoco]\nestimators: [robust]\n");
@@ -59,14 +59,15 @@ struct OwnFiles : ::testing::Test {
                  "plot 'success_mujoco.dat', 'success_mujoco_2.dat'\n");
     for (const char* file :
          {"state/recordings/mujoco_step_test_000.mpack.sum",
-          "recordings/mujoco_step_test_000.mpack", "state/evaluation/mujoco_step_test_000_seed_0000",
-          "state/shards/1_of_2", "state/foreign/mine", "models/mujoco_robust.npz",
-          "tables/success.csv", "tables/summary.json", "figures/success_mujoco.png",
-          "figures/success_mujoco.dat", "figures/success_mujoco_2.dat", "figures/style.gp",
-          "videos/mujoco_step.mp4", "videos/report.jpg", "manifest.json", "report.html"}) {
+          "recordings/mujoco_step_test_000.mpack",
+          "state/evaluation/mujoco_step_test_000_seed_0000", "state/shards/1_of_2",
+          "state/submissions/mine", "models/mujoco_robust.npz", "tables/success.csv",
+          "tables/summary.json", "figures/success_mujoco.png", "figures/success_mujoco.dat",
+          "figures/success_mujoco_2.dat", "figures/style.gp", "videos/mujoco_step.mp4",
+          "videos/report.jpg", "manifest.json", "report.html"}) {
       folder.write(file, "ours");
     }
-    for (const std::string& file : theirs) folder.write(file, "precious");
+    for (const std::string& file : untracked) folder.write(file, "precious");
     folder.write("state/key", "experiment x build y\n");
     folder.write("state/lock", "");
   }
@@ -80,22 +81,22 @@ struct OwnFiles : ::testing::Test {
     return names;
   }
 
-  const std::vector<std::string> theirs = {"notes.md",
-                                           "tables/thesis.csv",
-                                           "recordings/mujoco_robot_test_000.mpack",
-                                           "models/mujoco_mine.npz",
-                                           "figures/success_mine.png",
-                                           "figures/success_mujoco_mine.dat",
-                                           "figures/mine.gp",
-                                           "videos/mujoco_talk.mp4",
-                                           "state/todo",
-                                           "data/config.yaml"};
+  const std::vector<std::string> untracked = {"notes.md",
+                                              "tables/thesis.csv",
+                                              "recordings/mujoco_robot_test_000.mpack",
+                                              "models/mujoco_mine.npz",
+                                              "figures/success_mine.png",
+                                              "figures/success_mujoco_mine.dat",
+                                              "figures/mine.gp",
+                                              "videos/mujoco_talk.mp4",
+                                              "state/todo",
+                                              "data/config.yaml"};
   const ScratchFolder folder;
 };
 
 TEST_F(OwnFiles, AloneAreRemoved) {
   remove_own_files(folder.path());
-  std::vector<std::string> expected = theirs;
+  std::vector<std::string> expected = untracked;
   expected.insert(expected.end(), {"state/key", "state/lock"});
   EXPECT_THAT(left(), UnorderedElementsAreArray(expected));
   EXPECT_FALSE(fs::exists(folder / "state/evaluation"));
@@ -117,11 +118,11 @@ TEST_F(OwnFiles, AreNotSearchedForThroughLinks) {
   EXPECT_TRUE(fs::exists(elsewhere / "success.csv"));
 }
 
-TEST_F(OwnFiles, OfAWholeRunGoWithItsFolderUnlessSomebodysOwnStay) {
+TEST_F(OwnFiles, OfAWholeRunGoWithItsFolderUnlessUntrackedFilesStay) {
   const UntrackedFiles left_over = remove_run(folder.path());
-  EXPECT_EQ(left_over.files, theirs.size());
-  EXPECT_EQ(left_over.bytes, theirs.size() * std::string("precious").size());
-  for (const std::string& file : theirs) fs::remove(folder / file);
+  EXPECT_EQ(left_over.files, untracked.size());
+  EXPECT_EQ(left_over.bytes, untracked.size() * std::string("precious").size());
+  for (const std::string& file : untracked) fs::remove(folder / file);
   fs::remove(folder / "data");
   EXPECT_EQ(remove_run(folder.path()).files, 0U);
   EXPECT_FALSE(fs::exists(folder.path()));

@@ -44,7 +44,7 @@ TEST(RunDirectoryOwner, IsReadFromTheManifestOnceTheStateWasRemoved) {
   EXPECT_EQ(owner_of(folder.path())->key, "");
 }
 
-TEST(PlaceOfATraining, IsNoExperimentsAndHasNoConfigurationOfSomebodyElse) {
+TEST(TrainingDirectory, IsRefusedWithAnExperimentOrAnotherConfiguration) {
   const ScratchFolder folder;
   const auto ask = [&] {
     require_place_beside(folder.path(), "name: nmn\n", "tables/training.csv");
@@ -54,14 +54,14 @@ TEST(PlaceOfATraining, IsNoExperimentsAndHasNoConfigurationOfSomebodyElse) {
   EXPECT_NO_THROW(ask());
   folder.write("config.yaml", "precious: true\n");
   EXPECT_THAT(ask, ThrowsMessage<InputError>(HasSubstr("config.yaml is there already")));
-  // With more iterations, a training goes on.
+  // A training may continue with more iterations.
   folder.write("tables/training.csv", "iteration\n");
   EXPECT_NO_THROW(ask());
   folder.write("state/key", key_of("0123", "abcd") + "\n");
   EXPECT_THAT(ask, ThrowsMessage<InputError>(HasSubstr("holds experiment")));
 }
 
-TEST(UntrackedFiles, WhereARunWouldWriteAreNamed) {
+TEST(UntrackedFiles, InPlacesOfARunsFilesAreNamed) {
   for (const std::string file : {"config.yaml", "manifest.json", "report.html", "tables/a.csv",
                                  "videos/a.mp4", "state/deep/a", "state/notes", "models/.hidden"}) {
     const ScratchFolder folder;
@@ -74,17 +74,17 @@ TEST(UntrackedFiles, WhereARunWouldWriteAreNamed) {
   }
 }
 
-TEST(UntrackedFiles, AreNoneOnceTheDirectoryIsARuns) {
+TEST(UntrackedFiles, AreNoneOnceARunOwnsTheDirectory) {
   const ScratchFolder folder;
   folder.write("config.yaml", "name: stairs\n");
   folder.write("state/scenario_000.yaml", "name: stairs\n");
   EXPECT_THROW(require_no_untracked_files(folder.path()), InputError);
-  // Of two runs that start together, the first writes its key while the second looks around.
+  // Of two runs that start together, the first writes its key while the second checks the files.
   folder.write("state/key", key_of("0123", "abcd") + "\n");
   EXPECT_NO_THROW(require_no_untracked_files(folder.path()));
 }
 
-TEST(UntrackedFiles, AreNotInTheWayElsewhere) {
+TEST(UntrackedFiles, AreAllowedElsewhere) {
   const ScratchFolder folder;
   EXPECT_NO_THROW(require_no_untracked_files(folder.path()));
   EXPECT_NO_THROW(require_no_untracked_files(folder / "missing"));
@@ -92,7 +92,7 @@ TEST(UntrackedFiles, AreNotInTheWayElsewhere) {
   folder.write("logs/shard_1_1.txt", "of the cluster");
   folder.write("my/tables/a.csv", "precious");
   fs::create_directory(folder / "tables");
-  // What a start that was killed, or that happens at this moment, leaves.
+  // Files of a killed or concurrent start.
   folder.write("state/lock", "");
   folder.write("state/.key.12.0abcdef0.part", "half");
   EXPECT_NO_THROW(require_no_untracked_files(folder.path()));

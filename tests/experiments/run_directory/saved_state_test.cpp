@@ -28,7 +28,7 @@ TEST(SavedState, ComesBackUnderItsOwnKeyOnly) {
   EXPECT_EQ(read_state(folder.path(), "experiment a build b"), std::nullopt);
 }
 
-TEST(SavedState, IsNotBelievedWhenPartOfItIsMissingOrWrong) {
+TEST(SavedState, IsRejectedWhenPartOfItIsMissingOrWrong) {
   const ScratchFolder folder;
   const auto file = folder / "part";
   write_state(file, "key", bytes(200));
@@ -60,7 +60,7 @@ TEST(SavedState, ChecksumsOfFilesAreThoseOfTheirContent) {
   EXPECT_EQ(file_checksum(folder / "missing"), std::nullopt);
 }
 
-TEST(SavedState, SaysUnderWhichKeyItLies) {
+TEST(SavedState, IsReadWithItsKey) {
   const ScratchFolder folder;
   const auto file = folder / "part";
   write_state(file, "experiment a build b part c", bytes(50));

@@ -36,7 +36,7 @@ TEST(Shard, RefusesWhatIsNone) {
   }
 }
 
-TEST(ShardLog, TellsHowManyShardsWereStarted) {
+TEST(ShardMarks, GiveTheNumberOfShards) {
   const ScratchFolder folder;
   EXPECT_EQ(started_shards(folder.path()), 1);
   mark_shard_started(folder.path(), {2, 5});

@@ -38,8 +38,8 @@ TEST(EncoderNoise, MayNotBeNegative) {
   EXPECT_THROW(experiment_from_yaml(YamlDocument::parse(text, "file")), InputError);
 }
 
-/// Who uses joint states hears it; whoever listens to torques and accelerations does not.
-TEST(EncoderNoise, TouchesOnlyWhoListensToEncoders) {
+/// Encoder noise changes estimators that use joint states, and no others.
+TEST(EncoderNoise, ChangesOnlyEstimatorsThatUseEncoders) {
   const RunSignals run = synthetic_run(3);
   const Experiment experiment = synthetic_experiment(estimator_names());
   const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
@@ -49,9 +49,9 @@ TEST(EncoderNoise, TouchesOnlyWhoListensToEncoders) {
     const auto exact = predict(*estimator, run, noise, {});
     const auto noisy =
         predict(*estimator, run, noise, {.joint_position = 0.3, .joint_velocity = 30.0});
-    const bool moved = exact[0].p_contact != noisy[0].p_contact;
+    const bool changed = exact[0].p_contact != noisy[0].p_contact;
     const Sensors& sensors = estimator_entry(name).sensors;
-    EXPECT_EQ(moved, sensors.joint_position || sensors.joint_velocity) << name;
+    EXPECT_EQ(changed, sensors.joint_position || sensors.joint_velocity) << name;
   }
 }
 

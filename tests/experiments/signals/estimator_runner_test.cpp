@@ -18,24 +18,24 @@ namespace {
 using ::testing::Each;
 using ::testing::HasSubstr;
 
-WholeRunEstimator free_fall_at_once() {
-  return [](std::span<const Signals> heard) {
+WholeRunEstimator whole_run_free_fall() {
+  return [](std::span<const Signals> steps) {
     FreeFall estimator{FreeFallConfig{}};
     std::vector<Belief> beliefs;
-    for (const Signals& signals : heard) beliefs.push_back(estimator.update(signals));
+    for (const Signals& signals : steps) beliefs.push_back(estimator.update(signals));
     return beliefs;
   };
 }
 
-EstimatorEntry guest(const std::string& name) {
+EstimatorEntry external(const std::string& name) {
   return {.name = name,
-          .title = "Guest",
-          .summary = "free fall, heard at once",
+          .title = "External",
+          .summary = "Runs free fall on whole runs",
           .sensors = {.acceleration = true},
-          .whole_run = [](const EstimatorSetup& /*setup*/) { return free_fall_at_once(); }};
+          .whole_run = [](const EstimatorSetup& /*setup*/) { return whole_run_free_fall(); }};
 }
 
-TEST(EstimatorRunner, HearsAtOnceWhatItHearsStepByStep) {
+TEST(EstimatorRunner, GivesTheSameBeliefsForWholeRunsAsStepByStep) {
   RunSignals run = synthetic_run(0);
   for (std::size_t k = 650; k < 700; ++k) {
     run.signals[k].time = std::numeric_limits<double>::quiet_NaN();  // no record of it
@@ -43,20 +43,20 @@ TEST(EstimatorRunner, HearsAtOnceWhatItHearsStepByStep) {
   const NoiseRun noise = noise_run(run, {.seed = 5});
   const noise::SensorNoise levels{.acceleration = 4.0};
   EstimatorRunner by_step(std::make_unique<FreeFall>(FreeFallConfig{}));
-  EstimatorRunner whole_run(free_fall_at_once());
+  EstimatorRunner whole_run(whole_run_free_fall());
   EXPECT_EQ(decide(whole_run, run, noise, levels), decide(by_step, run, noise, levels));
   const scoring::Prediction expected = predict(by_step, run, noise, levels);
-  const scoring::Prediction said = predict(whole_run, run, noise, levels);
+  const scoring::Prediction predicted = predict(whole_run, run, noise, levels);
   for (std::size_t view = 0; view < scoring::view_count; ++view) {
-    EXPECT_EQ(said[view].p_contact, expected[view].p_contact);
-    EXPECT_EQ(said[view].contact, expected[view].contact);
+    EXPECT_EQ(predicted[view].p_contact, expected[view].p_contact);
+    EXPECT_EQ(predicted[view].contact, expected[view].contact);
   }
-  const auto& p = said[0].p_contact;
+  const auto& p = predicted[0].p_contact;
   EXPECT_THAT(std::vector<double>(p.begin() + 650, p.begin() + 700), Each(p[649]));
 }
 
-TEST(Guests, AreListenedToLikeOurs) {
-  const ExternalEstimators present({guest("python:test.Guest")});
+TEST(ExternalEstimators, AreEvaluatedLikeBuiltInOnes) {
+  const ExternalEstimators present({external("python:test.External")});
   const Experiment experiment = synthetic_experiment({"free_fall"});
   const RunSignals run = synthetic_run(0);
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 0));
@@ -66,50 +66,50 @@ TEST(Guests, AreListenedToLikeOurs) {
     return sweep_run({&condition, 1}, cells, run, noise, {}, experiment.scoring,
                      [] { return true; });
   };
-  EXPECT_EQ(counts_of("python:test.Guest"), counts_of("free_fall"));
-  EXPECT_THROW(make_estimator({"mujoco", "mujoco", "python:test.Guest"}, {}, run), InputError);
+  EXPECT_EQ(counts_of("python:test.External"), counts_of("free_fall"));
+  EXPECT_THROW(make_estimator({"mujoco", "mujoco", "python:test.External"}, {}, run), InputError);
 }
 
-TEST(Guests, AreKnownWhileTheirHostIsThere) {
-  const std::size_t ours = estimator_names().size();
-  EXPECT_THROW(estimator_entry("python:test.Guest"), InputError);
+TEST(ExternalEstimators, AreRegisteredWhileTheirObjectLives) {
+  const std::size_t built_in = estimator_names().size();
+  EXPECT_THROW(estimator_entry("python:test.External"), InputError);
   {
-    const ExternalEstimators present({guest("python:test.Guest")});
-    EXPECT_EQ(estimator_entry("python:test.Guest").title, "Guest");
-    EXPECT_EQ(estimator_names().size(), ours + 1);
-    EXPECT_EQ(estimator_entries().size(), ours);
-    EXPECT_THROW(ExternalEstimators({guest("python:test.Other")}), InputError);
+    const ExternalEstimators present({external("python:test.External")});
+    EXPECT_EQ(estimator_entry("python:test.External").title, "External");
+    EXPECT_EQ(estimator_names().size(), built_in + 1);
+    EXPECT_EQ(estimator_entries().size(), built_in);
+    EXPECT_THROW(ExternalEstimators({external("python:test.Other")}), InputError);
   }
-  EXPECT_THROW(estimator_entry("python:test.Guest"), InputError);
-  EXPECT_THROW(ExternalEstimators({guest("robust")}), InputError);
-  EXPECT_EQ(estimator_names().size(), ours);
+  EXPECT_THROW(estimator_entry("python:test.External"), InputError);
+  EXPECT_THROW(ExternalEstimators({external("robust")}), InputError);
+  EXPECT_EQ(estimator_names().size(), built_in);
 }
 
-constexpr const char* experiment_with_guest =
-    "name: guests\nsimulators: [mujoco]\nestimators: [free_fall, python:test.Guest]\n"
+constexpr const char* experiment_with_external =
+    "name: external\nsimulators: [mujoco]\nestimators: [free_fall, python:test.External]\n"
     "fit: {scenarios: [scenarios/flat.yaml]}\ntest: {scenarios: [scenarios/flat.yaml]}\n"
     "video: {enabled: false}\n";
 
-TEST(Guests, AreRefusedWithTheWayToRunThemWhereNobodyBringsThem) {
-  const YamlDocument document = YamlDocument::parse(experiment_with_guest, "guests.yaml");
+TEST(ExternalEstimators, AreRefusedWithAHintWithoutPython) {
+  const YamlDocument document = YamlDocument::parse(experiment_with_external, "external.yaml");
   try {
     experiment_from_yaml(document);
-    FAIL() << "was taken";
+    FAIL() << "was accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("guests.yaml:3:"));
-    EXPECT_THAT(error.what(), HasSubstr("'python:test.Guest' is written in Python: run the "
+    EXPECT_THAT(error.what(), HasSubstr("external.yaml:3:"));
+    EXPECT_THAT(error.what(), HasSubstr("'python:test.External' is written in Python: run the "
                                         "experiment from there, by 'python3 -m touchdown run'"));
   }
 }
 
-TEST(Guests, OfAnotherRevisionMakeAnotherRequest) {
+TEST(ExternalEstimators, OfAnotherRevisionMakeAnotherRequest) {
   const auto id_of = [](const std::string& revision) {
-    EstimatorEntry entry = guest("python:test.Guest");
+    EstimatorEntry entry = external("python:test.External");
     entry.revision = revision;
     const ExternalEstimators present({entry});
-    const YamlDocument document = YamlDocument::parse(experiment_with_guest, "guests.yaml");
+    const YamlDocument document = YamlDocument::parse(experiment_with_external, "external.yaml");
     const Experiment experiment = experiment_from_yaml(document);
-    // Written out, it reads back.
+    // It reads back from its own text.
     EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(to_yaml(experiment), "again"))),
               to_yaml(experiment));
     return request_of(experiment).id;

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "experiments/estimators/measurement_fitting.hpp"
+#include "experiments/evaluation/sweep_batch.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/fitting/make_estimator.hpp"
-#include "experiments/evaluation/sweep_batch.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {
@@ -13,23 +13,23 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Says how many steps it has heard of: contact where the number is odd.
+/// Counts its updates. It reports contact after an odd number of updates.
 class Counter : public ContactEstimator {
  public:
-  void reset() noexcept override { belief_ = {}, heard_ = 0; }
+  void reset() noexcept override { belief_ = {}, updates_ = 0; }
   const Belief& update(const Signals& /*signals*/) noexcept override {
-    ++heard_;
-    belief_.wheel[0].contact = heard_ % 2 == 1;
-    belief_.wheel[0].p_contact = 1e-3 * heard_;
+    ++updates_;
+    belief_.wheel[0].contact = updates_ % 2 == 1;
+    belief_.wheel[0].p_contact = 1e-3 * updates_;
     return belief_;
   }
 
  private:
   Belief belief_;
-  int heard_ = 0;
+  int updates_ = 0;
 };
 
-Signals nothing() {
+Signals no_record() {
   Signals signals;
   signals.time = signals.vertical_acceleration = nan;
   signals.linear_acceleration.setConstant(nan);
@@ -41,11 +41,11 @@ Signals nothing() {
 /// Six steps of which the first, the fourth and the fifth have no record.
 RunSignals with_gaps() {
   RunSignals run = synthetic_run(3, 6);
-  for (const std::size_t k : {0U, 3U, 4U}) run.signals[k] = nothing();
+  for (const std::size_t k : {0U, 3U, 4U}) run.signals[k] = no_record();
   return run;
 }
 
-TEST(MissingRecords, AreNotHeardAndTheLastBeliefStands) {
+TEST(MissingRecords, AreSkippedAndTheLastBeliefHolds) {
   const RunSignals run = with_gaps();
   const NoiseRun noise = noise_run(run, {1, 2});
   Counter counter;
@@ -55,9 +55,9 @@ TEST(MissingRecords, AreNotHeardAndTheLastBeliefStands) {
   EXPECT_EQ(prediction[0].p_contact, (std::vector{0.5, 0.001, 0.002, 0.002, 0.002, 0.003}));
 }
 
-TEST(MissingRecords, PassTheOracleBy) {
+TEST(MissingRecords, SkipLabelsOfTheOracle) {
   RunSignals run = synthetic_run(3);
-  for (std::size_t k = 620; k < 650; ++k) run.signals[k] = nothing();
+  for (std::size_t k = 620; k < 650; ++k) run.signals[k] = no_record();
   const NoiseRun noise = noise_run(run, {1, 2});
   const auto oracle = make_estimator({"mujoco", "mujoco", "oracle"}, {}, run);
   const auto decided = decide(*oracle, run, noise, {});
@@ -65,15 +65,15 @@ TEST(MissingRecords, PassTheOracleBy) {
   EXPECT_EQ(decided[1], run.contact[1]);
 }
 
-TEST(MissingRecords, AreNothingForLanes) {
+TEST(MissingRecords, PreventBatches) {
   const std::vector<noise::SensorNoise> levels(1);
   EXPECT_TRUE(needs_no_guard(synthetic_run(3, 6), levels));
   EXPECT_FALSE(needs_no_guard(with_gaps(), levels));
 }
 
-TEST(MissingRecords, AndTorquesThatAreNoNumbersAreLeftOutOfTheFitOfAMeasurement) {
+TEST(MissingRecords, AndNanTorquesAreLeftOutOfMeasurementFits) {
   RunSignals run = synthetic_run(first_fit_run);
-  run.signals[1500] = nothing();
+  run.signals[1500] = no_record();
   run.signals[2650].leg[1].knee.torque = nan;
   MeasurementConfig config;
   config.torque.low_pass = 0.0;
@@ -95,12 +95,12 @@ TEST(MissingRecords, AndTorquesThatAreNoNumbersAreLeftOutOfTheFitOfAMeasurement)
   }
 }
 
-TEST(MissingRecords, RepeatTheValuesBeforeInTheFitOfPhases) {
+TEST(MissingRecords, RepeatThePreviousValuesInPhaseFits) {
   const Experiment experiment = synthetic_experiment({"phase"});
   RunSignals gaps = synthetic_run(first_fit_run);
   RunSignals repeats = gaps;
   for (std::size_t k = 700; k < 710; ++k) {
-    gaps.signals[k] = nothing();
+    gaps.signals[k] = no_record();
     repeats.signals[k] = repeats.signals[699];
   }
   gaps.signals[1200].leg[0].wheel.torque = nan;

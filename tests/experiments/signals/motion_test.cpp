@@ -16,7 +16,7 @@ scenarios::Scenario with_robot(const char* robot) {
   return scenario;
 }
 
-TEST(WheeledBiped, OfUpkiesModelIsTheOneThatOdometryKnows) {
+TEST(WheeledBiped, OfUpkiesModelEqualsThatOfOdometry) {
   const odometry::WheeledBiped found =
       wheeled_biped(scenarios::compile_robot(with_robot("models/upkie.xml")));
   const odometry::WheeledBiped known = odometry::upkie();
@@ -30,7 +30,7 @@ TEST(WheeledBiped, OfUpkiesModelIsTheOneThatOdometryKnows) {
   }
 }
 
-TEST(WheeledBiped, HasItsWheelsWhereTheEnginesKinematicsHasThem) {
+TEST(WheeledBiped, HasTheWheelPositionsOfTheEnginesKinematics) {
   for (const char* robot : {"models/upkie.xml", "models/upkie_asymmetric.yaml",
                             "models/upkie_long_legs.yaml", "models/upkie_large_wheels.yaml"}) {
     const models::RobotModel model = scenarios::compile_robot(with_robot(robot));
@@ -52,7 +52,7 @@ TEST(WheeledBiped, HasItsWheelsWhereTheEnginesKinematicsHasThem) {
 
 class Driven : public ::testing::TestWithParam<const char*> {};  // by engine
 
-TEST_P(Driven, OdometryIsWhereTheRobotIs) {
+TEST_P(Driven, OdometryFollowsTheRobot) {
   scenarios::Scenario scenario = with_robot("models/upkie.xml");  // flat ground, in a curve
   scenario.velocity = {{0.5, 0.5, 0.3}};
   scenario.end.duration = 6.0;

@@ -9,7 +9,7 @@
 namespace touchdown::experiments {
 namespace {
 
-/// A run with tilting attitude and changing torques, in contact but for steps 40 to 79.
+/// A run with tilting attitude and changing torques, in contact except for steps 40 to 79.
 recordings::Recording wobbling_run() {
   recordings::Recording recording;
   for (int k = 0; k < 100; ++k) {
@@ -31,7 +31,7 @@ recordings::Recording wobbling_run() {
   return recording;
 }
 
-TEST(RunSignals, HaveTheCommandOfTheStepBefore) {
+TEST(RunSignals, HaveTheCommandOfThePreviousStep) {
   const RunSignals run = signals_of(wobbling_run(), {}, {}, scoring::SampleUnit::run);
   EXPECT_EQ(run.signals[0].ground_velocity_command, 0.0);
   EXPECT_NEAR(run.signals[61].ground_velocity_command, 60 * recordings::upkie_wheel_radius, 1e-12);
@@ -39,7 +39,7 @@ TEST(RunSignals, HaveTheCommandOfTheStepBefore) {
             (std::vector<scoring::Flight>{{.takeoff = 40, .landing = 80}}));
 }
 
-TEST(RunSignals, ScaledUnitNoiseIsWhatNoisySensorsReport) {
+TEST(RunSignals, WithScaledUnitNoiseEqualNoisySensors) {
   const recordings::Recording recording = wobbling_run();
   const RunSignals run = signals_of(recording, {}, {}, scoring::SampleUnit::run);
   const noise::NoiseKey key{.seed = 5, .run = 2};
@@ -81,7 +81,7 @@ TEST(RunSignals, WithoutNoiseAreTheCleanOnes) {
   EXPECT_EQ(signals.leg[1].wheel.torque, run.signals[50].leg[1].wheel.torque);
 }
 
-/// Turned into every attitude.
+/// A run in which the IMU takes every attitude.
 RunSignals tumbling_run(std::size_t steps) {
   recordings::Recording recording;
   for (std::size_t i = 0; i < steps; ++i) {
@@ -102,7 +102,7 @@ RunSignals tumbling_run(std::size_t steps) {
 
 constexpr noise::NoiseKey key{42, 3};
 
-TEST(NoiseRun, ScaledByTheLevelIsExactlyWhatNoisySensorsReport) {
+TEST(NoiseRun, ScaledByTheLevelEqualsNoisySensorsExactly) {
   const RunSignals run = tumbling_run(501);
   const NoiseRun noise = noise_run(run, key);
   for (std::size_t step = 0; step < run.steps(); ++step) {
@@ -128,7 +128,7 @@ TEST(NoiseRun, ScaledByTheLevelIsExactlyWhatNoisySensorsReport) {
   }
 }
 
-TEST(NoiseRun, TheVerticalNoiseKeepsItsVarianceHoweverTheRobotIsTurned) {
+TEST(NoiseRun, HasTheSameVerticalVarianceForAllAttitudes) {
   const NoiseRun noise = noise_run(tumbling_run(100'000), key);
   double sum = 0.0;
   for (const double value : noise.vertical_acceleration) sum += value * value;

@@ -10,15 +10,15 @@
 namespace touchdown::experiments {
 namespace {
 
-/// Remembers what it was given.
-class EstimatorRunner : public ContactEstimator {
+/// Stores its inputs.
+class RecordingEstimator : public ContactEstimator {
  public:
-  void reset() noexcept override { heard.clear(); }
+  void reset() noexcept override { inputs.clear(); }
   const Belief& update(const Signals& signals) noexcept override {
-    heard.push_back(signals);
+    inputs.push_back(signals);
     return belief_;
   }
-  std::vector<Signals> heard;
+  std::vector<Signals> inputs;
 
  private:
   Belief belief_;
@@ -30,7 +30,7 @@ std::uint64_t bits(double value) {
   return result;
 }
 
-/// A run whose numbers are all different, with two steps of which there is no record.
+/// A run with all numbers different, and two steps without a record.
 RunSignals run_with_gaps() {
   RunSignals run = synthetic_run(3, 600);
   for (std::size_t k = 0; k < run.steps(); ++k) {
@@ -51,15 +51,15 @@ RunSignals run_with_gaps() {
   return run;
 }
 
-/// The numbers of a step in the order of the export's documents.
-void expect_heard(const recordings::NpzArrays& arrays, std::size_t step, const Signals& signals) {
+/// Expects the numbers of a step in the documented order.
+void expect_step(const recordings::NpzArrays& arrays, std::size_t step, const Signals& signals) {
   const auto expect = [&](const char* name, std::size_t column, double value) {
     const recordings::NpyArray& array = arrays.at(name);
     ASSERT_EQ(bits(array.data.at(step * array.columns() + column)), bits(value))
         << name << " at " << step;
   };
   expect("time", 0, signals.time);
-  expect("heard", 0, 1.0);
+  expect("has_record", 0, 1.0);
   std::size_t column = 0;
   for (const LegSignals& leg : signals.leg) {
     for (const JointSignals& joint : {leg.hip, leg.knee, leg.wheel}) {
@@ -77,7 +77,7 @@ void expect_heard(const recordings::NpzArrays& arrays, std::size_t step, const S
   expect("ground_velocity_command", 0, signals.ground_velocity_command);
 }
 
-TEST(HeardArrays, AreToTheBitWhatEstimatorsAreGiven) {
+TEST(ExportedArrays, EqualTheInputsOfEstimatorsBitForBit) {
   const RunSignals run = run_with_gaps();
   const NoiseRun noise = noise_run(run, {.seed = 5, .run = 3});
   const noise::SensorNoise levels{.knee_torque = 0.7,
@@ -86,31 +86,31 @@ TEST(HeardArrays, AreToTheBitWhatEstimatorsAreGiven) {
                                   .joint_position = 0.01,
                                   .joint_velocity = 0.1,
                                   .hip_torque = 0.9};
-  EstimatorRunner runner;
-  static_cast<void>(predict(runner, run, noise, levels));
+  RecordingEstimator estimator;
+  static_cast<void>(predict(estimator, run, noise, levels));
   const recordings::NpzArrays arrays = exported_arrays(run, noise, levels);
-  ASSERT_EQ(runner.heard.size(), run.steps() - 2);
+  ASSERT_EQ(estimator.inputs.size(), run.steps() - 2);
   std::size_t next = 0;
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (k != 100 && k != 101) expect_heard(arrays, k, runner.heard[next++]);
+    if (k != 100 && k != 101) expect_step(arrays, k, estimator.inputs[next++]);
   }
 }
 
-TEST(HeardArrays, OfFittedRunsAreWithoutNoise) {
+TEST(ExportedArrays, OfFittedRunsAreWithoutNoise) {
   const RunSignals run = synthetic_run(1, 50);
   const recordings::NpzArrays arrays = exported_arrays(run);
-  for (std::size_t k = 0; k < run.steps(); ++k) expect_heard(arrays, k, run.signals[k]);
+  for (std::size_t k = 0; k < run.steps(); ++k) expect_step(arrays, k, run.signals[k]);
 }
 
-TEST(HeardArrays, SayWhichStepsHaveNoRecordAndWhenTheyAre) {
+TEST(ExportedArrays, MarkStepsWithoutARecordAndGiveTheirTimes) {
   const recordings::NpzArrays arrays = exported_arrays(run_with_gaps());
-  EXPECT_EQ(arrays.at("heard").data[99], 1.0);
-  EXPECT_EQ(arrays.at("heard").data[100], 0.0);
+  EXPECT_EQ(arrays.at("has_record").data[99], 1.0);
+  EXPECT_EQ(arrays.at("has_record").data[100], 0.0);
   EXPECT_DOUBLE_EQ(arrays.at("time").data[100], 0.1);
   EXPECT_TRUE(std::isnan(arrays.at("vertical_acceleration").data[100]));
 }
 
-TEST(HeardArrays, HaveALabelForEachWheel) {
+TEST(ExportedArrays, HaveALabelForEachWheel) {
   const RunSignals run = synthetic_run(1, 1000);
   const recordings::NpyArray contact = exported_arrays(run).at("contact");
   ASSERT_EQ(contact.shape, (std::vector<std::size_t>{1000, 2}));
@@ -119,7 +119,7 @@ TEST(HeardArrays, HaveALabelForEachWheel) {
   EXPECT_EQ(contact.data[2 * 700 + 1], 0.0);
 }
 
-TEST(HeardArrays, TakeNoMoreThanIsSaid) {
+TEST(ExportedArrays, AreNoLargerThanTheirBound) {
   const RunSignals run = run_with_gaps();
   const NoiseRun noise = noise_run(run, {.seed = 5, .run = 3});
   const recordings::NpzArrays arrays = exported_arrays(run, noise, {.acceleration = 1.0});

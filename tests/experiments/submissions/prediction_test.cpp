@@ -29,17 +29,17 @@ recordings::Beliefs beliefs_at(const std::vector<double>& times, const std::vect
 
 TEST(SubmittedPrediction, HoldsTheLastBeliefAndBeginsWithOneHalf) {
   const RunSignals run = synthetic_run(1, 6);
-  const auto said = prediction_of(beliefs_at({0.001, 0.004}, {0.25, 0.75}), run);
-  EXPECT_THAT(said.prediction[0].p_contact, ElementsAre(0.5, 0.25, 0.25, 0.25, 0.75, 0.75));
-  EXPECT_THAT(said.prediction[1].contact, ElementsAre(1, 0, 0, 0, 1, 1));
-  EXPECT_EQ(said.without, 4U);
+  const auto submitted = prediction_of(beliefs_at({0.001, 0.004}, {0.25, 0.75}), run);
+  EXPECT_THAT(submitted.prediction[0].p_contact, ElementsAre(0.5, 0.25, 0.25, 0.25, 0.75, 0.75));
+  EXPECT_THAT(submitted.prediction[1].contact, ElementsAre(1, 0, 0, 0, 1, 1));
+  EXPECT_EQ(submitted.without, 4U);
 }
 
 TEST(SubmittedPrediction, TakesABeliefForTheStepThatIsNearest) {
   const RunSignals run = synthetic_run(1, 4);
-  const auto said = prediction_of(beliefs_at({0.0004, 0.0006, 0.0024}, {0.1, 0.2, 0.3}), run);
-  EXPECT_THAT(said.prediction[0].p_contact, ElementsAre(0.1, 0.2, 0.3, 0.3));
-  EXPECT_EQ(said.without, 1U);
+  const auto submitted = prediction_of(beliefs_at({0.0004, 0.0006, 0.0024}, {0.1, 0.2, 0.3}), run);
+  EXPECT_THAT(submitted.prediction[0].p_contact, ElementsAre(0.1, 0.2, 0.3, 0.3));
+  EXPECT_EQ(submitted.without, 1U);
 }
 
 TEST(SubmittedPrediction, NeedsNoBeliefWhereThereIsNoRecord) {
@@ -48,15 +48,15 @@ TEST(SubmittedPrediction, NeedsNoBeliefWhereThereIsNoRecord) {
   EXPECT_EQ(prediction_of(beliefs_at({0.0, 0.001, 0.003}, {0.1, 0.2, 0.3}), run).without, 0U);
 }
 
-TEST(SubmittedPrediction, KeepsDecisionsThatAreNotTheProbabilitys) {
+TEST(SubmittedPrediction, KeepsDecisionsThatDifferFromTheProbabilities) {
   const RunSignals run = synthetic_run(1, 1);
   recordings::Beliefs beliefs = beliefs_at({0.0}, {0.9});
   beliefs.contact[1] = {0};
-  const auto said = prediction_of(beliefs, run);
-  EXPECT_THAT(said.prediction[0].contact, ElementsAre(1));
-  EXPECT_THAT(said.prediction[1].contact, ElementsAre(0));
-  EXPECT_THAT(said.prediction[1].p_contact, ElementsAre(0.9));
-  EXPECT_THAT(said.prediction[static_cast<std::size_t>(scoring::View::both_wheels)].contact,
+  const auto submitted = prediction_of(beliefs, run);
+  EXPECT_THAT(submitted.prediction[0].contact, ElementsAre(1));
+  EXPECT_THAT(submitted.prediction[1].contact, ElementsAre(0));
+  EXPECT_THAT(submitted.prediction[1].p_contact, ElementsAre(0.9));
+  EXPECT_THAT(submitted.prediction[static_cast<std::size_t>(scoring::View::both_wheels)].contact,
               ElementsAre(0));
 }
 

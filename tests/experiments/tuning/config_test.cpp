@@ -13,7 +13,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
-/// `fit` on the third line, the section on the fifth.
+/// The section `fit` is on the third line, its tuning on the fifth.
 Experiment tuning_of(const std::string& tuning,
                      const std::string& runs = "runs: 4, perturbed: true") {
   return experiment_from_yaml(
@@ -28,13 +28,13 @@ auto complains(const std::string& place, const std::string& what) {
   return ThrowsMessage<InputError>(AllOf(StartsWith("study.yaml:" + place), HasSubstr(what)));
 }
 
-TEST(TuningConfig, NothingIsTunedUnlessTheFileAsks) {
+TEST(TuningConfig, HasNoTuningByDefault) {
   const Experiment experiment = tuning_of("seed: 3");
   EXPECT_FALSE(experiment.tuning.has_value());
   EXPECT_THAT(to_yaml(experiment), Not(HasSubstr("tuning")));
 }
 
-TEST(TuningConfig, WhatIsWrittenReadsBackToTheSame) {
+TEST(TuningConfig, ReadsBackUnchanged) {
   const Experiment experiment = tuning_of(
       "tuning: {trials: 7, folds: 3, noise: [{torque: 0, accelerometer: 0}, {torque: 1, "
       "accelerometer: 5}]}");
@@ -48,7 +48,7 @@ TEST(TuningConfig, WhatIsWrittenReadsBackToTheSame) {
   EXPECT_EQ(text, to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))));
 }
 
-TEST(TuningConfig, ComplainsWhereItStandsAndSuggestsTheNearestKey) {
+TEST(TuningConfig, ReportsThePositionAndSuggestsTheNearestKey) {
   EXPECT_THAT([] { tuning_of("tunning: {trials: 7}"); },
               complains("5:4: fit.tunning: ", "did you mean 'tuning'?"));
   EXPECT_THAT([] { tuning_of("tuning: {trials: 7, fold: 2}"); },
@@ -67,13 +67,13 @@ TEST(TuningConfig, ComplainsWhereItStandsAndSuggestsTheNearestKey) {
               complains("5:12: fit.tuning: ", "expected a mapping"));
 }
 
-TEST(TuningConfig, ThereAreNoMoreFoldsThanDifferentRuns) {
+TEST(TuningConfig, HasNoMoreFoldsThanDifferentRuns) {
   EXPECT_NO_THROW(tuning_of("tuning: {trials: 7, folds: 4}"));
   EXPECT_THAT([] { tuning_of("tuning: {trials: 7, folds: 5}"); },
-              complains("5:31: fit.tuning.folds: ", "different runs are fitted, 4"));
-  // The scene as it stands is one run, however often it is played.
+              complains("5:31: fit.tuning.folds: ", "number of different fitted runs, 4"));
+  // A scene without perturbations counts as one run.
   EXPECT_THAT([] { tuning_of("tuning: {trials: 7}", "runs: 4, perturbed: false"); },
-              complains("5:12: fit.tuning.folds: ", "different runs are fitted, 1"));
+              complains("5:12: fit.tuning.folds: ", "number of different fitted runs, 1"));
 }
 
 }  // namespace

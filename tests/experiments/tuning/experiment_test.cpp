@@ -17,7 +17,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-/// An estimator that is fitted and one that is not, where they fall down a step.
+/// An experiment on one step, with one estimator that is fitted and one that is not.
 Experiment tuned_study(const ScratchFolder& folder, const std::string& tuning,
                        const std::string& test = "") {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
@@ -48,7 +48,7 @@ class TunedExperiment : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(TunedExperiment, TestRunsChangeNoChoice) {
+TEST_F(TunedExperiment, ChoosesIndependentlyOfTestRuns) {
   const std::string tuning = ", tuning: {trials: 6}";
   const std::string stand =
       folder_.write("stand.yaml", "name: stand\nend: {duration: 1.0}\n").string();
@@ -60,22 +60,23 @@ TEST_F(TunedExperiment, TestRunsChangeNoChoice) {
   EXPECT_EQ(chosen, text("other_scenes", "tables/tuning.csv"));
   EXPECT_EQ(text("one", "models/mujoco_load_logistic.npz"),
             text("other_seed", "models/mujoco_load_logistic.npz"));
-  // They are others, as the scores say.
+  // The test runs differ, so the scores do.
   EXPECT_NE(text("one", "tables/benchmark.csv"), text("other_seed", "tables/benchmark.csv"));
 
-  // The same is read from the table that was chosen: films listen with it.
+  // The table gives the chosen values, which films use.
   const Table table = from_csv(chosen);
   EXPECT_EQ(table.rows.size(), 2U * 6);
   const TunedHyperparameters read = read_chosen(folder_ / "one");
   for (const char* estimator : {"load_logistic", "support_force"}) {
-    EXPECT_EQ(read.at("mujoco").at(estimator), result.models.at("mujoco").at(estimator).hyperparameters);
+    EXPECT_EQ(read.at("mujoco").at(estimator),
+              result.models.at("mujoco").at(estimator).hyperparameters);
     EXPECT_FALSE(read.at("mujoco").at(estimator).empty());
   }
   EXPECT_THAT(result.studies, Contains(HasSubstr("the best of 6 trials")));
   EXPECT_THAT(own_files(folder_ / "one"), Contains(std::filesystem::path("tables/tuning.csv")));
 }
 
-TEST_F(TunedExperiment, ATrialOfTheDefaultsAloneGivesTheBytesOfNone) {
+TEST_F(TunedExperiment, WithDefaultsAloneEqualsNoTuning) {
   run("none", tuned_study(folder_, ""));
   run("defaults", tuned_study(folder_, ", tuning: {trials: 1}"));
   for (const char* file : {"tables/benchmark.csv", "tables/views.csv", "tables/success.csv",
@@ -86,7 +87,7 @@ TEST_F(TunedExperiment, ATrialOfTheDefaultsAloneGivesTheBytesOfNone) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "defaults/tables/tuning.csv"));
 }
 
-TEST_F(TunedExperiment, OtherSensorsHaveTheOwnOnesConstantsUnlessTheyAreTunedThemselves) {
+TEST_F(TunedExperiment, SharesChoicesWithOtherSensorsUnlessTunedEverywhere) {
   const std::string harsh =
       "benchmark.sensors=[" + std::string(TOUCHDOWN_SOURCE_DIR) + "/sensors/harsh.yaml]";
   const auto fits_in = [&](const std::string& name) {
@@ -108,7 +109,7 @@ TEST_F(TunedExperiment, OtherSensorsHaveTheOwnOnesConstantsUnlessTheyAreTunedThe
   EXPECT_EQ(fits_in("everywhere"), 2U);
 }
 
-TEST_F(TunedExperiment, HasAnotherNameThanWithoutTrials) {
+TEST_F(TunedExperiment, MakesAnotherRequestThanWithoutTrials) {
   EXPECT_NE(request_of(tuned_study(folder_, "")).id,
             request_of(tuned_study(folder_, ", tuning: {trials: 2}")).id);
   EXPECT_NE(request_of(tuned_study(folder_, ", tuning: {trials: 3}")).id,

@@ -26,48 +26,48 @@ bool holds(const std::vector<const RunSignals*>& runs, const RunSignals& draw) {
   });
 }
 
-TEST(Folds, JudgeEveryWholeRunOnceByWhatWasNeitherFittedNorCutFromIt) {
+TEST(Folds, HoldOutEveryWholeRunOnceWithItsSegments) {
   const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
                                          run_of("kerb", 2), run_of("kerb", 3)};
-  // The second and the third are cut from draws that are there whole.
+  // The second and the third are segments of draws that are also whole runs.
   const std::vector<RunSignals> segments = {run_of("stairs", 7), run_of("stairs", 1),
-                                          run_of("kerb", 2), run_of("kerb", 0)};
+                                            run_of("kerb", 2), run_of("kerb", 0)};
   for (const std::size_t count : {2U, 3U, 4U}) {
     const std::vector<Fold> folds = folds_of(pointers(whole), pointers(segments), count, true);
     ASSERT_EQ(folds.size(), count);
-    std::size_t judged = 0;
+    std::size_t held_out = 0;
     std::size_t fitted_segments = 0;
     for (const Fold& fold : folds) {
-      judged += fold.judged.size();
+      held_out += fold.held_out.size();
       fitted_segments += fold.segments.size();
-      EXPECT_FALSE(fold.judged.empty());
-      EXPECT_EQ(fold.judged.size() + fold.fitted.size(), whole.size());
-      for (const RunSignals* run : fold.judged) {
+      EXPECT_FALSE(fold.held_out.empty());
+      EXPECT_EQ(fold.held_out.size() + fold.fitted.size(), whole.size());
+      for (const RunSignals* run : fold.held_out) {
         EXPECT_FALSE(holds(fold.fitted, *run));
         EXPECT_FALSE(holds(fold.segments, *run));
       }
     }
-    EXPECT_EQ(judged, whole.size());
-    // Each piece is fitted in all folds but its own.
+    EXPECT_EQ(held_out, whole.size());
+    // Each segment is training data in all folds but its own.
     EXPECT_EQ(fitted_segments, segments.size() * (count - 1));
   }
 }
 
-TEST(Folds, SpreadEachSceneOverThem) {
+TEST(Folds, SpreadEachScene) {
   const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
                                          run_of("kerb", 2), run_of("kerb", 3)};
   for (const Fold& fold : folds_of(pointers(whole), {}, 2, true)) {
-    ASSERT_EQ(fold.judged.size(), 2U);
-    EXPECT_NE(fold.judged[0]->info.scenario, fold.judged[1]->info.scenario);
+    ASSERT_EQ(fold.held_out.size(), 2U);
+    EXPECT_NE(fold.held_out[0]->info.scenario, fold.held_out[1]->info.scenario);
   }
 }
 
-TEST(Folds, TakeASceneAsItStandsForOneRunHoweverOftenItIsPlayed) {
+TEST(Folds, CountASceneWithoutPerturbationsAsOneRun) {
   const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
                                          run_of("kerb", 2), run_of("kerb", 3)};
   for (const Fold& fold : folds_of(pointers(whole), {}, 2, false)) {
-    ASSERT_EQ(fold.judged.size(), 2U);
-    EXPECT_EQ(fold.judged[0]->info.scenario, fold.judged[1]->info.scenario);
+    ASSERT_EQ(fold.held_out.size(), 2U);
+    EXPECT_EQ(fold.held_out[0]->info.scenario, fold.held_out[1]->info.scenario);
   }
 }
 

@@ -13,38 +13,44 @@
 namespace touchdown::experiments {
 namespace {
 
-TEST(Trials, BeginWithTheDefaultsAndStayInTheRangesThatWereDeclared) {
+TEST(Trials, BeginWithTheDefaultsAndStayInTheirRanges) {
   for (const EstimatorEntry& entry : estimator_entries()) {
     const std::vector<HyperparameterValues> all = trial_hyperparameters(entry, 1, 200);
     ASSERT_EQ(all.size(), entry.hyperparameters.empty() ? 0U : 200U) << entry.name;
-    for (const Hyperparameter& choice : entry.hyperparameters) {
-      EXPECT_EQ(all.front().at(choice.name), choice.value) << entry.name;
-      EXPECT_LT(choice.lowest, choice.value) << entry.name << " " << choice.name;
-      EXPECT_GT(choice.highest, choice.value) << entry.name << " " << choice.name;
-      double least = choice.highest;
-      double most = choice.lowest;
+    for (const Hyperparameter& hyperparameter : entry.hyperparameters) {
+      EXPECT_EQ(all.front().at(hyperparameter.name), hyperparameter.value) << entry.name;
+      EXPECT_LT(hyperparameter.lowest, hyperparameter.value)
+          << entry.name << " " << hyperparameter.name;
+      EXPECT_GT(hyperparameter.highest, hyperparameter.value)
+          << entry.name << " " << hyperparameter.name;
+      double least = hyperparameter.highest;
+      double most = hyperparameter.lowest;
       for (const HyperparameterValues& hyperparameters : all) {
-        const double value = hyperparameters.at(choice.name);
+        const double value = hyperparameters.at(hyperparameter.name);
         // Three digits of a number may lie beyond the end by half of the last.
-        EXPECT_GE(value, choice.lowest - 0.005 * std::abs(choice.lowest)) << choice.name;
-        EXPECT_LE(value, choice.highest + 0.005 * std::abs(choice.highest)) << choice.name;
-        if (choice.scale == Hyperparameter::Scale::whole) {
+        EXPECT_GE(value, hyperparameter.lowest - 0.005 * std::abs(hyperparameter.lowest))
+            << hyperparameter.name;
+        EXPECT_LE(value, hyperparameter.highest + 0.005 * std::abs(hyperparameter.highest))
+            << hyperparameter.name;
+        if (hyperparameter.scale == Hyperparameter::Scale::whole) {
           EXPECT_EQ(value, std::round(value));
         }
         least = std::min(least, value);
         most = std::max(most, value);
       }
       // 200 draws come close to both ends.
-      const bool by_ratio = choice.scale == Hyperparameter::Scale::by_ratio;
-      const auto place = [&](double x) { return by_ratio ? std::log(x) : x; };
-      const double span = place(choice.highest) - place(choice.lowest);
-      EXPECT_LT(place(least), place(choice.lowest) + 0.1 * span) << entry.name << choice.name;
-      EXPECT_GT(place(most), place(choice.highest) - 0.1 * span) << entry.name << choice.name;
+      const bool by_ratio = hyperparameter.scale == Hyperparameter::Scale::by_ratio;
+      const auto on_scale = [&](double x) { return by_ratio ? std::log(x) : x; };
+      const double span = on_scale(hyperparameter.highest) - on_scale(hyperparameter.lowest);
+      EXPECT_LT(on_scale(least), on_scale(hyperparameter.lowest) + 0.1 * span)
+          << entry.name << hyperparameter.name;
+      EXPECT_GT(on_scale(most), on_scale(hyperparameter.highest) - 0.1 * span)
+          << entry.name << hyperparameter.name;
     }
   }
 }
 
-TEST(Trials, DependOnTheSeedTheNameAndTheirNumberAlone) {
+TEST(Trials, DependOnSeedNameAndNumberAlone) {
   const EstimatorEntry& entry = estimator_entry("support_force");
   const std::vector<HyperparameterValues> few = trial_hyperparameters(entry, 1, 3);
   const std::vector<HyperparameterValues> more = trial_hyperparameters(entry, 1, 30);
@@ -56,9 +62,10 @@ TEST(Trials, DependOnTheSeedTheNameAndTheirNumberAlone) {
   EXPECT_EQ(few[0], trial_hyperparameters(renamed, 1, 3)[0]);
 }
 
-/// What a run is taken for with these constants: all beliefs.
-std::vector<double> beliefs(const EstimatorEntry& plain, const HyperparameterValues& hyperparameters,
-                            const RunSignals& fitted, const RunSignals& heard) {
+/// All beliefs of an estimator with these hyperparameters on a run, at three noise levels.
+std::vector<double> beliefs(const EstimatorEntry& plain,
+                            const HyperparameterValues& hyperparameters, const RunSignals& fitted,
+                            const RunSignals& run) {
   const EstimatorEntry entry = with_hyperparameters(plain, hyperparameters);
   const FitRuns runs{{&fitted}};
   FittedModel model;
@@ -66,11 +73,11 @@ std::vector<double> beliefs(const EstimatorEntry& plain, const HyperparameterVal
     model = fit_model(entry, runs);
     model.metadata = new_metadata(entry.name, runs, hyperparameters);
   }
-  EstimatorRunner runner = runner_of(entry, {1000.0, &model, heard.legs, &heard.contact});
-  const NoiseRun noise = noise_run(heard, {.seed = 3, .run = 1});
+  EstimatorRunner runner = runner_of(entry, {1000.0, &model, run.legs, &run.contact});
+  const NoiseRun noise = noise_run(run, {.seed = 3, .run = 1});
   std::vector<double> all;
   for (const double level : {0.1, 0.7, 2.0}) {
-    const scoring::Prediction prediction = predict(runner, heard, noise,
+    const scoring::Prediction prediction = predict(runner, run, noise,
                                                    {.knee_torque = level,
                                                     .wheel_torque = 0.2 * level,
                                                     .acceleration = 5.0 * level,
@@ -84,26 +91,27 @@ std::vector<double> beliefs(const EstimatorEntry& plain, const HyperparameterVal
   return all;
 }
 
-/// A constant that nobody reads would be tuned for nothing.
-TEST(Trials, EveryChoiceChangesWhatItsEstimatorBelieves) {
+/// Tuning an unused hyperparameter would be pointless.
+TEST(Trials, ChangeBeliefsByEveryHyperparameter) {
   const RunSignals fitted = synthetic_run(first_fit_run, 1500);
-  const RunSignals heard = synthetic_run(0, 3000);
+  const RunSignals run = synthetic_run(0, 3000);
   for (const EstimatorEntry& entry : estimator_entries()) {
     const bool is_slow = entry.name == "decision_network" || entry.name == "gradient_boosting";
     if (is_slow) continue;
     const std::vector<HyperparameterValues> trials = trial_hyperparameters(entry, 1, 8);
-    for (const Hyperparameter& choice : entry.hyperparameters) {
-      // With some of the others, where it counts.
-      const bool counts = std::any_of(trials.begin(), trials.end(), [&](HyperparameterValues hyperparameters) {
-        hyperparameters[choice.name] = choice.lowest;
-        const std::vector<double> least = beliefs(entry, hyperparameters, fitted, heard);
-        hyperparameters[choice.name] = choice.highest;
-        return least != beliefs(entry, hyperparameters, fitted, heard);
-      });
-      EXPECT_TRUE(counts) << entry.name << " " << choice.name;
+    for (const Hyperparameter& hyperparameter : entry.hyperparameters) {
+      // Some need certain values of the others to have an effect.
+      const bool counts =
+          std::any_of(trials.begin(), trials.end(), [&](HyperparameterValues hyperparameters) {
+            hyperparameters[hyperparameter.name] = hyperparameter.lowest;
+            const std::vector<double> least = beliefs(entry, hyperparameters, fitted, run);
+            hyperparameters[hyperparameter.name] = hyperparameter.highest;
+            return least != beliefs(entry, hyperparameters, fitted, run);
+          });
+      EXPECT_TRUE(counts) << entry.name << " " << hyperparameter.name;
     }
-    EXPECT_EQ(beliefs(entry, {}, fitted, heard),
-              beliefs(entry, trials.empty() ? HyperparameterValues{} : trials.front(), fitted, heard))
+    EXPECT_EQ(beliefs(entry, {}, fitted, run),
+              beliefs(entry, trials.empty() ? HyperparameterValues{} : trials.front(), fitted, run))
         << entry.name << ": the first trial is the estimator as it is";
     if (entry.hyperparameters.empty()) {
       EXPECT_THROW((void)entry.chosen("threshold"), Error);

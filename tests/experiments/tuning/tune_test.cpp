@@ -31,12 +31,12 @@ Experiment tuned_experiment(const std::vector<std::string>& estimators, int tria
   return experiment;
 }
 
-/// Support force, whose threshold is so far off that no wheel ever carries as much.
+/// Support force with a default threshold above every wheel load.
 EstimatorEntry rigged() {
   EstimatorEntry entry = support_force_entry();
   entry.name = "rigged";
-  for (Hyperparameter& choice : entry.hyperparameters) {
-    if (choice.name == "contact") choice = around("contact", 400.0, 200.0);
+  for (Hyperparameter& hyperparameter : entry.hyperparameters) {
+    if (hyperparameter.name == "contact") hyperparameter = around("contact", 400.0, 200.0);
   }
   return entry;
 }
@@ -45,7 +45,7 @@ const Trial& chosen_of(const std::vector<Trial>& trials) {
   return *std::find_if(trials.begin(), trials.end(), [](const Trial& t) { return t.is_chosen; });
 }
 
-TEST(Tune, MendsADefaultThatIsFarOff) {
+TEST(Tune, CorrectsABadDefault) {
   const ExternalEstimators present({rigged()});
   const std::vector<RunSignals> runs = fitted_runs(4);
   const Experiment experiment = tuned_experiment({"rigged"}, 16);
@@ -56,7 +56,7 @@ TEST(Tune, MendsADefaultThatIsFarOff) {
   const Trial& best = chosen_of(trials);
   EXPECT_GT(best.score, 0.9);
   EXPECT_LT(best.hyperparameters.at("contact"), 60.0);
-  // It is not fitted, and listens with what was chosen all the same.
+  // It needs no fit, but uses the chosen values.
   const FittedModels models = fit_models(experiment, runs, {}, {}, chosen_in(trials));
   const RunSignals test = synthetic_run(0);
   const Condition condition{"mujoco", "mujoco", "rigged"};
@@ -76,7 +76,7 @@ TEST(Tune, MendsADefaultThatIsFarOff) {
   EXPECT_LT(without.balanced_accuracy(), 0.6);
 }
 
-TEST(Tune, GivesEveryEstimatorThatHasSomethingToChooseAsManyTrials) {
+TEST(Tune, GivesEveryTunableEstimatorTheSameNumberOfTrials) {
   const Experiment experiment = tuned_experiment(
       {"robust", "phase", "load_logistic", "force_kinematics", "free_fall", "oracle"}, 3);
   std::map<std::string, int> count, chosen;
@@ -94,7 +94,7 @@ TEST(Tune, GivesEveryEstimatorThatHasSomethingToChooseAsManyTrials) {
   for (const auto& [estimator, times] : chosen) EXPECT_EQ(times, 1) << estimator;
 }
 
-TEST(Tune, ChoosesTheSameWhateverTheNumberOfThreads) {
+TEST(Tune, ChoosesIndependentlyOfTheNumberOfThreads) {
   const std::vector<RunSignals> runs = fitted_runs(4);
   const Experiment experiment = tuned_experiment({"robust", "load_logistic", "support_force"}, 4);
   const auto with = [&](std::size_t threads) {
@@ -108,8 +108,8 @@ TEST(Tune, ChoosesTheSameWhateverTheNumberOfThreads) {
   EXPECT_EQ(with(1), with(4));
 }
 
-/// What is best without noise is not what is best with much of it: a filter as quick as noise.
-TEST(Tune, HearsTheNoiseThatTheTuningDeclares) {
+/// Without noise a fast filter is best, with much noise a slow one.
+TEST(Tune, UsesTheNoiseOfItsSection) {
   const std::vector<RunSignals> runs = fitted_runs(4);
   Experiment experiment = tuned_experiment({"free_fall"}, 12);
   const auto trials_with = [&](const std::vector<noise::NoiseCell>& noise) {
@@ -123,10 +123,11 @@ TEST(Tune, HearsTheNoiseThatTheTuningDeclares) {
     EXPECT_LT(much[i].score, none[i].score) << i;
     EXPECT_NEAR(both[i].score, 0.5 * (none[i].score + much[i].score), 1e-12) << i;
   }
-  EXPECT_GT(chosen_of(much).hyperparameters.at("low_pass"), chosen_of(none).hyperparameters.at("low_pass"));
+  EXPECT_GT(chosen_of(much).hyperparameters.at("low_pass"),
+            chosen_of(none).hyperparameters.at("low_pass"));
 }
 
-TEST(Tune, WhatIsSavedIsNotTriedAgain) {
+TEST(Tune, ReusesSavedTrials) {
   const ScratchFolder folder;
   std::vector<RunSignals> runs = fitted_runs(4);
   runs[1].info.scenario = "other scene";
@@ -140,7 +141,7 @@ TEST(Tune, WhatIsSavedIsNotTriedAgain) {
   };
   const std::vector<double> tried = scores({});
   EXPECT_EQ(tried, scores({folder / "tuning", "key"}));
-  // All is flight now, and nobody listens: but under another key nothing is believed.
+  // All signals are flight now. Saved trials are used all the same, but not with another key.
   for (RunSignals& run : runs) {
     for (Signals& step : run.signals) step.vertical_acceleration = -9.81;
   }
@@ -148,8 +149,8 @@ TEST(Tune, WhatIsSavedIsNotTriedAgain) {
   EXPECT_NE(tried, scores({folder / "tuning", "another key"}));
 }
 
-TEST(Tune, OfEqualTrialsTakesTheFirst) {
-  // Nothing moves: whatever the threshold, all of it is contact.
+TEST(Tune, ChoosesTheFirstOfEqualTrials) {
+  // Nothing moves: every threshold gives contact at all steps.
   std::vector<RunSignals> runs = fitted_runs(2);
   for (RunSignals& run : runs) {
     for (Signals& step : run.signals) step.vertical_acceleration = 0.0;
@@ -160,7 +161,7 @@ TEST(Tune, OfEqualTrialsTakesTheFirst) {
   EXPECT_EQ(chosen_of(trials).number, 0);
 }
 
-TEST(Tune, SaysInWhichFoldTooLittleIsLeftToFitTo) {
+TEST(Tune, NamesTheFoldWithTooLittleData) {
   std::vector<RunSignals> runs = fitted_runs(2);
   for (auto& wheel : runs[1].contact) std::fill(wheel.begin(), wheel.end(), std::uint8_t{1});
   EXPECT_THAT([&] { tune(tuned_experiment({"load_logistic"}, 2), "", runs, {}, {}); },
@@ -169,11 +170,12 @@ TEST(Tune, SaysInWhichFoldTooLittleIsLeftToFitTo) {
   EXPECT_THROW(tune(tuned_experiment({"robust"}, 2), "", runs, {}, [] { return false; }), Stopped);
 }
 
-/// A robot reads them there.
-TEST(Tune, WhatWasChosenIsInTheModelsPassport) {
+/// Robots read the values from the metadata.
+TEST(Tune, StoresChosenValuesInTheMetadata) {
   const std::vector<RunSignals> runs = fitted_runs(2);
   const Experiment experiment = tuned_experiment({"load_logistic", "phase", "paper"}, 1);
-  const auto metadata = [&](const std::string& estimator, const HyperparameterValues& hyperparameters) {
+  const auto metadata = [&](const std::string& estimator,
+                            const HyperparameterValues& hyperparameters) {
     const TunedHyperparameters chosen = {{"mujoco", {{estimator, hyperparameters}}}};
     return fit_models(experiment, runs, {}, {}, chosen).at("mujoco").at(estimator).metadata;
   };
@@ -184,13 +186,13 @@ TEST(Tune, WhatWasChosenIsInTheModelsPassport) {
   EXPECT_EQ(metadata("paper", {{"transition.switch.offset", 3.5}})
                 ->configuration.at("transition.switch.offset"),
             "3.5");
-  // The model has what the fit alone knows; a reader of passports would not.
+  // Hyperparameters of the fit alone are in the model, not in the metadata.
   const auto phase = metadata("phase", {{"leave_below", 0.125}, {"torque_bandwidth", 0.3}});
   EXPECT_EQ(phase->configuration.at("leave_below"), "0.125");
   EXPECT_FALSE(phase->configuration.contains("torque_bandwidth"));
 }
 
-TEST(Tune, WhoHearsLogsHearsThemWithWhatWasChosen) {
+TEST(Tune, SetsTheHyperparametersOfLogEstimators) {
   const ScratchFolder folder;
   const TunedHyperparameters chosen = {{"mujoco", {{"load_logistic", {{"threshold", 0.25}}}}}};
   const FittedModels models =

@@ -22,7 +22,7 @@ std::vector<double> counting(std::size_t steps) {
   return values;
 }
 
-/// Counting values as a channel's clock reports them; which records are missing, if asked.
+/// Counting values as a channel's clock reports them. `missing` receives the missing records.
 std::vector<double> reported(const SensorChannel& channel, std::size_t steps,
                              std::vector<std::uint8_t>* missing = nullptr) {
   std::vector<double> values = counting(steps);
@@ -36,7 +36,7 @@ std::vector<double> held(double samples_per_step, std::size_t steps = 11) {
   return reported({.rate = samples_per_step / period}, steps);
 }
 
-TEST(HeldSamples, OfFourHundredHertzAreHeardInTurnsOfThreeAndTwoMilliseconds) {
+TEST(HeldSamples, OfFourHundredHertzAreReportedEveryThreeAndTwoMillisecondsInTurn) {
   EXPECT_EQ(held(0.4), (std::vector<double>{0, 0, 0, 3, 3, 5, 5, 5, 8, 8, 10}));
 }
 
@@ -58,31 +58,32 @@ TEST(Delay, RepeatsTheFirstValueAndThenTheOneOfSoManyStepsBefore) {
 }
 
 TEST(Delay, IsRoundedToWholeStepsAndComesAfterTheHeldSamples) {
-  const auto late_by = [](double seconds) {
+  const auto delayed_by = [](double seconds) {
     std::vector<std::uint8_t> missing;
     std::vector<double> values = reported({.rate = 500.0, .delay = seconds}, 9, &missing);
     EXPECT_TRUE(missing.empty());
     return values;
   };
-  EXPECT_EQ(late_by(0.0014), (std::vector<double>{0, 0, 0, 2, 2, 4, 4, 6, 6}));
-  EXPECT_EQ(late_by(0.0016), (std::vector<double>{0, 0, 0, 0, 2, 2, 4, 4, 6}));
+  EXPECT_EQ(delayed_by(0.0014), (std::vector<double>{0, 0, 0, 2, 2, 4, 4, 6, 6}));
+  EXPECT_EQ(delayed_by(0.0016), (std::vector<double>{0, 0, 0, 0, 2, 2, 4, 4, 6}));
 }
 
-/// Those of a run of so many steps.
-std::vector<Drop> many_drops(const Dropout& dropout, std::size_t steps = 4'000'000) {
-  std::vector<Drop> drops;
-  for (Drops all(dropout, period, draws); all.current().begin < steps; all.advance()) {
-    drops.push_back({all.current().begin, std::min(steps, all.current().end)});
+/// The dropouts of a run.
+std::vector<DropoutInterval> dropouts_of(const Dropout& dropout, std::size_t steps = 4'000'000) {
+  std::vector<DropoutInterval> dropouts;
+  for (DropoutProcess all(dropout, period, draws); all.current().begin < steps; all.advance()) {
+    dropouts.push_back({all.current().begin, std::min(steps, all.current().end)});
   }
-  return drops;
+  return dropouts;
 }
 
-TEST(Drops, HaveTheirRateTheirMeanLengthAndTheirShare) {
+TEST(Dropouts, HaveTheirRateTheirMeanLengthAndTheirShare) {
   const Dropout dropout{.rate = 0.004, .length = 0.02};
-  const auto drops = many_drops(dropout);
+  const auto dropouts = dropouts_of(dropout);
   double dropped = 0.0;
-  for (const Drop& drop : drops) dropped += static_cast<double>(drop.end - drop.begin);
-  const auto count = static_cast<double>(drops.size());
+  for (const DropoutInterval& interval : dropouts)
+    dropped += static_cast<double>(interval.end - interval.begin);
+  const auto count = static_cast<double>(dropouts.size());
   const double steps = 4e6;
   EXPECT_NEAR(count / (steps - dropped), dropout.rate, 5.0 * dropout.rate / std::sqrt(count));
   EXPECT_NEAR(dropped / count, 20.0, 5.0 * 20.0 / std::sqrt(count));
@@ -90,37 +91,36 @@ TEST(Drops, HaveTheirRateTheirMeanLengthAndTheirShare) {
   EXPECT_NEAR(dropped / steps, 0.08 / (0.08 + 0.996), 0.004);
 }
 
-TEST(Drops, HaveGeometricLengths) {
-  const auto drops = many_drops({.rate = 0.05, .length = 0.005});
+TEST(Dropouts, HaveGeometricLengths) {
+  const auto dropouts = dropouts_of({.rate = 0.05, .length = 0.005});
   for (const std::size_t longer : {1U, 3U, 10U}) {
-    const auto count = static_cast<double>(drops.size());
-    const auto over =
-        static_cast<double>(std::count_if(drops.begin(), drops.end(), [&](const Drop& drop) {
-          return drop.end - drop.begin > longer;
-        }));
+    const auto count = static_cast<double>(dropouts.size());
+    const auto over = static_cast<double>(std::count_if(
+        dropouts.begin(), dropouts.end(),
+        [&](const DropoutInterval& interval) { return interval.end - interval.begin > longer; }));
     const double expected = std::pow(0.8, static_cast<double>(longer));
     EXPECT_NEAR(over / count, expected, 5.0 * std::sqrt(expected / count)) << longer;
   }
 }
 
-TEST(Drops, ShorterThanAStepLastOneStep) {
-  for (const Drop& drop : many_drops({.rate = 0.3, .length = 1e-4}, 1'000)) {
-    EXPECT_EQ(drop.end - drop.begin, 1U);
+TEST(Dropouts, ShorterThanAStepLastOneStep) {
+  for (const DropoutInterval& interval : dropouts_of({.rate = 0.3, .length = 1e-4}, 1'000)) {
+    EXPECT_EQ(interval.end - interval.begin, 1U);
   }
 }
 
-TEST(Drops, NeverBeginAtTheFirstStepAndEndWithTheRun) {
-  const auto drops = many_drops({.rate = 1.0, .length = 1e3}, 50);
-  ASSERT_EQ(drops.size(), 1U);
-  EXPECT_EQ(drops.front().begin, 1U);
-  EXPECT_EQ(drops.front().end, 50U);
-  EXPECT_TRUE(many_drops({.rate = 1.0}, 1).empty());
+TEST(Dropouts, NeverBeginAtTheFirstStepAndEndWithTheRun) {
+  const auto dropouts = dropouts_of({.rate = 1.0, .length = 1e3}, 50);
+  ASSERT_EQ(dropouts.size(), 1U);
+  EXPECT_EQ(dropouts.front().begin, 1U);
+  EXPECT_EQ(dropouts.front().end, 50U);
+  EXPECT_TRUE(dropouts_of({.rate = 1.0}, 1).empty());
 }
 
-TEST(Drops, OfALongerRunBeginAsThoseOfAShorterOne) {
+TEST(Dropouts, OfALongerRunBeginAsThoseOfAShorterOne) {
   const Dropout dropout{.rate = 0.1, .length = 0.003};
-  const auto few = many_drops(dropout, 1'000);
-  const auto more = many_drops(dropout, 5'000);
+  const auto few = dropouts_of(dropout, 1'000);
+  const auto more = dropouts_of(dropout, 5'000);
   ASSERT_GT(few.size(), 10U);
   for (std::size_t i = 0; i + 1 < few.size(); ++i) {
     EXPECT_EQ(few[i].begin, more[i].begin);
@@ -128,23 +128,23 @@ TEST(Drops, OfALongerRunBeginAsThoseOfAShorterOne) {
   }
 }
 
-/// Counting values with drops of a kind, and which records are missing.
-std::vector<double> dropped(DropKind kind, std::vector<std::uint8_t>& missing) {
+/// Counting values with dropouts of a kind. `missing` receives the missing records.
+std::vector<double> dropped(DropoutKind kind, std::vector<std::uint8_t>& missing) {
   return reported({.dropout = {.kind = kind, .rate = 0.05, .length = 0.004}}, 1'000, &missing);
 }
 
-TEST(Drops, FreezeBlankOrMarkWhatTheyCoverByKind) {
-  const auto drops = many_drops({.rate = 0.05, .length = 0.004}, 1'000);
-  ASSERT_GT(drops.size(), 20U);
+TEST(Dropouts, FreezeBlankOrMarkWhatTheyCoverByKind) {
+  const auto dropouts = dropouts_of({.rate = 0.05, .length = 0.004}, 1'000);
+  ASSERT_GT(dropouts.size(), 20U);
   std::vector<std::uint8_t> none, missing;
-  const auto frozen = dropped(DropKind::frozen, none);
-  const auto blank = dropped(DropKind::nan, none);
+  const auto frozen = dropped(DropoutKind::frozen, none);
+  const auto blank = dropped(DropoutKind::nan, none);
   EXPECT_TRUE(none.empty());
-  EXPECT_EQ(dropped(DropKind::missing, missing), counting(1'000));
-  auto next = drops.begin();
+  EXPECT_EQ(dropped(DropoutKind::missing, missing), counting(1'000));
+  auto next = dropouts.begin();
   for (std::size_t k = 0; k < 1'000; ++k) {
-    while (next != drops.end() && next->end <= k) ++next;
-    const bool inside = next != drops.end() && k >= next->begin;
+    while (next != dropouts.end() && next->end <= k) ++next;
+    const bool inside = next != dropouts.end() && k >= next->begin;
     EXPECT_EQ(missing[k] != 0, inside) << k;
     EXPECT_EQ(std::isnan(blank[k]), inside) << k;
     EXPECT_EQ(frozen[k], inside ? frozen[next->begin - 1] : static_cast<double>(k));

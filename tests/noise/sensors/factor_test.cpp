@@ -17,7 +17,7 @@ TEST(AVariedProfile, HasTheDropoutOfEverySensorAtTheValue) {
                              &varied.accelerometer, &varied.gyroscope, &varied.orientation}) {
     for (const SensorChannel& channel : *sensor) {
       EXPECT_EQ(channel.dropout.rate, 0.05);
-      EXPECT_EQ(channel.dropout.kind, DropKind::frozen);
+      EXPECT_EQ(channel.dropout.kind, DropoutKind::frozen);
     }
   }
   EXPECT_EQ(with_value(varied, "dropout", 0.0), SensorProfile());

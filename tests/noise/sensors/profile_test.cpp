@@ -31,7 +31,7 @@ TEST(SensorProfile, OfAnEmptyFileIsIdeal) {
   EXPECT_TRUE(is_ideal(SensorProfile()));
 }
 
-TEST(SensorProfile, SaysOfASensorWhatHoldsForAllOfItAndOfAPartWhatIsDifferentThere) {
+TEST(SensorProfile, AppliesKeysOfASensorToAllItsChannelsUnlessAChannelOverridesThem) {
   const SensorProfile profile = read(
       "torque: {white: 0.1, resolution: 0.01, wheel: {white: 0.02}}\n"
       "accelerometer: {rate: 400, bias: {sd: 0.2}, z: {bias: {value: 0.5}}}\n");
@@ -86,7 +86,7 @@ TEST(SensorProfile, AValueThatCannotBeIsShownWithItsPlaceAndWhatWasExpected) {
               HasSubstr("accelerometer.range: expected a number from 1e-09 to"));
   EXPECT_THAT(complaint_about("accelerometer: {bias: 0.3}"),
               HasSubstr("accelerometer.bias: expected a mapping of keys to values"));
-  EXPECT_THAT(complaint_about("accelerometer: {white: loud}"),
+  EXPECT_THAT(complaint_about("accelerometer: {white: high}"),
               HasSubstr("accelerometer.white: expected a number"));
 }
 

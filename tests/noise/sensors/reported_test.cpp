@@ -24,7 +24,7 @@ const Eigen::Vector3d gravity(0.0, 0.0, 9.81);  // in the attitude reference sys
 
 using Steps = std::vector<models::Observation>;
 
-/// A tumbling robot whose joints all move.
+/// A tumbling robot with all joints in motion.
 Steps tumbling(std::size_t steps) {
   Steps run(steps);
   for (std::size_t k = 0; k < steps; ++k) {
@@ -83,7 +83,7 @@ std::vector<std::pair<std::string, double>> numbers(const models::Observation& o
   return all;
 }
 
-/// Names of numbers that are not the same, to the bit, in two runs.
+/// Names of the numbers that differ between two runs, compared to the bit.
 std::set<std::string> different(const Steps& a, const Steps& b) {
   std::set<std::string> names;
   for (std::size_t k = 0; k < a.size(); ++k) {
@@ -98,7 +98,7 @@ std::set<std::string> different(const Steps& a, const Steps& b) {
   return names;
 }
 
-/// Everything at once, on every sensor.
+/// All disturbances on every sensor.
 const std::string everything =
     "{scale: {sd: 0.1}, bias: {value: 0.1, sd: 0.1, walk: 0.1},"
     " coloured: {sd: 0.1, time_constant: 0.1}, low_pass: {cut_off: 50}, white: 0.1, range: 20,"
@@ -166,7 +166,7 @@ TEST(Reported, ARunInPartsIsReportedAsTheWholeRunToTheBit) {
   }
 }
 
-/// A knee's torque of nothing through a channel.
+/// Zero torque of a knee as reported through a channel.
 std::vector<double> knee_torque(const std::string& channel, std::size_t steps) {
   std::vector<double> values;
   for (const auto& o : reported("torque: " + channel, Steps(steps))) {
@@ -188,7 +188,7 @@ TEST(Reported, DisturbancesTogetherAreTheSumOfEachAlone) {
 TEST(Reported, DisturbancesDoNotShareDraws) {
   constexpr std::size_t steps = 40'000;
   const auto white = knee_torque("{white: 1.0}", steps);
-  // Of a process that forgets everything within a step, only its draws are left.
+  // A process without memory between steps leaves only its draws.
   const auto coloured = knee_torque("{coloured: {sd: 1.0, time_constant: 1e-6}}", steps);
   auto walk = knee_torque("{bias: {walk: 1.0}}", steps);
   for (std::size_t k = steps; k-- > 1;) walk[k] = (walk[k] - walk[k - 1]) / std::sqrt(period);
@@ -260,7 +260,7 @@ TEST(Reported, RepeatsTheFirstStepsWhenARunIsLonger) {
 
 // The accelerometer, with and without gravity.
 
-/// What gravity is, by a step's report, in the attitude reference system.
+/// Gravity according to the report of a step, in the attitude reference system.
 Eigen::Vector3d gravity_in(const models::ImuReading& imu) {
   return imu.orientation * (imu.linear_acceleration - imu.raw_linear_acceleration);
 }
@@ -290,12 +290,12 @@ TEST(ReportedGravity, OfAMisalignedImuTurnsWithAllOfIt) {
         (mounting * is.raw_linear_acceleration).isApprox(was.raw_linear_acceleration, 1e-12));
     EXPECT_TRUE((mounting * is.angular_velocity).isApprox(was.angular_velocity, 1e-12));
     EXPECT_TRUE((mounting * is.linear_acceleration).isApprox(was.linear_acceleration, 1e-11));
-    // It knows its own attitude: what it takes for the vertical acceleration is right.
+    // The misaligned IMU reports its own attitude, so the vertical acceleration is right.
     EXPECT_NEAR(models::vertical_acceleration(is), models::vertical_acceleration(was), 1e-11);
   }
 }
 
-TEST(ReportedGravity, LeaksIntoTheAccelerationOfARobotWhoseAttitudeIsWrong) {
+TEST(ReportedGravity, LeaksIntoTheAccelerationIfTheAttitudeIsWrong) {
   Steps still(10);
   for (auto& o : still) o.imu.raw_linear_acceleration = -gravity;
   for (const auto& o : reported("orientation: {x: {bias: {value: 0.1}}}", still)) {
@@ -338,7 +338,7 @@ TEST(ReportedVibration, FollowsTheWheelThatTurnsAndNotItsEncodersReport) {
   }
 }
 
-TEST(ReportedDrops, OfAnImuTakeAllOfItsAxesAtOnceAndAreNotThoseOfAnotherSensor) {
+TEST(ReportedDropouts, OfAnImuTakeAllOfItsAxesAtOnceAndAreNotThoseOfAnotherSensor) {
   const Steps run = tumbling(2'000);
   const Steps with = reported(
       "accelerometer: {dropout: {kind: nan, rate: 0.02}}\n"
@@ -357,7 +357,7 @@ TEST(ReportedDrops, OfAnImuTakeAllOfItsAxesAtOnceAndAreNotThoseOfAnotherSensor) 
   EXPECT_GT(apart, 100U);
 }
 
-TEST(ReportedDrops, OfAFrozenOrientationRepeatIt) {
+TEST(ReportedDropouts, OfAFrozenOrientationRepeatIt) {
   const Steps run = tumbling(2'000);
   const Steps with = reported("orientation: {dropout: {kind: frozen, rate: 0.02}}", run);
   std::size_t repeated = 0;
@@ -373,7 +373,7 @@ TEST(ReportedDrops, OfAFrozenOrientationRepeatIt) {
   EXPECT_NEAR(static_cast<double>(repeated) / 2'000.0, 0.2 / (0.2 + 0.98), 0.08);
 }
 
-TEST(ReportedDrops, OfAMissingRecordLeaveNoNumberOfTheStep) {
+TEST(ReportedDropouts, OfAMissingRecordLeaveNoNumberOfTheStep) {
   const Steps run = tumbling(2'000);
   const Steps with = reported("torque: {knee: {dropout: {kind: missing, rate: 0.01}}}", run);
   std::size_t missing = 0;

@@ -12,7 +12,7 @@ inline double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Mean of the products of values so many steps apart, of a process without a mean.
+/// Autocorrelation of a zero-mean process: mean product of values at a lag in steps.
 inline double correlation(const std::vector<double>& values, std::size_t lag = 0) {
   double sum = 0.0;
   for (std::size_t k = 0; k + lag < values.size(); ++k) sum += values[k] * values[k + lag];

@@ -15,7 +15,7 @@ namespace {
 constexpr double period = 0.001;
 constexpr std::size_t many = 400'000;
 
-/// What a channel makes of these values.
+/// The values as reported through a channel.
 std::vector<double> through(const SensorChannel& channel, std::vector<double> values,
                             std::uint64_t run = 0) {
   ChannelDraws draws({7, run}, NoiseChannel::accelerometer_x);
@@ -83,7 +83,7 @@ TEST(SensorValues, AWalkBeginsAtZeroAndItsVarianceGrowsWithTime) {
 TEST(SensorValues, ColouredNoiseIsAFirstOrderGaussMarkovProcess) {
   constexpr double time_constant = 0.02;
   const auto noise = of_nothing({.coloured = {.sd = 1.5, .time_constant = time_constant}});
-  // Its values forget each other over 2τ: so many of them are independent.
+  // Samples 2τ apart count as independent; this is their number.
   const double independent = static_cast<double>(many) * period / (2.0 * time_constant);
   const double five_errors = 5.0 * 2.25 * std::sqrt(2.0 / independent);
   for (const std::size_t lag : {0U, 5U, 20U, 60U}) {
@@ -219,7 +219,7 @@ TEST(ChannelDraws, OfEveryDisturbanceAreIndependentOfEachOtherAndOfTheWhiteNoise
 }
 
 TEST(ChannelDraws, AreTheNumbersThatTheyHaveAlwaysBeen) {
-  // What a run with a sensor profile gave once, it gives again.
+  // Draws of earlier versions must stay the same.
   ChannelDraws draws({1, 2}, NoiseChannel::accelerometer_z);
   EXPECT_EQ(draws.constant(DrawnFor::bias),
             standard_normal({1, 2}, static_cast<NoiseChannel>(6 + 3 * 256), 0));

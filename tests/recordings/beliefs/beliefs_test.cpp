@@ -90,7 +90,7 @@ TEST(Beliefs, ThatAreWrongAreRefusedByLineAndColumn) {
        "contact_right"},
       {"time,p_left\n", "a.csv:1:6: 'p_right' is missing"},
       {"time,p_left,p_right,contact_left\n", "a.csv:1:21: 'contact_right' is missing"},
-      {"time,p_left,time,p_right\n", "a.csv:1:13: 'time' is there already"},
+      {"time,p_left,time,p_right\n", "a.csv:1:13: 'time' appears twice"},
       {"", "a.csv:1:1: unknown name ''"},
       {names, "a.csv:1:1: holds no beliefs"},
       {names + "0,0.5\n", "a.csv:2:3: expected 3 values, found 2"},
@@ -138,7 +138,7 @@ TEST(Beliefs, InDictionariesThatAreWrongAreRefusedByTheirNumber) {
   };
   const std::string good = dictionaries(two_steps);
   complaint(good.substr(0, good.size() - 1), "a.mpack: dictionary 1: is cut off");
-  complaint(good + "\xc1", "a.mpack: dictionary 2: is no MessagePack dictionary");
+  complaint(good + "\xc1", "a.mpack: dictionary 2: is not a MessagePack dictionary");
   complaint(good + "\x93\x01\x02\x03", "a.mpack: dictionary 2: expected a dictionary");
   complaint(std::string("\xdf\xff\xff\xff\xff", 5), "a.mpack: dictionary 0: is ");
   complaint(dictionaries({{{"time", 0.0}, {"p_left", 0.5}}}), "dictionary 0: 'p_right' is missing");
@@ -151,7 +151,7 @@ TEST(Beliefs, InDictionariesThatAreWrongAreRefusedByTheirNumber) {
 TEST(Beliefs, OfAnUnknownKindAreRefused) {
   const ScratchFolder folder;
   EXPECT_THAT([&] { read_beliefs(folder.write("a.txt", "")); },
-              ThrowsMessage<InputError>(HasSubstr("ends with .csv, .npz or .mpack")));
+              ThrowsMessage<InputError>(HasSubstr("expected the extension .csv, .npz or .mpack")));
 }
 
 }  // namespace

@@ -53,11 +53,11 @@ TEST_F(Intervals, ThatAreWrongAreNamedByTheirPlace) {
     EXPECT_THAT(intervals_complaint(text), HasSubstr(expected)) << text;
   };
   complaint("", "a.csv:1:1: unknown name ''");
-  complaint("start,end,contact\n", "a.csv:1:1: holds no stretch of contact");
+  complaint("start,end,contact\n", "a.csv:1:1: contains no contact interval");
   complaint("strat,end,contact\n", "a.csv:1:1: unknown name 'strat' (did you mean 'start'?)");
   complaint("start,end\n0,1\n", "a.csv:1:7: expected start, end and contact, or");
   complaint("start,end,contact,left\n0,1,1,1\n", "expected start, end and contact, or");
-  complaint("start,end,contact,end\n0,1,1,1\n", "a.csv:1:19: 'end' is there already");
+  complaint("start,end,contact,end\n0,1,1,1\n", "a.csv:1:19: 'end' appears twice");
   complaint("start,end,contact\n0,1,2\n", "a.csv:2:5: 2: expected 1 for contact or 0 for none");
   complaint("start,end,contact\n0,0,1\n", "a.csv:2:3: end: 0: expected a time after the start");
   complaint("start,end,contact\n0,nan,1\n", "a.csv:2:3: end: nan");

@@ -50,8 +50,8 @@ json expected(json record, int i) {
   return record;
 }
 
-/// As the other library reads it; null for the NaN of what no estimator computes, because nothing
-/// equals NaN.
+/// As the other library reads it. Values that no estimator computes are NaN; they are null here,
+/// because NaN never equals NaN.
 std::vector<json> unpack(const std::string& log) {
   std::vector<json> records = test::unpack(log);
   for (json& record : records) {
@@ -72,8 +72,8 @@ std::string annotated(const std::string& log, bool look_ahead = false) {
   int i = 0;
   while (reader.next()) {
     annotator.copy(reader.skipped());
-    const Beliefs said = beliefs_of(i++);
-    annotator.annotate(reader.record(), said.belief, said.evidence);
+    const Beliefs beliefs = beliefs_of(i++);
+    annotator.annotate(reader.record(), beliefs.belief, beliefs.evidence);
   }
   annotator.copy(reader.skipped());
   return out.str();

@@ -97,7 +97,7 @@ TEST(RoundTrip, KeepsARunWithoutGroundTruthOrOutcome) {
   const ScratchFolder folder;
   Recording recording = sample_recording(3, false);
   recording.info.outcome.reset();
-  recording.info.control_period_us = 2000;  // on purpose not what its times say
+  recording.info.control_period_us = 2000;  // differs from its times on purpose
   write_recording(recording, folder / "run.mpack");
   expect_same(read_recording(folder / "run.mpack"), recording);
 }

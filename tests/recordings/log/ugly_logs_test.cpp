@@ -193,7 +193,7 @@ TEST(UglyLogs, RecordsBeforeTheFirstFiniteTimeAreLeftOutAndNamed) {
   EXPECT_EQ(reader.info().control_period_us, 1000);
   EXPECT_EQ(reader.next()->observation.time, 0.0);
   EXPECT_EQ(reader.skipped(), log.substr(0, pack({records[0], records[1]}).size()))
-      << "whoever copies the log keeps them";
+      << "a copy of the log keeps them";
 }
 
 TEST(UglyLogs, ATimeThatIsNotFiniteLaterIsLeftToTheSignalGuard) {
@@ -225,7 +225,7 @@ TEST(UglyLogs, TextsOfOursThatAreNotUtf8AreRefused) {
   EXPECT_THAT(read(pack({record})).error, HasSubstr("scenario_yaml: not UTF-8 from byte 6 on"));
 }
 
-TEST(UglyLogs, WhatStandsInsteadOfNeededNumbersIsSaid) {
+TEST(UglyLogs, ReportsTheValuesInsteadOfNeededNumbers) {
   const auto error = [](const char* part, const char* key, const json& value) {
     json record = upkie_record(0.0);
     json& parent = record["observation"][part];

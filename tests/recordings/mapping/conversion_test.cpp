@@ -18,7 +18,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// What has to be mapped, and then, behind `imu`, what may be.
+/// The required signals. Optional ones can be appended behind `imu`.
 const std::string mapping_head = R"(time: {from: t}
 joints:
   position: {from: [q0, q1, q2, q3, q4, q5]}
@@ -92,10 +92,10 @@ TEST_F(Conversion, NumbersOfARowAreThoseOfTheRecord) {
   EXPECT_EQ(converted_.rows, 2U);
   EXPECT_EQ(converted_.start, 7.25);
   EXPECT_EQ(converted_.end, 7.5);
-  EXPECT_EQ(converted_.lacking + converted_.back, 0U);
+  EXPECT_EQ(converted_.incomplete_rows + converted_.time_reversals, 0U);
 }
 
-TEST_F(Conversion, LogIsARobotsAndNobodyElses) {
+TEST_F(Conversion, TheResultIsARobotsLogWithoutOrigin) {
   std::ostringstream stream;
   const auto log = folder_.write("log.csv", names + "\n" + row("0") + "\n" + row("0.002") + "\n");
   (void)convert_log(log, folder_.write("map.yaml", mapping_head), stream);
@@ -116,7 +116,7 @@ TEST_F(Conversion, WindowsLineEndsQuotesByteOrderMarkAndOtherColumnsAreNoMatter)
   EXPECT_EQ(converted_.start, 1.5);
   EXPECT_EQ(rows[1].observation.time, 0.5);
   EXPECT_EQ(rows[1].observation.servo[3].position, 4.5);
-  EXPECT_EQ(converted_.lacking, 0U);
+  EXPECT_EQ(converted_.incomplete_rows, 0U);
   EXPECT_THAT(complaint(quoted, replaced(mapping_head, "from: t", "from: 'a, \"b\"'")),
               HasSubstr("holds no rows"));  // there is such a column
 }
@@ -136,8 +136,8 @@ TEST_F(Conversion, WhatIsMissingIsNaNAndCounted) {
   EXPECT_TRUE(std::isnan(rows[3].observation.time));
   EXPECT_EQ(rows[4].observation.time, 1.5);
   EXPECT_EQ(converted_.rows, 6U);
-  EXPECT_EQ(converted_.lacking, 5U);
-  EXPECT_EQ(converted_.back, 1U);
+  EXPECT_EQ(converted_.incomplete_rows, 5U);
+  EXPECT_EQ(converted_.time_reversals, 1U);
   EXPECT_EQ(converted_.start, 1.0);
 }
 
@@ -201,7 +201,7 @@ TEST_F(Conversion, ChipAtRestAccelerates) {
   EXPECT_NEAR(turned.at(0).observation.yaw, M_PI / 2, 1e-12);
 }
 
-TEST_F(Conversion, CommandOfTheWheelsIsHeardAtTheNextStep) {
+TEST_F(Conversion, CommandOfTheWheelsIsMapped) {
   const std::string mapping =
       replaced(mapping_head, "imu:", "  wheel_velocity_target: {from: [cl, cr]}\nimu:");
   const auto rows = convert(names + ",cl,cr\n" + row("0") + ",4,-6\n", mapping);
@@ -209,7 +209,7 @@ TEST_F(Conversion, CommandOfTheWheelsIsHeardAtTheNextStep) {
   EXPECT_EQ(rows.at(0).action.servo[5].velocity, -6.0);
 }
 
-TEST_F(Conversion, LabelsAreStretchesOfEqualRows) {
+TEST_F(Conversion, LabelsAreIntervalsOfEqualRows) {
   std::string text = names + ",left,right\n";
   const char* labels[] = {"1,1", "1,1", "0,1", "0,1", ",1", "1,0.2"};
   for (int k = 0; k < 6; ++k)
@@ -217,12 +217,11 @@ TEST_F(Conversion, LabelsAreStretchesOfEqualRows) {
   const std::string mapping = mapping_head + "contact: {from: [left, right]}\n";
   (void)convert(text, mapping);
   EXPECT_EQ(to_csv(converted_.contact), "start,end,left,right\n0,1,1,1\n1,2,0,1\n2.5,3,1,0\n");
-  EXPECT_EQ(converted_.lacking, 0U);
+  EXPECT_EQ(converted_.incomplete_rows, 0U);
   (void)convert(text, mapping_head + "contact: {from: right, above: 0.1}\n");
   EXPECT_EQ(to_csv(converted_.contact), "start,end,left,right\n0,3,1,1\n");
-  EXPECT_THAT(
-      complaint(replaced(text, "\n5,", "\n4,"), mapping),
-      HasSubstr("log.csv:6: labels of contact need times that increase: 1 s comes after 1.5"));
+  EXPECT_THAT(complaint(replaced(text, "\n5,", "\n4,"), mapping),
+              HasSubstr("log.csv:6: contact labels need increasing times: 1 s comes after 1.5"));
 }
 
 TEST_F(Conversion, LogThatIsWrongIsNamedByItsPlace) {
@@ -244,8 +243,8 @@ TEST_F(Conversion, LogThatIsWrongIsNamedByItsPlace) {
 }
 
 TEST_F(Conversion, MappingThatIsWrongIsNamedByItsPlaceWithTheNearestName) {
-  const auto expect = [&](const std::string& what, const std::string& by, const char* said) {
-    EXPECT_THAT(mapping_complaint(what, by), HasSubstr(said)) << what << " -> " << by;
+  const auto expect = [&](const std::string& what, const std::string& by, const char* message) {
+    EXPECT_THAT(mapping_complaint(what, by), HasSubstr(message)) << what << " -> " << by;
   };
   expect("m3", "mm3", "log.csv has no column 'mm3' (did you mean 'm3'?)");
   expect("from: t", "from: seconds", "log.csv has no column 'seconds' (it has t, q0,");
@@ -268,15 +267,15 @@ TEST_F(Conversion, MappingThatIsWrongIsNamedByItsPlaceWithTheNearestName) {
   expect("{from: t}", "{form: t}", "time.form: unknown key (did you mean 'from'?)");
   expect("{from: t}", "{}", "time.from: is missing");
   expect("time: {from: t}", "", "time: is missing: expected 'time' or 'period'");
-  expect(
-      "time:", "period: 0.001\ntime:", "map.yaml:1:9: period: 'time' says when rows were logged");
+  expect("time:", "period: 0.001\ntime:",
+         "map.yaml:1:9: period: 'time' already specifies when rows were logged");
   expect("time: {from: t}", "period: 0", "period: expected the time between two rows (s)");
   expect("time: {from: t}", "period: 2", "period: expected the time between two rows (s), at most");
   expect("qz]", "qz], order: zyxw", "imu.orientation.order: expected one of wxyz, xyzw");
   expect("qz]", "qz], reference: up", "imu.orientation.reference: expected one of z_down, z_up");
   for (const char* axes : {"[x, y]", "[x, y, y]", "[x, y, -z]", "[x, y, w]", "[x, '', z]"}) {
     expect("imu:", fmt::format("imu:\n  axes: {}", axes),
-           "map.yaml:7:9: imu.axes: expected what of theirs");
+           "map.yaml:7:9: imu.axes: expected the log's axes");
   }
   expect("imu:", "contact: {from: [m0, m1, m2]}\nimu:", "contact.from: expected 1 of the names");
   expect("imu:", "contact: {above: 1}\nimu:", "contact.from: is missing");
@@ -323,9 +322,10 @@ TEST_F(Conversion, ArraysAreReadByTheirColumns) {
 }
 
 TEST_F(Conversion, ArraysThatDoNotFitAreNamed) {
-  const auto expect = [&](const NpzArrays& arrays, const std::string& mapping, const char* said) {
+  const auto expect = [&](const NpzArrays& arrays, const std::string& mapping,
+                          const char* message) {
     write_npz(arrays, folder_ / "log.npz");
-    EXPECT_THAT(complaint_about(folder_ / "log.npz", mapping), HasSubstr(said)) << mapping;
+    EXPECT_THAT(complaint_about(folder_ / "log.npz", mapping), HasSubstr(message)) << mapping;
   };
   NpzArrays arrays = sample_arrays();
   arrays["v"].shape = {3, 6};

@@ -71,8 +71,8 @@ TEST(Npz, LargeArraysTakeLessRoomAndComeBackToTheBit) {
   const ScratchFolder folder;
   NpyArray grid{{400, 500}, {}};
   for (std::size_t i = 0; i < 200'000; ++i) {
-    const std::size_t stretch = i / 64;
-    grid.data.push_back(std::log(1e-3 + static_cast<double>(stretch)));
+    const std::size_t block = i / 64;
+    grid.data.push_back(std::log(1e-3 + static_cast<double>(block)));
   }
   write_npz({{"grid", grid}}, folder / "a.npz");
   EXPECT_LT(std::filesystem::file_size(folder / "a.npz"), 400'000U);  // of 1,600,000
@@ -168,7 +168,7 @@ TEST(Npy, HeaderIsPaddedAsNumPyAsks) {
   EXPECT_EQ(bytes[127], '\n');
 }
 
-TEST(Npy, WhatItIsNotSaysSo) {
+TEST(Npy, RefusesInvalidFiles) {
   const std::string good = "{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }";
   EXPECT_THAT(message(""), HasSubstr("a.npy"));
   EXPECT_THAT(message("\x89PNG and more text"), HasSubstr("not a NumPy array"));
@@ -200,8 +200,7 @@ TEST(Npz, OfAnArrayThatIsNotNeededNothingIsRead) {
   std::string bytes = read_file(folder / "a.npz");
   const std::size_t number = bytes.find(raw<double>({4.5}));
   ASSERT_NE(number, std::string::npos);
-  bytes[number] =
-      static_cast<char>(bytes[number] ^ 1);  // in "two", whose checksum does not fit now
+  bytes[number] = static_cast<char>(bytes[number] ^ 1);  // breaks the checksum of "two"
   std::ofstream(folder / "a.npz", std::ios::binary) << bytes;
   const NpzArrays read = read_npz(
       folder / "a.npz", [](std::string_view name) -> std::size_t { return name == "one" ? 3 : 0; });

@@ -49,7 +49,7 @@ TEST_F(ParameterModelFileTest, IsPlainArraysForNumPy) {
   EXPECT_EQ(arrays.at("estimator").data, (std::vector<double>{'l', 'o', 'a', 'd'}));
 }
 
-TEST_F(ParameterModelFileTest, SaysWhatIsWrong) {
+TEST_F(ParameterModelFileTest, NamesTheError) {
   write_npz({{"slope", {{1}, {1.0}}}}, path());
   EXPECT_THAT(complaint(), AllOf(HasSubstr("m.npz"), HasSubstr("missing estimator")));
   write_npz({{"estimator", {{1}, {300.0}}}}, path());

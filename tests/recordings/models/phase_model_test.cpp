@@ -71,7 +71,7 @@ TEST(PhaseModelFile, ReadsBackWhatWasWritten) {
   }
 }
 
-TEST(PhaseModelFile, SaysWhatIsWrong) {
+TEST(PhaseModelFile, NamesTheError) {
   const auto path = file_in_temp("broken_phase_model.npz");
   write_phase_model({model(), {}}, path);
   const NpzArrays good = read_npz(path);

@@ -27,8 +27,8 @@ test: {scenarios: [scenarios/stairs.yaml]}
 benchmark: {}
 )";
 
-/// Four estimators in two scenes. The first three are level with their neighbours, but the first
-/// with the third.
+/// Four estimators in two scenes. Of the first three, neighbouring ranks do not differ
+/// significantly, but the first and the third do.
 class BenchmarkPage : public ::testing::Test {
  protected:
   BenchmarkPage() {
@@ -42,7 +42,7 @@ class BenchmarkPage : public ::testing::Test {
         "accelerometer_noise_mps2,fitted_on\n"
         "mujoco,upkie,harsh,stairs,test,robust,0.99,0.98,0.995,1,1,0,0,own\n"
         "mujoco,upkie,harsh,stairs,test,free_fall,0.5,0.4,0.6,nan,0,0,0,own\n"
-        "mujoco,upkie,harsh,stairs,test,robust,0.1,0,0.2,1,1,0,0,bullet\n"  // a guest
+        "mujoco,upkie,harsh,stairs,test,robust,0.1,0,0.2,1,1,0,0,bullet\n"  // a transfer
         "mujoco,upkie,harsh,<i>hop,unseen,robust,0.7,0.6,0.8,0.9,0.45,0,0,own\n"
         "mujoco,upkie,harsh,<i>hop,unseen,free_fall,nan,nan,nan,nan,nan,0,0,own\n"
         "mujoco,upkie,harsh,<i>hop\n");  // torn
@@ -50,7 +50,7 @@ class BenchmarkPage : public ::testing::Test {
                   "robot,sensors,torque_noise_nm,accelerometer_noise_mps2,estimator,"
                   "mean_balanced_accuracy,mean_balanced_accuracy_low,mean_balanced_accuracy_high,"
                   "worst_balanced_accuracy,worst_scene,worst_simulator,is_not_significantly_worse,"
-                  "log_loss_bits,bits_left\n"
+                  "log_loss_bits,excess_log_loss_bits\n"
                   "upkie,harsh,0,0,gradient_boosting,0.91,0.9,0.92,0.8,<i>hop,mujoco,0,0.1,0\n"
                   "upkie,harsh,0,0,robust,0.845,0.83,0.85,0.7,<i>hop,mujoco,1,0.125,0.025\n"
                   "upkie,harsh,0,0,phase,0.84,0.83,0.85,0.7,<i>hop,mujoco,1\n"
@@ -77,28 +77,28 @@ TEST_F(BenchmarkPage, ShowsEveryScenesBestAndWorst) {
   EXPECT_THAT(html, AllOf(HasSubstr("upkie, harsh sensors"),
                           HasSubstr("level-5 best\" data-value=\"0.99\""),
                           HasSubstr("level-0\" data-value=\"0.5\""),
-                          HasSubstr("0.99 [0.98, 0.995]; F1 of flights –"),
-                          HasSubstr("&lt;i&gt;hop *"),  // nothing like it was fitted
+                          HasSubstr("balanced accuracy 0.990 [0.980, 0.995]; flight F1 –"),
+                          HasSubstr("&lt;i&gt;hop *"),  // unlike the training scenes
                           HasSubstr("0.845</td>"),      // the mean of both scenes
                           Not(HasSubstr("<i>hop")), Not(HasSubstr("data-value=\"0.1\""))));
 }
 
-TEST_F(BenchmarkPage, SaysWhereEachFailsAndHow) {
+TEST_F(BenchmarkPage, ListsTheScenesAndErrorsOfEachFailure) {
   EXPECT_THAT(page(), AllOf(HasSubstr("<b>&lt;i&gt;hop</b> 0.700: misses 55 % of the time in the "
-                                      "air; 10 % of what it calls flight is contact (MuJoCo"),
+                                      "air; 10 % of the flight it reports is contact (MuJoCo"),
                             HasSubstr("<b>stairs</b> 0.500: misses 100 % of the time in the air "
-                                      "and says nothing else"),
-                            HasSubstr("Level with the first in 1 of 1 settings")));
+                                      "and never reports flight"),
+                            HasSubstr("Not significantly worse than the best in 1 of 1 settings")));
 }
 
-/// One run a scene says nothing about others.
+/// A single run per scene gives no intervals.
 TEST_F(BenchmarkPage, DrawsMeansWithoutIntervalsToo) {
   BenchmarkScores scores = benchmark_scores(folder_.path());
   const auto points = [&](const char* name) {
     const Figure figure =
         draw_standings_figure(scores, scores.standings.front().setting, 0.95, folder_ / name);
     const std::string svg = read_file(figure.svg);
-    std::set<std::string> places;  // of dots: where two lie upon each other is one
+    std::set<std::string> places;  // of dots: two dots at one position count once
     for (std::size_t at = svg.find("#gpPt6"); at != std::string::npos;
          at = svg.find("#gpPt6", at + 1)) {
       const std::size_t begin = svg.find("translate(", at);
@@ -107,29 +107,31 @@ TEST_F(BenchmarkPage, DrawsMeansWithoutIntervalsToo) {
     return places.size();
   };
   EXPECT_EQ(points("with"), 2U * 4U);  // the mean and the worst scene of four
-  for (Standing& place : scores.standings) place.mean.low = place.mean.high = NAN;
+  for (Standing& standing : scores.standings) standing.mean.low = standing.mean.high = NAN;
   EXPECT_EQ(points("without"), 2U * 4U);
 }
 
-TEST_F(BenchmarkPage, DrawsTheLearnedCeilingAsALine) {
+TEST_F(BenchmarkPage, DrawsTheReferenceUpperBoundAsALine) {
   draw_standings_figures(folder_.path(), 0.95);
   EXPECT_THAT(read_file(folder_ / "figures/benchmark_upkie_harsh.gp"),
               AllOf(HasSubstr("set arrow 1 from 0.91,graph 0 to 0.91,graph 1"),
-                    HasSubstr("The dashed line is the learned ceiling"),
+                    HasSubstr("The dashed line is the reference upper bound"),
                     Not(HasSubstr("'Gradient boosting'"))));
-  EXPECT_THAT(page(), AllOf(HasSubstr("It leaves 0.025 bits a step to the learned ceiling"),
-                            HasSubstr("learned ceiling 0.910; Bayes filter (robust) 0.845")));
+  EXPECT_THAT(page(),
+              AllOf(HasSubstr("Its log loss exceeds that of the reference upper bound by 0.025 "
+                              "bits per wheel and step"),
+                    HasSubstr("reference upper bound 0.910; Bayes filter (robust) 0.845")));
 }
 
-TEST_F(BenchmarkPage, ShowsTheFilmOfTheWorstMomentWhereThereIsOne) {
+TEST_F(BenchmarkPage, ShowsTheFilmOfTheWorstSegmentIfThereIsOne) {
   EXPECT_THAT(page(), Not(HasSubstr("<video")));
   folder_.write("videos/worst_robust.mp4", "film");
   EXPECT_THAT(page(), HasSubstr("The worst two seconds of Bayes filter (robust)"));
 }
 
-TEST_F(BenchmarkPage, JoinsThoseWhoCannotBeToldApart) {
+TEST_F(BenchmarkPage, JoinsEstimatorsThatDoNotDifferSignificantly) {
   draw_standings_figures(folder_.path(), 0.95);
-  // Three places from above: 3, 2, 1, 0. Bars over the first and second, the second and third.
+  // Ranks from above: 3, 2, 1, 0. Bars join the first and second, and the second and third.
   EXPECT_THAT(read_file(folder_ / "figures/benchmark_upkie_harsh.dat"),
               HasSubstr("\n\n\n0\t1.7\t3.3\n1\t0.7\t2.3\n\n"));
   EXPECT_THAT(page(), AllOf(HasSubstr("src=\"data:image/svg+xml;base64,"),

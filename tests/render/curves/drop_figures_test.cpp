@@ -24,6 +24,7 @@ using ::testing::Not;
 namespace fs = std::filesystem;
 
 constexpr std::size_t drop_steps = 81;
+const std::vector<std::string> estimators = {"robust", "phase"};
 
 experiments::SpectrumTrace staged_spectrum(double level) {
   experiments::SpectrumTrace trace;
@@ -40,7 +41,7 @@ experiments::SpectrumTrace staged_spectrum(double level) {
   return trace;
 }
 
-/// Off the ground from 0 to 30 ms; made by no filter.
+/// Off the ground from 0 to 30 ms, with made-up beliefs.
 experiments::DropDetail staged_detail(std::size_t settings) {
   experiments::DropDetail detail;
   detail.simulator = "mujoco";
@@ -96,7 +97,7 @@ experiments::DropPosterior staged_posterior(const std::string& simulator) {
   return posterior;
 }
 
-/// The numbers of a data file, line by line, without comments; NaN where something else stands.
+/// The numbers of a data file, line by line, without comments; NaN for all other words.
 std::vector<std::vector<double>> numbers_in(const fs::path& path) {
   std::vector<std::vector<double>> rows;
   std::istringstream lines(read_file(path));
@@ -120,8 +121,8 @@ class DropFigures : public ::testing::Test {
 };
 
 TEST_F(DropFigures, DetailIsAsWideAsAScreenWithItsDataBesideIt) {
-  const Figure figure =
-      draw_drop_detail(staged_detail(2), {"One drop", "Run 0.", "Curves."}, folder_ / "detail");
+  const Figure figure = draw_drop_detail(staged_detail(2), estimators,
+                                         {"One drop", "Run 0.", "Curves."}, folder_ / "detail");
   const cv::Mat image = cv::imread(figure.png.string());
   EXPECT_EQ(image.cols, 1280);
   for (const char* text : {"One drop", "P(contact)", "knee torque", "torques 2 N·m", "Phase filter",
@@ -167,7 +168,8 @@ TEST_F(DropFigures, SpectrogramRowsAreTheNearestBins) {
 }
 
 TEST_F(DropFigures, DetailIsDrawnAgainByTheScriptBesideIt) {
-  draw_drop_detail(staged_detail(1), {"it's `x` @a", "100 % {x}_y", ""}, folder_ / "detail");
+  draw_drop_detail(staged_detail(1), estimators, {"it's `x` @a", "100 % {x}_y", ""},
+                   folder_ / "detail");
   const std::string before = read_file(folder_ / "detail.png");
   fs::remove(folder_ / "detail.png");
   const std::string command = "cd '" + folder_.string() + "' && gnuplot detail.gp 2>/dev/null";
@@ -187,7 +189,7 @@ TEST_F(DropFigures, DetailOfUglyDataIsStillAFigure) {
   std::fill(detail.torque.wheel.begin(), detail.torque.wheel.end(), 0.0);
   std::fill(detail.height.begin(), detail.height.end(), 0.0);
   std::fill(detail.contact.begin(), detail.contact.end(), std::uint8_t{0});
-  const Figure figure = draw_drop_detail(detail, {"Ugly", "", ""}, folder_ / "ugly");
+  const Figure figure = draw_drop_detail(detail, estimators, {"Ugly", "", ""}, folder_ / "ugly");
   EXPECT_GT(cv::imread(figure.png.string()).cols, 1280);
   EXPECT_THAT(read_file(folder_ / "ugly_1.dat"), HasSubstr("NaN"));
 }
@@ -195,7 +197,7 @@ TEST_F(DropFigures, DetailOfUglyDataIsStillAFigure) {
 TEST_F(DropFigures, DetailWithColumnsOfDifferentLengthsIsRefused) {
   experiments::DropDetail detail = staged_detail(1);
   detail.height.pop_back();
-  EXPECT_THROW(draw_drop_detail(detail, {}, folder_ / "detail"), Error);
+  EXPECT_THROW(draw_drop_detail(detail, estimators, {}, folder_ / "detail"), Error);
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 

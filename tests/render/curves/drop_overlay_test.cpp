@@ -72,13 +72,13 @@ TEST(DropOverlay, AlignsBothEnginesAtTheirTakeoffs) {
   }
 }
 
-TEST(DropOverlay, SaysHowManyDropsTheRunHas) {
+TEST(DropOverlay, ReportsTheNumberOfDrops) {
   const ScratchFolder folder;
   DropOverlay what;
   what.drop = 1;
   try {
     draw_drop_overlay(dropped("mujoco", 400), dropped("bullet", 400), what, folder / "overlay");
-    FAIL() << "drew a drop that is not there";
+    FAIL() << "drew a drop that does not exist";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
                 HasSubstr("the run in mujoco has 1 drops, counted from 0; none is number 1"));

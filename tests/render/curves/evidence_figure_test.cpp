@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Load at 8 ms speaks for contact by half its compressed value; nothing else says anything.
+/// The evidence of the load at 8 ms is half its compressed value; all other curves are zero.
 EvidenceModel of_one_curve() {
   EvidenceModel model;
   for (std::size_t k = 0; k < evidence_knots; ++k) {
@@ -26,14 +26,14 @@ EvidenceModel of_one_curve() {
   return model;
 }
 
-/// As a load of so many newtons is heard: y / (1 + |y| / 4).
-double heard(double load) { return load / 5.0 / (1.0 + std::abs(load) / 20.0); }
+/// The compressed value of a load (N): y / (1 + |y| / 4).
+double compressed_load(double load) { return load / 5.0 / (1.0 + std::abs(load) / 20.0); }
 
-TEST(CompressedTicks, AreRoundValuesWhereTheyLieAndStayApart) {
+TEST(CompressedTicks, AreRoundValuesAtTheirPositionsAndStayApart) {
   const auto ticks = compressed_ticks(-2.0, 3.0, 5.0);
   std::vector<double> values;
   for (std::size_t i = 0; i < ticks.size(); ++i) {
-    EXPECT_NEAR(ticks[i].place, heard(ticks[i].value), 1e-9);
+    EXPECT_NEAR(ticks[i].place, compressed_load(ticks[i].value), 1e-9);
     if (i > 0) {
       EXPECT_GE(ticks[i].place - ticks[i - 1].place, 0.12 * 5.0);
     }
@@ -46,7 +46,7 @@ TEST(CompressedTicks, AreRoundValuesWhereTheyLieAndStayApart) {
   EXPECT_EQ(compressed_ticks(std::log(0.05), std::log(5.0), 0.0).size(), 4U);  // .1, .3, 1, 3
 }
 
-TEST(EvidenceFigure, DrawsWhatACurveSaysInTheUnitsOfWhatItHears) {
+TEST(EvidenceFigure, DrawsCurvesInTheUnitsOfTheirInputs) {
   const ScratchFolder folder;
   const Figure figure =
       draw_evidence_figure({"Evidence", of_one_curve(), "Made up."}, folder / "evidence");
@@ -64,22 +64,22 @@ TEST(EvidenceFigure, DrawsWhatACurveSaysInTheUnitsOfWhatItHears) {
     for (std::string one; cells >> one;) row.push_back(one);
     ASSERT_EQ(row.size(), 10U);
     const double value = std::stod(row[1]);  // N
-    EXPECT_NEAR(std::stod(row[5]), 0.5 * heard(value), 2e-3);
+    EXPECT_NEAR(std::stod(row[5]), 0.5 * compressed_load(value), 2e-3);
     if (row[2] != "NaN") ++seen_by_all;
     last = value;
   }
   EXPECT_NEAR(last, 60.0, 0.01);
-  EXPECT_NEAR(seen_by_all, 96, 2);  // the others end where their rows do
+  EXPECT_NEAR(seen_by_all, 96, 2);  // the others end where their training data end
 }
 
-TEST(EvidenceFigure, SaysHowLoudEveryChannelGets) {
+TEST(EvidenceFigure, DescribesTheLargestContributionOfEveryChannel) {
   const ScratchFolder folder;
   (void)draw_evidence_figure({"Evidence", of_one_curve(), "Made up."}, folder / "evidence");
   EXPECT_THAT(figure_text(read_file(folder / "evidence.gp")).alt,
-              HasSubstr("its load 1.50, the ground's torque on it 0.00"));
+              HasSubstr("load 1.50, ground torque 0.00"));
 }
 
-TEST(EvidenceFigure, DrawsAModelThatNeverHeardAnything) {
+TEST(EvidenceFigure, DrawsAModelWithoutTrainingData) {
   const ScratchFolder folder;
   EXPECT_TRUE(
       std::filesystem::exists(draw_evidence_figure({"Nothing", {}, "Flat."}, folder / "flat").svg));

@@ -25,7 +25,7 @@ LogTraceStep step_at(std::size_t k) {
   step.value = {air ? 0.1 : 1.2, air ? -0.1 : -1.2, 0.2, -0.3, k == 4321 ? 250.0 : 0.0,
                 air ? 0.0 : 1.0, air ? 0.1 : 0.9,   0.3, 0.4};
   step.contact = {!air, true};
-  step.touches = {!air, k % 2 == 0};
+  step.true_contact = {!air, k % 2 == 0};
   if (k == 1234) step.status = SignalStatus::invalid;
   return step;
 }
@@ -60,7 +60,7 @@ TEST(LogTrace, KeepsEveryStepOfAShortLog) {
       EXPECT_EQ(rows[i][3 + 2 * c], step.value[c]);
     }
     EXPECT_EQ(rows[i][20], step.contact[0] ? 1.0 : 0.0);
-    EXPECT_EQ(rows[i][23], (*step.touches)[1] ? 1.0 : 0.0);
+    EXPECT_EQ(rows[i][23], (*step.true_contact)[1] ? 1.0 : 0.0);
     EXPECT_EQ(rows[i][25], 1000 + i == 1234 ? 1.0 : 0.0);
   }
 }
@@ -105,11 +105,11 @@ TEST(LogTrace, BreaksTheLineAtAGap) {
   EXPECT_THAT(table, HasSubstr("\n\n3.005\t"));
 }
 
-TEST(LogTrace, LeavesOutWhatIsNotKnown) {
+TEST(LogTrace, LeavesOutMissingValues) {
   LogTrace trace(2);
   for (std::size_t k = 0; k < 40; ++k) {
     LogTraceStep step = step_at(k);
-    step.touches.reset();
+    step.true_contact.reset();
     step.value[0] = NAN;
     if (k != 7) step.value[1] = NAN;
     trace.add(step);
@@ -151,7 +151,7 @@ TEST(LogFigure, OfOneStepOrWithoutTransitionsOrTruthCanBeDrawn) {
   const ScratchFolder folder;
   LogTrace trace;
   LogTraceStep step = step_at(0);
-  step.touches.reset();
+  step.true_contact.reset();
   step.value[7] = step.value[8] = NAN;
   trace.add(step);
   const std::string picture = read_file(draw_log(trace, "", folder / "one").svg);

@@ -48,7 +48,7 @@ TEST(MomentsFigure, ShowsEveryEngineBesideTheRealRobot) {
             HasSubstr("wheel, in the air: MuJoCo nan ± nan, Bullet 0.011 ± 0.009")));
 }
 
-TEST(MomentsFigure, DrawsNoCurveForWhoWasNeverInThatState) {
+TEST(MomentsFigure, DrawsNoCurveForAnEngineWithoutSamples) {
   const ScratchFolder folder;
   (void)draw_moments_figure(moments(), densities(), folder / "moments");
   // The last panel: MuJoCo's curve, Bullet's, then three rows of moments.

@@ -20,14 +20,14 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// What goes wrong: the message, and whether it is the request's fault (exit code 2) or not (1).
-struct Complaint {
+/// A caught error: its message, and whether the request was wrong (exit code 2) or not (1).
+struct CaughtError {
   std::string message;
-  bool request = false;
+  bool is_request = false;
 };
 
 template <typename Work>
-Complaint complaint(const Work& work) {
+CaughtError error_of(const Work& work) {
   try {
     work();
   } catch (const InputError& error) {
@@ -44,33 +44,34 @@ TEST(VideoEncoder, AMissingCodecIsOneClearErrorAndLeavesNothing) {
   const models::RobotModel robot = models::compile_robot_model(upkie_mjcf, staged_terrain());
   const recordings::Recording run = staged_run(0.5);
   const VideoOptions options = {{.width = 320, .height = 180, .encoder = "libx264_is_not_here"}};
-  const Complaint said = complaint([&] {
+  const CaughtError error = error_of([&] {
     render_video({{robot, run, {}}}, options, folder / "x.mp4");
   });
-  EXPECT_THAT(said.message, AllOf(HasSubstr("no H.264 encoder"), HasSubstr("libx264_is_not_here")));
-  EXPECT_EQ(said.message.find('\n'), std::string::npos);
-  EXPECT_FALSE(said.request);
+  EXPECT_THAT(error.message,
+              AllOf(HasSubstr("no H.264 encoder"), HasSubstr("libx264_is_not_here")));
+  EXPECT_EQ(error.message.find('\n'), std::string::npos);
+  EXPECT_FALSE(error.is_request);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-/// An encoder that is there but does not know x264's options must say so, not write another file.
+/// An encoder that does not know x264's options must give an error, not write another file.
 TEST(VideoEncoder, AnotherCodecIsRefused) {
   const ScratchFolder folder;
-  const Complaint said = complaint(
+  const CaughtError error = error_of(
       [&] { VideoWriter(folder / "x.mp4", {.width = 64, .height = 64, .encoder = "mpeg4"}); });
-  EXPECT_THAT(said.message, HasSubstr("video: "));
-  EXPECT_FALSE(said.request);
+  EXPECT_THAT(error.message, HasSubstr("video: "));
+  EXPECT_FALSE(error.is_request);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(VideoEncoder, OddSizesAreTheRequestsFault) {
   const ScratchFolder folder;
   EXPECT_TRUE(
-      complaint([&] { VideoWriter(folder / "x.mp4", {.width = 63, .height = 64}); }).request);
+      error_of([&] { VideoWriter(folder / "x.mp4", {.width = 63, .height = 64}); }).is_request);
 }
 
 /// Neither the memory in which a film is made nor the disk takes more than its first bytes.
-TEST(VideoEncoder, AFilmThatHasNoRoomIsAnErrorAndTheOldOneStays) {
+TEST(VideoEncoder, AFullDiskIsAnErrorAndTheOldFilmStays) {
   const ScratchFolder folder;
   folder.write("x.mp4", "the old film");
   const pid_t child = ::fork();
@@ -78,7 +79,7 @@ TEST(VideoEncoder, AFilmThatHasNoRoomIsAnErrorAndTheOldOneStays) {
     std::signal(SIGXFSZ, SIG_IGN);
     const rlimit most{2000, 2000};
     ::setrlimit(RLIMIT_FSIZE, &most);
-    const Complaint said = complaint([&] {
+    const CaughtError error = error_of([&] {
       VideoWriter writer(folder / "x.mp4", {.width = 320, .height = 240});
       std::vector<std::uint8_t> picture(320 * 240 * 3 / 2);
       for (int i = 0; i < 60; ++i) {
@@ -89,7 +90,7 @@ TEST(VideoEncoder, AFilmThatHasNoRoomIsAnErrorAndTheOldOneStays) {
       }
       writer.finish();
     });
-    ::_exit(said.message.find("write") != std::string::npos && !said.request ? 42 : 1);
+    ::_exit(error.message.find("write") != std::string::npos && !error.is_request ? 42 : 1);
   }
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);

@@ -29,7 +29,7 @@ class Video : public ::testing::Test {
         std::distance(std::filesystem::recursive_directory_iterator(folder_), {}));
   }
 
-  /// A hash of every frame as the encoder would get it.
+  /// A hash of every frame that the encoder would receive.
   std::vector<std::size_t> frame_hashes(int workers, VideoQuality quality) const {
     const VideoSource source{robot_, run_, beliefs_};
     VideoOptions options = {{.width = 320, .height = 180}};
@@ -54,7 +54,7 @@ class Video : public ::testing::Test {
   const models::RobotModel robot_ = models::compile_robot_model(upkie_mjcf, staged_terrain());
   const recordings::Recording run_ = staged_run(3.0);
   const std::vector<BeliefTrack> beliefs_ = {staged_beliefs(run_, "robust"),
-                                             staged_beliefs(run_, "paper", 0.01f)};
+                                             staged_beliefs(run_, "paper", 2, 0.01f)};
   const VideoOptions small_ = {{.width = 320, .height = 180}, VideoQuality::draft, 1.9, 2.3};
   const ScratchFolder scratch_;
   const std::filesystem::path folder_ = scratch_.path();
@@ -105,8 +105,8 @@ TEST_F(Video, SideBySideLastsAsLongAsTheLongerRun) {
 TEST_F(Video, FourRunsStandInRowsOfTwo) {
   const VideoSource source{robot_, run_, beliefs_};
   const recordings::Recording later = staged_run(2.0);  // waits at its end
-  const std::vector<BeliefTrack> nobody;
-  const VideoSource waiting{robot_, later, nobody};
+  const std::vector<BeliefTrack> no_beliefs;
+  const VideoSource waiting{robot_, later, no_beliefs};
   FramePainter painter({source, waiting, source, source}, {{.width = 320, .height = 180}}, false);
   const cv::Mat picture = painter.paint(2.6).clone();
   const auto quarter = [&](int column, int row) {
@@ -117,7 +117,7 @@ TEST_F(Video, FourRunsStandInRowsOfTwo) {
   EXPECT_GT(cv::norm(quarter(0, 0), quarter(1, 0), cv::NORM_INF), 50.0);
 }
 
-TEST_F(Video, MoreRunsThanHaveRoomAreRefused) {
+TEST_F(Video, MoreThanFourRunsAreRefused) {
   const VideoSource source{robot_, run_, beliefs_};
   EXPECT_THAT(([&] {
                 render_video({source, source, source, source, source}, small_, folder_ / "x.mp4");
@@ -168,10 +168,10 @@ TEST_F(Video, WrongRequestsAreNamed) {
   VideoOptions backwards = small_;
   backwards.speed = -1.0;
   EXPECT_THAT(complaint(backwards), ThrowsMessage<InputError>(HasSubstr("speed")));
-  VideoOptions delay = small_;
-  delay.from = 100.0;
-  delay.to = 101.0;
-  EXPECT_THAT(complaint(delay), ThrowsMessage<InputError>(HasSubstr("3.000 s")));
+  VideoOptions beyond_end = small_;
+  beyond_end.from = 100.0;
+  beyond_end.to = 101.0;
+  EXPECT_THAT(complaint(beyond_end), ThrowsMessage<InputError>(HasSubstr("3.000 s")));
   std::vector<BeliefTrack> mismatched = beliefs_;
   mismatched[0].p_contact[0].pop_back();
   EXPECT_THAT(
@@ -196,8 +196,8 @@ TEST_F(Video, InterruptedByTheCallerLeavesNothing) {
   EXPECT_EQ(files(), 0u);
 }
 
-/// Mean absolute difference per channel between a picture and its golden copy, both blurred a
-/// little: text and edges may move by a fraction of a pixel with the version of a library.
+/// Compares the mean absolute difference per channel between a picture and its golden copy, both
+/// slightly blurred: another library version may shift text and edges by a fraction of a pixel.
 TEST_F(Video, PosterLooksLikeItsGoldenCopy) {
   const std::filesystem::path golden =
       std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "tests/render/film/golden_poster.png";

@@ -19,7 +19,8 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
-/// A page and who drew it when, as text or, as cairo does it from 1.18 on, in a packed stream.
+/// A page with its producer and creation time, as text or in a packed stream, as cairo writes it
+/// from 1.18 on.
 std::string drawn_at(const std::string& date, qpdf_object_stream_e streams) {
   qpdf_data document = qpdf_init();
   qpdf_empty_pdf(document);
@@ -46,12 +47,12 @@ TEST_P(DatelessPdf, IsTheSameWheneverItWasDrawn) {
 
 INSTANTIATE_TEST_SUITE_P(Info, DatelessPdf, ::testing::Values(qpdf_o_disable, qpdf_o_generate));
 
-TEST(DatelessPdf, KeepsWhatElseIsSaidAboutIt) {
+TEST(DatelessPdf, KeepsOtherMetadata) {
   EXPECT_THAT(dateless_pdf(drawn_at("D:2026", qpdf_o_disable), "a.pdf"),
               AllOf(HasSubstr("a plotter"), Not(HasSubstr("D:2026"))));
 }
 
-TEST(DatelessPdf, OfWhatIsNoneIsAnErrorWithItsName) {
+TEST(DatelessPdf, AnInvalidPdfIsAnErrorWithItsName) {
   for (const char* text : {"", "no PDF", "%PDF-1.5\n1 0 obj"}) {
     EXPECT_THAT([&] { dateless_pdf(text, "curve.pdf"); },
                 ThrowsMessage<Error>(StartsWith("curve.pdf")))
@@ -59,7 +60,7 @@ TEST(DatelessPdf, OfWhatIsNoneIsAnErrorWithItsName) {
   }
 }
 
-TEST(DatelessPdf, IsWhatAFigureIs) {
+TEST(DatelessPdf, FiguresAreDateless) {
   const ScratchFolder folder;
   const Figure figure = draw_figure(folder / "line", 200, 100, "plot x\n", {});
   const std::string pdf = read_file(figure.pdf);

@@ -26,7 +26,7 @@ using ::testing::ThrowsMessage;
 
 namespace fs = std::filesystem;
 
-/// A variable of the environment, while this lives.
+/// Sets an environment variable for the lifetime of this object.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {
@@ -56,8 +56,8 @@ class WholeFigures : public ::testing::Test {
   void draw(const std::string& commands = "plot x\n") const {
     draw_figure(folder_ / "line", 300, 200, commands, {{"line.dat", "1\t2\n"}});
   }
-  /// A gnuplot that draws, cuts what it drew, and says that all is well, as the real one does when
-  /// the disk is full.
+  /// A gnuplot that draws, truncates its output, and reports success, as the real one does when the
+  /// disk is full.
   std::string path_with_cutting_gnuplot(const std::string& victim) const {
     const fs::path program = tools_ / "gnuplot";
     std::ofstream(program) << "#!/bin/sh\nPATH=" << std::getenv("PATH")
@@ -71,7 +71,7 @@ class WholeFigures : public ::testing::Test {
   const fs::path folder_ = scratch_.path();
 };
 
-TEST_F(WholeFigures, WhatGnuplotLeftUnfinishedDoesNotReplaceWhatIsThere) {
+TEST_F(WholeFigures, AnUnfinishedDrawingDoesNotReplaceThePreviousOne) {
   draw();
   const auto before = files_in(folder_);
   ASSERT_EQ(before.size(), 5U);
@@ -90,16 +90,16 @@ TEST_F(WholeFigures, AFullDiskIsAnErrorThatNamesTheFileAndLeavesNothing) {
   const auto before = files_in(folder_);
   const pid_t child = ::fork();
   if (child == 0) {
-    // No file of this process, or of a program that it starts, can be longer than this.
+    // A limit on the size of all files of this process and of the programs that it starts.
     std::signal(SIGXFSZ, SIG_IGN);
     const rlimit most{1000, 1000};
     ::setrlimit(RLIMIT_FSIZE, &most);
     try {
       draw("plot -x\n");
     } catch (const Error& error) {
-      const std::string said = error.what();
-      const bool named = said.find((folder_ / "line").string() + ".") != std::string::npos;
-      ::_exit(named && said.find("cannot be written") != std::string::npos ? 42 : 1);
+      const std::string message = error.what();
+      const bool named = message.find((folder_ / "line").string() + ".") != std::string::npos;
+      ::_exit(named && message.find("cannot be written") != std::string::npos ? 42 : 1);
     }
     ::_exit(0);
   }
@@ -110,13 +110,13 @@ TEST_F(WholeFigures, AFullDiskIsAnErrorThatNamesTheFileAndLeavesNothing) {
   EXPECT_TRUE(files_in(folder_) == before);
 }
 
-TEST_F(WholeFigures, WritesThatDoNotArriveAreErrorsUnderTheNameThatPeopleKnow) {
+TEST_F(WholeFigures, FailedWritesAreErrorsWithTheFinalName) {
   EXPECT_THAT([] { write_whole("/dev/full", "text", "figures/a.dat"); },
               ThrowsMessage<Error>(AllOf(HasSubstr("figures/a.dat: cannot be written"),
                                          HasSubstr("No space left"))));
 }
 
-TEST_F(WholeFigures, DrawingsAreWholeWhenTheyEndAsTheirKindEnds) {
+TEST_F(WholeFigures, DrawingsAreWholeIfTheyEndAsTheirFileTypeDoes) {
   draw();
   for (const char* kind : {"line.png", "line.svg", "line.pdf"}) {
     const std::string content = read_file(folder_ / kind);
@@ -130,7 +130,7 @@ TEST_F(WholeFigures, DrawingsAreWholeWhenTheyEndAsTheirKindEnds) {
   }
 }
 
-TEST_F(WholeFigures, AFigureThatNothingDependsOnStaysAsItWas) {
+TEST_F(WholeFigures, AnOptionalFigureStaysAfterAnError) {
   const std::string script = "set terminal pngcairo\nset output 'training.png'\nplot x\n";
   ASSERT_EQ(try_gnuplot(folder_ / "training.gp", script), folder_ / "training.png");
   const std::string before = read_file(folder_ / "training.png");
@@ -140,7 +140,7 @@ TEST_F(WholeFigures, AFigureThatNothingDependsOnStaysAsItWas) {
   EXPECT_EQ(files_in(folder_).size(), 2U);
 }
 
-TEST_F(WholeFigures, NobodysOwnSettingsAreObeyed) {
+TEST_F(WholeFigures, UserSettingsOfGnuplotAreIgnored) {
   draw();
   const std::string before = read_file(folder_ / "line.png");
   const std::string marker = (tools_ / "was_here").string();
@@ -163,7 +163,7 @@ TEST_F(WholeFigures, AreTheSameInEveryTimeZone) {
   }
 }
 
-TEST_F(WholeFigures, FilesOfTheUsersOwnAreNotReplaced) {
+TEST_F(WholeFigures, FilesOfTheUserAreNotReplaced) {
   std::ofstream(folder_ / "style.gp") << "mine";
   draw();
   EXPECT_EQ(read_file(folder_ / "style.gp"), "mine");

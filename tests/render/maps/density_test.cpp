@@ -29,8 +29,8 @@ LikelihoodGrids model() {
   return {knee, wheel, gaussian(knee, wheel, 2.0, 1.0), gaussian(knee, wheel, 1.0, 0.5)};
 }
 
-/// Of a normal distribution in the plane, the share inside the ellipse where the density is above
-/// c times its peak is 1 − c.
+/// In a planar normal distribution, the ellipse with densities above c times the peak encloses a
+/// share of 1 − c.
 TEST(DensityLevel, EnclosesTheShareOfANormalDistribution) {
   const LikelihoodGrids grids = model();
   for (const double share : {0.5, 0.9, 0.99}) {
@@ -55,7 +55,7 @@ TEST(GridWindow, HoldsBothDensitiesAndIgnoresOneThatVanishes) {
   EXPECT_EQ(axes_of(grids).knee_high, 4.0);
 }
 
-TEST(ContactProbability, IsAHalfWhereNothingIsKnown) {
+TEST(ContactProbability, IsOneHalfWithoutDensity) {
   LikelihoodGrids grids = model();
   grids.contact[0] = grids.no_contact[0] = 0.0;
   grids.contact[1] = 3.0;
@@ -65,7 +65,7 @@ TEST(ContactProbability, IsAHalfWhereNothingIsKnown) {
   EXPECT_EQ(probability[1], 0.75);
 }
 
-TEST(DensityFigure, SaysWhatItIsAndDrawsModelsWhoseTorquesAreElsewhere) {
+TEST(DensityFigure, HasItsTextsAndDrawsModelsWithTorquesOutsideTheAxes) {
   const ScratchFolder folder;
   LikelihoodGrids elsewhere = model();
   for (double& value : elsewhere.no_contact) value *= 1e-100;

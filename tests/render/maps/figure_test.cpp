@@ -96,7 +96,7 @@ TEST_F(FigureFiles, HeatmapCellsHaveTheirOwnColours) {
   EXPECT_GT(few[1], 200);  // yellow
   EXPECT_LT(many[1], 60);  // dark violet
   EXPECT_EQ(colour(0, 1), cv::Vec3b(255, 255, 255));
-  // What lies beyond the scale has its end's colour.
+  // Values beyond the scale have the colour of its end.
   EXPECT_EQ(colour(1, 0), few);
   EXPECT_EQ(colour(1, 1), many);
   EXPECT_EQ(colour(1, 2), few);
@@ -113,7 +113,7 @@ TEST_F(FigureFiles, TextsCannotBreakOutOfTheScript) {
   EXPECT_THAT(read_file(figure.svg), HasSubstr("{x}_y^z @a"));
 }
 
-TEST_F(FigureFiles, ScriptsSayWhatIsDrawn) {
+TEST_F(FigureFiles, ScriptsContainTheTexts) {
   draw_heatmap(error_heatmap(), folder_ / "heatmap");
   const FigureText text = figure_text(read_file(folder_ / "heatmap.gp"));
   EXPECT_EQ(text.title, "Error rate");
@@ -142,8 +142,8 @@ TEST_F(FigureFiles, FineMapsLeaveTheNumbersToTheDataFile) {
   EXPECT_THAT(read_file(folder_ / "fine.dat"), HasSubstr("3.987"));
 }
 
-/// Four estimators that nobody could tell apart when a map showed their success rates.
-TEST_F(FigureFiles, HeatmapTellsErrorsUnderTwoPercentApart) {
+/// Four estimators that looked alike when a map showed their accuracies.
+TEST_F(FigureFiles, HeatmapColoursDistinguishErrorsBelowTwoPercent) {
   Heatmap heatmap = error_heatmap();
   heatmap.x = {0, 1, 2, 3};
   heatmap.y = {0};
@@ -169,7 +169,7 @@ TEST_F(FigureFiles, HeatmapLinesAreLabelledAndStayOutOfTheCells) {
   EXPECT_THAT(read_file(folder_ / "heatmap.svg"), HasSubstr(">5 %<"));
 }
 
-TEST_F(FigureFiles, LeaveNothingWhenGnuplotComplains) {
+TEST_F(FigureFiles, LeaveNothingAfterAnErrorOfGnuplot) {
   EXPECT_THAT([&] { draw_figure(folder_ / "bad", 300, 200, "plot 'missing.dat'\n", {}); },
               ThrowsMessage<Error>(AllOf(HasSubstr("gnuplot"), HasSubstr("missing.dat"))));
   EXPECT_TRUE(names().empty());
@@ -214,13 +214,13 @@ TEST(IsoLines, LieOnTheLevel) {
       rows[r][c] = std::hypot(static_cast<double>(r) - 20.0, static_cast<double>(c) - 20.0);
     }
   }
-  const auto pieces = iso_lines(rows, 12.3);
+  const auto segments = iso_lines(rows, 12.3);
   double length = 0.0;
-  for (const IsoPiece& piece : pieces) {
-    for (const auto& point : piece) {
+  for (const IsoSegment& segment : segments) {
+    for (const auto& point : segment) {
       EXPECT_NEAR(std::hypot(point[0] - 20.0, point[1] - 20.0), 12.3, 0.02);
     }
-    length += std::hypot(piece[0][0] - piece[1][0], piece[0][1] - piece[1][1]);
+    length += std::hypot(segment[0][0] - segment[1][0], segment[0][1] - segment[1][1]);
   }
   EXPECT_NEAR(length, 2.0 * M_PI * 12.3, 0.3);
 }
@@ -239,18 +239,19 @@ TEST(IsoLines, AreJoinedFromEndToEnd) {
   EXPECT_NEAR(closed[0].front()[1], closed[0].back()[1], 1e-9);
   const auto corners = joined(iso_lines(rows, 12.2));  // cut off by the border
   ASSERT_EQ(corners.size(), 4u);
-  std::size_t pieces = 0;
-  for (const IsoLine& line : corners) pieces += line.size() - 1;
-  EXPECT_EQ(pieces, iso_lines(rows, 12.2).size());
+  std::size_t segments = 0;
+  for (const IsoLine& line : corners) segments += line.size() - 1;
+  EXPECT_EQ(segments, iso_lines(rows, 12.2).size());
   EXPECT_TRUE(joined({}).empty());
 }
 
 TEST(IsoLines, SeparateTheCornersOfASaddle) {
   // The middle (0.5) is below 0.6: the two high corners are cut off from each other.
-  const auto pieces = iso_lines({{1.0, 0.0}, {0.0, 1.0}}, 0.6);
-  ASSERT_EQ(pieces.size(), 2u);
-  for (const IsoPiece& piece : pieces) {
-    const double x = 0.5 * (piece[0][0] + piece[1][0]), y = 0.5 * (piece[0][1] + piece[1][1]);
+  const auto segments = iso_lines({{1.0, 0.0}, {0.0, 1.0}}, 0.6);
+  ASSERT_EQ(segments.size(), 2u);
+  for (const IsoSegment& segment : segments) {
+    const double x = 0.5 * (segment[0][0] + segment[1][0]);
+    const double y = 0.5 * (segment[0][1] + segment[1][1]);
     EXPECT_NEAR(x, y, 1e-12);               // on the diagonal through the high corners
     EXPECT_LT(std::min(x, 1.0 - x), 0.25);  // close to one of them
   }

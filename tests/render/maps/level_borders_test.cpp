@@ -27,8 +27,7 @@ Rows hill(std::size_t side) {
   return rows;
 }
 
-/// The side of every edge between neighbours, counted without lines: how many edges lie between
-/// values below a level and others.
+/// The number of edges between a value below a level and one above it, counted without lines.
 std::size_t edges_between(const Rows& rows, const std::vector<double>& levels) {
   std::size_t edges = 0;
   const auto apart = [&](double a, double b) {
@@ -48,11 +47,11 @@ std::size_t edges_between(const Rows& rows, const std::vector<double>& levels) {
 
 TEST(LevelBorders, RunAlongCellsEdgesAndCoverEveryOneOnce) {
   const Rows rows = hill(13);
-  std::size_t pieces = 0;
+  std::size_t segments = 0;
   for (const LevelBorder& border : level_borders(rows, {5.0, 10.0, 15.0}, cell)) {
-    pieces += border.line.size() - 1;
+    segments += border.line.size() - 1;
     for (std::size_t i = 0; i < border.line.size(); ++i) {
-      // Corners lie between cells, whose numbers stand at whole coordinates.
+      // Corners are between cells; cells have whole coordinates.
       EXPECT_EQ(std::abs(border.line[i][0] - std::floor(border.line[i][0])), 0.5);
       EXPECT_EQ(std::abs(border.line[i][1] - std::floor(border.line[i][1])), 0.5);
       if (i == 0) continue;
@@ -62,10 +61,10 @@ TEST(LevelBorders, RunAlongCellsEdgesAndCoverEveryOneOnce) {
       EXPECT_EQ(dx * dy, 0.0);
     }
   }
-  EXPECT_EQ(pieces, edges_between(rows, {5.0, 10.0, 15.0}));
+  EXPECT_EQ(segments, edges_between(rows, {5.0, 10.0, 15.0}));
 }
 
-TEST(LevelBorders, SayEveryLevelBetweenTheirTwoSides) {
+TEST(LevelBorders, LabelEveryLevelBetweenTheirTwoSides) {
   const auto borders = level_borders({{1.5, 3.0, 12.0}}, {1.0, 2.0, 5.0, 10.0}, cell);
   ASSERT_EQ(borders.size(), 2U);
   EXPECT_EQ(label_of(borders[0]), "2 %");
@@ -91,7 +90,7 @@ TEST(LevelBorders, LabelsKeepApartAndTheLongestLineHasOne) {
   }
 }
 
-TEST(LevelBorders, LeaveRoomForTheirLabels) {
+TEST(LevelBorders, LeaveGapsForTheirLabels) {
   const CellSize high{10.0, 100.0};
   const auto borders = level_borders({{1.0, 3.0}}, {2.0}, high);
   ASSERT_EQ(borders.size(), 1U);

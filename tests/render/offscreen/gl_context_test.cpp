@@ -23,8 +23,8 @@ using ::testing::ExitedWithCode;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// A process looks for its OpenGL once, and so does MuJoCo: whatever draws here does so in a
-/// process of its own, which gets to that place with the same environment.
+/// A process looks for its OpenGL once, and so does MuJoCo. Each drawing here therefore runs in its
+/// own process, which repeats the test up to that point with the same environment.
 class OffScreen : public ::testing::Test {
  protected:
   OffScreen() {
@@ -58,23 +58,24 @@ class OffScreen : public ::testing::Test {
     std::_Exit(0);
   }
 
-  /// Processes that start from now on do not find this library.
+  /// Hides a library from all processes that start later.
   static void hide(const char* library) {
     write_atomically(folder() / library, "");
     ::setenv("LD_LIBRARY_PATH", folder().c_str(), 1);
   }
-  static bool there(const char* library) {
+  static bool is_installed(const char* library) {
     void* const handle = ::dlopen(library, RTLD_LAZY | RTLD_LOCAL);
     if (handle) ::dlclose(handle);
     return handle != nullptr;
   }
 
-  std::optional<ScratchFolder> scratch_;  ///< of the process that the others come from
+  std::optional<ScratchFolder> scratch_;  ///< of the first process alone
 };
 
 TEST_F(OffScreen, OsmesaAndEglDrawTheSamePicture) {
-  if (!there("libOSMesa.so.8")) GTEST_SKIP() << "no OSMesa to compare with (package libosmesa6)";
-  if (!there("libEGL.so.1")) GTEST_SKIP() << "no EGL to compare with (package libegl1)";
+  if (!is_installed("libOSMesa.so.8"))
+    GTEST_SKIP() << "no OSMesa to compare with (package libosmesa6)";
+  if (!is_installed("libEGL.so.1")) GTEST_SKIP() << "no EGL to compare with (package libegl1)";
   for (const char* const gl : {"osmesa", "egl"}) {
     ::setenv("TOUCHDOWN_GL", gl, 1);
     EXPECT_EXIT(draw_and_exit(gl), ExitedWithCode(0), "");
@@ -98,7 +99,7 @@ TEST_F(OffScreen, OsmesaAndEglDrawTheSamePicture) {
 }
 
 TEST_F(OffScreen, EglDrawsWhereThereIsNoOsmesa) {
-  if (!there("libEGL.so.1")) GTEST_SKIP() << "no EGL (package libegl1)";
+  if (!is_installed("libEGL.so.1")) GTEST_SKIP() << "no EGL (package libegl1)";
   hide("libOSMesa.so.8");
   EXPECT_EXIT(draw_and_exit("found"), ExitedWithCode(0), "");
   EXPECT_FALSE(cv::imread(picture("found").string()).empty());
@@ -117,7 +118,7 @@ TEST_F(OffScreen, PackagesAreNamedWhereThereIsNeither) {
 }
 
 TEST_F(OffScreen, EglWithoutADriverNamesItsPackages) {
-  if (!there("libEGL.so.1")) GTEST_SKIP() << "no EGL (package libegl1)";
+  if (!is_installed("libEGL.so.1")) GTEST_SKIP() << "no EGL (package libegl1)";
   ::setenv("TOUCHDOWN_GL", "egl", 1);
   EXPECT_EXIT(
       {
@@ -134,7 +135,7 @@ TEST_F(OffScreen, OtherNamesAreRefused) {
 }
 
 TEST_F(OffScreen, PicturesWithoutAPixelAreRefused) {
-  if (!there("libOSMesa.so.8")) GTEST_SKIP() << "no OSMesa (package libosmesa6)";
+  if (!is_installed("libOSMesa.so.8")) GTEST_SKIP() << "no OSMesa (package libosmesa6)";
   EXPECT_THAT([] { GlContext(0, 8); },
               ThrowsMessage<Error>(HasSubstr("cannot draw 0x8 pixels off screen")));
 }

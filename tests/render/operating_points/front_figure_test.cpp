@@ -13,7 +13,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(OperatingPointsFigure, HasTheFrontOfEveryEstimatorAndARingForItsOwnDecision) {
+TEST(OperatingPointsFigure, HasTheFrontOfEveryEstimatorAndARingForItsOwnThresholds) {
   const ScratchFolder folder;
   const Table table = from_csv(
       "torque_noise_nm,accelerometer_noise_mps2,estimator,leave_below,return_above,"
@@ -26,7 +26,8 @@ TEST(OperatingPointsFigure, HasTheFrontOfEveryEstimatorAndARingForItsOwnDecision
       "0,0,phase,0.5,0.9,0.992,3,1\n"
       "1,5,robust,,,0.75,40,0\n"
       "1,5,robust,0.5,0.9,0.75,41,1\n");
-  draw_operating_points_figure(table, "contact: normal force > 1 N", folder / "figure");
+  draw_operating_points_figure(table, {"robust", "phase"}, "contact: normal force > 1 N",
+                               folder / "figure");
   for (const char* kind : {"figure.png", "figure.svg", "figure.pdf"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / kind)) << kind;
   }

@@ -47,7 +47,7 @@ TEST(FrameWorkers, NothingToPaintIsNoError) {
   paint_in_order(0, 100, 4, number_painter, [](int, const std::uint8_t*) { FAIL(); });
 }
 
-TEST(FrameWorkers, RepeatWhatAWorkerComplainedAbout) {
+TEST(FrameWorkers, RepeatAWorkersError) {
   const auto prepare = []() -> PaintFrame { throw Error("no paint left"); };
   EXPECT_THAT([&] { paint_in_order(5, 10, 2, prepare, [](int, const std::uint8_t*) {}); },
               ThrowsMessage<Error>(HasSubstr("no paint left")));
@@ -94,7 +94,7 @@ TEST(FrameWorkers, AreGoneWhenTheConsumerGivesUp) {
   EXPECT_FALSE(has_children());
 }
 
-/// Kills a process in the middle of painting: its workers must not live on.
+/// Kills a process while it paints: its workers must exit.
 TEST(FrameWorkers, DieWithTheirParent) {
   int pipe_ends[2];
   ASSERT_EQ(::pipe(pipe_ends), 0);
@@ -117,7 +117,7 @@ TEST(FrameWorkers, DieWithTheirParent) {
   for (const pid_t worker : workers) {
     bool alive = true;
     for (int i = 0; alive && i < 200; ++i) {
-      // An orphan may stay a zombie until init looks at it: dead is what counts.
+      // An orphan may stay a zombie until init collects it, and then counts as exited.
       std::string state;
       if (std::FILE* file =
               std::fopen(("/proc/" + std::to_string(worker) + "/stat").c_str(), "r")) {

@@ -6,8 +6,8 @@
 
 namespace tbb {
 
-/// The last that was made counts, until it ends; four threads where there is none, however few
-/// processors there are: a race needs two.
+/// The last instance sets the limit while it lives. Without one, the limit is four threads, on any
+/// number of processors: a race needs two.
 class global_control {
  public:
   enum parameter { max_allowed_parallelism };

@@ -1,7 +1,7 @@
 #pragma once
-// ThreadSanitizer cannot see into Debian's libtbb, and takes what it orders for races. The `tsan`
-// preset finds these headers instead of TBB's: the calls that we make, on threads that it can see.
-// They do not balance load, and nested loops start threads of their own.
+// ThreadSanitizer cannot see the synchronisation inside Debian's libtbb and reports false races. The
+// `tsan` preset uses these headers instead of TBB's. They implement the calls of this project on
+// threads that it can see. They do not balance load, and nested loops start more threads.
 
 #include <atomic>
 #include <cstddef>

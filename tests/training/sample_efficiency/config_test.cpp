@@ -12,7 +12,7 @@ using testing::ThrowsMessage;
 
 YamlDocument document(const std::string& text) { return YamlDocument::parse(text, "s.yaml"); }
 
-TEST(SampleEfficiency, ItsFileIsToldFromATraining) {
+TEST(SampleEfficiency, ItsFileIsDistinguishedFromATraining) {
   const std::string folder = TOUCHDOWN_SOURCE_DIR "/experiments/";
   const YamlDocument study = YamlDocument::load(folder + "sample_efficiency.yaml");
   EXPECT_TRUE(is_sample_efficiency(study));
@@ -21,7 +21,7 @@ TEST(SampleEfficiency, ItsFileIsToldFromATraining) {
   EXPECT_EQ(to_yaml(sample_efficiency_from_yaml(document(text))), text);
 }
 
-TEST(SampleEfficiency, PointsAtWhatIsWrong) {
+TEST(SampleEfficiency, NamesTheWrongValue) {
   const auto complaint = [](const char* text, const char* message) {
     EXPECT_THAT([&] { sample_efficiency_from_yaml(document(text)); },
                 ThrowsMessage<InputError>(HasSubstr(message)));

@@ -8,9 +8,9 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
-#include "experiments/studies/benchmark/plan.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/benchmark/plan.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -37,7 +37,7 @@ Experiment with(const ScratchFolder& folder, const std::string& benchmark) {
       "small.yaml"));
 }
 
-/// What it asks for, as planned.
+/// The request and plan of a benchmark.
 struct Planned {
   Planned(const ScratchFolder& folder, const std::string& benchmark)
       : request(request_of(with(folder, benchmark))), plan(plan_of(request)) {
@@ -80,8 +80,8 @@ TEST_F(Benchmark, HasARowForEverySceneRobotSensorsNoiseAndEstimator) {
                             "no_contact_precision", "no_contact_recall", "flight_f1",
                             "takeoff_latency_median_ms", "landing_latency_median_ms",
                             "extra_switches_per_minute", "calibration_error"}));
-  // Two robots, two kinds of sensors, two scenes, two noise settings, the filter and who always
-  // says contact.
+  // Two robots, two kinds of sensors, two scenes, two noise settings, the filter and always
+  // contact.
   ASSERT_EQ(table.rows.size(), 2U * 2 * 2 * 2 * 2);
   std::set<std::string> settings;
   for (const std::vector<std::string>& row : table.rows) {
@@ -95,9 +95,8 @@ TEST_F(Benchmark, HasARowForEverySceneRobotSensorsNoiseAndEstimator) {
                                              "upkie_actuated harsh"}));
 }
 
-TEST_F(Benchmark, TellsScenesApart) {
-  // Nothing takes off from level ground: what is told of it is false, and its accuracy is that of
-  // contact alone.
+TEST_F(Benchmark, HasScoresForEveryScene) {
+  // There are no takeoffs on level ground, so that accuracy is that of contact alone.
   for (const std::vector<std::string>& row : table.rows) {
     const bool stands = cell(table, row, "scene") == "stand";
     EXPECT_EQ(cell(table, row, "takeoffs") == "0", stands);
@@ -127,7 +126,7 @@ TEST_F(Benchmark, IsTheRunsOwnTable) {
   EXPECT_THAT(result->studies, Contains(HasSubstr("upkie_actuated, sensors harsh")));
 }
 
-TEST(ABenchmark, ScoresGuestsBesideThoseAtHome) {
+TEST(ABenchmark, ScoresTransfersBesideInDomainFits) {
   const ScratchFolder folder;
   Experiment experiment = with(folder, "{robots: [models/upkie_actuated.yaml], transfer: true}");
   experiment.simulators = {"mujoco", "bullet"};
@@ -146,9 +145,9 @@ TEST(ABenchmark, ScoresGuestsBesideThoseAtHome) {
                                               {"bullet", 4},
                                               {"upkie ideal", 4},
                                               {"upkie_actuated ideal", 4}}));
-  // The experiment's own tables are of those at home alone.
+  // The experiment's own tables hold in-domain fits alone.
   EXPECT_EQ(result.scores.size(), 2U * 2 * scoring::scored_views().size());
-  // A density has all of itself in common with itself, and less with another robot's.
+  // A density overlaps fully with itself, and less with another robot's.
   const Table overlap = from_csv(read_file(folder / "run/tables/density_overlap.csv"));
   ASSERT_EQ(overlap.rows.size(), 2U * 2 * 2);
   for (const std::vector<std::string>& row : overlap.rows) {
@@ -212,26 +211,26 @@ TEST(ABenchmark, ResamplesFitsAndRunsTogether) {
 TEST(ABenchmark, SimulatesARobotOnceForAllItsSensors) {
   const ScratchFolder folder;
   const auto [request, plan] = Planned(folder, "{sensors: [sensors/harsh.yaml]}");
-  const auto harsh = benchmark_settings(request, plan).at(1);
+  const auto harsh = benchmark_setups(request, plan).at(1);
   const auto own = plan.runs_in(0);
-  const auto heard = plan.runs_in(harsh.group);
-  ASSERT_EQ(own.size(), heard.size());
+  const auto reported = plan.runs_in(harsh.group);
+  ASSERT_EQ(own.size(), reported.size());
   for (std::size_t i = 0; i < own.size(); ++i) {
-    EXPECT_EQ(plan.runs[own[i]].file, plan.runs[heard[i]].file);
-    EXPECT_NE(plan.runs[own[i]].sensors, plan.runs[heard[i]].sensors);
+    EXPECT_EQ(plan.runs[own[i]].file, plan.runs[reported[i]].file);
+    EXPECT_NE(plan.runs[own[i]].sensors, plan.runs[reported[i]].sensors);
   }
 }
 
-TEST(ABenchmark, LetsEveryRobotStandAndBalanceAsItsFileSays) {
+TEST(ABenchmark, UsesEveryRobotsOwnPostureAndBalancer) {
   const ScratchFolder folder;
   const auto [request, plan] = Planned(folder, "{robots: [models/upkie_straight.yaml]}");
-  const auto straight = benchmark_settings(request, plan).at(1);
+  const auto straight = benchmark_setups(request, plan).at(1);
   const scenarios::Scenario& own = plan.runs[plan.runs_in(0).front()].scenario;
   const scenarios::Scenario& other = plan.runs[plan.runs_in(straight.group).front()].scenario;
   EXPECT_LT(other.start.hip, 0.5 * own.start.hip);
   EXPECT_NE(other.balancer.pitch_damping, own.balancer.pitch_damping);
   EXPECT_EQ(other.terrain.pieces.size(), own.terrain.pieces.size());
-  // What was read is what is written, and read again.
+  // The request reads back as written.
   const std::filesystem::path run = folder / "run";
   write_request(request, RunDirectory("small", request.id, run), false);
   EXPECT_EQ(read_request(run).id, request.id);
@@ -253,7 +252,7 @@ TEST(ABenchmark, CountsTheContentOfItsRobotsAndSensors) {
   EXPECT_NE(of_robot(), before);
 }
 
-TEST(ABenchmark, RefusesWhatItCouldNotTellApart) {
+TEST(ABenchmark, RefusesRobotsAndSensorsWithEqualNames) {
   const ScratchFolder folder;
   const auto planned = [&](const std::string& benchmark) { (void)Planned(folder, benchmark); };
   EXPECT_THAT([&] { planned("{sensors: [sensors/ideal.yaml]}"); },

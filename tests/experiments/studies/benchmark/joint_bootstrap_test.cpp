@@ -26,7 +26,7 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-TEST(JointBootstrap, OfASingleRunKnowsNoInterval) {
+TEST(JointBootstrap, OfASingleRunHasNoInterval) {
   const Resampled alone = balanced_accuracy({{run_with(9, 1)}}, 0, many);
   EXPECT_EQ(alone.estimate, 0.9);
   EXPECT_THAT(alone.values, IsEmpty());
@@ -68,12 +68,12 @@ TEST(JointBootstrap, DrawsARefitForEveryResample) {
   EXPECT_NEAR(mean_of(resampled.values), 0.5, 0.02);
 }
 
-TEST(JointBootstrap, HearsTheSameRefitInEveryScene) {
+TEST(JointBootstrap, DrawsTheSameRefitInEveryScene) {
   EXPECT_EQ(balanced_accuracy(of_two_refits(), 0, many).values,
             balanced_accuracy(of_two_refits(), 7, many).values);
 }
 
-TEST(JointBootstrap, DrawsTheRunsOfEverySceneForThemselves) {
+TEST(JointBootstrap, DrawsTheRunsOfEverySceneIndependently) {
   const FitsAndRuns scores{{run_with(10, 0), run_with(0, 10)}};
   const std::vector<double> one = balanced_accuracy(scores, 0, many).values;
   const std::vector<double> other = balanced_accuracy(scores, 1, many).values;

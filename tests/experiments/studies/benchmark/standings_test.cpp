@@ -45,68 +45,68 @@ TEST(Standings, PutTheBestMeanFirstAndNameTheWorstScene) {
                               row("stairs", "b", {0.7}), row("kerb", "b", {0.8}, "bullet")},
                              level);
   ASSERT_EQ(all.size(), 1U);
-  ASSERT_EQ(all[0].places.size(), 2U);
-  EXPECT_EQ(all[0].places[0].estimator, "b");
-  EXPECT_DOUBLE_EQ(all[0].places[0].mean.estimate, 0.75);
-  EXPECT_EQ(all[0].places[1].worst, 0.5);
-  EXPECT_EQ(all[0].places[1].worst_scene, "kerb");
-  EXPECT_EQ(all[0].places[1].worst_simulator, "bullet");
+  ASSERT_EQ(all[0].entries.size(), 2U);
+  EXPECT_EQ(all[0].entries[0].estimator, "b");
+  EXPECT_DOUBLE_EQ(all[0].entries[0].mean.estimate, 0.75);
+  EXPECT_EQ(all[0].entries[1].worst, 0.5);
+  EXPECT_EQ(all[0].entries[1].worst_scene, "kerb");
+  EXPECT_EQ(all[0].entries[1].worst_simulator, "bullet");
 }
 
-TEST(Standings, MeasureLogLossFromTheLearnedCeiling) {
-  const auto told = [](const std::string& scene, const std::string& estimator, double accuracy,
-                       double bits) {
+TEST(Standings, MeasureExcessLogLossFromTheReferenceUpperBound) {
+  const auto row_with = [](const std::string& scene, const std::string& estimator, double accuracy,
+                           double bits) {
     BenchmarkRow one = row(scene, estimator, {accuracy});
-    one.close.steps = 1000;
-    one.close.log_loss = 1000.0 * bits * std::numbers::ln2;
+    one.extended.steps = 1000;
+    one.extended.log_loss = 1000.0 * bits * std::numbers::ln2;
     return one;
   };
   std::vector<BenchmarkRow> rows = {
-      told("stairs", "phase", 0.9, 0.25), told("kerb", "phase", 0.9, 0.75),
-      told("stairs", "free_fall", 0.8, 2.0), told("kerb", "free_fall", 0.8, 4.0)};
+      row_with("stairs", "phase", 0.9, 0.25), row_with("kerb", "phase", 0.9, 0.75),
+      row_with("stairs", "free_fall", 0.8, 2.0), row_with("kerb", "free_fall", 0.8, 4.0)};
   const std::vector<Standings> without = standings(rows, level);
-  for (const Standings::Place& place : without[0].places) {
-    EXPECT_TRUE(std::isnan(place.bits_left));
+  for (const Standings::Entry& entry : without[0].entries) {
+    EXPECT_TRUE(std::isnan(entry.excess_log_loss));
   }
-  rows.push_back(told("stairs", "gradient_boosting", 0.99, 0.125));
-  rows.push_back(told("kerb", "gradient_boosting", 0.99, 0.375));
-  const auto places = standings(rows, level)[0].places;
-  ASSERT_EQ(places.size(), 3U);
-  EXPECT_EQ(places[0].estimator, "gradient_boosting");
-  EXPECT_EQ(places[0].bits_left, 0.0);
-  EXPECT_NEAR(places[1].log_loss, 0.5, 1e-12);
-  EXPECT_NEAR(places[1].bits_left, 0.25, 1e-12);
-  EXPECT_TRUE(places[1].is_not_significantly_worse);  // of those that one would take
-  EXPECT_NEAR(places[2].bits_left, 2.75, 1e-12);
+  rows.push_back(row_with("stairs", "gradient_boosting", 0.99, 0.125));
+  rows.push_back(row_with("kerb", "gradient_boosting", 0.99, 0.375));
+  const auto entries = standings(rows, level)[0].entries;
+  ASSERT_EQ(entries.size(), 3U);
+  EXPECT_EQ(entries[0].estimator, "gradient_boosting");
+  EXPECT_EQ(entries[0].excess_log_loss, 0.0);
+  EXPECT_NEAR(entries[1].log_loss, 0.5, 1e-12);
+  EXPECT_NEAR(entries[1].excess_log_loss, 0.25, 1e-12);
+  EXPECT_TRUE(entries[1].is_not_significantly_worse);  // the best but for the upper bound
+  EXPECT_NEAR(entries[2].excess_log_loss, 2.75, 1e-12);
 }
 
-TEST(Standings, AreApartForEverySettingAndOfThoseAtHomeAlone) {
+TEST(Standings, AreSeparateForEverySetupAndOfInDomainFitsAlone) {
   std::vector<BenchmarkRow> rows = {row("stairs", "a", {0.9}), row("stairs", "b", {0.8})};
   BenchmarkRow harsh = row("stairs", "a", {0.6});
   harsh.sensors = "harsh";
   BenchmarkRow noisy = row("stairs", "a", {0.7});
   noisy.noise = {1.0, 5.0};
-  BenchmarkRow guest = row("stairs", "a", {0.1});
-  guest.fitted_on = "bullet";
-  rows.insert(rows.end(), {harsh, noisy, guest});
+  BenchmarkRow transferred = row("stairs", "a", {0.1});
+  transferred.fitted_on = "bullet";
+  rows.insert(rows.end(), {harsh, noisy, transferred});
   const auto all = standings(rows, level);
   ASSERT_EQ(all.size(), 3U);
-  EXPECT_EQ(all[0].places[0].mean.estimate, 0.9);
+  EXPECT_EQ(all[0].entries[0].mean.estimate, 0.9);
   EXPECT_EQ(all[1].sensors, "harsh");
   EXPECT_EQ(all[2].noise.torque, 1.0);
 }
 
-TEST(Standings, LeaveOutWhoDidNotHearWhatOthersHeard) {
+TEST(Standings, LeaveOutEstimatorsThatWereNotScoredInAllRuns) {
   BenchmarkRow stairs = row("stairs", "ours", {0.9});
   BenchmarkRow kerb = row("kerb", "ours", {0.5});
   BenchmarkRow partly = row("stairs", "theirs", {1.0});
   for (BenchmarkRow* one : {&stairs, &kerb, &partly}) one->runs = 4;
   const auto some_scenes = standings({stairs, kerb, partly}, level);
-  ASSERT_EQ(some_scenes.at(0).places.size(), 1U);
-  EXPECT_EQ(some_scenes[0].places[0].estimator, "ours");
+  ASSERT_EQ(some_scenes.at(0).entries.size(), 1U);
+  EXPECT_EQ(some_scenes[0].entries[0].estimator, "ours");
   BenchmarkRow few = row("kerb", "theirs", {1.0});
   few.runs = 3;
-  EXPECT_EQ(standings({stairs, kerb, partly, few}, level).at(0).places.size(), 1U);
+  EXPECT_EQ(standings({stairs, kerb, partly, few}, level).at(0).entries.size(), 1U);
 }
 
 TEST(Standings, BandOfOnePairIsTheNormalOne) {
@@ -120,9 +120,9 @@ TEST(Standings, BandOfOnePairIsTheNormalOne) {
 }
 
 TEST(Standings, BandsOfManyPairsHoldTogether) {
-  // Twelve estimators as good as each other, whose values are independent: 66 differences, of
-  // which the largest is the range of twelve normal values. The studentised range of twelve has
-  // 4.62 as its upper five per cent (tables of Tukey's test, infinitely many degrees of freedom).
+  // Twelve equally good estimators with independent values: the largest of their 66 differences is
+  // the range of twelve normal values. The upper five per cent of the studentised range of twelve
+  // is 4.62 (tables of Tukey's test, infinitely many degrees of freedom).
   std::vector<BenchmarkRow> rows;
   for (int i = 0; i < 12; ++i) {
     rows.push_back(row("stairs", std::string(1, static_cast<char>('a' + i)),
@@ -134,15 +134,15 @@ TEST(Standings, BandsOfManyPairsHoldTogether) {
   }
 }
 
-TEST(Standings, LevelIsWhoCannotBeToldFromTheFirst) {
+TEST(Standings, MarkEstimatorsThatAreNotSignificantlyWorse) {
   const auto all = standings({row("stairs", "best", normal(0.95, 0.005, 1)),
                               row("stairs", "near", normal(0.945, 0.005, 2)),
                               row("stairs", "far", normal(0.85, 0.005, 3))},
                              level);
-  std::vector<bool> are_level;
-  for (const Standings::Place& place : all[0].places)
-    are_level.push_back(place.is_not_significantly_worse);
-  EXPECT_THAT(are_level, ElementsAre(true, true, false));
+  std::vector<bool> marks;
+  for (const Standings::Entry& entry : all[0].entries)
+    marks.push_back(entry.is_not_significantly_worse);
+  EXPECT_THAT(marks, ElementsAre(true, true, false));
 }
 
 TEST(Standings, PairedDifferencesAreSurerThanTheirParts) {
@@ -152,8 +152,8 @@ TEST(Standings, PairedDifferencesAreSurerThanTheirParts) {
   other.estimate -= 0.01;
   for (double& value : other.values) value -= 0.01;
   const auto all = standings({row("stairs", "a", one), row("stairs", "b", other)}, level);
-  EXPECT_FALSE(all[0].places[1].is_not_significantly_worse);
-  EXPECT_GT(all[0].places[0].mean.high, all[0].places[0].mean.low + 0.1);
+  EXPECT_FALSE(all[0].entries[1].is_not_significantly_worse);
+  EXPECT_GT(all[0].entries[0].mean.high, all[0].entries[0].mean.low + 0.1);
 }
 
 }  // namespace

@@ -4,11 +4,11 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
-#include "experiments/studies/closed_loop/rollout.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/shard.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/closed_loop/rollout.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -22,8 +22,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::ThrowsMessage;
 
-Experiment steered(const ScratchFolder& folder, const std::string& section,
-                   const std::string& sensors = "sensors/upkie.yaml") {
+Experiment with_closed_loop(const ScratchFolder& folder, const std::string& section,
+                            const std::string& sensors = "sensors/upkie.yaml") {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
   return experiment_from_yaml(
       YamlDocument::parse("name: small\nestimators: [support_force, robust]\nsensors: " + sensors +
@@ -39,18 +39,18 @@ std::string of_steps(const ScratchFolder& folder, const std::string& scene) {
 
 const char* const two_heights = ", key: terrain.pieces.1.step.drop, values: [0.1, 0.3]";
 
-TEST(ClosedLoop, SaysOfEveryTellerAndPointHowManyRunsFinish) {
+TEST(ClosedLoop, CountsFinishedRunsForEveryContactSourceAndPoint) {
   const ScratchFolder folder;
   RunOptions options;
   options.out = folder / "run";
   const ExperimentResult result =
-      run_experiment(steered(folder, of_steps(folder, two_heights)), options);
+      run_experiment(with_closed_loop(folder, of_steps(folder, two_heights)), options);
   const Table table = from_csv(read_file(folder / "run/tables/survival.csv"));
   ASSERT_GE(table.header.size(), 9U);
   EXPECT_THAT(std::vector<std::string>(table.header.begin(), table.header.begin() + 9),
               ElementsAre("simulator", "scenario", "policy", "contact", "rise_m", "runs",
                           "finished", "finished_low", "finished_high"));
-  ASSERT_EQ(table.rows.size(), 2U * 4U * 2U);  // engines, tellers, heights
+  ASSERT_EQ(table.rows.size(), 2U * 4U * 2U);  // engines, contact sources, heights
   std::vector<std::string> contacts;
   for (const std::vector<std::string>& row : table.rows) {
     const auto number = [&](const char* column) { return std::stod(cell(table, row, column)); };
@@ -70,9 +70,9 @@ TEST(ClosedLoop, SaysOfEveryTellerAndPointHowManyRunsFinish) {
               Contains(std::filesystem::path("state/closed_loop/run_000000")));
 }
 
-TEST(ClosedLoop, IsTheSameInShardsAndWhereItGoesOn) {
+TEST(ClosedLoop, IsTheSameInShardsAndWhenResumed) {
   const ScratchFolder folder;
-  const Experiment experiment = steered(folder, of_steps(folder, two_heights));
+  const Experiment experiment = with_closed_loop(folder, of_steps(folder, two_heights));
   RunOptions options;
   options.out = folder / "whole";
   run_experiment(experiment, options);
@@ -98,38 +98,38 @@ TEST(ClosedLoop, IsTheSameInShardsAndWhereItGoesOn) {
   EXPECT_EQ(read_file(folder / "shards/tables/survival.csv"), table);
 }
 
-TEST(ClosedLoop, TellersHearWhatIsRecordedForThem) {
-  // The oracle: the run's recording, through the same sensors and noise at once, heard afterwards.
+TEST(ClosedLoop, ContactSourcesDecideAsInOfflineEvaluation) {
+  // The reference: the recorded run, evaluated offline with the same sensors and noise.
   const ScratchFolder folder;
   for (const char* sensors : {"sensors/upkie.yaml", "sensors/harsh.yaml", "sensors/ideal.yaml"}) {
-    const RunRequest request =
-        request_of(steered(folder,
-                           of_steps(folder, ", noise: [{torque: 0.3, accelerometer: 1.0}]") +
-                               "  contact: [support_force]\n",
-                           sensors));
+    const RunRequest request = request_of(
+        with_closed_loop(folder,
+                         of_steps(folder, ", noise: [{torque: 0.3, accelerometer: 1.0}]") +
+                             "  contact: [support_force]\n",
+                         sensors));
     const Experiment& experiment = request.experiment;
     scenarios::CompiledScenes scenes;
     const ClosedLoopCell cell = closed_loop_cells(experiment).front();
     const ClosedLoopRun loop = run_closed_loop(request, cell, 1, {}, scenes, [] { return true; });
-    recordings::Recording heard = loop.recording;
+    recordings::Recording reported = loop.recording;
     report_through_sensors(profile_of(request.sensors, experiment.sensors), experiment, 1,
-                           heard.period(), heard.observation);
+                           reported.period(), reported.observation);
     const RunSignals run =
-        signals_of(heard, experiment.labels, experiment.scoring, experiment.intervals.over);
+        signals_of(reported, experiment.labels, experiment.scoring, experiment.intervals.over);
     const EstimatorEntry& entry = estimator_entry("support_force");
     const auto estimator = entry.make(entry, {});
-    const auto afterwards =
+    const auto offline =
         predict(*estimator, run, noise_run(run, noise_key(experiment, 0, 1)), cell.noise.levels());
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      EXPECT_EQ(loop.told.contact[wheel], afterwards[wheel].contact) << sensors;
+      EXPECT_EQ(loop.trace.contact[wheel], offline[wheel].contact) << sensors;
     }
-    EXPECT_THAT(loop.told.contact[0], AllOf(Contains(0), Contains(1)));
+    EXPECT_THAT(loop.trace.contact[0], AllOf(Contains(0), Contains(1)));
   }
 }
 
-TEST(ClosedLoop, StartsAllRunsAlikeWhoeverTells) {
+TEST(ClosedLoop, StartsAllRunsEquallyForEveryContactSource) {
   const ScratchFolder folder;
-  const RunRequest request = request_of(steered(folder, of_steps(folder, "")));
+  const RunRequest request = request_of(with_closed_loop(folder, of_steps(folder, "")));
   scenarios::CompiledScenes scenes;
   std::vector<std::string> scripts;
   for (const ClosedLoopCell& cell : closed_loop_cells(request.experiment)) {
@@ -144,10 +144,10 @@ TEST(ClosedLoop, StartsAllRunsAlikeWhoeverTells) {
   EXPECT_THAT(scripts, ::testing::Each(scripts.front()));
 }
 
-TEST(ClosedLoop, IsWrittenAndReadBackWithAllThatItSays) {
+TEST(ClosedLoop, ConfigurationReadsBackAsWritten) {
   const ScratchFolder folder;
-  EXPECT_THAT(to_yaml(steered(folder, "")), Not(HasSubstr("closed_loop")));
-  const std::string text = to_yaml(steered(
+  EXPECT_THAT(to_yaml(with_closed_loop(folder, "")), Not(HasSubstr("closed_loop")));
+  const std::string text = to_yaml(with_closed_loop(
       folder,
       of_steps(folder, two_heights) +
           "  laws: [soft_landing, balancer]\n  contact: [truth, robust]\n  film: {point: 1}\n"));
@@ -159,8 +159,8 @@ TEST(ClosedLoop, ComplainsOnTheLine) {
   const ScratchFolder folder;
   const auto complaint = [&](const std::string& section) -> std::string {
     try {
-      (void)request_of(steered(folder, section));
-      require_closed_loop(request_of(steered(folder, section)));
+      (void)request_of(with_closed_loop(folder, section));
+      require_closed_loop(request_of(with_closed_loop(folder, section)));
     } catch (const InputError& error) {
       return error.what();
     }
@@ -174,11 +174,11 @@ TEST(ClosedLoop, ComplainsOnTheLine) {
               AllOf(HasSubstr("small.yaml:10:"), HasSubstr("values")));
   EXPECT_THAT(of_scene(", values: [1, 2]"), HasSubstr("key"));
   EXPECT_THAT(of_scene(", key: terrain.friction, values: [1, 0.5]"),
-              HasSubstr("numbers that grow"));
+              HasSubstr("expected increasing numbers"));
   EXPECT_THAT(of_scene(", key: terrain.friction, values: [0.5, 1], delay: [0, 0.1]"),
-              HasSubstr("one thing that is varied"));
+              HasSubstr("at most one varied quantity"));
   EXPECT_THAT(of_scene(", delay: [-0.1]"), HasSubstr("from 0 to 1 s"));
-  EXPECT_THAT(of_scene(", lat: [0.1]"), HasSubstr("did you mean"));
+  EXPECT_THAT(of_scene(", dela: [0.1]"), HasSubstr("did you mean"));
   EXPECT_THAT(of_scene(", key: terrain.frction, values: [1]"),
               AllOf(HasSubstr("closed_loop.scenes.0"), HasSubstr("no number there")));
   EXPECT_THAT(of_scene(", key: terrain.friction, values: [-1]"),

@@ -22,8 +22,8 @@ recordings::Recording gliding(double wheel_speed) {
     observation.servo[models::index(models::Servo::right_wheel)].velocity = -wheel_speed / 0.05;
     models::GroundTruth truth;
     truth.imu_linear_velocity = {0.5, 0.0, 0.0};
-    const bool touches = k < 100 || k >= 200;
-    truth.wheel_normal_force = {touches ? 26.0 : 0.0, touches ? 30.0 : 0.0};
+    const bool in_contact = k < 100 || k >= 200;
+    truth.wheel_normal_force = {in_contact ? 26.0 : 0.0, in_contact ? 30.0 : 0.0};
     recording.observation.push_back(observation);
     recording.action.emplace_back();
     recording.truth.push_back(truth);
@@ -32,16 +32,16 @@ recordings::Recording gliding(double wheel_speed) {
 }
 
 ContactTrace true_contact() {
-  ContactTrace told;
-  for (scoring::ContactSequence& wheel : told) {
+  ContactTrace trace;
+  for (scoring::ContactSequence& wheel : trace) {
     wheel.assign(300, 1);
     std::fill(wheel.begin() + 100, wheel.begin() + 200, 0);
   }
-  return told;
+  return trace;
 }
 
-ClosedLoopMetrics outcome(const recordings::Recording& recording, const ContactTrace& told) {
-  return closed_loop_metrics_of(recording, told, odometry::upkie(), {}, {.skip = 0.0});
+ClosedLoopMetrics metrics_of(const recordings::Recording& recording, const ContactTrace& trace) {
+  return closed_loop_metrics_of(recording, trace, odometry::upkie(), {}, {.skip = 0.0});
 }
 
 TEST(TyreSpeeds, AreThoseOfTheWheelsOverTheGround) {
@@ -52,8 +52,9 @@ TEST(TyreSpeeds, AreThoseOfTheWheelsOverTheGround) {
 }
 
 TEST(TyreSpeeds, AreZeroWhereARobotPitchesAboutItsAxlesAndRolls) {
-  // About the axle .471 m below the IMU, at 2 rad/s, while the wheels keep to the ground that the
-  // axle moves along at .4 m/s: in the base, whose legs turn along, they turn by that much less.
+  // The robot pitches about the axle .471 m below the IMU at 2 rad/s; the axle moves at .4 m/s and
+  // the wheels roll. The legs turn with the base, so the wheels' spin relative to it is 2 rad/s
+  // less.
   models::Observation observation;
   const double spin = 0.4 / 0.05 - 2.0;
   observation.servo[models::index(models::Servo::left_wheel)].velocity = spin;
@@ -68,7 +69,7 @@ TEST(TyreSpeeds, AreZeroWhereARobotPitchesAboutItsAxlesAndRolls) {
 }
 
 TEST(ClosedLoopMetrics, CountsLandingsByTheSpeedOfTheirTyres) {
-  const ClosedLoopMetrics found = outcome(gliding(0.8), true_contact());
+  const ClosedLoopMetrics found = metrics_of(gliding(0.8), true_contact());
   EXPECT_EQ(found.runs, 1);
   EXPECT_EQ(found.finished, 1);
   EXPECT_EQ(found.fell, 0);
@@ -80,12 +81,12 @@ TEST(ClosedLoopMetrics, CountsLandingsByTheSpeedOfTheirTyres) {
   EXPECT_EQ(found.false_takeoffs, 0);
 }
 
-TEST(ClosedLoopMetrics, CountsTakeoffsThatWereToldOfARobotOnTheGround) {
-  ContactTrace told = true_contact();
-  for (scoring::ContactSequence& wheel : told) wheel[20] = 0;
-  EXPECT_EQ(outcome(gliding(0.5), told).false_takeoffs, 1);
-  told[1] = true_contact()[1];  // of one wheel it is none: the robot still stands on the other
-  EXPECT_EQ(outcome(gliding(0.5), told).false_takeoffs, 0);
+TEST(ClosedLoopMetrics, CountsFalseTakeoffsOfTheRobot) {
+  ContactTrace trace = true_contact();
+  for (scoring::ContactSequence& wheel : trace) wheel[20] = 0;
+  EXPECT_EQ(metrics_of(gliding(0.5), trace).false_takeoffs, 1);
+  trace[1] = true_contact()[1];  // one wheel alone is no takeoff: the robot stands on the other
+  EXPECT_EQ(metrics_of(gliding(0.5), trace).false_takeoffs, 0);
 }
 
 TEST(ClosedLoopMetrics, TakesNoHopForALanding) {
@@ -93,7 +94,7 @@ TEST(ClosedLoopMetrics, TakesNoHopForALanding) {
   for (int k = 100; k < 160; ++k) {  // 40 ms are left
     run.truth[static_cast<std::size_t>(k)].wheel_normal_force = {26.0, 26.0};
   }
-  const ClosedLoopMetrics found = outcome(run, true_contact());
+  const ClosedLoopMetrics found = metrics_of(run, true_contact());
   EXPECT_EQ(found.landings, 0);
   EXPECT_TRUE(std::isnan(found.landing_speed_rms()));
 }
@@ -101,8 +102,8 @@ TEST(ClosedLoopMetrics, TakesNoHopForALanding) {
 TEST(ClosedLoopMetrics, AddsUp) {
   recordings::Recording fallen = gliding(0.4);
   fallen.info.outcome = recordings::Outcome::fell;
-  ClosedLoopMetrics sum = outcome(gliding(0.8), true_contact());
-  sum += outcome(fallen, true_contact());
+  ClosedLoopMetrics sum = metrics_of(gliding(0.8), true_contact());
+  sum += metrics_of(fallen, true_contact());
   EXPECT_EQ(sum.runs, 2);
   EXPECT_EQ(sum.finished, 1);
   EXPECT_EQ(sum.fell, 1);

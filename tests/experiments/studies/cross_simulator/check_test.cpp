@@ -145,7 +145,7 @@ TEST(Verdict, FailsWhenANumberIsNotDefined) {
       verdict_of({transfer("a", "b", 0.0, 0.1), transfer("b", "a", 0.0, std::nan(""))}).holds);
 }
 
-TEST(Verdict, DoesNotLookAtTheOwnEngine) {
+TEST(Verdict, IgnoresTheOwnEngine) {
   EXPECT_TRUE(verdict_of({transfer("a", "a", 0.5, -0.5), transfer("a", "b", 0.0, 0.1),
                           transfer("b", "a", 0.0, 0.1)})
                   .holds);
@@ -192,8 +192,9 @@ Rollout hand_made(const std::vector<std::pair<int, int>>& state_and_length, std:
   return run;
 }
 
-TEST(RunFacts, SeeATouchAfterTheNosingAndABounce) {
-  // Off for 8 steps, a touch of 12, a drop of 150, contact 20, a bounce of 15, contact to the end.
+TEST(RunFacts, CountAnEdgeContactAfterTheNosingAndABounce) {
+  // Off for 8 steps, an edge contact of 12, a drop of 150, contact 20, a bounce of 15, contact to
+  // the end.
   const Rollout run =
       hand_made({{1, 500}, {0, 8}, {1, 12}, {0, 150}, {1, 20}, {0, 15}, {1, 295}}, 680);
   const RunFacts facts = facts_of(run, Experiment{});
@@ -202,7 +203,7 @@ TEST(RunFacts, SeeATouchAfterTheNosingAndABounce) {
   };
   EXPECT_DOUBLE_EQ(value(Quantity::flight_duration), 150.0);
   EXPECT_DOUBLE_EQ(value(Quantity::peak_acceleration), 123.0);
-  EXPECT_DOUBLE_EQ(value(Quantity::edge_contact_steps), 1.0);
+  EXPECT_DOUBLE_EQ(value(Quantity::edge_contacts), 1.0);
   EXPECT_DOUBLE_EQ(value(Quantity::bounces), 1.0);
   // 173 of the 700 steps after the first 300 are in the air.
   EXPECT_DOUBLE_EQ(value(Quantity::contact_ratio), 1.0 - 173.0 / 700.0);
@@ -276,7 +277,7 @@ TEST_F(CrossSimulatorRun, ComparesTransfersVariesAndJudges) {
   EXPECT_EQ(rows("sensitivity.csv").size(), 12U);
   ASSERT_EQ(rows("verdicts.csv").size(), 1U);
   EXPECT_EQ(rows("verdicts.csv")[0][2], "1");
-  // An ordinary experiment besides, in which foreign fits do not show.
+  // The experiment's own tables hold in-domain fits alone.
   EXPECT_EQ(result.summaries.size(), 4U);
   EXPECT_THAT(result.studies, ::testing::ElementsAre(HasSubstr("Verdicts")));
   for (const char* file : {"config.yaml", "manifest.json", "tables/agreement.csv",
@@ -286,7 +287,7 @@ TEST_F(CrossSimulatorRun, ComparesTransfersVariesAndJudges) {
   }
 }
 
-TEST_F(CrossSimulatorRun, SaysItsConfigurationSoThatItReadsBack) {
+TEST_F(CrossSimulatorRun, ConfigurationReadsBackAsWritten) {
   const Experiment config = read();
   const Experiment again = experiment_from_yaml(YamlDocument::parse(to_yaml(config), "again.yaml"));
   ASSERT_TRUE(again.cross_simulator.has_value());

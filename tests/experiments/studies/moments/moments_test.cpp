@@ -8,9 +8,9 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
-#include "experiments/studies/moments/tables.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/moments/tables.hpp"
 #include "noise/gaussian.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
@@ -38,29 +38,29 @@ RunSignals four_steps() {
 }
 
 TEST(TorqueMoments, OfAFewStepsAreThoseByHand) {
-  TorqueSegments heard;
-  add_torques(four_steps(), 0.0, heard);
+  TorqueSegments segments;
+  add_torques(four_steps(), 0.0, segments);
   // In contact the left knee has 1, 3, 2 and the right one 6 four times.
-  const TorqueDistribution knee = distribution_of(heard[1], &TorqueSegment::knee);
+  const TorqueDistribution knee = distribution_of(segments[1], &TorqueSegment::knee);
   EXPECT_EQ(knee.samples, 7);
   EXPECT_NEAR(knee.mean, 30.0 / 7.0, 1e-12);
   EXPECT_NEAR(knee.deviation, std::sqrt(158.0 / 7.0 - 900.0 / 49.0), 1e-12);
   EXPECT_EQ(knee.quantile, (std::array<double, 3>{6.0, 6.0, 6.0}));
   EXPECT_EQ(knee.largest, 6.0);
-  EXPECT_NEAR(distribution_of(heard[1], &TorqueSegment::wheel).mean, 0.6 / 7.0, 1e-12);
-  const TorqueDistribution air = distribution_of(heard[0], &TorqueSegment::knee);
+  EXPECT_NEAR(distribution_of(segments[1], &TorqueSegment::wheel).mean, 0.6 / 7.0, 1e-12);
+  const TorqueDistribution air = distribution_of(segments[0], &TorqueSegment::knee);
   EXPECT_EQ(air.samples, 1);
   EXPECT_EQ(air.mean, 0.5);
   EXPECT_EQ(air.deviation, 0.0);
 }
 
-TEST(TorqueMoments, LeaveOutTheBeginningAndWhatWasNotHeard) {
+TEST(TorqueMoments, LeaveOutTheBeginningAndStepsWithoutARecord) {
   RunSignals run = four_steps();
   run.signals[3].time = std::nan("");
-  TorqueSegments heard;
-  add_torques(run, 0.001, heard);
-  EXPECT_EQ(distribution_of(heard[1], &TorqueSegment::knee).samples, 3);
-  EXPECT_NEAR(distribution_of(heard[1], &TorqueSegment::knee).mean, 5.0, 1e-12);
+  TorqueSegments segments;
+  add_torques(run, 0.001, segments);
+  EXPECT_EQ(distribution_of(segments[1], &TorqueSegment::knee).samples, 3);
+  EXPECT_NEAR(distribution_of(segments[1], &TorqueSegment::knee).mean, 5.0, 1e-12);
 }
 
 TEST(TorqueMoments, OfNothingAreNotDefined) {
@@ -141,7 +141,7 @@ TEST(Overlap, OfTwoNormalDensitiesIsTheClosedForm) {
   }
 }
 
-TEST(Overlap, SeesTheWheelToo) {
+TEST(Overlap, UsesTheWheelToo) {
   const TorqueSegment a{0.001, {0.5, 0.5}, {0.1, 0.2}};
   const TorqueSegment b{0.001, {0.5, 0.5}, {0.2, 0.3}};
   EXPECT_DOUBLE_EQ(overlap({a}, {b}), 0.5);
@@ -158,7 +158,7 @@ TEST(Overlap, PutsEveryStepOfTheServosIntoACellOfItsOwn) {
   EXPECT_NEAR(overlap({a}, {b}), 1.0, 1e-12);
 }
 
-TEST(Moments, AreTablesOfAnExperimentThatAsksForThem) {
+TEST(Moments, AreTablesOfAnExperimentWithTheKey) {
   const ScratchFolder folder;
   folder.write("step.yaml", small_step_scene);
   const std::string scene = folder / "step.yaml";
@@ -199,7 +199,7 @@ TEST(Moments, AreTablesOfAnExperimentThatAsksForThem) {
               ::testing::ElementsAre("bullet", ::testing::_, "0.055000", "2", "0"));
   ASSERT_EQ(result.studies.size(), 1U);
   EXPECT_THAT(result.studies.front(), HasSubstr("knee, contact"));
-  // They are the run's own files, and without the key there are none.
+  // They are the run's own files; without the key they are not written.
   const auto files = own_files(folder / "run");
   for (const char* name :
        {"moments.csv", "torque_distributions.csv", "torque_densities.csv", "overlap.csv"}) {

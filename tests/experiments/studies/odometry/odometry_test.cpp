@@ -32,7 +32,7 @@ Experiment with(const ScratchFolder& folder, const std::string& more) {
       "small.yaml"));
 }
 
-/// The rows of one engine, by who tells, of one column.
+/// One column of one engine, by contact source.
 std::map<std::string, double> column(const Table& table, const std::string& simulator,
                                      const std::string& name) {
   std::map<std::string, double> values;
@@ -45,7 +45,7 @@ std::map<std::string, double> column(const Table& table, const std::string& simu
 }
 
 scoring::Trajectory read_tum(const std::filesystem::path& file) {
-  scoring::Trajectory way;
+  scoring::Trajectory trajectory;
   std::istringstream text(read_file(file));
   for (std::string line; std::getline(text, line);) {
     if (line.starts_with('#')) continue;
@@ -55,14 +55,14 @@ scoring::Trajectory read_tum(const std::filesystem::path& file) {
     numbers >> pose.time >> pose.position.x() >> pose.position.y() >> pose.position.z() >> q.x() >>
         q.y() >> q.z() >> q.w();
     EXPECT_FALSE(numbers.fail()) << line;
-    way.push_back(pose);
+    trajectory.push_back(pose);
   }
-  return way;
+  return trajectory;
 }
 
 const char* const study = "odometry: {delay: [0.1]}\nbenchmark: {sensors: [sensors/ideal.yaml]}\n";
 
-TEST(OdometryStudy, TellsOdometryByEveryEstimatorAndTheTruth) {
+TEST(OdometryStudy, ScoresOdometryWithEveryEstimatorAndTheTruth) {
   const ScratchFolder folder;
   RunOptions options;
   options.out = folder / "run";
@@ -77,12 +77,13 @@ TEST(OdometryStudy, TellsOdometryByEveryEstimatorAndTheTruth) {
     const auto error = column(table, simulator, "rms_m");
     std::vector<std::string> names;
     for (const auto& [name, value] : error) names.push_back(name);
-    EXPECT_THAT(names, UnorderedElementsAre("always", "truth", "truth_100ms_late", "support_force",
-                                            "robust"));
-    // 2 m with one fall: the truth is wrong by centimetres, and what comes .1 s late by more.
+    EXPECT_THAT(names, UnorderedElementsAre("always", "truth", "truth_delayed_100ms",
+                                            "support_force", "robust"));
+    // 2 m with one fall: with the truth the error is centimetres, with a delay of .1 s it is
+    // larger.
     EXPECT_LT(error.at("truth"), 0.03);
     const auto speed = column(table, simulator, "velocity_rms_mps");
-    EXPECT_GT(speed.at("truth_100ms_late"), 1.3 * speed.at("truth"));
+    EXPECT_GT(speed.at("truth_delayed_100ms"), 1.3 * speed.at("truth"));
     EXPECT_GT(column(table, simulator, "height_rms_m").at("always"), 0.05);
     EXPECT_NEAR(column(table, simulator, "distance_m").at("truth"), 2 * 1.7, 1.0);
   }
@@ -93,7 +94,7 @@ TEST(OdometryStudy, TellsOdometryByEveryEstimatorAndTheTruth) {
     EXPECT_GE(std::stod(cell(table, row, "rms_m_high")), std::stod(cell(table, row, "rms_m")));
     EXPECT_EQ(cell(table, row, "runs"), "2");
   }
-  EXPECT_THAT(result.studies.back(), HasSubstr("Truth, 100 ms late (oracle)"));
+  EXPECT_THAT(result.studies.back(), HasSubstr("Truth, delayed 100 ms (oracle)"));
 }
 
 TEST(OdometryStudy, WritesTrajectoriesThatGiveTheTablesNumbers) {
@@ -136,11 +137,11 @@ TEST(OdometryStudy, IsTheSameInShards) {
   merge_run(folder / "shards", options);
   EXPECT_EQ(read_file(folder / "whole/tables/odometry.csv"),
             read_file(folder / "shards/tables/odometry.csv"));
-  const char* const way = "trajectories/bullet_small_step_support_force.tum";
-  EXPECT_EQ(read_file(folder / "whole" / way), read_file(folder / "shards" / way));
+  const char* const trajectory = "trajectories/bullet_small_step_support_force.tum";
+  EXPECT_EQ(read_file(folder / "whole" / trajectory), read_file(folder / "shards" / trajectory));
 }
 
-TEST(OdometryStudy, IsNamedWhereItIsAskedForAndNowhereElse) {
+TEST(OdometryStudy, IsInTheConfigurationOnlyIfSet) {
   const ScratchFolder folder;
   EXPECT_THAT(to_yaml(with(folder, "")), Not(HasSubstr("odometry")));
   const std::string text = to_yaml(with(folder, "odometry: {delay: [0.25, 0.5]}\n"));
@@ -159,10 +160,10 @@ TEST(OdometryStudy, ComplainsOnTheLine) {
     return "no complaint";
   };
   EXPECT_THAT(complaint("odometry: {delay: [-0.1]}\n"),
-              AllOf(HasSubstr("small.yaml:8:"), HasSubstr("odometry.late"),
+              AllOf(HasSubstr("small.yaml:8:"), HasSubstr("odometry.delay"),
                     HasSubstr("expected times between 0 and 1 s")));
-  EXPECT_THAT(complaint("odometry: {delay: [0.1, 0.1]}\n"), HasSubstr("stands there twice"));
-  EXPECT_THAT(complaint("odometry: {lat: [0.1]}\n"), HasSubstr("did you mean"));
+  EXPECT_THAT(complaint("odometry: {delay: [0.1, 0.1]}\n"), HasSubstr("appears twice"));
+  EXPECT_THAT(complaint("odometry: {dela: [0.1]}\n"), HasSubstr("did you mean"));
 }
 
 }  // namespace

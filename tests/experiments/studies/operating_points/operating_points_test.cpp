@@ -7,10 +7,10 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
-#include "experiments/studies/operating_points/rows.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/shard.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/operating_points/rows.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -40,7 +40,7 @@ Table table_in(const ScratchFolder& folder, const std::string& name) {
   return from_csv(read_file(folder / name));
 }
 
-TEST(OperatingPoints, DecideByOtherThresholdsThanTheEstimators) {
+TEST(OperatingPoints, ScoreOtherThresholdsThanTheEstimators) {
   const ScratchFolder folder;
   RunOptions options;
   options.out = folder / "run";
@@ -50,14 +50,14 @@ TEST(OperatingPoints, DecideByOtherThresholdsThanTheEstimators) {
   ASSERT_EQ(table.rows.size(), 2U * 2U * 2U * 5U);
   std::map<std::string, std::vector<std::string>> own, at_its_own_threshold;
   for (const std::vector<std::string>& row : table.rows) {
-    const std::string of_whom = row[0] + row[2] + row[4];
+    const std::string key = row[0] + row[2] + row[4];
     EXPECT_EQ(cell(table, row, "scenario"), "small_step");
     if (cell(table, row, "estimator") != "robust") continue;
     const std::vector<std::string> numbers(row.begin() + 7, row.end());
-    if (cell(table, row, "leave_below").empty()) own[of_whom] = numbers;
+    if (cell(table, row, "leave_below").empty()) own[key] = numbers;
     const bool is_its_own =
         cell(table, row, "leave_below") == "0.8" && cell(table, row, "return_above") == "0.8";
-    if (is_its_own) at_its_own_threshold[of_whom] = numbers;
+    if (is_its_own) at_its_own_threshold[key] = numbers;
   }
   EXPECT_EQ(own.size(), 4U);
   EXPECT_EQ(own, at_its_own_threshold);  // the Bayes filter decides at 0.8
@@ -77,7 +77,7 @@ OperatingRow row_of(const std::string& scene, std::optional<scoring::Hysteresis>
   return row;
 }
 
-TEST(OperatingPoints, EverySceneCountsAlikeAndTheFrontIsWhatNothingBeats) {
+TEST(OperatingPoints, ScenesHaveEqualWeightsAndTheFrontIsNotDominated) {
   const scoring::Hysteresis fast{0.9, 0.9}, slow{0.1, 0.9}, worse{0.5, 0.5}, equal{0.4, 0.5};
   const std::vector<OperatingMean> means = operating_means(
       {row_of("stairs", {}, 10, 6), row_of("stairs", fast, 0, 8), row_of("stairs", slow, 40, 0),
@@ -117,7 +117,7 @@ TEST(OperatingPoints, AreTheSameInShards) {
   }
 }
 
-TEST(OperatingPoints, AreNamedWhereTheyAreAskedForAndNowhereElse) {
+TEST(OperatingPoints, AreInTheConfigurationOnlyIfSet) {
   const ScratchFolder folder;
   EXPECT_THAT(to_yaml(with(folder, "")), Not(HasSubstr("operating_points")));
   const std::string text = to_yaml(with(folder, "operating_points: {leave_below: [0.25, 0.5]}\n"));
@@ -137,13 +137,13 @@ TEST(OperatingPoints, ComplainOnTheLine) {
   };
   EXPECT_THAT(complaint("operating_points: {leave_below: [0.5, 0.2]}\n"),
               AllOf(HasSubstr("small.yaml:9:"), HasSubstr("operating_points.leave_below"),
-                    HasSubstr("expected probabilities that grow")));
+                    HasSubstr("expected increasing probabilities")));
   EXPECT_THAT(complaint("operating_points: {return_above: [0.5, 1]}\n"),
               HasSubstr("none of them 0 or 1"));
   EXPECT_THAT(complaint("operating_points: {leave_below: []}\n"),
               HasSubstr("expected at least one probability"));
   EXPECT_THAT(complaint("operating_points: {leave_below: [0.9], return_above: [0.5]}\n"),
-              HasSubstr("no lower than one of leave_below"));
+              HasSubstr("at least the lowest leave_below"));
   EXPECT_THAT(complaint("operating_points: {leave_bellow: [0.5]}\n"), HasSubstr("did you mean"));
 }
 

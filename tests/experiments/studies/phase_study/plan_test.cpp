@@ -16,17 +16,17 @@ Plan shipped_plan() {
   return whole_plan(request_of(experiment_from_yaml(file)));
 }
 
-TEST(PhaseStudy, FitsToTheSameRunsWhateverItIsMeasuredOn) {
+TEST(PhaseStudy, FitsToTheSameRunsForEveryTest) {
   const Plan plan = shipped_plan();
   for (const PlannedRun& run : plan.runs) EXPECT_EQ(run.seed, run.role == RunRole::fit ? 1U : 2U);
-  // In both engines four whole ones, and pieces of 48 runs of stairs, one of hanging, one of
+  // In both engines four whole runs, and segments of 48 runs of stairs, one of hanging, one of
   // lifting.
   EXPECT_EQ(std::count_if(plan.runs.begin(), plan.runs.end(),
                           [](const PlannedRun& run) { return run.role == RunRole::fit; }),
             2 * (4 + 50));
 }
 
-TEST(PhaseStudy, ListensToEveryRunOfEverySceneOncePerNoiseSeed) {
+TEST(PhaseStudy, EvaluatesEveryRunOfEverySceneOncePerNoiseSeed) {
   const Plan plan = shipped_plan();
   ASSERT_EQ(plan.groups.size(), 1 + more_scenes.size());
   for (std::size_t g = 0; g < plan.groups.size(); ++g) EXPECT_EQ(plan.runs_in(g).size(), 20U);
@@ -36,7 +36,7 @@ TEST(PhaseStudy, ListensToEveryRunOfEverySceneOncePerNoiseSeed) {
   EXPECT_EQ(files.size(), plan.runs.size());
 }
 
-TEST(PhaseStudy, LetsForeignFitsAndTheLearningCurveListenToTheStairsOnly) {
+TEST(PhaseStudy, EvaluatesTransfersAndTheLearningCurveOnStairsOnly) {
   const Plan plan = shipped_plan();
   const std::vector<Condition>& stairs = plan.groups.front().conditions;
   const auto has = [&](const Condition& wanted) {

@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// Two runs over a small step, heard by a filter through sensors with these faults.
+/// Two runs over a small step, evaluated by a filter with these sensor disturbances.
 Experiment swept(const ScratchFolder& folder, const std::string& sweep) {
   const std::string scene = folder.write("small_step.yaml", small_step_scene).string();
   return experiment_from_yaml(YamlDocument::parse(
@@ -28,7 +28,7 @@ Experiment swept(const ScratchFolder& folder, const std::string& sweep) {
       "swept.yaml"));
 }
 
-TEST(ASensorSweep, HearsTheExperimentsOwnRunsThroughEveryValue) {
+TEST(ASensorSweep, EvaluatesTheExperimentsOwnRunsForEveryValue) {
   const ScratchFolder folder;
   const Experiment experiment = swept(folder, "{torque.white: [0, 2], dropout: [0]}");
   RunOptions options;
@@ -37,16 +37,16 @@ TEST(ASensorSweep, HearsTheExperimentsOwnRunsThroughEveryValue) {
   const Table table = from_csv(read_file(folder / "run/tables/sensor_sweep.csv"));
   EXPECT_THAT(table.header, ::testing::IsSupersetOf({"simulator", "disturbance", "value",
                                                      "estimator", "success", "success_low"}));
-  ASSERT_EQ(table.rows.size(), 6U);  // three values, the filter and who always says contact
+  ASSERT_EQ(table.rows.size(), 6U);  // three values, the filter and always contact
   const auto success = [&](std::size_t row) { return std::stod(table.rows[row][4]); };
   const auto own =
       std::find_if(result.scores.begin(), result.scores.end(), [](const ScoreSummary& score) {
         return score.view == "wheels" && score.condition.estimator == "measurement_only";
       });
-  EXPECT_EQ(table.rows[0][4], metric((*own)["success"].estimate));  // a value that is no fault
+  EXPECT_EQ(table.rows[0][4], metric((*own)["success"].estimate));  // a value without effect
   EXPECT_EQ(table.rows[4][4], table.rows[0][4]);
   EXPECT_LT(success(2), success(0) - 0.05);
-  EXPECT_EQ(success(3), success(1));  // who does not listen does not mind
+  EXPECT_EQ(success(3), success(1));  // always contact uses no sensor
   EXPECT_THAT(result.studies.back(), HasSubstr("torque.white, mujoco"));
 }
 
@@ -67,7 +67,7 @@ TEST(ASensorSweep, SimulatesNothingTwice) {
   }
 }
 
-TEST(ASensorSweep, OfWhatThereIsNotIsRefusedWhereItStands) {
+TEST(ASensorSweep, RefusesUnknownKeysAndBadValuesAtTheirLine) {
   const ScratchFolder folder;
   EXPECT_THAT([&] { swept(folder, "{dropot: [0.1]}"); },
               ThrowsMessage<InputError>(HasSubstr("swept.yaml:8:17: sweep.dropot: 'dropot' is not "

@@ -9,18 +9,18 @@
 
 namespace palimpsest {
 
-/// What observers use of Upkie's dictionaries, for tests: a value, or dictionaries by name.
+/// The part of Upkie's dictionaries that observers use, for tests: a value, or dictionaries by name.
 class Dictionary {
  public:
   bool has(const std::string& key) const noexcept { return children_.count(key) > 0; }
 
-  /// Made if it is not there.
+  /// Creates the child if it does not exist.
   Dictionary& operator()(const std::string& key) {
     std::unique_ptr<Dictionary>& child = children_[key];
     if (child == nullptr) child = std::make_unique<Dictionary>();
     return *child;
   }
-  /// Throws if it is not there.
+  /// Throws if the child does not exist.
   const Dictionary& operator()(const std::string& key) const {
     const auto found = children_.find(key);
     if (found == children_.end()) throw std::out_of_range("no key " + key);
@@ -39,7 +39,7 @@ class Dictionary {
     return (*this)(key).template as<T>();
   }
 
-  /// A value keeps its type: throws for one of another.
+  /// A value keeps its type: throws for a value of another type.
   template <typename T>
   Dictionary& operator=(const T& value) {
     if (value_.has_value()) static_cast<void>(as<T>());

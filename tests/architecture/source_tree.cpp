@@ -1,4 +1,4 @@
-#include "tests/architecture/house.hpp"
+#include "tests/architecture/source_tree.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_allowed(const Table& table, const std::string& from, const std::string& to_file) {
-  const std::string to = room_of(to_file);
+bool is_allowed(const DependencyTable& table, const std::string& from, const std::string& to_file) {
+  const std::string to = folder_of(to_file);
   const auto row = table.find(from);
   if (from == to) return true;
   if (row == table.end()) return false;
@@ -25,42 +25,44 @@ bool is_allowed(const Table& table, const std::string& from, const std::string& 
   });
 }
 
-std::string place(const Arrow& arrow) {
-  return arrow.from + ":" + std::to_string(arrow.line) + ": includes \"" + arrow.to + "\"";
+std::string place(const Include& include) {
+  return include.from + ":" + std::to_string(include.line) + ": includes \"" + include.to + "\"";
 }
 
 }  // namespace
 
-House house_in(const fs::path& source, const std::set<std::string>& top_folders) {
-  House house;
+SourceTree source_tree_in(const fs::path& source, const std::set<std::string>& top_folders) {
+  SourceTree tree;
   for (const std::string& folder : top_folders) {
     for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
       const std::string ending = entry.path().extension().string();
       if (ending != ".cpp" && ending != ".hpp") continue;
-      house.files.push_back(fs::relative(entry.path(), source).string());
+      tree.files.push_back(fs::relative(entry.path(), source).string());
     }
   }
-  std::sort(house.files.begin(), house.files.end());
-  static const std::regex include(R"re(^#include "([^"]+)".*)re");
-  for (const std::string& file : house.files) {
+  std::sort(tree.files.begin(), tree.files.end());
+  static const std::regex pattern(R"re(^#include "([^"]+)".*)re");
+  for (const std::string& file : tree.files) {
     std::ifstream text(source / file);
     std::smatch match;
     int number = 0;
     for (std::string line; std::getline(text, line);) {
       ++number;
-      if (std::regex_match(line, match, include)) house.arrows.push_back({file, number, match[1]});
+      if (std::regex_match(line, match, pattern)) tree.includes.push_back({file, number, match[1]});
     }
   }
-  return house;
+  return tree;
 }
 
-Table table_in(const std::string& markdown) {
-  Table table;
+DependencyTable dependency_table_in(const std::string& markdown) {
+  DependencyTable table;
   std::istringstream text(markdown);
   static const std::regex name("`([a-z_/*.]+)`");
   bool inside = false;
   for (std::string line; std::getline(text, line);) {
-    if (line == "<!-- arrows -->" || line == "<!-- /arrows -->") inside = line[5] == 'a';
+    if (line == "<!-- dependencies -->" || line == "<!-- /dependencies -->") {
+      inside = line[5] != '/';
+    }
     static const std::regex row(R"(^\| `([^`]+)` \|.*\|([^|]*)\|$)");
     std::smatch cells;
     if (!inside || !std::regex_match(line, cells, row)) continue;
@@ -73,33 +75,33 @@ Table table_in(const std::string& markdown) {
   return table;
 }
 
-std::string room_of(const std::string& file) {
+std::string folder_of(const std::string& file) {
   const std::size_t slash = file.rfind('/');
   return slash == std::string::npos ? "" : file.substr(0, slash);
 }
 
 std::string module_of(const std::string& file) { return file.substr(0, file.rfind('.')); }
 
-std::vector<std::string> against(const Table& table, const House& house) {
+std::vector<std::string> forbidden_includes(const DependencyTable& table, const SourceTree& tree) {
   std::vector<std::string> lines;
-  std::set<std::string> rooms;
-  for (const std::string& file : house.files) rooms.insert(room_of(file));
-  for (const std::string& room : rooms) {
-    if (!table.contains(room)) lines.push_back(room + ": has no row in docs/architecture.md");
+  std::set<std::string> folders;
+  for (const std::string& file : tree.files) folders.insert(folder_of(file));
+  for (const std::string& folder : folders) {
+    if (!table.contains(folder)) lines.push_back(folder + ": has no row in docs/architecture.md");
   }
-  for (const Arrow& arrow : house.arrows) {
-    if (is_allowed(table, room_of(arrow.from), arrow.to)) continue;
-    lines.push_back(place(arrow) + ", and " + room_of(arrow.from) + " may not include " +
-                    room_of(arrow.to));
+  for (const Include& include : tree.includes) {
+    if (is_allowed(table, folder_of(include.from), include.to)) continue;
+    lines.push_back(place(include) + ", and " + folder_of(include.from) + " may not include " +
+                    folder_of(include.to));
   }
   return lines;
 }
 
-std::vector<std::string> circles(const House& house) {
+std::vector<std::string> cyclic_includes(const SourceTree& tree) {
   std::map<std::string, std::set<std::string>> next;
-  for (const Arrow& arrow : house.arrows) {
-    if (module_of(arrow.from) != module_of(arrow.to)) {
-      next[module_of(arrow.from)].insert(module_of(arrow.to));
+  for (const Include& include : tree.includes) {
+    if (module_of(include.from) != module_of(include.to)) {
+      next[module_of(include.from)].insert(module_of(include.to));
     }
   }
   const auto reaches = [&](const std::string& from, const std::string& wanted) {
@@ -113,22 +115,22 @@ std::vector<std::string> circles(const House& house) {
     return search(from);
   };
   std::vector<std::string> lines;
-  for (const Arrow& arrow : house.arrows) {
-    if (module_of(arrow.from) == module_of(arrow.to)) continue;
-    if (reaches(module_of(arrow.to), module_of(arrow.from))) {
-      lines.push_back(place(arrow) + ", which includes it in turn");
+  for (const Include& include : tree.includes) {
+    if (module_of(include.from) == module_of(include.to)) continue;
+    if (reaches(module_of(include.to), module_of(include.from))) {
+      lines.push_back(place(include) + ", which includes it in turn");
     }
   }
   return lines;
 }
 
-std::vector<std::string> crowded(const House& house, std::size_t most) {
+std::vector<std::string> crowded_folders(const SourceTree& tree, std::size_t most) {
   std::map<std::string, std::set<std::string>> modules;
-  for (const std::string& file : house.files) modules[room_of(file)].insert(module_of(file));
+  for (const std::string& file : tree.files) modules[folder_of(file)].insert(module_of(file));
   std::vector<std::string> lines;
-  for (const auto& [room, inside] : modules) {
+  for (const auto& [folder, inside] : modules) {
     if (inside.size() <= most) continue;
-    lines.push_back(room + ": holds " + std::to_string(inside.size()) + " modules, more than " +
+    lines.push_back(folder + ": holds " + std::to_string(inside.size()) + " modules, more than " +
                     std::to_string(most));
   }
   return lines;

@@ -1,4 +1,4 @@
-// Scenes that tell estimators apart: each has in it what its first lines say.
+// Scenes that distinguish estimators: each contains the situation that its first lines describe.
 #include <algorithm>
 #include <limits>
 
@@ -8,16 +8,15 @@
 namespace touchdown::scenarios {
 namespace {
 
-class TellingScene : public InEveryEngine {
+class DistinguishingScene : public InEveryEngine {
  protected:
-  static recordings::Recording played(const char* name, int run = 0) {
+  static recordings::Recording recording_of(const char* name, int run = 0) {
     recordings::Recording recording = play(perturbed(scenario_called(name), 7, run), GetParam());
     EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished) << name;
     return recording;
   }
 
-  /// The longest time with one wheel in the air and the other on the ground, by the wheel that is
-  /// in the air (s).
+  /// For each wheel, the longest time (s) that it alone is in the air.
   static std::array<double, 2> longest_single_flights(const recordings::Recording& recording) {
     std::array<double, 2> longest = {};
     std::array<double, 2> now = {};
@@ -40,23 +39,23 @@ class TellingScene : public InEveryEngine {
   }
 };
 
-TEST_P(TellingScene, AKerbLiftsOneWheelThenTheOther) {
-  const recordings::Recording recording = played("kerb");
+TEST_P(DistinguishingScene, AKerbLiftsOneWheelThenTheOther) {
+  const recordings::Recording recording = recording_of("kerb");
   const auto [left, right] = longest_single_flights(recording);
   EXPECT_GT(left, 0.04);
   EXPECT_GT(right, 0.04);
   EXPECT_THAT(flights(recording, 0.05), ::testing::IsEmpty());
 }
 
-TEST_P(TellingScene, AKerbInACurveTakesOneWheelLongBeforeTheOther) {
-  const recordings::Recording recording = played("kerb_turn");
+TEST_P(DistinguishingScene, AKerbInACurveLiftsOneWheelLongBeforeTheOther) {
+  const recordings::Recording recording = recording_of("kerb_turn");
   const auto [left, right] = longest_single_flights(recording);
   EXPECT_GT(std::max(left, right), 0.1);
   EXPECT_GT(recording.observation.back().yaw - recording.observation.front().yaw, 0.8);
 }
 
-TEST_P(TellingScene, WheelsArePutDownAtAnotherSpeedThanTheGrounds) {
-  const recordings::Recording recording = played("put_down");
+TEST_P(DistinguishingScene, WheelsLandWithASpeedOtherThanTheGrounds) {
+  const recordings::Recording recording = recording_of("put_down");
   const double radius = 0.05;  // m
   int spinning = 0;
   for (std::size_t k = 1000; k < recording.steps(); ++k) {
@@ -70,17 +69,17 @@ TEST_P(TellingScene, WheelsArePutDownAtAnotherSpeedThanTheGrounds) {
   EXPECT_GE(spinning, 2);
 }
 
-TEST_P(TellingScene, ASquatFallsWithItsWheelsOnTheGround) {
-  const recordings::Recording recording = played("squat");
+TEST_P(DistinguishingScene, ASquatAcceleratesDownWithItsWheelsOnTheGround) {
+  const recordings::Recording recording = recording_of("squat");
   EXPECT_LT(lowest_acceleration(recording), -4.9);
   EXPECT_THAT(flights(recording, 0.02), ::testing::IsEmpty());
 }
 
-TEST_P(TellingScene, AHandLiftsWithoutAFall) {
-  const recordings::Recording recording = played("lift_slowly");
+TEST_P(DistinguishingScene, ALiftByHandIsNoFreeFall) {
+  const recordings::Recording recording = recording_of("lift_slowly");
   const std::vector<double> durations = flights(recording, 0.2);
   EXPECT_GE(durations.size(), 4U);
-  // Most of the time in the air is no fall.
+  // Most of the time in the air, the robot is not in free fall.
   int in_the_air = 0;
   int falling = 0;
   for (std::size_t k = 300; k < recording.steps(); ++k) {
@@ -91,15 +90,17 @@ TEST_P(TellingScene, AHandLiftsWithoutAFall) {
   EXPECT_LT(falling, in_the_air / 2);
 }
 
-TEST_P(TellingScene, ARampThrowsTheRobotUpwards) {
-  const recordings::Recording recording = played("ramp_jump");
+TEST_P(DistinguishingScene, ARampThrowsTheRobotUpwards) {
+  const recordings::Recording recording = recording_of("ramp_jump");
   EXPECT_EQ(flights(recording, 0.05).size(), 3U);
 }
 
-TEST_P(TellingScene, LegsHopByThemselves) { EXPECT_GE(flights(played("hop"), 0.03).size(), 2U); }
+TEST_P(DistinguishingScene, LegsHopByThemselves) {
+  EXPECT_GE(flights(recording_of("hop"), 0.03).size(), 2U);
+}
 
-TEST_P(TellingScene, AWashboardUnloadsTheWheels) {
-  const recordings::Recording recording = played("washboard");
+TEST_P(DistinguishingScene, AWashboardUnloadsTheWheels) {
+  const recordings::Recording recording = recording_of("washboard");
   int light = 0;
   for (const models::GroundTruth& truth : recording.truth) {
     light += truth.wheel_normal_force[0] < 10.0 ? 1 : 0;
@@ -107,13 +108,13 @@ TEST_P(TellingScene, AWashboardUnloadsTheWheels) {
   EXPECT_GT(light, 100);
 }
 
-TEST_P(TellingScene, PushesDoNotLiftAStandingRobot) {
-  const recordings::Recording recording = played("pushed", 1);
+TEST_P(DistinguishingScene, PushesDoNotLiftAStandingRobot) {
+  const recordings::Recording recording = recording_of("pushed", 1);
   EXPECT_THAT(flights(recording, 0.005), ::testing::IsEmpty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Engine, TellingScene, ::testing::ValuesIn(simulators::simulator_names()),
-                         engine_name);
+INSTANTIATE_TEST_SUITE_P(Engine, DistinguishingScene,
+                         ::testing::ValuesIn(simulators::simulator_names()), engine_name);
 
 }  // namespace
 }  // namespace touchdown::scenarios
