@@ -11,11 +11,7 @@
 #include "experiments/needs.hpp"
 #include "experiments/run_directory/free_space.hpp"
 #include "experiments/run_directory/shard.hpp"
-#include "experiments/studies/benchmark/plan.hpp"
-#include "experiments/studies/cross_simulator/variations.hpp"
-#include "experiments/studies/odometry/plan.hpp"
-#include "experiments/studies/phase_study/plan.hpp"
-#include "experiments/studies/sensor_sweep/plan.hpp"
+#include "experiments/studies/registry.hpp"
 
 namespace touchdown::experiments {
 
@@ -44,16 +40,6 @@ std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
     }
   }
   return missing;
-}
-
-/// Whether a closed-loop run that belongs to one of the parts from `first` to `end` is missing.
-bool lacks_closed_loops(const ExperimentContext& context, std::size_t first, std::size_t end) {
-  const TaskRange loops =
-      closed_loop_runs_of(context.request.experiment, {first, end}, context.plan.tasks.size());
-  for (std::size_t run = loops.begin; run < loops.end; ++run) {
-    if (!context.saved_closed_loops.read(run)) return true;
-  }
-  return false;
 }
 
 /// The number of saved parts, whichever process computed them.
@@ -93,12 +79,7 @@ void require_own(const ExperimentContext& context, const Task& task) {
 Plan whole_plan(const RunRequest& request) {
   require_memory(request, 0.0);
   Plan plan = plan_of(request);
-  if (request.experiment.cross_simulator) add_cross_simulator(request, plan);
-  if (request.experiment.phase_study) add_phase_study(request, plan);
-  add_sensor_sweep(request, plan);
-  if (request.experiment.benchmark) add_benchmark(request, plan);
-  if (request.experiment.odometry) add_odometry_study(request, plan);
-  require_closed_loop(request);
+  for (const Study* study : requested_studies(request.experiment)) study->plan(request, plan);
   keep_recordings(request.experiment, plan);
   return plan;
 }
@@ -114,13 +95,12 @@ ExperimentContext start(RunRequest request, RunDirectory directory, const RunOpt
                   1e-9 * needs.recordings, 1e-9 * needs.parts, plan.tasks.size(),
                   request.experiment.test.runs, request.experiment.noise.seeds));
   SavedCounts saved(directory.path() / "state" / "evaluation", state_key(request));
-  SavedClosedLoops saved_closed_loops(directory.path() / "state" / "closed_loop",
-                                      state_key(request));
+  SavedModelTasks saved_model_tasks(directory.path() / "state", state_key(request));
   return {std::move(request),
           std::move(directory),
           std::move(plan),
           std::move(saved),
-          std::move(saved_closed_loops),
+          std::move(saved_model_tasks),
           [stop = options.stop] { return stop == nullptr || !*stop; },
           {options.command, threads, {}},
           tbb::global_control(tbb::global_control::max_allowed_parallelism,
@@ -146,7 +126,9 @@ std::string what_is_saved(const ExperimentContext& context) {
 void require_all_shards(const ExperimentContext& context) {
   const std::vector<std::size_t> missing = missing_tasks(context);
   const std::size_t tasks = context.plan.tasks.size();
-  if (missing.empty() && !lacks_closed_loops(context, 0, tasks)) return;
+  if (missing.empty() &&
+      !lacks_model_tasks(context.plan, context.plan.all_tasks(), context.saved_model_tasks))
+    return;
   for (const std::size_t task : missing) require_own(context, context.plan.tasks[task]);
   const std::filesystem::path& directory = context.directory.path();
   const int count = started_shards(directory);
@@ -155,7 +137,8 @@ void require_all_shards(const ExperimentContext& context) {
     const Shard shard{index, count};
     const auto first = std::lower_bound(missing.begin(), missing.end(), shard.begin(tasks));
     const bool is_evaluated = first == missing.end() || *first >= shard.end(tasks);
-    if (is_evaluated && !lacks_closed_loops(context, shard.begin(tasks), shard.end(tasks)))
+    if (is_evaluated && !lacks_model_tasks(context.plan, {shard.begin(tasks), shard.end(tasks)},
+                                           context.saved_model_tasks))
       continue;
     shards.push_back(to_text(shard));
   }

@@ -9,7 +9,6 @@
 
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/results/result.hpp"
-#include "experiments/studies/closed_loop/rollout.hpp"
 
 namespace touchdown::experiments {
 
@@ -28,7 +27,7 @@ struct ExperimentContext {
   RunDirectory directory;
   Plan plan;
   SavedCounts saved;
-  SavedClosedLoops saved_closed_loops;
+  SavedModelTasks saved_model_tasks;
   ShouldContinue should_continue;
   Provenance provenance;
   tbb::global_control limit;

@@ -1,16 +1,11 @@
 #pragma once
 
+#include "experiments/plan/needs.hpp"
 #include "experiments/plan/plan.hpp"
 
 namespace touchdown::experiments {
 
-/// The size of an experiment, estimated without a plan: the plan alone may be too large.
-struct Needs {
-  double runs = 0.0;
-  double parts = 0.0;    ///< of the evaluation
-  double seconds = 0.0;  ///< least total duration of all runs, if none falls
-  double steps = 0.0;    ///< control steps of all runs
-};
+/// The size of an experiment with its studies.
 Needs needs_of(const RunRequest& request);
 
 /// Memory and swap of this machine (bytes).

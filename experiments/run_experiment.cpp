@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
+#include "experiments/fitting/refits.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/results/manifest.hpp"
 #include "experiments/results/result_files.hpp"
@@ -19,20 +20,7 @@
 #include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/test_seed_log.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
-#include "experiments/studies/benchmark/overlap.hpp"
-#include "experiments/studies/benchmark/plan.hpp"
-#include "experiments/studies/benchmark/refits.hpp"
-#include "experiments/studies/benchmark/tables.hpp"
-#include "experiments/studies/closed_loop/tables.hpp"
-#include "experiments/studies/cross_simulator/tables.hpp"
-#include "experiments/studies/moments/tables.hpp"
-#include "experiments/studies/odometry/tables.hpp"
-#include "experiments/studies/odometry/trajectories.hpp"
-#include "experiments/studies/operating_points/tables.hpp"
-#include "experiments/studies/phase_study/fit.hpp"
-#include "experiments/studies/phase_study/tables.hpp"
-#include "experiments/studies/sensor_sweep/tables.hpp"
-#include "experiments/submissions/rows.hpp"
+#include "experiments/studies/registry.hpp"
 #include "experiments/tuning/table.hpp"
 
 namespace touchdown::experiments {
@@ -53,7 +41,7 @@ struct Fitted {
 
 /// Runs one of the experiment's fits for every engine, with its refits. It uses the hyperparameters
 /// in `chosen` unless the fit has a tuning of its own.
-Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string& name,
+Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string& name, int refits,
            const ShouldContinue& should_continue, const SavedTrials& saved,
            TunedHyperparameters chosen) {
   std::vector<RunSignals> fitted;
@@ -80,7 +68,6 @@ Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string
     }
   };
   add(0, fit_models(experiment, fitted, segments, should_continue, chosen));
-  const int refits = experiment.benchmark ? refits_of(*experiment.benchmark, name) : 0;
   for (int refit = 1; refit <= refits; ++refit) {
     add(refit, fit_models(experiment, drawn_anew(fitted, experiment.seed, refit),
                           drawn_anew(segments, experiment.seed, refit), should_continue, chosen));
@@ -106,12 +93,13 @@ Fitted fit(const ExperimentContext& context, const Rollouts& runs) {
   Fitted all;
   for (const std::string& name : fits) {
     // The experiment's own fit is the first. Without `everywhere` the others use its choice.
-    Fitted one = fit(experiment, runs, name, context.should_continue, saved, chosen_in(all.trials));
+    const auto refits = context.plan.refits.find(name);
+    Fitted one =
+        fit(experiment, runs, name, refits == context.plan.refits.end() ? 0 : refits->second,
+            context.should_continue, saved, chosen_in(all.trials));
     all.models.merge(one.models);
     std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
   }
-  if (experiment.phase_study)
-    fit_learning_curve(experiment, runs, context.should_continue, all.models);
   if (!context.should_continue()) throw Stopped();
   return all;
 }
@@ -122,37 +110,37 @@ struct Computed {
   std::size_t tasks = 0;  ///< tasks that were not saved already
 };
 
-/// The runs that these tasks need, and the fitted runs of the closed-loop estimators.
-std::set<std::size_t> runs_for(const ExperimentContext& context, const TaskRange& tasks,
-                               const TaskRange& loops) {
+/// The runs that these tasks need, and the fitted runs of the experiment's own models if this share
+/// has model tasks.
+std::set<std::size_t> runs_for(const ExperimentContext& context, const TaskRange& tasks) {
   const Plan& plan = context.plan;
   std::set<std::size_t> runs = runs_for(plan, tasks);
-  for (std::size_t i = 0; i < plan.runs.size() && loops.size() > 0; ++i) {
+  if (!has_model_tasks(plan, tasks)) return runs;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
     if (plan.runs[i].role == RunRole::fit && plan.runs[i].fit.empty()) runs.insert(i);
   }
   return runs;
 }
 
-/// The first half of an experiment: simulate → fit → evaluate → run closed loops. Saved results are
+/// The first half of an experiment: simulate → fit → evaluate → model tasks. Saved results are
 /// read, not computed again.
 Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun missing) {
   const Experiment& experiment = context.request.experiment;
-  const TaskRange loops = closed_loop_runs_of(experiment, tasks, context.plan.tasks.size());
   try {
     Computed done;
     done.runs = timed(context, "simulate", [&] {
-      return run_rollouts(experiment, context.plan, runs_for(context, tasks, loops),
-                          context.directory, missing, context.should_continue);
+      return run_rollouts(experiment, context.plan, runs_for(context, tasks), context.directory,
+                          missing, context.should_continue);
     });
     done.fitted = timed(context, "fit", [&] { return fit(context, done.runs); });
     done.tasks = timed(context, "evaluate", [&] {
       return evaluate(context.plan, tasks, done.runs, experiment.scoring, done.fitted.models,
                       context.saved, context.should_continue);
     });
-    if (loops.size() > 0) {
-      timed(context, "run_closed_loops", [&] {
-        run_closed_loops(context.request, loops, done.fitted.models, context.saved_closed_loops,
-                         missing, context.should_continue);
+    if (has_model_tasks(context.plan, tasks)) {
+      timed(context, "model_tasks", [&] {
+        run_model_tasks(context.plan, tasks, done.fitted.models, context.saved_model_tasks, missing,
+                        context.should_continue);
         return 0;
       });
     }
@@ -184,49 +172,14 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
       write_table(done.fitted.trials, context.directory);
       result.studies.push_back(tuning_text(done.fitted.trials, experiment));
     }
-    const Evaluation evaluation{context.request, plan, done.runs, context.saved, counts};
-    if (experiment.cross_simulator) {
-      const CrossSimulatorResult check = check_across_simulators(evaluation);
-      write_tables(check, context.directory);
-      result.studies.push_back(report_text(check));
-      result.failed_demands = failed_demands(check.verdicts);
-    }
-    if (experiment.phase_study) {
-      result.studies.push_back(phase_study_text(evaluation));
-      write_atomically(context.directory.file("tables", "phase_study.md"), result.studies.back());
-    }
-    if (experiment.moments) {
-      const std::vector<EngineTorques> torques = torques_by_engine(evaluation);
-      write_tables(torques, context.directory);
-      result.studies.push_back(moments_text(torques, experiment));
-    }
-    if (experiment.benchmark) {
-      const BenchmarkResult found = write_benchmark(evaluation, context.directory);
-      write_overlap(result.models, evaluation, context.directory);
-      result.studies.push_back(benchmark_text(found, experiment));
-    }
-    if (experiment.odometry) {
-      const std::vector<OdometryRow> rows = odometry_rows(evaluation);
-      write_tables(rows, context.directory);
-      write_trajectories(evaluation, result.models, context.directory);
-      result.studies.push_back(odometry_text(rows, experiment));
-    }
-    if (experiment.operating_points) {
-      const std::vector<OperatingRow> rows = operating_rows(evaluation);
-      const std::vector<OperatingMean> means = operating_means(rows);
-      write_tables(rows, means, context.directory);
-      result.studies.push_back(operating_points_text(means, experiment));
-    }
-    if (experiment.closed_loop) {
-      const std::vector<SurvivalRow> rows =
-          survival_rows(context.request, context.saved_closed_loops);
-      write_tables(rows, context.directory);
-      result.studies.push_back(survival_text(rows, experiment));
-    }
-    if (!experiment.sweep.empty()) {
-      const std::vector<SensorSweepPoint> sweep = sensor_sweep(evaluation);
-      write_tables(sweep, context.directory);
-      result.studies.push_back(sensor_sweep_text(sweep, experiment));
+    const Evaluation evaluation{
+        context.request,          plan, done.runs, context.saved, counts, result.models,
+        context.saved_model_tasks};
+    for (const Study* study : requested_studies(experiment)) {
+      StudyResult found = study->summarize(evaluation, context.directory);
+      std::move(found.texts.begin(), found.texts.end(), std::back_inserter(result.studies));
+      std::move(found.failed_demands.begin(), found.failed_demands.end(),
+                std::back_inserter(result.failed_demands));
     }
     return 0;
   });

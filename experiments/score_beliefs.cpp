@@ -1,6 +1,7 @@
 #include "experiments/score_beliefs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -11,11 +12,11 @@
 #include "core/file_names.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/owner.hpp"
+#include "experiments/studies/benchmark/submission_rows.hpp"
+#include "experiments/studies/benchmark/submission_scores.hpp"
 #include "experiments/studies/benchmark/tables.hpp"
 #include "experiments/submissions/belief_folder.hpp"
 #include "experiments/submissions/prediction.hpp"
-#include "experiments/submissions/rows.hpp"
-#include "experiments/submissions/saved_scores.hpp"
 #include "recordings/beliefs/file.hpp"
 
 namespace touchdown::experiments {
@@ -52,7 +53,7 @@ Rollouts runs_as_saved(const ExperimentContext& context) {
       throw InputError(fmt::format("{}: is not finished: run the same experiment again first",
                                    context.directory.path().string()));
     }
-    if (counts->counted.empty() && counts->scored.empty()) {
+    if (!counts->is_scored()) {
       runs.at(task.run).report.outcome = recordings::Outcome::fell;
     }
   }
@@ -87,6 +88,18 @@ std::vector<BeliefFile> complete(const std::vector<BeliefFile>& files,
   return scored;
 }
 
+/// The scores of a submitted prediction, as those of the only condition in one noise setting.
+TaskCounts scores_of(const RunSignals& run, const scoring::Prediction& prediction,
+                     const Experiment& experiment) {
+  const NoiseRun no_noise;
+  const MeasuredRun measured{run, no_noise, 0, {{}}, experiment.scoring};
+  const std::array measures = {extended_scores()};
+  const Condition condition;
+  TaskCounts counts;
+  add_scores({measured, condition, 0, prediction}, measures, 0, counts);
+  return counts;
+}
+
 SubmissionScores scores_of(const std::vector<BeliefFile>& files,
                            const std::vector<ExportedRun>& exported, ExperimentContext& context,
                            BeliefReport& report) {
@@ -103,23 +116,21 @@ SubmissionScores scores_of(const std::vector<BeliefFile>& files,
     needed.insert(exported[file.run].run);
   }
   std::mutex mutex;
-  for_each_rollout(experiment, plan, needed, context.directory, MissingRun::refuse,
-                   context.should_continue, [&](std::size_t index, const Rollout& run) {
-                     for (const BeliefFile* file : by_run.at(index)) {
-                       if (!context.should_continue()) throw Stopped();
-                       const ExportedRun& about = exported[file->run];
-                       const SubmittedPrediction submitted =
-                           prediction_of(recordings::read_beliefs(file->path), run.signals);
-                       TaskCounts counts;
-                       add_scores(run.signals, submitted.prediction, experiment.scoring, true,
-                                  counts);
-                       const std::scoped_lock lock(mutex);
-                       scores.by_cell[about.cell].emplace(task_name(plan, plan.tasks[*about.task]),
-                                                          std::move(counts));
-                       report.missing_steps += submitted.without;
-                       report.files_with_missing += submitted.without > 0 ? 1 : 0;
-                     }
-                   });
+  for_each_rollout(
+      experiment, plan, needed, context.directory, MissingRun::refuse, context.should_continue,
+      [&](std::size_t index, const Rollout& run) {
+        for (const BeliefFile* file : by_run.at(index)) {
+          if (!context.should_continue()) throw Stopped();
+          const ExportedRun& about = exported[file->run];
+          const SubmittedPrediction submitted =
+              prediction_of(recordings::read_beliefs(file->path), run.signals);
+          const TaskCounts counts = scores_of(run.signals, submitted.prediction, experiment);
+          const std::scoped_lock lock(mutex);
+          scores.by_cell[about.cell].emplace(task_name(plan, plan.tasks[*about.task]), counts);
+          report.missing_steps += submitted.without;
+          report.files_with_missing += submitted.without > 0 ? 1 : 0;
+        }
+      });
   return scores;
 }
 
@@ -144,7 +155,9 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
   save(scores, context.request, context.directory);
   const Plan& plan = context.plan;
   const CollectedCounts own = collect(plan, plan.runs_in(0), context.saved);
-  const Evaluation evaluation{context.request, plan, runs, context.saved, own};
+  const FittedModels no_models;
+  const Evaluation evaluation{context.request,          plan, runs, context.saved, own, no_models,
+                              context.saved_model_tasks};
   report.table =
       benchmark_text(write_benchmark(evaluation, context.directory), context.request.experiment);
   return report;

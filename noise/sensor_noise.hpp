@@ -20,14 +20,6 @@ struct SensorNoise {
   bool operator==(const SensorNoise&) const = default;
 };
 
-/// Errors of the signals between sensors and estimator, in addition to white noise.
-struct Disturbance {
-  double torque_bias = 0.0;  ///< N·m on every knee, a quarter of it on every wheel
-  double torque_gain = 1.0;
-  bool heavy_tails = false;   ///< the noise of a tenth of the samples is four times as large
-  std::size_t imu_delay = 0;  ///< steps, of accelerometer and gyroscope
-};
-
 /// Adds noise to the observation at `step` of a run. The accelerometer's noise is in the IMU frame
 /// and the same with and without gravity. Attitude and gyroscope stay exact.
 models::Observation with_noise(const models::Observation& observation, const NoiseKey& key,

@@ -405,11 +405,6 @@ static void describe(Fields& fields, Experiment& experiment) {
   }
   fields.know("moments");
   if (fields.present("moments", experiment.moments)) fields("moments", experiment.moments);
-  if (fields.present("phase_study", experiment.phase_study)) {
-    fields("phase_study", experiment.phase_study);
-    fields.check(!experiment.phase_study || !experiment.training_segments.empty(), "phase_study",
-                 "expected fit.segments, which the learning curve varies");
-  }
 }
 
 std::vector<scoring::Hysteresis> points_of(const OperatingPointsConfig& config) {
@@ -424,6 +419,43 @@ std::vector<scoring::Hysteresis> points_of(const OperatingPointsConfig& config) 
 
 std::size_t points_of(const ClosedLoopScene& scene) {
   return std::max<std::size_t>(1, scene.values.size()) * scene.noise.size() * scene.delay.size();
+}
+
+std::vector<std::string> scenario_files(const Experiment& experiment) {
+  std::vector<std::string> files = experiment.fit.scenarios;
+  files.insert(files.end(), experiment.test.scenarios.begin(), experiment.test.scenarios.end());
+  for (const TrainingSegments& segments : experiment.training_segments) {
+    files.push_back(segments.scenario);
+  }
+  if (experiment.closed_loop) {
+    for (const ClosedLoopScene& scene : experiment.closed_loop->scenes) {
+      files.push_back(scene.scenario);
+    }
+  }
+  return files;
+}
+
+std::vector<std::string> robot_files(const Experiment& experiment) {
+  std::vector<std::string> files = {""};
+  if (experiment.benchmark) {
+    const std::vector<std::string>& others = experiment.benchmark->robots;
+    files.insert(files.end(), others.begin(), others.end());
+  }
+  return files;
+}
+
+std::vector<std::string> sensor_files(const Experiment& experiment) {
+  std::vector<std::string> files;
+  const auto add = [&](const std::string& file) {
+    if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end()) {
+      files.push_back(file);
+    }
+  };
+  add(experiment.sensors);
+  if (experiment.benchmark) {
+    for (const std::string& file : experiment.benchmark->sensors) add(file);
+  }
+  return files;
 }
 
 Experiment experiment_from_yaml(const YamlDocument& document) {

@@ -231,7 +231,6 @@ struct Experiment {
   std::optional<OperatingPointsConfig> operating_points;
   std::optional<ClosedLoopConfig> closed_loop;
   bool moments = false;       ///< adds tables of torques next to the real robot's (docs/realism.md)
-  bool phase_study = false;   ///< adds the phase filter's study (docs/protocol.md)
   bool paper_tables = false;  ///< prints the paper's Tables I to III for every highlighted cell
   int workers = 0;            ///< threads; 0: one per core. Never changes a result.
 };
@@ -239,6 +238,12 @@ struct Experiment {
 /// The first number of fitted runs. Test runs are numbered from 0, so the two share no random
 /// draws.
 inline constexpr std::int64_t first_fit_run = 1'000'000;
+
+/// The files that an experiment names: scenarios of all its runs; robots of its test scenarios, ""
+/// for each scenario's own; sensor profiles, the experiment's own first.
+std::vector<std::string> scenario_files(const Experiment& experiment);
+std::vector<std::string> robot_files(const Experiment& experiment);
+std::vector<std::string> sensor_files(const Experiment& experiment);
 
 /// Reads an experiment strictly. It checks the names of engines and estimators, but not the
 /// scenario files. Errors: `InputError` with file:line:column.

@@ -11,8 +11,6 @@
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "experiments/evaluation/sweep_run.hpp"
-#include "experiments/odometry/contact_sources.hpp"
-#include "experiments/odometry/dead_reckoning.hpp"
 #include "experiments/run_directory/saved_state.hpp"
 
 namespace touchdown::experiments {
@@ -40,13 +38,16 @@ void take(std::vector<T>& values, std::string_view& bytes) {
   bytes.remove_prefix(count * sizeof(T));
 }
 
-/// Calls `part(counts, ...)` for each of the four lists that belong to cells.
-template <typename Part, typename... Counts>
-void for_each_part(const Part& part, Counts&... counts) {
-  part(counts.counted...);
-  part(counts.scored...);
-  part(counts.extended...);
-  part(counts.disturbed...);
+void append(std::string& bytes, std::string_view text) {
+  const std::uint64_t count = text.size();
+  bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
+  bytes.append(text);
+}
+
+std::string take_text(std::string_view& bytes) {
+  std::vector<char> text;
+  take(text, bytes);
+  return {text.begin(), text.end()};
 }
 
 /// Adds the results of one task to the conditions that are tested on its engine. All noise seeds of
@@ -69,68 +70,51 @@ void add_samples(std::vector<ConditionSamples<Sample>>& all, const std::vector<S
   }
 }
 
-/// Counts of both wheels over a whole run with disturbed signals.
-scoring::Classification count(EstimatorRunner& runner, const RunSignals& run, const NoiseRun& noise,
-                              const noise::NoiseKey& key, const DisturbedCell& cell,
-                              const scoring::ScoringConfig& scoring) {
-  const NoiseRun draws = cell.disturbance.heavy_tails ? with_heavy_tails(noise, key) : noise;
-  const std::size_t skip = scoring::first_scored_step(run.info.control_period_us, scoring);
-  scoring::Classification sum;
-  runner.run_estimator(
-      run,
-      [&](std::size_t k) { return disturbed(run, draws, cell.cell.levels(), k, cell.disturbance); },
-      [&](std::size_t k, const Belief& belief) {
-        for (std::size_t w = 0; w < models::wheel_count && k >= skip; ++w) {
-          sum.add(run.contact[w][k] != 0, belief.wheel[w].contact);
-        }
-      });
-  return sum;
-}
-
-/// Scores an estimator's own decisions, then its decisions at each operating point.
-void add_operating_scores(const RunSignals& run, const scoring::Prediction& prediction,
-                          const OperatingPointsConfig& config,
-                          const scoring::ScoringConfig& scoring, TaskCounts& counts) {
-  using Decided = std::array<scoring::ContactSequence, models::wheel_count>;
-  const auto add = [&](const Decided& decided) {
-    counts.operating.push_back(
-        scoring::operating_score(run.contact, decided, run.info.control_period_us, scoring));
-  };
-  add({prediction[0].contact, prediction[1].contact});
-  for (const scoring::Hysteresis& point : points_of(config)) {
-    add({scoring::decisions(prediction[0].p_contact, point),
-         scoring::decisions(prediction[1].p_contact, point)});
-  }
-}
-
 }  // namespace
 
 std::string to_bytes(const TaskCounts& counts) {
   std::string bytes;
-  for_each_part([&](const auto& part) { append(bytes, part); }, counts);
-  append(bytes, counts.odometry);
-  append(bytes, counts.operating);
+  append(bytes, counts.counted);
+  append(bytes, counts.scored);
+  for (const MeasuredBytes& found : counts.measured) {
+    append(bytes, std::vector{found.condition, found.cell});
+    append(bytes, found.measure);
+    append(bytes, found.bytes);
+  }
+  append(bytes, std::vector<std::uint32_t>());  // ends the measures
   return bytes;
 }
 
 TaskCounts take_counts(std::string_view& bytes) {
   TaskCounts counts;
-  for_each_part([&](auto& part) { take(part, bytes); }, counts);
-  take(counts.odometry, bytes);
-  take(counts.operating, bytes);
+  take(counts.counted, bytes);
+  take(counts.scored, bytes);
+  std::vector<std::uint32_t> place;
+  for (take(place, bytes); place.size() == 2; take(place, bytes)) {
+    MeasuredBytes found;
+    found.condition = place[0];
+    found.cell = place[1];
+    found.measure = take_text(bytes);
+    found.bytes = take_text(bytes);
+    counts.measured.push_back(std::move(found));
+  }
   return counts;
 }
 
-void add_scores(const RunSignals& run, const scoring::Prediction& prediction,
-                const scoring::ScoringConfig& scoring, bool has_extended_scores,
-                TaskCounts& counts) {
-  const std::int64_t period_us = run.info.control_period_us;
+void add_scores(const MeasuredPrediction& prediction, std::span<const Measure> measures,
+                std::uint32_t condition, TaskCounts& counts) {
+  const RunSignals& run = prediction.run.signals;
   const std::vector<scoring::RobotScore> scores =
-      scoring::score(run.contact, prediction, run.segments, period_us, scoring);
+      scoring::score(run.contact, prediction.prediction, run.segments, run.info.control_period_us,
+                     prediction.run.scoring);
   counts.scored.insert(counts.scored.end(), scores.begin(), scores.end());
-  if (!has_extended_scores) return;
-  counts.extended.push_back(
-      scoring::extended_score(run.contact, run.normal_force, prediction, period_us, scoring));
+  for (const Measure& measure : measures) {
+    if (!measure.of_prediction) continue;
+    std::string bytes = measure.of_prediction(prediction);
+    if (bytes.empty()) continue;
+    counts.measured.push_back(
+        {measure.name, condition, static_cast<std::uint32_t>(prediction.cell), std::move(bytes)});
+  }
 }
 
 std::string task_name(const Plan& plan, const Task& task) {
@@ -187,35 +171,22 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
   std::vector<Condition> counted = conditions;
   std::erase_if(counted, [&](const Condition& one) { return !group.counts(one); });
   counts.counted = sweep_run(counted, group.counted, run, noise, models, scoring, should_continue);
-  const auto add_odometry = [&](const TrackView& p_contact) {
+  const MeasuredRun measured{run, noise, task.seed, group.scored, scoring};
+  for (const Measure& measure : group.measures) {
+    if (!measure.of_run) continue;
     if (!should_continue()) throw Stopped();
-    counts.odometry.push_back(
-        score_odometry(run, noise, group.scored.front().levels(), p_contact, scoring));
-  };
-  if (group.odometry) {
-    for (const ContactTrack& contact : oracle_tracks(*group.odometry, run)) {
-      add_odometry({contact[0], contact[1]});
-    }
+    std::string bytes = measure.of_run(measured);
+    if (!bytes.empty())
+      counts.measured.push_back({measure.name, no_condition, 0, std::move(bytes)});
   }
-  for (const Condition& condition : conditions) {
-    if (!group.scores(condition)) continue;
-    EstimatorRunner runner = runner_of(condition, models, run);
-    for (const noise::NoiseCell& cell : group.scored) {
+  for (std::uint32_t c = 0; c < conditions.size(); ++c) {
+    if (!group.predicts(conditions[c])) continue;
+    EstimatorRunner runner = runner_of(conditions[c], models, run);
+    for (std::size_t cell = 0; cell < group.scored.size(); ++cell) {
       if (!should_continue()) throw Stopped();
-      const scoring::Prediction prediction = predict(runner, run, noise, cell.levels());
-      add_scores(run, prediction, scoring, group.has_extended_scores && condition.refit == 0,
-                 counts);
-      if (group.tries_points(condition)) {
-        add_operating_scores(run, prediction, *group.operating_points, scoring, counts);
-      }
-      if (&cell == &group.scored.front() && group.feeds_odometry(condition)) {
-        add_odometry({prediction[0].p_contact, prediction[1].p_contact});
-      }
-    }
-    if (condition.refit > 0) continue;
-    for (const DisturbedCell& cell : group.disturbed) {
-      if (!should_continue()) throw Stopped();
-      counts.disturbed.push_back(count(runner, run, noise, task.noise, cell, scoring));
+      const scoring::Prediction prediction =
+          predict(runner, run, noise, group.scored[cell].levels());
+      add_scores({measured, conditions[c], cell, prediction}, group.measures, c, counts);
     }
   }
   return counts;
@@ -267,20 +238,15 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
       conditions.back().samples.resize(cells);
     };
     if (group.counts(condition)) add_to(all.counted, group.counted.size());
-    if (!group.scores(condition)) continue;
-    add_to(all.scored, group.scored.size());
-    if (condition.refit > 0) continue;
-    add_to(all.extended, group.has_extended_scores ? group.scored.size() : 0);
-    add_to(all.disturbed, group.disturbed.size());
+    if (group.predicts(condition)) add_to(all.scored, group.scored.size());
   }
   for (const Task& task : plan.tasks) {
     if (std::find(runs.begin(), runs.end(), task.run) == runs.end()) continue;
     const TaskCounts found = saved_counts(plan, task, saved);
-    if (found.counted.empty() && found.scored.empty()) continue;
+    if (!found.is_scored()) continue;
     const std::string& simulator = plan.runs[task.run].simulator;
-    for_each_part(
-        [&](auto& sums, const auto& part) { add_samples(sums, part, simulator, task.seed == 0); },
-        all, found);
+    add_samples(all.counted, found.counted, simulator, task.seed == 0);
+    add_samples(all.scored, found.scored, simulator, task.seed == 0);
   }
   return all;
 }

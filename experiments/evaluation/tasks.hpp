@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -9,26 +10,30 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/evaluation/model_tasks.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/rollouts/rollouts.hpp"
-#include "scoring/extended_score.hpp"
-#include "scoring/operating_point.hpp"
-#include "scoring/trajectory.hpp"
 
 namespace touchdown::experiments {
 
-/// The results of a task: by condition of the run's engine, then cell, then segment of the run.
-/// Empty for a run that is not scored.
+/// What a measure found in one run, or in one prediction.
+struct MeasuredBytes {
+  std::string measure;          ///< its name
+  std::uint32_t condition = 0;  ///< index in the group's conditions of the run's engine
+  std::uint32_t cell = 0;       ///< index in the group's scored cells
+  std::string bytes;            ///< the scores
+};
+/// The condition of a measure of the run itself.
+inline constexpr std::uint32_t no_condition = 0xffffffffU;
+
+/// The results of a task. Counts and scores are by condition of the run's engine, then cell, then
+/// segment of the run. Empty for a run that is not scored.
 struct TaskCounts {
   std::vector<scoring::Classification> counted;
-  std::vector<scoring::RobotScore> scored;         ///< of the conditions that the group scores
-  std::vector<scoring::ExtendedScore> extended;    ///< of the same; the whole run is one segment
-  std::vector<scoring::Classification> disturbed;  ///< of the same; the whole run is one segment
-  /// Odometry with contact from the oracles, then from in-domain conditions; over the whole run.
-  std::vector<scoring::TrajectoryScore> odometry;
-  /// Of in-domain conditions: their own decisions in a cell, then those at the operating points;
-  /// over the whole run.
-  std::vector<scoring::OperatingScore> operating;
+  std::vector<scoring::RobotScore> scored;  ///< of predictions
+  std::vector<MeasuredBytes> measured;      ///< by the group's measures
+
+  bool is_scored() const { return !counted.empty() || !scored.empty(); }
 };
 
 /// Serialises counts in their memory layout, which only the same build can read.
@@ -36,10 +41,10 @@ std::string to_bytes(const TaskCounts& counts);
 /// Reads counts and removes them from the front. Errors: `Error` for too few bytes.
 TaskCounts take_counts(std::string_view& bytes);
 
-/// Scores an estimator's prediction of a run and adds the scores to a task's results.
-void add_scores(const RunSignals& run, const scoring::Prediction& prediction,
-                const scoring::ScoringConfig& scoring, bool has_extended_scores,
-                TaskCounts& counts);
+/// Scores a prediction of a run, measures included, and adds the results to a task's. `condition`
+/// is the index of the prediction's condition.
+void add_scores(const MeasuredPrediction& prediction, std::span<const Measure> measures,
+                std::uint32_t condition, TaskCounts& counts);
 
 /// A name of the task that is unique in the plan.
 std::string task_name(const Plan& plan, const Task& task);
@@ -117,9 +122,6 @@ using ConditionScores = ConditionSamples<scoring::RobotScore>;
 struct CollectedCounts {
   std::vector<ConditionCounts> counted;
   std::vector<ConditionScores> scored;
-  std::vector<ConditionSamples<scoring::ExtendedScore>> extended;  ///< a sample is a run
-  std::vector<ConditionCounts>
-      disturbed;  ///< of conditions fitted on this engine; a sample is a run
 };
 
 /// Adds the results of all tasks of these runs of one group, in the order of the tasks. The sums
@@ -131,6 +133,61 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
 /// The results of all tasks of one run, by noise seed. Errors: `Error` when one is missing.
 std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan, const SavedCounts& saved);
 
+/// The scores of one measure in one run, all noise seeds added.
+template <typename Score>
+struct MeasuredScores {
+  std::uint32_t condition = 0;  ///< as in `MeasuredBytes`
+  std::uint32_t cell = 0;
+  std::vector<Score> scores;
+};
+
+/// The scores of a measure in one run of the plan, in the order of their measurement; empty for a
+/// run that is not scored. Errors: `Error` when a task is missing.
+template <typename Score>
+std::vector<MeasuredScores<Score>> measured(std::string_view measure, std::size_t run,
+                                            const Plan& plan, const SavedCounts& saved) {
+  std::vector<MeasuredScores<Score>> sums;
+  for (const TaskCounts& task : task_counts_of(run, plan, saved)) {
+    for (const MeasuredBytes& found : task.measured) {
+      if (found.measure != measure) continue;
+      const std::vector<Score> scores = from_bytes<Score>(found.bytes);
+      const auto same = std::find_if(sums.begin(), sums.end(), [&](const auto& one) {
+        return one.condition == found.condition && one.cell == found.cell;
+      });
+      if (same == sums.end()) {
+        sums.push_back({found.condition, found.cell, scores});
+      } else {
+        for (std::size_t i = 0; i < scores.size(); ++i) same->scores[i] += scores[i];
+      }
+    }
+  }
+  return sums;
+}
+
+/// The first score of a measure of predictions, by condition and cell; a sample is a run. `runs`
+/// are of one group. Conditions without scores have no samples.
+template <typename Score>
+std::vector<ConditionSamples<Score>> measured_samples(std::string_view measure,
+                                                      std::span<const std::size_t> runs,
+                                                      const Plan& plan, const SavedCounts& saved) {
+  std::vector<ConditionSamples<Score>> all;
+  if (runs.empty()) return all;
+  const RunGroup& group = plan.groups[plan.runs[runs.front()].group];
+  for (const Condition& condition : group.conditions) {
+    all.push_back({condition, std::vector<std::vector<Score>>(group.scored.size())});
+  }
+  for (const std::size_t run : runs) {
+    std::vector<ConditionSamples<Score>*> tested;
+    for (ConditionSamples<Score>& one : all) {
+      if (one.condition.test_simulator == plan.runs[run].simulator) tested.push_back(&one);
+    }
+    for (const MeasuredScores<Score>& found : measured<Score>(measure, run, plan, saved)) {
+      tested[found.condition]->samples[found.cell].push_back(found.scores.front());
+    }
+  }
+  return all;
+}
+
 /// The evaluated experiment, as its studies use it.
 struct Evaluation {
   const RunRequest& request;
@@ -138,6 +195,8 @@ struct Evaluation {
   const Rollouts& runs;
   const SavedCounts& saved;
   const CollectedCounts& own;  ///< of the experiment's own test runs
+  const FittedModels& models;
+  const SavedModelTasks& model_results;
 };
 
 }  // namespace touchdown::experiments

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -28,6 +29,12 @@ bool learns_from_segments(const std::string& estimator) {
 
 }  // namespace
 
+void add_measure(Measure measure, RunGroup& group) {
+  const auto same = std::find_if(group.measures.begin(), group.measures.end(),
+                                 [&](const Measure& one) { return one.name == measure.name; });
+  if (same == group.measures.end()) group.measures.push_back(std::move(measure));
+}
+
 std::string_view to_text(RunRole role) { return role == RunRole::fit ? "fit" : "test"; }
 
 std::uint64_t seed_of_fit(const Experiment& experiment) {
@@ -40,6 +47,13 @@ std::optional<std::size_t> Plan::group_called(std::string_view name) const {
                                   [&](const RunGroup& one) { return one.name == name; });
   if (group == groups.end()) return std::nullopt;
   return static_cast<std::size_t>(group - groups.begin());
+}
+
+const ModelTasks& Plan::model_tasks_called(std::string_view name) const {
+  const auto found = std::find_if(model_tasks.begin(), model_tasks.end(),
+                                  [&](const ModelTasks& one) { return one.name == name; });
+  if (found == model_tasks.end()) throw Error(fmt::format("'{}' is not in the plan", name));
+  return *found;
 }
 
 std::vector<std::size_t> Plan::runs_in(std::size_t group) const {
@@ -120,7 +134,6 @@ Plan plan_of(const RunRequest& request) {
   plan_runs(request, RunRole::test, {}, 0, plan);
   plan.groups.push_back({"", own_engine_conditions(experiment),
                          noise::noise_cells(experiment.noise), experiment.highlights});
-  plan.groups.front().operating_points = experiment.operating_points;
   plan_tasks(experiment, 0, plan);
   return plan;
 }
@@ -151,9 +164,9 @@ std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks) {
 }
 
 void keep_recordings(const Experiment& experiment, Plan& plan) {
-  std::set<std::int64_t> pictured = {experiment.video.run};
+  std::set<std::int64_t> pictured = plan.pictured;
+  pictured.insert(experiment.video.run);
   if (experiment.detail) pictured.insert(experiment.detail->choice.run);
-  if (experiment.cross_simulator) pictured.insert(experiment.cross_simulator->overlay.run);
   for (PlannedRun& run : plan.runs) {
     const bool is_pictured =
         run.role == RunRole::test && run.group == 0 && pictured.contains(run.run);

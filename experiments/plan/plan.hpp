@@ -1,13 +1,17 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "experiments/estimators/fitted_model.hpp"
 #include "experiments/plan/condition.hpp"
+#include "experiments/plan/measure.hpp"
 #include "experiments/plan/request.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scenarios/scenario.hpp"
@@ -43,40 +47,37 @@ struct PlannedRun {
   bool kept = true;         ///< whether its recording is kept
 };
 
-/// A noise setting with a further disturbance.
-struct DisturbedCell {
-  noise::NoiseCell cell;
-  noise::Disturbance disturbance;
-};
-
-/// Test runs with the same evaluation. Only counts are computed for all conditions; all other
-/// scores are for in-domain conditions, see `scores`.
+/// Test runs with the same evaluation. Counts are computed for all conditions; scores and measures
+/// need predictions, which are made for the conditions of `predicts`.
 struct RunGroup {
-  std::string name;                           ///< empty for the experiment's own test runs
-  std::vector<Condition> conditions;          ///< of all engines
-  std::vector<noise::NoiseCell> counted;      ///< settings with point-wise counts
-  std::vector<noise::NoiseCell> scored;       ///< settings with all scores
-  std::vector<DisturbedCell> disturbed = {};  ///< additional settings with counts
-  bool has_extended_scores = false;  ///< whether scored settings also get an `ExtendedScore`
-  std::string fit = {};              ///< name of the in-domain fit; empty: the experiment's own
-  bool scores_transfer = false;      ///< whether out-of-domain conditions are scored, too
-  /// If set: in-domain conditions are contact sources of odometry, in the first scored setting.
-  std::optional<OdometryStudyConfig> odometry = {};
+  std::string name;                       ///< empty for the experiment's own test runs
+  std::vector<Condition> conditions;      ///< of all engines
+  std::vector<noise::NoiseCell> counted;  ///< settings with point-wise counts
+  std::vector<noise::NoiseCell> scored;   ///< settings with predictions
+  std::string fit = {};                ///< name of the in-domain fit; empty: the experiment's own
+  bool scores_transfer = false;        ///< whether out-of-domain conditions are scored, too
+  std::vector<Measure> measures = {};  ///< what studies measure in addition
 
-  /// If set: in-domain conditions are also scored at these thresholds, in every scored setting.
-  std::optional<OperatingPointsConfig> operating_points = {};
-
-  bool scores(const Condition& condition) const {
+  bool predicts(const Condition& condition) const {
     return scores_transfer || condition.is_in_domain(fit);
-  }
-  bool feeds_odometry(const Condition& condition) const {
-    return odometry && condition.is_fitted_in_domain(fit);
-  }
-  bool tries_points(const Condition& condition) const {
-    return operating_points && condition.is_fitted_in_domain(fit);
   }
   /// Refits are scored, but not counted.
   bool counts(const Condition& condition) const { return !counted.empty() && condition.refit == 0; }
+};
+
+/// Adds a measure, unless the group has one of this name.
+void add_measure(Measure measure, RunGroup& group);
+
+/// Work that needs fitted models and is no evaluation of a test run, such as runs in closed loop.
+/// It is saved, distributed and resumed like tasks, item by item.
+struct ModelTasks {
+  std::string name;       ///< of its folder in the run directory's state
+  std::string unit;       ///< of its items, for progress and file names: "run"
+  std::size_t count = 0;  ///< of its items
+  /// Computes one item. It is called by several threads. Errors: `Stopped`.
+  std::function<std::string(std::size_t item, const FittedModels& models,
+                            const std::function<bool()>& should_continue)>
+      compute = {};
 };
 
 /// The unit in which an evaluation is computed, saved and distributed: one test run with one noise
@@ -106,12 +107,17 @@ struct Plan {
   std::vector<PlannedSensors> sensors = {{}};  ///< the experiment's own first
   std::vector<PlannedRun> runs;                ///< by role (fit first), engine, scenario, index
   std::vector<RunGroup> groups;                ///< the experiment's own test runs first
-  std::vector<Task> tasks;  ///< by test run in the order of the plan, then noise seed
-
+  std::vector<Task> tasks;              ///< by test run in the order of the plan, then noise seed
+  std::vector<ModelTasks> model_tasks;  ///< of studies
+  std::map<std::string, int> refits;    ///< number of refits, by name of the fit
+  std::set<std::int64_t> pictured;      ///< indices of own test runs that pictures show
+  bool needs_motion = false;            ///< whether test runs keep their motion
   TaskRange all_tasks() const { return {0, tasks.size()}; }
   const RunGroup& group_of(const Task& task) const { return groups[runs[task.run].group]; }
   /// The group of this name, if there is one.
   std::optional<std::size_t> group_called(std::string_view name) const;
+  /// The model tasks of this name. Errors: `Error` if there are none.
+  const ModelTasks& model_tasks_called(std::string_view name) const;
   /// The test runs of a group, in the order of the plan.
   std::vector<std::size_t> runs_in(std::size_t group) const;
 };

@@ -54,21 +54,8 @@ std::vector<NamedScenario>::const_iterator find_named(const std::vector<NamedSce
 template <typename Read>
 std::vector<NamedScenario> scenarios_of(const Experiment& experiment, const Read& read) {
   std::vector<NamedScenario> scenarios;
-  std::vector<std::string> files = experiment.fit.scenarios;
-  files.insert(files.end(), experiment.test.scenarios.begin(), experiment.test.scenarios.end());
-  for (const TrainingSegments& segments : experiment.training_segments)
-    files.push_back(segments.scenario);
-  if (experiment.closed_loop) {
-    for (const ClosedLoopScene& scene : experiment.closed_loop->scenes)
-      files.push_back(scene.scenario);
-  }
-  std::vector<std::string> robots = {""};
-  if (experiment.benchmark) {
-    const std::vector<std::string>& others = experiment.benchmark->robots;
-    robots.insert(robots.end(), others.begin(), others.end());
-  }
-  for (const std::string& robot : robots) {
-    for (const std::string& file : files) {
+  for (const std::string& robot : robot_files(experiment)) {
+    for (const std::string& file : scenario_files(experiment)) {
       if (find_named(scenarios, file, robot) != scenarios.end()) continue;
       scenarios.push_back({file, robot, read(file, robot, scenarios.size())});
       scenarios::Scenario& scenario = scenarios.back().scenario;

@@ -17,26 +17,11 @@ std::filesystem::path kept_file(const std::filesystem::path& run_directory, std:
   return run_directory / "state" / fmt::format("sensors_{:03}.yaml", number);
 }
 
-/// Every sensor profile of the experiment, once.
-std::vector<std::string> named_files(const Experiment& experiment) {
-  std::vector<std::string> files;
-  const auto add = [&](const std::string& file) {
-    if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end()) {
-      files.push_back(file);
-    }
-  };
-  add(experiment.sensors);
-  if (experiment.benchmark) {
-    for (const std::string& file : experiment.benchmark->sensors) add(file);
-  }
-  return files;
-}
-
 }  // namespace
 
 std::vector<NamedSensors> read_sensors(Experiment& experiment) {
   std::vector<NamedSensors> sensors;
-  for (const std::string& file : named_files(experiment)) {
+  for (const std::string& file : sensor_files(experiment)) {
     sensors.push_back({file, noise::find_sensor_profile(file)});
   }
   if (!experiment.sensors.empty() && noise::is_ideal(sensors.front().profile)) {
@@ -49,7 +34,7 @@ std::vector<NamedSensors> read_sensors(Experiment& experiment) {
 std::vector<NamedSensors> read_sensors(const Experiment& experiment,
                                        const std::filesystem::path& run_directory) {
   std::vector<NamedSensors> sensors;
-  for (const std::string& file : named_files(experiment)) {
+  for (const std::string& file : sensor_files(experiment)) {
     const auto kept = YamlDocument::load(kept_file(run_directory, sensors.size()));
     sensors.push_back({file, from_yaml<noise::SensorProfile>(kept)});
   }

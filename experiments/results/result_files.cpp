@@ -8,7 +8,6 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/evidence.hpp"
-#include "experiments/results/label_sensitivity.hpp"
 #include "experiments/results/paper.hpp"
 #include "experiments/results/scores.hpp"
 #include "experiments/results/summary_file.hpp"
@@ -47,12 +46,6 @@ void write_score_tables(const ExperimentResult& result) {
   directory.write_table("reliability.csv", reliability_table(result.scores));
   directory.write_table("differences.csv", differences_table(result.differences));
   if (!result.experiment.paper_tables) return;
-  const Table labels = label_sensitivity_table(result);
-  directory.write_table("labels.csv", labels);
-  write_atomically(directory.file("tables", "labels.md"),
-                   to_markdown({"Point-wise scores by the definition of contact" +
-                                    setup_caption(result.experiment) + ".",
-                                "labels", labels}));
   std::string markdown;
   std::string latex;
   for (const CaptionedTable& table : paper_tables(result)) {

@@ -62,15 +62,15 @@ Rollout failed(const PlannedRun& plan, const std::string& why) {
 }
 
 /// The rollout of a recorded run, with the signals of its sensor model.
-Rollout rollout(const PlannedRun& run, recordings::Recording recording,
-                const noise::SensorProfile& sensors, const Experiment& experiment,
-                scenarios::CompiledScenes& scenes) {
+Rollout rollout(const PlannedRun& run, recordings::Recording recording, const Plan& plan,
+                const Experiment& experiment, scenarios::CompiledScenes& scenes) {
+  const noise::SensorProfile& sensors = plan.sensors[run.sensors].profile;
   report_through_sensors(sensors, experiment, run.run, recording.period(), recording.observation);
   RunSignals signals =
       signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
   const std::shared_ptr<const models::RobotModel> robot = scenes.as_described(run.scenario);
   signals.legs = scenarios::leg_geometry(*robot);
-  if (experiment.odometry && run.role == RunRole::test) {
+  if (plan.needs_motion && run.role == RunRole::test) {
     signals.motion = std::make_shared<RunMotion>(motion_of(recording, *robot));
   }
   const auto shortest = static_cast<std::size_t>(
@@ -178,8 +178,8 @@ void for_each_rollout(const Experiment& experiment, const Plan& plan,
         continue;
       }
       const bool is_last = index == simulation.runs.back();
-      use(index, rollout(run, is_last ? std::move(*recorded.recording) : *recorded.recording,
-                         plan.sensors[run.sensors].profile, experiment, scenes));
+      use(index, rollout(run, is_last ? std::move(*recorded.recording) : *recorded.recording, plan,
+                         experiment, scenes));
     }
     progress.advance();
     if (!should_continue()) throw Stopped();

@@ -43,7 +43,7 @@ constexpr std::array fixed_names = {
         "survival|torque_densities|torque_distributions|torques|training|transfer|"
         "transitions|tuning|"
         "verdicts|views)\\.csv|"
-        "(cross_simulator|labels|phase_study|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
+        "(cross_simulator|labels|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
     FixedNames{"videos", R"(report\.(mp4|jpg)|worst_.+\.mp4|closed_loop_.+\.(mp4|jpg))"},
     FixedNames{"trajectories", R"([^.].*\.tum)"},
     FixedNames{"figures", R"((training|sample_efficiency)\.(gp|png))"},

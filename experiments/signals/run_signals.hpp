@@ -84,11 +84,4 @@ inline Signals noisy(const RunSignals& run, const NoiseRun& noise, const noise::
   return signals;
 }
 
-/// A run's noise with heavy tails: a tenth of the steps are outliers, in all channels at once.
-NoiseRun with_heavy_tails(NoiseRun noise, const noise::NoiseKey& key);
-
-/// The signals of `noisy` with the disturbance, except for its heavy tails: `noise` has those.
-Signals disturbed(const RunSignals& run, const NoiseRun& noise, const noise::SensorNoise& levels,
-                  std::size_t step, const noise::Disturbance& disturbance);
-
 }  // namespace touchdown::experiments

@@ -20,7 +20,7 @@ Experiment experiment_with(const std::string& assignment) {
 }
 
 TEST(Needs, ApproximateThePlan) {
-  for (const char* file : {"stairs", "cross_simulator", "phase_study", "tables"}) {
+  for (const char* file : {"stairs", "cross_simulator", "tables"}) {
     const RunRequest request = request_of(experiment_from_yaml(
         YamlDocument::load(std::string(TOUCHDOWN_SOURCE_DIR "/experiments/") + file + ".yaml")));
     const Needs needs = needs_of(request);

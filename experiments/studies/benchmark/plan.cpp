@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "scoring/extended_score.hpp"
 
 namespace touchdown::experiments {
 
@@ -79,6 +80,18 @@ int refits_of(const BenchmarkConfig& benchmark, const std::string& fit) {
   return fit.empty() || benchmark.refits_everywhere ? benchmark.refits : 0;
 }
 
+Measure extended_scores() {
+  return measure_of_predictions<scoring::ExtendedScore>(
+      std::string(extended_measure), 1, [](const MeasuredPrediction& made) {
+        std::vector<scoring::ExtendedScore> scores;
+        if (made.condition.refit > 0) return scores;
+        const RunSignals& run = made.run.signals;
+        scores.push_back(scoring::extended_score(run.contact, run.normal_force, made.prediction,
+                                                 run.info.control_period_us, made.run.scoring));
+        return scores;
+      });
+}
+
 std::vector<BenchmarkSetup> benchmark_setups(const RunRequest& request, const Plan& plan) {
   const Experiment& experiment = request.experiment;
   const std::string own_robot =
@@ -116,9 +129,11 @@ void add_benchmark(const RunRequest& request, Plan& plan) {
   const std::vector<BenchmarkSetup> setups = benchmark_setups(request, plan);
   const std::size_t first = plan.runs.size();
   for (const BenchmarkSetup& setup : setups) {
+    const std::string& fit = setup.robot_and_sensors.fit;
+    plan.refits[fit] = refits_of(*experiment.benchmark, fit);
     const RobotAndSensors& where = setup.robot_and_sensors;
     if (where.fit.empty()) {
-      plan.groups.front().has_extended_scores = true;
+      add_measure(extended_scores(), plan.groups.front());
       if (experiment.benchmark->transfer) add_transfers(experiment, setups, plan.groups.front());
       add_refits(*experiment.benchmark, plan.groups.front());
       continue;
@@ -128,7 +143,7 @@ void add_benchmark(const RunRequest& request, Plan& plan) {
                    {},
                    experiment.highlights};
     for (Condition& condition : group.conditions) condition.fit = where.fit;
-    group.has_extended_scores = true;
+    add_measure(extended_scores(), group);
     group.fit = where.fit;
     if (experiment.benchmark->transfer) add_transfers(experiment, setups, group);
     add_refits(*experiment.benchmark, group);

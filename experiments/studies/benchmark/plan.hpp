@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/plan/plan.hpp"
@@ -20,6 +21,12 @@ int refits_of(const BenchmarkConfig& benchmark, const std::string& fit);
 
 /// Every combination of a robot and sensors, the experiment's own first.
 std::vector<BenchmarkSetup> benchmark_setups(const RunRequest& request, const Plan& plan);
+
+inline constexpr std::string_view extended_measure = "extended";
+
+/// Measures extended scores, of type `scoring::ExtendedScore`, of every prediction but those of
+/// refits.
+Measure extended_scores();
 
 /// Adds runs for fitting and for testing, for every setup but the experiment's own. All test runs
 /// are scored at the highlighted noise, with extended scores.

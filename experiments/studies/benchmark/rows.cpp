@@ -73,6 +73,8 @@ std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation) {
     for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
       const auto runs = runs_in_scene(evaluation.plan, experiment, setup.group, scene);
       const CollectedCounts counts = collect(evaluation.plan, runs, evaluation.saved);
+      const auto extended = measured_samples<scoring::ExtendedScore>(
+          extended_measure, runs, evaluation.plan, evaluation.saved);
       for (std::size_t c = 0; c < counts.scored.size(); ++c) {
         const ConditionScores& scored = counts.scored[c];
         if (scored.condition.refit > 0) continue;
@@ -103,7 +105,7 @@ std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation) {
           row.balanced_accuracy =
               balanced_accuracy(fits, stream_of(scene, simulator, experiment), bootstrap);
           row.score = scoring::sum(scored.samples[cell]).wheels();
-          row.extended = scoring::sum(counts.extended[c].samples[cell]);
+          row.extended = scoring::sum(samples_of(extended, scored.condition, cell));
           rows.push_back(row);
         }
       }

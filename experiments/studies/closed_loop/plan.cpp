@@ -60,12 +60,6 @@ std::size_t closed_loop_runs(const Experiment& experiment) {
          static_cast<std::size_t>(experiment.closed_loop->runs);
 }
 
-TaskRange closed_loop_runs_of(const Experiment& experiment, const TaskRange& tasks,
-                              std::size_t all_tasks) {
-  const std::size_t runs = closed_loop_runs(experiment);
-  return {runs * tasks.begin / all_tasks, runs * tasks.end / all_tasks};
-}
-
 scenarios::Scenario scenario_of(const RunRequest& request, const ClosedLoopCell& cell) {
   const ClosedLoopScene& scene = request.experiment.closed_loop->scenes[cell.scene];
   const NamedScenario& named = scenario_of(request, scene.scenario);

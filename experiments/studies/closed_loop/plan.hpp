@@ -31,10 +31,6 @@ std::vector<ClosedLoopCell> closed_loop_cells(const Experiment& experiment);
 /// The number of runs of all cells. Runs are numbered from 0; those of a cell are consecutive.
 std::size_t closed_loop_runs(const Experiment& experiment);
 
-/// The range of these runs that belongs to a range of the plan's tasks.
-TaskRange closed_loop_runs_of(const Experiment& experiment, const TaskRange& tasks,
-                              std::size_t all_tasks);
-
 /// The scenario of a cell, without perturbations. Errors: `InputError` that names the scene and the
 /// invalid value.
 scenarios::Scenario scenario_of(const RunRequest& request, const ClosedLoopCell& cell);

@@ -28,25 +28,10 @@ ClosedLoopRun run_closed_loop(const RunRequest& request, const ClosedLoopCell& c
                               scenarios::CompiledScenes& scenes,
                               const ShouldContinue& should_continue);
 
-/// The saved metrics of closed-loop runs, by run number.
-class SavedClosedLoops {
- public:
-  /// `key` names the experiment and the build; files with other keys are ignored.
-  SavedClosedLoops(std::filesystem::path folder, std::string key);
-
-  std::optional<ClosedLoopMetrics> read(std::size_t run) const;
-  void write(std::size_t run, const ClosedLoopMetrics& metrics) const;
-
- private:
-  std::filesystem::path folder_;
-  std::string key_;
-};
-
-/// Simulates and saves, in parallel, the runs of the range that are not saved yet. A run that
-/// cannot be simulated counts as a fall. Errors: `InputError` for an invalid scene; `Error` for a
-/// missing run with `MissingRun::refuse`; `Stopped`.
-void run_closed_loops(const RunRequest& request, const TaskRange& runs, const FittedModels& models,
-                      const SavedClosedLoops& saved, MissingRun missing,
-                      const ShouldContinue& should_continue);
+/// Simulates one run of the section, by its number, and measures it. A run that cannot be simulated
+/// counts as a fall. Errors: `InputError` for an invalid scene; `Stopped`.
+ClosedLoopMetrics measure_closed_loop(const RunRequest& request, std::size_t run,
+                                      const FittedModels& models, scenarios::CompiledScenes& scenes,
+                                      const ShouldContinue& should_continue);
 
 }  // namespace touchdown::experiments

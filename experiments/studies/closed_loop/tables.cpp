@@ -22,11 +22,13 @@ std::string stem(const std::string& file, const char* none) {
   return file.empty() ? none : std::filesystem::path(file).stem().string();
 }
 
-std::vector<ClosedLoopMetrics> saved_metrics(const SavedClosedLoops& saved, std::size_t cell,
+using SavedMetrics = std::function<std::optional<ClosedLoopMetrics>(std::size_t run)>;
+
+std::vector<ClosedLoopMetrics> saved_metrics(const SavedMetrics& saved, std::size_t cell,
                                              std::size_t runs) {
   std::vector<ClosedLoopMetrics> metrics;
   for (std::size_t run = cell * runs; run < (cell + 1) * runs; ++run) {
-    const std::optional<ClosedLoopMetrics> of_run = saved.read(run);
+    const std::optional<ClosedLoopMetrics> of_run = saved(run);
     if (!of_run) throw Error(fmt::format("run {} of the closed loop is missing", run));
     metrics.push_back(*of_run);
   }
@@ -64,7 +66,7 @@ std::vector<std::string> curve_cells(std::vector<SurvivalRow>::const_iterator fi
 
 }  // namespace
 
-std::vector<SurvivalRow> survival_rows(const RunRequest& request, const SavedClosedLoops& saved) {
+std::vector<SurvivalRow> survival_rows(const RunRequest& request, const SavedMetrics& saved) {
   const Experiment& experiment = request.experiment;
   const ClosedLoopConfig& config = *experiment.closed_loop;
   const auto runs = static_cast<std::size_t>(config.runs);

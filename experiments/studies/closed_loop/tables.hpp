@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +28,11 @@ struct SurvivalRow {
   int lost_against_always = 0;
 };
 
-/// Rows in the order of the cells. Errors: `Error` for a run that is not saved.
-std::vector<SurvivalRow> survival_rows(const RunRequest& request, const SavedClosedLoops& saved);
+/// Rows in the order of the cells; `saved` returns the metrics of a run by its number. Errors:
+/// `Error` for a run that is not saved.
+std::vector<SurvivalRow> survival_rows(
+    const RunRequest& request,
+    const std::function<std::optional<ClosedLoopMetrics>(std::size_t run)>& saved);
 
 /// Writes `survival.csv`.
 void write_tables(const std::vector<SurvivalRow>& rows, const RunDirectory& directory);

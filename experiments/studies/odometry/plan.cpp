@@ -1,8 +1,38 @@
 #include "experiments/studies/odometry/plan.hpp"
 
 #include "experiments/odometry/contact_sources.hpp"
+#include "experiments/odometry/dead_reckoning.hpp"
 
 namespace touchdown::experiments {
+
+namespace {
+
+Measure scores_measure(const OdometryStudyConfig& config, const std::string& fit) {
+  using Scores = std::vector<scoring::TrajectoryScore>;
+  const auto score = [](const MeasuredRun& run, const TrackView& p_contact) {
+    return score_odometry(run.signals, run.noise, run.cells.front().levels(), p_contact,
+                          run.scoring);
+  };
+  Measure measure;
+  measure.name = odometry_measure;
+  measure.of_run = [config, score](const MeasuredRun& run) {
+    Scores scores;
+    for (const ContactTrack& track : oracle_tracks(config, run.signals)) {
+      scores.push_back(score(run, {track[0], track[1]}));
+    }
+    return to_bytes(scores);
+  };
+  measure.of_prediction = [fit, score](const MeasuredPrediction& made) {
+    if (made.cell > 0 || !made.condition.is_fitted_in_domain(fit)) return std::string();
+    return to_bytes(
+        Scores{score(made.run, {made.prediction[0].p_contact, made.prediction[1].p_contact})});
+  };
+  measure.bytes_of_run = oracle_names(config).size() * sizeof(scoring::TrajectoryScore);
+  measure.bytes_of_prediction = sizeof(scoring::TrajectoryScore);
+  return measure;
+}
+
+}  // namespace
 
 std::vector<BenchmarkSetup> odometry_setups(const RunRequest& request, const Plan& plan) {
   if (request.experiment.benchmark) return benchmark_setups(request, plan);
@@ -12,15 +42,21 @@ std::vector<BenchmarkSetup> odometry_setups(const RunRequest& request, const Pla
 }
 
 void add_odometry_study(const RunRequest& request, Plan& plan) {
+  const OdometryStudyConfig& config = *request.experiment.odometry;
+  plan.needs_motion = true;
   for (const BenchmarkSetup& setup : odometry_setups(request, plan)) {
-    plan.groups[setup.group].odometry = request.experiment.odometry;
+    RunGroup& group = plan.groups[setup.group];
+    add_measure(scores_measure(config, group.fit), group);
   }
 }
 
-std::vector<std::string> contact_sources_of(const RunGroup& group, const std::string& simulator) {
-  std::vector<std::string> names = oracle_names(*group.odometry);
+std::vector<std::string> contact_sources_of(const OdometryStudyConfig& config,
+                                            const RunGroup& group, const std::string& simulator) {
+  std::vector<std::string> names = oracle_names(config);
   for (const Condition& condition : tested_on(group.conditions, simulator)) {
-    if (group.feeds_odometry(condition)) names.push_back(contact_name(condition.estimator));
+    if (condition.is_fitted_in_domain(group.fit)) {
+      names.push_back(contact_name(condition.estimator));
+    }
   }
   return names;
 }

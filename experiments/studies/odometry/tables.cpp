@@ -16,12 +16,12 @@ namespace {
 
 /// The scores of one run by contact source, summed over noise seeds; empty for a failed run.
 std::vector<scoring::TrajectoryScore> scores_of(const Evaluation& evaluation, std::size_t run) {
-  std::vector<scoring::TrajectoryScore> sums;
-  for (const TaskCounts& found : task_counts_of(run, evaluation.plan, evaluation.saved)) {
-    sums.resize(std::max(sums.size(), found.odometry.size()));
-    for (std::size_t i = 0; i < found.odometry.size(); ++i) sums[i] += found.odometry[i];
+  std::vector<scoring::TrajectoryScore> all;
+  for (const auto& found : measured<scoring::TrajectoryScore>(odometry_measure, run,
+                                                              evaluation.plan, evaluation.saved)) {
+    all.insert(all.end(), found.scores.begin(), found.scores.end());
   }
-  return sums;
+  return all;
 }
 
 /// Rows of one scene in one engine without scores, and the samples of each row: its runs.
@@ -34,11 +34,11 @@ SceneRows scene_rows(const Evaluation& evaluation, const BenchmarkSetup& setup, 
                      const std::string& simulator) {
   const Experiment& experiment = evaluation.request.experiment;
   const RunGroup& group = evaluation.plan.groups[setup.group];
-  const std::size_t oracles = oracle_names(*group.odometry).size();
+  const std::size_t oracles = oracle_names(*experiment.odometry).size();
   const scenarios::Scenario& scenario =
       scenario_of(evaluation.request, experiment.test.scenarios[scene]).scenario;
   SceneRows found;
-  for (const std::string& contact : contact_sources_of(group, simulator)) {
+  for (const std::string& contact : contact_sources_of(*experiment.odometry, group, simulator)) {
     OdometryRow row;
     row.simulator = simulator;
     row.scene = scenario.name;

@@ -3,47 +3,55 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "experiments/estimators/registry.hpp"
+#include "experiments/studies/operating_points/plan.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-using Scores = std::vector<scoring::OperatingScore>;
+/// Scores of one estimator in one noise setting: its own decisions, then the operating points.
+using PointScores = std::vector<scoring::OperatingScore>;
 
-/// The scores of a scene in one engine, in the order of its tasks; empty without scored runs.
-Scores scores_of(const Evaluation& evaluation, std::size_t scene, const std::string& simulator) {
-  Scores sums;
+/// The scores of a scene in one engine, by condition and cell; empty without scored runs.
+std::map<std::pair<std::uint32_t, std::uint32_t>, PointScores> scores_of(
+    const Evaluation& evaluation, std::size_t scene, const std::string& simulator) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, PointScores> sums;
   for (const std::size_t index : evaluation.plan.runs_in(0)) {
     const PlannedRun& run = evaluation.plan.runs[index];
     const bool is_in_scene =
         run.simulator == simulator && scene_of(run, evaluation.request.experiment) == scene;
     if (!is_in_scene) continue;
-    for (const TaskCounts& found : task_counts_of(index, evaluation.plan, evaluation.saved)) {
-      sums.resize(std::max(sums.size(), found.operating.size()));
-      for (std::size_t i = 0; i < found.operating.size(); ++i) sums[i] += found.operating[i];
+    for (const auto& found : measured<scoring::OperatingScore>(operating_points_name, index,
+                                                               evaluation.plan, evaluation.saved)) {
+      PointScores& sum = sums[{found.condition, found.cell}];
+      sum.resize(found.scores.size());
+      for (std::size_t i = 0; i < found.scores.size(); ++i) sum[i] += found.scores[i];
     }
   }
   return sums;
 }
 
-/// Adds a row per score. "Always contact" is left out: no threshold changes its decisions.
-void add_rows(const RunGroup& group, const OperatingRow& of_scene, const Scores& scores,
+/// The rows of a scene in one engine. "Always contact" is left out: no threshold changes its
+/// decisions.
+void add_rows(const Evaluation& evaluation, std::size_t scene, const OperatingRow& of_scene,
               std::vector<OperatingRow>& rows) {
-  const std::vector<scoring::Hysteresis> points = points_of(*group.operating_points);
-  auto score = scores.begin();
-  for (const Condition& condition : tested_on(group.conditions, of_scene.simulator)) {
-    if (!group.tries_points(condition)) continue;
-    for (const noise::NoiseCell& cell : group.scored) {
-      OperatingRow row = of_scene;
-      row.noise = cell;
-      row.estimator = condition.estimator;
-      for (std::size_t i = 0; i <= points.size(); ++i) {
-        if (i > 0) row.thresholds = points[i - 1];
-        row.score = *score++;
-        if (row.estimator != always_contact_name) rows.push_back(row);
-      }
+  const RunGroup& group = evaluation.plan.groups.front();
+  const std::vector<scoring::Hysteresis> points =
+      points_of(*evaluation.request.experiment.operating_points);
+  const std::vector<Condition> conditions = tested_on(group.conditions, of_scene.simulator);
+  for (const auto& [place, scores] : scores_of(evaluation, scene, of_scene.simulator)) {
+    OperatingRow row = of_scene;
+    row.estimator = conditions[place.first].estimator;
+    row.noise = group.scored[place.second];
+    if (row.estimator == always_contact_name) continue;
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      if (i > 0) row.thresholds = points[i - 1];
+      row.score = scores[i];
+      rows.push_back(row);
     }
   }
 }
@@ -111,10 +119,8 @@ std::vector<OperatingRow> operating_rows(const Evaluation& evaluation) {
   for (std::size_t scene = 0; scene < experiment.test.scenarios.size(); ++scene) {
     const std::string& file = experiment.test.scenarios[scene];
     for (const std::string& simulator : experiment.simulators) {
-      const Scores scores = scores_of(evaluation, scene, simulator);
-      if (scores.empty()) continue;
       const std::string& name = scenario_of(evaluation.request, file).scenario.name;
-      add_rows(evaluation.plan.groups.front(), {simulator, name, {}, {}}, scores, rows);
+      add_rows(evaluation, scene, {simulator, name, {}, {}}, rows);
     }
   }
   return rows;

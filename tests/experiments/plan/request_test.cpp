@@ -19,8 +19,8 @@ RunRequest shipped(const std::string& name) {
 }
 
 TEST(Request, ReadsBackUnchanged) {
-  for (const char* name : {"stairs", "noise_study", "tables", "cross_simulator", "phase_study",
-                           "real_robot", "paper_course"}) {
+  for (const char* name :
+       {"stairs", "noise_study", "tables", "cross_simulator", "real_robot", "paper_course"}) {
     const ScratchFolder folder;
     const RunRequest request = shipped(name);
     const RunDirectory directory(name, request.id, folder.path());

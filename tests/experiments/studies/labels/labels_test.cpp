@@ -1,11 +1,11 @@
-#include "experiments/results/label_sensitivity.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include <gtest/gtest.h>
 
+#include "core/files.hpp"
+#include "core/table.hpp"
 #include "experiments/run_experiment.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
@@ -30,6 +30,7 @@ class LabelSensitivity : public ::testing::Test {
     experiment.noise.seeds = 1;
     experiment.highlights = {{0.5, 1.0}};
     experiment.video.enabled = false;
+    experiment.paper_tables = true;
     experiment.recordings = KeptRecordings::all;
     return run_experiment(experiment, {folder_ / "out", "", nullptr});
   }
@@ -57,7 +58,7 @@ class LabelSensitivity : public ::testing::Test {
 
 TEST_F(LabelSensitivity, CountsTheSameDecisionsAgainstEveryDefinitionOfTheTruth) {
   const ExperimentResult result = run();
-  const Table table = label_sensitivity_table(result);
+  const Table table = from_csv(read_file(result.directory.file("tables", "labels.csv")));
   ASSERT_EQ(table.header[4], "success");
   std::map<std::string, double> success;  // by estimator, threshold, debounce
   for (const auto& row : table.rows) {

@@ -1,4 +1,4 @@
-#include "experiments/studies/benchmark/refits.hpp"
+#include "experiments/fitting/refits.hpp"
 
 #include <map>
 #include <set>

@@ -1,6 +1,6 @@
-#include "experiments/submissions/rows.hpp"
+#include "experiments/studies/benchmark/submission_rows.hpp"
 
-#include "experiments/submissions/saved_scores.hpp"
+#include "experiments/studies/benchmark/submission_scores.hpp"
 
 namespace touchdown::experiments {
 
@@ -17,7 +17,6 @@ Plan plan_for(const std::string& estimator, const noise::NoiseCell& cell,
       group.conditions.push_back({simulator, simulator, estimator, group.fit});
     }
     group.counted.clear();
-    group.disturbed.clear();
     group.scored = {cell};
   }
   return plan;
@@ -40,8 +39,14 @@ void add_submission_rows(const Evaluation& evaluation, const RunDirectory& direc
           plan.runs[task.run].group = no_group;
         }
       }
-      const SavedCounts at_hand(std::move(counts));
-      const Evaluation alone{request, plan, evaluation.runs, at_hand, evaluation.own};
+      const SavedCounts in_memory(std::move(counts));
+      const Evaluation alone{request,
+                             plan,
+                             evaluation.runs,
+                             in_memory,
+                             evaluation.own,
+                             evaluation.models,
+                             evaluation.model_results};
       for (BenchmarkRow& row : benchmark(alone)) rows.push_back(std::move(row));
     }
   }

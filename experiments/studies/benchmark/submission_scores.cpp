@@ -1,4 +1,4 @@
-#include "experiments/submissions/saved_scores.hpp"
+#include "experiments/studies/benchmark/submission_scores.hpp"
 
 #include <algorithm>
 

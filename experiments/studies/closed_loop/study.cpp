@@ -1,0 +1,45 @@
+#include "experiments/studies/closed_loop/study.hpp"
+
+#include <memory>
+
+#include "experiments/studies/closed_loop/plan.hpp"
+#include "experiments/studies/closed_loop/rollout.hpp"
+#include "experiments/studies/closed_loop/tables.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+constexpr const char* name = "closed_loop";
+
+}  // namespace
+
+bool ClosedLoopStudy::is_requested(const Experiment& experiment) const {
+  return experiment.closed_loop.has_value();
+}
+
+void ClosedLoopStudy::plan(const RunRequest& request, Plan& plan) const {
+  require_closed_loop(request);
+  const auto scenes = std::make_shared<scenarios::CompiledScenes>();
+  plan.model_tasks.push_back({name, "run", closed_loop_runs(request.experiment),
+                              [request, scenes](std::size_t run, const FittedModels& models,
+                                                const ShouldContinue& should_continue) {
+                                return to_bytes(std::vector{measure_closed_loop(
+                                    request, run, models, *scenes, should_continue)});
+                              }});
+}
+
+StudyResult ClosedLoopStudy::summarize(const Evaluation& evaluation,
+                                       const RunDirectory& directory) const {
+  const ModelTasks& runs = evaluation.plan.model_tasks_called(name);
+  const std::vector<SurvivalRow> rows =
+      survival_rows(evaluation.request, [&](std::size_t run) -> std::optional<ClosedLoopMetrics> {
+        const std::optional<std::string> bytes = evaluation.model_results.read(runs, run);
+        const auto metrics = from_bytes<ClosedLoopMetrics>(bytes.value_or(std::string()));
+        return metrics.empty() ? std::nullopt : std::optional(metrics.front());
+      });
+  write_tables(rows, directory);
+  return {{survival_text(rows, evaluation.request.experiment)}};
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,24 @@
+#include "experiments/studies/operating_points/study.hpp"
+
+#include "experiments/studies/operating_points/plan.hpp"
+#include "experiments/studies/operating_points/tables.hpp"
+
+namespace touchdown::experiments {
+
+bool OperatingPointsStudy::is_requested(const Experiment& experiment) const {
+  return experiment.operating_points.has_value();
+}
+
+void OperatingPointsStudy::plan(const RunRequest& request, Plan& plan) const {
+  add_measure(operating_points_measure(*request.experiment.operating_points), plan.groups.front());
+}
+
+StudyResult OperatingPointsStudy::summarize(const Evaluation& evaluation,
+                                            const RunDirectory& directory) const {
+  const std::vector<OperatingRow> rows = operating_rows(evaluation);
+  const std::vector<OperatingMean> means = operating_means(rows);
+  write_tables(rows, means, directory);
+  return {{operating_points_text(means, evaluation.request.experiment)}};
+}
+
+}  // namespace touchdown::experiments
