@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/results/result.hpp"
 
 namespace touchdown::experiments {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/evaluation/summary.hpp"
 

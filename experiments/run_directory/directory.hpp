@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/run_directory/lock.hpp"
 
 namespace touchdown::experiments {

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/run_directory/free_space.hpp"
 #include "experiments/submissions/exported_arrays.hpp"
 #include "experiments/submissions/readme.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/files.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/odometry/contact_sources.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"

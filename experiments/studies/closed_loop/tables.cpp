@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/odometry/contact_sources.hpp"
 #include "experiments/results/captions.hpp"
 #include "scoring/exact_share.hpp"

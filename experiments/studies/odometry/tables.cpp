@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/odometry/contact_sources.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/studies/odometry/plan.hpp"

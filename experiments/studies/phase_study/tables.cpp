@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/plan/sensors.hpp"
 #include "experiments/studies/phase_study/fit.hpp"
 #include "experiments/studies/phase_study/plan.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/results/captions.hpp"
 
 namespace touchdown::experiments {
