@@ -33,6 +33,7 @@
 #include "experiments/studies/phase_study/tables.hpp"
 #include "experiments/studies/sensor_sweep/tables.hpp"
 #include "experiments/submissions/rows.hpp"
+#include "experiments/tables/results.hpp"
 #include "experiments/tuning/table.hpp"
 
 namespace touchdown::experiments {
@@ -243,6 +244,7 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
   }
   result.provenance = context.provenance;
   write_result_files(result);
+  write_results(context.request, context.directory);
   remove_shard_marks(context.directory.path());
   remove_partial_files(context.directory.path());
   write_manifest(result);

@@ -16,6 +16,7 @@
 #include "experiments/submissions/prediction.hpp"
 #include "experiments/submissions/rows.hpp"
 #include "experiments/submissions/saved_scores.hpp"
+#include "experiments/tables/results.hpp"
 #include "recordings/beliefs/file.hpp"
 
 namespace touchdown::experiments {
@@ -147,6 +148,7 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
   const Evaluation evaluation{context.request, plan, runs, context.saved, own};
   report.table =
       benchmark_text(write_benchmark(evaluation, context.directory), context.request.experiment);
+  write_results(context.request, context.directory);
   return report;
 }
 

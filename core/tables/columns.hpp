@@ -116,6 +116,12 @@ class Columns {
     return *this;
   }
 
+  /// More columns of the same row.
+  Columns& and_then(const Columns& more) {
+    columns_.insert(columns_.end(), more.columns_.begin(), more.columns_.end());
+    return *this;
+  }
+
   const std::vector<Column>& list() const { return columns_; }
 
   std::vector<ColumnInfo> infos() const {

@@ -12,8 +12,8 @@
 
 namespace touchdown {
 
-/// Functions on lists of rows. A key is a data member, or anything callable with a row whose result
-/// has `==`. Results are in the order of first appearance.
+/// Functions on lists of rows. A key is a data member, or anything callable with a row that returns
+/// a value with `==`. Results are in the order of first appearance.
 
 template <typename Rows>
 using RowOf = typename Rows::value_type;

@@ -59,10 +59,8 @@ RunCounts counts_of(const Rollout& run, const std::vector<Condition>& conditions
 
 }  // namespace
 
-Table label_sensitivity_table(const ExperimentResult& result) {
-  Table table{header_with_intervals({"simulator", "estimator", "force_threshold_n", "debounce_s"},
-                                    {"success", "no_contact_precision", "no_contact_recall"}),
-              {}};
+std::vector<LabelSensitivity> label_sensitivity(const ExperimentResult& result) {
+  std::vector<LabelSensitivity> rows;
   for (const std::string& simulator : result.experiment.simulators) {
     const std::vector<Condition> conditions =
         tested_on(own_engine_conditions(result.experiment), simulator);
@@ -85,15 +83,24 @@ Table label_sensitivity_table(const ExperimentResult& result) {
             {&scoring::Classification::success, &scoring::Classification::no_contact_precision,
              &scoring::Classification::no_contact_recall},
             result.experiment.intervals.bootstrap);
-        const scoring::LabelConfig labels = definitions()[d];
-        table.rows.push_back(
-            row_with_intervals({simulator, conditions[c].estimator, exact(labels.force_threshold),
-                                exact(labels.debounce)},
-                               scores));
+        rows.push_back({simulator, conditions[c].estimator, definitions()[d], scores[0], scores[1],
+                        scores[2]});
       }
     }
   }
-  return table;
+  return rows;
+}
+
+Columns<LabelSensitivity> label_sensitivity_columns() {
+  using Row = LabelSensitivity;
+  return Columns<Row>()
+      .text("simulator", &Row::simulator)
+      .text("estimator", &Row::estimator)
+      .level("force_threshold_n", [](const Row& row) { return row.labels.force_threshold; })
+      .level("debounce_s", [](const Row& row) { return row.labels.debounce; })
+      .interval("success", &Row::success)
+      .interval("no_contact_precision", &Row::no_contact_precision)
+      .interval("no_contact_recall", &Row::no_contact_recall);
 }
 
 }  // namespace touchdown::experiments

@@ -57,7 +57,7 @@ class LabelSensitivity : public ::testing::Test {
 
 TEST_F(LabelSensitivity, CountsTheSameDecisionsAgainstEveryDefinitionOfTheTruth) {
   const ExperimentResult result = run();
-  const Table table = label_sensitivity_table(result);
+  const Table table = label_sensitivity_columns().table(label_sensitivity(result));
   ASSERT_EQ(table.header[4], "success");
   std::map<std::string, double> success;  // by estimator, threshold, debounce
   for (const auto& row : table.rows) {
