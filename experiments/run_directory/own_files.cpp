@@ -38,7 +38,7 @@ constexpr std::array fixed_names = {
     FixedNames{
         "tables",
         "(agreement|benchmark|benchmark_differences|benchmark_standings|calibration|classification|"
-        "density_overlap|differences|labels|"
+        "density_overlap|differences|evidence|labels|"
         "latency|moments|odometry|operating_points|operating_points_by_scene|overlap|reliability|"
         "results|runs|sample_efficiency|sensitivity|sensor_sweep|success|"
         "survival|torque_densities|torque_distributions|torques|training|transfer|"
