@@ -6,7 +6,7 @@
 #include "cli/verbs.hpp"
 #include "core/files.hpp"
 #include "core/resources.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "simulators/registry.hpp"
 

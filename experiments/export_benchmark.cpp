@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/resources.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/config/yaml_kind.hpp"
 
 namespace touchdown::experiments {

@@ -20,7 +20,9 @@
 #include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/test_seed_log.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
+#include "experiments/studies/benchmark/tables.hpp"
 #include "experiments/studies/registry.hpp"
+#include "experiments/tables/results.hpp"
 #include "experiments/tuning/table.hpp"
 
 namespace touchdown::experiments {
@@ -196,6 +198,7 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
   }
   result.provenance = context.provenance;
   write_result_files(result);
+  write_results(context.request, context.directory);
   remove_shard_marks(context.directory.path());
   remove_partial_files(context.directory.path());
   write_manifest(result);

@@ -17,6 +17,7 @@
 #include "experiments/studies/benchmark/tables.hpp"
 #include "experiments/submissions/belief_folder.hpp"
 #include "experiments/submissions/prediction.hpp"
+#include "experiments/tables/results.hpp"
 #include "recordings/beliefs/file.hpp"
 
 namespace touchdown::experiments {
@@ -160,6 +161,7 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
                               context.saved_model_tasks};
   report.table =
       benchmark_text(write_benchmark(evaluation, context.directory), context.request.experiment);
+  write_results(context.request, context.directory);
   return report;
 }
 

@@ -22,45 +22,61 @@ std::set<float> knots_of(const std::array<float, 2>& seen) {
   return knots;
 }
 
-void add_curve(Table& table, const std::vector<std::string>& first_cells,
-               const EvidenceModel& model, std::size_t input) {
-  const bool is_noise = input >= decision_channels * decision_scales;
-  const std::size_t channel = input / decision_scales;
-  const auto scale = std::to_string(1U << (input % decision_scales));
-  for (const float x : knots_of(model.seen[input])) {
-    std::vector<std::string> row = first_cells;
-    const double input_value = static_cast<double>(x);
-    if (is_noise) {
-      const std::size_t which = input - decision_channels * decision_scales;
-      row.insert(row.end(), {evidence_noise_names[which], "", which == 0 ? "N·m" : "m/s²",
-                             metric(std::exp(input_value))});
-    } else {
-      const EvidenceChannel& shown = evidence_channels[channel];
-      row.insert(row.end(),
-                 {shown.name, scale, shown.unit,
-                  metric(uncompressed(input_value, static_cast<double>(shown.softsign_scale)))});
-    }
-    row.push_back(metric(static_cast<double>(evidence_at(model.curve[input], x))));
-    table.rows.push_back(std::move(row));
+/// An input of the network: its channel's name, time scale and unit.
+EvidencePoint input_of(std::size_t input) {
+  constexpr std::size_t first_noise = decision_channels * decision_scales;
+  if (input >= first_noise) {
+    const std::size_t noise = input - first_noise;
+    return {.channel = evidence_noise_names[noise], .unit = noise == 0 ? "N·m" : "m/s²"};
   }
+  const EvidenceChannel& channel = evidence_channels[input / decision_scales];
+  return {.channel = channel.name,
+          .scale = std::to_string(1U << (input % decision_scales)),
+          .unit = channel.unit};
+}
+
+/// An input in the unit of its channel.
+double in_unit(std::size_t input, double x) {
+  if (input >= decision_channels * decision_scales) return std::exp(x);
+  const EvidenceChannel& channel = evidence_channels[input / decision_scales];
+  return uncompressed(x, static_cast<double>(channel.softsign_scale));
 }
 
 }  // namespace
 
-Table evidence_table(const FittedModels& models) {
-  Table table{{"simulator", "estimator", "channel", "scale_ms", "unit", "value", "evidence_nats"},
-              {}};
+std::vector<EvidencePoint> evidence_points(const FittedModels& models) {
+  std::vector<EvidencePoint> points;
   for (const auto& [simulator, by_estimator] : models) {
     if (is_of_refit(simulator)) continue;
     for (const auto& [estimator, fitted] : by_estimator) {
       const std::optional<EvidenceModel> model = evidence_in(fitted);
       if (!model) continue;
       for (std::size_t input = 0; input < decision_inputs; ++input) {
-        add_curve(table, {simulator, estimator}, *model, input);
+        for (const float x : knots_of(model->seen[input])) {
+          EvidencePoint& point = points.emplace_back(input_of(input));
+          point.simulator = simulator;
+          point.estimator = estimator;
+          point.value = in_unit(input, static_cast<double>(x));
+          point.evidence = static_cast<double>(evidence_at(model->curve[input], x));
+        }
       }
     }
   }
-  return table;
+  return points;
+}
+
+Columns<EvidencePoint> evidence_columns() {
+  using Point = EvidencePoint;
+  return Columns<Point>()
+      .text("simulator", &Point::simulator)
+      .text("estimator", &Point::estimator)
+      .text("channel", &Point::channel)
+      .text("scale_ms", &Point::scale)
+      .text("unit", &Point::unit)
+      .as("value_unit")
+      .metric("value", &Point::value)
+      .is(ColumnRole::key)
+      .metric("evidence_nats", &Point::evidence);
 }
 
 }  // namespace touchdown::experiments

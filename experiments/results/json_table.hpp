@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 
 namespace touchdown::experiments {
 

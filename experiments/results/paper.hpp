@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/results/result.hpp"
 
 namespace touchdown::experiments {

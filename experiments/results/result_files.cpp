@@ -25,26 +25,31 @@ void write_models(const FittedModels& models, const RunDirectory& directory) {
   }
 }
 
-Table runs_table(const std::vector<Rollout>& runs) {
-  Table table{{"simulator", "scenario", "role", "run", "outcome", "flights", "duration_s"}, {}};
-  for (const Rollout& run : runs) {
-    table.rows.push_back(
-        {run.plan.simulator, run.plan.scenario.name, std::string(to_text(run.plan.role)),
-         std::to_string(run.plan.run),
-         run.report.error.empty() ? std::string(recordings::to_text(run.report.outcome)) : "error",
-         std::to_string(run.report.flights), metric(run.report.duration)});
-  }
-  return table;
+Columns<Rollout> run_columns() {
+  return Columns<Rollout>()
+      .text("simulator", [](const Rollout& run) { return run.plan.simulator; })
+      .text("scenario", [](const Rollout& run) { return run.plan.scenario.name; })
+      .as("scene")
+      .text("role", [](const Rollout& run) { return to_text(run.plan.role); })
+      .number("run", [](const Rollout& run) { return run.plan.run; })
+      .text("outcome",
+            [](const Rollout& run) {
+              return run.report.error.empty() ? recordings::to_text(run.report.outcome) : "error";
+            })
+      .is(ColumnRole::note)
+      .count("flights", [](const Rollout& run) { return run.report.flights; })
+      .metric("duration_s", [](const Rollout& run) { return run.report.duration; });
 }
 
 void write_score_tables(const ExperimentResult& result) {
   const RunDirectory& directory = result.directory;
-  directory.write_table("views.csv", views_table(result.scores));
-  directory.write_table("transitions.csv", transitions_table(result.scores));
-  directory.write_table("latency.csv", latency_table(result.scores));
-  directory.write_table("calibration.csv", calibration_table(result.scores));
-  directory.write_table("reliability.csv", reliability_table(result.scores));
-  directory.write_table("differences.csv", differences_table(result.differences));
+  directory.write_table("views.csv", views_columns(), result.scores);
+  directory.write_table("transitions.csv", transitions_columns(), result.scores);
+  directory.write_table("latency.csv", latency_columns(), result.scores);
+  directory.write_table("calibration.csv", calibration_columns(), result.scores);
+  directory.write_table("reliability.csv", reliability_columns(), reliability_bins(result.scores));
+  directory.write_table("differences.csv", difference_columns(),
+                        metric_differences(result.differences));
   if (!result.experiment.paper_tables) return;
   std::string markdown;
   std::string latex;
@@ -60,11 +65,12 @@ void write_score_tables(const ExperimentResult& result) {
 
 void write_result_files(const ExperimentResult& result) {
   write_models(result.models, result.directory);
-  const Table evidence = evidence_table(result.models);
-  if (!evidence.rows.empty()) result.directory.write_table("evidence.csv", evidence);
-  result.directory.write_table("runs.csv", runs_table(result.runs));
-  result.directory.write_table("success.csv", success_table(result.summaries));
-  result.directory.write_table("classification.csv", classification_table(result.summaries));
+  const RunDirectory& directory = result.directory;
+  const std::vector<EvidencePoint> evidence = evidence_points(result.models);
+  if (!evidence.empty()) directory.write_table("evidence.csv", evidence_columns(), evidence);
+  directory.write_table("runs.csv", run_columns(), result.runs);
+  directory.write_table("success.csv", success_columns(), result.summaries);
+  directory.write_table("classification.csv", classification_columns(), result.summaries);
   write_score_tables(result);
   write_summary(summary_of(result), result.directory.path());
 }

@@ -7,42 +7,35 @@
 #include <tbb/parallel_for.h>
 
 #include "experiments/estimators/registry.hpp"
+#include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-const std::vector<std::string> setting_columns = {"simulator", "estimator", "torque_noise_nm",
-                                                  "accelerometer_noise_mps2"};
-const std::vector<std::string> view_columns = {"simulator", "estimator", "torque_noise_nm",
-                                               "accelerometer_noise_mps2", "view"};
-
-std::vector<std::string> setting(const Condition& condition, const noise::NoiseCell& cell) {
-  return {condition.test_simulator, condition.estimator, exact(cell.torque),
-          exact(cell.accelerometer)};
+/// The columns that all tables of scores have: engine, estimator, noise.
+template <typename Summary>
+Columns<Summary> setting_columns() {
+  return Columns<Summary>()
+      .text("simulator", [](const Summary& s) { return s.condition.test_simulator; })
+      .text("estimator", [](const Summary& s) { return s.condition.estimator; })
+      .part(&Summary::cell, noise_columns());
 }
 
-std::vector<std::string> setting(const ScoreSummary& summary) {
-  std::vector<std::string> cells = setting(summary.condition, summary.cell);
-  cells.push_back(summary.view);
-  return cells;
-}
+using CountOf = std::int64_t (*)(const scoring::Score&);
 
-/// Columns: the setting, then metrics with their intervals, then counts.
-Table table_of(
-    const std::vector<ScoreSummary>& summaries, const std::vector<std::string>& names,
-    const std::vector<std::pair<std::string, std::int64_t (*)(const scoring::Score&)>>& counts) {
-  std::vector<std::string> count_names;
-  for (const auto& [name, of] : counts) count_names.push_back(name);
-  Table table{header_with_intervals(view_columns, names, count_names), {}};
-  for (const ScoreSummary& summary : summaries) {
-    std::vector<Interval> intervals;
-    for (const std::string& name : names) intervals.push_back(summary[name]);
-    std::vector<std::string> totals;
-    for (const auto& [name, of] : counts) totals.push_back(std::to_string(of(summary.total)));
-    table.rows.push_back(row_with_intervals(setting(summary), intervals, totals));
+/// Columns: the setting and the view, then metrics with their intervals, then counts.
+Columns<ScoreSummary> columns_of(const std::vector<std::string>& metrics,
+                                 const std::vector<std::pair<std::string, CountOf>>& counts) {
+  Columns<ScoreSummary> columns = setting_columns<ScoreSummary>();
+  columns.text("view", &ScoreSummary::view);
+  for (const std::string& name : metrics) {
+    columns.interval(name, [name](const ScoreSummary& summary) { return summary[name]; });
   }
-  return table;
+  for (const auto& [name, count] : counts) {
+    columns.count(name, [count = count](const ScoreSummary& s) { return count(s.total); });
+  }
+  return columns;
 }
 
 }  // namespace
@@ -70,45 +63,31 @@ std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
   return summaries;
 }
 
-Table success_table(const std::vector<CellSummary>& summaries) {
-  Table table{header_with_intervals(setting_columns, {"success"},
-                                    {"always_contact_success", "knee_noise_nm", "wheel_noise_nm"}),
-              {}};
-  for (const CellSummary& s : summaries) {
-    table.rows.push_back(
-        row_with_intervals(setting(s.condition, s.cell), {s.success},
-                           {metric(s.always_contact), exact(s.cell.knee), exact(s.cell.wheel)}));
-  }
-  return table;
+Columns<CellSummary> success_columns() {
+  return setting_columns<CellSummary>()
+      .interval("success", &CellSummary::success)
+      .metric("always_contact_success", &CellSummary::always_contact)
+      .part(&CellSummary::cell, knee_wheel_columns());
 }
 
-Table classification_table(const std::vector<CellSummary>& summaries) {
-  Table table{header_with_intervals(setting_columns,
-                                    {"contact_precision", "contact_recall", "no_contact_precision",
-                                     "no_contact_recall"},
-                                    {"knee_noise_nm", "wheel_noise_nm"}),
-              {}};
-  for (const CellSummary& s : summaries) {
-    table.rows.push_back(row_with_intervals(
-        setting(s.condition, s.cell),
-        {s.contact_precision, s.contact_recall, s.no_contact_precision, s.no_contact_recall},
-        {exact(s.cell.knee), exact(s.cell.wheel)}));
+Columns<CellSummary> classification_columns() {
+  Columns<CellSummary> columns = setting_columns<CellSummary>();
+  for (const PointMetric& metric : point_metrics) {
+    if (metric.interval != &CellSummary::success) columns.interval(metric.name, metric.interval);
   }
-  return table;
+  return columns.part(&CellSummary::cell, knee_wheel_columns());
 }
 
-Table views_table(const std::vector<ScoreSummary>& summaries) {
-  return table_of(
-      summaries,
+Columns<ScoreSummary> views_columns() {
+  return columns_of(
       {"success", "contact_precision", "contact_recall", "no_contact_precision",
        "no_contact_recall"},
       {{"contact_steps", [](const scoring::Score& s) { return s.points.contact(); }},
        {"no_contact_steps", [](const scoring::Score& s) { return s.points.flight(); }}});
 }
 
-Table transitions_table(const std::vector<ScoreSummary>& summaries) {
-  return table_of(
-      summaries,
+Columns<ScoreSummary> transitions_columns() {
+  return columns_of(
       {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall",
        "false_takeoffs_per_minute"},
       {{"takeoffs", [](const scoring::Score& s) { return s.takeoff.events; }},
@@ -117,51 +96,59 @@ Table transitions_table(const std::vector<ScoreSummary>& summaries) {
        {"false_landings", [](const scoring::Score& s) { return s.landing.false_alarms; }}});
 }
 
-Table latency_table(const std::vector<ScoreSummary>& summaries) {
-  return table_of(
-      summaries,
+Columns<ScoreSummary> latency_columns() {
+  return columns_of(
       {"takeoff_latency_ms", "takeoff_latency_deviation_ms", "landing_latency_ms",
        "landing_latency_deviation_ms"},
       {{"takeoffs_detected", [](const scoring::Score& s) { return s.takeoff.detected; }},
        {"landings_detected", [](const scoring::Score& s) { return s.landing.detected; }}});
 }
 
-Table calibration_table(const std::vector<ScoreSummary>& summaries) {
-  return table_of(summaries, {"brier"},
-                  {{"steps", [](const scoring::Score& s) { return s.calibration.points; }}});
+Columns<ScoreSummary> calibration_columns() {
+  return columns_of({"brier"},
+                    {{"steps", [](const scoring::Score& s) { return s.calibration.points; }}});
 }
 
-Table reliability_table(const std::vector<ScoreSummary>& summaries) {
-  std::vector<std::string> first = view_columns;
-  first.insert(first.end(), {"bin", "steps", "mean_probability"});
-  Table table{header_with_intervals(first, {"contact_frequency"}), {}};
+std::vector<ReliabilityBin> reliability_bins(const std::vector<ScoreSummary>& summaries) {
+  std::vector<ReliabilityBin> bins;
   for (const ScoreSummary& summary : summaries) {
-    for (std::size_t b = 0; b < scoring::Calibration::bins; ++b) {
-      const scoring::Calibration::Bin& bin = summary.total.calibration.bin[b];
-      std::vector<std::string> row = setting(summary);
-      row.insert(row.end(),
-                 {std::to_string(b), std::to_string(bin.points), metric(bin.mean_probability())});
-      table.rows.push_back(row_with_intervals(row, {summary.contact_frequency[b]}));
-    }
+    for (std::size_t b = 0; b < scoring::Calibration::bins; ++b) bins.push_back({&summary, b});
   }
-  return table;
+  return bins;
 }
 
-Table differences_table(const std::vector<Difference>& differences) {
-  Table table{header_with_intervals({"simulator", "torque_noise_nm", "accelerometer_noise_mps2",
-                                     "first", "second", "metric"},
-                                    {"difference"}),
-              {}};
+Columns<ReliabilityBin> reliability_columns() {
+  using Bin = ReliabilityBin;
+  const auto counts = [](const Bin& bin) -> const scoring::Calibration::Bin& {
+    return bin.summary->total.calibration.bin[bin.index];
+  };
+  return Columns<Bin>()
+      .part([](const Bin& bin) -> const ScoreSummary& { return *bin.summary; }, columns_of({}, {}))
+      .number("bin", &Bin::index)
+      .count("steps", [counts](const Bin& bin) { return counts(bin).points; })
+      .metric("mean_probability",
+              [counts](const Bin& bin) { return counts(bin).mean_probability(); })
+      .interval("contact_frequency",
+                [](const Bin& bin) { return bin.summary->contact_frequency[bin.index]; });
+}
+
+std::vector<MetricDifference> metric_differences(const std::vector<Difference>& differences) {
+  std::vector<MetricDifference> all;
   for (const Difference& difference : differences) {
-    for (std::size_t m = 0; m < scoring::metrics().size(); ++m) {
-      table.rows.push_back(
-          row_with_intervals({difference.simulator, exact(difference.cell.torque),
-                              exact(difference.cell.accelerometer), difference.first,
-                              difference.second, scoring::metrics()[m].name},
-                             {difference.metric[m]}));
-    }
+    for (std::size_t m = 0; m < scoring::metrics().size(); ++m) all.push_back({&difference, m});
   }
-  return table;
+  return all;
+}
+
+Columns<MetricDifference> difference_columns() {
+  using Row = MetricDifference;
+  return Columns<Row>()
+      .text("simulator", [](const Row& row) { return row.pair->simulator; })
+      .part([](const Row& row) { return row.pair->cell; }, noise_columns())
+      .text("first", [](const Row& row) { return row.pair->first; })
+      .text("second", [](const Row& row) { return row.pair->second; })
+      .text("metric", [](const Row& row) { return scoring::metrics()[row.metric].name; })
+      .interval("difference", [](const Row& row) { return row.pair->metric[row.metric]; });
 }
 
 }  // namespace touchdown::experiments

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/table.hpp"
+#include "core/tables/columns.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/evaluation/summary.hpp"
 
@@ -47,21 +47,32 @@ std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
                                    const std::vector<noise::NoiseCell>& cells,
                                    const scoring::BootstrapConfig& bootstrap);
 
-// As CSV tables, every number with its interval.
-
-/// `success.csv` and `classification.csv`: point-wise metrics in every noise cell.
-Table success_table(const std::vector<CellSummary>& summaries);
-Table classification_table(const std::vector<CellSummary>& summaries);
+/// The columns of `success.csv` and `classification.csv`: point-wise metrics in every noise cell.
+Columns<CellSummary> success_columns();
+Columns<CellSummary> classification_columns();
 /// `views.csv`: point-wise metrics per wheel, pooled, and for the robot.
-Table views_table(const std::vector<ScoreSummary>& summaries);
+Columns<ScoreSummary> views_columns();
 /// `transitions.csv`: precision, recall and number of takeoffs and landings.
-Table transitions_table(const std::vector<ScoreSummary>& summaries);
+Columns<ScoreSummary> transitions_columns();
 /// `latency.csv`: mean and standard deviation over detected events.
-Table latency_table(const std::vector<ScoreSummary>& summaries);
-/// `calibration.csv` and `reliability.csv`.
-Table calibration_table(const std::vector<ScoreSummary>& summaries);
-Table reliability_table(const std::vector<ScoreSummary>& summaries);
-/// `differences.csv`: one row per pair of estimators and metric.
-Table differences_table(const std::vector<Difference>& differences);
+Columns<ScoreSummary> latency_columns();
+/// `calibration.csv`.
+Columns<ScoreSummary> calibration_columns();
+
+/// `reliability.csv`: a row per bin of the calibration. The summaries must outlive the bins.
+struct ReliabilityBin {
+  const ScoreSummary* summary = nullptr;
+  std::size_t index = 0;
+};
+std::vector<ReliabilityBin> reliability_bins(const std::vector<ScoreSummary>& summaries);
+Columns<ReliabilityBin> reliability_columns();
+
+/// `differences.csv`: a row per pair of estimators and metric. The differences must outlive it.
+struct MetricDifference {
+  const Difference* pair = nullptr;
+  std::size_t metric = 0;  ///< in the order of `metrics()`
+};
+std::vector<MetricDifference> metric_differences(const std::vector<Difference>& differences);
+Columns<MetricDifference> difference_columns();
 
 }  // namespace touchdown::experiments

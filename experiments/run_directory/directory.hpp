@@ -5,9 +5,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "core/table.hpp"
+#include "core/tables/columns.hpp"
 #include "experiments/run_directory/lock.hpp"
+#include "experiments/run_directory/table_columns.hpp"
 
 namespace touchdown::experiments {
 
@@ -41,7 +43,15 @@ class RunDirectory {
     return path_ / folder / name;
   }
 
+  /// Writes a file of `tables/`.
   void write_table(std::string_view name, const Table& table) const;
+  /// The same for rows of a study, and keeps what the columns mean (`write_columns`).
+  template <typename Row>
+  void write_table(std::string_view name, const Columns<Row>& columns,
+                   const std::vector<Row>& rows) const {
+    write_table(name, columns.table(rows));
+    write_columns(path_, name, columns.infos());
+  }
 
  private:
   std::filesystem::path path_;

@@ -31,15 +31,16 @@ constexpr std::array fixed_names = {
     FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml)"},
     FixedNames{"state/evaluation", R"(.+_seed_\d{4,})"},
     FixedNames{"state/shards", R"(\d+_of_\d+)"},
+    FixedNames{"state/columns", R"([a-z_]+\.csv)"},
     FixedNames{"state/tuning", R"(.+_fold_\d+)"},
     FixedNames{"state/submissions", R"([^.].*)"},
     FixedNames{"state/closed_loop", R"(run_\d{6,})"},
     FixedNames{
         "tables",
         "(agreement|benchmark|benchmark_differences|benchmark_standings|calibration|classification|"
-        "density_overlap|differences|labels|"
+        "density_overlap|differences|evidence|labels|"
         "latency|moments|odometry|operating_points|operating_points_by_scene|overlap|reliability|"
-        "runs|sample_efficiency|sensitivity|sensor_sweep|success|"
+        "results|runs|sample_efficiency|sensitivity|sensor_sweep|success|"
         "survival|torque_densities|torque_distributions|torques|training|transfer|"
         "transitions|tuning|"
         "verdicts|views)\\.csv|"
@@ -51,7 +52,8 @@ constexpr std::array fixed_names = {
     FixedNames{"checkpoints", R"(\d{4,}\.pt)"}};
 
 /// Every folder that a run creates, inner folders first.
-constexpr std::array all_folders = {"state/evaluation",
+constexpr std::array all_folders = {"state/columns",
+                                    "state/evaluation",
                                     "state/recordings",
                                     "state/shards",
                                     "state/submissions",

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 
 namespace touchdown::experiments {
 

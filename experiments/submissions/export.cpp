@@ -7,11 +7,11 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/table.hpp"
 #include "experiments/run_directory/free_space.hpp"
 #include "experiments/submissions/exported_arrays.hpp"
 #include "experiments/submissions/readme.hpp"
 #include "experiments/submissions/sha256.hpp"
+#include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 
@@ -87,27 +87,56 @@ Written write_run(const ExportedRun& exported, const RunRequest& request, const 
   return written;
 }
 
-Table index_of(const std::vector<ExportedRun>& runs, const std::vector<Written>& written,
-               const RunRequest& request, const Plan& plan) {
-  Table table{{"file", "robot", "sensors", "simulator", "role", "scene", "run", "noise", "seed",
-               "torque_noise_nm", "accelerometer_noise_mps2", "steps", "control_period_s"},
-              {}};
+/// A line of `index.csv`: a file of the export.
+struct IndexRow {
+  const ExportedRun* exported;
+  const PlannedRun* run;
+  const Task* task;  ///< null for a fitted run
+  noise::NoiseCell noise;
+  std::size_t steps;
+};
+
+std::vector<IndexRow> index_of(const std::vector<ExportedRun>& runs,
+                               const std::vector<Written>& written, const RunRequest& request,
+                               const Plan& plan) {
+  std::vector<IndexRow> rows;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (written[i].steps == 0) continue;
-    const ExportedRun& exported = runs[i];
-    const PlannedRun& run = plan.runs[exported.run];
-    const noise::NoiseCell cell =
-        exported.task ? request.experiment.highlights[exported.cell] : noise::NoiseCell();
-    const std::int64_t number = run.role == RunRole::fit ? run.run - first_fit_run : run.run;
-    table.rows.push_back(
-        {exported.name + ".npz", exported.robot, exported.sensors, run.simulator,
-         std::string(to_text(run.role)), exported.scene, std::to_string(number),
-         exported.task ? std::to_string(exported.cell) : "",
-         exported.task ? std::to_string(plan.tasks[*exported.task].seed) : "", exact(cell.torque),
-         exact(cell.accelerometer), std::to_string(written[i].steps),
-         exact(1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us))});
+    const bool has_noise = runs[i].task.has_value();
+    rows.push_back({&runs[i], &plan.runs[runs[i].run],
+                    has_noise ? &plan.tasks[*runs[i].task] : nullptr,
+                    has_noise ? request.experiment.highlights[runs[i].cell] : noise::NoiseCell(),
+                    written[i].steps});
   }
-  return table;
+  return rows;
+}
+
+std::int64_t number_of(const PlannedRun& run) {
+  return run.role == RunRole::fit ? run.run - first_fit_run : run.run;
+}
+
+Columns<IndexRow> index_columns() {
+  using Row = IndexRow;
+  return Columns<Row>()
+      .text("file", [](const Row& row) { return row.exported->name + ".npz"; })
+      .text("robot", [](const Row& row) { return row.exported->robot; })
+      .text("sensors", [](const Row& row) { return row.exported->sensors; })
+      .text("simulator", [](const Row& row) { return row.run->simulator; })
+      .text("role", [](const Row& row) { return to_text(row.run->role); })
+      .text("scene", [](const Row& row) { return row.exported->scene; })
+      .number("run", [](const Row& row) { return number_of(*row.run); })
+      .text("noise",
+            [](const Row& row) {
+              return row.task == nullptr ? "" : std::to_string(row.exported->cell);
+            })
+      .text(
+          "seed",
+          [](const Row& row) { return row.task == nullptr ? "" : std::to_string(row.task->seed); })
+      .part(&Row::noise, noise_columns())
+      .count("steps", &Row::steps)
+      .level("control_period_s", [](const Row& row) {
+        return 1e-6 * static_cast<double>(row.run->scenario.simulation.steps.control_us);
+      });
 }
 
 }  // namespace
@@ -162,7 +191,7 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
     report.bytes += written[i].bytes;
   }
   if (report.files == 0) throw Error("no run stayed upright: there is nothing to export");
-  const std::string index = to_csv(index_of(runs, written, request, plan));
+  const std::string index = to_csv(index_columns().table(index_of(runs, written, request, plan)));
   sums["index.csv"] = write_file(part.path() / "index.csv", index).sha256;
   sums["README.md"] = write_file(part.path() / "README.md", readme_of(request)).sha256;
   std::string lines;

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/file_names.hpp"
+#include "core/tables/verbs.hpp"
 #include "core/yaml.hpp"
 #include "experiments/studies/benchmark/plan.hpp"
 
@@ -32,11 +33,7 @@ bool is_of(const PlannedRun& run, const BenchmarkSetup& setup) {
 void keep(std::vector<ExportedRun>& runs, const char* flag, const std::vector<std::string>& wanted,
           const std::function<std::string(const ExportedRun&)>& name_of) {
   if (wanted.empty()) return;
-  std::vector<std::string> known;
-  for (const ExportedRun& run : runs) {
-    const std::string name = name_of(run);
-    if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
-  }
+  const std::vector<std::string> known = unique(runs, name_of);
   for (const std::string& name : wanted) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     throw InputError(fmt::format("{}: the benchmark has no '{}': expected one of {}{}", flag, name,

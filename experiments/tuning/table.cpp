@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/files.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -35,15 +35,17 @@ std::string fit_text(const std::string& fit) { return fit.starts_with('_') ? fit
 }  // namespace
 
 void write_table(const std::vector<Trial>& trials, const RunDirectory& directory) {
-  Table table{
-      {"simulator", "fit", "estimator", "trial", "hyperparameters", "balanced_accuracy", "chosen"},
-      {}};
-  for (const Trial& trial : trials) {
-    table.rows.push_back({trial.simulator, fit_text(trial.fit), trial.estimator,
-                          std::to_string(trial.number), text_of(trial.hyperparameters),
-                          metric(trial.score), trial.is_chosen ? "1" : "0"});
-  }
-  directory.write_table("tuning.csv", table);
+  const auto columns = Columns<Trial>()
+                           .text("simulator", &Trial::simulator)
+                           .text("fit", [](const Trial& trial) { return fit_text(trial.fit); })
+                           .text("estimator", &Trial::estimator)
+                           .number("trial", &Trial::number)
+                           .text("hyperparameters",
+                                 [](const Trial& trial) { return text_of(trial.hyperparameters); })
+                           .is(ColumnRole::note)
+                           .metric("balanced_accuracy", &Trial::score)
+                           .flag("chosen", &Trial::is_chosen);
+  directory.write_table("tuning.csv", columns, trials);
 }
 
 TunedHyperparameters read_chosen(const std::filesystem::path& run_directory) {

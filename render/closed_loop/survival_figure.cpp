@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/table.hpp"
+#include "core/tables/verbs.hpp"
 #include "experiments/odometry/contact_sources.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
@@ -21,16 +21,6 @@ namespace touchdown::render {
 namespace {
 
 using Points = std::vector<SurvivalPoint>;
-
-/// The distinct values of one member, in the order of the rows.
-std::vector<std::string> distinct(const Points& points, std::string SurvivalPoint::*member) {
-  std::vector<std::string> values;
-  for (const SurvivalPoint& point : points) {
-    const std::string& value = point.*member;
-    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
-  }
-  return values;
-}
 
 std::string title_of(const SurvivalPoint& point) {
   return fmt::format("Closed-loop results by contact source: {}, {}, {} sensors", point.scene,
@@ -83,8 +73,8 @@ constexpr double key_width = 200.0, between = 44.0;
 /// A curve per contact source over the varied quantity.
 Figure draw_curves(const Points& points, const std::vector<std::string>& estimators, double level,
                    const std::filesystem::path& stem) {
-  const std::vector<std::string> engines = distinct(points, &SurvivalPoint::simulator);
-  const std::vector<std::string> contacts = distinct(points, &SurvivalPoint::contact);
+  const std::vector<std::string> engines = unique(points, &SurvivalPoint::simulator);
+  const std::vector<std::string> contacts = unique(points, &SurvivalPoint::contact);
   const auto panels = static_cast<double>(engines.size());
   const FigureFrame frame(
       title_of(points.front()),
@@ -182,8 +172,8 @@ std::vector<Measure> measures_of(const Points& points) {
 
 /// A row per contact source.
 Figure draw_rows(const Points& points, double level, const std::filesystem::path& stem) {
-  const std::vector<std::string> engines = distinct(points, &SurvivalPoint::simulator);
-  const std::vector<std::string> contacts = distinct(points, &SurvivalPoint::contact);
+  const std::vector<std::string> engines = unique(points, &SurvivalPoint::simulator);
+  const std::vector<std::string> contacts = unique(points, &SurvivalPoint::contact);
   const std::vector<Measure> shown = measures_of(points);
   const double height = row_height * static_cast<double>(contacts.size());
   const FigureFrame frame(

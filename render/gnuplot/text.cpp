@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 
 namespace touchdown::render {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/table.hpp"
+#include "core/tables/verbs.hpp"
 #include "experiments/odometry/contact_sources.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
@@ -20,20 +20,9 @@ namespace {
 
 constexpr double row_height = 27.0, names_width = 200.0, panel_width = 330.0, gap_x = 26.0;
 
-/// The distinct values of one member, in the order of the rows.
-std::vector<std::string> distinct(const std::vector<OdometryError>& errors,
-                                  std::string OdometryError::*member) {
-  std::vector<std::string> values;
-  for (const OdometryError& error : errors) {
-    const std::string& value = error.*member;
-    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
-  }
-  return values;
-}
-
 /// The contact sources by their mean error over scenes and engines, the best first.
 std::vector<std::string> ranked(const std::vector<OdometryError>& errors) {
-  std::vector<std::string> contacts = distinct(errors, &OdometryError::contact);
+  std::vector<std::string> contacts = unique(errors, &OdometryError::contact);
   const auto sum = [&](const std::string& contact) {
     double all = 0.0;
     for (const OdometryError& error : errors) {
@@ -80,8 +69,8 @@ std::vector<OdometryError> odometry_errors(const std::filesystem::path& run_dire
 Figure draw_odometry_figure(const std::vector<OdometryError>& errors, double level,
                             const std::filesystem::path& stem) {
   const std::vector<std::string> contacts = ranked(errors);
-  const std::vector<std::string> scenes = distinct(errors, &OdometryError::scene);
-  const std::vector<std::string> engines = distinct(errors, &OdometryError::simulator);
+  const std::vector<std::string> scenes = unique(errors, &OdometryError::scene);
+  const std::vector<std::string> engines = unique(errors, &OdometryError::simulator);
   const double height = row_height * static_cast<double>(contacts.size());
   const FigureFrame frame(
       fmt::format("Odometry error by contact source: {}, {} sensors", errors.front().robot,
@@ -133,15 +122,11 @@ Figure draw_odometry_figure(const std::vector<OdometryError>& errors, double lev
 }
 
 void draw_odometry_figures(const std::filesystem::path& run_directory, double level) {
-  const std::vector<OdometryError> all = odometry_errors(run_directory);
-  for (auto first = all.begin(); first != all.end();) {
-    const auto last = std::find_if(first, all.end(), [&](const OdometryError& error) {
-      return error.robot != first->robot || error.sensors != first->sensors;
-    });
-    draw_odometry_figure(
-        {first, last}, level,
-        run_directory / "figures" / fmt::format("odometry_{}_{}", first->robot, first->sensors));
-    first = last;
+  const auto stem_of = [](const OdometryError& error) {
+    return fmt::format("odometry_{}_{}", error.robot, error.sensors);
+  };
+  for (const auto& [stem, errors] : group_by(odometry_errors(run_directory), stem_of)) {
+    draw_odometry_figure(errors, level, run_directory / "figures" / stem);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {

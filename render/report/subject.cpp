@@ -1,11 +1,10 @@
 #include "render/report/subject.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/tables/verbs.hpp"
 
 namespace touchdown::render {
 
@@ -33,12 +32,7 @@ ReportSubject read_subject(const std::filesystem::path& run_directory) {
 }
 
 std::vector<std::string> scored_estimators(const std::vector<experiments::CellSummary>& scores) {
-  std::vector<std::string> names;
-  for (const experiments::CellSummary& score : scores) {
-    const std::string& name = score.condition.estimator;
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
-  return names;
+  return unique(scores, [](const auto& score) { return score.condition.estimator; });
 }
 
 }  // namespace touchdown::render

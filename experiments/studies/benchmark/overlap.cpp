@@ -36,13 +36,33 @@ double common_part(const MeasurementModel& first, const MeasurementModel& second
   return sum;
 }
 
+/// The overlap of the densities that are fitted on two setups.
+struct OverlapRow {
+  std::string simulator;
+  std::string estimator;
+  const BenchmarkSetup* first;
+  const BenchmarkSetup* second;
+  double no_contact;
+  double contact;
+};
+
+Columns<OverlapRow> overlap_columns() {
+  using Row = OverlapRow;
+  return Columns<Row>()
+      .text("simulator", &Row::simulator)
+      .text("estimator", &Row::estimator)
+      .text("robot", [](const Row& row) { return row.first->robot; })
+      .text("sensors", [](const Row& row) { return row.first->sensors; })
+      .text("other_robot", [](const Row& row) { return row.second->robot; })
+      .text("other_sensors", [](const Row& row) { return row.second->sensors; })
+      .metric("no_contact_overlap", &Row::no_contact)
+      .metric("contact_overlap", &Row::contact);
+}
+
 }  // namespace
 
 void write_overlap(const FittedModels& models, const Evaluation& evaluation,
                    const RunDirectory& directory) {
-  Table table{{"simulator", "estimator", "robot", "sensors", "other_robot", "other_sensors",
-               "no_contact_overlap", "contact_overlap"},
-              {}};
   const Experiment& experiment = evaluation.request.experiment;
   const auto estimator = std::find_if(
       experiment.estimators.begin(), experiment.estimators.end(), [](const std::string& name) {
@@ -50,6 +70,7 @@ void write_overlap(const FittedModels& models, const Evaluation& evaluation,
       });
   if (estimator == experiment.estimators.end()) return;
   const auto setups = benchmark_setups(evaluation.request, evaluation.plan);
+  std::vector<OverlapRow> rows;
   for (const std::string& simulator : experiment.simulators) {
     const auto model = [&](const BenchmarkSetup& setup) -> const MeasurementModel& {
       return *models.at(simulator + setup.robot_and_sensors.fit).at(*estimator).measurement;
@@ -57,16 +78,15 @@ void write_overlap(const FittedModels& models, const Evaluation& evaluation,
     for (const BenchmarkSetup& first : setups) {
       for (const BenchmarkSetup& second : setups) {
         const auto common = [&](auto density, auto grid) {
-          return metric(common_part(model(first), model(second), density, grid));
+          return common_part(model(first), model(second), density, grid);
         };
-        table.rows.push_back({simulator, *estimator, first.robot, first.sensors, second.robot,
-                              second.sensors,
-                              common(&Likelihoods::no_contact, &LikelihoodGrids::no_contact),
-                              common(&Likelihoods::contact, &LikelihoodGrids::contact)});
+        rows.push_back({simulator, *estimator, &first, &second,
+                        common(&Likelihoods::no_contact, &LikelihoodGrids::no_contact),
+                        common(&Likelihoods::contact, &LikelihoodGrids::contact)});
       }
     }
   }
-  directory.write_table("density_overlap.csv", table);
+  directory.write_table("density_overlap.csv", overlap_columns(), rows);
 }
 
 }  // namespace touchdown::experiments

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "core/tables/verbs.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -15,19 +16,11 @@ namespace {
 
 using Rows = std::vector<const BenchmarkRow*>;
 
-template <typename Key>
-std::vector<Rows> grouped(const Rows& rows, const Key& key) {
-  std::vector<Rows> groups;
-  for (const BenchmarkRow* row : rows) {
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const Rows& known) { return key(*known.front()) == key(*row); });
-    if (group == groups.end()) group = groups.insert(groups.end(), Rows());
-    group->push_back(row);
-  }
-  return groups;
+std::string estimator_of(const BenchmarkRow* row) { return row->estimator; }
+std::string scene_name(const BenchmarkRow* row) { return row->scene; }
+auto setting_of(const BenchmarkRow* row) {
+  return std::tuple(row->robot, row->sensors, row->noise);
 }
-
-std::string estimator_of(const BenchmarkRow& row) { return row.estimator; }
 
 Resampled mean_of(const Rows& rows) {
   std::vector<const Resampled*> all;
@@ -42,8 +35,8 @@ struct Named {
 
 std::vector<Named> means_by_estimator(const Rows& rows) {
   std::vector<Named> means;
-  for (const Rows& own : grouped(rows, estimator_of)) {
-    means.push_back({own.front()->estimator, mean_of(own)});
+  for (const auto& own : group_by(rows, estimator_of)) {
+    means.push_back({own.key, mean_of(own.rows)});
   }
   return means;
 }
@@ -182,18 +175,14 @@ std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double l
     if (row.fitted_on == "own") own.push_back(&row);
   }
   std::vector<Standings> all;
-  const auto setting = [](const BenchmarkRow& row) {
-    return std::tuple(row.robot, row.sensors, row.noise.knee, row.noise.wheel,
-                      row.noise.accelerometer);
-  };
-  for (const Rows& scored : grouped(own, setting)) {
-    const Rows alike = complete_ones(scored);
+  for (const auto& scored : group_by(own, setting_of)) {
+    const Rows alike = complete_ones(scored.rows);
     const std::vector<Named> means = means_by_estimator(alike);
     Standings standings{alike.front()->robot, alike.front()->sensors, alike.front()->noise,
                         entries_of(alike, means, level), all_pairs("", means, level)};
     mark_not_significantly_worse(standings.entries, standings.differences);
-    for (const Rows& scene : grouped(alike, [](const auto& row) { return row.scene; })) {
-      const auto pairs = all_pairs(scene.front()->scene, means_by_estimator(scene), level);
+    for (const auto& scene : group_by(alike, scene_name)) {
+      const auto pairs = all_pairs(scene.key, means_by_estimator(scene.rows), level);
       standings.differences.insert(standings.differences.end(), pairs.begin(), pairs.end());
     }
     all.push_back(std::move(standings));

@@ -1,7 +1,5 @@
 #include "experiments/studies/benchmark/tables.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -9,8 +7,10 @@
 #include <fmt/ranges.h>
 
 #include "core/files.hpp"
+#include "core/tables/verbs.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/json_table.hpp"
+#include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 
@@ -20,152 +20,132 @@ double per_minute(std::int64_t count, std::int64_t microseconds) {
   return 60e6 * scoring::ratio(count, microseconds);
 }
 
-struct BenchmarkColumn {
-  const char* name;
-  double (*of)(const BenchmarkRow& row);
-};
-constexpr std::array columns = {
-    BenchmarkColumn{"no_contact_precision",
-                    [](const BenchmarkRow& r) { return r.score.points.no_contact_precision(); }},
-    BenchmarkColumn{"no_contact_recall",
-                    [](const BenchmarkRow& r) { return r.score.points.no_contact_recall(); }},
-    BenchmarkColumn{"flight_f1", [](const BenchmarkRow& r) { return r.extended.flights.f1(); }},
-    BenchmarkColumn{
-        "takeoff_latency_median_ms",
-        [](const BenchmarkRow& r) { return r.extended.takeoff.absolute_percentile(0.5); }},
-    BenchmarkColumn{
-        "landing_latency_median_ms",
-        [](const BenchmarkRow& r) { return r.extended.landing.absolute_percentile(0.5); }},
-    BenchmarkColumn{"extra_switches_per_minute",
-                    [](const BenchmarkRow& r) {
-                      return per_minute(r.extended.extra_switches, r.score.scored_us);
-                    }},
-    BenchmarkColumn{"calibration_error",
-                    [](const BenchmarkRow& r) { return r.score.calibration.expected_error(); }},
-    BenchmarkColumn{"log_loss",
-                    [](const BenchmarkRow& r) {
-                      return r.extended.log_loss / static_cast<double>(r.extended.steps);
-                    }},
-    BenchmarkColumn{"success", [](const BenchmarkRow& r) { return r.score.points.success(); }},
-    BenchmarkColumn{"loaded_balanced_accuracy",
-                    [](const BenchmarkRow& r) { return r.extended.loaded.balanced_accuracy(); }},
-    BenchmarkColumn{"false_takeoffs_per_minute",
-                    [](const BenchmarkRow& r) { return r.score.false_takeoffs_per_minute(); }},
-    BenchmarkColumn{
-        "takeoff_latency_p90_ms",
-        [](const BenchmarkRow& r) { return r.extended.takeoff.absolute_percentile(0.9); }},
-    BenchmarkColumn{
-        "landing_latency_p90_ms",
-        [](const BenchmarkRow& r) { return r.extended.landing.absolute_percentile(0.9); }},
-    BenchmarkColumn{"takeoff_early_share",
-                    [](const BenchmarkRow& r) { return r.extended.takeoff.early_share(); }},
-    BenchmarkColumn{"landing_early_share",
-                    [](const BenchmarkRow& r) { return r.extended.landing.early_share(); }}};
-
-/// Rows: estimators. Columns: scenes, then the mean and the worst scene of estimators that were
-/// scored in every scene.
-Table scene_table(std::span<const BenchmarkRow> rows) {
-  Table table{{""}, {}};
-  std::vector<std::vector<double>> values;
-  for (const BenchmarkRow& row : rows) {
-    if (row.estimator == rows.front().estimator) table.header.push_back(row.scene);
-    const std::string title = estimator_title(row.estimator);
-    auto line = std::find_if(table.rows.begin(), table.rows.end(),
-                             [&](const auto& cells) { return cells.front() == title; });
-    if (line == table.rows.end()) {
-      table.rows.push_back({title});
-      values.emplace_back();
-      line = table.rows.end() - 1;
-    }
-    const double value = row.balanced_accuracy.estimate;
-    const auto scene = std::find(table.header.begin(), table.header.end(), row.scene);
-    line->resize(static_cast<std::size_t>(scene - table.header.begin()), "–");
-    line->push_back(fmt::format("{:.3f}", value));
-    values[static_cast<std::size_t>(line - table.rows.begin())].push_back(value);
-  }
-  const std::size_t scenes = table.header.size() - 1;
-  table.header.insert(table.header.end(), {"mean", "worst"});
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    if (values[i].size() < scenes) {
-      table.rows[i].resize(table.header.size(), "–");
-      continue;
-    }
-    double mean = 0.0;
-    double worst = 1.0;
-    for (const double value : values[i]) {
-      mean += value / static_cast<double>(values[i].size());
-      worst = std::fmin(worst, value);
-    }
-    for (const double value : {mean, worst}) table.rows[i].push_back(fmt::format("{:.3f}", value));
-  }
-  return table;
-}
-
-Table rows_table(const std::vector<BenchmarkRow>& rows, double level) {
-  std::vector<std::string> last;
-  for (const BenchmarkColumn& column : columns) last.emplace_back(column.name);
-  last.insert(last.end(), {"torque_noise_nm", "accelerometer_noise_mps2", "takeoffs", "runs",
-                           "failed", "fitted_on", "refits"});
-  Table table{
-      header_with_intervals({"simulator", "robot", "sensors", "scene", "split", "estimator"},
-                            {"balanced_accuracy"}, last),
-      {}};
-  for (const BenchmarkRow& row : rows) {
-    std::vector<std::string> cells;
-    for (const BenchmarkColumn& column : columns) cells.push_back(metric(column.of(row)));
-    cells.insert(cells.end(),
-                 {exact(row.noise.torque), exact(row.noise.accelerometer),
-                  std::to_string(row.score.takeoff.events), std::to_string(row.runs),
-                  std::to_string(row.failed), row.fitted_on, std::to_string(row.refits)});
-    table.rows.push_back(row_with_intervals(
-        {row.simulator, row.robot, row.sensors, row.scene, row.split, row.estimator},
-        {interval_of(row.balanced_accuracy, level)}, cells));
-  }
-  return table;
+Columns<BenchmarkRow> row_columns(double level) {
+  using Row = BenchmarkRow;
+  return Columns<Row>()
+      .text("simulator", &Row::simulator)
+      .text("robot", &Row::robot)
+      .text("sensors", &Row::sensors)
+      .text("scene", &Row::scene)
+      .text("split", &Row::split)
+      .text("estimator", &Row::estimator)
+      .interval("balanced_accuracy",
+                [level](const Row& row) { return interval_of(row.balanced_accuracy, level); })
+      .metric("no_contact_precision",
+              [](const Row& r) { return r.score.points.no_contact_precision(); })
+      .metric("no_contact_recall", [](const Row& r) { return r.score.points.no_contact_recall(); })
+      .metric("flight_f1", [](const Row& r) { return r.extended.flights.f1(); })
+      .metric("takeoff_latency_median_ms",
+              [](const Row& r) { return r.extended.takeoff.absolute_percentile(0.5); })
+      .metric("landing_latency_median_ms",
+              [](const Row& r) { return r.extended.landing.absolute_percentile(0.5); })
+      .metric("extra_switches_per_minute",
+              [](const Row& r) { return per_minute(r.extended.extra_switches, r.score.scored_us); })
+      .metric("calibration_error",
+              [](const Row& r) { return r.score.calibration.expected_error(); })
+      .metric(
+          "log_loss",
+          [](const Row& r) { return r.extended.log_loss / static_cast<double>(r.extended.steps); })
+      .metric("success", [](const Row& r) { return r.score.points.success(); })
+      .metric("loaded_balanced_accuracy",
+              [](const Row& r) { return r.extended.loaded.balanced_accuracy(); })
+      .metric("false_takeoffs_per_minute",
+              [](const Row& r) { return r.score.false_takeoffs_per_minute(); })
+      .metric("takeoff_latency_p90_ms",
+              [](const Row& r) { return r.extended.takeoff.absolute_percentile(0.9); })
+      .metric("landing_latency_p90_ms",
+              [](const Row& r) { return r.extended.landing.absolute_percentile(0.9); })
+      .metric("takeoff_early_share", [](const Row& r) { return r.extended.takeoff.early_share(); })
+      .metric("landing_early_share", [](const Row& r) { return r.extended.landing.early_share(); })
+      .part(&Row::noise, noise_columns())
+      .count("takeoffs", [](const Row& r) { return r.score.takeoff.events; })
+      .runs("runs", &Row::runs)
+      .count("failed", &Row::failed)
+      .text("fitted_on", &Row::fitted_on)
+      .number("refits", &Row::refits)
+      .is(ColumnRole::note);
 }
 
 /// The first columns of the two tables below.
-const std::vector<std::string> setup_columns = {"robot", "sensors", "torque_noise_nm",
-                                                "accelerometer_noise_mps2"};
-
-std::vector<std::string> setup_cells(const Standings& standings) {
-  return {standings.robot, standings.sensors, exact(standings.noise.torque),
-          exact(standings.noise.accelerometer)};
+Columns<Standings> setup_columns() {
+  return Columns<Standings>()
+      .text("robot", &Standings::robot)
+      .text("sensors", &Standings::sensors)
+      .part(&Standings::noise, noise_columns());
 }
 
-template <typename... Texts>
-std::vector<std::string> followed_by(std::vector<std::string> first, const Texts&... more) {
-  (first.emplace_back(more), ...);
-  return first;
-}
+/// A part of standings, and what it belongs to.
+template <typename Part>
+struct PartOfStandings {
+  const Standings* all;
+  const Part* part;
+};
 
-Table standings_table(const std::vector<Standings>& all) {
-  Table table{header_with_intervals(
-                  followed_by(setup_columns, "estimator"), {"mean_balanced_accuracy"},
-                  {"worst_balanced_accuracy", "worst_scene", "worst_simulator",
-                   "is_not_significantly_worse", "log_loss_bits", "excess_log_loss_bits"}),
-              {}};
+template <typename Part>
+std::vector<PartOfStandings<Part>> parts_of(const std::vector<Standings>& all,
+                                            std::vector<Part> Standings::*list) {
+  std::vector<PartOfStandings<Part>> parts;
   for (const Standings& standings : all) {
-    for (const Standings::Entry& entry : standings.entries) {
-      table.rows.push_back(
-          row_with_intervals(followed_by(setup_cells(standings), entry.estimator), {entry.mean},
-                             {metric(entry.worst), entry.worst_scene, entry.worst_simulator,
-                              entry.is_not_significantly_worse ? "1" : "0", metric(entry.log_loss),
-                              metric(entry.excess_log_loss)}));
-    }
+    for (const Part& part : standings.*list) parts.push_back({&standings, &part});
   }
-  return table;
+  return parts;
 }
 
-Table differences_table(const std::vector<Standings>& all) {
-  Table table{
-      header_with_intervals(followed_by(setup_columns, "scene", "first", "second"), {"difference"}),
-      {}};
-  for (const Standings& standings : all) {
-    for (const Standings::Difference& pair : standings.differences) {
-      table.rows.push_back(row_with_intervals(
-          followed_by(setup_cells(standings), pair.scene, pair.first, pair.second), {pair.value}));
+template <typename Part>
+Columns<PartOfStandings<Part>> with_setup(const Columns<Part>& columns) {
+  using Row = PartOfStandings<Part>;
+  return Columns<Row>()
+      .part([](const Row& row) -> const Standings& { return *row.all; }, setup_columns())
+      .part([](const Row& row) -> const Part& { return *row.part; }, columns);
+}
+
+Columns<Standings::Entry> entry_columns() {
+  using Entry = Standings::Entry;
+  return Columns<Entry>()
+      .text("estimator", &Entry::estimator)
+      .interval("mean_balanced_accuracy", &Entry::mean)
+      .metric("worst_balanced_accuracy", &Entry::worst)
+      .text("worst_scene", &Entry::worst_scene)
+      .is(ColumnRole::note)
+      .text("worst_simulator", &Entry::worst_simulator)
+      .is(ColumnRole::note)
+      .flag("is_not_significantly_worse", &Entry::is_not_significantly_worse)
+      .metric("log_loss_bits", &Entry::log_loss)
+      .metric("excess_log_loss_bits", &Entry::excess_log_loss);
+}
+
+Columns<Standings::Difference> pair_columns() {
+  using Difference = Standings::Difference;
+  return Columns<Difference>()
+      .text("scene", &Difference::scene)
+      .text("first", &Difference::first)
+      .text("second", &Difference::second)
+      .interval("difference", &Difference::value);
+}
+
+/// Rows: estimators. Columns: scenes, then the mean and the worst scene of estimators that were
+/// scored in every scene.
+Table scene_table(const std::vector<BenchmarkRow>& rows) {
+  const auto shown = [](double value) { return fmt::format("{:.3f}", value); };
+  Table table = pivot(
+      rows, [](const BenchmarkRow& row) { return estimator_title(row.estimator); },
+      &BenchmarkRow::scene,
+      [&](const BenchmarkRow& row) { return shown(row.balanced_accuracy.estimate); });
+  const std::size_t scenes = table.header.size() - 1;
+  table.header.insert(table.header.end(), {"mean", "worst"});
+  auto cells = table.rows.begin();
+  for (const auto& scored : group_by(rows, &BenchmarkRow::estimator)) {
+    double mean = 0.0;
+    double worst = 1.0;
+    for (const BenchmarkRow& row : scored.rows) {
+      mean += row.balanced_accuracy.estimate / static_cast<double>(scored.rows.size());
+      worst = std::fmin(worst, row.balanced_accuracy.estimate);
     }
+    const bool is_complete = scored.rows.size() == scenes;
+    for (const double value : {mean, worst}) {
+      cells->push_back(is_complete ? shown(value) : "–");
+    }
+    ++cells;
   }
   return table;
 }
@@ -188,8 +168,7 @@ std::string standings_text(const Standings& standings) {
 /// Every scene of one engine, robot, sensors and noise.
 std::string scenes_text(const Standings& standings, const std::string& simulator,
                         const std::vector<BenchmarkRow>& rows) {
-  std::vector<BenchmarkRow> alike;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(alike), [&](const BenchmarkRow& row) {
+  const auto alike = where(rows, [&](const BenchmarkRow& row) {
     return row.fitted_on == "own" && row.simulator == simulator && row.robot == standings.robot &&
            row.sensors == standings.sensors && row.noise == standings.noise;
   });
@@ -218,13 +197,16 @@ BenchmarkResult with_standings(std::vector<BenchmarkRow> rows, double level) {
 
 void write_tables(const BenchmarkResult& result, double level, const RunDirectory& directory) {
   nlohmann::ordered_json json;
-  const auto write = [&](const std::string& name, const char* key, const Table& table) {
-    directory.write_table(name + ".csv", table);
-    json[key] = json_of(table);
+  const auto write = [&](const std::string& name, const char* key, const auto& columns,
+                         const auto& rows) {
+    directory.write_table(name, columns, rows);
+    json[key] = json_of(columns.table(rows));
   };
-  write("benchmark", "rows", rows_table(result.rows, level));
-  write("benchmark_standings", "standings", standings_table(result.standings));
-  write("benchmark_differences", "differences", differences_table(result.standings));
+  write("benchmark.csv", "rows", row_columns(level), result.rows);
+  write("benchmark_standings.csv", "standings", with_setup(entry_columns()),
+        parts_of(result.standings, &Standings::entries));
+  write("benchmark_differences.csv", "differences", with_setup(pair_columns()),
+        parts_of(result.standings, &Standings::differences));
   write_atomically(directory.file("tables", "benchmark.json"), json.dump(1) + "\n");
 }
 

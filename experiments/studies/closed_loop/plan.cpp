@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "scenarios/varied.hpp"
 

@@ -8,9 +8,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/table.hpp"
+#include "core/tables/verbs.hpp"
 #include "experiments/odometry/contact_sources.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/tables/noise_columns.hpp"
 #include "scoring/exact_share.hpp"
 #include "simulators/registry.hpp"
 
@@ -49,19 +50,71 @@ std::string point_text(const SurvivalRow& row) {
   return row.varied.empty() ? "finished" : fmt::format("{} {:g}", row.varied, row.cell.value);
 }
 
-/// The points of a curve, then the other metrics at the last point.
-std::vector<std::string> curve_cells(std::vector<SurvivalRow>::const_iterator first,
-                                     std::vector<SurvivalRow>::const_iterator last) {
-  std::vector<std::string> cells = {contact_title(first->cell.contact)};
-  for (auto row = first; row != last; ++row) {
-    cells.push_back(fmt::format("{}/{}", row->metrics.finished, row->metrics.runs));
+/// One line per contact source: the points of its curve, then the other metrics at the last point.
+Table curve_table(const std::vector<SurvivalRow>& rows) {
+  const SurvivalRow& first = rows.front();
+  Table table{{fmt::format("{}, {}, {}", first.scene, first.cell.law,
+                           simulators::simulator_title(first.cell.simulator))},
+              {}};
+  const auto curves = group_by(rows, [](const SurvivalRow& row) { return row.cell.contact; });
+  for (const SurvivalRow& row : curves.front().rows) table.header.push_back(point_text(row));
+  table.header.insert(table.header.end(),
+                      {"slip (m/s)", "pitch (rad)", "force (N)", "false takeoffs/min"});
+  for (const auto& curve : curves) {
+    std::vector<std::string>& cells = table.rows.emplace_back(1, contact_title(curve.key));
+    for (const SurvivalRow& row : curve.rows) {
+      cells.push_back(fmt::format("{}/{}", row.metrics.finished, row.metrics.runs));
+    }
+    const ClosedLoopMetrics& end = curve.rows.back().metrics;
+    cells.push_back(fmt::format("{:.2f}", end.landing_speed_rms()));
+    cells.push_back(fmt::format("{:.2f}", end.mean_largest_pitch()));
+    cells.push_back(fmt::format("{:.0f}", end.mean_largest_force()));
+    cells.push_back(fmt::format("{:.1f}", end.false_takeoffs_per_minute()));
   }
-  const ClosedLoopMetrics& end = (last - 1)->metrics;
-  cells.push_back(fmt::format("{:.2f}", end.landing_speed_rms()));
-  cells.push_back(fmt::format("{:.2f}", end.mean_largest_pitch()));
-  cells.push_back(fmt::format("{:.0f}", end.mean_largest_force()));
-  cells.push_back(fmt::format("{:.1f}", end.false_takeoffs_per_minute()));
-  return cells;
+  return table;
+}
+
+double rise_of(const SurvivalRow& row) {
+  const bool is_rise = row.key == "rise" || row.key.ends_with(".rise");
+  return is_rise ? row.cell.value : std::numeric_limits<double>::quiet_NaN();
+}
+
+Columns<ClosedLoopMetrics> metric_columns() {
+  using Metrics = ClosedLoopMetrics;
+  return Columns<Metrics>()
+      .count("landings", &Metrics::landings)
+      .metric("landing_speed_rms_mps", &Metrics::landing_speed_rms)
+      .metric("largest_pitch_rad", &Metrics::mean_largest_pitch)
+      .metric("largest_force_n", &Metrics::mean_largest_force)
+      .metric("false_takeoffs_per_minute", &Metrics::false_takeoffs_per_minute);
+}
+
+Columns<SurvivalRow> survival_columns() {
+  using Row = SurvivalRow;
+  return Columns<Row>()
+      .text("simulator", [](const Row& row) { return row.cell.simulator; })
+      .text("scenario", &Row::scene)
+      .as("scene")
+      .text("policy", [](const Row& row) { return row.cell.law; })
+      .text("contact", [](const Row& row) { return row.cell.contact; })
+      .as("estimator")
+      .level("rise_m", rise_of)
+      .is(ColumnRole::note)
+      .runs("runs", [](const Row& row) { return row.metrics.runs; })
+      .interval("finished", &Row::finished)
+      .text("varied", &Row::varied)
+      .text("key", &Row::key)
+      .level("value", [](const Row& row) { return row.cell.value; })
+      .level("delay_ms", [](const Row& row) { return 1e3 * row.cell.delay; })
+      .part([](const Row& row) { return row.cell.noise; }, noise_columns())
+      .text("robot", &Row::robot)
+      .text("sensors", &Row::sensors)
+      .flag("is_oracle", [](const Row& row) { return row.cell.is_oracle(); })
+      .is(ColumnRole::note)
+      .count("fell", [](const Row& row) { return row.metrics.fell; })
+      .count("won_against_always", &Row::won_against_always)
+      .count("lost_against_always", &Row::lost_against_always)
+      .part(&Row::metrics, metric_columns());
 }
 
 }  // namespace
@@ -102,66 +155,7 @@ std::vector<SurvivalRow> survival_rows(const RunRequest& request, const SavedMet
 }
 
 void write_tables(const std::vector<SurvivalRow>& rows, const RunDirectory& directory) {
-  Table table{{"simulator",
-               "scenario",
-               "policy",
-               "contact",
-               "rise_m",
-               "runs",
-               "finished",
-               "finished_low",
-               "finished_high",
-               "varied",
-               "key",
-               "value",
-               "delay_ms",
-               "torque_noise_nm",
-               "accelerometer_noise_mps2",
-               "robot",
-               "sensors",
-               "is_oracle",
-               "fell",
-               "won_against_always",
-               "lost_against_always",
-               "landings",
-               "landing_speed_rms_mps",
-               "largest_pitch_rad",
-               "largest_force_n",
-               "false_takeoffs_per_minute"},
-              {}};
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const SurvivalRow& row : rows) {
-    const ClosedLoopCell& cell = row.cell;
-    const ClosedLoopMetrics& metrics = row.metrics;
-    const bool is_rise = row.key == "rise" || row.key.ends_with(".rise");
-    table.rows.push_back({cell.simulator,
-                          row.scene,
-                          cell.law,
-                          cell.contact,
-                          exact(is_rise ? cell.value : nan),
-                          std::to_string(metrics.runs),
-                          metric(row.finished.estimate),
-                          metric(row.finished.low),
-                          metric(row.finished.high),
-                          row.varied,
-                          row.key,
-                          exact(cell.value),
-                          exact(1e3 * cell.delay),
-                          exact(cell.noise.torque),
-                          exact(cell.noise.accelerometer),
-                          row.robot,
-                          row.sensors,
-                          cell.is_oracle() ? "1" : "0",
-                          std::to_string(metrics.fell),
-                          std::to_string(row.won_against_always),
-                          std::to_string(row.lost_against_always),
-                          std::to_string(metrics.landings),
-                          metric(metrics.landing_speed_rms()),
-                          metric(metrics.mean_largest_pitch()),
-                          metric(metrics.mean_largest_force()),
-                          metric(metrics.false_takeoffs_per_minute())});
-  }
-  directory.write_table("survival.csv", table);
+  directory.write_table("survival.csv", survival_columns(), rows);
 }
 
 std::string survival_text(const std::vector<SurvivalRow>& rows, const Experiment& experiment) {
@@ -170,28 +164,11 @@ std::string survival_text(const std::vector<SurvivalRow>& rows, const Experiment
       "the last point: RMS slip speed of the tyres at landings, means over runs of the largest "
       "pitch and normal force, false takeoffs per minute of contact:\n",
       experiment.closed_loop->runs, setup_caption(experiment));
-  Table table;
-  for (auto first = rows.begin(); first != rows.end();) {
-    const auto last = std::find_if(first, rows.end(), [&](const SurvivalRow& row) {
-      return row.cell.contact != first->cell.contact || row.cell.scene != first->cell.scene ||
-             row.cell.simulator != first->cell.simulator || row.cell.law != first->cell.law;
-    });
-    if (table.rows.empty()) {
-      table.header = {fmt::format("{}, {}, {}", first->scene, first->cell.law,
-                                  simulators::simulator_title(first->cell.simulator))};
-      for (auto row = first; row != last; ++row) table.header.push_back(point_text(*row));
-      table.header.insert(table.header.end(),
-                          {"slip (m/s)", "pitch (rad)", "force (N)", "false takeoffs/min"});
-    }
-    table.rows.push_back(curve_cells(first, last));
-    const bool is_last = last == rows.end() || last->cell.scene != first->cell.scene ||
-                         last->cell.simulator != first->cell.simulator ||
-                         last->cell.law != first->cell.law;
-    if (is_last) {
-      text += fmt::format("\n{}", to_text(table));
-      table = {};
-    }
-    first = last;
+  const auto table_of = [](const SurvivalRow& row) {
+    return std::tuple(row.cell.scene, row.cell.simulator, row.cell.law);
+  };
+  for (const auto& alike : group_by(rows, table_of)) {
+    text += fmt::format("\n{}", to_text(curve_table(alike.rows)));
   }
   return text;
 }

@@ -1,73 +1,77 @@
 #include "experiments/studies/cross_simulator/tables.hpp"
 
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "core/tables/verbs.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-Table agreement_csv(const CrossSimulatorResult& result) {
-  const std::vector<std::string>& engine = result.experiment.simulators;
-  Table table{header_with_intervals({"quantity", "unit"}, {engine[0], engine[1], "difference"}),
-              {}};
-  for (const QuantityAgreement& q : result.agreement.quantities) {
-    table.rows.push_back(row_with_intervals({q.name, q.unit}, {q.first, q.second, q.difference}));
-  }
-  return table;
+Columns<QuantityAgreement> agreement_columns(const std::vector<std::string>& engines) {
+  return Columns<QuantityAgreement>()
+      .text("quantity", &QuantityAgreement::name)
+      .text("unit", &QuantityAgreement::unit)
+      .interval(engines[0], &QuantityAgreement::first)
+      .interval(engines[1], &QuantityAgreement::second)
+      .interval("difference", &QuantityAgreement::difference);
 }
 
-Table torques_csv(const Agreement& agreement) {
-  Table table{
-      header_with_intervals({"torque"}, {"wasserstein_nm", "overlap"}, {"within_engine_nm"}), {}};
-  for (const TorqueAgreement& t : agreement.torques) {
-    table.rows.push_back(
-        row_with_intervals({t.name}, {t.distance, t.overlap}, {metric(t.within_engine)}));
-  }
-  return table;
+Columns<TorqueAgreement> torque_columns() {
+  return Columns<TorqueAgreement>()
+      .text("torque", &TorqueAgreement::name)
+      .interval("wasserstein_nm", &TorqueAgreement::distance)
+      .interval("overlap", &TorqueAgreement::overlap)
+      .metric("within_engine_nm", &TorqueAgreement::within_engine);
 }
 
-Table transfer_csv(const std::vector<Transfer>& transfers) {
-  Table table{header_with_intervals({"torque_noise_nm", "accelerometer_noise_mps2", "estimator",
-                                     "fit_simulator", "test_simulator", "is_fitted"},
-                                    {"success", "no_contact_recall", "loss", "gain"}),
-              {}};
-  for (const Transfer& t : transfers) {
-    table.rows.push_back(row_with_intervals(
-        {exact(t.cell.torque), exact(t.cell.accelerometer), t.condition.estimator,
-         t.condition.fit_simulator, t.condition.test_simulator, t.is_fitted ? "1" : "0"},
-        {t.success, t.no_contact_recall, t.loss, t.gain}));
-  }
-  return table;
+Columns<Transfer> transfer_columns() {
+  return Columns<Transfer>()
+      .part(&Transfer::cell, noise_columns())
+      .text("estimator", [](const Transfer& t) { return t.condition.estimator; })
+      .text("fit_simulator", [](const Transfer& t) { return t.condition.fit_simulator; })
+      .text("test_simulator", [](const Transfer& t) { return t.condition.test_simulator; })
+      .as("simulator")
+      .flag("is_fitted", &Transfer::is_fitted)
+      .is(ColumnRole::note)
+      .interval("success", &Transfer::success)
+      .interval("no_contact_recall", &Transfer::no_contact_recall)
+      .interval("loss", &Transfer::loss)
+      .interval("gain", &Transfer::gain);
 }
 
-Table sensitivity_csv(const std::vector<Sensitivity>& sensitivities) {
-  Table table{
-      header_with_intervals(
-          {"factor", "value", "nominal", "simulator", "estimator", "runs", "failed"}, {"success"}),
-      {}};
-  for (const Sensitivity& s : sensitivities) {
-    table.rows.push_back(row_with_intervals(
-        {s.variation.factor, exact(s.variation.value), exact(s.variation.nominal),
-         s.variation.simulator, s.estimator, std::to_string(s.runs), std::to_string(s.failed)},
-        {s.success}));
-  }
-  return table;
+Columns<Sensitivity> sensitivity_columns() {
+  return Columns<Sensitivity>()
+      .text("factor", [](const Sensitivity& s) { return s.variation.factor; })
+      .level("value", [](const Sensitivity& s) { return s.variation.value; })
+      .level("nominal", [](const Sensitivity& s) { return s.variation.nominal; })
+      .is(ColumnRole::note)
+      .text("simulator", [](const Sensitivity& s) { return s.variation.simulator; })
+      .text("estimator", &Sensitivity::estimator)
+      .runs("runs", &Sensitivity::runs)
+      .count("failed", &Sensitivity::failed)
+      .interval("success", &Sensitivity::success);
 }
 
-Table verdicts_csv(const std::vector<Verdict>& verdicts) {
-  Table table{{"estimator", "verdict", "demanded", "loss_high", "gain_low", "words"}, {}};
-  for (const Verdict& v : verdicts) {
-    table.rows.push_back({v.estimator, v.holds ? "holds" : "fails", v.is_demanded ? "1" : "0",
-                          metric(v.loss), metric(v.gain), v.words});
-  }
-  return table;
+Columns<Verdict> verdict_columns() {
+  return Columns<Verdict>()
+      .text("estimator", &Verdict::estimator)
+      .text("verdict", [](const Verdict& verdict) { return verdict.holds ? "holds" : "fails"; })
+      .is(ColumnRole::note)
+      .flag("demanded", &Verdict::is_demanded)
+      .is(ColumnRole::note)
+      .metric("loss_high", &Verdict::loss)
+      .metric("gain_low", &Verdict::gain)
+      .text("words", &Verdict::words)
+      .is(ColumnRole::note);
 }
 
 CaptionedTable agreement_table(const CrossSimulatorResult& result) {
@@ -136,22 +140,23 @@ CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
                   setup_caption(result.experiment)),
       "sensitivity",
       {{"factor", "simulator", "value", "fell"}, {}}};
-  std::string last;
-  for (const Sensitivity& s : result.sensitivities) {
-    const std::string key =
-        fmt::format("{} {} {}", s.variation.factor, s.variation.simulator, s.variation.value);
-    if (key != last) {
-      table.table.rows.push_back(
-          {s.variation.factor, s.variation.simulator,
-           exact(s.variation.value) + (s.variation.value == s.variation.nominal ? " *" : ""),
-           fmt::format("{}/{}", s.failed, s.runs + s.failed)});
+  for (const std::string& estimator : unique(result.sensitivities, &Sensitivity::estimator)) {
+    table.table.header.push_back(estimator_entry(estimator).title);
+  }
+  const auto value_of = [](const Sensitivity& s) {
+    return std::tuple(s.variation.factor, s.variation.simulator, s.variation.value);
+  };
+  for (const auto& alike : group_by(result.sensitivities, value_of)) {
+    const Sensitivity& first = alike.rows.front();
+    const Variation& variation = first.variation;
+    std::vector<std::string>& cells = table.table.rows.emplace_back(
+        std::vector{variation.factor, variation.simulator,
+                    exact(variation.value) + (variation.is_nominal() ? " *" : ""),
+                    fmt::format("{}/{}", first.failed, first.runs + first.failed)});
+    for (const Sensitivity& s : alike.rows) {
+      cells.push_back(std::isnan(s.success.estimate) ? "–"
+                                                     : fmt::format("{:.3f}", s.success.estimate));
     }
-    last = key;
-    if (table.table.rows.size() == 1) {
-      table.table.header.push_back(estimator_entry(s.estimator).title);
-    }
-    table.table.rows.back().push_back(
-        std::isnan(s.success.estimate) ? "–" : fmt::format("{:.3f}", s.success.estimate));
   }
   return table;
 }
@@ -183,11 +188,12 @@ std::string report_text(const CrossSimulatorResult& result) {
 }
 
 void write_tables(const CrossSimulatorResult& result, const RunDirectory& directory) {
-  directory.write_table("agreement.csv", agreement_csv(result));
-  directory.write_table("torques.csv", torques_csv(result.agreement));
-  directory.write_table("transfer.csv", transfer_csv(result.transfers));
-  directory.write_table("sensitivity.csv", sensitivity_csv(result.sensitivities));
-  directory.write_table("verdicts.csv", verdicts_csv(result.verdicts));
+  directory.write_table("agreement.csv", agreement_columns(result.experiment.simulators),
+                        result.agreement.quantities);
+  directory.write_table("torques.csv", torque_columns(), result.agreement.torques);
+  directory.write_table("transfer.csv", transfer_columns(), result.transfers);
+  directory.write_table("sensitivity.csv", sensitivity_columns(), result.sensitivities);
+  directory.write_table("verdicts.csv", verdict_columns(), result.verdicts);
   std::string markdown;
   for (const CaptionedTable& table : report_tables(result)) markdown += to_markdown(table) + "\n";
   markdown += "Verdicts\n\n" + verdict_lines(result.verdicts, "- ");

@@ -17,12 +17,12 @@ void LabelStudy::plan(const RunRequest& /*request*/, Plan& plan) const {
 
 StudyResult LabelStudy::summarize(const Evaluation& evaluation,
                                   const RunDirectory& directory) const {
-  const Table labels = label_table(evaluation);
-  directory.write_table("labels.csv", labels);
+  const std::vector<LabelRow> rows = label_rows(evaluation);
+  directory.write_table("labels.csv", label_columns(), rows);
   write_atomically(directory.file("tables", "labels.md"),
                    to_markdown({"Point-wise scores by the definition of contact" +
                                     setup_caption(evaluation.request.experiment) + ".",
-                                "labels", labels}));
+                                "labels", label_columns().table(rows)}));
   return {};
 }
 

@@ -50,10 +50,8 @@ Measure label_measure() {
       });
 }
 
-Table label_table(const Evaluation& evaluation) {
-  Table table{header_with_intervals({"simulator", "estimator", "force_threshold_n", "debounce_s"},
-                                    {"success", "no_contact_precision", "no_contact_recall"}),
-              {}};
+std::vector<LabelRow> label_rows(const Evaluation& evaluation) {
+  std::vector<LabelRow> rows;
   const Experiment& experiment = evaluation.request.experiment;
   const RunGroup& group = evaluation.plan.groups.front();
   for (const std::string& simulator : experiment.simulators) {
@@ -74,15 +72,24 @@ Table label_table(const Evaluation& evaluation) {
             {&scoring::Classification::success, &scoring::Classification::no_contact_precision,
              &scoring::Classification::no_contact_recall},
             experiment.intervals.bootstrap);
-        const scoring::LabelConfig labels = definitions()[d];
-        table.rows.push_back(
-            row_with_intervals({simulator, conditions[runs.front()[c].condition].estimator,
-                                exact(labels.force_threshold), exact(labels.debounce)},
-                               scores));
+        rows.push_back({simulator, conditions[runs.front()[c].condition].estimator,
+                        definitions()[d], scores[0], scores[1], scores[2]});
       }
     }
   }
-  return table;
+  return rows;
+}
+
+Columns<LabelRow> label_columns() {
+  using Row = LabelRow;
+  return Columns<Row>()
+      .text("simulator", &Row::simulator)
+      .text("estimator", &Row::estimator)
+      .level("force_threshold_n", [](const Row& row) { return row.labels.force_threshold; })
+      .level("debounce_s", [](const Row& row) { return row.labels.debounce; })
+      .interval("success", &Row::success)
+      .interval("no_contact_precision", &Row::no_contact_precision)
+      .interval("no_contact_recall", &Row::no_contact_recall);
 }
 
 }  // namespace touchdown::experiments

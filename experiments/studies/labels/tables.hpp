@@ -1,7 +1,11 @@
 #pragma once
 
-#include "core/table.hpp"
+#include <string>
+#include <vector>
+
+#include "core/tables/columns.hpp"
 #include "experiments/evaluation/tasks.hpp"
+#include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
 
@@ -11,7 +15,20 @@ namespace touchdown::experiments {
 /// realisation; a score is of type `scoring::Classification`, both wheels added.
 Measure label_measure();
 
-/// Point-wise scores, a row per engine, estimator and definition, with intervals over runs.
-Table label_table(const Evaluation& evaluation);
+/// Point-wise scores of one estimator in one engine by one definition, with intervals over runs.
+struct LabelRow {
+  std::string simulator;
+  std::string estimator;
+  scoring::LabelConfig labels;
+  Interval success;
+  Interval no_contact_precision;
+  Interval no_contact_recall;
+};
+
+/// By engine, estimator, definition.
+std::vector<LabelRow> label_rows(const Evaluation& evaluation);
+
+/// The columns of `labels.csv`.
+Columns<LabelRow> label_columns();
 
 }  // namespace touchdown::experiments

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/plan/sensors.hpp"
 
 namespace touchdown::experiments {
@@ -35,6 +35,66 @@ std::string with_deviation(double mean, double deviation) {
   return fmt::format("{:.3f} ± {:.3f}", mean, deviation);
 }
 
+/// One joint in one contact state, in one engine.
+struct JointTorques {
+  std::string simulator;
+  const RobotTorque* reference;
+  const TorqueDistribution* distribution;
+};
+
+struct DensityPoint {
+  JointTorques of;
+  double torque;   ///< N·m
+  double density;  ///< 1/(N·m)
+};
+
+Columns<JointTorques> joint_columns() {
+  using Row = JointTorques;
+  return Columns<Row>()
+      .text("simulator", &Row::simulator)
+      .text("joint", [](const Row& row) { return name(row.reference->joint); })
+      .number("contact", [](const Row& row) { return row.reference->contact; });
+}
+
+Columns<JointTorques> moment_columns() {
+  using Row = JointTorques;
+  return joint_columns()
+      .metric("mean_nm", [](const Row& row) { return row.distribution->mean; })
+      .metric("sd_nm", [](const Row& row) { return row.distribution->deviation; })
+      .metric("robot_mean_nm", [](const Row& row) { return row.reference->robot_mean; })
+      .metric("robot_sd_nm", [](const Row& row) { return row.reference->robot_deviation; });
+}
+
+Columns<JointTorques> distribution_columns() {
+  using Row = JointTorques;
+  Columns<Row> columns = joint_columns();
+  columns.count("samples", [](const Row& row) { return row.distribution->samples; });
+  for (std::size_t q = 0; q < quantiles.size(); ++q) {
+    columns.metric(fmt::format("q{:.0f}_nm", 100.0 * quantiles[q]),
+                   [q](const Row& row) { return row.distribution->quantile[q]; });
+  }
+  return columns.metric("max_nm", [](const Row& row) { return row.distribution->largest; })
+      .metric("autocorrelation_ms",
+              [](const Row& row) { return 1e3 * row.distribution->autocorrelation_time; });
+}
+
+Columns<DensityPoint> density_columns() {
+  return Columns<DensityPoint>()
+      .part(&DensityPoint::of, joint_columns())
+      .metric("torque_nm", &DensityPoint::torque)
+      .is(ColumnRole::key)
+      .metric("density_per_nm", &DensityPoint::density);
+}
+
+Columns<EngineTorques> overlap_columns() {
+  return Columns<EngineTorques>()
+      .text("simulator", &EngineTorques::simulator)
+      .metric("overlap", &EngineTorques::overlap)
+      .metric("robot_overlap", [](const EngineTorques&) { return robot_overlap; })
+      .runs("runs", &EngineTorques::runs)
+      .count("failed", &EngineTorques::failed);
+}
+
 }  // namespace
 
 std::vector<EngineTorques> torques_by_engine(const Evaluation& evaluation) {
@@ -63,43 +123,21 @@ std::vector<EngineTorques> torques_by_engine(const Evaluation& evaluation) {
 }
 
 void write_tables(const std::vector<EngineTorques>& engines, const RunDirectory& directory) {
-  Table moments{
-      {"simulator", "joint", "contact", "mean_nm", "sd_nm", "robot_mean_nm", "robot_sd_nm"}, {}};
-  Table distributions{{"simulator", "joint", "contact", "samples", "q50_nm", "q90_nm", "q99_nm",
-                       "max_nm", "autocorrelation_ms"},
-                      {}};
-  Table densities{{"simulator", "joint", "contact", "torque_nm", "density_per_nm"}, {}};
-  Table overlaps{{"simulator", "overlap", "robot_overlap", "runs", "failed"}, {}};
+  std::vector<JointTorques> joints;
+  std::vector<DensityPoint> points;
   for (const EngineTorques& engine : engines) {
     for (std::size_t i = 0; i < robot.size(); ++i) {
-      const RobotTorque& reference = robot[i];
-      const TorqueDistribution& distribution = engine.distribution[i];
-      const std::vector<std::string> what = {engine.simulator, name(reference.joint),
-                                             std::to_string(reference.contact)};
-      moments.rows.push_back(what);
-      for (const double value : {distribution.mean, distribution.deviation, reference.robot_mean,
-                                 reference.robot_deviation}) {
-        moments.rows.back().push_back(metric(value));
-      }
-      distributions.rows.push_back(what);
-      distributions.rows.back().push_back(std::to_string(distribution.samples));
-      for (const double value : distribution.quantile)
-        distributions.rows.back().push_back(metric(value));
-      distributions.rows.back().push_back(metric(distribution.largest));
-      distributions.rows.back().push_back(metric(1e3 * distribution.autocorrelation_time));
-      for (std::size_t c = 0; c < engine.density[i].size(); ++c) {
-        densities.rows.push_back(what);
-        densities.rows.back().push_back(metric(static_cast<double>(c) * torque_cell));
-        densities.rows.back().push_back(metric(engine.density[i][c]));
+      joints.push_back({engine.simulator, &robot[i], &engine.distribution[i]});
+      for (std::size_t cell = 0; cell < engine.density[i].size(); ++cell) {
+        points.push_back(
+            {joints.back(), static_cast<double>(cell) * torque_cell, engine.density[i][cell]});
       }
     }
-    overlaps.rows.push_back({engine.simulator, metric(engine.overlap), metric(robot_overlap),
-                             std::to_string(engine.runs), std::to_string(engine.failed)});
   }
-  directory.write_table("moments.csv", moments);
-  directory.write_table("torque_distributions.csv", distributions);
-  directory.write_table("torque_densities.csv", densities);
-  directory.write_table("overlap.csv", overlaps);
+  directory.write_table("moments.csv", moment_columns(), joints);
+  directory.write_table("torque_distributions.csv", distribution_columns(), joints);
+  directory.write_table("torque_densities.csv", density_columns(), points);
+  directory.write_table("overlap.csv", overlap_columns(), engines);
 }
 
 std::string moments_text(const std::vector<EngineTorques>& engines, const Experiment& experiment) {

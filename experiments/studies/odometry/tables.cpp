@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/table.hpp"
+#include "core/tables/verbs.hpp"
 #include "experiments/odometry/contact_sources.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/studies/odometry/plan.hpp"
@@ -68,6 +68,32 @@ std::string in_percent(const Interval& share) {
   return with_interval({100.0 * share.estimate, 100.0 * share.low, 100.0 * share.high}, 2);
 }
 
+Columns<OdometryRow> odometry_columns() {
+  using Row = OdometryRow;
+  using Score = scoring::TrajectoryScore;
+  return Columns<Row>()
+      .text("simulator", &Row::simulator)
+      .text("scenario", &Row::scene)
+      .as("scene")
+      .text("contact", &Row::contact)
+      .as("estimator")
+      .interval("rms_m", &Row::rms)
+      .interval("error_per_metre", &Row::error_per_metre)
+      .text("robot", &Row::robot)
+      .text("sensors", &Row::sensors)
+      .flag("is_oracle", &Row::is_oracle)
+      .is(ColumnRole::note)
+      .part(&Row::score, Columns<Score>()
+                             .metric("ate_m", &Score::ate)
+                             .metric("rpe_m", &Score::rpe)
+                             .metric("height_rms_m", &Score::height_rms)
+                             .metric("velocity_rms_mps", &Score::velocity_rms)
+                             .metric("end_per_metre", &Score::end_per_metre)
+                             .metric("distance_m", &Score::distance))
+      .runs("runs", &Row::runs)
+      .count("failed", &Row::failed);
+}
+
 }  // namespace
 
 std::vector<OdometryRow> odometry_rows(const Evaluation& evaluation) {
@@ -99,67 +125,24 @@ std::vector<OdometryRow> odometry_rows(const Evaluation& evaluation) {
 }
 
 void write_tables(const std::vector<OdometryRow>& rows, const RunDirectory& directory) {
-  Table table{{"simulator",
-               "scenario",
-               "contact",
-               "rms_m",
-               "rms_m_low",
-               "rms_m_high",
-               "error_per_metre",
-               "error_per_metre_low",
-               "error_per_metre_high",
-               "robot",
-               "sensors",
-               "is_oracle",
-               "ate_m",
-               "rpe_m",
-               "height_rms_m",
-               "velocity_rms_mps",
-               "end_per_metre",
-               "distance_m",
-               "runs",
-               "failed"},
-              {}};
-  for (const OdometryRow& row : rows) {
-    const scoring::TrajectoryScore& score = row.score;
-    table.rows.push_back({row.simulator, row.scene, row.contact});
-    std::vector<std::string>& cells = table.rows.back();
-    for (const Interval& interval : {row.rms, row.error_per_metre}) {
-      for (const double value : {interval.estimate, interval.low, interval.high}) {
-        cells.push_back(metric(value));
-      }
-    }
-    cells.insert(cells.end(), {row.robot, row.sensors, row.is_oracle ? "1" : "0"});
-    for (const double value : {score.ate(), score.rpe(), score.height_rms(), score.velocity_rms(),
-                               score.end_per_metre(), score.distance}) {
-      cells.push_back(metric(value));
-    }
-    cells.insert(cells.end(), {std::to_string(row.runs), std::to_string(row.failed)});
-  }
-  directory.write_table("odometry.csv", table);
+  directory.write_table("odometry.csv", odometry_columns(), rows);
 }
 
 std::string odometry_text(const std::vector<OdometryRow>& rows, const Experiment& experiment) {
   std::string text = fmt::format("Odometry by contact source ({}; {}):\n", labels_text(experiment),
                                  intervals_text(experiment));
-  Table table;
-  for (auto row = rows.begin(); row != rows.end(); ++row) {
-    if (table.rows.empty()) {
-      table.header = {fmt::format("{}, {}, {} sensors, {}", row->scene, row->robot, row->sensors,
-                                  row->simulator),
-                      "RMS (m)", "error per metre (%)", "height (m)", "velocity (m/s)"};
+  const auto title = [](const OdometryRow& row) {
+    return fmt::format("{}, {}, {} sensors, {}", row.scene, row.robot, row.sensors, row.simulator);
+  };
+  for (const auto& [heading, alike] : group_by(rows, title)) {
+    Table table{{heading, "RMS (m)", "error per metre (%)", "height (m)", "velocity (m/s)"}, {}};
+    for (const OdometryRow& row : alike) {
+      table.rows.push_back({contact_title(row.contact), with_interval(row.rms),
+                            in_percent(row.error_per_metre),
+                            fmt::format("{:.3f}", row.score.height_rms()),
+                            fmt::format("{:.3f}", row.score.velocity_rms())});
     }
-    table.rows.push_back({contact_title(row->contact), with_interval(row->rms),
-                          in_percent(row->error_per_metre),
-                          fmt::format("{:.3f}", row->score.height_rms()),
-                          fmt::format("{:.3f}", row->score.velocity_rms())});
-    const auto next = row + 1;
-    const bool is_last = next == rows.end() || next->scene != row->scene ||
-                         next->simulator != row->simulator || next->robot != row->robot ||
-                         next->sensors != row->sensors;
-    if (!is_last) continue;
     text += fmt::format("\n{}", to_text(table));
-    table = {};
   }
   return text;
 }

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
+#include "core/tables/verbs.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/studies/operating_points/plan.hpp"
 
@@ -74,20 +76,20 @@ class MeanOfDefined {
 };
 
 /// The mean over the rows of one estimator in one noise setting.
-OperatingMean mean_of(const std::vector<const OperatingRow*>& rows) {
+OperatingMean mean_of(const std::vector<OperatingRow>& rows) {
   MeanOfDefined balanced_accuracy;
   MeanOfDefined extra_switches;
   MeanOfDefined false_takeoffs;
   MeanOfDefined takeoff_error;
   scoring::OperatingScore all;
-  for (const OperatingRow* row : rows) {
-    balanced_accuracy.add(row->score.points.balanced_accuracy());
-    extra_switches.add(row->score.extra_switches_per_minute());
-    false_takeoffs.add(row->score.false_takeoffs_per_minute());
-    takeoff_error.add(row->score.takeoff_error());
-    all += row->score;
+  for (const OperatingRow& row : rows) {
+    balanced_accuracy.add(row.score.points.balanced_accuracy());
+    extra_switches.add(row.score.extra_switches_per_minute());
+    false_takeoffs.add(row.score.false_takeoffs_per_minute());
+    takeoff_error.add(row.score.takeoff_error());
+    all += row.score;
   }
-  return {rows.front()->noise,       rows.front()->estimator,        rows.front()->thresholds,
+  return {rows.front().noise,        rows.front().estimator,         rows.front().thresholds,
           balanced_accuracy.value(), extra_switches.value(),         false_takeoffs.value(),
           takeoff_error.value(),     all.extra_switches_per_flight()};
 }
@@ -127,15 +129,11 @@ std::vector<OperatingRow> operating_rows(const Evaluation& evaluation) {
 }
 
 std::vector<OperatingMean> operating_means(const std::vector<OperatingRow>& rows) {
-  std::vector<std::vector<const OperatingRow*>> alike;
-  for (const OperatingRow& row : rows) {
-    const auto place = std::find_if(alike.begin(), alike.end(), [&](const auto& some) {
-      return are_of_one(*some.front(), row) && some.front()->thresholds == row.thresholds;
-    });
-    (place == alike.end() ? alike.emplace_back() : *place).push_back(&row);
-  }
+  const auto point_of = [](const OperatingRow& row) {
+    return std::tuple(row.estimator, row.noise, row.thresholds);
+  };
   std::vector<OperatingMean> means;
-  for (const auto& some : alike) means.push_back(mean_of(some));
+  for (const auto& alike : group_by(rows, point_of)) means.push_back(mean_of(alike.rows));
   std::stable_sort(means.begin(), means.end(), [](const auto& one, const auto& other) {
     return std::pair(one.noise.torque, one.noise.accelerometer) <
            std::pair(other.noise.torque, other.noise.accelerometer);

@@ -6,60 +6,62 @@
 
 #include <fmt/format.h>
 
-#include "core/table.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-/// The thresholds as cells; empty for an estimator's own decision.
-std::vector<std::string> cells_of(const std::optional<scoring::Hysteresis>& thresholds) {
-  if (!thresholds) return {"", ""};
-  return {exact(thresholds->leave_below), exact(thresholds->return_above)};
+/// A threshold as a cell; empty for an estimator's own decision.
+template <typename Row>
+auto threshold(double scoring::Hysteresis::*one) {
+  return [one](const Row& row) {
+    return row.thresholds ? exact((*row.thresholds).*one) : std::string();
+  };
 }
 
-Table table_of(const std::vector<OperatingRow>& rows) {
-  Table table{{"simulator", "scenario", "torque_noise_nm", "accelerometer_noise_mps2", "estimator",
-               "leave_below", "return_above", "balanced_accuracy", "success",
-               "extra_switches_per_minute", "false_takeoffs_per_minute", "takeoff_recall",
-               "takeoff_error_ms", "extra_switches", "flights"},
-              {}};
-  for (const OperatingRow& row : rows) {
-    const scoring::OperatingScore& score = row.score;
-    std::vector<std::string>& cells =
-        table.rows.emplace_back(std::vector{row.simulator, row.scene, exact(row.noise.torque),
-                                            exact(row.noise.accelerometer), row.estimator});
-    for (std::string& cell : cells_of(row.thresholds)) cells.push_back(std::move(cell));
-    for (const double value : {score.points.balanced_accuracy(), score.points.success(),
-                               score.extra_switches_per_minute(), score.false_takeoffs_per_minute(),
-                               score.takeoff_recall(), 1e3 * score.takeoff_error()}) {
-      cells.push_back(metric(value));
-    }
-    cells.push_back(std::to_string(score.extra_switches));
-    cells.push_back(std::to_string(score.flights));
-  }
-  return table;
+/// The columns that both tables have: estimator, noise and thresholds.
+template <typename Row>
+Columns<Row> point_columns() {
+  return Columns<Row>()
+      .part(&Row::noise, noise_columns())
+      .text("estimator", &Row::estimator)
+      .text("leave_below", threshold<Row>(&scoring::Hysteresis::leave_below))
+      .text("return_above", threshold<Row>(&scoring::Hysteresis::return_above));
 }
 
-Table table_of(const std::vector<OperatingMean>& means) {
-  Table table{
-      {"torque_noise_nm", "accelerometer_noise_mps2", "estimator", "leave_below", "return_above",
-       "balanced_accuracy", "extra_switches_per_minute", "false_takeoffs_per_minute",
-       "takeoff_error_ms", "extra_switches_per_flight", "on_front"},
-      {}};
-  for (const OperatingMean& mean : means) {
-    std::vector<std::string>& cells = table.rows.emplace_back(
-        std::vector{exact(mean.noise.torque), exact(mean.noise.accelerometer), mean.estimator});
-    for (std::string& cell : cells_of(mean.thresholds)) cells.push_back(std::move(cell));
-    for (const double value :
-         {mean.balanced_accuracy, mean.extra_switches_per_minute, mean.false_takeoffs_per_minute,
-          1e3 * mean.takeoff_error, mean.extra_switches_per_flight}) {
-      cells.push_back(metric(value));
-    }
-    cells.emplace_back(mean.is_on_front ? "1" : "0");
-  }
-  return table;
+Columns<scoring::OperatingScore> score_columns() {
+  using Score = scoring::OperatingScore;
+  return Columns<Score>()
+      .metric("balanced_accuracy", [](const Score& s) { return s.points.balanced_accuracy(); })
+      .metric("success", [](const Score& s) { return s.points.success(); })
+      .metric("extra_switches_per_minute", &Score::extra_switches_per_minute)
+      .metric("false_takeoffs_per_minute", &Score::false_takeoffs_per_minute)
+      .metric("takeoff_recall", &Score::takeoff_recall)
+      .metric("takeoff_error_ms", [](const Score& s) { return 1e3 * s.takeoff_error(); })
+      .count("extra_switches", &Score::extra_switches)
+      .count("flights", &Score::flights);
+}
+
+Columns<OperatingRow> row_columns() {
+  return Columns<OperatingRow>()
+      .text("simulator", &OperatingRow::simulator)
+      .text("scenario", &OperatingRow::scene)
+      .as("scene")
+      .and_then(point_columns<OperatingRow>())
+      .part(&OperatingRow::score, score_columns());
+}
+
+Columns<OperatingMean> mean_columns() {
+  using Mean = OperatingMean;
+  return point_columns<Mean>()
+      .metric("balanced_accuracy", &Mean::balanced_accuracy)
+      .metric("extra_switches_per_minute", &Mean::extra_switches_per_minute)
+      .metric("false_takeoffs_per_minute", &Mean::false_takeoffs_per_minute)
+      .metric("takeoff_error_ms", [](const Mean& mean) { return 1e3 * mean.takeoff_error; })
+      .metric("extra_switches_per_flight", &Mean::extra_switches_per_flight)
+      .flag("on_front", &Mean::is_on_front);
 }
 
 std::string switches_text(double per_minute) {
@@ -91,8 +93,8 @@ std::vector<std::string> short_row(const OperatingMean& own,
 
 void write_tables(const std::vector<OperatingRow>& rows, const std::vector<OperatingMean>& means,
                   const RunDirectory& directory) {
-  directory.write_table("operating_points_by_scene.csv", table_of(rows));
-  directory.write_table("operating_points.csv", table_of(means));
+  directory.write_table("operating_points_by_scene.csv", row_columns(), rows);
+  directory.write_table("operating_points.csv", mean_columns(), means);
 }
 
 std::string operating_points_text(const std::vector<OperatingMean>& means,

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "noise/sensors/factor.hpp"
 
 namespace touchdown::experiments {

@@ -1,17 +1,50 @@
 #include "experiments/studies/sensor_sweep/tables.hpp"
 
+#include <array>
+#include <utility>
+
 #include <fmt/format.h>
 
-#include "core/table.hpp"
+#include "core/tables/verbs.hpp"
 #include "experiments/results/captions.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-const std::vector<std::string> shown_metrics = {
+constexpr std::array shown_metrics = {
     "success",        "no_contact_precision",      "no_contact_recall",  "takeoff_recall",
     "landing_recall", "false_takeoffs_per_minute", "takeoff_latency_ms", "landing_latency_ms"};
+
+/// One estimator at one value.
+struct SweepRow {
+  SensorVariation variation;
+  ScoreSummary score;
+
+  const std::string& simulator() const { return score.condition.test_simulator; }
+  const std::string& estimator() const { return score.condition.estimator; }
+};
+
+std::vector<SweepRow> rows_of(const std::vector<SensorSweepPoint>& points) {
+  std::vector<SweepRow> rows;
+  for (const SensorSweepPoint& point : points) {
+    for (const ScoreSummary& score : point.scores) rows.push_back({point.variation, score});
+  }
+  return rows;
+}
+
+Columns<SweepRow> sweep_columns() {
+  Columns<SweepRow> columns;
+  columns.text("simulator", &SweepRow::simulator)
+      .text("disturbance", [](const SweepRow& row) { return row.variation.key; })
+      .level("value", [](const SweepRow& row) { return row.variation.value; })
+      .text("estimator", &SweepRow::estimator);
+  for (const char* const name : shown_metrics) {
+    columns.interval(name, [name](const SweepRow& row) { return row.score[name]; });
+  }
+  return columns.count("takeoffs",
+                       [](const SweepRow& row) { return row.score.total.takeoff.events; });
+}
 
 }  // namespace
 
@@ -34,20 +67,7 @@ std::vector<SensorSweepPoint> sensor_sweep(const Evaluation& evaluation) {
 }
 
 void write_tables(const std::vector<SensorSweepPoint>& points, const RunDirectory& directory) {
-  Table table{header_with_intervals({"simulator", "disturbance", "value", "estimator"},
-                                    shown_metrics, {"takeoffs"}),
-              {}};
-  for (const SensorSweepPoint& point : points) {
-    for (const ScoreSummary& summary : point.scores) {
-      std::vector<Interval> intervals;
-      for (const std::string& metric : shown_metrics) intervals.push_back(summary[metric]);
-      table.rows.push_back(
-          row_with_intervals({summary.condition.test_simulator, point.variation.key,
-                              exact(point.variation.value), summary.condition.estimator},
-                             intervals, {std::to_string(summary.total.takeoff.events)}));
-    }
-  }
-  directory.write_table("sensor_sweep.csv", table);
+  directory.write_table("sensor_sweep.csv", sweep_columns(), rows_of(points));
 }
 
 std::string sensor_sweep_text(const std::vector<SensorSweepPoint>& points,
@@ -57,23 +77,16 @@ std::string sensor_sweep_text(const std::vector<SensorSweepPoint>& points,
       "disturbance\n",
       noise_text(experiment.highlights.front()), setup_caption(experiment),
       intervals_text(experiment));
-  for (const SensorFactor& factor : experiment.sweep) {
-    for (const std::string& simulator : experiment.simulators) {
-      Table table{{fmt::format("{}, {}", factor.key, simulator)}, {}};
-      for (const SensorSweepPoint& point : points) {
-        if (point.variation.key != factor.key) continue;
-        table.header.push_back(exact(point.variation.value));
-        std::size_t row = 0;
-        for (const ScoreSummary& summary : point.scores) {
-          if (summary.condition.test_simulator != simulator) continue;
-          if (row == table.rows.size()) {
-            table.rows.push_back({estimator_title(summary.condition.estimator)});
-          }
-          table.rows[row++].push_back(with_interval(summary["success"]));
-        }
-      }
-      text += fmt::format("\n{}", to_text(table));
-    }
+  const auto engine_and_disturbance = [](const SweepRow& row) {
+    return std::pair(row.variation.key, row.simulator());
+  };
+  for (const auto& [key, alike] : group_by(rows_of(points), engine_and_disturbance)) {
+    Table table = pivot(
+        alike, [](const SweepRow& row) { return estimator_title(row.estimator()); },
+        [](const SweepRow& row) { return exact(row.variation.value); },
+        [](const SweepRow& row) { return with_interval(row.score["success"]); });
+    table.header.front() = fmt::format("{}, {}", key.first, key.second);
+    text += fmt::format("\n{}", to_text(table));
   }
   return text;
 }

@@ -18,7 +18,8 @@ FittedModel model_of(const EvidenceModel& model) {
 TEST(EvidenceTable, HasEveryCurveOverTheRangeOfItsRows) {
   EvidenceModel model = test::random_curves(1, false);
   model.seen[3] = {-0.1F, 2.0F};
-  const Table table = evidence_table({{"mujoco", {{"evidence_curves", model_of(model)}}}});
+  const Table table = evidence_columns().table(
+      evidence_points({{"mujoco", {{"evidence_curves", model_of(model)}}}}));
   std::size_t rows = 0;
   for (const auto& row : table.rows) {
     if (cell(table, row, "channel") != "load" || cell(table, row, "scale_ms") != "8") continue;
@@ -40,8 +41,8 @@ TEST(EvidenceTable, HasEveryCurveOverTheRangeOfItsRows) {
 }
 
 TEST(EvidenceTable, IsEmptyWithoutCurves) {
-  EXPECT_TRUE(evidence_table({}).rows.empty());
-  EXPECT_TRUE(evidence_table({{"mujoco", {{"hmm", {}}}}}).rows.empty());
+  EXPECT_TRUE(evidence_points({}).empty());
+  EXPECT_TRUE(evidence_points({{"mujoco", {{"hmm", {}}}}}).empty());
 }
 
 }  // namespace

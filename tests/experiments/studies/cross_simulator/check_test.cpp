@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 #include "experiments/run_experiment.hpp"
 #include "noise/gaussian.hpp"
 #include "tests/experiments/small_step_scene.hpp"
