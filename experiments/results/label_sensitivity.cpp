@@ -42,7 +42,7 @@ RunCounts counts_of(const Rollout& run, const std::vector<Condition>& conditions
   const std::int64_t period = run.signals.info.control_period_us;
   RunCounts counts;
   for (const Condition& condition : conditions) {
-    EstimatorRunner runner = runner_of(condition, result.models, run.signals);
+    EstimatorRunner runner = runner_of(experiment, condition, result.models, run.signals);
     const auto decisions =
         decide(runner, run.signals, noise, experiment.highlights.front().levels());
     counts.emplace_back();

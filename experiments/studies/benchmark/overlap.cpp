@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/studies/benchmark/plan.hpp"
 
 namespace touchdown::experiments {
@@ -45,8 +45,8 @@ void write_overlap(const FittedModels& models, const Evaluation& evaluation,
               {}};
   const Experiment& experiment = evaluation.request.experiment;
   const auto estimator = std::find_if(
-      experiment.estimators.begin(), experiment.estimators.end(), [](const std::string& name) {
-        return estimator_entry(name).fits() == ModelKind::measurement;
+      experiment.estimators.begin(), experiment.estimators.end(), [&](const std::string& name) {
+        return estimator_entry(experiment, name).fits() == ModelKind::measurement;
       });
   if (estimator == experiment.estimators.end()) return;
   const auto setups = benchmark_setups(evaluation.request, evaluation.plan);

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 
 namespace touchdown::experiments {
 
@@ -43,7 +43,7 @@ std::size_t index_of(const Items& items, const Is& is) {
 void add_transfers(const Experiment& experiment, const std::vector<BenchmarkSetup>& setups,
                    RunGroup& group) {
   for (const Condition& own : own_engine_conditions(experiment)) {
-    if (!estimator_entry(own.estimator).fits()) continue;
+    if (!estimator_entry(experiment, own.estimator).fits()) continue;
     for (const BenchmarkSetup& other : setups) {
       if (other.robot_and_sensors.fit == group.fit) continue;
       group.conditions.push_back(
@@ -61,11 +61,12 @@ void add_transfers(const Experiment& experiment, const std::vector<BenchmarkSetu
 }
 
 /// Adds the refits of the in-domain conditions of a group, after all others.
-void add_refits(const BenchmarkConfig& benchmark, RunGroup& group) {
+void add_refits(const Experiment& experiment, RunGroup& group) {
+  const BenchmarkConfig& benchmark = *experiment.benchmark;
   const std::vector<Condition> all = group.conditions;
   for (const Condition& condition : all) {
     if (!condition.is_fitted_in_domain(group.fit)) continue;
-    if (!estimator_entry(condition.estimator).fits()) continue;
+    if (!estimator_entry(experiment, condition.estimator).fits()) continue;
     for (int refit = 1; refit <= refits_of(benchmark, group.fit); ++refit) {
       group.conditions.push_back(condition);
       group.conditions.back().refit = refit;
@@ -120,7 +121,7 @@ void add_benchmark(const RunRequest& request, Plan& plan) {
     if (where.fit.empty()) {
       plan.groups.front().has_extended_scores = true;
       if (experiment.benchmark->transfer) add_transfers(experiment, setups, plan.groups.front());
-      add_refits(*experiment.benchmark, plan.groups.front());
+      add_refits(experiment, plan.groups.front());
       continue;
     }
     RunGroup group{fmt::format("{} {}", setup.robot, setup.sensors),
@@ -131,7 +132,7 @@ void add_benchmark(const RunRequest& request, Plan& plan) {
     group.has_extended_scores = true;
     group.fit = where.fit;
     if (experiment.benchmark->transfer) add_transfers(experiment, setups, group);
-    add_refits(*experiment.benchmark, group);
+    add_refits(experiment, group);
     plan_runs(request, RunRole::fit, where, 0, plan);
     plan_segments(request, where, plan);
     plan_runs(request, RunRole::test, where, plan.groups.size(), plan);

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/baselines.hpp"
-#include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 
 namespace touchdown::experiments {
@@ -119,8 +119,9 @@ CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::N
                                   ? t.condition.fit_simulator + " → " + t.condition.test_simulator
                                   : "– → " + t.condition.test_simulator;
     table.table.rows.push_back(
-        {estimator_entry(t.condition.estimator).title, where, with_interval(t.success),
-         with_interval(t.no_contact_recall), own ? "–" : with_interval(t.loss, 4),
+        {estimator_entry(result.experiment, t.condition.estimator).title, where,
+         with_interval(t.success), with_interval(t.no_contact_recall),
+         own ? "–" : with_interval(t.loss, 4),
          t.condition.estimator == always_contact_name ? "–" : with_interval(t.gain)});
   }
   return table;
@@ -148,7 +149,7 @@ CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
     }
     last = key;
     if (table.table.rows.size() == 1) {
-      table.table.header.push_back(estimator_entry(s.estimator).title);
+      table.table.header.push_back(estimator_entry(result.experiment, s.estimator).title);
     }
     table.table.rows.back().push_back(
         std::isnan(s.success.estimate) ? "–" : fmt::format("{:.3f}", s.success.estimate));

@@ -17,12 +17,13 @@ namespace {
 constexpr double spacing = 0.01;  // s
 
 /// The tracks of the contact sources in one run, in the order of `contact_sources_of`.
-std::vector<ContactTrack> tracks_of(const RunGroup& group, const RunSignals& run,
-                                    const NoiseRun& noise, const FittedModels& models) {
+std::vector<ContactTrack> tracks_of(const Experiment& experiment, const RunGroup& group,
+                                    const RunSignals& run, const NoiseRun& noise,
+                                    const FittedModels& models) {
   std::vector<ContactTrack> tracks = oracle_tracks(*group.odometry, run);
   for (const Condition& condition : tested_on(group.conditions, run.info.simulator)) {
     if (!group.feeds_odometry(condition)) continue;
-    const auto estimator = make_estimator(condition, models, run);
+    const auto estimator = make_estimator(experiment, condition, models, run);
     scoring::Prediction prediction = predict(*estimator, run, noise, group.scored.front().levels());
     tracks.push_back({std::move(prediction[0].p_contact), std::move(prediction[1].p_contact)});
   }
@@ -60,7 +61,7 @@ void write_trajectories(const Evaluation& evaluation, const FittedModels& models
     const scoring::Trajectory truth = scored(run.motion->truth);
     write("ground_truth", truth);
     const std::vector<std::string> names = contact_sources_of(group, rollout.plan.simulator);
-    const std::vector<ContactTrack> tracks = tracks_of(group, run, noise, models);
+    const std::vector<ContactTrack> tracks = tracks_of(experiment, group, run, noise, models);
     for (std::size_t i = 0; i < names.size(); ++i) {
       const scoring::Trajectory estimated = scored(
           dead_reckoned(run, noise, group.scored.front().levels(), {tracks[i][0], tracks[i][1]}));

@@ -33,7 +33,7 @@ TEST(GivenHyperparameters, AreUsedByFitsAndEstimators) {
   const FittedModel& phase = models.at("mujoco").at("phase");
   EXPECT_EQ(phase.metadata->configuration.at("leave_below"), "0.125");
   const auto entry_for = [&](const char* estimator) {
-    return entry_of({"mujoco", "mujoco", estimator}, models);
+    return entry_of(experiment, {"mujoco", "mujoco", estimator}, models);
   };
   EXPECT_EQ(entry_for("phase").phase->leave_below, 0.125);
   EXPECT_EQ(entry_for("free_fall").chosen("half_way"), -3.0);

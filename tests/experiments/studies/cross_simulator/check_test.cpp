@@ -108,8 +108,10 @@ Transfer transfer(const std::string& fit, const std::string& test, double loss_h
 }
 
 Verdict verdict_of(const std::vector<Transfer>& transfers) {
-  const VerdictConfig config{.largest_loss = 0.01, .smallest_gain = 0.0, .demanded = {"robust"}};
-  const std::vector<Verdict> all = verdicts(transfers, config, 0.95);
+  Experiment experiment;
+  experiment.cross_simulator.emplace().verdict = {
+      .largest_loss = 0.01, .smallest_gain = 0.0, .demanded = {"robust"}};
+  const std::vector<Verdict> all = verdicts(transfers, experiment);
   EXPECT_EQ(all.size(), 1U);
   return all.front();
 }
