@@ -1,11 +1,11 @@
 #include "experiments/studies/benchmark/overlap.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/studies/benchmark/plan.hpp"
+#include "scoring/distributions/overlap.hpp"
 
 namespace touchdown::experiments {
 
@@ -25,15 +25,14 @@ double common_part(const MeasurementModel& first, const MeasurementModel& second
   const double other_area = others.knee.step() * others.wheel.step();
   const double one = share(grids);
   const double other = share(others) * area / other_area;
-  double sum = 0.0;
-  std::size_t i = 0;
+  std::vector<double> p, q;
   for (int wheel = 0; wheel < grids.wheel.count; ++wheel) {
-    for (int knee = 0; knee < grids.knee.count; ++knee, ++i) {
-      const Likelihoods there = second({grids.knee[knee], grids.wheel[wheel]});
-      sum += std::fmin(one * (grids.*grid)[i], other * there.*density);
+    for (int knee = 0; knee < grids.knee.count; ++knee) {
+      p.push_back(one * (grids.*grid)[p.size()]);
+      q.push_back(other * second({grids.knee[knee], grids.wheel[wheel]}).*density);
     }
   }
-  return sum;
+  return scoring::overlap(p, q);
 }
 
 }  // namespace
