@@ -62,7 +62,7 @@ class FitLogSteps {
   /// Errors: `InputError` for a step without ground truth or labels of contact.
   void require_truth() const;
 
-  /// After the last step. Errors: `InputError` for a log whose own ground truth contradicts its
+  /// After the last step. Errors: `InputError` for a log with a ground truth that contradicts its
   /// declared class most of the time, and for labels of which no step is used; `Stopped`.
   void finish(std::int64_t used_steps);
 
