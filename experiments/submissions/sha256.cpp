@@ -3,10 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <openssl/evp.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <openssl/evp.h>
 
 #include "core/error.hpp"
 
