@@ -136,8 +136,8 @@ Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun 
     });
     done.fitted = timed(context, "fit", [&] { return fit(context, done.runs); });
     done.tasks = timed(context, "evaluate", [&] {
-      return evaluate(context.plan, tasks, done.runs, experiment.scoring, done.fitted.models,
-                      context.saved, context.should_continue);
+      return evaluate(context.plan, tasks, done.runs, experiment, done.fitted.models, context.saved,
+                      context.should_continue);
     });
     if (has_model_tasks(context.plan, tasks)) {
       timed(context, "model_tasks", [&] {

@@ -59,10 +59,12 @@ struct Finished {
 
 py::dict run(const ExperimentRequest& request, const fs::path& out, bool overwrite,
              const std::string& command, const py::list& external_estimators) {
-  const experiments::ExternalEstimators present(external_estimators_of(external_estimators));
+  const std::vector<experiments::EstimatorEntry> external =
+      external_estimators_of(external_estimators);
   const Finished finished = long_call([&](const std::atomic<bool>& stop) {
     const YamlDocument document = document_of(request);
-    const experiments::Experiment experiment = experiments::experiment_from_yaml(document);
+    const experiments::Experiment experiment =
+        experiments::experiment_from_yaml(document, external);
     experiments::require_files(document);
     const experiments::ExperimentResult result = experiments::run_experiment(
         experiment, {.out = out, .command = command, .stop = &stop, .overwrite = overwrite});

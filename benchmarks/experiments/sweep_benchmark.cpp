@@ -43,7 +43,7 @@ void one_task(benchmark::State& state, const std::string& estimator,
   const std::vector<Condition> conditions = {{"mujoco", "mujoco", estimator}};
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        sweep(conditions, cells, run, noise, models, experiment.scoring, [] { return true; }));
+        sweep(conditions, cells, run, noise, models, experiment, [] { return true; }));
   }
   state.counters["cell_updates"] = benchmark::Counter(
       cell_updates(experiment, cells), benchmark::Counter::kIsIterationInvariantRate);
@@ -71,8 +71,8 @@ void on_threads(benchmark::State& state) {
       const RunSignals& run = runs[task % runs.size()];
       const auto seed = static_cast<int>(task / runs.size());
       const NoiseRun noise = noise_run(run, noise_key(experiment, seed, run.info.run));
-      benchmark::DoNotOptimize(sweep_run(conditions, cells, run, noise, models, experiment.scoring,
-                                         [] { return true; }));
+      benchmark::DoNotOptimize(
+          sweep_run(conditions, cells, run, noise, models, experiment, [] { return true; }));
     });
   }
   state.counters["cell_updates"] = benchmark::Counter(

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "core/csv/rows.hpp"
 
 namespace touchdown {
 
@@ -50,36 +54,22 @@ std::string cell(const Table& table, const std::vector<std::string>& row, std::s
 }
 
 Table from_csv(std::string_view text) {
-  std::vector<std::vector<std::string>> rows(1, std::vector<std::string>(1));
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    std::string& cell = rows.back().back();
-    const char c = text[i];
-    if (quoted) {
-      if (c != '"') {
-        cell += c;
-      } else if (i + 1 < text.size() && text[i + 1] == '"') {
-        cell += text[++i];
-      } else {
-        quoted = false;
-      }
-    } else if (c == '"' && cell.empty()) {
-      quoted = true;
-    } else if (c == ',') {
-      rows.back().emplace_back();
-    } else if (c == '\n') {
-      rows.emplace_back(1);
-    } else if (c != '\r') {
-      cell += c;
+  std::istringstream lines{std::string(text)};
+  CsvRows rows(lines);
+  Table table;
+  while (rows.next()) {
+    while (rows.is_open() && rows.append_line()) continue;
+    std::vector<std::string> row;
+    for (const CsvCell& cell : rows.cells()) row.push_back(content_of(cell));
+    if (row.back().ends_with('\r')) row.back().pop_back();
+    if (row.size() == 1 && row.front().empty()) continue;
+    if (table.header.empty()) {
+      table.header = std::move(row);
+    } else {
+      row.resize(table.header.size());
+      table.rows.push_back(std::move(row));
     }
   }
-  std::erase_if(rows, [](const auto& row) { return row.size() == 1 && row[0].empty(); });
-  Table table;
-  if (rows.empty()) return table;
-  table.header = std::move(rows.front());
-  rows.erase(rows.begin());
-  for (auto& row : rows) row.resize(table.header.size());
-  table.rows = std::move(rows);
   return table;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -289,7 +290,8 @@ static void describe_hyperparameters(Fields& fields, Experiment& experiment) {
       if (!all.present(name, experiment.hyperparameters.contains(name))) continue;
       HyperparameterValues& hyperparameters = experiment.hyperparameters[name];
       all.within(name, [&](Fields& own) {
-        for (const Hyperparameter& one : estimator_entry(name).hyperparameters) {
+        for (const Hyperparameter& one :
+             estimator_entry(name, experiment.external_estimators).hyperparameters) {
           own.know(one.name);
           if (!own.present(one.name, hyperparameters.contains(one.name))) continue;
           own(one.name, hyperparameters[one.name]);
@@ -312,11 +314,11 @@ static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
 }
 
 /// Estimators written in Python exist only in experiments that Python runs.
-static void require_python(const Fields& fields) {
+static void require_python(const Fields& fields, const Experiment& experiment) {
   if (!fields.reading()) return;
   const YAML::Node given = fields.node()["estimators"];
   if (!given || !given.IsSequence()) return;
-  const std::vector<std::string> known = estimator_names();
+  const std::vector<std::string> known = estimator_names(experiment.external_estimators);
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (!given[i].IsScalar()) continue;
     const std::string& name = given[i].Scalar();
@@ -333,8 +335,9 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.check(is_name_word(experiment.name), "name", expected_name_word);
   fields("seed", experiment.seed);
   fields.names("simulators", simulators::simulator_names(), experiment.simulators);
-  require_python(fields);
-  fields.names("estimators", estimator_names(), experiment.estimators);
+  require_python(fields, experiment);
+  fields.names("estimators", estimator_names(experiment.external_estimators),
+               experiment.estimators);
   fields.require("fit");
   fields.require("test");
   fields.within("fit", [&](Fields& fit) {
@@ -458,8 +461,11 @@ std::vector<std::string> sensor_files(const Experiment& experiment) {
   return files;
 }
 
-Experiment experiment_from_yaml(const YamlDocument& document) {
+Experiment experiment_from_yaml(const YamlDocument& document,
+                                std::vector<EstimatorEntry> external_estimators) {
+  check_external_names(external_estimators);
   Experiment defaults;
+  defaults.external_estimators = std::move(external_estimators);
   defaults.fit = {.scenarios = {}, .runs = 1, .perturbed = false};
   defaults.test = {.scenarios = {}, .runs = 8, .perturbed = true};
   return from_yaml(document, defaults);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/yaml.hpp"
-#include "experiments/estimators/fitted_model.hpp"
+#include "experiments/estimators/entry.hpp"
 #include "noise/grid.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
@@ -203,6 +203,8 @@ struct Experiment {
   std::uint64_t seed = 1;
   std::vector<std::string> simulators = {"mujoco", "bullet"};
   std::vector<std::string> estimators = {"robust"};
+  /// Estimators of the caller, which `estimators` may name, too. They are no part of the file.
+  std::vector<EstimatorEntry> external_estimators = {};
   std::map<std::string, HyperparameterValues> hyperparameters =
       {};          ///< of these estimators, instead of the defaults
   RunsConfig fit;  ///< noiseless runs for fitting models
@@ -245,16 +247,18 @@ std::vector<std::string> scenario_files(const Experiment& experiment);
 std::vector<std::string> robot_files(const Experiment& experiment);
 std::vector<std::string> sensor_files(const Experiment& experiment);
 
-/// Reads an experiment strictly. It checks the names of engines and estimators, but not the
-/// scenario files. Errors: `InputError` with file:line:column.
-Experiment experiment_from_yaml(const YamlDocument& document);
+/// Reads an experiment strictly, which may name these external estimators beside the built-in ones.
+/// It checks the names of engines and estimators, but not the scenario files. Errors: `InputError`
+/// with file:line:column; also for an external estimator with the name of a built-in one.
+Experiment experiment_from_yaml(const YamlDocument& document,
+                                std::vector<EstimatorEntry> external_estimators = {});
 
 /// Checks that the files of an experiment exist. Errors: `InputError` with the file:line:column of
 /// the first missing one, and the nearest existing file.
 void require_files(const YamlDocument& document);
 
 /// The experiment as YAML with all defaults, which reads back to the same experiment. It omits
-/// `workers`, which changes no result.
+/// `workers`, which changes no result, and the external estimators.
 std::string to_yaml(const Experiment& experiment);
 
 }  // namespace touchdown::experiments

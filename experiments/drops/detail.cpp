@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "estimator/bayes/transition_model.hpp"
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 
@@ -21,12 +21,13 @@ std::vector<T> inside(const std::vector<T>& whole, const DropWindow& window) {
 }
 
 /// The estimator with the transition model that is shown.
-const EstimatorEntry& spectrum_entry(const std::vector<std::string>& estimators) {
+const EstimatorEntry& spectrum_entry(const Experiment& experiment,
+                                     const std::vector<std::string>& estimators) {
   for (const std::string& name : estimators) {
-    const EstimatorEntry& entry = estimator_entry(name);
+    const EstimatorEntry& entry = estimator_entry(experiment, name);
     if (entry.config) return entry;
   }
-  return estimator_entry("robust");
+  return estimator_entry(experiment, "robust");
 }
 
 std::vector<double> spectrum_now(const SlidingDft& dft) {
@@ -78,7 +79,7 @@ std::vector<double> trace_torque_evidence(const Experiment& experiment, const Co
   if (std::find(names.begin(), names.end(), shown.estimator) == names.end()) {
     return std::vector<double>(window.steps(), Evidence::unknown);
   }
-  const std::unique_ptr<ContactEstimator> filter = make_estimator(shown, models, run);
+  const std::unique_ptr<ContactEstimator> filter = make_estimator(experiment, shown, models, run);
   std::vector<double> trace;
   for (std::size_t k = 0; k < window.end; ++k) {
     if (has_record(signals[k])) filter->update(signals[k]);
@@ -98,8 +99,8 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
       drop_window(run, config.choice, experiment.scoring.minimum_flight, "detail");
   const double rate = 1e6 / static_cast<double>(run.info.control_period_us);
   const Condition shown{run.info.simulator, run.info.simulator,
-                        spectrum_entry(config.estimators).name};
-  const EstimatorEntry entry = entry_of(shown, models);
+                        spectrum_entry(experiment, config.estimators).name};
+  const EstimatorEntry entry = entry_of(experiment, shown, models);
   const TransitionConfig& transition = entry.config->transition;
 
   DropDetail detail;
@@ -128,10 +129,11 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
                    trace_spectrum(transition, rate, window, signals),
                    {}};
     for (const std::string& name : config.estimators) {
-      EstimatorRunner runner = runner_of({detail.simulator, detail.simulator, name}, models, run);
+      EstimatorRunner runner =
+          runner_of(experiment, {detail.simulator, detail.simulator, name}, models, run);
       const scoring::Prediction prediction = predict(runner, run, noise, levels);
-      drop.beliefs.push_back(
-          {name, estimator_entry(name).title, inside(prediction[left].p_contact, window)});
+      drop.beliefs.push_back({name, estimator_entry(experiment, name).title,
+                              inside(prediction[left].p_contact, window)});
     }
     detail.noisy.push_back(std::move(drop));
   }

@@ -85,8 +85,8 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
   posterior.time = time_in(window, 1e-6 * static_cast<double>(run.info.control_period_us));
 
   const Condition condition{run.info.simulator, run.info.simulator, "phase"};
-  const EstimatorEntry entry = entry_of(condition, models);
-  const EstimatorSetup setup = setup_of(condition, models, run);
+  const EstimatorEntry entry = entry_of(experiment, condition, models);
+  const EstimatorSetup setup = setup_of(experiment, condition, models, run);
   PhaseFilter filter = phase_filter(entry, setup);
   const PreparedPhaseModel prepared(setup.model->phase->model, filter.config());
   const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));

@@ -6,6 +6,8 @@
 
 #include "estimator/bayes/ablation.hpp"
 #include "estimator/bayes/measurement_only.hpp"
+#include "estimator/models/configuration.hpp"
+#include "estimator/numerics/number_text.hpp"
 #include "experiments/batch/bayes.hpp"
 #include "experiments/batch/neural.hpp"
 #include "experiments/batch/phase.hpp"
@@ -47,12 +49,20 @@ std::vector<Hyperparameter> bayes_hyperparameters(const BayesFilterConfig& confi
   return hyperparameters;
 }
 
-void apply_bayes(EstimatorEntry& entry) {
+/// Sets the members of the configuration that hyperparameters are named after, as in the metadata
+/// of models. Those of the fit are no members of it.
+template <typename Config>
+void set_members(Config& config, const EstimatorEntry& entry) {
+  ConfigurationText members;
   for (const Hyperparameter& one : entry.hyperparameters) {
-    Sigmoid& switching = entry.config->transition.switch_sigmoid;
-    if (one.name == "threshold") entry.config->threshold = one.value;
-    if (one.name == "transition.switch.offset") switching.offset = one.value;
-    if (one.name == "transition.switch.slope") switching.slope = one.value;
+    if (!one.is_fitted_with) members[one.name] = touchdown::text_of(one.value);
+  }
+  configure(config, members);
+}
+
+void apply_bayes(EstimatorEntry& entry) {
+  set_members(*entry.config, entry);
+  for (const Hyperparameter& one : entry.hyperparameters) {
     if (one.name == "bandwidth_floor") {
       entry.config->measurement.fit.bandwidth_floor = {one.value, one.value};
     }
@@ -60,11 +70,9 @@ void apply_bayes(EstimatorEntry& entry) {
 }
 
 void apply_phase(EstimatorEntry& entry) {
-  PhaseFilterConfig& phase = *entry.phase;
-  phase.fit.torque_bandwidth = entry.chosen("torque_bandwidth");
-  phase.fit.acceleration_bandwidth = entry.chosen("acceleration_bandwidth");
-  phase.leave_below = entry.chosen("leave_below");
-  phase.return_above = entry.chosen("return_above");
+  set_members(*entry.phase, entry);
+  entry.phase->fit.torque_bandwidth = entry.chosen("torque_bandwidth");
+  entry.phase->fit.acceleration_bandwidth = entry.chosen("acceleration_bandwidth");
 }
 
 template <typename Batch>

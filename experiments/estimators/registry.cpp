@@ -1,8 +1,6 @@
 #include "experiments/estimators/registry.hpp"
 
 #include <algorithm>
-#include <mutex>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,17 +15,6 @@
 namespace touchdown::experiments {
 
 namespace {
-
-/// The external estimators of the running experiment, if it has any.
-struct ExternalEstimatorTable {
-  std::mutex mutex;
-  std::optional<std::vector<EstimatorEntry>> external_estimators;
-};
-
-ExternalEstimatorTable& external_estimator_table() {
-  static ExternalEstimatorTable table;
-  return table;
-}
 
 const EstimatorEntry* find(std::span<const EstimatorEntry> entries, std::string_view name) {
   const auto found = std::find_if(entries.begin(), entries.end(),
@@ -75,28 +62,21 @@ std::span<const EstimatorEntry> estimator_entries() {
   return entries;
 }
 
-std::vector<std::string> estimator_names() {
+std::vector<std::string> estimator_names(std::span<const EstimatorEntry> external) {
   std::vector<std::string> names;
   for (const EstimatorEntry& entry : estimator_entries()) names.push_back(entry.name);
-  const std::scoped_lock lock(external_estimator_table().mutex);
-  if (!external_estimator_table().external_estimators) return names;
-  for (const EstimatorEntry& external : *external_estimator_table().external_estimators)
-    names.push_back(external.name);
+  for (const EstimatorEntry& entry : external) names.push_back(entry.name);
   return names;
 }
 
-const EstimatorEntry& estimator_entry(std::string_view name) {
+const EstimatorEntry& estimator_entry(std::string_view name,
+                                      std::span<const EstimatorEntry> external) {
   if (const EstimatorEntry* own = find(estimator_entries(), name)) return *own;
-  {
-    const std::scoped_lock lock(external_estimator_table().mutex);
-    const auto& external_estimators = external_estimator_table().external_estimators;
-    if (const EstimatorEntry* external =
-            external_estimators ? find(*external_estimators, name) : nullptr)
-      return *external;
-  }
-  const std::string near = nearest(name, estimator_names());
+  if (const EstimatorEntry* entry = find(external, name)) return *entry;
+  const std::vector<std::string> names = estimator_names(external);
+  const std::string near = nearest(name, names);
   throw InputError(fmt::format("unknown estimator '{}': expected one of {}{}", name,
-                               fmt::join(estimator_names(), ", "),
+                               fmt::join(names, ", "),
                                near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
 }
 
@@ -107,22 +87,12 @@ bool is_upper_bound(std::string_view estimator) {
   });
 }
 
-ExternalEstimators::ExternalEstimators(std::vector<EstimatorEntry> external_estimators) {
-  for (const EstimatorEntry& external : external_estimators) {
-    if (find(estimator_entries(), external.name) == nullptr) continue;
+void check_external_names(std::span<const EstimatorEntry> external) {
+  for (const EstimatorEntry& entry : external) {
+    if (find(estimator_entries(), entry.name) == nullptr) continue;
     throw InputError(
-        fmt::format("the name '{}' is taken by one of touchdown's own estimators", external.name));
+        fmt::format("the name '{}' is taken by one of touchdown's own estimators", entry.name));
   }
-  const std::scoped_lock lock(external_estimator_table().mutex);
-  if (external_estimator_table().external_estimators) {
-    throw InputError("another experiment with external estimators is running");
-  }
-  external_estimator_table().external_estimators = std::move(external_estimators);
-}
-
-ExternalEstimators::~ExternalEstimators() {
-  const std::scoped_lock lock(external_estimator_table().mutex);
-  external_estimator_table().external_estimators.reset();
 }
 
 }  // namespace touchdown::experiments

@@ -73,16 +73,17 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
                                                std::span<const noise::NoiseCell> cells,
                                                const RunSignals& run, const NoiseRun& noise,
                                                const FittedModels& models,
-                                               const scoring::ScoringConfig& scoring,
+                                               const Experiment& experiment,
                                                const ShouldContinue& should_continue) {
+  const scoring::ScoringConfig& scoring = experiment.scoring;
   const std::vector<noise::SensorNoise> all_levels = levels_of(cells);
   const bool can_batch = needs_no_guard(run, all_levels);
   const std::size_t segments = run.segments.size();
   std::vector<scoring::Classification> counts;
   counts.reserve(conditions.size() * cells.size() * segments);
   for (const Condition& condition : conditions) {
-    const EstimatorEntry entry = entry_of(condition, models);
-    const EstimatorSetup setup = setup_of(condition, models, run);
+    const EstimatorEntry entry = entry_of(experiment, condition, models);
+    const EstimatorSetup setup = setup_of(experiment, condition, models, run);
     const DifferentLevels levels(entry.sensors, all_levels);
     std::optional<BatchedEstimator> batch;
     if (can_batch && entry.batch != nullptr) batch = entry.batch(entry, setup, levels.different);

@@ -17,7 +17,7 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
                                                std::span<const noise::NoiseCell> cells,
                                                const RunSignals& run, const NoiseRun& noise,
                                                const FittedModels& models,
-                                               const scoring::ScoringConfig& scoring,
+                                               const Experiment& experiment,
                                                const ShouldContinue& should_continue);
 
 /// The counts of one estimator that processes the noise levels one by one: by level, then segment.

@@ -162,15 +162,17 @@ static TaskCounts saved_counts(const Plan& plan, const Task& task, const SavedCo
 }
 
 TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
-                    const scoring::ScoringConfig& scoring, const FittedModels& models,
+                    const Experiment& experiment, const FittedModels& models,
                     const ShouldContinue& should_continue) {
+  const scoring::ScoringConfig& scoring = experiment.scoring;
   const RunGroup& group = plan.group_of(task);
   const std::vector<Condition> conditions = tested_on(group.conditions, run.info.simulator);
   const NoiseRun noise = noise_run(run, task.noise);
   TaskCounts counts;
   std::vector<Condition> counted = conditions;
   std::erase_if(counted, [&](const Condition& one) { return !group.counts(one); });
-  counts.counted = sweep_run(counted, group.counted, run, noise, models, scoring, should_continue);
+  counts.counted =
+      sweep_run(counted, group.counted, run, noise, models, experiment, should_continue);
   const MeasuredRun measured{run, noise, task.seed, group.scored, scoring};
   for (const Measure& measure : group.measures) {
     if (!measure.of_run) continue;
@@ -181,7 +183,7 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
   }
   for (std::uint32_t c = 0; c < conditions.size(); ++c) {
     if (!group.predicts(conditions[c])) continue;
-    EstimatorRunner runner = runner_of(conditions[c], models, run);
+    EstimatorRunner runner = runner_of(experiment, conditions[c], models, run);
     for (std::size_t cell = 0; cell < group.scored.size(); ++cell) {
       if (!should_continue()) throw Stopped();
       const scoring::Prediction prediction =
@@ -193,7 +195,7 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
 }
 
 std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& runs,
-                     const scoring::ScoringConfig& scoring, const FittedModels& models,
+                     const Experiment& experiment, const FittedModels& models,
                      const SavedCounts& saved, const ShouldContinue& should_continue) {
   Progress progress("evaluating", "parts", static_cast<std::int64_t>(tasks.size()));
   std::atomic<std::size_t> computed = 0;
@@ -210,7 +212,7 @@ std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& r
           saved.write(plan, task,
                       run.failed()
                           ? TaskCounts{}
-                          : evaluate(plan, task, run.signals, scoring, models, should_continue));
+                          : evaluate(plan, task, run.signals, experiment, models, should_continue));
           ++computed;
           progress.advance();
         }

@@ -82,13 +82,13 @@ class SavedCounts {
 
 /// Computes one task. Errors: `Stopped`.
 TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
-                    const scoring::ScoringConfig& scoring, const FittedModels& models,
+                    const Experiment& experiment, const FittedModels& models,
                     const ShouldContinue& should_continue);
 
 /// Computes and saves, in parallel, those tasks of the range that are not saved yet. Returns their
 /// number. Errors: `Stopped`.
 std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& runs,
-                     const scoring::ScoringConfig& scoring, const FittedModels& models,
+                     const Experiment& experiment, const FittedModels& models,
                      const SavedCounts& saved, const ShouldContinue& should_continue);
 
 /// All results of one condition: `samples[c][i]` belongs to cell c and statistical sample i (a run

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {
@@ -36,8 +36,8 @@ std::vector<Job> jobs_of(const Experiment& experiment, const TunedHyperparameter
   std::vector<Job> jobs;
   for (const std::string& simulator : experiment.simulators) {
     for (const std::string& name : experiment.estimators) {
-      EstimatorEntry entry =
-          with_hyperparameters(estimator_entry(name), hyperparameters_of(chosen, simulator, name));
+      EstimatorEntry entry = with_hyperparameters(estimator_entry(experiment, name),
+                                                  hyperparameters_of(chosen, simulator, name));
       if (!entry.fits()) continue;
       const auto same = std::find_if(jobs.begin(), jobs.end(), [&](const Job& job) {
         return job.simulator == simulator && share_model(job.entry, entry);

@@ -4,40 +4,19 @@
 #include <cmath>
 #include <deque>
 #include <functional>
-#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "estimator/bayes/measurement_fit.hpp"
 #include "estimator/signal_guard.hpp"
-#include "experiments/logs/log_steps.hpp"
-#include "experiments/signals/reserved_seeds.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
-
-recordings::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
-  if (!log.records) return recordings::LogReader(log.path, config.stop);
-  return recordings::LogReader(recordings::memory_source(log.records, config.stop),
-                               log.path.string());
-}
-
-/// Adds the reader's warnings to the report. Errors: `Stopped`.
-void add_warnings(const recordings::LogReader& reader, const LogFitConfig& config,
-                  LogFitReport& report) {
-  if (config.stop != nullptr && *config.stop) throw Stopped("stopped; no model was written");
-  report.warnings.insert(report.warnings.end(), reader.warnings().begin(), reader.warnings().end());
-}
-
-/// Adds the log's rate and robot to the report.
-void add_source(const LogSteps& steps, recordings::RecordingInfo info, LogFitReport& report) {
-  info.control_period_us = steps.period_us();
-  report.fitted_to.add(info);
-}
 
 using Sink = std::function<void(bool contact, const TorqueSample& sample)>;
 
@@ -88,62 +67,10 @@ bool is_gap(double elapsed, const SignalGuardConfig& guard) {
   return !(elapsed >= 0.0 && elapsed <= guard.maximum_gap);
 }
 
-/// Errors: `InputError` for labels that cover no step of the log.
-void check_labelled(const FitLog& log, std::int64_t used, double last_time) {
-  if (!log.labels || used > 0) return;
-  throw InputError(fmt::format(
-      "{}: none of its intervals, from {:.3f} to {:.3f} s, covers a step of {}, which ends at "
-      "{:.3f} s: expected times as `touchdown estimate` prints them",
-      log.labels->file, log.labels->intervals.front().start, log.labels->intervals.back().end,
-      log.path.string(), last_time));
-}
-
-/// Compares the declared class of a log with its own ground truth, if it has any.
-class DeclaredClass {
- public:
-  DeclaredClass(const FitLog& log, const LogFitConfig& config)
-      : log_(log), threshold_(config.labels.force_threshold) {}
-
-  void add(const LogStep& step) {
-    if (!log_.contact || !step.normal_force) return;
-    for (const double force : *step.normal_force) {
-      ++labelled_;
-      contradicting_ += (force > threshold_) != *log_.contact ? 1 : 0;
-    }
-  }
-
-  /// Errors: `InputError` for a log that is the other class most of the time.
-  void check() const {
-    if (2 * contradicting_ <= labelled_) return;
-    throw InputError(fmt::format(
-        "{}: is declared {}, but its own ground truth contradicts this for {:.1f} % of the steps: "
-        "are --contact and --no-contact swapped?",
-        log_.path.string(), *log_.contact ? "--contact" : "--no-contact",
-        100.0 * static_cast<double>(contradicting_) / static_cast<double>(labelled_)));
-  }
-
- private:
-  const FitLog& log_;
-  double threshold_;
-  std::int64_t labelled_ = 0;  ///< steps, both wheels added
-  std::int64_t contradicting_ = 0;
-};
-
-/// Errors: `InputError` for a step without ground truth or labels of contact.
-void check_truth(const FitLog& log, const LogStep& step) {
-  if (log.contact || log.labels || step.normal_force) return;
-  throw InputError(
-      fmt::format("{}: at {:.3f} s: no ground truth of contact: name the log after --contact or "
-                  "--no-contact if all of it is one class, or give the intervals with --labels",
-                  log.path.string(), step.signals.time));
-}
-
 void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitConfig& config,
               const Sink& sink, LogFitReport& report) {
-  recordings::LogReader reader = reader_of(log, config);
-  LogSteps steps(reader, log.labels.get());
-  check_may_be_fitted(reader.info());
-  add_source(steps, reader.info(), report);
+  FitLogSteps reader(log, config, report);
+  const LogSteps& steps = reader.steps();
   const TorqueConfig& torque = filter.measurement.torque;
   std::array<LabelledLeg, models::wheel_count> legs = {
       LabelledLeg(torque, Side::left, steps, config.labels, sink),
@@ -152,11 +79,9 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
   double before = NAN;
   std::int64_t k = 0;
   std::int64_t used = 0;
-  DeclaredClass declared(log, config);
-  for (; const LogStep* step = steps.next(); ++k) {
-    check_truth(log, *step);
-    declared.add(*step);
-    const bool is_used = k >= skipped && (!log.labels || step->normal_force);
+  for (; const LogStep* step = reader.next(); ++k) {
+    reader.require_truth();
+    const bool is_used = k >= skipped && reader.is_covered();
     if (is_used) ++used;
     for (std::size_t side = 0; side < legs.size(); ++side) {
       if (k > 0 && is_gap(step->signals.time - before, filter.guard)) legs[side].restart();
@@ -168,9 +93,7 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
     }
     before = step->signals.time;
   }
-  add_warnings(reader, config, report);
-  declared.check();
-  check_labelled(log, used, before);
+  reader.finish(used);
   for (LabelledLeg& leg : legs) leg.finish();
   report.seconds += static_cast<double>(used) * steps.period();
 }
@@ -216,7 +139,8 @@ MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
 }
 
 /// Errors: `InputError` for a step that the phase filter cannot be fitted to.
-void check_step(const FitLog& log, const LogStep& step, double before) {
+void check_step(const FitLog& log, const FitLogSteps& /*reader*/, const LogStep& step,
+                double before) {
   const auto refuse = [&](std::string_view what) {
     throw InputError(
         fmt::format("{}: at {:.3f} s: {}", log.path.string(), step.signals.time, what));
@@ -234,81 +158,48 @@ void check_step(const FitLog& log, const LogStep& step, double before) {
   }
 }
 
-/// Throws `InputError` for a step that cannot be used.
-using CheckStep = void (*)(const FitLog& log, const LogStep& step, double before);
+/// Throws `InputError` for a step that cannot be used; `before` is the time of the run's last one.
+using CheckStep = void (*)(const FitLog& log, const FitLogSteps& reader, const LogStep& step,
+                           double before);
 
-/// Collects the steps of one run. A label follows once no later step can change it.
-class LabelledRun {
- public:
-  LabelledRun(const recordings::RecordingInfo& info, const scoring::LabelConfig& labels)
-      : labels_{labels_of(0, info, labels), labels_of(1, info, labels)} {
-    run_.info = info;
-  }
-  LabelledRun(const LabelledRun&) = delete;
-  LabelledRun& operator=(const LabelledRun&) = delete;
-
-  void add(const LogStep& step, std::optional<bool> declared) {
-    for (std::size_t wheel = 0; wheel < labels_.size(); ++wheel) {
-      if (declared) {
-        run_.contact[wheel].push_back(*declared ? 1 : 0);
-        continue;
-      }
-      labels_[wheel].add((*step.normal_force)[wheel]);
-      run_.normal_force[wheel].push_back((*step.normal_force)[wheel]);
+void append(RunSignals& run, const LogStep& step, std::optional<bool> declared) {
+  run.signals.push_back(step.signals);
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+    if (declared) {
+      run.contact[wheel].push_back(*declared ? 1 : 0);
+    } else {
+      run.normal_force[wheel].push_back((*step.normal_force)[wheel]);
     }
-    run_.signals.push_back(step.signals);
   }
-
-  double last_time() const { return run_.signals.back().time; }
-
-  RunSignals finish() {
-    for (scoring::LabelStream& of_wheel : labels_) of_wheel.finish();
-    return std::move(run_);
-  }
-
- private:
-  scoring::LabelStream labels_of(std::size_t wheel, const recordings::RecordingInfo& info,
-                                 const scoring::LabelConfig& labels) {
-    return {1e-6 * static_cast<double>(info.control_period_us), labels,
-            [this, wheel](std::uint8_t contact) { run_.contact[wheel].push_back(contact); }};
-  }
-
-  RunSignals run_;
-  std::array<scoring::LabelStream, models::wheel_count> labels_;
-};
+}
 
 /// The log as one run, or as one run per labelled segment.
 void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep check,
                      LogFitReport& report, std::vector<RunSignals>& runs) {
-  recordings::LogReader reader = reader_of(log, config);
-  LogSteps steps(reader, log.labels.get());
-  recordings::RecordingInfo info = reader.info();
-  info.control_period_us = steps.period_us();
-  add_source(steps, info, report);
-  DeclaredClass declared(log, config);
-  std::optional<LabelledRun> run;
+  FitLogSteps reader(log, config, report);
+  RunSignals run;
   const auto finish = [&] {
-    if (run) runs.push_back(run->finish());
-    run.reset();
+    if (run.signals.empty()) return;
+    run.info = reader.info();
+    for (std::size_t wheel = 0; wheel < models::wheel_count && !log.contact; ++wheel) {
+      run.contact[wheel] =
+          scoring::contact_labels(run.normal_force[wheel], period_of(run), config.labels);
+    }
+    runs.push_back(std::move(run));
+    run = {};
   };
   std::int64_t used = 0;
-  double last_time = 0.0;
-  while (const LogStep* step = steps.next()) {
-    last_time = step->signals.time;
-    if (log.labels && !step->normal_force) {
+  while (const LogStep* step = reader.next()) {
+    if (!reader.is_covered()) {
       finish();
       continue;
     }
-    declared.add(*step);
-    check(log, *step, run ? run->last_time() : NAN);
-    if (!run) run.emplace(info, config.labels);
-    run->add(*step, log.contact);
+    check(log, reader, *step, run.signals.empty() ? NAN : run.signals.back().time);
+    append(run, *step, log.contact);
     ++used;
   }
   finish();
-  add_warnings(reader, config, report);
-  declared.check();
-  check_labelled(log, used, last_time);
+  reader.finish(used);
 }
 
 /// Loads all logs into memory, and adds to the report how much of them is used.
@@ -359,7 +250,8 @@ std::vector<RunSignals> logs_of_both_classes(std::span<const FitLog> logs,
                                              const LogFitConfig& config, LogFitReport& report) {
   std::vector<RunSignals> runs = signals_of_logs(
       logs, config,
-      [](const FitLog& log, const LogStep& step, double /*before*/) { check_truth(log, step); },
+      [](const FitLog& /*log*/, const FitLogSteps& reader, const LogStep& /*step*/,
+         double /*before*/) { reader.require_truth(); },
       report);
   require_both_classes(report.samples[0], report.samples[1]);
   return runs;

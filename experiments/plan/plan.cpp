@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -21,10 +22,6 @@ scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
   if (setup.robot.empty()) return scene;
   scene.name = fmt::format("{}_{}", scene.name, std::filesystem::path(setup.robot).stem().string());
   return scene;
-}
-
-bool learns_from_segments(const std::string& estimator) {
-  return estimator_entry(estimator).learns_from_segments;
 }
 
 }  // namespace
@@ -119,7 +116,11 @@ void plan_segment_runs(const RunRequest& request, const RobotAndSensors& setup, 
 void plan_segments(const RunRequest& request, const RobotAndSensors& setup, Plan& plan) {
   const Experiment& experiment = request.experiment;
   const auto& names = experiment.estimators;
-  if (std::none_of(names.begin(), names.end(), learns_from_segments)) return;
+  if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
+        return estimator_entry(experiment, name).learns_from_segments;
+      })) {
+    return;
+  }
   for (std::size_t entry = 0; entry < experiment.training_segments.size(); ++entry) {
     plan_segment_runs(request, setup, entry, 0, experiment.training_segments[entry].runs, plan);
   }

@@ -10,7 +10,7 @@
 #include "core/fingerprint.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
 #include "scenarios/scenario_file.hpp"
@@ -28,7 +28,7 @@ class Digest {
     fingerprint_.add(to_yaml(experiment));
     for (const NamedSensors& named : sensors) fingerprint_.add(noise::to_yaml(named.profile));
     for (const std::string& name : experiment.estimators) {
-      const std::string& revision = estimator_entry(name).revision;
+      const std::string& revision = estimator_entry(experiment, name).revision;
       if (!revision.empty()) fingerprint_.add(revision);
     }
   }

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/results/captions.hpp"
 
 namespace touchdown::experiments {
@@ -49,7 +49,8 @@ std::string metric_cell(const ScoreSummary& summary, const std::string& metric) 
 }
 
 /// One column per name, filled by `cell`; the last column has the paper's numbers.
-Table table_of(const std::vector<ScoreSummary>& summaries, const std::vector<std::string>& names,
+Table table_of(const Experiment& experiment, const std::vector<ScoreSummary>& summaries,
+               const std::vector<std::string>& names,
                std::string (*cell)(const ScoreSummary&, const std::string&),
                std::string PaperRow::*reference) {
   Table table{{"simulator", "estimator"}, {}};
@@ -61,7 +62,7 @@ Table table_of(const std::vector<ScoreSummary>& summaries, const std::vector<std
   for (const ScoreSummary& summary : summaries) {
     if (summary.view != "wheels") continue;
     std::vector<std::string> row = {summary.condition.test_simulator,
-                                    estimator_entry(summary.condition.estimator).title};
+                                    estimator_entry(experiment, summary.condition.estimator).title};
     for (const std::string& name : names) row.push_back(cell(summary, name));
     const PaperRow* paper = paper_row(summary.condition.estimator);
     row.push_back(paper == nullptr ? "–" : paper->*reference);
@@ -110,26 +111,29 @@ std::vector<Row> in_cell(std::vector<Row> rows, const noise::NoiseCell& cell) {
 
 }  // namespace
 
-std::vector<CaptionedTable> paper_tables(const std::vector<ScoreSummary>& summaries,
+std::vector<CaptionedTable> paper_tables(const Experiment& experiment,
+                                         const std::vector<ScoreSummary>& summaries,
                                          const std::string& how) {
   return {
       {"Table I. Point-wise classification. " + how, "classification",
        table_of(
-           summaries,
+           experiment, summaries,
            {"contact_precision", "contact_recall", "no_contact_precision", "no_contact_recall"},
            metric_cell, &PaperRow::classification)},
       {"Table II. Transitions. " + how, "transitions",
-       table_of(summaries,
+       table_of(experiment, summaries,
                 {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall"},
                 metric_cell, &PaperRow::transitions)},
       {"Table III. Latency of detected transitions (ms): mean ± standard deviation [interval of "
        "the mean]. " +
            how,
-       "latency", table_of(summaries, {"takeoff", "landing"}, latency_cell, &PaperRow::latency)},
+       "latency",
+       table_of(experiment, summaries, {"takeoff", "landing"}, latency_cell, &PaperRow::latency)},
   };
 }
 
-CaptionedTable difference_text_table(const std::vector<Difference>& differences) {
+CaptionedTable difference_text_table(const Experiment& experiment,
+                                     const std::vector<Difference>& differences) {
   const auto value = [](const Difference& difference, const char* name, int decimals) {
     return with_interval(difference.metric[scoring::metric_index(name)], decimals);
   };
@@ -140,7 +144,9 @@ CaptionedTable difference_text_table(const std::vector<Difference>& differences)
                          {}}};
   for (const Difference& d : differences) {
     result.table.rows.push_back(
-        {d.simulator, estimator_entry(d.first).title + " − " + estimator_entry(d.second).title,
+        {d.simulator,
+         estimator_entry(experiment, d.first).title + " − " +
+             estimator_entry(experiment, d.second).title,
          value(d, "success", 3), value(d, "no_contact_recall", 3), value(d, "takeoff_precision", 3),
          value(d, "takeoff_latency_ms", 1), value(d, "landing_latency_ms", 1)});
   }
@@ -150,11 +156,11 @@ CaptionedTable difference_text_table(const std::vector<Difference>& differences)
 std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
   std::vector<CaptionedTable> tables;
   for (const noise::NoiseCell& cell : result.experiment.highlights) {
-    for (CaptionedTable& table :
-         paper_tables(in_cell(result.scores, cell), how_scored(result.experiment, cell))) {
+    for (CaptionedTable& table : paper_tables(result.experiment, in_cell(result.scores, cell),
+                                              how_scored(result.experiment, cell))) {
       tables.push_back(std::move(table));
     }
-    tables.push_back(difference_text_table(in_cell(result.differences, cell)));
+    tables.push_back(difference_text_table(result.experiment, in_cell(result.differences, cell)));
     tables.back().caption += setup_caption(result.experiment);
   }
   return tables;

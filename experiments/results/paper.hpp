@@ -18,14 +18,16 @@ struct CaptionedTable {
 /// Tables I to III of the paper (point-wise classification, transitions, latency), one row per
 /// engine and estimator. The last column has the paper's numbers from the real robot. They are a
 /// reference, not a target: another robot, other drops, hand labels.
-std::vector<CaptionedTable> paper_tables(const std::vector<ScoreSummary>& summaries,
+std::vector<CaptionedTable> paper_tables(const Experiment& experiment,
+                                         const std::vector<ScoreSummary>& summaries,
                                          const std::string& how);
 
 /// Those tables for every highlighted cell of a result, each with its differences.
 std::vector<CaptionedTable> paper_tables(const ExperimentResult& result);
 
 /// The differences of the first estimator from the others, with intervals.
-CaptionedTable difference_text_table(const std::vector<Difference>& differences);
+CaptionedTable difference_text_table(const Experiment& experiment,
+                                     const std::vector<Difference>& differences);
 
 std::string to_text(const CaptionedTable& table);
 std::string to_markdown(const CaptionedTable& table);

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/paper.hpp"
 
@@ -21,7 +21,7 @@ Table cell_table(const ExperimentResult& result, const std::string& simulator,
               {}};
   for (const CellSummary& summary : result.summaries) {
     if (summary.condition.test_simulator != simulator || !(summary.cell == cell)) continue;
-    table.rows.push_back({estimator_entry(summary.condition.estimator).title});
+    table.rows.push_back({estimator_entry(result.experiment, summary.condition.estimator).title});
     for (const PointMetric& metric : point_metrics) {
       Interval interval = summary.*metric.interval;
       if (metric.interval != &CellSummary::success) interval.low = NAN;
@@ -74,7 +74,7 @@ std::string summary_text(const ExperimentResult& result) {
       text += fmt::format(
           "\n{}: accuracy of {} by torque and accelerometer noise "
           "(* no better than always contact){}\n\n",
-          simulator, estimator_entry(first).title, setup_caption(experiment));
+          simulator, estimator_entry(experiment, first).title, setup_caption(experiment));
       text += to_text(grid_table(result.summaries, simulator, first, experiment.noise));
     }
   }
@@ -102,7 +102,8 @@ std::string closing_text(const ExperimentResult& result) {
   }
   for (const CellSummary& summary : result.summaries) {
     if (!summary.condition.is_fitted_in_domain() || !(summary.cell == cell)) continue;
-    const std::string& title = estimator_entry(summary.condition.estimator).title;
+    const std::string& title =
+        estimator_entry(result.experiment, summary.condition.estimator).title;
     auto row = std::find_if(table.rows.begin(), table.rows.end(),
                             [&](const auto& cells) { return cells.front() == title; });
     if (row == table.rows.end()) row = table.rows.insert(row, {title});

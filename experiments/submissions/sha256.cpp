@@ -1,36 +1,34 @@
 #include "experiments/submissions/sha256.hpp"
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <memory>
-#include <new>
-
-extern "C" {
-#include <libavutil/mem.h>
-#include <libavutil/sha.h>
-}
+#include <openssl/evp.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "core/error.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
 struct Free {
-  void operator()(AVSHA* sum) const { av_free(sum); }
+  void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
 };
 
 }  // namespace
 
 std::string sha256(std::string_view bytes) {
-  constexpr int bits = 256;
-  const std::unique_ptr<AVSHA, Free> sum(av_sha_alloc());
-  if (!sum) throw std::bad_alloc();
-  av_sha_init(sum.get(), bits);
-  av_sha_update(sum.get(), reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-  std::array<std::uint8_t, bits / 8> digest{};
-  av_sha_final(sum.get(), digest.data());
+  constexpr std::size_t digest_bytes = 32;
+  const std::unique_ptr<EVP_MD_CTX, Free> context(EVP_MD_CTX_new());
+  std::array<unsigned char, digest_bytes> digest{};
+  if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1 ||
+      EVP_DigestUpdate(context.get(), bytes.data(), bytes.size()) != 1 ||
+      EVP_DigestFinal_ex(context.get(), digest.data(), nullptr) != 1) {
+    throw Error("libcrypto could not compute a SHA-256");
+  }
   return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 

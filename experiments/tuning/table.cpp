@@ -8,6 +8,7 @@
 
 #include "core/files.hpp"
 #include "core/tables/table.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -67,8 +68,8 @@ std::string tuning_text(const std::vector<Trial>& trials, const Experiment& expe
   for (const Trial& trial : trials) {
     if (trial.number == 0) defaults = &trial;
     if (!trial.is_chosen) continue;
-    table.rows.push_back({estimator_entry(trial.estimator).title, trial.simulator + trial.fit,
-                          fmt::format("{:.3f}", defaults->score),
+    table.rows.push_back({estimator_entry(experiment, trial.estimator).title,
+                          trial.simulator + trial.fit, fmt::format("{:.3f}", defaults->score),
                           fmt::format("{:.3f}", trial.score),
                           trial.number == 0 ? "its defaults" : text_of(trial.hyperparameters)});
   }

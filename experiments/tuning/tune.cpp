@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "core/random.hpp"
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/signals/estimator_runner.hpp"
 #include "experiments/tuning/folds.hpp"
@@ -117,7 +117,7 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
         folds_of(of_engine(fit_runs, simulator), of_engine(segments, simulator),
                  static_cast<std::size_t>(experiment.tuning->folds), experiment.fit.perturbed);
     for (const std::string& name : experiment.estimators) {
-      const EstimatorEntry& entry = estimator_entry(name);
+      const EstimatorEntry& entry = estimator_entry(experiment, name);
       const std::vector<HyperparameterValues> tried =
           trial_hyperparameters(entry, seed_of_fit(experiment), experiment.tuning->trials);
       for (std::size_t fold = 0; fold < folds[simulator].size() && !tried.empty(); ++fold) {

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/sensors.hpp"
@@ -25,12 +25,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-experiments::FittedModel model_of(const fs::path& directory, const std::string& simulator,
+experiments::FittedModel model_of(const ReportSubject& subject, const std::string& simulator,
                                   const std::string& estimator) {
-  const auto kind = experiments::estimator_entry(estimator).fits();
+  const auto kind = experiments::estimator_entry(subject.experiment, estimator).fits();
   if (!kind) return {};
   return experiments::read_fitted_model(
-      *kind, directory / "models" / experiments::model_name(simulator, estimator));
+      *kind, subject.directory / "models" / experiments::model_name(simulator, estimator));
 }
 
 /// The robot as drawn for the run, on the terrain of the scenario that the recording contains.
@@ -47,12 +47,13 @@ models::RobotModel robot_of(const recordings::Recording& recording) {
 }
 
 /// An estimator's beliefs along a noisy recording. `noise` was drawn for the run.
-BeliefTrack beliefs_of(const experiments::Condition& condition,
+BeliefTrack beliefs_of(const experiments::Experiment& experiment,
+                       const experiments::Condition& condition,
                        const experiments::FittedModels& models, const experiments::RunSignals& run,
                        const experiments::NoiseRun& noise, const noise::SensorNoise& levels) {
-  const auto estimator = experiments::make_estimator(condition, models, run);
+  const auto estimator = experiments::make_estimator(experiment, condition, models, run);
   BeliefTrack track;
-  track.name = experiments::estimator_entry(condition.estimator).title;
+  track.name = experiments::estimator_entry(experiment, condition.estimator).title;
   Belief belief;
   for (std::size_t k = 0; k < run.steps(); ++k) {
     if (experiments::has_record(run.signals[k])) {
@@ -84,8 +85,9 @@ FilmedRun filmed(recordings::Recording recording, const experiments::Experiment&
   const std::string& simulator = recording.info.simulator;
   std::vector<BeliefTrack> beliefs;
   for (const std::string& estimator : filmed_estimators.estimators) {
-    beliefs.push_back(beliefs_of({simulator, simulator, estimator}, filmed_estimators.models,
-                                 signals, drawn, filmed_estimators.noise));
+    beliefs.push_back(beliefs_of(experiment, {simulator, simulator, estimator},
+                                 filmed_estimators.models, signals, drawn,
+                                 filmed_estimators.noise));
     beliefs.back().colour = line_colour(line_type_of(experiment.estimators, estimator));
   }
   models::RobotModel robot = robot_of(recording);
@@ -118,7 +120,7 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
     experiments::FittedModels models;
     for (const std::string& estimator : video.estimators) {
       experiments::FittedModel& model = models[run.simulator][estimator];
-      model = model_of(subject.directory, run.simulator, estimator);
+      model = model_of(subject, run.simulator, estimator);
       model.hyperparameters = chosen[run.simulator][estimator];
     }
     all.push_back(filmed(recordings::read_recording(log), experiment, profile,

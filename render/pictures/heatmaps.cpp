@@ -7,7 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/maps/heatmap_figure.hpp"
 #include "simulators/registry.hpp"
@@ -27,7 +28,7 @@ HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::st
                       const std::string& estimator, const Heatmap& heatmap,
                       const CellCoordinates& coordinates) {
   HeatmapPanel panel;
-  panel.title = experiments::estimator_entry(estimator).title;
+  panel.title = experiments::estimator_entry(result.experiment, estimator).title;
   for (auto* rows : {&panel.value, &panel.low, &panel.high}) {
     rows->assign(heatmap.y.size(), std::vector<double>(heatmap.x.size(), NAN));
   }

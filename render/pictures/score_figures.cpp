@@ -5,8 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/estimators/baselines.hpp"
 #include "experiments/estimators/decision.hpp"
-#include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/curves/evidence_figure.hpp"
 #include "render/curves/score_figure.hpp"
@@ -36,10 +37,11 @@ std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result
                          score.condition.estimator != experiments::always_contact_name &&
                          score.condition.estimator != "oracle";
       if (!shown) continue;
-      panel.rows.push_back({experiments::estimator_entry(score.condition.estimator).title,
-                            line_type_of(result.experiment.estimators, score.condition.estimator),
-                            score.total.calibration, score.contact_frequency, score.total.takeoff,
-                            score.total.landing});
+      panel.rows.push_back(
+          {experiments::estimator_entry(result.experiment, score.condition.estimator).title,
+           line_type_of(result.experiment.estimators, score.condition.estimator),
+           score.total.calibration, score.contact_frequency, score.total.takeoff,
+           score.total.landing});
     }
     if (!panel.rows.empty()) panels.push_back(std::move(panel));
   }
@@ -65,7 +67,7 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
   for (const std::string& estimator : experiment.estimators) {
     const auto model = models->second.find(estimator);
     if (model == models->second.end() || !model->second.measurement) continue;
-    const experiments::EstimatorEntry& entry = experiments::estimator_entry(estimator);
+    const experiments::EstimatorEntry& entry = experiments::estimator_entry(experiment, estimator);
     const auto same = std::find(drawn.begin(), drawn.end(), entry.config->measurement);
     if (same != drawn.end()) {
       figure.rows[static_cast<std::size_t>(same - drawn.begin())].title += ", " + entry.title;
@@ -104,7 +106,7 @@ std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
         estimator,
         EvidenceFigure{
             fmt::format("Evidence of each input for a wheel's contact: {}, {}, {}",
-                        experiments::estimator_entry(estimator).title, experiment.name,
+                        experiments::estimator_entry(experiment, estimator).title, experiment.name,
                         simulators::simulator_title(simulator)),
             std::move(*model),
             fmt::format(

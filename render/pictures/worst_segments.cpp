@@ -37,8 +37,8 @@ std::vector<int> wrong_decisions(const experiments::ExperimentResult& result,
                                  const std::string& estimator, const experiments::Rollout& run,
                                  const noise::SensorNoise& levels) {
   const std::string& simulator = run.plan.simulator;
-  const auto runner =
-      experiments::make_estimator({simulator, simulator, estimator}, result.models, run.signals);
+  const auto runner = experiments::make_estimator(
+      result.experiment, {simulator, simulator, estimator}, result.models, run.signals);
   const auto drawn = experiments::noise_run(
       run.signals, experiments::noise_key(result.experiment, 0, run.plan.run));
   const auto decisions = experiments::decide(*runner, run.signals, drawn, levels);

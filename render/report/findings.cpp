@@ -5,7 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/maps/error_scale.hpp"
 #include "simulators/registry.hpp"
@@ -80,7 +81,8 @@ std::string finding(const Cells& cells) {
 ReportSection estimators_section(const ReportSubject& subject) {
   ReportSection section{"estimators", "Estimators", "<dl class=\"estimators\">\n"};
   for (const std::string& name : subject.experiment.estimators) {
-    const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
+    const experiments::EstimatorEntry& entry =
+        experiments::estimator_entry(subject.experiment, name);
     section.html += fmt::format("<dt>{}</dt><dd>{}. It uses {}.</dd>\n", escaped(entry.title),
                                 escaped(entry.summary), escaped(inputs_text(entry.sensors)));
   }

@@ -125,13 +125,15 @@ ReportSection paper_section(const ReportSubject& subject) {
         experiments::plural(static_cast<std::size_t>(subject.experiment.noise.seeds), "noise seed"),
         experiments::setup_caption(subject.experiment));
     std::string tables;
-    for (const experiments::CaptionedTable& table : experiments::paper_tables(scores, how)) {
+    for (const experiments::CaptionedTable& table :
+         experiments::paper_tables(subject.experiment, scores, how)) {
       tables += with_engine_titles(table);
     }
     const std::vector<experiments::Difference> compared =
         rows_at(subject.summary.differences, cell);
     if (!compared.empty()) {
-      experiments::CaptionedTable table = experiments::difference_text_table(compared);
+      experiments::CaptionedTable table =
+          experiments::difference_text_table(subject.experiment, compared);
       table.caption =
           "Paired differences: both estimators processed the same runs with the same noise. " + how;
       tables += with_engine_titles(table);

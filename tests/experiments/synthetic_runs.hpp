@@ -67,13 +67,14 @@ inline Experiment synthetic_experiment(const std::vector<std::string>& estimator
 inline std::vector<scoring::Classification> sweep_run_one_by_one(
     std::span<const Condition> conditions, std::span<const noise::NoiseCell> cells,
     const RunSignals& run, const NoiseRun& noise, const FittedModels& models,
-    const scoring::ScoringConfig& scoring, const ShouldContinue& should_continue) {
+    const Experiment& experiment, const ShouldContinue& should_continue) {
   std::vector<noise::SensorNoise> levels;
   for (const noise::NoiseCell& cell : cells) levels.push_back(cell.levels());
   std::vector<scoring::Classification> counts;
   for (const Condition& condition : conditions) {
-    const auto estimator = make_estimator(condition, models, run);
-    const auto by_level = sweep_levels(*estimator, levels, run, noise, scoring, should_continue);
+    const auto estimator = make_estimator(experiment, condition, models, run);
+    const auto by_level =
+        sweep_levels(*estimator, levels, run, noise, experiment.scoring, should_continue);
     counts.insert(counts.end(), by_level.begin(), by_level.end());
   }
   return counts;

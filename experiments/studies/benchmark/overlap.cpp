@@ -1,11 +1,11 @@
 #include "experiments/studies/benchmark/overlap.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/studies/benchmark/plan.hpp"
+#include "scoring/distributions/overlap.hpp"
 
 namespace touchdown::experiments {
 
@@ -25,15 +25,14 @@ double common_part(const MeasurementModel& first, const MeasurementModel& second
   const double other_area = others.knee.step() * others.wheel.step();
   const double one = share(grids);
   const double other = share(others) * area / other_area;
-  double sum = 0.0;
-  std::size_t i = 0;
+  std::vector<double> p, q;
   for (int wheel = 0; wheel < grids.wheel.count; ++wheel) {
-    for (int knee = 0; knee < grids.knee.count; ++knee, ++i) {
-      const Likelihoods there = second({grids.knee[knee], grids.wheel[wheel]});
-      sum += std::fmin(one * (grids.*grid)[i], other * there.*density);
+    for (int knee = 0; knee < grids.knee.count; ++knee) {
+      p.push_back(one * (grids.*grid)[p.size()]);
+      q.push_back(other * second({grids.knee[knee], grids.wheel[wheel]}).*density);
     }
   }
-  return sum;
+  return scoring::overlap(p, q);
 }
 
 /// The overlap of the densities that are fitted on two setups.
@@ -65,8 +64,8 @@ void write_overlap(const FittedModels& models, const Evaluation& evaluation,
                    const RunDirectory& directory) {
   const Experiment& experiment = evaluation.request.experiment;
   const auto estimator = std::find_if(
-      experiment.estimators.begin(), experiment.estimators.end(), [](const std::string& name) {
-        return estimator_entry(name).fits() == ModelKind::measurement;
+      experiment.estimators.begin(), experiment.estimators.end(), [&](const std::string& name) {
+        return estimator_entry(experiment, name).fits() == ModelKind::measurement;
       });
   if (estimator == experiment.estimators.end()) return;
   const auto setups = benchmark_setups(evaluation.request, evaluation.plan);

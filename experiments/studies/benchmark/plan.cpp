@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "scoring/extended_score.hpp"
 
@@ -44,7 +45,7 @@ std::size_t index_of(const Items& items, const Is& is) {
 void add_transfers(const Experiment& experiment, const std::vector<BenchmarkSetup>& setups,
                    RunGroup& group) {
   for (const Condition& own : own_engine_conditions(experiment)) {
-    if (!estimator_entry(own.estimator).fits()) continue;
+    if (!estimator_entry(experiment, own.estimator).fits()) continue;
     for (const BenchmarkSetup& other : setups) {
       if (other.robot_and_sensors.fit == group.fit) continue;
       group.conditions.push_back(
@@ -62,11 +63,12 @@ void add_transfers(const Experiment& experiment, const std::vector<BenchmarkSetu
 }
 
 /// Adds the refits of the in-domain conditions of a group, after all others.
-void add_refits(const BenchmarkConfig& benchmark, RunGroup& group) {
+void add_refits(const Experiment& experiment, RunGroup& group) {
+  const BenchmarkConfig& benchmark = *experiment.benchmark;
   const std::vector<Condition> all = group.conditions;
   for (const Condition& condition : all) {
     if (!condition.is_fitted_in_domain(group.fit)) continue;
-    if (!estimator_entry(condition.estimator).fits()) continue;
+    if (!estimator_entry(experiment, condition.estimator).fits()) continue;
     for (int refit = 1; refit <= refits_of(benchmark, group.fit); ++refit) {
       group.conditions.push_back(condition);
       group.conditions.back().refit = refit;
@@ -135,7 +137,7 @@ void add_benchmark(const RunRequest& request, Plan& plan) {
     if (where.fit.empty()) {
       add_measure(extended_scores(), plan.groups.front());
       if (experiment.benchmark->transfer) add_transfers(experiment, setups, plan.groups.front());
-      add_refits(*experiment.benchmark, plan.groups.front());
+      add_refits(experiment, plan.groups.front());
       continue;
     }
     RunGroup group{fmt::format("{} {}", setup.robot, setup.sensors),
@@ -146,7 +148,7 @@ void add_benchmark(const RunRequest& request, Plan& plan) {
     add_measure(extended_scores(), group);
     group.fit = where.fit;
     if (experiment.benchmark->transfer) add_transfers(experiment, setups, group);
-    add_refits(*experiment.benchmark, group);
+    add_refits(experiment, group);
     plan_runs(request, RunRole::fit, where, 0, plan);
     plan_segments(request, where, plan);
     plan_runs(request, RunRole::test, where, plan.groups.size(), plan);

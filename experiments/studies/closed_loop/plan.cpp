@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/tables/table.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "scenarios/varied.hpp"
 
@@ -96,7 +97,7 @@ void require_closed_loop(const RunRequest& request) {
           cell.scene, scene.scenario));
     }
     const bool is_estimator = !cell.is_oracle() && cell.contact != "always";
-    if (is_estimator && estimator_entry(cell.contact).make == nullptr) {
+    if (is_estimator && estimator_entry(experiment, cell.contact).make == nullptr) {
       throw InputError(fmt::format(
           "closed_loop.contact: '{}' needs whole runs, but a policy gets contact step by step",
           cell.contact));

@@ -16,10 +16,12 @@ namespace touchdown::experiments {
 namespace {
 
 /// The estimator with the model that was fitted in this engine.
-std::unique_ptr<ContactEstimator> estimator_of(const ClosedLoopCell& cell,
+std::unique_ptr<ContactEstimator> estimator_of(const Experiment& experiment,
+                                               const ClosedLoopCell& cell,
                                                const FittedModels& models, double period,
                                                const LegGeometry& legs) {
-  const EstimatorEntry entry = entry_of({cell.simulator, cell.simulator, cell.contact}, models);
+  const EstimatorEntry entry =
+      entry_of(experiment, {cell.simulator, cell.simulator, cell.contact}, models);
   const FittedModel* model =
       entry.fits() ? &models.at(model_key(cell.simulator, {})).at(entry.name) : nullptr;
   return entry.make(entry, {.sample_rate = 1.0 / period, .model = model, .legs = legs});
@@ -45,7 +47,7 @@ ClosedLoopRun run_closed_loop(const RunRequest& request, const ClosedLoopCell& c
   } else {
     const LegGeometry legs = scenarios::leg_geometry(*scenes.as_described(scenario));
     source = contact_source(
-        estimator_of(cell, models, period, legs),
+        estimator_of(experiment, cell, models, period, legs),
         {profile_of(request.sensors, experiment.sensors), sensor_key(experiment, run),
          cell.noise.levels(), noise_key(experiment, 0, run)},
         period, loop.trace);

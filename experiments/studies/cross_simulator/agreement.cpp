@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scoring/distributions/overlap.hpp"
+
 namespace touchdown::experiments {
 
 namespace {
@@ -68,11 +70,12 @@ void add_drops(const RunSignals& run, const scoring::ScoringConfig& scoring, Run
 
 void add_torques(const RunSignals& run, const scoring::ScoringConfig& scoring, RunFacts& facts) {
   using enum TorqueSet;
-  const auto set = [&](TorqueSet which) -> Histogram& {
+  const auto set = [&](TorqueSet which) -> scoring::Histogram& {
     return facts.torque[static_cast<std::size_t>(which)];
   };
-  set(knee_contact) = set(knee_flight) = Histogram(-knee_range, knee_range, knee_bins);
-  set(wheel_contact) = set(wheel_flight) = Histogram(-wheel_range, wheel_range, wheel_bins);
+  set(knee_contact) = set(knee_flight) = scoring::Histogram(-knee_range, knee_range, knee_bins);
+  set(wheel_contact) = set(wheel_flight) =
+      scoring::Histogram(-wheel_range, wheel_range, wheel_bins);
   Mean& contact_ratio = mean_of(facts, Quantity::contact_ratio);
   for (std::size_t k = scoring::first_scored_step(run.info.control_period_us, scoring);
        k < run.steps(); ++k) {
@@ -88,9 +91,9 @@ void add_torques(const RunSignals& run, const scoring::ScoringConfig& scoring, R
 }
 
 double within_engine(const std::vector<RunFacts>& runs, std::size_t set) {
-  std::array<Histogram, 2> half;
+  std::array<scoring::Histogram, 2> half;
   for (std::size_t i = 0; i < runs.size(); ++i) half[i % 2] += runs[i].torque[set];
-  return wasserstein_distance(half[0], half[1]);
+  return scoring::wasserstein_distance(half[0], half[1]);
 }
 
 }  // namespace
@@ -126,10 +129,11 @@ Agreement agreement(const std::vector<RunFacts>& first, const std::vector<RunFac
   }
   for (std::size_t t = 0; t < torque_set_count; ++t) {
     statistics.emplace_back([t](const Both& both) {
-      return wasserstein_distance(both.first.torque[t], both.second.torque[t]);
+      return scoring::wasserstein_distance(both.first.torque[t], both.second.torque[t]);
     });
     statistics.emplace_back([t](const Both& both) {
-      return overlap(both.first.torque[t], both.second.torque[t], merged);
+      return scoring::overlap(both.first.torque[t].shares(merged),
+                              both.second.torque[t].shares(merged));
     });
   }
   const std::vector<Interval> intervals =

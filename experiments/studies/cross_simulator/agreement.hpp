@@ -7,8 +7,8 @@
 
 #include "experiments/config/experiment.hpp"
 #include "experiments/rollouts/rollouts.hpp"
-#include "experiments/studies/cross_simulator/histogram.hpp"
 #include "scoring/bootstrap.hpp"
+#include "scoring/distributions/histogram.hpp"
 
 namespace touchdown::experiments {
 
@@ -48,7 +48,7 @@ inline constexpr std::size_t torque_set_count = 4;
 /// The compared quantities of one run; those of several runs can be added.
 struct RunFacts {
   std::array<Mean, quantity_count> quantity;
-  std::array<Histogram, torque_set_count> torque;
+  std::array<scoring::Histogram, torque_set_count> torque;
 
   RunFacts& operator+=(const RunFacts& other);
 };

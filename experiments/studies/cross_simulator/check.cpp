@@ -74,8 +74,7 @@ CrossSimulatorResult check_across_simulators(const Evaluation& evaluation) {
   for (const Variation& variation : variations(evaluation.request)) {
     add_sensitivity(variation, evaluation, result.sensitivities);
   }
-  result.verdicts = verdicts(result.transfers, experiment.cross_simulator->verdict,
-                             experiment.intervals.bootstrap.level);
+  result.verdicts = verdicts(result.transfers, experiment);
   return result;
 }
 

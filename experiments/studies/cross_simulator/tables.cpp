@@ -7,8 +7,8 @@
 
 #include "core/files.hpp"
 #include "core/tables/verbs.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/baselines.hpp"
-#include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/tables/noise_columns.hpp"
 
@@ -123,8 +123,9 @@ CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::N
                                   ? t.condition.fit_simulator + " → " + t.condition.test_simulator
                                   : "– → " + t.condition.test_simulator;
     table.table.rows.push_back(
-        {estimator_entry(t.condition.estimator).title, where, with_interval(t.success),
-         with_interval(t.no_contact_recall), own ? "–" : with_interval(t.loss, 4),
+        {estimator_entry(result.experiment, t.condition.estimator).title, where,
+         with_interval(t.success), with_interval(t.no_contact_recall),
+         own ? "–" : with_interval(t.loss, 4),
          t.condition.estimator == always_contact_name ? "–" : with_interval(t.gain)});
   }
   return table;
@@ -141,7 +142,7 @@ CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
       "sensitivity",
       {{"factor", "simulator", "value", "fell"}, {}}};
   for (const std::string& estimator : unique(result.sensitivities, &Sensitivity::estimator)) {
-    table.table.header.push_back(estimator_entry(estimator).title);
+    table.table.header.push_back(estimator_entry(result.experiment, estimator).title);
   }
   const auto value_of = [](const Sensitivity& s) {
     return std::tuple(s.variation.factor, s.variation.simulator, s.variation.value);

@@ -6,17 +6,20 @@
 
 #include <fmt/format.h>
 
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/estimators/baselines.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-std::string words_of(const Verdict& verdict, const VerdictConfig& config, double level) {
-  const EstimatorEntry& estimator = estimator_entry(verdict.estimator);
+std::string words_of(const Verdict& verdict, const Experiment& experiment) {
+  const VerdictConfig& config = experiment.cross_simulator->verdict;
+  const EstimatorEntry& estimator = estimator_entry(experiment, verdict.estimator);
   const bool keeps = verdict.loss < config.largest_loss;
   const bool gains = verdict.gain > config.smallest_gain;
-  const std::string interval = fmt::format("{:.0f} % interval", 100.0 * level);
+  const std::string interval =
+      fmt::format("{:.0f} % interval", 100.0 * experiment.intervals.bootstrap.level);
   const std::string loss =
       estimator.fits()
           ? fmt::format(
@@ -74,7 +77,8 @@ std::vector<Transfer> transfers(const std::vector<ConditionCounts>& counts,
       const std::vector<scoring::Classification>& samples = samples_of(counts, condition, c);
       const std::vector<Interval> scores = scoring::bootstrap<scoring::Classification>(
           samples, {success, &scoring::Classification::no_contact_recall}, config);
-      result.push_back({condition, cell, estimator_entry(condition.estimator).fits().has_value(),
+      result.push_back({condition, cell,
+                        estimator_entry(experiment, condition.estimator).fits().has_value(),
                         scores[0], scores[1], difference(samples_of(counts, own, c), samples),
                         difference(samples, samples_of(counts, always, c))});
     }
@@ -82,8 +86,9 @@ std::vector<Transfer> transfers(const std::vector<ConditionCounts>& counts,
   return result;
 }
 
-std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers, const VerdictConfig& config,
-                              double level) {
+std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers,
+                              const Experiment& experiment) {
+  const VerdictConfig& config = experiment.cross_simulator->verdict;
   std::vector<Verdict> result;
   for (const Transfer& transfer : transfers) {
     const Condition& condition = transfer.condition;
@@ -104,7 +109,7 @@ std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers, const Verd
     verdict.holds = verdict.loss < config.largest_loss && verdict.gain > config.smallest_gain;
     verdict.is_demanded = std::find(config.demanded.begin(), config.demanded.end(),
                                     verdict.estimator) != config.demanded.end();
-    verdict.words = words_of(verdict, config, level);
+    verdict.words = words_of(verdict, experiment);
   }
   return result;
 }

@@ -45,8 +45,7 @@ struct Verdict {
 /// engine, its loss is below the limit and its gain over always contact is above the limit. This
 /// must hold for the ends of the intervals in every engine and noise setting. Undefined numbers
 /// fail.
-std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers, const VerdictConfig& config,
-                              double level);
+std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers, const Experiment& experiment);
 
 /// The estimators that fail a demanded verdict.
 std::vector<std::string> failed_demands(const std::vector<Verdict>& verdicts);

@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "scoring/distributions/overlap.hpp"
+
 namespace touchdown::experiments {
 
 namespace {
@@ -120,13 +122,13 @@ double overlap(const std::vector<TorqueSegment>& a, const std::vector<TorqueSegm
   const SharesByCell in_a = shares_by_cell(a);
   const SharesByCell in_b = shares_by_cell(b);
   if (in_a.empty() || in_b.empty()) return not_defined;
-  double common = 0.0;
+  std::vector<double> p, q;  // in the cells of `a`, outside of which it is zero
   for (const auto& [cell, share] : in_a) {
-    if (const auto other = in_b.find(cell); other != in_b.end()) {
-      common += std::min(share, other->second);
-    }
+    const auto other = in_b.find(cell);
+    p.push_back(share);
+    q.push_back(other == in_b.end() ? 0.0 : other->second);
   }
-  return common;
+  return scoring::overlap(p, q);
 }
 
 }  // namespace touchdown::experiments

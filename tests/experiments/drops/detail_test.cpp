@@ -96,10 +96,10 @@ TEST(DropDetail, ShowsTheBeliefsThatTheStudyCounts) {
     const std::vector<noise::NoiseCell> cells = {drop.noise};
     for (const BeliefTrace& trace : drop.beliefs) {
       const std::vector<Condition> condition = {{"mujoco", "mujoco", trace.estimator}};
-      const auto swept = sweep_run(condition, cells, run, noise, study.models,
-                                   study.experiment.scoring, [] { return true; });
+      const auto swept = sweep_run(condition, cells, run, noise, study.models, study.experiment,
+                                   [] { return true; });
       // The sweep counts both wheels; a second filter gives the right wheel's share.
-      const auto estimator = make_estimator(condition[0], study.models, run);
+      const auto estimator = make_estimator(study.experiment, condition[0], study.models, run);
       const auto right = decide(*estimator, run, noise, drop.noise.levels())[1];
       auto both = count(run.contact[0], decisions(trace));
       const auto rights = count(run.contact[1], right);

@@ -32,7 +32,8 @@ TEST(DropPosterior, AddsUpToOneAndMatchesTheStudysEstimator) {
   const RunSignals run = synthetic_run(3);
   const DropPosterior posterior = drop_posterior(study.experiment, study.config, run, study.models);
   ASSERT_EQ(posterior.time.size(), 601U);
-  const auto estimator = make_estimator({"mujoco", "mujoco", "phase"}, study.models, run);
+  const auto estimator =
+      make_estimator(study.experiment, {"mujoco", "mujoco", "phase"}, study.models, run);
   const scoring::Prediction prediction =
       predict(*estimator, run, noise_run(run, noise_key(study.experiment, 1, 3)),
               study.config.noise.levels());
@@ -73,7 +74,8 @@ TEST(DropPosterior, FollowsFromThePreviousPosteriorAndTheStepsEvidence) {
   const RunSignals run = synthetic_run(3);
   const DropPosterior posterior = drop_posterior(study.experiment, study.config, run, study.models);
   const PhaseModel& model =
-      setup_of({"mujoco", "mujoco", "phase"}, study.models, run).model->phase->model;
+      setup_of(study.experiment, {"mujoco", "mujoco", "phase"}, study.models, run)
+          .model->phase->model;
   for (std::size_t k = 1; k < posterior.time.size(); ++k) {
     PhaseProbabilities expected{};
     double sum = 0.0;

@@ -24,13 +24,13 @@ TEST(Oracle, ScoresPerfectlyForAllNoise) {
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
   const std::vector<Condition> conditions = {{"mujoco", "mujoco", "oracle"}};
   const auto counts = sweep_run(conditions, noise::noise_cells(experiment.noise), run, noise, {},
-                                experiment.scoring, [] { return true; });
+                                experiment, [] { return true; });
   ASSERT_FALSE(counts.empty());
   for (const scoring::Classification& c : counts) {
     EXPECT_GT(c.flight(), 0);
     EXPECT_EQ(c.success(), 1.0);
   }
-  const auto estimator = make_estimator(conditions[0], {}, run);
+  const auto estimator = make_estimator(experiment, conditions[0], {}, run);
   const auto scores =
       scoring::score(run.contact, predict(*estimator, run, noise, {.acceleration = 8.0}),
                      run.segments, 1000, experiment.scoring);
@@ -100,8 +100,10 @@ TEST(Oracle, IsTheOnlyEstimatorThatUsesLabels) {
   }
   for (const std::string& name : estimator_names()) {
     const Condition condition = {"mujoco", "mujoco", name};
-    const auto decided = decide(*make_estimator(condition, models, run), run, noise, {});
-    EXPECT_EQ(decided == decide(*make_estimator(condition, models, inverted), inverted, noise, {}),
+    const auto decided =
+        decide(*make_estimator(experiment, condition, models, run), run, noise, {});
+    EXPECT_EQ(decided == decide(*make_estimator(experiment, condition, models, inverted), inverted,
+                                noise, {}),
               !estimator_entry(name).needs_truth)
         << name;
   }

@@ -33,9 +33,8 @@ void expect_batch_equals_one_by_one(const RunSignals& run, bool can_batch) {
   const NoiseRun noise = noise_run(run, noise_key(experiment, 1, run.info.run));
   for (const Condition& condition : own_engine_conditions(experiment)) {
     const std::vector<Condition> one = {condition};
-    const auto fast = sweep_run(one, cells, run, noise, models, experiment.scoring, always);
-    const auto slow =
-        sweep_run_one_by_one(one, cells, run, noise, models, experiment.scoring, always);
+    const auto fast = sweep_run(one, cells, run, noise, models, experiment, always);
+    const auto slow = sweep_run_one_by_one(one, cells, run, noise, models, experiment, always);
     ASSERT_EQ(fast.size(), cells.size() * run.segments.size());
     ASSERT_EQ(slow.size(), fast.size());
     const std::int64_t tolerance = condition.estimator == "nmn" ? 10 : 0;
@@ -73,7 +72,7 @@ TEST(SweepRun, StopsOnRequest) {
   const RunSignals run = synthetic_run(3);
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
   EXPECT_THROW(sweep_run(own_engine_conditions(experiment), noise::noise_cells(experiment.noise),
-                         run, noise, models, experiment.scoring, [] { return false; }),
+                         run, noise, models, experiment, [] { return false; }),
                Stopped);
 }
 
@@ -115,9 +114,9 @@ TEST(Evaluation, EqualsTheSumOfSingleConditions) {
   EXPECT_THROW(collect(plan, both, saved), Error);
   // The order of tasks does not matter. Saved tasks are not computed again.
   for (const TaskRange part : {TaskRange{2, 4}, TaskRange{0, 1}}) {
-    EXPECT_EQ(evaluate(plan, part, runs, experiment.scoring, models, saved, always), part.size());
+    EXPECT_EQ(evaluate(plan, part, runs, experiment, models, saved, always), part.size());
   }
-  EXPECT_EQ(evaluate(plan, plan.all_tasks(), runs, experiment.scoring, models, saved, always), 1U);
+  EXPECT_EQ(evaluate(plan, plan.all_tasks(), runs, experiment, models, saved, always), 1U);
   EXPECT_FALSE(
       SavedCounts(folder.path(), "other build").read(plan, plan.tasks.front()).has_value());
   const CollectedCounts all = collect(plan, both, saved);
@@ -132,12 +131,12 @@ TEST(Evaluation, EqualsTheSumOfSingleConditions) {
       for (int seed = 0; seed < experiment.noise.seeds; ++seed) {
         const NoiseRun noise = noise_run(run, noise_key(experiment, seed, run.info.run));
         const auto alone = sweep_run_one_by_one({&conditions[c], 1}, cells, run, noise, models,
-                                                experiment.scoring, always);
+                                                experiment, always);
         for (std::size_t i = 0; i < alone.size(); ++i) counts[i] += alone[i];
         const auto scored =
             scoring::score(run.contact,
-                           predict(*make_estimator(conditions[c], models, run), run, noise,
-                                   experiment.highlights[0].levels()),
+                           predict(*make_estimator(experiment, conditions[c], models, run), run,
+                                   noise, experiment.highlights[0].levels()),
                            run.segments, run.info.control_period_us, experiment.scoring);
         for (std::size_t i = 0; i < scores.size(); ++i) scores[i] += scored[i].wheels();
       }

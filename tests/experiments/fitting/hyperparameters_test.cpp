@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/results/captions.hpp"
@@ -33,10 +34,26 @@ TEST(GivenHyperparameters, AreUsedByFitsAndEstimators) {
   const FittedModel& phase = models.at("mujoco").at("phase");
   EXPECT_EQ(phase.metadata->configuration.at("leave_below"), "0.125");
   const auto entry_for = [&](const char* estimator) {
-    return entry_of({"mujoco", "mujoco", estimator}, models);
+    return entry_of(experiment, {"mujoco", "mujoco", estimator}, models);
   };
   EXPECT_EQ(entry_for("phase").phase->leave_below, 0.125);
   EXPECT_EQ(entry_for("free_fall").chosen("half_way"), -3.0);
+}
+
+TEST(GivenHyperparameters, SetTheMembersThatTheyAreNamedAfter) {
+  const EstimatorEntry robust =
+      with_hyperparameters(estimator_entry("robust"), {{"threshold", 0.3},
+                                                       {"transition.switch.offset", 2.7},
+                                                       {"transition.switch.slope", 1.0 / 3.0},
+                                                       {"bandwidth_floor", 0.07}});
+  EXPECT_EQ(robust.config->threshold, 0.3);
+  EXPECT_EQ(robust.config->transition.switch_sigmoid.offset, 2.7);
+  EXPECT_EQ(robust.config->transition.switch_sigmoid.slope, 1.0 / 3.0);
+  EXPECT_EQ(robust.config->measurement.fit.bandwidth_floor, (TorqueBandwidth{0.07, 0.07}));
+  const EstimatorEntry phase = with_hyperparameters(
+      estimator_entry("phase"), {{"torque_bandwidth", 0.1}, {"return_above", 2.0 / 3.0}});
+  EXPECT_EQ(phase.phase->fit.torque_bandwidth, 0.1);
+  EXPECT_EQ(phase.phase->return_above, 2.0 / 3.0);
 }
 
 TEST(GivenHyperparameters, YieldToChosenOnes) {

@@ -45,7 +45,7 @@ TEST(EncoderNoise, ChangesOnlyEstimatorsThatUseEncoders) {
   const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
   for (const std::string& name : estimator_names()) {
-    const auto estimator = make_estimator({"mujoco", "mujoco", name}, models, run);
+    const auto estimator = make_estimator(experiment, {"mujoco", "mujoco", name}, models, run);
     const auto exact = predict(*estimator, run, noise, {});
     const auto noisy =
         predict(*estimator, run, noise, {.joint_position = 0.3, .joint_velocity = 30.0});

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "estimator/free_fall.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/request.hpp"
@@ -56,33 +57,30 @@ TEST(EstimatorRunner, GivesTheSameBeliefsForWholeRunsAsStepByStep) {
 }
 
 TEST(ExternalEstimators, AreEvaluatedLikeBuiltInOnes) {
-  const ExternalEstimators present({external("python:test.External")});
-  const Experiment experiment = synthetic_experiment({"free_fall"});
+  Experiment experiment = synthetic_experiment({"free_fall"});
+  experiment.external_estimators = {external("python:test.External")};
   const RunSignals run = synthetic_run(0);
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 0));
   const auto cells = noise::noise_cells(experiment.noise);
   const auto counts_of = [&](const std::string& name) {
     const Condition condition{"mujoco", "mujoco", name};
-    return sweep_run({&condition, 1}, cells, run, noise, {}, experiment.scoring,
-                     [] { return true; });
+    return sweep_run({&condition, 1}, cells, run, noise, {}, experiment, [] { return true; });
   };
   EXPECT_EQ(counts_of("python:test.External"), counts_of("free_fall"));
-  EXPECT_THROW(make_estimator({"mujoco", "mujoco", "python:test.External"}, {}, run), InputError);
+  EXPECT_THROW(make_estimator(experiment, {"mujoco", "mujoco", "python:test.External"}, {}, run),
+               InputError);
 }
 
-TEST(ExternalEstimators, AreRegisteredWhileTheirObjectLives) {
-  const std::size_t built_in = estimator_names().size();
+TEST(ExternalEstimators, BelongToTheExperimentsThatTheyArePassedTo) {
+  const Experiment without;
+  Experiment with;
+  with.external_estimators = {external("python:test.External")};
+  EXPECT_EQ(estimator_entry(with, "python:test.External").title, "External");
+  EXPECT_EQ(&estimator_entry(with, "robust"), &estimator_entry("robust"));
+  EXPECT_EQ(estimator_names(with).size(), estimator_names(without).size() + 1);
+  EXPECT_EQ(estimator_names(without), estimator_names());
+  EXPECT_THROW(estimator_entry(without, "python:test.External"), InputError);
   EXPECT_THROW(estimator_entry("python:test.External"), InputError);
-  {
-    const ExternalEstimators present({external("python:test.External")});
-    EXPECT_EQ(estimator_entry("python:test.External").title, "External");
-    EXPECT_EQ(estimator_names().size(), built_in + 1);
-    EXPECT_EQ(estimator_entries().size(), built_in);
-    EXPECT_THROW(ExternalEstimators({external("python:test.Other")}), InputError);
-  }
-  EXPECT_THROW(estimator_entry("python:test.External"), InputError);
-  EXPECT_THROW(ExternalEstimators({external("robust")}), InputError);
-  EXPECT_EQ(estimator_names().size(), built_in);
 }
 
 constexpr const char* experiment_with_external =
@@ -102,16 +100,26 @@ TEST(ExternalEstimators, AreRefusedWithAHintWithoutPython) {
   }
 }
 
+TEST(ExternalEstimators, MayNotHaveTheNameOfABuiltInOne) {
+  const YamlDocument document = YamlDocument::parse(experiment_with_external, "external.yaml");
+  try {
+    experiment_from_yaml(document, {external("python:test.External"), external("robust")});
+    FAIL() << "was accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the name 'robust' is taken"));
+  }
+}
+
 TEST(ExternalEstimators, OfAnotherRevisionMakeAnotherRequest) {
   const auto id_of = [](const std::string& revision) {
     EstimatorEntry entry = external("python:test.External");
     entry.revision = revision;
-    const ExternalEstimators present({entry});
     const YamlDocument document = YamlDocument::parse(experiment_with_external, "external.yaml");
-    const Experiment experiment = experiment_from_yaml(document);
+    const Experiment experiment = experiment_from_yaml(document, {entry});
     // It reads back from its own text.
-    EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(to_yaml(experiment), "again"))),
-              to_yaml(experiment));
+    EXPECT_EQ(
+        to_yaml(experiment_from_yaml(YamlDocument::parse(to_yaml(experiment), "again"), {entry})),
+        to_yaml(experiment));
     return request_of(experiment).id;
   };
   EXPECT_EQ(id_of("one"), id_of("one"));

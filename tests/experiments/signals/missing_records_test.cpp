@@ -59,7 +59,7 @@ TEST(MissingRecords, SkipLabelsOfTheOracle) {
   RunSignals run = synthetic_run(3);
   for (std::size_t k = 620; k < 650; ++k) run.signals[k] = no_record();
   const NoiseRun noise = noise_run(run, {1, 2});
-  const auto oracle = make_estimator({"mujoco", "mujoco", "oracle"}, {}, run);
+  const auto oracle = make_estimator({}, {"mujoco", "mujoco", "oracle"}, {}, run);
   const auto decided = decide(*oracle, run, noise, {});
   EXPECT_EQ(decided[0], run.contact[0]);
   EXPECT_EQ(decided[1], run.contact[1]);

@@ -46,9 +46,9 @@ const Trial& chosen_of(const std::vector<Trial>& trials) {
 }
 
 TEST(Tune, CorrectsABadDefault) {
-  const ExternalEstimators present({rigged()});
   const std::vector<RunSignals> runs = fitted_runs(4);
-  const Experiment experiment = tuned_experiment({"rigged"}, 16);
+  Experiment experiment = tuned_experiment({"rigged"}, 16);
+  experiment.external_estimators = {rigged()};
   const std::vector<Trial> trials = tune(experiment, "", runs, {}, {});
   ASSERT_EQ(trials.size(), 16U);
   EXPECT_EQ(trials.front().hyperparameters.at("contact"), 400.0);
@@ -60,15 +60,15 @@ TEST(Tune, CorrectsABadDefault) {
   const FittedModels models = fit_models(experiment, runs, {}, {}, chosen_in(trials));
   const RunSignals test = synthetic_run(0);
   const Condition condition{"mujoco", "mujoco", "rigged"};
-  EXPECT_EQ(entry_of(condition, models).chosen("contact"), best.hyperparameters.at("contact"));
+  EXPECT_EQ(entry_of(experiment, condition, models).chosen("contact"),
+            best.hyperparameters.at("contact"));
   scoring::Classification with, without;
   const std::vector<noise::NoiseCell> cells = {{}};
   const NoiseRun noise = noise_run(test, {.seed = 1, .run = 0});
   const FittedModels none;
   for (const auto& [found, counts] : {std::pair(&models, &with), std::pair(&none, &without)}) {
-    for (const scoring::Classification& segment :
-         sweep_run(std::vector{condition}, cells, test, noise, *found, experiment.scoring,
-                   [] { return true; })) {
+    for (const scoring::Classification& segment : sweep_run(
+             std::vector{condition}, cells, test, noise, *found, experiment, [] { return true; })) {
       *counts += segment;
     }
   }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +11,6 @@
 #include "core/files.hpp"
 #include "core/tables/table.hpp"
 #include "experiments/run_experiment.hpp"
-#include "noise/gaussian.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -22,81 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-Histogram normal_sample(double mean, double deviation, std::uint64_t seed) {
-  Histogram histogram(-20.0, 20.0, 8000);
-  const noise::NoiseKey key{.seed = seed, .run = 0};
-  for (std::uint64_t k = 0; k < 200'000; ++k) {
-    histogram.add(
-        mean + deviation * noise::standard_normal(key, noise::NoiseChannel::left_hip_position, k));
-  }
-  return histogram;
-}
-
-TEST(Wasserstein, OfAShiftIsTheShift) {
-  Histogram a(-1.0, 1.0, 200);
-  Histogram b(-1.0, 1.0, 200);
-  for (int i = 0; i < 50; ++i) {
-    a.add(-0.495 + 0.01 * i);
-    b.add(-0.495 + 0.01 * i + 0.37);
-  }
-  EXPECT_NEAR(wasserstein_distance(a, b), 0.37, 1e-9);
-  EXPECT_NEAR(wasserstein_distance(b, a), 0.37, 1e-9);
-  EXPECT_DOUBLE_EQ(wasserstein_distance(a, a), 0.0);
-}
-
-TEST(Wasserstein, OfPointMassesIsTheWorkOfMovingThem) {
-  Histogram a(0.0, 10.0, 1000);
-  Histogram b(0.0, 10.0, 1000);
-  for (int i = 0; i < 4; ++i) a.add(1.005);
-  for (int i = 0; i < 3; ++i) b.add(1.005);
-  b.add(9.005);  // a quarter of the mass, 8 away
-  EXPECT_NEAR(wasserstein_distance(a, b), 2.0, 1e-9);
-}
-
-TEST(Wasserstein, OfGaussiansIsTheClosedForm) {
-  // Same mean: |s1 − s2| · sqrt(2/π). Same deviation: |m1 − m2|.
-  EXPECT_NEAR(wasserstein_distance(normal_sample(0.0, 1.0, 1), normal_sample(0.0, 2.5, 2)),
-              1.5 * std::sqrt(2.0 / std::numbers::pi), 0.02);
-  EXPECT_NEAR(wasserstein_distance(normal_sample(-0.5, 1.0, 3), normal_sample(0.7, 1.0, 4)), 1.2,
-              0.02);
-}
-
-TEST(Wasserstein, ComparesSharesNotCounts) {
-  Histogram few(0.0, 1.0, 10);
-  Histogram many(0.0, 1.0, 10);
-  few.add(0.55);
-  for (int i = 0; i < 1000; ++i) many.add(0.55);
-  EXPECT_DOUBLE_EQ(wasserstein_distance(few, many), 0.0);
-  EXPECT_DOUBLE_EQ(overlap(few, many, 1), 1.0);
-}
-
-TEST(Wasserstein, OfNothingIsNotDefined) {
-  Histogram some(0.0, 1.0, 10);
-  some.add(0.5);
-  some.add(std::nan(""));
-  EXPECT_EQ(some.total(), 1);
-  EXPECT_TRUE(std::isnan(wasserstein_distance(some, Histogram(0.0, 1.0, 10))));
-  EXPECT_TRUE(std::isnan(overlap(Histogram(), some, 1)));
-}
-
-TEST(Overlap, OfUniformsIsTheirCommonPart) {
-  Histogram a(0.0, 2.0, 200);
-  Histogram b(0.0, 2.0, 200);
-  for (int i = 0; i < 100; ++i) {
-    a.add(0.005 + 0.01 * i);
-    b.add(0.305 + 0.01 * i);
-  }
-  EXPECT_NEAR(overlap(a, b, 1), 0.7, 1e-9);
-  EXPECT_NEAR(overlap(a, b, 10), 0.7, 1e-9);
-  EXPECT_NEAR(overlap(a, b, 200), 1.0, 1e-9);
-}
-
-TEST(Histogram, KeepsWhatLiesBeyondAtItsEnds) {
-  Histogram histogram(0.0, 1.0, 4);
-  for (const double value : {-5.0, 0.1, 1.0, 1e300}) histogram.add(value);
-  EXPECT_EQ(histogram.count(), (std::vector<std::int64_t>{2, 0, 0, 2}));
-}
 
 Transfer transfer(const std::string& fit, const std::string& test, double loss_high,
                   double gain_low) {
@@ -108,8 +31,10 @@ Transfer transfer(const std::string& fit, const std::string& test, double loss_h
 }
 
 Verdict verdict_of(const std::vector<Transfer>& transfers) {
-  const VerdictConfig config{.largest_loss = 0.01, .smallest_gain = 0.0, .demanded = {"robust"}};
-  const std::vector<Verdict> all = verdicts(transfers, config, 0.95);
+  Experiment experiment;
+  experiment.cross_simulator.emplace().verdict = {
+      .largest_loss = 0.01, .smallest_gain = 0.0, .demanded = {"robust"}};
+  const std::vector<Verdict> all = verdicts(transfers, experiment);
   EXPECT_EQ(all.size(), 1U);
   return all.front();
 }
@@ -158,7 +83,7 @@ TEST(Agreement, OfTwoEnginesThatDifferByAConstantIsThatConstant) {
     const double duration = 150.0 + static_cast<double>(i);
     first[i].quantity[0].add(duration);
     second[i].quantity[0].add(duration + 4.0);
-    first[i].torque[0] = second[i].torque[0] = Histogram(-1.0, 1.0, 200);
+    first[i].torque[0] = second[i].torque[0] = scoring::Histogram(-1.0, 1.0, 200);
     first[i].torque[0].add(-0.205);
     second[i].torque[0].add(0.195);
   }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace touchdown::experiments {
+namespace touchdown::scoring {
 
 /// Counts of a quantity in `bins` equal bins over [low, high). Values beyond count in the outermost
 /// bins. Histograms with the same bins can be added; an empty one takes the other's bins.
@@ -20,6 +20,8 @@ class Histogram {
   const std::vector<std::int64_t>& count() const { return count_; }
   double bin_width() const { return width_; }
   std::int64_t total() const;
+  /// The shares of all counts in bins that are merged in groups of `merged`. Empty without counts.
+  std::vector<double> shares(std::size_t merged) const;
 
  private:
   double low_ = 0.0;
@@ -31,8 +33,4 @@ class Histogram {
 /// most one bin width. NaN when one histogram is empty.
 double wasserstein_distance(const Histogram& a, const Histogram& b);
 
-/// Σ min(p, q) over bins that are merged in groups of `merged`: 1 for equal distributions, 0 for
-/// disjoint ones. NaN when one histogram is empty.
-double overlap(const Histogram& a, const Histogram& b, std::size_t merged);
-
-}  // namespace touchdown::experiments
+}  // namespace touchdown::scoring

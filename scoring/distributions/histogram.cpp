@@ -1,11 +1,11 @@
-#include "experiments/studies/cross_simulator/histogram.hpp"
+#include "scoring/distributions/histogram.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-namespace touchdown::experiments {
+namespace touchdown::scoring {
 
 void Histogram::add(double value) {
   if (std::isnan(value) || count_.empty()) return;
@@ -21,6 +21,18 @@ Histogram& Histogram::operator+=(const Histogram& other) {
 
 std::int64_t Histogram::total() const {
   return std::accumulate(count_.begin(), count_.end(), std::int64_t{0});
+}
+
+std::vector<double> Histogram::shares(std::size_t merged) const {
+  const auto all = static_cast<double>(total());
+  if (all == 0.0) return {};
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < count_.size(); i += merged) {
+    std::int64_t inside = 0;
+    for (std::size_t j = i; j < std::min(i + merged, count_.size()); ++j) inside += count_[j];
+    shares.push_back(static_cast<double>(inside) / all);
+  }
+  return shares;
 }
 
 double wasserstein_distance(const Histogram& a, const Histogram& b) {
@@ -39,21 +51,4 @@ double wasserstein_distance(const Histogram& a, const Histogram& b) {
   return distance * a.bin_width();
 }
 
-double overlap(const Histogram& a, const Histogram& b, std::size_t merged) {
-  const auto total_a = static_cast<double>(a.total());
-  const auto total_b = static_cast<double>(b.total());
-  if (total_a == 0.0 || total_b == 0.0) return std::numeric_limits<double>::quiet_NaN();
-  double common = 0.0;
-  for (std::size_t i = 0; i < a.count().size(); i += merged) {
-    std::int64_t in_a = 0;
-    std::int64_t in_b = 0;
-    for (std::size_t j = i; j < std::min(i + merged, a.count().size()); ++j) {
-      in_a += a.count()[j];
-      in_b += b.count()[j];
-    }
-    common += std::min(static_cast<double>(in_a) / total_a, static_cast<double>(in_b) / total_b);
-  }
-  return common;
-}
-
-}  // namespace touchdown::experiments
+}  // namespace touchdown::scoring
