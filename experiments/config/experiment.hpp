@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/keys/key.hpp"
 #include "core/yaml.hpp"
 #include "experiments/estimators/fitted_model.hpp"
 #include "noise/grid.hpp"
@@ -243,6 +244,9 @@ inline constexpr std::int64_t first_fit_run = 1'000'000;
 /// Reads an experiment strictly. It checks the names of engines and estimators, but not the
 /// scenario files. Errors: `InputError` with file:line:column.
 Experiment experiment_from_yaml(const YamlDocument& document);
+
+/// The keys of an experiment file.
+std::vector<Key> experiment_keys();
 
 /// Checks that the files of an experiment exist. Errors: `InputError` with the file:line:column of
 /// the first missing one, and the nearest existing file.
