@@ -43,7 +43,7 @@ void describe(Fields& fields, WheelBalancerConfig& config, const LqrGains& lqr) 
   fields("max_integral", config.max_integral, 0.0, 1e3)
       .doc("m/s", "Limit of the integral part of that command.");
   fields("max_acceleration", config.max_acceleration, 0.0, 100.0)
-      .doc("m/s²", "Limit of the target velocity's rate.");
+      .doc("m/s²", "Limit of the change of the target velocity.");
   fields("max_position_error", config.max_position_error, 0.0, 100.0)
       .doc("m", "Limit of the position error.");
   fields("air_decay_time", config.air_decay_time, 1e-3, 1e3)

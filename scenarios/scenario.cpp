@@ -62,7 +62,7 @@ static void describe(Fields& fields, Scenario& scenario, const policies::LqrGain
   fields("robot", robot).doc("Robot: an MJCF, or a YAML file about one.");
   scenario.robot = robot;
   fields.section("terrain", scenario.terrain)
-      .doc("The ground, as pieces laid end to end; none is a floor.");
+      .doc("The ground, as pieces laid end to end on a floor.");
   fields.section("start", scenario.start).doc("Position and stance at the start.");
   fields.section("balancer", scenario.balancer, lqr)
       .doc("Gains of the balancer; otherwise the robot's own.");

@@ -56,7 +56,8 @@ std::string reference_text(const FileKind& kind, std::size_t columns) {
       lines.push_back(std::move(line));
     }
     const bool fits = width(key.path) + 2 <= margin;
-    text += "\n" + key.path + (fits ? std::string(margin - width(key.path), ' ') : "\n");
+    if (key.path.find('.') == std::string::npos) text += "\n";
+    text += key.path + (fits ? std::string(margin - width(key.path), ' ') : "\n");
     for (std::size_t i = 0; i < lines.size(); ++i) {
       text += (i == 0 && fits ? "" : std::string(margin, ' ')) + lines[i] + "\n";
     }

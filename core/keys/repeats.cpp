@@ -20,13 +20,18 @@ std::span<const Key> below(const std::vector<Key>& keys, std::size_t i) {
   return std::span(keys).subspan(i + 1, end - i - 1);
 }
 
+/// The key as its section has it, wherever the section is.
+Key relative(Key key, const std::string& section) {
+  key.path.erase(0, section.size());
+  if (key.type.ends_with(" as " + section)) key.type.resize(key.type.size() - section.size());
+  return key;
+}
+
 bool are_equal(std::span<const Key> keys, const std::string& section, std::span<const Key> others,
                const std::string& other_section) {
   return std::equal(keys.begin(), keys.end(), others.begin(), others.end(),
-                    [&](Key key, Key other) {
-                      key.path.erase(0, section.size());
-                      other.path.erase(0, other_section.size());
-                      return key == other;
+                    [&](const Key& key, const Key& other) {
+                      return relative(key, section) == relative(other, other_section);
                     });
 }
 

@@ -128,7 +128,7 @@ static void describe(Fields& fields, DetailConfig& detail, const Experiment& exp
   if (fields.reading()) detail.estimators = shown_by_default(experiment.estimators);
   fields.names("estimators", experiment.estimators, detail.estimators)
       .type(own_estimators)
-      .fallback("the paper's first")
+      .fallback("up to 6, robust first")
       .doc("Estimators with probabilities shown, at most 6.");
   fields.check(detail.estimators.size() <= most_estimators, "estimators",
                fmt::format("expected at most {} names", most_estimators));
@@ -313,7 +313,7 @@ static void describe(Fields& fields, ClosedLoopScene& scene, const Experiment& e
 
 static void describe(Fields& fields, ClosedLoopFilm& film, const ClosedLoopConfig& config) {
   fields("scene", film.scene, 0, static_cast<int>(config.scenes.size()) - 1)
-      .range("an index in scenes")
+      .range("an index in closed_loop.scenes")
       .doc("Index of the scene.");
   const std::size_t points = points_of(config.scenes[static_cast<std::size_t>(film.scene)]);
   fields("point", film.point, 0, static_cast<int>(points) - 1)
@@ -322,7 +322,7 @@ static void describe(Fields& fields, ClosedLoopFilm& film, const ClosedLoopConfi
   fields("run", film.run, 0, config.runs - 1).range("0 to runs - 1").doc("Index of the run.");
   if (fields.reading()) film.law = config.laws.front();
   fields.choose("law", config.laws, film.law)
-      .type("one of laws")
+      .type("one of closed_loop.laws")
       .fallback("the first one")
       .doc("Control law.");
   if (fields.reading()) {
@@ -330,7 +330,7 @@ static void describe(Fields& fields, ClosedLoopFilm& film, const ClosedLoopConfi
     film.contact.resize(std::min(most_panels, film.contact.size()));
   }
   fields.names("contact", config.contact, film.contact)
-      .type("list of the section's contact")
+      .type("list of closed_loop.contact")
       .fallback("the first 4")
       .doc("Contact sources side by side, at most 4.");
   fields.check(film.contact.size() <= most_panels, "contact",
@@ -389,6 +389,7 @@ static void describe_hyperparameters(Fields& fields, Experiment& experiment) {
     for (const std::string& name : all.documenting() ? estimator_names() : experiment.estimators) {
       all.know(name);
       if (!all.present(name, experiment.hyperparameters.contains(name))) continue;
+      if (all.documenting() && estimator_entry(name).hyperparameters.empty()) continue;
       HyperparameterValues& hyperparameters = experiment.hyperparameters[name];
       const auto describe_own = [&](Fields& own) {
         for (const Hyperparameter& one : estimator_entry(name).hyperparameters) {

@@ -124,7 +124,7 @@ class MappingReader {
     const auto describe_labels = [&](Fields& inner) {
       inner("above", mapping_.contact_above).doc("A number above this is contact.");
       const YAML::Node from = inner.node()["from"];
-      const bool is_pair = from && from.size() == 2;
+      const bool is_pair = inner.documenting() || (from && from.size() == 2);
       describe_signal(inner, {"both wheels, or left and right", is_pair ? 2U : 1U},
                       mapping_.contact.emplace());
     };
