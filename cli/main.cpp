@@ -90,6 +90,7 @@ int run_command_line(int argc, char** argv) {
   add_score(program, session);
   add_clean(program, session);
   add_list(program, session);
+  add_keys(program, session);
   add_manual(program, session);
 
   if (argc < 2) {

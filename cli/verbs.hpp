@@ -27,6 +27,7 @@ void add_export(CLI::App& program, const CliSession& session);
 void add_score(CLI::App& program, const CliSession& session);
 void add_clean(CLI::App& program, const CliSession& session);
 void add_list(CLI::App& program, const CliSession& session);
+void add_keys(CLI::App& program, const CliSession& session);
 void add_manual(CLI::App& program, const CliSession& session);
 
 }  // namespace touchdown::cli

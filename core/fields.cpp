@@ -22,25 +22,57 @@ Fields::Fields(YAML::Node node, YamlDocument document, std::string path)
   }
 }
 
-void Fields::require(std::string_view key) { check(present(key, true), key, "is missing"); }
+Fields::Fields(KeyCollection& keys, std::string path)
+    : reading_(true), keys_(&keys), path_(std::move(path)) {}
 
-void Fields::choose(std::string_view key, const std::vector<std::string>& names,
-                    std::string& value) {
-  (*this)(key, value);
+KeyNotes Fields::document(std::string_view key, std::string type, std::string fallback) {
+  return {*keys_, keys_->add({.path = path_to(key),
+                              .type = std::move(type),
+                              .unit = {},
+                              .range = {},
+                              .fallback = std::move(fallback),
+                              .meaning = {}})};
+}
+
+KeyNotes Fields::document_list(std::string_view key, std::type_index item_type,
+                               std::string fallback,
+                               const std::function<void(Fields&)>& describe_item) {
+  const std::string nested_in = keys_->path_of_open(item_type);
+  if (!nested_in.empty()) return document(key, "list as " + nested_in, std::move(fallback));
+  const KeyNotes notes = document(key, "list", std::move(fallback));
+  keys_->open(item_type, path_to(key));
+  Fields item(*keys_, path_to(key) + "[]");
+  describe_item(item);
+  keys_->close();
+  return notes;
+}
+
+void Fields::require(std::string_view key) {
+  if (documenting()) keys_->require(path_to(key));
+  check(present(key, true), key, "is missing");
+}
+
+KeyNotes Fields::choose(std::string_view key, const std::vector<std::string>& names,
+                        std::string& value) {
+  const KeyNotes notes = (*this)(key, value);
+  if (documenting()) notes.type(fmt::format("one of {}", fmt::join(names, ", ")));
   check(contains(names, value), key,
         fmt::format("expected one of {}{}", fmt::join(names, ", "), did_you_mean(value, names)));
+  return notes;
 }
 
-void Fields::choose(std::string_view key, const std::vector<std::string>& names,
-                    std::size_t& index) {
+KeyNotes Fields::choose(std::string_view key, const std::vector<std::string>& names,
+                        std::size_t& index) {
   std::string name = names.at(index);
-  choose(key, names, name);
+  const KeyNotes notes = choose(key, names, name);
   index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  return notes;
 }
 
-void Fields::names(std::string_view key, const std::vector<std::string>& known,
-                   std::vector<std::string>& values) {
-  (*this)(key, values);
+KeyNotes Fields::names(std::string_view key, const std::vector<std::string>& known,
+                       std::vector<std::string>& values) {
+  const KeyNotes notes = (*this)(key, values);
+  if (documenting()) notes.type(fmt::format("list of {}", fmt::join(known, ", ")));
   check(!values.empty(), key, "expected at least one name");
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string& name = values[i];
@@ -51,18 +83,28 @@ void Fields::names(std::string_view key, const std::vector<std::string>& known,
     check_item(std::find(values.begin(), here, name) == here, key, i,
                fmt::format("'{}' appears twice", name));
   }
+  return notes;
 }
 
-void Fields::in_line(std::string_view key, std::vector<double>& numbers) {
-  (*this)(key, numbers);
+KeyNotes Fields::in_line(std::string_view key, std::vector<double>& numbers) {
+  const KeyNotes notes = (*this)(key, numbers);
   if (!reading()) node_[std::string(key)].SetStyle(YAML::EmitterStyle::Flow);
+  return notes;
 }
 
-void Fields::within(std::string_view key, const std::function<void(Fields&)>& describe_section) {
+KeyNotes Fields::within(std::string_view key,
+                        const std::function<void(Fields&)>& describe_section) {
+  if (documenting()) {
+    const KeyNotes notes = document(key, "section", "");
+    Fields inner(*keys_, path_to(key));
+    describe_section(inner);
+    return notes;
+  }
   Fields inner = reading() ? Fields(take(key), document_, path_to(key)) : Fields();
   describe_section(inner);
   inner.finish();
   if (!reading()) node_[std::string(key)] = inner.node();
+  return {};
 }
 
 void Fields::items(std::string_view key, std::size_t count,
@@ -87,6 +129,7 @@ void Fields::items(std::string_view key, std::size_t count,
 }
 
 bool Fields::present(std::string_view key, bool has_value) const {
+  if (documenting()) return true;
   return reading() ? has(key) : has_value;
 }
 
@@ -113,18 +156,18 @@ void Fields::finish() const {
 }
 
 void Fields::check(bool holds, std::string_view key, const std::string& message) const {
-  if (reading() && !holds) fail(key, message);
+  if (reading() && !documenting() && !holds) fail(key, message);
 }
 
 void Fields::check_item(bool holds, std::string_view key, std::size_t item,
                         const std::string& message) const {
-  if (!reading() || holds) return;
+  if (!reading() || documenting() || holds) return;
   const YAML::Node list = node_[std::string(key)];
   fail(list.IsSequence() && item < list.size() ? list[item] : list, key, message);
 }
 
 void Fields::check(std::string_view key, const std::function<void()>& action) const {
-  if (!reading()) return;
+  if (!reading() || documenting()) return;
   try {
     action();
   } catch (const InputError& error) {
@@ -165,7 +208,7 @@ void Fields::refuse_leading_zeros(const YAML::Node& given, std::string_view key)
   }
 }
 
-std::string Fields::range_text(double low, double high) {
+std::string Fields::expected_range(double low, double high) {
   if (std::isinf(high) || high >= 1e15) return fmt::format("expected a number of at least {}", low);
   return fmt::format("expected a number from {} to {}", low, high);
 }

@@ -7,38 +7,50 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <typeindex>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/keys/key_collection.hpp"
+#include "core/keys/value_text.hpp"
 #include "core/yaml.hpp"
 
 namespace touchdown {
 
-/// Reads and writes the keys of a configuration struct. The `describe` function beside the struct
-/// names each key once, with its member and its range:
+/// Reads, writes and documents the keys of a configuration struct. The `describe` function beside
+/// the struct names each key once, with its member, its range, its unit and its meaning:
 ///
 ///     void describe(Fields& fields, LabelConfig& labels) {
-///       fields("force_threshold", labels.force_threshold, 0.0, 1e4);
-///       fields("debounce", labels.debounce, 0.0, 10.0);
+///       fields("force_threshold", labels.force_threshold, 0.0, 1e4)
+///           .doc("N", "A wheel is in contact above this normal force.");
+///       fields("debounce", labels.debounce, 0.0, 10.0)
+///           .doc("s", "Shorter states are merged into their neighbours.");
 ///     }
 ///
 /// The same description reads and writes the struct, in the order of its lines. Reading is strict:
 /// every key of the document must be described, with the right type and within its range. Writing
-/// works on a copy of the struct.
+/// works on a copy of the struct. Documenting is like reading a file that has every key and gives
+/// no value: `reading()` and `present()` are true, each list has one item, values keep their
+/// defaults and checks pass.
 class Fields {
  public:
   Fields() = default;  ///< for writing
   /// For reading.
   explicit Fields(const YamlDocument& document) : Fields(document.root(), document, "") {}
 
+  /// For documenting. `keys` must outlive this object.
+  explicit Fields(KeyCollection& keys) : Fields(keys, "") {}
+
   bool reading() const { return reading_; }
-  /// The node that is read, or that has been written so far.
+  bool documenting() const { return keys_ != nullptr; }
+  /// The node that is read, or that has been written so far; empty when documenting.
   const YAML::Node& node() const { return node_; }
 
   /// Reads or writes one value. When reading, an absent key leaves the value unchanged.
   template <typename T>
-  void operator()(std::string_view key, T& value) {
+  KeyNotes operator()(std::string_view key, T& value) {
+    if (documenting()) return document(key, kind_name<T>(), value_text(YAML::Node(value)));
     if (!reading()) {
       node_[std::string(key)] = value;
     } else if (const YAML::Node given = take(key)) {
@@ -49,78 +61,104 @@ class Fields {
         fail(key, fmt::format("expected {}", type_name<T>()));
       }
     }
+    return {};
   }
 
   /// The same with a range: `low <= value <= high`.
   template <typename T>
-  void operator()(std::string_view key, T& value, std::type_identity_t<T> low,
-                  std::type_identity_t<T> high) {
-    (*this)(key, value);
+  KeyNotes operator()(std::string_view key, T& value, std::type_identity_t<T> low,
+                      std::type_identity_t<T> high) {
+    const KeyNotes notes = (*this)(key, value);
+    const auto least = static_cast<double>(low);
+    const auto most = static_cast<double>(high);
+    if (documenting()) return notes.range(range_text(least, most));
     if (reading() && has(key) && !(value >= low && value <= high)) {
-      fail(key, range_text(static_cast<double>(low), static_cast<double>(high)));
+      fail(key, expected_range(least, most));
     }
+    return notes;
   }
 
   /// The same for a key that must be present.
   void require(std::string_view key);
   template <typename T, typename... Limits>
-  void require(std::string_view key, T& value, Limits... limits) {
+  KeyNotes require(std::string_view key, T& value, Limits... limits) {
     require(key);
-    (*this)(key, value, limits...);
+    return (*this)(key, value, limits...);
+  }
+
+  /// The same for a value that may be absent: read if the key is present, written if it has one.
+  template <typename T, typename... Limits>
+  KeyNotes optional(std::string_view key, std::optional<T>& value, Limits... limits) {
+    know(key);
+    if (!present(key, value.has_value())) return {};
+    if (reading()) value.emplace();
+    return (*this)(key, *value, limits...).fallback("none");
   }
 
   /// An enumerator or a text, chosen from `names`. An enumerator's value is its index in `names`.
-  void choose(std::string_view key, const std::vector<std::string>& names, std::string& value);
-  void choose(std::string_view key, const std::vector<std::string>& names, std::size_t& index);
+  KeyNotes choose(std::string_view key, const std::vector<std::string>& names, std::string& value);
+  KeyNotes choose(std::string_view key, const std::vector<std::string>& names, std::size_t& index);
   template <typename Enum>
-  requires std::is_enum_v<Enum>
-  void choose(std::string_view key, const std::vector<std::string>& names, Enum& value) {
+  requires std::is_enum_v<Enum> KeyNotes choose(std::string_view key,
+                                                const std::vector<std::string>& names,
+                                                Enum& value) {
     auto index = static_cast<std::size_t>(value);
-    choose(key, names, index);
+    const KeyNotes notes = choose(key, names, index);
     value = static_cast<Enum>(index);
+    return notes;
   }
 
   /// A list of one or more different names, each from `known`.
-  void names(std::string_view key, const std::vector<std::string>& known,
-             std::vector<std::string>& values);
+  KeyNotes names(std::string_view key, const std::vector<std::string>& known,
+                 std::vector<std::string>& values);
 
   /// A list of numbers, written on one line.
-  void in_line(std::string_view key, std::vector<double>& numbers);
+  KeyNotes in_line(std::string_view key, std::vector<double>& numbers);
 
   /// A nested mapping with the fields that `describe_section` names.
-  void within(std::string_view key, const std::function<void(Fields&)>& describe_section);
+  KeyNotes within(std::string_view key, const std::function<void(Fields&)>& describe_section);
 
   /// A nested struct; its `describe` receives `context`.
   template <typename T, typename... Context>
-  void section(std::string_view key, T& value, const Context&... context) {
-    within(key, [&](Fields& inner) { describe(inner, value, context...); });
+  KeyNotes section(std::string_view key, T& value, const Context&... context) {
+    return within(key, [&](Fields& inner) { describe(inner, value, context...); });
   }
 
   /// An optional nested struct: read if the key is present, written if it has a value.
   template <typename T>
-  void section(std::string_view key, std::optional<T>& value) {
-    if (!present(key, value.has_value())) return;
+  KeyNotes section(std::string_view key, std::optional<T>& value) {
+    if (!present(key, value.has_value())) return {};
     if (reading()) value.emplace();
-    section(key, *value);
+    return section(key, *value).fallback("none");
   }
 
   /// A list of structs. The struct that is being read is the last of the list.
   template <typename T, typename... Context>
-  void list(std::string_view key, std::vector<T>& values, const Context&... context) {
+  KeyNotes list(std::string_view key, std::vector<T>& values, const Context&... context) {
+    if (documenting()) {
+      Fields defaults;
+      defaults.list(key, values, context...);
+      return document_list(key, typeid(T), value_text(defaults.node_[std::string(key)]),
+                           [&](Fields& item) {
+                             values.clear();
+                             describe(item, values.emplace_back(), context...);
+                           });
+    }
     if (present(key, false)) values.clear();
     items(key, values.size(), [&](Fields& item, std::size_t i) {
       if (reading()) values.emplace_back();
       describe(item, values[i], context...);
     });
+    return {};
   }
 
   /// Like `list`, but an empty list is not written.
   template <typename T, typename... Context>
-  void list_if_any(std::string_view key, std::vector<T>& values, const Context&... context) {
-    if (reading() || !values.empty()) list(key, values, context...);
+  KeyNotes list_if_any(std::string_view key, std::vector<T>& values, const Context&... context) {
+    return reading() || !values.empty() ? list(key, values, context...) : KeyNotes();
   }
 
-  /// Reading: whether the key is present. Writing: `has_value`.
+  /// Reading: whether the key is present. Writing: `has_value`. Documenting: true.
   bool present(std::string_view key, bool has_value) const;
   /// Declares an optional key, so that it is suggested for a misspelt one.
   void know(std::string_view key);
@@ -134,6 +172,7 @@ class Fields {
   /// would fail, for a clearer message.
   void finish() const;
 
+  // Checks are of what is read; documenting skips them.
   /// Reading: reports an error at the key's value unless `holds`.
   void check(bool holds, std::string_view key, const std::string& message) const;
   /// The same at one item of the key's value, if it is a list.
@@ -144,6 +183,11 @@ class Fields {
 
  private:
   Fields(YAML::Node node, YamlDocument document, std::string path);
+  Fields(KeyCollection& keys, std::string path);
+
+  KeyNotes document(std::string_view key, std::string type, std::string fallback);
+  KeyNotes document_list(std::string_view key, std::type_index item_type, std::string fallback,
+                         const std::function<void(Fields&)>& describe_item);
 
   void items(std::string_view key, std::size_t count,
              const std::function<void(Fields&, std::size_t)>& describe_item);
@@ -171,7 +215,22 @@ class Fields {
       return fmt::format("a list, each item {}", type_name<typename T::value_type>());
     }
   }
-  static std::string range_text(double low, double high);
+  /// The same in the reference of keys, where a list has a plural.
+  template <typename T>
+  static std::string kind_name() {
+    if constexpr (std::same_as<T, bool>) {
+      return "true/false";
+    } else if constexpr (std::integral<T>) {
+      return "whole number";
+    } else if constexpr (std::floating_point<T>) {
+      return "number";
+    } else if constexpr (std::same_as<T, std::string>) {
+      return "text";
+    } else {
+      return fmt::format("list of {}s", kind_name<typename T::value_type>());
+    }
+  }
+  static std::string expected_range(double low, double high);
   template <typename T>
   static constexpr bool of_numbers() {
     if constexpr (requires { typename T::value_type; } && !std::same_as<T, std::string>) {
@@ -185,6 +244,7 @@ class Fields {
   void refuse_leading_zeros(const YAML::Node& given, std::string_view key) const;
 
   bool reading_ = false;
+  KeyCollection* keys_ = nullptr;  ///< when documenting
   YAML::Node node_;
   YamlDocument document_;
   std::string path_;
@@ -207,6 +267,15 @@ YAML::Node to_node(T config) {
   Fields fields;
   describe(fields, config);
   return fields.node();
+}
+
+/// The keys of a struct, documented by its description. `config` holds the defaults.
+template <typename T, typename... Context>
+std::vector<Key> documented_keys(T config, const Context&... context) {
+  KeyCollection keys;
+  Fields fields(keys);
+  describe(fields, config, context...);
+  return keys.keys();
 }
 
 }  // namespace touchdown

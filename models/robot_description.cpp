@@ -10,38 +10,42 @@
 namespace touchdown::models {
 
 static void describe(Fields& fields, LegActuators& actuators) {
-  fields.section("hip", actuators.hip);
-  fields.section("knee", actuators.knee);
-  fields.section("wheel", actuators.wheel);
+  fields.section("hip", actuators.hip).doc("Actuators of the hips.");
+  fields.section("knee", actuators.knee).doc("Actuators of the knees.");
+  fields.section("wheel", actuators.wheel).doc("Actuators of the wheels.");
 }
 
 static void describe(Fields& fields, LegLengths& legs) {
   const auto length = [](double& value) {
-    return [&value](Fields& leg) { leg("length", value, 0.2, 5.0); };
+    return [&value](Fields& leg) {
+      leg("length", value, 0.2, 5.0).doc("Factor on the length of both links.");
+    };
   };
   length(legs.both)(fields);
-  fields.within("left", length(legs.one[0]));
-  fields.within("right", length(legs.one[1]));
+  fields.within("left", length(legs.one[0])).doc("The left leg, besides the factor of both.");
+  fields.within("right", length(legs.one[1])).doc("The right leg, besides the factor of both.");
 }
 
 static void describe(Fields& fields, Stance& stance) {
-  fields("hip", stance.hip, -1.26, 1.26);
-  fields("knee", stance.knee, -2.51, 2.51);
+  fields("hip", stance.hip, -1.26, 1.26).doc("rad", "Hip angle.");
+  fields("knee", stance.knee, -2.51, 2.51).doc("rad", "Knee angle.");
 }
 
 void describe(Fields& fields, RobotDescription& robot) {
   std::string mjcf = robot.mjcf.string();
-  fields.require("mjcf", mjcf);
+  fields.require("mjcf", mjcf).doc("MJCF that this file modifies, beside this file.");
   robot.mjcf = mjcf;
-  fields("mass", robot.mass, 0.01, 100.0);
-  double radius = robot.wheel_radius.value_or(0.0);
-  if (fields.reading() || radius > 0.0) fields("wheel_radius", radius, 0.005, 1.0);
-  if (radius > 0.0) robot.wheel_radius = radius;
-  fields.section("legs", robot.legs);
-  fields.section("stance", robot.stance);
-  fields.section("actuators", robot.actuators);
+  fields("mass", robot.mass, 0.01, 100.0).doc("Factor on mass and inertia of every body.");
+  fields.optional("wheel_radius", robot.wheel_radius, 0.005, 1.0)
+      .fallback("as in the MJCF")
+      .doc("m", "Radius of both tyres.");
+  fields.section("legs", robot.legs).doc("Lengths of the legs.");
+  fields.section("stance", robot.stance)
+      .doc("Joint angles at the start, unless the scenario specifies them.");
+  fields.section("actuators", robot.actuators)
+      .doc("Actuators of both legs; absent joints stay as in the MJCF.");
   fields.know("balancer");
-  fields.section("tyre", robot.tyre);
+  fields.section("tyre", robot.tyre).doc("Contact model of both tyres.");
 }
 
 const std::optional<Actuator>& RobotDescription::actuator(Servo servo) const {

@@ -11,10 +11,14 @@ std::vector<double> Tyre::strips() const {
 }
 
 void describe(Fields& fields, Tyre& tyre) {
-  fields.choose("law", {"engine", "spring_damper"}, tyre.law);
-  fields("stiffness", tyre.stiffness, 100.0, 1e7);
-  fields("damping", tyre.damping, 1.0, 1e4);
-  fields("width", tyre.width, 0.0, 1.0);
+  fields.choose("law", {"engine", "spring_damper"}, tyre.law)
+      .doc("The engine's own contact model, or one spring and damper in both engines.");
+  fields("stiffness", tyre.stiffness, 100.0, 1e7)
+      .doc("N/m", "Stiffness of a whole wheel; only with `spring_damper`.");
+  fields("damping", tyre.damping, 1.0, 1e4)
+      .doc("N·s/m", "Damping of a whole wheel; only with `spring_damper`.");
+  fields("width", tyre.width, 0.0, 1.0)
+      .doc("m", "Width along the axle, 0 for a sphere; only with `spring_damper`.");
   for (const char* key : {"stiffness", "damping", "width"}) {
     fields.check(tyre.law == Tyre::Law::spring_damper || !fields.present(key, false), key,
                  "expected 'law: spring_damper' beside it");

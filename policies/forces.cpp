@@ -36,37 +36,42 @@ Eigen::Vector3d guide_force(const Guide& guide, const models::GroundTruth& robot
   return {force.x(), force.y(), 0.0};
 }
 
-void describe_vector(Fields& fields, std::string_view key, Eigen::Vector3d& value) {
+KeyNotes describe_vector(Fields& fields, std::string_view key, Eigen::Vector3d& value) {
   std::vector<double> numbers(value.begin(), value.end());
-  fields.in_line(key, numbers);
+  const KeyNotes notes = fields.in_line(key, numbers);
   fields.check(numbers.size() == 3 && std::all_of(numbers.begin(), numbers.end(),
                                                   [](double x) { return std::isfinite(x); }),
                key, "expected three numbers: x, y, z");
   value = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+  return notes.type("list of x, y, z");
 }
 
 void describe(Fields& fields, TimedForce& force) {
-  fields("time", force.time, 0.0, 1e6);
-  fields("duration", force.duration, 0.0, 1e6);
-  describe_vector(fields, "force", force.force);
-  describe_vector(fields, "point_in_base", force.point_in_base);
-  fields("along_heading", force.along_heading);
+  fields("time", force.time, 0.0, 1e6).doc("s", "Start of the force.");
+  fields("duration", force.duration, 0.0, 1e6).doc("s", "How long it acts.");
+  describe_vector(fields, "force", force.force).doc("N", "Force in the world frame.");
+  describe_vector(fields, "point_in_base", force.point_in_base)
+      .doc("m", "Point of action in the base frame.");
+  fields("along_heading", force.along_heading)
+      .doc("Whether the force turns with the robot's heading.");
 }
 
 void describe(Fields& fields, Tether& tether) {
-  describe_vector(fields, "anchor", tether.anchor);
-  describe_vector(fields, "point_in_base", tether.point_in_base);
-  fields("length", tether.length, 0.0, 100.0);
-  fields("stiffness", tether.stiffness, 0.0, 1e6);
-  fields("damping", tether.damping, 0.0, 1e5);
+  describe_vector(fields, "anchor", tether.anchor).doc("m", "Fixed end of the rope in the world.");
+  describe_vector(fields, "point_in_base", tether.point_in_base)
+      .doc("m", "Attachment point in the base frame.");
+  fields("length", tether.length, 0.0, 100.0).doc("m", "The rope is slack below this length.");
+  fields("stiffness", tether.stiffness, 0.0, 1e6).doc("N/m", "Stiffness of the rope.");
+  fields("damping", tether.damping, 0.0, 1e5).doc("N·s/m", "Damping of the rope.");
 }
 
 void describe(Fields& fields, Guide& guide) {
-  fields("x", guide.x, -1e3, 1e3);
-  fields("y", guide.y, -1e3, 1e3);
-  describe_vector(fields, "point_in_base", guide.point_in_base);
-  fields("stiffness", guide.stiffness, 0.0, 1e6);
-  fields("damping", guide.damping, 0.0, 1e5);
+  fields("x", guide.x, -1e3, 1e3).doc("m", "Place in the world, along the course.");
+  fields("y", guide.y, -1e3, 1e3).doc("m", "Place in the world, across the course.");
+  describe_vector(fields, "point_in_base", guide.point_in_base)
+      .doc("m", "Attachment point in the base frame.");
+  fields("stiffness", guide.stiffness, 0.0, 1e6).doc("N/m", "Horizontal stiffness.");
+  fields("damping", guide.damping, 0.0, 1e5).doc("N·s/m", "Horizontal damping.");
 }
 
 }  // namespace touchdown::policies

@@ -9,7 +9,8 @@
 
 namespace touchdown {
 class Fields;
-}
+class KeyNotes;
+}  // namespace touchdown
 
 namespace touchdown::policies {
 
@@ -64,6 +65,6 @@ void describe(Fields& fields, Tether& tether);
 void describe(Fields& fields, Guide& guide);
 
 /// A point or force as a list of three numbers.
-void describe_vector(Fields& fields, std::string_view key, Eigen::Vector3d& value);
+KeyNotes describe_vector(Fields& fields, std::string_view key, Eigen::Vector3d& value);
 
 }  // namespace touchdown::policies

@@ -19,11 +19,13 @@ WheelContact upkie_contact(double period) {
 }
 
 void describe(Fields& fields, PolicyConfig& policy) {
-  fields.choose("law", {"balancer", "soft_landing"}, policy.law);
-  fields.choose("contact", {"upkie_observer", "always", "free_fall", "support_force", "truth"},
-                policy.contact);
+  fields.choose("law", {"balancer", "soft_landing"}, policy.law).doc("Control law.");
+  fields
+      .choose("contact", {"upkie_observer", "always", "free_fall", "support_force", "truth"},
+              policy.contact)
+      .doc("Contact source of the law; `truth` is an oracle.");
   fields.renamed("late", "delay");
-  fields("delay", policy.delay, 0.0, 1.0);
+  fields("delay", policy.delay, 0.0, 1.0).doc("s", "Delay of the contact signal.");
 }
 
 }  // namespace touchdown::policies

@@ -39,64 +39,81 @@ enum Stream : std::uint64_t {
   crouch_hip
 };
 
-void describe_range(Fields& fields, std::string_view key, Range& range, double low, double high) {
+KeyNotes describe_range(Fields& fields, std::string_view key, Range& range, double low,
+                        double high) {
   std::vector<double> ends = {range.low, range.high};
-  fields.in_line(key, ends);
+  const KeyNotes notes = fields.in_line(key, ends);
   fields.check(ends.size() == 2 && low <= ends[0] && ends[0] <= ends[1] && ends[1] <= high, key,
                fmt::format("expected [low, high] within {} to {}", low, high));
   range = {ends[0], ends[1]};
+  return notes.type("list of low, high").range(range_text(low, high));
 }
 
 /// A half width that is written only if it is not zero.
-void half_width_if_any(Fields& fields, std::string_view key, double& half_width, double most) {
-  if (fields.reading() || half_width != 0.0) fields(key, half_width, 0.0, most);
+KeyNotes half_width_if_any(Fields& fields, std::string_view key, double& half_width, double most) {
+  if (!fields.reading() && half_width == 0.0) return {};
+  return fields(key, half_width, 0.0, most);
 }
 
 }  // namespace
 
 static void describe(Fields& fields, RandomDrive& drive) {
-  fields("velocity", drive.velocity, 0.0, 3.0);
-  fields("yaw_rate", drive.yaw_rate, 0.0, 10.0);
-  fields("standing", drive.standing, 0.0, 1.0);
-  describe_range(fields, "hold", drive.hold, 0.01, 1e4);
-  fields("start", drive.start, 0.0, 1e4);
+  fields("velocity", drive.velocity, 0.0, 3.0).doc("m/s", "Half width of the velocity commands.");
+  fields("yaw_rate", drive.yaw_rate, 0.0, 10.0)
+      .doc("rad/s", "Half width of the yaw-rate commands.");
+  fields("standing", drive.standing, 0.0, 1.0).doc("Share of commands to stand still.");
+  describe_range(fields, "hold", drive.hold, 0.01, 1e4).doc("s", "How long each command lasts.");
+  fields("start", drive.start, 0.0, 1e4).doc("s", "Time of the first command.");
 }
 
 static void describe(Fields& fields, RandomCrouches& crouches) {
-  describe_range(fields, "hip", crouches.hip, -1.26, 1.26);
-  fields("exponent", crouches.exponent, 0.1, 10.0);
-  describe_range(fields, "hold", crouches.hold, 0.01, 1e4);
-  fields("rate", crouches.rate, 1e-3, 100.0);
-  fields("start", crouches.start, 0.0, 1e4);
+  describe_range(fields, "hip", crouches.hip, -1.26, 1.26).doc("rad", "Hip angle.");
+  fields("exponent", crouches.exponent, 0.1, 10.0)
+      .doc("Exponent of the uniform draw; above 1 the low end is likelier.");
+  describe_range(fields, "hold", crouches.hold, 0.01, 1e4)
+      .doc("s", "How long each command lasts, motion included.");
+  fields("rate", crouches.rate, 1e-3, 100.0).doc("rad/s", "Rate of the hip angle.");
+  fields("start", crouches.start, 0.0, 1e4).doc("s", "Time of the first command.");
 }
 
 static void describe(Fields& fields, RandomLifts& lifts) {
-  describe_range(fields, "force", lifts.force, 0.0, 1e4);
-  describe_range(fields, "hold", lifts.hold, 0.001, 1e4);
-  describe_range(fields, "pause", lifts.pause, 0.001, 1e4);
-  fields("start", lifts.start, 0.0, 1e4);
-  policies::describe_vector(fields, "point_in_base", lifts.point_in_base);
+  describe_range(fields, "force", lifts.force, 0.0, 1e4).doc("N", "Upward force.");
+  describe_range(fields, "hold", lifts.hold, 0.001, 1e4).doc("s", "How long each lift lasts.");
+  describe_range(fields, "pause", lifts.pause, 0.001, 1e4).doc("s", "Time between two lifts.");
+  fields("start", lifts.start, 0.0, 1e4).doc("s", "Time of the first lift.");
+  policies::describe_vector(fields, "point_in_base", lifts.point_in_base)
+      .doc("m", "Point of action in the base frame.");
 }
 
 void describe(Fields& fields, Perturbation& perturbation) {
-  fields("x", perturbation.x, 0.0, 10.0);
-  fields("y", perturbation.y, 0.0, 10.0);
-  fields("yaw", perturbation.yaw, 0.0, 3.2);
-  fields("velocity", perturbation.velocity, 0.0, 2.0);
-  fields("crouch", perturbation.crouch, 0.0, 1.0);
-  fields("mass_scale", perturbation.mass_scale, 0.0, 0.9);
-  fields("friction", perturbation.friction, 0.0, 2.0);
-  fields("servo_gain_scale", perturbation.servo_gain_scale, 0.0, 0.9);
-  fields("force_scale", perturbation.force_scale, 0.0, 1.0);
-  half_width_if_any(fields, "com_x", perturbation.com_x, 0.5);
-  half_width_if_any(fields, "com_z", perturbation.com_z, 0.5);
-  half_width_if_any(fields, "wheel_radius_scale", perturbation.wheel_radius_scale, 0.5);
-  half_width_if_any(fields, "actuator_friction_scale", perturbation.actuator_friction_scale, 1.0);
-  half_width_if_any(fields, "torque_error", perturbation.torque_error, 0.5);
-  fields.section("drive", perturbation.drive);
+  fields("x", perturbation.x, 0.0, 10.0).doc("m", "Starting position along the course.");
+  fields("y", perturbation.y, 0.0, 10.0).doc("m", "Starting position across the course.");
+  fields("yaw", perturbation.yaw, 0.0, 3.2).doc("rad", "Starting heading.");
+  fields("velocity", perturbation.velocity, 0.0, 2.0)
+      .doc("m/s", "Every commanded velocity that is not zero.");
+  fields("crouch", perturbation.crouch, 0.0, 1.0)
+      .doc("rad", "Hip angle at the start; the knee follows in proportion.");
+  fields("mass_scale", perturbation.mass_scale, 0.0, 0.9).doc("Mass and inertia of every body.");
+  fields("friction", perturbation.friction, 0.0, 2.0).doc("Friction of the terrain.");
+  fields("servo_gain_scale", perturbation.servo_gain_scale, 0.0, 0.9)
+      .doc("Position and velocity gains of the legs' servos.");
+  fields("force_scale", perturbation.force_scale, 0.0, 1.0).doc("Every external force.");
+  half_width_if_any(fields, "com_x", perturbation.com_x, 0.5)
+      .doc("m", "Centre of mass of the base body, forward.");
+  half_width_if_any(fields, "com_z", perturbation.com_z, 0.5)
+      .doc("m", "Centre of mass of the base body, upward.");
+  half_width_if_any(fields, "wheel_radius_scale", perturbation.wheel_radius_scale, 0.5)
+      .doc("Radius of both wheels.");
+  half_width_if_any(fields, "actuator_friction_scale", perturbation.actuator_friction_scale, 1.0)
+      .doc("Friction of every joint.");
+  half_width_if_any(fields, "torque_error", perturbation.torque_error, 0.5)
+      .doc("Error of each servo's torque constant, independently.");
+  fields.section("drive", perturbation.drive)
+      .doc("Random drive commands instead of the scenario's own.");
   fields.know("crouching");
-  fields.section("crouching", perturbation.crouching);
-  fields.section("lift", perturbation.lift);
+  fields.section("crouching", perturbation.crouching)
+      .doc("Random crouches instead of the scenario's own.");
+  fields.section("lift", perturbation.lift).doc("Random lifts besides the scenario's own forces.");
 }
 
 policies::VelocityScript random_drive(const RandomDrive& drive, double duration, std::uint64_t seed,

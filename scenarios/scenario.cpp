@@ -13,28 +13,40 @@
 namespace touchdown::scenarios {
 
 static void describe(Fields& fields, Start& start) {
-  fields("x", start.x, -1e3, 1e3);
-  fields("y", start.y, -1e3, 1e3);
-  fields("yaw", start.yaw, -3.2, 3.2);
-  fields("hip", start.hip, -1.26, 1.26);
-  fields("knee", start.knee, -2.51, 2.51);
-  fields("clearance", start.clearance, 0.0, 100.0);
+  fields("x", start.x, -1e3, 1e3).doc("m", "Position of the wheels along the course.");
+  fields("y", start.y, -1e3, 1e3).doc("m", "Position of the wheels across the course.");
+  fields("yaw", start.yaw, -3.2, 3.2).doc("rad", "Heading, positive to the left.");
+  fields("hip", start.hip, -1.26, 1.26)
+      .doc("rad", "Hip angle; a robot's file may set another default.");
+  fields("knee", start.knee, -2.51, 2.51)
+      .doc("rad", "Knee angle; a robot's file may set another default.");
+  fields("clearance", start.clearance, 0.0, 100.0)
+      .doc("m", "Height of the tyres above the ground.");
 }
 
 static void describe(Fields& fields, End& end) {
-  fields("duration", end.duration, 1e-3, 1e5);
-  if (fields.reading() || std::isfinite(end.x)) fields("x", end.x);
-  fields("settle", end.settle, 0.0, 1e3);
-  fields("fall_tilt", end.fall_tilt, 0.1, 3.2);
+  fields("duration", end.duration, 1e-3, 1e5).doc("s", "Longest duration of the run.");
+  if (fields.reading() || std::isfinite(end.x)) {
+    fields("x", end.x).doc("m", "Finish line of the base along the course.");
+  }
+  fields("settle", end.settle, 0.0, 1e3)
+      .doc("s", "The run ends this long after the base passed the finish line.");
+  fields("fall_tilt", end.fall_tilt, 0.1, 3.2).doc("rad", "A larger tilt is a fall.");
 }
 
 static void describe(Fields& fields, Deviations& deviations) {
-  fields("com_x", deviations.com_x, -1.0, 1.0);
-  fields("com_z", deviations.com_z, -1.0, 1.0);
-  fields("wheel_radius_scale", deviations.wheel_radius_scale, 0.1, 10.0);
-  fields("actuator_friction_scale", deviations.actuator_friction_scale, 0.0, 10.0);
+  fields("com_x", deviations.com_x, -1.0, 1.0)
+      .doc("m", "Offset of the base body's centre of mass, forward.");
+  fields("com_z", deviations.com_z, -1.0, 1.0)
+      .doc("m", "Offset of the base body's centre of mass, upward.");
+  fields("wheel_radius_scale", deviations.wheel_radius_scale, 0.1, 10.0)
+      .doc("Factor on the radius of both wheels.");
+  fields("actuator_friction_scale", deviations.actuator_friction_scale, 0.0, 10.0)
+      .doc("Factor on the friction of every joint.");
   std::vector<double> errors(deviations.torque_error.begin(), deviations.torque_error.end());
-  fields.in_line("torque_error", errors);
+  fields.in_line("torque_error", errors)
+      .range("six of -0.9 to 10")
+      .doc("Errors of the six servos' torque constants, added to the robot's.");
   fields.check(errors.size() == models::servo_count &&
                    std::all_of(errors.begin(), errors.end(),
                                [](double error) { return -0.9 <= error && error <= 10.0; }),
@@ -44,35 +56,46 @@ static void describe(Fields& fields, Deviations& deviations) {
 }
 
 static void describe(Fields& fields, Scenario& scenario, const policies::LqrGains& lqr) {
-  fields.require("name", scenario.name);
+  fields.require("name", scenario.name).doc("Name in tables and files.");
   fields.check(is_name_word(scenario.name), "name", expected_name_word);
   std::string robot = scenario.robot.string();
-  fields("robot", robot);
+  fields("robot", robot).doc("Robot: an MJCF, or a YAML file about one.");
   scenario.robot = robot;
-  fields.section("terrain", scenario.terrain);
-  fields.section("start", scenario.start);
-  fields.section("balancer", scenario.balancer, lqr);
+  fields.section("terrain", scenario.terrain)
+      .doc("The ground, as pieces laid end to end on a floor.");
+  fields.section("start", scenario.start).doc("Position and stance at the start.");
+  fields.section("balancer", scenario.balancer, lqr)
+      .doc("Gains of the balancer; otherwise the robot's own.");
   fields.know("policy");
   if (fields.present("policy", scenario.policy != policies::PolicyConfig{})) {
-    fields.section("policy", scenario.policy);
+    fields.section("policy", scenario.policy).doc("Control law and its contact source.");
   }
-  fields.list("velocity", scenario.velocity, scenario.velocity);
-  fields.list_if_any("crouch", scenario.crouch, scenario.crouch);
-  fields.section("tether", scenario.tether);
-  fields.list_if_any("guides", scenario.guides);
-  fields.list_if_any("forces", scenario.forces);
-  double reference_mass = scenario.forces_for_mass.value_or(0.0);
-  if (fields.reading() || reference_mass > 0.0)
-    fields("forces_for_mass", reference_mass, 0.01, 1e4);
-  if (reference_mass > 0.0) scenario.forces_for_mass = reference_mass;
-  fields("mass_scale", scenario.mass_scale, 0.01, 100.0);
+  fields.list("velocity", scenario.velocity, scenario.velocity)
+      .doc("Drive commands, each from its time on.");
+  fields.list_if_any("crouch", scenario.crouch, scenario.crouch)
+      .doc("Crouch commands, each from its time on.");
+  fields.section("tether", scenario.tether).doc("A rope that holds the robot.");
+  fields.list_if_any("guides", scenario.guides)
+      .doc("Horizontal springs that keep the robot above a place.");
+  fields.list_if_any("forces", scenario.forces).doc("Forces on the base, such as pushes.");
+  fields.optional("forces_for_mass", scenario.forces_for_mass, 0.01, 1e4)
+      .doc("kg", "Mass that forces and lifts are written for; they scale with the robot's mass.");
+  fields("mass_scale", scenario.mass_scale, 0.01, 100.0)
+      .doc("Factor on mass and inertia of every body.");
   fields.know("deviations");
   if (fields.present("deviations", scenario.deviations != Deviations{})) {
-    fields.section("deviations", scenario.deviations);
+    fields.section("deviations", scenario.deviations)
+        .doc("How the robot differs from its description.");
   }
-  fields.section("simulation", scenario.simulation);
-  fields.section("end", scenario.end);
-  fields.section("perturbation", scenario.perturbation);
+  fields.section("simulation", scenario.simulation).doc("Time steps and contact model.");
+  fields.section("end", scenario.end).doc("When a run is over.");
+  fields.section("perturbation", scenario.perturbation)
+      .doc("Half widths of what varies from run to run, `_scale` as a share.");
+}
+
+std::vector<Key> scenario_keys() {
+  const policies::LqrGains any = [](const policies::WheelBalancerConfig& config) { return config; };
+  return documented_keys(Scenario(), any);
 }
 
 Scenario scenario_from_yaml(const YamlDocument& document, const Scenario& defaults,

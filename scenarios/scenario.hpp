@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/keys/key.hpp"
 #include "core/yaml.hpp"
 #include "models/robot_description.hpp"
 #include "models/terrain.hpp"
@@ -79,6 +80,9 @@ struct Scenario {
 Scenario scenario_from_yaml(const YamlDocument& document, const Scenario& defaults = {},
                             const policies::LqrGains& lqr = {});
 Scenario load_scenario(const std::filesystem::path& path);
+
+/// The keys of a scenario file.
+std::vector<Key> scenario_keys();
 
 /// The text of all files that describe its robot, for digests.
 std::string robot_text(const Scenario& scenario);

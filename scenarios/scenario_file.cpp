@@ -24,6 +24,13 @@ policies::LqrGains lqr_gains(const std::filesystem::path& robot, const Start& st
   };
 }
 
+void describe_robot(Fields& fields, models::RobotDescription& body,
+                    policies::WheelBalancerConfig& balancer, const policies::LqrGains& lqr) {
+  models::describe(fields, body);
+  fields.section("balancer", balancer, lqr)
+      .doc("Gains of the balancer, unless the scenario specifies them.");
+}
+
 /// The balancer that the robot's file specifies.
 policies::WheelBalancerConfig balancer_of(const std::filesystem::path& robot,
                                           const policies::LqrGains& lqr) {
@@ -31,8 +38,7 @@ policies::WheelBalancerConfig balancer_of(const std::filesystem::path& robot,
   if (!models::is_about_an_mjcf(robot)) return balancer;
   Fields fields(YamlDocument::load(robot));
   models::RobotDescription body;
-  models::describe(fields, body);
-  fields.section("balancer", balancer, lqr);
+  describe_robot(fields, body, balancer, lqr);
   fields.finish();
   return balancer;
 }
@@ -53,6 +59,16 @@ void scale_forces(Scenario& scenario) {
 }
 
 }  // namespace
+
+std::vector<Key> robot_keys() {
+  KeyCollection keys;
+  Fields fields(keys);
+  models::RobotDescription body;
+  policies::WheelBalancerConfig balancer;
+  describe_robot(fields, body, balancer,
+                 [](const policies::WheelBalancerConfig& config) { return config; });
+  return keys.keys();
+}
 
 Scenario complete_scenario(const YamlDocument& document) {
   // Read once for the robot and the stance, then again with the robot's values as defaults.

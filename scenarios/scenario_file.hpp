@@ -1,7 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "core/keys/key.hpp"
 #include "core/yaml.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -16,5 +19,8 @@ Scenario complete_scenario(const YamlDocument& document);
 
 /// The same for a path that `find_resource` resolves. A non-empty `robot` replaces the scenario's.
 Scenario find_scenario(const std::filesystem::path& path, const std::string& robot = {});
+
+/// The keys of a YAML file about a robot, those that its balancer reads included.
+std::vector<Key> robot_keys();
 
 }  // namespace touchdown::scenarios

@@ -26,10 +26,12 @@ double quantile(const std::vector<double>& sorted, double q) {
 const std::string& to_text(SampleUnit unit) { return unit_names[static_cast<std::size_t>(unit)]; }
 
 void describe(Fields& fields, IntervalConfig& intervals) {
-  fields.choose("over", unit_names, intervals.over);
-  fields("resamples", intervals.bootstrap.resamples, 10, 1'000'000);
-  fields("level", intervals.bootstrap.level, 0.5, 0.999);
-  fields("seed", intervals.bootstrap.seed);
+  fields.choose("over", unit_names, intervals.over)
+      .doc("What is resampled: whole runs or single drops.");
+  fields("resamples", intervals.bootstrap.resamples, 10, 1'000'000)
+      .doc("Number of bootstrap resamples.");
+  fields("level", intervals.bootstrap.level, 0.5, 0.999).doc("Nominal coverage of the intervals.");
+  fields("seed", intervals.bootstrap.seed).doc("Seed of the resamples.");
 }
 
 std::vector<std::uint32_t> resampled_indices(std::size_t samples, const BootstrapConfig& config) {

@@ -43,17 +43,23 @@ ContactSequence combined(const std::array<ContactSequence, models::wheel_count>&
 }  // namespace
 
 void describe(Fields& fields, Annotator& annotator) {
-  fields("frame", annotator.frame, 0.0, 1.0);
+  fields("frame", annotator.frame, 0.0, 1.0)
+      .doc("s", "Time between the film's frames; 0: the annotator sees every step.");
   fields.renamed("takeoffs_late", "takeoff_delay");
-  fields("takeoff_delay", annotator.takeoff_delay, -1.0, 1.0);
+  fields("takeoff_delay", annotator.takeoff_delay, -1.0, 1.0)
+      .doc("s", "Marked minus true time of takeoffs; negative: early.");
   fields.renamed("landings_late", "landing_delay");
-  fields("landing_delay", annotator.landing_delay, -1.0, 1.0);
+  fields("landing_delay", annotator.landing_delay, -1.0, 1.0)
+      .doc("s", "Marked minus true time of landings; negative: early.");
 }
 
 void describe(Fields& fields, LabelConfig& labels) {
-  fields("force_threshold", labels.force_threshold, 0.0, 1e4);
-  fields("debounce", labels.debounce, 0.0, 10.0);
-  fields.section("annotator", labels.annotator);
+  fields("force_threshold", labels.force_threshold, 0.0, 1e4)
+      .doc("N", "A wheel is in contact above this normal force.");
+  fields("debounce", labels.debounce, 0.0, 10.0)
+      .doc("s", "Shorter states are merged into their neighbours.");
+  fields.section("annotator", labels.annotator)
+      .doc("Timing errors of a person who labels contact in a film.");
 }
 
 ContactSequence debounced(ContactSequence contact, std::size_t steps) {

@@ -76,11 +76,16 @@ std::vector<Step> predicted_steps(EventKind kind, const ContactSequence& predict
 }  // namespace
 
 void describe(Fields& fields, ScoringConfig& scoring) {
-  fields("skip", scoring.skip, 0.0, 1e3);
-  fields("hold_off", scoring.hold_off, 0.0, 10.0);
-  fields("takeoff_opens", scoring.takeoff_opens, 0.0, 10.0);
-  fields("landing_opens", scoring.landing_opens, 0.0, 10.0);
-  fields("minimum_flight", scoring.minimum_flight, 0.0, 10.0);
+  fields("skip", scoring.skip, 0.0, 1e3)
+      .doc("s", "The beginning of each run is not scored for this long.");
+  fields("hold_off", scoring.hold_off, 0.0, 10.0)
+      .doc("s", "After a transition, further ones are ignored for this long.");
+  fields("takeoff_opens", scoring.takeoff_opens, 0.0, 10.0)
+      .doc("s", "A takeoff may be predicted this early.");
+  fields("landing_opens", scoring.landing_opens, 0.0, 10.0)
+      .doc("s", "A landing may be predicted this early.");
+  fields("minimum_flight", scoring.minimum_flight, 0.0, 10.0)
+      .doc("s", "Shorter flights are no events.");
 }
 
 std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "estimator/neural/network.hpp"
-#include "training/config.hpp"
+#include "training/config/training.hpp"
 #include "training/rollout.hpp"
 
 namespace touchdown::training {

@@ -7,7 +7,7 @@
 
 #include "noise/sensors/profile.hpp"
 #include "scenarios/scenario.hpp"
-#include "training/config.hpp"
+#include "training/config/training.hpp"
 
 namespace touchdown::training {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "training/config.hpp"
+#include "training/config/training.hpp"
 #include "training/history.hpp"
 
 namespace touchdown::training {

@@ -52,10 +52,12 @@ std::string bash_completion(const std::vector<DescribedVerb>& verbs) {
     names.push_back(verb.name);
     std::vector<std::string> dashed;
     for (const DescribedOption& option : verb.options) {
-      if (option.positional) continue;
-      dashed.insert(dashed.end(), option.names.begin(), option.names.end());
+      if (!option.positional) {
+        dashed.insert(dashed.end(), option.names.begin(), option.names.end());
+      }
       if (option.choices.empty()) continue;
-      values += fmt::format("    '{} {}') words=\"{}\" ;;\n", verb.name, option.names.back(),
+      values += fmt::format("    '{} {}') words=\"{}\" ;;\n", verb.name,
+                            option.positional ? verb.name : option.names.back(),
                             fmt::join(option.choices, " "));
     }
     options += fmt::format("    {}) words=\"{}\" ;;\n", verb.name, fmt::join(dashed, " "));
@@ -94,6 +96,10 @@ std::string zsh_completion(const std::vector<DescribedVerb>& verbs) {
     cases += fmt::format("    {})\n      _arguments \\\n", verb.name);
     for (const DescribedOption& option : verb.options) {
       if (!option.positional) cases += argument(option);
+      if (option.positional && !option.choices.empty()) {
+        cases +=
+            fmt::format("        '1:{}:({})' \\\n", option.value, fmt::join(option.choices, " "));
+      }
     }
     cases += "        '*:file:_files'\n      ;;\n";
   }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/keys/kinds.hpp"
 #include "cli/manual/completion.hpp"
 #include "cli/manual/man_page.hpp"
 #include "cli/verbs.hpp"
@@ -17,7 +18,10 @@ namespace {
 
 /// Adds the choices that verbs look up in registries only when they run.
 void add_known_names(std::vector<DescribedVerb>& verbs) {
+  std::vector<std::string> kinds;
+  for (const FileKind& kind : file_kinds()) kinds.push_back(kind.name);
   const std::map<std::string, std::vector<std::string>> known = {
+      {"kind", kinds},
       {"--simulator", simulators::simulator_names()},
       {"--estimator", experiments::estimator_names()}};
   for (DescribedVerb& verb : verbs) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/keys/key.hpp"
 #include "core/yaml.hpp"
 #include "experiments/estimators/entry.hpp"
 #include "noise/grid.hpp"
@@ -252,6 +253,9 @@ std::vector<std::string> sensor_files(const Experiment& experiment);
 /// with file:line:column; also for an external estimator with the name of a built-in one.
 Experiment experiment_from_yaml(const YamlDocument& document,
                                 std::vector<EstimatorEntry> external_estimators = {});
+
+/// The keys of an experiment file.
+std::vector<Key> experiment_keys();
 
 /// Checks that the files of an experiment exist. Errors: `InputError` with the file:line:column of
 /// the first missing one, and the nearest existing file.

@@ -16,104 +16,167 @@ constexpr double largest = 1e4;  ///< limit of biases, standard deviations and r
 /// Kind of sensor; it determines which disturbances apply.
 enum class SensorKind { joint, imu, attitude };
 
+/// A sensor with its unit, as in the reference of keys.
+struct Sensor {
+  SensorKind kind;
+  const char* unit;
+  const char* meaning;
+};
+
 constexpr std::array joints = {"hip", "knee", "wheel"};
 constexpr std::array axes = {"x", "y", "z"};
 
 void describe_low_pass(Fields& fields, double& time_constant) {
-  fields.within("low_pass", [&](Fields& filter) {
-    if (!filter.present("cut_off", false)) {
-      filter.know("cut_off");
-      return filter("time_constant", time_constant, 0.0, 100.0);
-    }
+  const auto describe_time_constant = [&](Fields& filter) {
+    filter.know("cut_off");
+    filter("time_constant", time_constant, 0.0, 100.0).doc("s", "Time constant; 0: none.");
+  };
+  const auto describe_cut_off = [&](Fields& filter) {
     double cut_off = 0.0;
-    filter("cut_off", cut_off, 1e-3, 1e6);
+    filter("cut_off", cut_off, 1e-3, 1e6)
+        .fallback("none")
+        .doc("Hz", "Cut-off frequency instead of the time constant.");
     filter.check(!filter.present("time_constant", false), "cut_off",
                  "expected either a cut-off frequency (Hz) or a time constant (s)");
-    time_constant = 1.0 / (2.0 * std::numbers::pi * cut_off);
-  });
+    if (!filter.documenting()) time_constant = 1.0 / (2.0 * std::numbers::pi * cut_off);
+  };
+  fields
+      .within("low_pass",
+              [&](Fields& filter) {
+                const bool has_cut_off = filter.present("cut_off", false);
+                if (!has_cut_off || filter.documenting()) describe_time_constant(filter);
+                if (has_cut_off) describe_cut_off(filter);
+              })
+      .doc("First-order low-pass of the instrument.");
 }
 
 /// Disturbances of the value.
-void describe_values(Fields& fields, SensorChannel& channel, SensorKind kind) {
+void describe_values(Fields& fields, SensorChannel& channel, const Sensor& sensor) {
+  const SensorKind kind = sensor.kind;
+  const std::string unit = sensor.unit;
   if (kind != SensorKind::attitude) {
-    fields.within("scale", [&](Fields& scale) {
-      scale("value", channel.scale.value, -1.0, 10.0);
-      scale("sd", channel.scale.sd, 0.0, 1.0);
-    });
+    fields
+        .within("scale",
+                [&](Fields& scale) {
+                  scale("value", channel.scale.value, -1.0, 10.0).doc("Fixed relative error.");
+                  scale("sd", channel.scale.sd, 0.0, 1.0)
+                      .doc("Standard deviation of a draw per run that is added.");
+                })
+        .doc("Relative error of the values.");
   }
-  fields.within("bias", [&](Fields& bias) {
-    bias("value", channel.bias.value, -largest, largest);
-    bias("sd", channel.bias.sd, 0.0, largest);
-    bias("walk", channel.walk, 0.0, largest);
-  });
+  fields
+      .within("bias",
+              [&](Fields& bias) {
+                bias("value", channel.bias.value, -largest, largest).doc(unit, "Fixed offset.");
+                bias("sd", channel.bias.sd, 0.0, largest)
+                    .doc(unit, "Standard deviation of a draw per run that is added.");
+                bias("walk", channel.walk, 0.0, largest)
+                    .doc(unit + "/√s", "Standard deviation of its random walk after one second.");
+              })
+      .doc("Offset of the values.");
   if (kind == SensorKind::imu) {
-    fields.within("vibration", [&](Fields& vibration) {
-      vibration("amplitude", channel.vibration.amplitude, 0.0, largest);
-      vibration("order", channel.vibration.order, 1e-3, 1e3);
-    });
+    fields
+        .within("vibration",
+                [&](Fields& vibration) {
+                  vibration("amplitude", channel.vibration.amplitude, 0.0, largest)
+                      .doc(unit + " per rad/s", "Amplitude per wheel speed.");
+                  vibration("order", channel.vibration.order, 1e-3, 1e3)
+                      .doc("Frequency per turning frequency of the wheel.");
+                })
+        .doc("A sine for each wheel, with its turning frequency.");
   }
-  fields.within("coloured", [&](Fields& coloured) {
-    coloured("sd", channel.coloured.sd, 0.0, largest);
-    coloured("time_constant", channel.coloured.time_constant, 1e-6, 1e6);
-  });
+  fields
+      .within("coloured",
+              [&](Fields& coloured) {
+                coloured("sd", channel.coloured.sd, 0.0, largest)
+                    .doc(unit, "Standard deviation of the noise.");
+                coloured("time_constant", channel.coloured.time_constant, 1e-6, 1e6)
+                    .doc("s", "Time constant of its autocorrelation.");
+              })
+      .doc("First-order Gauss-Markov noise.");
   if (kind != SensorKind::attitude) describe_low_pass(fields, channel.low_pass);
-  fields("white", channel.white, 0.0, largest);
+  fields("white", channel.white, 0.0, largest).doc(unit, "Standard deviation of the white noise.");
   if (kind == SensorKind::attitude) return;
-  if (fields.reading() || std::isfinite(channel.range)) fields("range", channel.range, 1e-9, 1e9);
-  fields("resolution", channel.resolution, 0.0, largest);
+  if (fields.reading() || std::isfinite(channel.range)) {
+    fields("range", channel.range, 1e-9, 1e9).doc(unit, "Values are clipped to ± this.");
+  }
+  fields("resolution", channel.resolution, 0.0, largest).doc(unit, "Step of the values; 0: none.");
 }
 
 /// Disturbances of the timing.
 void describe_clock(Fields& fields, SensorChannel& channel) {
-  fields("rate", channel.rate, 0.0, 1e6);
-  fields("delay", channel.delay, 0.0, 10.0);
-  fields.within("dropout", [&](Fields& dropout) {
-    dropout.choose("kind", {"missing", "frozen", "nan"}, channel.dropout.kind);
-    dropout("rate", channel.dropout.rate, 0.0, 1.0);
-    dropout("length", channel.dropout.length, 1e-6, 1e3);
-  });
+  fields("rate", channel.rate, 0.0, 1e6)
+      .doc("Hz", "Sample rate; samples are held; 0: one per step.");
+  fields("delay", channel.delay, 0.0, 10.0).doc("s", "Delay, rounded to whole steps.");
+  fields
+      .within("dropout",
+              [&](Fields& dropout) {
+                dropout.choose("kind", {"missing", "frozen", "nan"}, channel.dropout.kind)
+                    .doc("Output during a dropout: no record, the last value, or not a number.");
+                dropout("rate", channel.dropout.rate, 0.0, 1.0)
+                    .doc("Probability per step that a dropout begins.");
+                dropout("length", channel.dropout.length, 1e-6, 1e3).doc("s", "Mean length.");
+              })
+      .doc("Times without a new value.");
 }
 
 /// Keys of a sensor apply to all three of its channels. Keys under a channel's name override them
 /// for this channel.
 void describe_sensor(Fields& fields, std::string_view key, std::array<SensorChannel, 3>& channels,
-                     const std::array<const char*, 3>& names, SensorKind kind) {
-  fields.within(key, [&](Fields& sensor) {
-    const bool is_joint = kind == SensorKind::joint;
+                     const std::array<const char*, 3>& names, const Sensor& sensor) {
+  const bool is_joint = sensor.kind == SensorKind::joint;
+  const auto describe_channel = [&](Fields& one, SensorChannel& channel) {
+    // The reference of keys lists those of a sensor once.
+    if (one.documenting()) return;
+    describe_values(one, channel, sensor);
+    if (is_joint) describe_clock(one, channel);
+  };
+  const auto describe_all = [&](Fields& all) {
     const bool alike = channels[0] == channels[1] && channels[0] == channels[2];
     SensorChannel common = channels[0];
-    if (sensor.reading() || alike) describe_values(sensor, common, kind);
-    if (sensor.reading() || alike || !is_joint) describe_clock(sensor, common);
-    if (sensor.reading()) channels.fill(common);
+    if (all.reading() || alike) describe_values(all, common, sensor);
+    if (all.reading() || alike || !is_joint) describe_clock(all, common);
+    if (all.reading()) channels.fill(common);
     for (std::size_t i = 0; i < channels.size(); ++i) {
-      if (!sensor.present(names[i], !alike)) {
-        sensor.know(names[i]);
+      if (!all.present(names[i], !alike)) {
+        all.know(names[i]);
         continue;
       }
-      sensor.within(names[i], [&](Fields& one) {
-        describe_values(one, channels[i], kind);
-        if (is_joint) describe_clock(one, channels[i]);
-      });
+      all.within(names[i], [&](Fields& one) { describe_channel(one, channels[i]); })
+          .type(is_joint ? "section with the keys of its sensor"
+                         : "section with the keys of its sensor but rate, delay and dropout")
+          .doc("Replaces values of its sensor for this channel.");
     }
-  });
+  };
+  fields.within(key, describe_all).doc(sensor.meaning);
 }
 
 }  // namespace
 
 void describe(Fields& fields, SensorProfile& profile) {
-  describe_sensor(fields, "torque", profile.torque, joints, SensorKind::joint);
-  describe_sensor(fields, "position", profile.position, joints, SensorKind::joint);
-  describe_sensor(fields, "velocity", profile.velocity, joints, SensorKind::joint);
-  describe_sensor(fields, "accelerometer", profile.accelerometer, axes, SensorKind::imu);
-  describe_sensor(fields, "gyroscope", profile.gyroscope, axes, SensorKind::imu);
-  describe_sensor(fields, "orientation", profile.orientation, axes, SensorKind::attitude);
-  fields.within("misalignment", [&](Fields& misalignment) {
+  describe_sensor(fields, "torque", profile.torque, joints,
+                  {SensorKind::joint, "N·m", "Joint torques, reported by the servos."});
+  describe_sensor(fields, "position", profile.position, joints,
+                  {SensorKind::joint, "rad", "Joint positions."});
+  describe_sensor(fields, "velocity", profile.velocity, joints,
+                  {SensorKind::joint, "rad/s", "Joint velocities."});
+  describe_sensor(fields, "accelerometer", profile.accelerometer, axes,
+                  {SensorKind::imu, "m/s²", "Acceleration of the IMU, gravity included."});
+  describe_sensor(fields, "gyroscope", profile.gyroscope, axes,
+                  {SensorKind::imu, "rad/s", "Angular velocity of the IMU."});
+  describe_sensor(fields, "orientation", profile.orientation, axes,
+                  {SensorKind::attitude, "rad", "Error of the IMU's attitude, about its axes."});
+  const auto describe_misalignment = [&](Fields& misalignment) {
+    constexpr double pi = std::numbers::pi;
     Misalignment& angle = profile.misalignment;
-    misalignment("roll", angle.roll, -std::numbers::pi, std::numbers::pi);
-    misalignment("pitch", angle.pitch, -std::numbers::pi, std::numbers::pi);
-    misalignment("yaw", angle.yaw, -std::numbers::pi, std::numbers::pi);
-    misalignment("sd", angle.sd, 0.0, 1.0);
-  });
+    misalignment("roll", angle.roll, -pi, pi).range("-π to π").doc("rad", "About x.");
+    misalignment("pitch", angle.pitch, -pi, pi).range("-π to π").doc("rad", "About y, after roll.");
+    misalignment("yaw", angle.yaw, -pi, pi).range("-π to π").doc("rad", "About z, after pitch.");
+    misalignment("sd", angle.sd, 0.0, 1.0)
+        .doc("rad", "Standard deviation of a draw per run that is added to each angle.");
+  };
+  fields.within("misalignment", describe_misalignment)
+      .doc("Rotation of the IMU from its nominal frame.");
 }
 
 bool is_ideal(const SensorChannel& channel) {

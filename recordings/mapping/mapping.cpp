@@ -43,15 +43,11 @@ std::vector<Unit> accelerations() { return {{"m/s^2", 1.0}, {"g", standard_gravi
 
 /// Reads a single value or a list.
 template <typename T>
-std::vector<T> one_or_more(Fields& fields, const std::string& key) {
-  if (fields.node()[key].IsSequence()) {
-    std::vector<T> values;
-    fields(key, values);
-    return values;
-  }
-  T value{};
-  fields(key, value);
-  return {value};
+KeyNotes one_or_more(Fields& fields, const std::string& key, std::vector<T>& values) {
+  const YAML::Node given = fields.node()[key];
+  if (given && given.IsSequence()) return fields(key, values);
+  values.assign(1, T{});
+  return fields(key, values.front());
 }
 
 /// Declares all valid keys, so that a misspelt key is reported as such, and not as a missing one.
@@ -60,13 +56,14 @@ void expect_keys(Fields& fields, std::initializer_list<const char*> keys) {
   fields.finish();
 }
 
-/// Reads one number per component of a signal; empty if the key is absent.
-std::vector<double> number_for_each(Fields& fields, const std::string& key, std::size_t count) {
+/// Reads one number per component of a signal; `values` stay empty if the key is absent.
+KeyNotes number_for_each(Fields& fields, const std::string& key, std::size_t count,
+                         std::vector<double>& values) {
   if (!fields.present(key, false)) return {};
-  std::vector<double> values = one_or_more<double>(fields, key);
+  const KeyNotes notes = one_or_more(fields, key, values);
   if (values.size() == 1) values.resize(count, values.front());
   fields.check(values.size() == count, key, fmt::format("expected a number, or {}", count));
-  return values;
+  return notes.type(count == 1 ? "number" : fmt::format("number or list of {}", count));
 }
 
 double unit_of(Fields& fields, const std::vector<Unit>& units) {
@@ -74,7 +71,7 @@ double unit_of(Fields& fields, const std::vector<Unit>& units) {
   std::vector<std::string> names;
   for (const Unit& unit : units) names.push_back(unit.name);
   std::size_t index = 0;
-  fields.choose("unit", names, index);
+  fields.choose("unit", names, index).doc("Unit of the log's numbers.");
   return units[index].size;
 }
 
@@ -90,39 +87,50 @@ class MappingReader {
  public:
   MappingReader(const SourceNames& names, LogMapping& mapping) : names_(names), mapping_(mapping) {}
 
-  void require(Fields& fields, std::string_view key, const SignalKind& kind, MappedSignal& signal) {
+  KeyNotes require(Fields& fields, std::string_view key, const SignalKind& kind,
+                   MappedSignal& signal) {
     fields.require(key);
-    fields.within(key, [&](Fields& inner) { describe_signal(inner, kind, signal); });
+    return fields.within(key, [&](Fields& inner) { describe_signal(inner, kind, signal); });
   }
 
-  void optional(Fields& fields, std::string_view key, const SignalKind& kind,
-                std::optional<MappedSignal>& signal) {
-    if (fields.present(key, false)) require(fields, key, kind, signal.emplace());
+  KeyNotes optional(Fields& fields, std::string_view key, const SignalKind& kind,
+                    std::optional<MappedSignal>& signal) {
+    if (!fields.present(key, false)) return {};
+    MappedSignal& value = signal.emplace();
+    return fields.within(key, [&](Fields& inner) { describe_signal(inner, kind, value); })
+        .fallback("none");
   }
 
   /// Orientations have an order and a reference instead of a unit.
   void describe_orientation(Fields& fields) {
     fields.require("orientation");
-    fields.within("orientation", [&](Fields& inner) {
+    const auto describe_quaternion = [&](Fields& inner) {
       std::size_t order = 0;
       std::size_t reference = 0;
-      inner.choose("order", {"wxyz", "xyzw"}, order);
-      inner.choose("reference", {"z_down", "z_up"}, reference);
+      inner.choose("order", {"wxyz", "xyzw"}, order).doc("Order of the quaternion's components.");
+      inner.choose("reference", {"z_down", "z_up"}, reference)
+          .doc("Direction of the reference's z axis.");
       mapping_.is_w_last = order == 1;
       mapping_.reference_is_z_up = reference == 1;
       describe_signal(inner, {"the quaternion's components in the order of 'order'", 4},
                       mapping_.orientation);
-    });
+    };
+    fields.within("orientation", describe_quaternion)
+        .doc("Quaternion from the IMU's frame to its reference.");
   }
 
   void describe_contact(Fields& fields) {
     if (!fields.present("contact", false)) return;
-    fields.within("contact", [&](Fields& inner) {
-      inner("above", mapping_.contact_above);
-      const bool is_pair = inner.present("from", false) && inner.node()["from"].size() == 2;
+    const auto describe_labels = [&](Fields& inner) {
+      inner("above", mapping_.contact_above).doc("A number above this is contact.");
+      const YAML::Node from = inner.node()["from"];
+      const bool is_pair = inner.documenting() || (from && from.size() == 2);
       describe_signal(inner, {"both wheels, or left and right", is_pair ? 2U : 1U},
                       mapping_.contact.emplace());
-    });
+    };
+    fields.within("contact", describe_labels)
+        .fallback("none")
+        .doc("Contact labels: a flag or a force, one for both wheels or left and right.");
   }
 
  private:
@@ -133,10 +141,17 @@ class MappingReader {
     expect_keys(fields, {"from", "sign"});
     fields.require("from");
     const std::vector<SourceColumn> columns = columns_of(fields, kind);
-    const std::vector<double> sign = number_for_each(fields, "sign", kind.count);
+    std::vector<double> sign;
+    number_for_each(fields, "sign", kind.count, sign)
+        .range("1 or -1")
+        .fallback("1")
+        .doc("Sign of all numbers, or of each.");
     for (const double one : sign) fields.check(std::abs(one) == 1.0, "sign", "expected 1 or -1");
     std::vector<double> zero;
-    if (kind.has_zero) zero = number_for_each(fields, "zero", kind.count);
+    if (kind.has_zero) {
+      number_for_each(fields, "zero", kind.count, zero)
+          .doc("rad", "The log's position where touchdown's is zero.");
+    }
     for (const double one : zero) fields.check(std::isfinite(one), "zero", "expected a number");
     signal.unit = unit_of(fields, kind.units);
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -146,7 +161,10 @@ class MappingReader {
   }
 
   std::vector<SourceColumn> columns_of(Fields& fields, const SignalKind& kind) const {
-    const std::vector<std::string> from = one_or_more<std::string>(fields, "from");
+    std::vector<std::string> from;
+    one_or_more(fields, "from", from)
+        .type(kind.count == 1 ? "text" : "text or list of texts")
+        .doc(fmt::format("Columns or arrays: {}.", kind.what));
     for (const std::string& name : from) check_is_there(fields, name);
     if (names_.are_arrays) return columns_of_arrays(fields, kind, from);
     fields.check(from.size() == kind.count, "from",
@@ -167,7 +185,12 @@ class MappingReader {
     std::vector<int> index;
     const bool is_given = fields.present("index", false);
     if (is_given) {
-      index = one_or_more<int>(fields, "index");
+      one_or_more(fields, "index", index)
+          .type("whole number or list of whole numbers")
+          .range("≥ 0")
+          .fallback("the first ones")
+          .doc("Columns of an array with two axes, from 0; only in `.npz` files.");
+      if (fields.documenting()) return {};
       fields.check(index.size() == kind.count, "index",
                    fmt::format("expected {} of the array's columns: {}", kind.count, kind.what));
       fields.check(std::all_of(index.begin(), index.end(), [](int i) { return i >= 0; }), "index",
@@ -213,7 +236,9 @@ class MappingReader {
 /// Reads the rotation to Upkie's IMU axes: each is x, y or z of the log's IMU, or its reverse.
 void describe_axes(Fields& fields, Eigen::Matrix3d& axes) {
   std::vector<std::string> names = {"x", "y", "z"};
-  fields("axes", names);
+  fields("axes", names)
+      .range("x, y, z, each with or without a minus")
+      .doc("Axes of the log's IMU that point back, left and down.");
   constexpr const char* expected =
       "expected the log's axes that point back, left and down, such as [-x, y, -z]: a right-handed "
       "order of x, y and z, each with or without a minus";
@@ -231,13 +256,18 @@ void describe_axes(Fields& fields, Eigen::Matrix3d& axes) {
 }
 
 void describe_time(Fields& fields, MappingReader& reader, LogMapping& mapping) {
-  fields("period", mapping.period);
+  fields("period", mapping.period)
+      .range(fmt::format("above 0, to {}", longest_period))
+      .fallback("none")
+      .doc("s", "Time between two rows, instead of `time`.");
   const bool has_period = fields.present("period", false);
   fields.check(!has_period || (mapping.period > 0.0 && mapping.period <= longest_period), "period",
                fmt::format("expected the time between two rows (s), at most {}", longest_period));
-  reader.optional(fields, "time",
-                  {"time", 1, {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}},
-                  mapping.time);
+  reader
+      .optional(fields, "time",
+                {"the time of each row", 1, {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}},
+                mapping.time)
+      .doc("Clock of the log, instead of `period`.");
   fields.check(!has_period || !mapping.time, "period",
                "'time' already specifies when rows were logged");
   fields.check(has_period || mapping.time, "time", "is missing: expected 'time' or 'period'");
@@ -246,29 +276,59 @@ void describe_time(Fields& fields, MappingReader& reader, LogMapping& mapping) {
 void describe_joints(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   expect_keys(fields, {"position", "velocity", "torque", "wheel_velocity_target"});
   const SignalKind angle{six_joints, 6, {{"rad", 1.0}, {"deg", degree}, {"rev", turn}}, true};
-  reader.require(fields, "position", angle, mapping.position);
-  reader.require(fields, "velocity", {six_joints, 6, speeds()}, mapping.velocity);
-  reader.require(fields, "torque", {six_joints, 6, {{"Nm", 1.0}, {"mNm", 1e-3}}}, mapping.torque);
-  reader.optional(fields, "wheel_velocity_target", {"left wheel, right wheel", 2, speeds()},
-                  mapping.wheel_velocity_target);
+  reader.require(fields, "position", angle, mapping.position).doc("Joint positions.");
+  reader.require(fields, "velocity", {six_joints, 6, speeds()}, mapping.velocity)
+      .doc("Joint velocities.");
+  reader.require(fields, "torque", {six_joints, 6, {{"Nm", 1.0}, {"mNm", 1e-3}}}, mapping.torque)
+      .doc("Joint torques.");
+  reader
+      .optional(fields, "wheel_velocity_target", {"left wheel, right wheel", 2, speeds()},
+                mapping.wheel_velocity_target)
+      .doc("Commanded velocities of the wheels; only `nmn` uses them.");
 }
 
 void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   expect_keys(fields, {"orientation", "angular_velocity", "linear_acceleration",
                        "proper_acceleration", "axes"});
   reader.describe_orientation(fields);
-  reader.require(fields, "angular_velocity", {"x, y, z", 3, {{"rad/s", 1.0}, {"deg/s", degree}}},
-                 mapping.angular_velocity);
+  reader
+      .require(fields, "angular_velocity", {"x, y, z", 3, {{"rad/s", 1.0}, {"deg/s", degree}}},
+               mapping.angular_velocity)
+      .doc("Angular velocity of the IMU.");
   const SignalKind acceleration{"x, y, z", 3, accelerations()};
-  reader.optional(fields, "linear_acceleration", acceleration, mapping.linear_acceleration);
-  reader.optional(fields, "proper_acceleration", acceleration, mapping.proper_acceleration);
+  reader.optional(fields, "linear_acceleration", acceleration, mapping.linear_acceleration)
+      .doc("Acceleration without gravity; this or the next is needed.");
+  reader.optional(fields, "proper_acceleration", acceleration, mapping.proper_acceleration)
+      .doc("Acceleration as the chip measures it, gravity included.");
   describe_axes(fields, mapping.axes);
   fields.check(mapping.linear_acceleration || mapping.proper_acceleration, "",
                "expected 'linear_acceleration', without gravity, or 'proper_acceleration', as the "
                "chip measures it");
 }
 
+void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping) {
+  expect_keys(fields, {"period", "time", "joints", "imu", "contact"});
+  describe_time(fields, reader, mapping);
+  fields.require("joints");
+  fields.within("joints", [&](Fields& inner) { describe_joints(inner, reader, mapping); })
+      .doc("Signals of the six servos.");
+  fields.require("imu");
+  fields.within("imu", [&](Fields& inner) { describe_imu(inner, reader, mapping); })
+      .doc("Signals of the IMU.");
+  reader.describe_contact(fields);
+}
+
 }  // namespace
+
+std::vector<Key> mapping_keys() {
+  const SourceNames arrays{.file = "", .are_arrays = true, .names = {}};
+  LogMapping mapping;
+  MappingReader reader(arrays, mapping);
+  KeyCollection keys;
+  Fields fields(keys);
+  describe_mapping(fields, reader, mapping);
+  return keys.keys();
+}
 
 LogMapping read_log_mapping(const std::filesystem::path& path, const SourceNames& names) {
   require_file(path);
@@ -276,13 +336,7 @@ LogMapping read_log_mapping(const std::filesystem::path& path, const SourceNames
   LogMapping mapping;
   MappingReader reader(names, mapping);
   Fields fields(document);
-  expect_keys(fields, {"period", "time", "joints", "imu", "contact"});
-  describe_time(fields, reader, mapping);
-  fields.require("joints");
-  fields.within("joints", [&](Fields& inner) { describe_joints(inner, reader, mapping); });
-  fields.require("imu");
-  fields.within("imu", [&](Fields& inner) { describe_imu(inner, reader, mapping); });
-  reader.describe_contact(fields);
+  describe_mapping(fields, reader, mapping);
   return mapping;
 }
 

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "core/keys/key.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::recordings {
@@ -83,5 +84,8 @@ struct LogMapping {
 /// - a name that the log lacks, or a column that is used twice;
 /// - a wrong number of names, signs or units.
 LogMapping read_log_mapping(const std::filesystem::path& path, const SourceNames& names);
+
+/// The keys of a mapping file.
+std::vector<Key> mapping_keys();
 
 }  // namespace touchdown::recordings

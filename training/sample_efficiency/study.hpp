@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "training/sample_efficiency/config.hpp"
+#include "training/config/sample_efficiency.hpp"
 #include "training/train.hpp"
 
 namespace touchdown::training {

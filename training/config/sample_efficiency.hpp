@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/keys/key.hpp"
 #include "core/yaml.hpp"
-#include "experiments/config/experiment.hpp"
+#include "noise/grid.hpp"
 
 namespace touchdown::training {
 
@@ -35,5 +36,8 @@ std::string to_yaml(const SampleEfficiencyConfig& config);
 
 /// Whether a document describes such a study rather than a training.
 bool is_sample_efficiency(const YamlDocument& document);
+
+/// The keys of such a file.
+std::vector<Key> sample_efficiency_keys();
 
 }  // namespace touchdown::training

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "core/keys/key.hpp"
 #include "core/yaml.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scoring/labels.hpp"
-#include "training/trainer.hpp"
+#include "training/config/optimiser.hpp"
 
 namespace touchdown::training {
 
@@ -65,5 +66,8 @@ TrainingConfig training_from_yaml(const YamlDocument& document);
 
 /// The configuration as YAML with every default; it reads back to the same configuration.
 std::string to_yaml(const TrainingConfig& config);
+
+/// The keys of a training file.
+std::vector<Key> training_keys();
 
 }  // namespace touchdown::training

@@ -1,8 +1,7 @@
-#include "training/config.hpp"
-
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "training/config/training.hpp"
 
 namespace touchdown::training {
 namespace {

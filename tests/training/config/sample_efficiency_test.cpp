@@ -1,8 +1,7 @@
-#include "training/sample_efficiency/config.hpp"
-
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "training/config/sample_efficiency.hpp"
 
 namespace touchdown::training {
 namespace {

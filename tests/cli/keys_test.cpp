@@ -1,0 +1,98 @@
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "program.hpp"
+
+namespace touchdown::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const std::vector<std::string> kinds = {
+    "experiment", "scenario", "robot", "sensors", "mapping", "training", "sample_efficiency"};
+
+struct Keys : ::testing::Test {
+  std::string printed(const std::string& arguments) const {
+    const Ended ended = touchdown_program("keys " + arguments, folder.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    return ended.output;
+  }
+  ScratchFolder folder;
+};
+
+/// The cells of the rows of a Markdown document's tables, without headers.
+std::vector<std::vector<std::string>> rows_of(const std::string& markdown) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("| `")) continue;
+    std::vector<std::string> cells;
+    std::istringstream parts(line.substr(2));
+    for (std::string part; std::getline(parts, part, '|');) {
+      const std::size_t end = part.find_last_not_of(' ');
+      cells.push_back(end == std::string::npos ? ""
+                                               : part.substr(part.find_first_not_of(' '), end));
+    }
+    rows.push_back(cells);
+  }
+  return rows;
+}
+
+TEST_F(Keys, OfEveryKindHaveAMeaningAndAType) {
+  for (const std::string& kind : kinds) {
+    const auto rows = rows_of(printed(kind + " --markdown"));
+    EXPECT_GT(rows.size(), 10U) << kind;
+    std::set<std::string> paths;
+    for (const auto& row : rows) {
+      ASSERT_EQ(row.size(), 6U) << kind << ": " << row.front();
+      EXPECT_NE(row[1], "") << kind << ": " << row.front();
+      EXPECT_NE(row[5], "") << kind << ": " << row.front()
+                            << " has no .doc(...) where it is described";
+      EXPECT_TRUE(paths.insert(row.front()).second) << kind << ": " << row.front() << " twice";
+    }
+  }
+}
+
+TEST_F(Keys, AreTheDocument) {
+  EXPECT_TRUE(printed("--markdown") ==
+              read_file(std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "docs" / "keys.md"))
+      << "docs/keys.md is out of date; write it with: touchdown keys --markdown > docs/keys.md";
+}
+
+TEST_F(Keys, ArePrintedForATerminalWithTypeUnitRangeDefaultAndMeaning) {
+  const std::string text = printed("experiment");
+  EXPECT_THAT(text, StartsWith("Experiment files\n"));
+  EXPECT_THAT(text, ::testing::ContainsRegex(
+                        "labels\\.force_threshold +number \\(N\\), 0 to 10000; default: 1\n"
+                        " +A wheel is in contact above this normal force\\.\n"));
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 110U) << line;  // 100 characters, some of two bytes
+  }
+}
+
+TEST_F(Keys, OfAllKindsArePrintedWithoutAKind) {
+  EXPECT_THAT(printed(""), AllOf(HasSubstr("Experiment files\n"), HasSubstr("Mapping files\n"),
+                                 HasSubstr("Training files\n")));
+}
+
+TEST_F(Keys, OfAnotherNameAreNotListed) {
+  EXPECT_THAT(printed("experiment"), AllOf(HasSubstr("fit.segments"), Not(HasSubstr("pieces"))));
+}
+
+TEST_F(Keys, OfAnUnknownKindAreRefusedWithTheNearestName) {
+  const Ended ended = touchdown_program("keys experimnt", folder.path());
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.errors, HasSubstr("did you mean 'experiment'?"));
+}
+
+}  // namespace
+}  // namespace touchdown::cli
