@@ -23,16 +23,22 @@
 #include "experiments/studies/benchmark/plan.hpp"
 #include "experiments/studies/benchmark/refits.hpp"
 #include "experiments/studies/benchmark/tables.hpp"
+#include "experiments/studies/closed_loop/figures.hpp"
 #include "experiments/studies/closed_loop/tables.hpp"
+#include "experiments/studies/cross_simulator/figures.hpp"
 #include "experiments/studies/cross_simulator/tables.hpp"
 #include "experiments/studies/moments/tables.hpp"
+#include "experiments/studies/odometry/figures.hpp"
 #include "experiments/studies/odometry/tables.hpp"
 #include "experiments/studies/odometry/trajectories.hpp"
+#include "experiments/studies/operating_points/figures.hpp"
 #include "experiments/studies/operating_points/tables.hpp"
 #include "experiments/studies/phase_study/fit.hpp"
 #include "experiments/studies/phase_study/tables.hpp"
+#include "experiments/studies/sensor_sweep/figures.hpp"
 #include "experiments/studies/sensor_sweep/tables.hpp"
 #include "experiments/submissions/rows.hpp"
+#include "experiments/tuning/figures.hpp"
 #include "experiments/tuning/table.hpp"
 
 namespace touchdown::experiments {
@@ -167,9 +173,15 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
   const Experiment& experiment = context.request.experiment;
   const Plan& plan = context.plan;
   ExperimentResult result{
-      experiment, context.request.id, context.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+      experiment, context.request.id, context.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   result.models = std::move(done.fitted.models);
   result.cells = plan.groups.front().counted;
+  const auto table = [&](const char* name) {
+    return from_csv(read_file(context.directory.file("tables", name)));
+  };
+  const auto add_figures = [&](const std::vector<FigureSpec>& figures) {
+    result.figures.insert(result.figures.end(), figures.begin(), figures.end());
+  };
   timed(context, "score", [&] {
     if (!is_any_scored(done.runs)) {
       throw Error("no test run stayed upright: there is nothing to score");
@@ -183,12 +195,15 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
     if (experiment.tuning) {
       write_table(done.fitted.trials, context.directory);
       result.studies.push_back(tuning_text(done.fitted.trials, experiment));
+      add_figures({tuning_figure(table("tuning.csv"), experiment)});
     }
     const Evaluation evaluation{context.request, plan, done.runs, context.saved, counts};
     if (experiment.cross_simulator) {
       const CrossSimulatorResult check = check_across_simulators(evaluation);
       write_tables(check, context.directory);
       result.studies.push_back(report_text(check));
+      add_figures({transfer_figure(table("transfer.csv"), experiment)});
+      add_figures(sensitivity_figures(table("sensitivity.csv"), experiment));
       result.failed_demands = failed_demands(check.verdicts);
     }
     if (experiment.phase_study) {
@@ -210,23 +225,27 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
       write_tables(rows, context.directory);
       write_trajectories(evaluation, result.models, context.directory);
       result.studies.push_back(odometry_text(rows, experiment));
+      add_figures(odometry_figures(table("odometry.csv"), experiment));
     }
     if (experiment.operating_points) {
       const std::vector<OperatingRow> rows = operating_rows(evaluation);
       const std::vector<OperatingMean> means = operating_means(rows);
       write_tables(rows, means, context.directory);
       result.studies.push_back(operating_points_text(means, experiment));
+      add_figures({operating_points_figure(table("operating_points.csv"), experiment)});
     }
     if (experiment.closed_loop) {
       const std::vector<SurvivalRow> rows =
           survival_rows(context.request, context.saved_closed_loops);
       write_tables(rows, context.directory);
       result.studies.push_back(survival_text(rows, experiment));
+      add_figures(survival_figures(table("survival.csv"), experiment));
     }
     if (!experiment.sweep.empty()) {
       const std::vector<SensorSweepPoint> sweep = sensor_sweep(evaluation);
       write_tables(sweep, context.directory);
       result.studies.push_back(sensor_sweep_text(sweep, experiment));
+      add_figures(sensor_sweep_figures(table("sensor_sweep.csv"), experiment));
     }
     return 0;
   });
