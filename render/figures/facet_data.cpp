@@ -38,6 +38,8 @@ bool FacetData::has_values(const experiments::FigureAxis& axis) const {
 
 FacetData facet_data(const experiments::FigureSpec& spec, const Table& table) {
   FacetData data{table, {}};
+  experiments::FigureAxis order = spec.x;
+  order.floor.reset();  // values that are drawn at one place keep their order
   for (std::size_t index = 0; index < table.rows.size(); ++index) {
     const std::vector<std::string>& cells = table.rows[index];
     const auto panel = experiments::group_of(spec.panels, table, cells);
@@ -52,7 +54,7 @@ FacetData facet_data(const experiments::FigureSpec& spec, const Table& table) {
     if (!is_drawn) continue;
     FacetRow drawn{index, *panel, *series, *row,
                    static_cast<std::size_t>(mark - spec.marks.begin())};
-    if (spec.rows.columns.empty()) drawn.x = data.value(drawn, spec.x);
+    if (spec.rows.columns.empty()) drawn.x = data.value(drawn, order);
     if (!std::isnan(drawn.x)) data.rows.push_back(std::move(drawn));
   }
   std::stable_sort(data.rows.begin(), data.rows.end(), [](const FacetRow& a, const FacetRow& b) {

@@ -14,7 +14,7 @@ struct FacetRow {
   std::size_t index = 0;  ///< in the table
   std::size_t panel = 0, series = 0, row = 0;
   std::size_t mark = 0;  ///< the first whose conditions it passes
-  double x = 0.0;        ///< as drawn; unused with `rows`
+  double x = 0.0;        ///< its place in the order of `x`; unused with `rows`
 };
 
 /// The rows of a table that a figure draws. Rows that a curve joins follow each other, by `x`.
