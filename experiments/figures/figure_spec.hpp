@@ -43,7 +43,8 @@ struct FigureAxis {
 
 enum class MarkShape { curve, points, ring, cross };
 
-/// The look of the rows that pass all of `where`. A row has every mark whose conditions it passes.
+/// The look of the rows that pass all of `where`. Marks may overlap: a row has each
+/// mark with conditions that it passes.
 struct FigureMark {
   MarkShape shape = MarkShape::curve;
   std::vector<CellFilter> where = {};
@@ -62,8 +63,8 @@ struct FigureSpec {
   FigureAxis x = {};
   std::vector<FigureAxis> measures = {};
   std::vector<FigureMark> marks = {{}};
-  /// Names whose places give the colours of the series with these values in their first column:
-  /// the experiment's estimators. Empty: the places of the series.
+  /// The experiment's estimators: a series gets its colour by the place of its first value among
+  /// these names. Empty: by its place among the series.
   std::vector<std::string> colour_order = {};
   std::string title = {};
   std::string caption = {};

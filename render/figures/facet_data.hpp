@@ -13,7 +13,7 @@ namespace touchdown::render {
 struct FacetRow {
   std::size_t index = 0;  ///< in the table
   std::size_t panel = 0, series = 0, row = 0;
-  std::size_t mark = 0;  ///< the first whose conditions it passes
+  std::size_t mark = 0;  ///< the first with conditions that it passes
   double x = 0.0;        ///< its place in the order of `x`; unused with `rows`
 };
 
