@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
 #include "render/figures/facet_data.hpp"
+#include "render/gnuplot/process.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -26,6 +29,16 @@ using ::testing::Not;
 std::ptrdiff_t count(const std::string& text, const std::string& pattern) {
   const std::regex regex(pattern);
   return std::distance(std::sregex_iterator(text.begin(), text.end(), regex), {});
+}
+
+/// The lines of a script that define functions with names that begin so.
+std::vector<std::string> lines_with(const std::string& script, const std::string& name) {
+  std::vector<std::string> lines;
+  std::istringstream stream(script);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(name)) lines.push_back(line + '\n');
+  }
+  return lines;
 }
 
 /// Two engines, two sources, two heights, with an interval; interleaved and not in order of x.
@@ -162,10 +175,25 @@ TEST_F(Facets, DrawNamesThatGnuplotWouldInterpret) {
     spec.series.groups.push_back({{name}, name});
     for (const char* x : {"1", "2"}) table.rows.push_back({name, x, "1"});
   }
-  // gnuplot draws nothing for a name that it does not find: "no valid points".
   EXPECT_TRUE(draw_facets(spec, table, folder_ / "figure"));
   const std::string text = read_file(folder_ / "figure.gp");
   EXPECT_EQ(count(text, "with linespoints lt [1-7] notitle"), 7);
+  // The script's own selections, applied by gnuplot to the figure's data.
+  std::string check = "set datafile separator comma\nset datafile columnheaders\n";
+  for (const std::string& line : lines_with(text, "series")) check += line;
+  for (std::size_t i = 1; i <= names.size(); ++i) {
+    check += fmt::format(
+        "set table '{0}.txt'\n"
+        "plot 'figure.dat' using (series{0}(column('x'))):(column('y')) with table\n"
+        "unset table\n",
+        i);
+  }
+  folder_.write("check.gp", check);
+  EXPECT_EQ(gnuplot_complaint(folder_.path(), "check.gp"), "");
+  for (std::size_t i = 1; i <= names.size(); ++i) {
+    const std::string rows = read_file(folder_ / fmt::format("{}.txt", i));
+    EXPECT_EQ(count(rows, "[12]\\s+1\\s*\n"), 2) << names[i - 1] << rows;
+  }
   const std::string data = read_file(folder_ / "figure.dat");
   EXPECT_THAT(data, Not(HasSubstr("\"")));
   for (const std::string& name : names) {
