@@ -20,9 +20,9 @@
 #include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/test_seed_log.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
-#include "experiments/studies/benchmark/tables.hpp"
 #include "experiments/studies/registry.hpp"
 #include "experiments/tables/results.hpp"
+#include "experiments/tuning/figures.hpp"
 #include "experiments/tuning/table.hpp"
 
 namespace touchdown::experiments {
@@ -157,9 +157,12 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
   const Experiment& experiment = context.request.experiment;
   const Plan& plan = context.plan;
   ExperimentResult result{
-      experiment, context.request.id, context.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+      experiment, context.request.id, context.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   result.models = std::move(done.fitted.models);
   result.cells = plan.groups.front().counted;
+  const auto add_figures = [&](const std::vector<FigureSpec>& figures) {
+    result.figures.insert(result.figures.end(), figures.begin(), figures.end());
+  };
   timed(context, "score", [&] {
     if (!is_any_scored(done.runs)) {
       throw Error("no test run stayed upright: there is nothing to score");
@@ -173,6 +176,7 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
     if (experiment.tuning) {
       write_table(done.fitted.trials, context.directory);
       result.studies.push_back(tuning_text(done.fitted.trials, experiment));
+      add_figures({tuning_figure(context.directory.read_table("tuning.csv"), experiment)});
     }
     const Evaluation evaluation{
         context.request,          plan, done.runs, context.saved, counts, result.models,
@@ -182,6 +186,7 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
       std::move(found.texts.begin(), found.texts.end(), std::back_inserter(result.studies));
       std::move(found.failed_demands.begin(), found.failed_demands.end(),
                 std::back_inserter(result.failed_demands));
+      add_figures(found.figures);
     }
     return 0;
   });

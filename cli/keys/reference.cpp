@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/keys/repeats.hpp"
-#include "core/table.hpp"
+#include "core/tables/table.hpp"
 
 namespace touchdown::cli {
 

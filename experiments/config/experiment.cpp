@@ -448,8 +448,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.names("simulators", simulators::simulator_names(), experiment.simulators)
       .doc("Physics engines.");
   require_python(fields, experiment);
-  fields.names("estimators", estimator_names(experiment.external_estimators),
-               experiment.estimators)
+  fields.names("estimators", estimator_names(experiment.external_estimators), experiment.estimators)
       .doc("Estimators, in the order of tables.");
   fields.require("fit");
   fields.require("test");

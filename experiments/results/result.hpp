@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/evaluation/summary.hpp"
+#include "experiments/figures/figure_spec.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/results/scores.hpp"
 #include "experiments/rollouts/rollouts.hpp"
@@ -30,6 +31,7 @@ struct ExperimentResult {
   std::vector<ScoreSummary> scores;         ///< of the highlighted ones
   std::vector<Difference> differences;      ///< likewise
   std::vector<std::string> studies;         ///< terminal text of each study
+  std::vector<FigureSpec> figures;          ///< of the studies' tables
   std::vector<std::string> failed_demands;  ///< estimators that fail a demanded verdict
   Provenance provenance;
 };

@@ -64,6 +64,10 @@ RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,
   }
 }
 
+Table RunDirectory::read_table(std::string_view name) const {
+  return from_csv(read_file(path_ / "tables" / name));
+}
+
 void RunDirectory::write_table(std::string_view name, const Table& table) const {
   write_atomically(file("tables", name), to_csv(table));
 }

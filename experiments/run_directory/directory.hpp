@@ -43,6 +43,8 @@ class RunDirectory {
     return path_ / folder / name;
   }
 
+  /// Reads a table of `tables/`. Errors: `Error` when it cannot be read.
+  Table read_table(std::string_view name) const;
   /// Writes a file of `tables/`.
   void write_table(std::string_view name, const Table& table) const;
   /// The same for rows of a study, and keeps what the columns mean (`write_columns`).

@@ -47,7 +47,7 @@ constexpr std::array fixed_names = {
         "(cross_simulator|labels|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
     FixedNames{"videos", R"(report\.(mp4|jpg)|worst_.+\.mp4|closed_loop_.+\.(mp4|jpg))"},
     FixedNames{"trajectories", R"([^.].*\.tum)"},
-    FixedNames{"figures", R"((training|sample_efficiency)\.(gp|png))"},
+    FixedNames{"figures", R"(training\.(gp|png))"},
     FixedNames{"models", R"(nmn\.(npz|json))"},
     FixedNames{"checkpoints", R"(\d{4,}\.pt)"}};
 

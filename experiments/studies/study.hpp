@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiments/evaluation/tasks.hpp"
+#include "experiments/figures/figure_spec.hpp"
 #include "experiments/plan/needs.hpp"
 #include "experiments/run_directory/directory.hpp"
 
@@ -13,6 +14,7 @@ namespace touchdown::experiments {
 struct StudyResult {
   std::vector<std::string> texts = {};           ///< for the terminal
   std::vector<std::string> failed_demands = {};  ///< estimators that fail a demanded verdict
+  std::vector<FigureSpec> figures = {};          ///< of its tables
 };
 
 /// One question that an experiment file can ask beside the scores of every experiment: what it adds

@@ -7,11 +7,9 @@
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "render/benchmark/standings_figure.hpp"
-#include "render/closed_loop/survival_figure.hpp"
 #include "render/curves/moments_figure.hpp"
+#include "render/figures/facets.hpp"
 #include "render/film/video.hpp"
-#include "render/odometry/errors_figure.hpp"
-#include "render/operating_points/front_figure.hpp"
 #include "render/pictures/closed_loop_film.hpp"
 #include "render/pictures/drop_figures.hpp"
 #include "render/pictures/heatmaps.hpp"
@@ -56,18 +54,9 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
       draw_moments_figure(table("moments.csv"), table("torque_densities.csv"),
                           result.directory.file("figures", "moments"));
     }
-    if (result.experiment.odometry) {
-      draw_odometry_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
-    }
-    if (result.experiment.operating_points) {
-      draw_operating_points_figure(
-          from_csv(read_file(result.directory.file("tables", "operating_points.csv"))),
-          result.experiment.estimators, experiments::labels_text(result.experiment),
-          result.directory.file("figures", "operating_points"));
-    }
-    if (result.experiment.closed_loop) {
-      draw_survival_figures(result.directory.path(), result.experiment.estimators,
-                            result.experiment.intervals.bootstrap.level);
+    for (const experiments::FigureSpec& figure : result.figures) {
+      draw_facets(figure, from_csv(read_file(result.directory.file("tables", figure.table))),
+                  result.directory.file("figures", figure.name));
     }
     progress.advance();
   }

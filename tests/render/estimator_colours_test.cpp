@@ -6,10 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "render/closed_loop/survival_figure.hpp"
+#include "experiments/studies/closed_loop/figures.hpp"
+#include "experiments/studies/operating_points/figures.hpp"
 #include "render/curves/score_figure.hpp"
+#include "render/figures/facets.hpp"
 #include "render/film/strip_rows.hpp"
-#include "render/operating_points/front_figure.hpp"
 #include "render/palette.hpp"
 #include "tests/render/staged_run.hpp"
 #include "tests/scratch_folder.hpp"
@@ -17,10 +18,17 @@
 namespace touchdown::render {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 const std::vector<std::string> estimators = {"robust", "paper", "phase"};
+
+experiments::Experiment experiment() {
+  experiments::Experiment experiment;
+  experiment.estimators = estimators;
+  return experiment;
+}
 
 /// Operating points of these estimators, each with its own thresholds alone.
 std::string operating_points_script(const std::vector<std::string>& shown,
@@ -29,39 +37,38 @@ std::string operating_points_script(const std::vector<std::string>& shown,
       "torque_noise_nm,accelerometer_noise_mps2,estimator,leave_below,return_above,"
       "balanced_accuracy,extra_switches_per_minute,on_front\n";
   for (const std::string& estimator : shown) text += "0,0," + estimator + ",,,0.97,12,1\n";
-  draw_operating_points_figure(from_csv(text), estimators, "", folder / name);
+  const Table table = from_csv(text);
+  draw_facets(operating_points_figure(table, experiment()), table, folder / name);
   return read_file(folder / (name + ".gp"));
 }
 
 std::string survival_script(const std::vector<std::string>& shown, const ScratchFolder& folder) {
-  std::vector<SurvivalPoint> points;
+  std::string text =
+      "simulator,scenario,policy,contact,runs,finished,finished_low,finished_high,varied,value,"
+      "sensors,landing_speed_rms_mps\n";
   for (const std::string& contact : shown) {
-    for (const double at : {0.5, 0.7}) {
-      points.push_back({.simulator = "mujoco",
-                        .scene = "stairs",
-                        .law = "soft_landing",
-                        .contact = contact,
-                        .varied = "rise",
-                        .at = at,
-                        .runs = 8,
-                        .finished = {0.75, 0.35, 0.97},
-                        .sensors = "upkie"});
+    for (const char* at : {"0.5", "0.7"}) {
+      text +=
+          "mujoco,stairs,soft_landing," + contact + ",8,0.75,0.35,0.97,rise," + at + ",upkie,nan\n";
     }
   }
-  draw_survival_figure(points, estimators, 0.95, folder / "survival");
+  const Table table = from_csv(text);
+  draw_facets(survival_figures(table, experiment()).front(), table, folder / "survival");
   return read_file(folder / "survival.gp");
 }
 
 TEST(EstimatorColours, AreTheSameInFiguresOfDifferentSubsets) {
   const ScratchFolder folder;
   // In the experiment, the phase filter is the third estimator.
-  const std::string curve = "lt 3 pt 7 ps 0.5 title 'Phase filter'";
+  const std::string curve = "lt 3 title 'Phase filter'";
+  const std::string ring = "lt 3 pt 6 ps 1.6 lw 2";
   EXPECT_THAT(operating_points_script(estimators, folder, "all"), HasSubstr(curve));
-  EXPECT_THAT(operating_points_script({"phase"}, folder, "alone"), HasSubstr(curve));
+  EXPECT_THAT(operating_points_script({"phase"}, folder, "alone"),
+              AllOf(HasSubstr(ring), Not(HasSubstr("lt 1 pt 6"))));
   EXPECT_THAT(operating_points_script({"phase", "robust"}, folder, "two"), HasSubstr(curve));
   const std::string survival = survival_script({"truth", "phase"}, folder);
-  EXPECT_THAT(survival, HasSubstr("lt 3 lw 1.8"));
-  EXPECT_THAT(survival, Not(HasSubstr("lt 1 lw 1.8")));
+  EXPECT_THAT(survival, HasSubstr("with yerrorlines lt 3 "));
+  EXPECT_THAT(survival, Not(HasSubstr("with yerrorlines lt 1 ")));
 }
 
 TEST(EstimatorColours, AreThoseOfTheScoresAndFilms) {

@@ -16,14 +16,16 @@
 #include "experiments/estimators/measurement_fitting.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/sweep_run.hpp"
+#include "experiments/figures/groups.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "recordings/models/neural_network.hpp"
-#include "render/gnuplot/process.hpp"
+#include "render/figures/facets.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/scenario_file.hpp"
+#include "simulators/registry.hpp"
 #include "training/initial_weights.hpp"
 #include "training/rollout.hpp"
 #include "training/trainer.hpp"
@@ -32,42 +34,35 @@ namespace touchdown::training {
 
 namespace {
 
-constexpr const char* head = R"gnuplot(# gnuplot sample_efficiency.gp
-set terminal pngcairo size 1600,{height} font "DejaVu Sans,18" linewidth 2
-set output "sample_efficiency.png"
-set datafile separator comma
-set datafile missing NaN
-data = "../tables/sample_efficiency.csv"
-rows(engine, method, column) = strcol(1) eq engine && strcol(2) eq method ? column : NaN
-set multiplot layout {rows},2
-set logscale x
-set grid lc rgb "#dddddd"
-set key outside bottom center horizontal
-set xlabel "Labelled data (s)"
-set yrange [*:1]
-)gnuplot";
+/// Success rate and no-contact recall of both methods against seconds of labelled data.
+experiments::FigureSpec figure_of(const Table& table) {
+  experiments::FigureSpec spec;
+  spec.name = "sample_efficiency";
+  spec.table = "sample_efficiency.csv";
+  spec.panels = experiments::groups_in(table, "simulator", simulators::simulator_title);
+  spec.series = experiments::groups_in(table, "method", [](const auto& title) { return title; });
+  spec.x = {.column = "labelled_data_s",
+            .title = "labelled data",
+            .unit = "s",
+            .scale = experiments::AxisScale::log};
+  spec.measures = {{.column = "success", .title = "success rate"},
+                   {.column = "no_contact_recall", .title = "no-contact recall"}};
+  spec.title = "Accuracy against the amount of labelled data";
+  spec.caption =
+      "Success rate and no-contact recall on the test runs, of estimators fitted or "
+      "trained with increasing amounts of labelled data.";
+  spec.alt = "Success rate." + experiments::values_text(spec, table);
+  return spec;
+}
 
-constexpr const char* panel = R"gnuplot(
-set title "{engine}"
-set ylabel "{label}"
-plot data using 3:(rows("{engine}", "{filter}", ${column})) with linespoints pt 7 lc rgb "#4477aa" title "{filter}", \
-     data using 3:(rows("{engine}", "NMN", ${column})) with linespoints pt 5 lc rgb "#cc6677" title "NMN"
-)gnuplot";
-
-/// Draws success rate and no-contact recall of both methods against seconds of labelled data, one
-/// row per engine, from the table in the run directory. The gnuplot script stays beside the figure.
-void draw(const SampleEfficiencyConfig& config, const std::filesystem::path& run_directory) {
-  const std::size_t rows = config.simulators.size();
-  std::string text = fmt::format(head, fmt::arg("height", 550 * rows), fmt::arg("rows", rows));
-  for (const std::string& engine : config.simulators) {
-    for (const auto& [label, column] : {std::pair("Success rate", 4), {"No-contact recall", 6}}) {
-      text += fmt::format(panel, fmt::arg("engine", engine), fmt::arg("label", label),
-                          fmt::arg("filter", experiments::estimator_entry(config.estimator).title),
-                          fmt::arg("column", column));
-    }
+/// Draws the figure. The results are complete without it, so a missing gnuplot is a message only.
+void draw(const Table& table, const std::filesystem::path& run_directory) {
+  try {
+    const experiments::FigureSpec spec = figure_of(table);
+    render::draw_facets(spec, table, run_directory / "figures" / spec.name);
+  } catch (const Error& error) {
+    print_message(fmt::format("no figure: {}\n", error.what()));
   }
-  (void)render::try_gnuplot(run_directory / "figures" / "sample_efficiency.gp",
-                            text + "unset multiplot\n");
 }
 
 /// Signals of one run of a scenario file, of at most `longest` seconds.
@@ -230,7 +225,7 @@ std::filesystem::path sample_efficiency(const SampleEfficiencyConfig& config,
   const Table table = SampleEfficiencyStudy(config, request).run();
   directory.write_table("sample_efficiency.csv", table);
   fmt::print("{}", to_text(table, 2));
-  draw(config, directory.path());
+  draw(table, directory.path());
   return directory.path();
 }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "experiments/studies/closed_loop/figures.hpp"
 #include "experiments/studies/closed_loop/plan.hpp"
 #include "experiments/studies/closed_loop/rollout.hpp"
 #include "experiments/studies/closed_loop/tables.hpp"
@@ -39,7 +40,10 @@ StudyResult ClosedLoopStudy::summarize(const Evaluation& evaluation,
         return metrics.empty() ? std::nullopt : std::optional(metrics.front());
       });
   write_tables(rows, directory);
-  return {{survival_text(rows, evaluation.request.experiment)}};
+  const Experiment& experiment = evaluation.request.experiment;
+  return {{survival_text(rows, experiment)},
+          {},
+          survival_figures(directory.read_table("survival.csv"), experiment)};
 }
 
 }  // namespace touchdown::experiments

@@ -1,5 +1,6 @@
 #include "experiments/studies/cross_simulator/study.hpp"
 
+#include "experiments/studies/cross_simulator/figures.hpp"
 #include "experiments/studies/cross_simulator/tables.hpp"
 
 namespace touchdown::experiments {
@@ -28,7 +29,14 @@ StudyResult CrossSimulatorStudy::summarize(const Evaluation& evaluation,
                                            const RunDirectory& directory) const {
   const CrossSimulatorResult check = check_across_simulators(evaluation);
   write_tables(check, directory);
-  return {{report_text(check)}, failed_demands(check.verdicts)};
+  const Experiment& experiment = evaluation.request.experiment;
+  std::vector<FigureSpec> figures = {
+      transfer_figure(directory.read_table("transfer.csv"), experiment)};
+  for (FigureSpec& figure :
+       sensitivity_figures(directory.read_table("sensitivity.csv"), experiment)) {
+    figures.push_back(std::move(figure));
+  }
+  return {{report_text(check)}, failed_demands(check.verdicts), std::move(figures)};
 }
 
 }  // namespace touchdown::experiments

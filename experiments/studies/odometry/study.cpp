@@ -1,5 +1,6 @@
 #include "experiments/studies/odometry/study.hpp"
 
+#include "experiments/studies/odometry/figures.hpp"
 #include "experiments/studies/odometry/plan.hpp"
 #include "experiments/studies/odometry/tables.hpp"
 #include "experiments/studies/odometry/trajectories.hpp"
@@ -25,7 +26,10 @@ StudyResult OdometryStudy::summarize(const Evaluation& evaluation,
   const std::vector<OdometryRow> rows = odometry_rows(evaluation);
   write_tables(rows, directory);
   write_trajectories(evaluation, directory);
-  return {{odometry_text(rows, evaluation.request.experiment)}};
+  const Experiment& experiment = evaluation.request.experiment;
+  return {{odometry_text(rows, experiment)},
+          {},
+          odometry_figures(directory.read_table("odometry.csv"), experiment)};
 }
 
 }  // namespace touchdown::experiments

@@ -1,5 +1,6 @@
 #include "experiments/studies/operating_points/study.hpp"
 
+#include "experiments/studies/operating_points/figures.hpp"
 #include "experiments/studies/operating_points/plan.hpp"
 #include "experiments/studies/operating_points/tables.hpp"
 
@@ -18,7 +19,10 @@ StudyResult OperatingPointsStudy::summarize(const Evaluation& evaluation,
   const std::vector<OperatingRow> rows = operating_rows(evaluation);
   const std::vector<OperatingMean> means = operating_means(rows);
   write_tables(rows, means, directory);
-  return {{operating_points_text(means, evaluation.request.experiment)}};
+  const Experiment& experiment = evaluation.request.experiment;
+  return {{operating_points_text(means, experiment)},
+          {},
+          {operating_points_figure(directory.read_table("operating_points.csv"), experiment)}};
 }
 
 }  // namespace touchdown::experiments

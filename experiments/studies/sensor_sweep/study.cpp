@@ -1,5 +1,6 @@
 #include "experiments/studies/sensor_sweep/study.hpp"
 
+#include "experiments/studies/sensor_sweep/figures.hpp"
 #include "experiments/studies/sensor_sweep/tables.hpp"
 
 namespace touchdown::experiments {
@@ -22,7 +23,10 @@ StudyResult SensorSweepStudy::summarize(const Evaluation& evaluation,
                                         const RunDirectory& directory) const {
   const std::vector<SensorSweepPoint> sweep = sensor_sweep(evaluation);
   write_tables(sweep, directory);
-  return {{sensor_sweep_text(sweep, evaluation.request.experiment)}};
+  const Experiment& experiment = evaluation.request.experiment;
+  return {{sensor_sweep_text(sweep, experiment)},
+          {},
+          sensor_sweep_figures(directory.read_table("sensor_sweep.csv"), experiment)};
 }
 
 }  // namespace touchdown::experiments

@@ -1,7 +1,8 @@
+#include "training/config/sample_efficiency.hpp"
+
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "training/config/sample_efficiency.hpp"
 
 namespace touchdown::training {
 namespace {

@@ -1,7 +1,8 @@
+#include "training/config/training.hpp"
+
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "training/config/training.hpp"
 
 namespace touchdown::training {
 namespace {

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace touchdown::experiments {
+
+/// A condition on a row of a table: the cell in this column has this text.
+struct CellFilter {
+  std::string column;
+  std::string value;
+};
+
+/// The rows with these values in the columns of the `FigureGroups`, and their title.
+struct FigureGroup {
+  std::vector<std::string> values;
+  std::string title;
+};
+
+/// A partition of a table's rows, in the order in which they are drawn. A row of no group is not
+/// drawn. Without columns, all rows are one group without a title.
+struct FigureGroups {
+  std::vector<std::string> columns = {};
+  std::vector<FigureGroup> groups = {};
+};
+
+/// `ordinal` gives every value of a panel the same distance from the next.
+enum class AxisScale { linear, log, ordinal };
+
+/// A column of numbers along an axis. A value v is drawn at `offset` + `factor` · v.
+struct FigureAxis {
+  std::string column;
+  std::string title;
+  std::string unit = {};            ///< of the drawn values; empty: none
+  std::string low = {}, high = {};  ///< columns of the interval's ends; empty: no interval
+  AxisScale scale = AxisScale::linear;
+  double factor = 1.0, offset = 0.0;
+  std::optional<double> floor = {};          ///< smaller values are drawn at this one
+  std::optional<double> from = {}, to = {};  ///< ends of the axis; empty: by the values
+  bool is_own_range = false;                 ///< each panel has its own range
+};
+
+enum class MarkShape { curve, points, ring, cross };
+
+/// The look of the rows that pass all of `where`. Marks may overlap: a row has each
+/// mark with conditions that it passes.
+struct FigureMark {
+  MarkShape shape = MarkShape::curve;
+  std::vector<CellFilter> where = {};
+};
+
+/// A figure of a CSV table: a panel per group of `panels` and measure, a curve per group of
+/// `series`. The measures are drawn over `x`. With `rows` they are drawn along the horizontal axis
+/// instead, beside a list of these groups, and `x` has no meaning.
+struct FigureSpec {
+  std::string name;   ///< of the files, without extension
+  std::string table;  ///< file name
+  std::vector<CellFilter> where = {};
+  FigureGroups panels = {};
+  FigureGroups series = {};
+  FigureGroups rows = {};
+  FigureAxis x = {};
+  std::vector<FigureAxis> measures = {};
+  std::vector<FigureMark> marks = {{}};
+  /// The experiment's estimators: a series gets its colour by the place of its first value among
+  /// these names. Empty: by its place among the series.
+  std::vector<std::string> colour_order = {};
+  std::string title = {};
+  std::string caption = {};
+  std::string alt = {};  ///< a description for readers who cannot see the figure
+};
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,295 @@
+#include "render/figures/facets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "experiments/figures/groups.hpp"
+#include "render/figures/facet_data.hpp"
+#include "render/figures/facet_layout.hpp"
+#include "render/figures/facet_script.hpp"
+#include "render/gnuplot/frame.hpp"
+#include "render/gnuplot/panel_grid.hpp"
+#include "render/gnuplot/text.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+using experiments::AxisScale;
+using experiments::FigureAxis;
+using experiments::FigureGroups;
+using experiments::FigureSpec;
+
+constexpr double letter_width = 6.6;  ///< of titles of series and rows, on average (px)
+
+/// The places of groups with drawn rows.
+std::vector<std::size_t> used(const FacetData& data, std::size_t FacetRow::*place) {
+  std::set<std::size_t> places;
+  for (const FacetRow& row : data.rows) places.insert(row.*place);
+  return {places.begin(), places.end()};
+}
+
+std::string title_of(const FigureGroups& groups, std::size_t place) {
+  return groups.columns.empty() ? "" : groups.groups[place].title;
+}
+
+double widest(const FigureGroups& groups, const std::vector<std::size_t>& places) {
+  std::size_t letters = 0;
+  for (const std::size_t place : places)
+    letters = std::max(letters, width(title_of(groups, place)));
+  return letter_width * static_cast<double>(letters);
+}
+
+struct Range {
+  double from = HUGE_VAL, to = -HUGE_VAL;
+
+  void include(double value) {
+    if (!std::isfinite(value)) return;
+    from = std::min(from, value);
+    to = std::max(to, value);
+  }
+};
+
+/// The range with a margin around the values, and the ends that the figure prescribes.
+Range with_margin(Range range, const FigureAxis& axis) {
+  if (range.from > range.to) range = {0.0, 1.0};
+  if (axis.scale == AxisScale::log) {
+    range = {0.8 * range.from, 1.25 * range.to};
+  } else {
+    const double span = range.to - range.from;
+    const double margin = span > 0.0 ? 0.06 * span : std::max(0.5 * std::abs(range.from), 0.5);
+    range = {range.from - margin, range.to + margin};
+  }
+  return {axis.from.value_or(range.from), axis.to.value_or(range.to)};
+}
+
+/// One figure: the drawn groups, and the commands of its panels.
+class FacetFigure {
+ public:
+  FacetFigure(const FigureSpec& spec, FacetData data, const std::filesystem::path& stem)
+      : spec_(spec),
+        data_(std::move(data)),
+        file_(gnuplot_text(stem.filename().string() + ".dat")),
+        panels_(used(data_, &FacetRow::panel)),
+        series_(used(data_, &FacetRow::series)),
+        rows_(has_rows() ? used(data_, &FacetRow::row) : std::vector<std::size_t>()) {
+    for (const FigureAxis& measure : spec.measures) {
+      if (data_.has_values(measure)) measures_.push_back(&measure);
+    }
+  }
+
+  bool is_empty() const { return measures_.empty(); }
+
+  Figure draw(const std::filesystem::path& stem) const {
+    const FacetLayout layout = facet_layout(shape());
+    const FigureFrame frame(spec_.title, spec_.caption, layout.width, layout.height);
+    std::string commands = head();
+    for (const FacetPanel& panel : layout.panels) {
+      commands += frame.panel(panel.left, panel.top, layout.panel_width, layout.panel_height);
+      commands += axes_of(panel, layout);
+      const bool has_key = &panel == &layout.panels.front() && series_.size() > 1;
+      commands += has_key ? fmt::format("set key at screen {}, screen {} left top Left reverse\n",
+                                        layout.key_left / frame.width(),
+                                        1.0 - (38.0 + layout.key_top - 6.0) / frame.height())
+                          : "unset key\n";
+      commands += "plot " + plots_of(panel, has_key) + '\n' + FigureFrame::end_panel();
+    }
+    return frame.draw(stem, commands, data_file(data_), spec_.alt);
+  }
+
+ private:
+  bool has_rows() const { return !spec_.rows.columns.empty(); }
+  bool is_ordinal() const { return !has_rows() && spec_.x.scale == AxisScale::ordinal; }
+
+  FacetShape shape() const {
+    FacetShape shape;
+    shape.panels = panels_.size();
+    shape.measures = measures_.size();
+    shape.series = series_.size();
+    shape.rows = rows_.size();
+    shape.has_titles = std::any_of(panels_.begin(), panels_.end(), [&](std::size_t panel) {
+      return !title_of(spec_.panels, panel).empty();
+    });
+    shape.is_own_x = spec_.x.is_own_range || is_ordinal();
+    shape.is_own_y = !has_rows() && std::any_of(measures_.begin(), measures_.end(),
+                                                [](const auto* m) { return m->is_own_range; });
+    shape.row_names = has_rows() ? widest(spec_.rows, rows_) + 26.0 : 0.0;
+    shape.key = series_.size() > 1 ? widest(spec_.series, series_) + 66.0 : 24.0;
+    return shape;
+  }
+
+  /// The functions by which the plots select their rows: the value, or NaN in other rows.
+  std::string head() const {
+    std::string text =
+        "set datafile separator comma\nset datafile columnheaders\nset errorbars 0 lw 0.8 dt 1\n"
+        "at_least(v, least) = v < least ? least : v\n";
+    for (const std::size_t panel : panels_) {
+      text += selection("panel", panel, condition_of(spec_.panels, panel));
+    }
+    for (const std::size_t series : series_) {
+      text += selection("series", series, condition_of(spec_.series, series));
+    }
+    for (std::size_t mark = 0; mark < spec_.marks.size(); ++mark) {
+      text += selection("mark", mark, condition_of(spec_.marks[mark].where));
+    }
+    if (has_rows()) {
+      std::string places;
+      for (std::size_t i = 0; i < rows_.size(); ++i) {
+        places +=
+            fmt::format("{} ? {} : ", condition_of(spec_.rows, rows_[i]), rows_.size() - 1 - i);
+      }
+      text += fmt::format("place(v) = {}NaN\n", places);
+      text += "set grid noytics\nset border 1\nset xtics nomirror\n";
+    }
+    return text;
+  }
+
+  /// The cells of an ordinal axis in one panel, by value.
+  std::vector<std::string> steps_of(std::size_t panel) const {
+    std::map<double, std::string> steps;
+    for (const FacetRow& row : data_.rows) {
+      if (row.panel == panel) steps.emplace(row.x, data_.text(row, spec_.x.column));
+    }
+    std::vector<std::string> texts;
+    for (const auto& [value, text] : steps) texts.push_back(text);
+    return texts;
+  }
+
+  /// The range of an axis in a panel, over all panels unless each has its own.
+  Range range_of(const FigureAxis& axis, std::size_t panel) const {
+    const bool is_own = axis.is_own_range || (has_rows() && &axis != &spec_.x);
+    Range range;
+    for (const FacetRow& row : data_.rows) {
+      if (is_own && row.panel != panel) continue;
+      range.include(data_.value(row, axis));
+      if (axis.low.empty()) continue;
+      for (const std::string& end : {axis.low, axis.high}) {
+        range.include(experiments::drawn_value(axis, data_.text(row, end)));
+      }
+    }
+    return with_margin(range, axis);
+  }
+
+  /// Commands for one numeric axis, "x" or "y".
+  static std::string numeric_axis(const char* name, const FigureAxis& axis, const Range& range,
+                                  bool has_tics, double most_tics) {
+    const bool is_log = axis.scale == AxisScale::log;
+    return fmt::format(
+        "{} logscale {}\nset {}range [{:.6g}:{:.6g}]\nset {}tics {}\n"
+        "set format {} '{}'\n",
+        is_log ? "set" : "unset", name, name, range.from, range.to, name,
+        is_log ? "autofreq" : fmt::format("{:.6g}", tick_step(range.to - range.from, most_tics)),
+        name, has_tics ? "%g" : "");
+  }
+
+  std::string axes_of(const FacetPanel& place, const FacetLayout& layout) const {
+    const std::size_t panel = panels_[place.panel];
+    const FigureAxis& measure = *measures_[place.measure];
+    const Range range = range_of(measure, panel);
+    std::string text =
+        fmt::format("set title {} offset 0,-0.6\n",
+                    gnuplot_text(place.has_title ? title_of(spec_.panels, panel) : std::string()));
+    if (has_rows()) {
+      std::vector<std::string> names;
+      for (const std::size_t row : rows_) names.push_back(title_of(spec_.rows, row));
+      text += numeric_axis("x", measure, range, true, layout.panel_width / 55.0);
+      text += fmt::format(
+          "set yrange [-0.6:{}]\nset xlabel {}\n{}\n", static_cast<double>(rows_.size()) - 0.4,
+          gnuplot_text(place.has_x_title ? label(measure) : std::string()),
+          place.has_y_tics
+              ? fmt::format("set ytics scale 0 ({}) textcolor rgb '#22262b'", row_tics(names))
+              : std::string("unset ytics"));
+      return text;
+    }
+    if (is_ordinal()) {
+      const std::vector<std::string> steps = steps_of(panel);
+      std::string places, tics;
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        places += fmt::format("{} ? {} : ", condition_of({{spec_.x.column, steps[i]}}), i);
+        tics += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_text(steps[i]), i);
+      }
+      text += fmt::format("place(v) = {}NaN\nset xrange [-0.5:{}]\nset xtics ({})\n", places,
+                          static_cast<double>(steps.size()) - 0.5, tics);
+    } else {
+      text += numeric_axis("x", spec_.x, range_of(spec_.x, panel), place.has_x_tics,
+                           layout.panel_width / 55.0);
+    }
+    text += numeric_axis("y", measure, range, place.has_y_tics, layout.panel_height / 40.0);
+    return text + fmt::format("set xlabel {}\nset ylabel {}\n",
+                              gnuplot_text(place.has_x_title ? label(spec_.x) : std::string()),
+                              gnuplot_text(place.has_y_title ? label(measure) : std::string()));
+  }
+
+  /// How far a series is shifted sideways so that intervals do not cover each other.
+  double aside_of(std::size_t place, std::size_t panel, const FigureAxis& measure) const {
+    const auto count = static_cast<double>(series_.size());
+    const double middle = static_cast<double>(place) - 0.5 * (count - 1.0);
+    if (has_rows()) return -0.6 / count * middle;
+    if (is_ordinal()) return 0.5 / count * middle;
+    if (measure.low.empty() || spec_.x.scale == AxisScale::log) return 0.0;
+    const Range range = range_of(spec_.x, panel);
+    return 0.01 * (range.to - range.from) * middle;
+  }
+
+  /// The functions that select the rows of a plot.
+  std::vector<std::string> selections(std::size_t panel, std::size_t series,
+                                      std::size_t mark) const {
+    std::vector<std::string> names;
+    if (!spec_.panels.columns.empty()) names.push_back(fmt::format("panel{}", panel + 1));
+    if (!spec_.series.columns.empty()) names.push_back(fmt::format("series{}", series + 1));
+    if (!spec_.marks[mark].where.empty()) names.push_back(fmt::format("mark{}", mark + 1));
+    return names;
+  }
+
+  std::string plots_of(const FacetPanel& place, bool has_key) const {
+    const std::size_t panel = panels_[place.panel];
+    std::string text, separator;
+    const auto add = [&](const std::string& plot) {
+      text += separator + plot;
+      separator = ", \\\n     ";
+    };
+    for (std::size_t i = 0; i < series_.size(); ++i) {
+      const std::string style = series_style(spec_, series_[i]);
+      for (std::size_t mark = 0; mark < spec_.marks.size(); ++mark) {
+        const bool is_drawn =
+            std::any_of(data_.rows.begin(), data_.rows.end(), [&](const FacetRow& row) {
+              return row.panel == panel && row.series == series_[i] &&
+                     experiments::passes(data_.table, data_.table.rows[row.index],
+                                         spec_.marks[mark].where);
+            });
+        if (!is_drawn) continue;
+        const FacetPlot plot{.selections = selections(panel, series_[i], mark),
+                             .aside = aside_of(i, panel, *measures_[place.measure]),
+                             .style = style};
+        add(plot_command(spec_, *measures_[place.measure], spec_.marks[mark].shape, file_, plot));
+      }
+      if (has_key) {
+        add(fmt::format("keyentry with {} {} title {}", key_shape(spec_), style,
+                        gnuplot_text(title_of(spec_.series, series_[i]))));
+      }
+    }
+    return text.empty() ? "NaN notitle" : text;
+  }
+
+  const FigureSpec& spec_;
+  FacetData data_;
+  std::string file_;
+  std::vector<std::size_t> panels_, series_, rows_;
+  std::vector<const FigureAxis*> measures_;
+};
+
+}  // namespace
+
+std::optional<Figure> draw_facets(const experiments::FigureSpec& spec, const Table& table,
+                                  const std::filesystem::path& stem) {
+  const FacetFigure figure(spec, facet_data(spec, table), stem);
+  if (figure.is_empty()) return {};
+  return figure.draw(stem);
+}
+
+}  // namespace touchdown::render
