@@ -73,9 +73,7 @@ Columns<EvidencePoint> evidence_columns() {
       .text("channel", &Point::channel)
       .text("scale_ms", &Point::scale)
       .text("unit", &Point::unit)
-      .as("value_unit")
       .metric("value", &Point::value)
-      .is(ColumnRole::key)
       .metric("evidence_nats", &Point::evidence);
 }
 

@@ -29,14 +29,12 @@ Columns<Rollout> run_columns() {
   return Columns<Rollout>()
       .text("simulator", [](const Rollout& run) { return run.plan.simulator; })
       .text("scenario", [](const Rollout& run) { return run.plan.scenario.name; })
-      .as("scene")
       .text("role", [](const Rollout& run) { return to_text(run.plan.role); })
       .number("run", [](const Rollout& run) { return run.plan.run; })
       .text("outcome",
             [](const Rollout& run) {
               return run.report.error.empty() ? recordings::to_text(run.report.outcome) : "error";
             })
-      .is(ColumnRole::note)
       .count("flights", [](const Rollout& run) { return run.report.flights; })
       .metric("duration_s", [](const Rollout& run) { return run.report.duration; });
 }
@@ -67,8 +65,8 @@ void write_result_files(const ExperimentResult& result) {
   write_models(result.models, result.directory);
   const RunDirectory& directory = result.directory;
   const std::vector<EvidencePoint> evidence = evidence_points(result.models);
-  if (!evidence.empty()) directory.write_table("evidence.csv", evidence_columns(), evidence);
-  directory.write_table("runs.csv", run_columns(), result.runs);
+  if (!evidence.empty()) directory.write_table("evidence.csv", evidence_columns().table(evidence));
+  directory.write_table("runs.csv", run_columns().table(result.runs));
   directory.write_table("success.csv", success_columns(), result.summaries);
   directory.write_table("classification.csv", classification_columns(), result.summaries);
   write_score_tables(result);

@@ -47,7 +47,7 @@ class RunDirectory {
   Table read_table(std::string_view name) const;
   /// Writes a file of `tables/`.
   void write_table(std::string_view name, const Table& table) const;
-  /// The same for rows of a study, and keeps what the columns mean (`write_columns`).
+  /// The same for measured rows, which `results.csv` repeats: saves what their columns mean.
   template <typename Row>
   void write_table(std::string_view name, const Columns<Row>& columns,
                    const std::vector<Row>& rows) const {

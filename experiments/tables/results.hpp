@@ -8,8 +8,8 @@
 
 namespace touchdown::experiments {
 
-/// One number of one table: a row of `results.csv`, as texts. Texts are empty where the table has
-/// none.
+/// One measured number of one table: a row of `results.csv`, as texts. Texts are empty where the
+/// table has none.
 struct ResultRow {
   std::string study;  ///< the table, without `.csv`
   std::string simulator;

@@ -132,8 +132,11 @@ TEST_F(Submission, ScoresAreKeptAndReplacedByName) {
   EXPECT_EQ(rows_of(*folder / "run", "second"), rows_of(*folder / "run", "first"));
   // Running the experiment again, merging it and writing its report keep the scores.
   const std::string table = read_file(*folder / "run/tables/benchmark.csv");
+  const std::string results = read_file(*folder / "run/tables/results.csv");
+  EXPECT_THAT(results, HasSubstr(",step,second,"));
   EXPECT_THAT(ran("run bench.yaml --out run --no-pictures", *folder), HasSubstr("\n  second "));
   EXPECT_EQ(read_file(*folder / "run/tables/benchmark.csv"), table);
+  EXPECT_EQ(read_file(*folder / "run/tables/results.csv"), results);
   ran("merge run --no-pictures", *folder);
   EXPECT_EQ(read_file(*folder / "run/tables/benchmark.csv"), table);
   ran("report run", *folder);

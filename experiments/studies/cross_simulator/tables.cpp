@@ -19,6 +19,7 @@ namespace {
 Columns<QuantityAgreement> agreement_columns(const std::vector<std::string>& engines) {
   return Columns<QuantityAgreement>()
       .text("quantity", &QuantityAgreement::name)
+      .as("metric")
       .text("unit", &QuantityAgreement::unit)
       .interval(engines[0], &QuantityAgreement::first)
       .interval(engines[1], &QuantityAgreement::second)

@@ -142,7 +142,8 @@ class Results : public ::testing::Test {
                 "]}\ntest: {scenarios: [" + step +
                 "], runs: 2}\nnoise: {torque: [0, 1]}\nhighlights: [{torque: 0, accelerometer: 0}, "
                 "{torque: 1, accelerometer: 0}]\nrecordings: none\nvideo: {enabled: false}\n"
-                "benchmark: {robots: [models/upkie_actuated.yaml]}\nmoments: true\n"
+                "benchmark: {robots: [models/upkie_actuated.yaml], sensors: "
+                "[sensors/harsh.yaml]}\nmoments: true\n"
                 "odometry: {}\noperating_points: {}\nclosed_loop: {runs: 1, contact: [truth, "
                 "support_force], scenes: [{scenario: " +
                 step + ", key: terrain.pieces.1.step.drop, values: [0.1, 0.2]}]}\n",
@@ -195,14 +196,14 @@ TEST_F(Results, HaveOneRowPerNumberOfEveryTable) {
 }
 
 TEST_F(Results, HaveTheNumbersOfTheBenchmark) {
-  const auto found = numbers("benchmark", {"simulator", "robot", "estimator", "noise"});
+  const auto found = numbers("benchmark", {"simulator", "robot", "sensors", "estimator", "noise"});
   const Table wide = table("benchmark.csv");
-  ASSERT_EQ(wide.rows.size(), 2U * 2 * 3 * 2);  // engines, robots, estimators, noise settings
+  ASSERT_EQ(wide.rows.size(), 2U * 2 * 2 * 3 * 2);  // engines, robots, sensors, estimators, noise
   for (const std::vector<std::string>& row : wide.rows) {
     const std::string noise = cell(wide, row, "torque_noise_nm") + " N·m, 0 m/s²";
     for (const char* metric : {"balanced_accuracy", "takeoff_latency_median_ms", "takeoffs"}) {
       EXPECT_EQ(found.at({metric, cell(wide, row, "simulator"), cell(wide, row, "robot"),
-                          cell(wide, row, "estimator"), noise}),
+                          cell(wide, row, "sensors"), cell(wide, row, "estimator"), noise}),
                 cell(wide, row, metric));
     }
   }

@@ -77,6 +77,7 @@ TEST(ClosedLoop, IsTheSameInShardsAndWhenResumed) {
   options.out = folder / "whole";
   run_experiment(experiment, options);
   const std::string table = read_file(folder / "whole/tables/survival.csv");
+  const std::string results = read_file(folder / "whole/tables/results.csv");
   const std::string state = read_file(folder / "whole/state/closed_loop/run_000019");
 
   std::filesystem::remove(folder / "whole/state/closed_loop/run_000019");
@@ -96,6 +97,7 @@ TEST(ClosedLoop, IsTheSameInShardsAndWhenResumed) {
   run_shard(experiment, Shard{2, 2}, options);
   merge_run(folder / "shards", options);
   EXPECT_EQ(read_file(folder / "shards/tables/survival.csv"), table);
+  EXPECT_EQ(read_file(folder / "shards/tables/results.csv"), results);
 }
 
 TEST(ClosedLoop, ContactSourcesDecideAsInOfflineEvaluation) {
