@@ -38,7 +38,6 @@ struct FigureAxis {
   double factor = 1.0, offset = 0.0;
   std::optional<double> floor = {};          ///< smaller values are drawn at this one
   std::optional<double> from = {}, to = {};  ///< ends of the axis; empty: by the values
-  bool is_own_range = false;                 ///< each panel has its own range
 };
 
 enum class MarkShape { curve, points, ring, cross };

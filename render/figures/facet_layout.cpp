@@ -41,7 +41,6 @@ double panel_height(const FacetShape& shape, const Grid& grid) {
 FacetLayout facet_layout(const FacetShape& shape) {
   const Grid grid = grid_of(shape);
   const bool by_measure = shape.measures > 1;
-  const double gap = column_gap + (shape.is_own_y ? axis_width - 24.0 : 0.0);
   const double margin = shape.rows > 0 ? shape.row_names : axis_width;
   FacetLayout layout;
   layout.panel_width = panel_width(grid);
@@ -59,20 +58,19 @@ FacetLayout facet_layout(const FacetShape& shape) {
       panel.measure = by_measure ? (shape.rows > 0 ? column : line) : 0;
       if (panel.panel >= shape.panels) break;
       const bool is_lowest = is_last || (!by_measure && place + grid.columns >= shape.panels);
-      panel.left = margin + static_cast<double>(column) * (layout.panel_width + gap);
+      panel.left = margin + static_cast<double>(column) * (layout.panel_width + column_gap);
       panel.top = top;
       panel.has_title = titled;
       panel.has_x_title = is_lowest;
       panel.has_x_tics = is_lowest || shape.rows > 0 || (shape.is_own_x && !by_measure);
-      panel.has_y_title = column == 0;
-      panel.has_y_tics = column == 0 || (shape.rows == 0 && shape.is_own_y);
+      panel.is_leftmost = column == 0;
       any_x = any_x || panel.has_x_tics;
       layout.panels.push_back(panel);
     }
     top += layout.panel_height + (any_x ? (is_last ? axis_height : tics_height) : line_gap);
   }
   const double columns = static_cast<double>(grid.columns);
-  layout.key_left = margin + columns * layout.panel_width + (columns - 1.0) * gap + 16.0;
+  layout.key_left = margin + columns * layout.panel_width + (columns - 1.0) * column_gap + 16.0;
   layout.key_top = layout.panels.front().top;
   layout.width = std::max(narrowest, layout.key_left + shape.key);
   layout.height =

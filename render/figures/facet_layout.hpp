@@ -10,7 +10,7 @@ struct FacetShape {
   std::size_t panels = 1, measures = 1, series = 1;
   std::size_t rows = 0;  ///< 0: curves over x
   bool has_titles = false;
-  bool is_own_x = false, is_own_y = false;  ///< each panel has its own range
+  bool is_own_x = false;  ///< each panel has its own values of x
   double row_names = 0.0, key = 0.0;
 };
 
@@ -20,7 +20,7 @@ struct FacetPanel {
   double left = 0.0, top = 0.0;
   bool has_title = false;
   bool has_x_tics = false, has_x_title = false;
-  bool has_y_tics = false, has_y_title = false;
+  bool is_leftmost = false;  ///< has the names of rows, or the labels of the vertical axis
 };
 
 /// Panels in lines of at most four. With several measures, each has a line of its own, or with

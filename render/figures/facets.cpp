@@ -57,7 +57,7 @@ struct Range {
 
 /// The range with a margin around the values, and the ends that the figure prescribes.
 Range with_margin(Range range, const FigureAxis& axis) {
-  if (range.from > range.to) range = {0.0, 1.0};
+  if (range.from > range.to) range = {1.0, 1.0};
   if (axis.scale == AxisScale::log) {
     range = {0.8 * range.from, 1.25 * range.to};
   } else {
@@ -93,10 +93,7 @@ class FacetFigure {
       commands += frame.panel(panel.left, panel.top, layout.panel_width, layout.panel_height);
       commands += axes_of(panel, layout);
       const bool has_key = &panel == &layout.panels.front() && series_.size() > 1;
-      commands += has_key ? fmt::format("set key at screen {}, screen {} left top Left reverse\n",
-                                        layout.key_left / frame.width(),
-                                        1.0 - (38.0 + layout.key_top - 6.0) / frame.height())
-                          : "unset key\n";
+      commands += has_key ? frame.key(layout.key_left, layout.key_top - 6.0) : "unset key\n";
       commands += "plot " + plots_of(panel, has_key) + '\n' + FigureFrame::end_panel();
     }
     return frame.draw(stem, commands, data_file(data_), spec_.alt);
@@ -115,9 +112,7 @@ class FacetFigure {
     shape.has_titles = std::any_of(panels_.begin(), panels_.end(), [&](std::size_t panel) {
       return !title_of(spec_.panels, panel).empty();
     });
-    shape.is_own_x = spec_.x.is_own_range || is_ordinal();
-    shape.is_own_y = !has_rows() && std::any_of(measures_.begin(), measures_.end(),
-                                                [](const auto* m) { return m->is_own_range; });
+    shape.is_own_x = is_ordinal();
     shape.row_names = has_rows() ? widest(spec_.rows, rows_) + 26.0 : 0.0;
     shape.key = series_.size() > 1 ? widest(spec_.series, series_) + 66.0 : 24.0;
     return shape;
@@ -160,16 +155,19 @@ class FacetFigure {
     return texts;
   }
 
-  /// The range of an axis in a panel, over all panels unless each has its own.
+  /// The range of an axis: over all panels, but with rows over the given one.
   Range range_of(const FigureAxis& axis, std::size_t panel) const {
-    const bool is_own = axis.is_own_range || (has_rows() && &axis != &spec_.x);
     Range range;
+    const auto include = [&](double value) {
+      const bool is_drawable = axis.scale != AxisScale::log || value > 0.0;
+      if (is_drawable) range.include(value);
+    };
     for (const FacetRow& row : data_.rows) {
-      if (is_own && row.panel != panel) continue;
-      range.include(data_.value(row, axis));
+      if (has_rows() && row.panel != panel) continue;
+      include(data_.value(row, axis));
       if (axis.low.empty()) continue;
       for (const std::string& end : {axis.low, axis.high}) {
-        range.include(experiments::drawn_value(axis, data_.text(row, end)));
+        include(experiments::drawn_value(axis, data_.text(row, end)));
       }
     }
     return with_margin(range, axis);
@@ -201,7 +199,7 @@ class FacetFigure {
       text += fmt::format(
           "set yrange [-0.6:{}]\nset xlabel {}\n{}\n", static_cast<double>(rows_.size()) - 0.4,
           gnuplot_text(place.has_x_title ? label(measure) : std::string()),
-          place.has_y_tics
+          place.is_leftmost
               ? fmt::format("set ytics scale 0 ({}) textcolor rgb '#22262b'", row_tics(names))
               : std::string("unset ytics"));
       return text;
@@ -219,10 +217,10 @@ class FacetFigure {
       text += numeric_axis("x", spec_.x, range_of(spec_.x, panel), place.has_x_tics,
                            layout.panel_width / 55.0);
     }
-    text += numeric_axis("y", measure, range, place.has_y_tics, layout.panel_height / 40.0);
+    text += numeric_axis("y", measure, range, place.is_leftmost, layout.panel_height / 40.0);
     return text + fmt::format("set xlabel {}\nset ylabel {}\n",
                               gnuplot_text(place.has_x_title ? label(spec_.x) : std::string()),
-                              gnuplot_text(place.has_y_title ? label(measure) : std::string()));
+                              gnuplot_text(place.is_leftmost ? label(measure) : std::string()));
   }
 
   /// How far a series is shifted sideways so that intervals do not cover each other.

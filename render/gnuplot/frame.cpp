@@ -61,6 +61,10 @@ std::string FigureFrame::colour_bar(double left, double top, double bar_width,
       x(bar_width), bar_height / height_);
 }
 
+std::string FigureFrame::key(double left, double top) const {
+  return fmt::format("set key at screen {}, screen {} left top Left reverse\n", x(left), y(top));
+}
+
 std::string FigureFrame::label(const std::string& text, double left, double top,
                                const char* style) const {
   return fmt::format("set label {} at screen {}, screen {} {}\n", gnuplot_text(text), x(left),

@@ -28,6 +28,8 @@ class FigureFrame {
   std::string panel(double left, double top, double panel_width, double panel_height) const;
   /// Commands for a colour bar in this box, horizontal when it is wider than high.
   std::string colour_bar(double left, double top, double bar_width, double bar_height) const;
+  /// A `set key` command for a legend with its top left corner here.
+  std::string key(double left, double top) const;
   /// Commands to give after every panel's plot, so that the next plot does not repeat the labels.
   static std::string end_panel() { return "unset label\nunset arrow\n"; }
   /// A `set label` command for a position in the body.

@@ -163,6 +163,13 @@ TEST_F(Facets, DrawASinglePoint) {
   EXPECT_THAT(text, HasSubstr("unset key"));
 }
 
+TEST_F(Facets, LeaveOutValuesThatALogarithmicAxisCannotShow) {
+  FigureSpec spec;
+  spec.x = {.column = "x", .title = "x"};
+  spec.measures = {{.column = "y", .title = "y", .scale = AxisScale::log}};
+  EXPECT_THAT(script(spec, "x,y\n1,0\n2,4\n3,8\n"), HasSubstr("set yrange [3.2:10]"));
+}
+
 TEST_F(Facets, DrawNamesThatGnuplotWouldInterpret) {
   const std::vector<std::string> names = {"a \"quoted\", 'name'", "$x @y `z`", "-dash",    "#hash",
                                           "back\\nslash",         "100 %",     "line\nend"};
