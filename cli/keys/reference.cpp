@@ -50,6 +50,7 @@ std::string reference_text(const FileKind& kind, std::size_t columns) {
   const std::size_t margin = std::min(longest, columns * 2 / 5) + 2;
   std::string text = kind.title + "\n";
   for (const std::string& line : wrapped(kind.usage, columns)) text += line + "\n";
+  text += "[]: any item of a list. none: no value, or off.\n";
   for (const Key& key : keys) {
     std::vector<std::string> lines = wrapped(value_line(key), columns - margin);
     for (std::string& line : wrapped(key.meaning, columns - margin)) {

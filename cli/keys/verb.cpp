@@ -40,7 +40,6 @@ void print_keys(const KeysFlags& flags) {
 
 void add_keys(CLI::App& program, const CliSession& /*session*/) {
   Verb verb(program, "keys",
-            "touchdown keys\n"
             "touchdown keys scenario\n\n"
             "Prints every key of the YAML files, with type, unit, range, default and meaning.\n"
             "Kinds of files: experiment, scenario, robot, sensors, mapping, training,\n"
