@@ -100,8 +100,8 @@ class Columns {
     return *this;
   }
   /// Sets the name of the last column in long tables.
-  Columns& as(std::string name) {
-    columns_.back().info.as = std::move(name);
+  Columns& as(const std::string& name) {
+    columns_.back().info.as = name;
     return *this;
   }
 

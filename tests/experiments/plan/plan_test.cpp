@@ -22,8 +22,7 @@ Plan seven_runs() {
   return plan;
 }
 
-std::vector<std::size_t> kept(const Experiment& experiment) {
-  Plan plan = seven_runs();
+std::vector<std::size_t> kept(const Experiment& experiment, Plan plan = seven_runs()) {
   keep_recordings(experiment, plan);
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
@@ -37,8 +36,9 @@ TEST(KeepRecordings, KeepsTestRunsThatAreFilmedOrDrawnStepByStep) {
   experiment.video.run = 1;
   EXPECT_THAT(kept(experiment), ElementsAre(2));
   experiment.detail.emplace().choice.run = 3;
-  experiment.cross_simulator.emplace().overlay.run = 4;
-  EXPECT_THAT(kept(experiment), ElementsAre(2, 4, 5));
+  Plan with_study = seven_runs();
+  with_study.pictured = {4};
+  EXPECT_THAT(kept(experiment, with_study), ElementsAre(2, 4, 5));
 }
 
 TEST(KeepRecordings, KeepsAllOrNoneOfThem) {
