@@ -22,7 +22,7 @@ struct Window {
 };
 
 /// A takeoff or landing, and the steps between its neighbours.
-struct Event {
+struct TrueEvent {
   Step step = 0;
   Window between;
 };
@@ -43,9 +43,9 @@ Limits limits_in_steps(const ScoringConfig& config, double period) {
 }
 
 /// The takeoffs or landings of these flights inside the sequence of `end` steps.
-std::vector<Event> events_of(EventKind kind, const std::vector<Flight>& all, Step end) {
+std::vector<TrueEvent> events_of(EventKind kind, const std::vector<Flight>& all, Step end) {
   constexpr Step never = std::numeric_limits<Step>::max();
-  std::vector<Event> events;
+  std::vector<TrueEvent> events;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto takeoff = static_cast<Step>(all[i].takeoff);
     const auto landing = static_cast<Step>(all[i].landing);
@@ -102,7 +102,7 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
   // for the hold-off after it.
   std::vector<Window> tolerated;
   for (const EventKind kind : {EventKind::takeoff, EventKind::landing}) {
-    for (const Event& event : events_of(kind, all_flights, end)) {
+    for (const TrueEvent& event : events_of(kind, all_flights, end)) {
       tolerated.push_back(limit.around(kind, event.step));
     }
   }
@@ -110,7 +110,7 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
 
   for (const EventKind kind : {EventKind::takeoff, EventKind::landing}) {
     const std::vector<Step> predicted_at = predicted_steps(kind, predicted, limit.skip);
-    for (const Event& event : events_of(kind, long_flights, end)) {
+    for (const TrueEvent& event : events_of(kind, long_flights, end)) {
       const Window wide = limit.around(kind, event.step);
       const Window window{std::max(wide.first, event.between.first),
                           std::min(wide.last, event.between.last)};

@@ -75,7 +75,7 @@ class Keys {
   std::vector<std::pair<std::string, std::string>> texts_;
 };
 
-std::string or_else(std::string text, const std::string& otherwise) {
+std::string or_else(const std::string& text, const std::string& otherwise) {
   return text.empty() ? otherwise : text;
 }
 

@@ -55,7 +55,7 @@ FacetData facet_data(const experiments::FigureSpec& spec, const Table& table) {
     FacetRow drawn{index, *panel, *series, *row,
                    static_cast<std::size_t>(mark - spec.marks.begin())};
     if (spec.rows.columns.empty()) drawn.x = data.value(drawn, order);
-    if (!std::isnan(drawn.x)) data.rows.push_back(std::move(drawn));
+    if (!std::isnan(drawn.x)) data.rows.push_back(drawn);
   }
   std::stable_sort(data.rows.begin(), data.rows.end(), [](const FacetRow& a, const FacetRow& b) {
     return std::tie(a.panel, a.series, a.mark, a.row, a.x) <
