@@ -60,16 +60,7 @@ struct Measure {
   std::size_t bytes_of_prediction = 0;
 };
 
-/// A measure with scores of one type; each function returns them in a fixed order.
-template <typename Score>
-Measure measure_of_runs(std::string name, std::size_t most,
-                        std::function<std::vector<Score>(const MeasuredRun&)> of_run) {
-  return {std::move(name),
-          [of_run = std::move(of_run)](const MeasuredRun& run) { return to_bytes(of_run(run)); },
-          {},
-          most * sizeof(Score),
-          0};
-}
+/// A measure of predictions with scores of one type, in a fixed order.
 template <typename Score>
 Measure measure_of_predictions(
     std::string name, std::size_t most,
