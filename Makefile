@@ -4,10 +4,10 @@ BUILD := build/release
 
 .DEFAULT_GOAL := help
 .PHONY: help setup program-packages trainer-packages python-packages test-packages fuzz-packages \
-	build run trainer python everything test faults lint format bench asan tsan fuzz clean
+	build run trainer python everything test faults lint lint-all format bench asan tsan fuzz clean
 
 help: ## Show this list
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
 
 setup: ## Install every Debian package that is missing
 	@scripts/install_packages.sh
@@ -71,9 +71,12 @@ faults: $(BUILD)/CTestTestfile.cmake ## Let each system call fail, fill the disk
 	cmake --build --preset release --parallel $(JOBS) --target test_faults
 	@scripts/faults.sh $(BUILD)/test_faults $(JOBS)
 
-lint: setup $(BUILD)/CTestTestfile.cmake ## Check formatting, clang-tidy and the shell scripts
+lint: setup $(BUILD)/CTestTestfile.cmake ## Check formatting, shell scripts, and what changed with clang-tidy
 	@cmake --build --preset release --target build.ninja >/dev/null # brings compile_commands.json up to date
 	@JOBS=$(JOBS) scripts/lint.sh $(BUILD)
+
+lint-all: ## Lint everything, also what clang-tidy found clean before
+	@TIDY_CACHE= $(MAKE) lint
 
 format: ## Format every source file
 	@scripts/install_packages.sh lint
