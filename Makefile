@@ -4,7 +4,7 @@ BUILD := build/release
 
 .DEFAULT_GOAL := help
 .PHONY: help setup program-packages trainer-packages python-packages test-packages fuzz-packages \
-	build run trainer python everything test faults lint lint-all format bench asan tsan fuzz clean
+	build run trainer python everything test faults package lint lint-all format bench asan tsan fuzz clean
 
 help: ## Show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -35,6 +35,11 @@ $(BUILD)/python/cmake_install.cmake: | python-packages
 $(BUILD)/CTestTestfile.cmake: CMakePresets.json | test-packages
 	cmake --preset release
 	@touch $@
+build/package/build.ninja: CMakePresets.json
+	@scripts/install_packages.sh program python package
+	cmake --preset package
+	@touch $@
+
 build/asan/build.ninja: CMakePresets.json | test-packages
 	cmake --preset asan
 	@touch $@
@@ -70,6 +75,9 @@ test: everything ## Build everything and run every test
 faults: $(BUILD)/CTestTestfile.cmake ## Let each system call fail, fill the disk, kill the program in every stage
 	cmake --build --preset release --parallel $(JOBS) --target test_faults
 	@scripts/faults.sh $(BUILD)/test_faults $(JOBS)
+
+package: build/package/build.ninja ## Build a Debian package that needs no compiler: build/package/touchdown_*.deb
+	cmake --build --preset package --parallel $(JOBS) --target package
 
 lint: setup $(BUILD)/CTestTestfile.cmake ## Check formatting, shell scripts, and what changed with clang-tidy
 	@cmake --build --preset release --target build.ninja >/dev/null # brings compile_commands.json up to date

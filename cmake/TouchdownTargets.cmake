@@ -191,3 +191,17 @@ function(touchdown_test folder)
                        ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0"
                        ENVIRONMENT_MODIFICATION "UBSAN_OPTIONS=set:print_stacktrace=1")
 endfunction()
+
+# touchdown_install_data(<folder> <argument of install>...)
+# installs the robots, scenarios, sensor profiles, experiments and fitted models below the folder.
+function(touchdown_install_data destination)
+  foreach(folder models scenarios sensors experiments)
+    set(patterns xml yaml npz json)
+    list(TRANSFORM patterns PREPEND ${PROJECT_SOURCE_DIR}/${folder}/*.)
+    file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${patterns})
+    foreach(file ${files})
+      cmake_path(GET file PARENT_PATH within)
+      install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${destination}/${within} ${ARGN})
+    endforeach()
+  endforeach()
+endfunction()
