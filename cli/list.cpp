@@ -8,6 +8,7 @@
 #include "core/resources.hpp"
 #include "core/tables/table.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "scenarios/generation/family.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::cli {
@@ -44,9 +45,18 @@ std::string entries_text(const Entries& entries) {
   return to_text(table, 3);
 }
 
+std::string families_text() {
+  Table table{{}, {}};
+  for (const scenarios::Family& family : scenarios::families()) {
+    table.rows.push_back({family.name, family.summary});
+  }
+  return to_text(table, 2);
+}
+
 void list() {
   print_files("experiments", "experiments");
   print_files("scenarios", "scenarios");
+  fmt::print("families of drawn scenarios (touchdown generate)\n{}\n", families_text());
   print_files("robots (every MJCF file is a robot, too)", "models");
   print_files("sensors", "sensors");
   fmt::print("simulators\n{}\n", entries_text(simulators::simulator_entries()));

@@ -80,6 +80,7 @@ int run_command_line(int argc, char** argv) {
   program.failure_message(CLI::FailureMessage::simple);
   add_run(program, session);
   add_merge(program, session);
+  add_generate(program, session);
   add_simulate(program, session);
   add_render(program, session);
   add_report(program, session);

@@ -9,9 +9,17 @@
 
 namespace touchdown::policies {
 
-Eigen::Vector3d force_in_world(const TimedForce& force, double yaw) {
-  if (!force.along_heading) return force.force;
-  return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * force.force;
+double TimedForce::share_at(double t) const {
+  if (!acts_at(t)) return 0.0;
+  const double grown = rise > 0.0 ? (t - time) / rise : 1.0;
+  const double left = fall > 0.0 ? (time + duration - t) / fall : 1.0;
+  return std::min({1.0, grown, left});
+}
+
+Eigen::Vector3d force_in_world(const TimedForce& force, double t, double yaw) {
+  const Eigen::Vector3d now = force.share_at(t) * force.force;
+  if (!force.along_heading) return now;
+  return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * now;
 }
 
 Eigen::Vector3d tether_force(const Tether& tether, const models::GroundTruth& robot) {
@@ -49,6 +57,15 @@ KeyNotes describe_vector(Fields& fields, std::string_view key, Eigen::Vector3d& 
 void describe(Fields& fields, TimedForce& force) {
   fields("time", force.time, 0.0, 1e6).doc("s", "Start of the force.");
   fields("duration", force.duration, 0.0, 1e6).doc("s", "How long it acts.");
+  const auto ramp = [&](std::string_view key, double& seconds, std::string_view text) {
+    // Written only if it is not zero: most forces are constant.
+    if (!fields.reading() && !fields.documenting() && seconds == 0.0) return;
+    fields(key, seconds, 0.0, 1e6).doc("s", text);
+    fields.check(force.rise + force.fall <= force.duration, key,
+                 "expected rise and fall to be at most as long as the duration");
+  };
+  ramp("rise", force.rise, "Time at its beginning in which it grows from zero.");
+  ramp("fall", force.fall, "Time at its end in which it fades to zero.");
   describe_vector(fields, "force", force.force).doc("N", "Force in the world frame.");
   describe_vector(fields, "point_in_base", force.point_in_base)
       .doc("m", "Point of action in the base frame.");

@@ -14,10 +14,13 @@ class KeyNotes;
 
 namespace touchdown::policies {
 
-/// A constant force on the robot's base for a limited time, such as a push or a lift.
+/// A force on the robot's base for a limited time, such as a push or a lift. It is constant unless
+/// it grows and fades.
 struct TimedForce {
   double time = 0.0;      ///< start (s)
-  double duration = 0.1;  ///< s
+  double duration = 0.1;  ///< rise and fall included (s)
+  double rise = 0.0;      ///< time in which it grows linearly from zero (s)
+  double fall = 0.0;      ///< time in which it fades linearly to zero (s)
   /// In the world frame (N).
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   /// Point of action in the base frame (m).
@@ -26,13 +29,15 @@ struct TimedForce {
   bool along_heading = false;
 
   bool acts_at(double t) const { return t >= time && t < time + duration; }
+  /// The share of the force that acts at time `t`: 1 between rise and fall.
+  double share_at(double t) const;
 };
 
 /// The forces of a run; they may overlap.
 using ForceScript = std::vector<TimedForce>;
 
-/// The force in the world frame (N) on a robot with heading `yaw` (rad).
-Eigen::Vector3d force_in_world(const TimedForce& force, double yaw);
+/// The force in the world frame (N) at time `t` (s) on a robot with heading `yaw` (rad).
+Eigen::Vector3d force_in_world(const TimedForce& force, double t, double yaw);
 
 /// A rope from a fixed point in the world to the robot's handle: a spring with damping along its
 /// length that only pulls.

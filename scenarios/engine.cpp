@@ -89,7 +89,7 @@ std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenar
   const models::Observation& now = simulator.observation();
   for (const policies::TimedForce& force : scenario.forces) {
     if (force.acts_at(now.time)) {
-      wrenches.push_back({policies::force_in_world(force, now.yaw), force.point_in_base});
+      wrenches.push_back({policies::force_in_world(force, now.time, now.yaw), force.point_in_base});
     }
   }
   return wrenches;

@@ -58,11 +58,11 @@ struct Perturbation {
   double com_x = 0.0;               ///< the base body's centre of mass, along the robot (m)
   double com_z = 0.0;               ///< and up (m)
   double wheel_radius_scale = 0.0;  ///< both wheels
-  double actuator_friction_scale = 0.0;     ///< of every joint
-  double torque_error = 0.0;                ///< of each servo's torque constant, independently
-  std::optional<RandomDrive> drive;         ///< instead of the scenario's own velocity script
-  std::optional<RandomCrouches> crouching;  ///< instead of the scenario's own crouch script
-  std::optional<RandomLifts> lift;          ///< besides the scenario's own forces
+  double actuator_friction_scale = 0.0;          ///< of every joint
+  double torque_error = 0.0;                     ///< of each servo's torque constant, independently
+  std::optional<RandomDrive> drive = {};         ///< instead of the scenario's own velocity script
+  std::optional<RandomCrouches> crouching = {};  ///< instead of the scenario's own crouch script
+  std::optional<RandomLifts> lift = {};          ///< besides the scenario's own forces
 };
 
 void describe(Fields& fields, Perturbation& perturbation);

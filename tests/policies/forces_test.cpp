@@ -84,11 +84,22 @@ TEST(ForceScript, ActsFromItsTimeForItsDuration) {
   EXPECT_FALSE(force.acts_at(1.5));
 }
 
+TEST(ForceScript, GrowsAndFadesWithinItsDuration) {
+  const TimedForce force = {
+      .time = 1.0, .duration = 4.0, .rise = 1.0, .fall = 2.0, .force = {0.0, 0.0, 8.0}};
+  expect_near(force_in_world(force, 0.9, 0.0), {0.0, 0.0, 0.0});
+  expect_near(force_in_world(force, 1.25, 0.0), {0.0, 0.0, 2.0});
+  expect_near(force_in_world(force, 2.0, 0.0), {0.0, 0.0, 8.0});
+  expect_near(force_in_world(force, 3.0, 0.0), {0.0, 0.0, 8.0});
+  expect_near(force_in_world(force, 4.5, 0.0), {0.0, 0.0, 2.0});
+  expect_near(force_in_world(force, 5.0, 0.0), {0.0, 0.0, 0.0});
+}
+
 TEST(ForceScript, TurnsWithTheRobotWhenAsked) {
   TimedForce force = {.force = {3.0, 1.0, 2.0}};
-  expect_near(force_in_world(force, 1.0), {3.0, 1.0, 2.0});
+  expect_near(force_in_world(force, 0.0, 1.0), {3.0, 1.0, 2.0});
   force.along_heading = true;
-  expect_near(force_in_world(force, M_PI / 2.0), {-1.0, 3.0, 2.0});
+  expect_near(force_in_world(force, 0.0, M_PI / 2.0), {-1.0, 3.0, 2.0});
 }
 
 template <typename F>

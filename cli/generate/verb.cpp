@@ -1,0 +1,54 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/verbs.hpp"
+#include "core/files.hpp"
+#include "scenarios/generation/generate.hpp"
+
+namespace touchdown::cli {
+
+namespace {
+
+struct GenerateFlags {
+  scenarios::Generation generation = {.count = 15};
+  std::string output;
+};
+
+void generate(const GenerateFlags& flags) {
+  const std::filesystem::path folder = flags.output;
+  for (const scenarios::GeneratedScenario& drawn : scenarios::generate(flags.generation)) {
+    const std::filesystem::path path = folder / (drawn.name + ".yaml");
+    write_atomically(path, drawn.text);
+    fmt::print("{}\n", path.string());
+    for (const std::string& reason : drawn.rejected) {
+      fmt::print("  an earlier draw was rejected: {}\n", reason);
+    }
+  }
+}
+
+}  // namespace
+
+void add_generate(CLI::App& program, const CliSession& /*session*/) {
+  Verb verb(
+      program, "generate",
+      "touchdown generate --seed 7 --count 30 -o scenes\n\n"
+      "Draws scenarios from families of terrains, forces and motions, and writes them as files.\n"
+      "The same seed gives the same files.");
+  const auto flags = std::make_shared<GenerateFlags>();
+  verb.option("-o,--output", &flags->output, "Folder of the scenario files")
+      .value_name("DIR")
+      .required();
+  verb.option("--seed", &flags->generation.seed, "Seed of the draws").shows_default();
+  verb.option("--count", &flags->generation.count, "Number of scenarios; families take turns")
+      .shows_default()
+      .between(1, 100'000);
+  verb.option("--family", &flags->generation.families,
+              "Only scenarios of this family; `touchdown list` has them")
+      .value_name("NAME")
+      .one_at_a_time();
+  verb.action([flags] { generate(*flags); });
+}
+
+}  // namespace touchdown::cli

@@ -1,0 +1,128 @@
+#include "scenarios/generation/generate.hpp"
+
+#include <set>
+
+#include "scenarios/generation/rules.hpp"
+#include "scenarios/scenario_file.hpp"
+#include "tests/scenarios/runs.hpp"
+
+namespace touchdown::scenarios {
+namespace {
+
+Scenario read(const GeneratedScenario& drawn, const std::string& robot = "models/upkie.xml") {
+  YamlDocument document = YamlDocument::parse(drawn.text, drawn.name);
+  document.override_value("robot=" TOUCHDOWN_SOURCE_DIR "/" + robot);
+  return complete_scenario(document);
+}
+
+TEST(Generation, GivesTheSameFilesForTheSameSeed) {
+  const auto first = generate({.seed = 5, .count = 30});
+  const auto again = generate({.seed = 5, .count = 30});
+  const auto other = generate({.seed = 6, .count = 30});
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].text, again[i].text);
+    EXPECT_NE(first[i].text, other[i].text);
+  }
+}
+
+TEST(Generation, OfAShorterListBeginsTheLongerOne) {
+  const auto few = generate({.seed = 5, .count = 7});
+  const auto many = generate({.seed = 5, .count = 40});
+  for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(few[i].text, many[i].text);
+}
+
+TEST(Generation, OfFewerFamiliesDrawsTheSameScenarios) {
+  const auto all = generate({.seed = 5, .count = static_cast<int>(2 * families().size())});
+  const auto kerbs = generate({.seed = 5, .count = 2, .families = {"kerbs"}});
+  std::set<std::string> texts;
+  for (const GeneratedScenario& drawn : all) texts.insert(drawn.text);
+  EXPECT_EQ(texts.size(), all.size());
+  for (const GeneratedScenario& drawn : kerbs) EXPECT_TRUE(texts.contains(drawn.text));
+}
+
+TEST(Generation, RefusesAnUnknownFamilyAndNamesTheNearest) {
+  try {
+    generate({.families = {"kerb"}});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean 'kerbs'?"), std::string::npos);
+  }
+}
+
+TEST(Generation, WritesFilesThatAreReadBackAndObeyTheRules) {
+  for (const GeneratedScenario& drawn : generate({.seed = 11, .count = 150})) {
+    const Scenario scenario = read(drawn);
+    EXPECT_EQ(scenario.name, drawn.name);
+    EXPECT_FALSE(objection_to(scenario)) << drawn.text;
+  }
+}
+
+TEST(Generation, LeavesStanceAndGainsToTheRobot) {
+  for (const GeneratedScenario& drawn : generate({.seed = 3, .count = 15})) {
+    const Scenario bent = read(drawn);
+    const Scenario straight = read(drawn, "models/upkie_straight.yaml");
+    EXPECT_EQ(bent.start.hip, models::Stance().hip) << drawn.text;
+    EXPECT_EQ(straight.start.hip, 0.1) << drawn.text;
+    EXPECT_NE(straight.balancer.pitch_damping, bent.balancer.pitch_damping) << drawn.text;
+  }
+}
+
+TEST(Generation, OfLiftsScalesWithTheRobotsMass) {
+  const auto drawn = generate({.seed = 3, .count = 1, .families = {"slow_lifts"}});
+  const Scenario upkie = read(drawn.front());
+  const Scenario heavy = read(drawn.front(), "models/upkie_heavy.yaml");
+  const double ratio = *heavy.forces_for_mass / *upkie.forces_for_mass;
+  EXPECT_GT(ratio, 1.2);
+  EXPECT_NEAR(heavy.forces[0].force.z() / upkie.forces[0].force.z(), ratio, 1e-9);
+}
+
+TEST(Generation, OfSlowLiftsGrowsAndFadesAndLifts) {
+  const auto drawn = generate({.seed = 3, .count = 12, .families = {"slow_lifts"}});
+  for (const GeneratedScenario& one : drawn) {
+    const Scenario scenario = read(one);
+    for (const policies::TimedForce& force : scenario.forces) {
+      EXPECT_GE(force.rise, 0.2);
+      EXPECT_LE(force.rise, 10.0);
+      EXPECT_GE(force.fall, 0.2);
+      EXPECT_LE(force.fall, 10.0);
+    }
+    EXPECT_GT(greatest_height(scenario.forces, *scenario.forces_for_mass * scenario.mass_scale,
+                              scenario.end.duration),
+              0.0);
+  }
+}
+
+/// Whether the run finished upright, and how long both wheels were off the ground (s).
+struct Played {
+  bool is_upright = false;
+  double in_the_air = 0.0;
+};
+
+Played play(const GeneratedScenario& drawn, const std::string& engine) {
+  const recordings::Recording recording =
+      scenarios::play(perturbed(read(drawn), 1, 0), engine, 1, 0);
+  Played played{recording.info.outcome == recordings::Outcome::finished, 0.0};
+  for (const double flight : flights(recording, 0.01)) played.in_the_air += flight;
+  return played;
+}
+
+TEST(Generation, OfEveryFamilyPlaysInBothEngines) {
+  const std::set<std::string> never_in_the_air = {"drives", "squats", "pushes"};
+  const std::set<std::string> lifts = {"lifts", "slow_lifts", "put_downs"};
+  for (const Family& family : families()) {
+    const GeneratedScenario drawn = generate(family, 2, 1);
+    for (const char* engine : {"mujoco", "bullet"}) {
+      const Played played = play(drawn, engine);
+      EXPECT_TRUE(played.is_upright) << drawn.text << engine;
+      if (never_in_the_air.contains(family.name)) {
+        EXPECT_EQ(played.in_the_air, 0.0) << drawn.text << engine;
+      }
+      if (lifts.contains(family.name)) {
+        EXPECT_GT(played.in_the_air, 0.1) << drawn.text << engine;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::scenarios
