@@ -55,8 +55,8 @@ void write_score_tables(const ExperimentResult& result) {
     markdown += to_markdown(table) + "\n";
     latex += to_latex(table) + "\n";
   }
-  write_atomically(directory.file("tables", "tables.md"), markdown);
-  write_atomically(directory.file("tables", "tables.tex"), latex);
+  write_atomically(directory.own_file("tables", "tables.md"), markdown);
+  write_atomically(directory.own_file("tables", "tables.tex"), latex);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/results/result.hpp"
+#include "experiments/run_directory/recorded_files.hpp"
 
 namespace touchdown {
 
@@ -102,7 +103,7 @@ Summary summary_of(const ExperimentResult& result) {
 }
 
 void write_summary(const Summary& summary, const fs::path& run_directory) {
-  write_atomically(file_in(run_directory), Json(summary).dump() + "\n");
+  write_atomically(record_file(run_directory, "tables/summary.json"), Json(summary).dump() + "\n");
 }
 
 Summary read_summary(const fs::path& run_directory) {

@@ -69,7 +69,7 @@ Table RunDirectory::read_table(std::string_view name) const {
 }
 
 void RunDirectory::write_table(std::string_view name, const Table& table) const {
-  write_atomically(file("tables", name), to_csv(table));
+  write_atomically(own_file("tables", name), to_csv(table));
 }
 
 }  // namespace touchdown::experiments

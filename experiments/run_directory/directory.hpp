@@ -9,6 +9,7 @@
 
 #include "core/tables/columns.hpp"
 #include "experiments/run_directory/lock.hpp"
+#include "experiments/run_directory/recorded_files.hpp"
 #include "experiments/run_directory/table_columns.hpp"
 
 namespace touchdown::experiments {
@@ -41,6 +42,12 @@ class RunDirectory {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path file(std::string_view folder, std::string_view name) const {
     return path_ / folder / name;
+  }
+
+  /// The same for a file that is written next: the run records it as its own. `folder` may be
+  /// empty.
+  std::filesystem::path own_file(std::string_view folder, std::string_view name) const {
+    return record_file(path_, std::filesystem::path(folder) / name);
   }
 
   /// Reads a table of `tables/`. Errors: `Error` when it cannot be read.

@@ -13,6 +13,7 @@
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/owner.hpp"
+#include "experiments/run_directory/recorded_files.hpp"
 
 namespace touchdown::experiments {
 
@@ -27,47 +28,54 @@ struct FixedNames {
   const char* folder;
   const char* shape;
 };
-constexpr std::array fixed_names = {
-    FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml)"},
-    FixedNames{"state/evaluation", R"(.+_seed_\d{4,})"},
-    FixedNames{"state/shards", R"(\d+_of_\d+)"},
-    FixedNames{"state/columns", R"([a-z_]+\.csv)"},
-    FixedNames{"state/tuning", R"(.+_fold_\d+)"},
-    FixedNames{"state/submissions", R"([^.].*)"},
-    FixedNames{"state/closed_loop", R"(run_\d{6,})"},
+constexpr std::array fixed_names = {FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml)"},
+                                    FixedNames{"state/evaluation", R"(.+_seed_\d{4,})"},
+                                    FixedNames{"state/shards", R"(\d+_of_\d+)"},
+                                    FixedNames{"state/columns", R"([a-z_]+\.csv)"},
+                                    FixedNames{"state/tuning", R"(.+_fold_\d+)"},
+                                    FixedNames{"state/submissions", R"([^.].*)"},
+                                    FixedNames{"videos", R"(report\.(mp4|jpg))"},
+                                    FixedNames{"tables", R"(training\.csv)"},
+                                    FixedNames{"figures", R"(training\.(gp|png))"},
+                                    FixedNames{"models", R"(nmn\.(npz|json))"},
+                                    FixedNames{"checkpoints", R"(\d{4,}\.pt)"}};
+
+/// The items of model tasks, in a folder of `state` for each kind.
+constexpr const char* model_task_shape = R"([a-z]+_\d{6,})";
+
+/// Files of earlier versions, which did not record them (`recorded_files.hpp`). The list is closed:
+/// new tables and films need no line here.
+constexpr std::array names_before_records = {
     FixedNames{
         "tables",
         "(agreement|benchmark|benchmark_differences|benchmark_standings|calibration|classification|"
         "density_overlap|differences|evidence|labels|"
         "latency|moments|odometry|operating_points|operating_points_by_scene|overlap|reliability|"
         "results|runs|sample_efficiency|sensitivity|sensor_sweep|success|"
-        "survival|torque_densities|torque_distributions|torques|training|transfer|"
+        "survival|torque_densities|torque_distributions|torques|transfer|"
         "transitions|tuning|"
         "verdicts|views)\\.csv|"
         "(cross_simulator|labels|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
-    FixedNames{"videos", R"(report\.(mp4|jpg)|worst_.+\.mp4|closed_loop_.+\.(mp4|jpg))"},
-    FixedNames{"trajectories", R"([^.].*\.tum)"},
-    FixedNames{"figures", R"(training\.(gp|png))"},
-    FixedNames{"models", R"(nmn\.(npz|json))"},
-    FixedNames{"checkpoints", R"(\d{4,}\.pt)"}};
+    FixedNames{"videos", R"(worst_.+\.mp4|closed_loop_.+\.(mp4|jpg))"},
+    FixedNames{"trajectories", R"([^.].*\.tum)"}, FixedNames{".", R"(benchmark\.html)"}};
+
+/// Every folder that a run creates beside `state`.
+constexpr std::array result_folders = {"recordings", "models",       "tables",      "figures",
+                                       "videos",     "trajectories", "checkpoints", "logs"};
 
 /// Every folder that a run creates, inner folders first.
-constexpr std::array all_folders = {"state/columns",
-                                    "state/evaluation",
-                                    "state/recordings",
-                                    "state/shards",
-                                    "state/submissions",
-                                    "state/closed_loop",
-                                    "state/tuning",
-                                    "state",
-                                    "recordings",
-                                    "models",
-                                    "tables",
-                                    "figures",
-                                    "videos",
-                                    "trajectories",
-                                    "checkpoints",
-                                    "logs"};
+Names all_folders(const fs::path& directory) {
+  Names folders;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(directory / "state", ignored)) {
+    if (entry.symlink_status(ignored).type() == fs::file_type::directory) {
+      folders.push_back("state/" + entry.path().filename().string());
+    }
+  }
+  folders.emplace_back("state");
+  folders.insert(folders.end(), result_folders.begin(), result_folders.end());
+  return folders;
+}
 
 /// The files directly in a folder; none if the folder is a link or missing.
 Names files_in(const fs::path& folder) {
@@ -168,7 +176,7 @@ void remove_file(const fs::path& path) {
 
 void remove_empty_folders(const fs::path& directory) {
   std::error_code not_empty;
-  for (const char* const folder : all_folders) {
+  for (const std::string& folder : all_folders(directory)) {
     const fs::path path = directory / folder;
     if (fs::symlink_status(path, not_empty).type() == fs::file_type::directory) {
       fs::remove(path, not_empty);
@@ -182,16 +190,24 @@ std::vector<fs::path> own_files(const fs::path& directory) {
   std::vector<fs::path> names = models_and_videos(directory);
   append(names, recordings_and_stamps(directory));
   append(names, figures(directory));
-  for (const FixedNames& fixed : fixed_names) {
-    for (const std::string& file : files_in(directory / fixed.folder)) {
-      if (has_shape(file, fixed.shape)) names.push_back(fs::path(fixed.folder) / file);
+  const auto add = [&](const fs::path& folder, const char* shape) {
+    for (const std::string& file : files_in(directory / folder)) {
+      if (has_shape(file, shape)) names.push_back((folder / file).lexically_normal());
     }
+  };
+  append(names, recorded_files(directory));
+  for (const FixedNames& fixed : names_before_records) add(fixed.folder, fixed.shape);
+  for (const FixedNames& fixed : fixed_names) add(fixed.folder, fixed.shape);
+  for (const std::string& folder : all_folders(directory)) {
+    if (folder.starts_with("state/")) add(folder, model_task_shape);
   }
+  // Each record comes after its file: after a killed removal it still names it.
+  add("state/files", R"([^.].*)");
   // Scenarios and the experiment come last: after a killed removal they still name the other files.
   std::stable_partition(names.begin(), names.end(), [](const fs::path& name) {
     return !name.filename().string().starts_with("scenario_");
   });
-  for (const char* const file : {"report.html", "benchmark.html", "manifest.json", "config.yaml"}) {
+  for (const char* const file : {"report.html", "manifest.json", "config.yaml"}) {
     names.emplace_back(file);
   }
   std::erase_if(names, [&](const fs::path& name) { return !is_file(directory / name); });
@@ -230,7 +246,7 @@ UntrackedFiles remove_run(const fs::path& directory) {
 void remove_partial_files(const fs::path& directory) {
   std::error_code ignored;
   std::vector<fs::path> partial;
-  for (const char* const folder : all_folders) {
+  for (const std::string& folder : all_folders(directory)) {
     if (fs::is_symlink(directory / folder, ignored)) continue;
     for (const auto& entry : fs::directory_iterator(directory / folder, ignored)) {
       const fs::path name = entry.path().filename();

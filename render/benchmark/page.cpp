@@ -4,6 +4,7 @@
 
 #include "core/files.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/run_directory/recorded_files.hpp"
 #include "render/benchmark/cards.hpp"
 #include "render/benchmark/scene_tables.hpp"
 #include "render/benchmark/standings_figure.hpp"
@@ -80,7 +81,7 @@ fs::path write_benchmark_page(const ReportSubject& subject) {
     standings += folded(figure_html(subject.directory, standing));
     scenes += folded(scenes_html(scores, last, subject.experiment.simulators));
   }
-  fs::path path = subject.directory / "benchmark.html";
+  fs::path path = experiments::record_file(subject.directory, "benchmark.html");
   write_page(subject, path, header_of(subject, scores),
              {{"standings", "Ranking", standings},
               {"matrix", "Robots and sensors", matrix_html(scores)},

@@ -207,7 +207,7 @@ void write_tables(const BenchmarkResult& result, double level, const RunDirector
         parts_of(result.standings, &Standings::entries));
   write("benchmark_differences.csv", "differences", with_setup(pair_columns()),
         parts_of(result.standings, &Standings::differences));
-  write_atomically(directory.file("tables", "benchmark.json"), json.dump(1) + "\n");
+  write_atomically(directory.own_file("tables", "benchmark.json"), json.dump(1) + "\n");
 }
 
 std::string benchmark_text(const BenchmarkResult& result, const Experiment& experiment) {

@@ -1,9 +1,12 @@
 #include "experiments/run_directory/own_files.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "experiments/run_directory/recorded_files.hpp"
 #include "experiments/run_directory/saved_state.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -102,6 +105,49 @@ TEST_F(OwnFiles, AloneAreRemoved) {
   EXPECT_FALSE(fs::exists(folder / "state/evaluation"));
 }
 
+TEST_F(OwnFiles, OfAnyNameAreRemovedIfTheRunRecordedThem) {
+  const std::vector<fs::path> recorded = {"tables/mine.csv", "tables/a:b.md", "videos/mine.mp4",
+                                          "trajectories/x.tum", "mine.html"};
+  for (const fs::path& file : recorded) write_atomically(record_file(folder.path(), file), "ours");
+  record_file(folder.path(), "tables/never_written.csv");
+  folder.write("state/files/..:outside.csv", "");
+  folder.write("state/files/tables:.hidden.csv", "");
+  folder.write("tables/.hidden.csv", "precious");
+  folder.write("state/my_study/item_000012", "ours");
+  folder.write("state/my_study/notes", "precious");
+  const std::vector<fs::path> found = own_files(folder.path());
+  for (const fs::path& file : recorded) EXPECT_THAT(found, ::testing::Contains(file));
+  remove_own_files(folder.path());
+  std::vector<std::string> expected = untracked;
+  expected.insert(expected.end(),
+                  {"state/key", "state/lock", "tables/.hidden.csv", "state/my_study/notes"});
+  EXPECT_THAT(left(), UnorderedElementsAreArray(expected));
+}
+
+TEST_F(OwnFiles, OfEarlierVersionsAreRemovedWithoutRecords) {
+  const std::vector<std::string> earlier = {"tables/benchmark.csv",
+                                            "tables/survival.csv",
+                                            "tables/labels.md",
+                                            "tables/benchmark.json",
+                                            "videos/closed_loop_mujoco.mp4",
+                                            "benchmark.html",
+                                            "trajectories/mujoco_step_truth.tum",
+                                            "state/closed_loop/run_000003"};
+  for (const std::string& file : earlier) folder.write(file, "ours");
+  record_file(folder.path(), "tables/new.csv");  // by a later version, such as its report
+  remove_own_files(folder.path());
+  for (const std::string& file : earlier) EXPECT_FALSE(fs::exists(folder / file)) << file;
+}
+
+TEST_F(OwnFiles, AreNamedByTheirRecordsAfterAKilledRemoval) {
+  write_atomically(record_file(folder.path(), "tables/mine.csv"), "ours");
+  const std::vector<fs::path> files = own_files(folder.path());
+  const auto file = std::find(files.begin(), files.end(), "tables/mine.csv");
+  const auto record = std::find(files.begin(), files.end(), "state/files/tables:mine.csv");
+  ASSERT_NE(record, files.end());
+  EXPECT_LT(file, record);
+}
+
 TEST_F(OwnFiles, EndWithTheExperimentThatNamesTheOthers) {
   const std::vector<fs::path> files = own_files(folder.path());
   ASSERT_FALSE(files.empty());
@@ -114,6 +160,7 @@ TEST_F(OwnFiles, AreNotSearchedForThroughLinks) {
   elsewhere.write("success.csv", "precious");
   fs::remove_all(folder / "tables");
   fs::create_directory_symlink(elsewhere.path(), folder / "tables");
+  record_file(folder.path(), "tables/success.csv");
   remove_own_files(folder.path());
   EXPECT_TRUE(fs::exists(elsewhere / "success.csv"));
 }
