@@ -220,6 +220,16 @@ std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& r
   return computed;
 }
 
+SavedCounts in_memory(const Plan& plan, std::span<const std::size_t> runs,
+                      const SavedCounts& saved) {
+  std::map<std::string, TaskCounts> counts;
+  for (const Task& task : plan.tasks) {
+    if (std::find(runs.begin(), runs.end(), task.run) == runs.end()) continue;
+    counts.emplace(task_name(plan, task), saved_counts(plan, task, saved));
+  }
+  return SavedCounts(std::move(counts));
+}
+
 std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan,
                                        const SavedCounts& saved) {
   std::vector<TaskCounts> all;

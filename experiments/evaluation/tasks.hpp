@@ -130,6 +130,11 @@ struct CollectedCounts {
 CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
                         const SavedCounts& saved);
 
+/// The results of all tasks of these runs in memory, for several readers: each file is read once.
+/// Errors: `Error` when one is missing.
+SavedCounts in_memory(const Plan& plan, std::span<const std::size_t> runs,
+                      const SavedCounts& saved);
+
 /// The results of all tasks of one run, by noise seed. Errors: `Error` when one is missing.
 std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan, const SavedCounts& saved);
 

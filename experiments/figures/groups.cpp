@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/tables/verbs.hpp"
+
 namespace touchdown::experiments {
 
 namespace {
@@ -81,14 +83,18 @@ FigureGroups groups_in(const Table& table, const std::string& column,
 FigureGroups combinations_in(
     const Table& table, const std::vector<std::string>& columns,
     const std::function<std::string(const std::vector<std::string>& values)>& title,
-    const std::vector<CellFilter>& where) {
+    const std::vector<CellFilter>& filters) {
+  const auto rows = where(table.rows, [&](const auto& row) { return passes(table, row, filters); });
   FigureGroups groups{columns, {}};
-  for (const std::vector<std::string>& row : table.rows) {
-    if (!passes(table, row, where) || group_of(groups, table, row)) continue;
-    const std::vector<std::string> values = values_of(columns, table, row);
+  for (const auto& values :
+       unique(rows, [&](const auto& row) { return values_of(columns, table, row); })) {
     groups.groups.push_back({values, title(values)});
   }
   return groups;
+}
+
+FigureAxis axis_with_interval(const std::string& column, const std::string& title) {
+  return {.column = column, .title = title, .low = column + "_low", .high = column + "_high"};
 }
 
 double drawn_value(const FigureAxis& axis, const std::string& cell) {

@@ -32,6 +32,9 @@ FigureGroups combinations_in(
     const std::function<std::string(const std::vector<std::string>& values)>& title,
     const std::vector<CellFilter>& where = {});
 
+/// The axis of a measured column, with the columns of its interval beside it.
+FigureAxis axis_with_interval(const std::string& column, const std::string& title);
+
 /// The value of a cell as an axis draws it; NaN for a cell without a number.
 double drawn_value(const FigureAxis& axis, const std::string& cell);
 

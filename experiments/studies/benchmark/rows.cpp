@@ -72,9 +72,10 @@ std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation) {
   for (const BenchmarkSetup& setup : setups) {
     for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
       const auto runs = runs_in_scene(evaluation.plan, experiment, setup.group, scene);
-      const CollectedCounts counts = collect(evaluation.plan, runs, evaluation.saved);
-      const auto extended = measured_samples<scoring::ExtendedScore>(
-          extended_measure, runs, evaluation.plan, evaluation.saved);
+      const SavedCounts saved = in_memory(evaluation.plan, runs, evaluation.saved);
+      const CollectedCounts counts = collect(evaluation.plan, runs, saved);
+      const auto extended =
+          measured_samples<scoring::ExtendedScore>(extended_measure, runs, evaluation.plan, saved);
       for (std::size_t c = 0; c < counts.scored.size(); ++c) {
         const ConditionScores& scored = counts.scored[c];
         if (scored.condition.refit > 0) continue;
