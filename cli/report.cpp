@@ -8,6 +8,7 @@
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/owner.hpp"
 #include "render/pictures/filmed_report.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::cli {
 
@@ -37,7 +38,8 @@ void add_report(CLI::App& program, const CliSession& session) {
     const render::ReportSubject subject = render::read_subject(flags->directory);
     std::vector<render::FilmedRun> filmed;
     if (!flags->no_film && subject.experiment.video.enabled) filmed = render::filmed_runs(subject);
-    const std::filesystem::path path = render::make_report(subject, filmed, session.stop);
+    const std::filesystem::path path =
+        render::make_report(subject, filmed, render::study_pictures(), session.stop);
     fmt::print("report    {} ({:.1f} MB)\n", path.string(),
                static_cast<double>(std::filesystem::file_size(path)) / 1e6);
   });

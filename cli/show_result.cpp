@@ -10,6 +10,7 @@
 #include "experiments/results/terminal.hpp"
 #include "render/pictures/filmed_report.hpp"
 #include "render/pictures/pictures.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::cli {
 
@@ -20,9 +21,10 @@ void draw(experiments::ExperimentResult& result, const CliSession& session) {
   if (result.experiment.video.enabled) {
     filmed = render::filmed_runs(render::read_subject(result.directory.path()));
   }
-  render::draw_pictures(result, filmed, session.stop);
+  render::draw_pictures(result, filmed, render::study_pictures(), session.stop);
   experiments::write_manifest(result);
-  render::make_report(render::read_subject(result.directory.path()), filmed, session.stop);
+  render::make_report(render::read_subject(result.directory.path()), filmed,
+                      render::study_pictures(), session.stop);
 }
 
 /// The last lines of output: a table of results, the paths of all outputs and the next commands.

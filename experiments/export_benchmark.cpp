@@ -11,6 +11,7 @@
 #include "core/resources.hpp"
 #include "core/tables/table.hpp"
 #include "experiments/config/yaml_kind.hpp"
+#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {
 

@@ -20,9 +20,9 @@
 #include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/test_seed_log.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "experiments/studies/registry.hpp"
 #include "experiments/tables/results.hpp"
-#include "experiments/tuning/figures.hpp"
 #include "experiments/tuning/table.hpp"
 
 namespace touchdown::experiments {
@@ -160,8 +160,13 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
       experiment, context.request.id, context.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   result.models = std::move(done.fitted.models);
   result.cells = plan.groups.front().counted;
-  const auto add_figures = [&](const std::vector<FigureSpec>& figures) {
-    result.figures.insert(result.figures.end(), figures.begin(), figures.end());
+  const auto add = [&](const StudyResult& found) {
+    const auto append = [](auto& all, const auto& more) {
+      all.insert(all.end(), more.begin(), more.end());
+    };
+    append(result.studies, found.texts);
+    append(result.failed_demands, found.failed_demands);
+    append(result.figures, found.figures);
   };
   timed(context, "score", [&] {
     if (!is_any_scored(done.runs)) {
@@ -174,19 +179,13 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
     result.scores = summarise(scored, experiment.highlights, bootstrap);
     result.differences = differences(scored, experiment.highlights, bootstrap);
     if (experiment.tuning) {
-      write_table(done.fitted.trials, context.directory);
-      result.studies.push_back(tuning_text(done.fitted.trials, experiment));
-      add_figures({tuning_figure(context.directory.read_table("tuning.csv"), experiment)});
+      add(summarize_tuning(done.fitted.trials, experiment, context.directory));
     }
     const Evaluation evaluation{
         context.request,          plan, done.runs, context.saved, counts, result.models,
         context.saved_model_tasks};
     for (const Study* study : requested_studies(experiment)) {
-      StudyResult found = study->summarize(evaluation, context.directory);
-      std::move(found.texts.begin(), found.texts.end(), std::back_inserter(result.studies));
-      std::move(found.failed_demands.begin(), found.failed_demands.end(),
-                std::back_inserter(result.failed_demands));
-      add_figures(found.figures);
+      add(study->summarize(evaluation, context.directory));
     }
     return 0;
   });

@@ -15,6 +15,7 @@
 #include "experiments/studies/benchmark/submission_rows.hpp"
 #include "experiments/studies/benchmark/submission_scores.hpp"
 #include "experiments/studies/benchmark/tables.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "experiments/submissions/belief_folder.hpp"
 #include "experiments/submissions/prediction.hpp"
 #include "experiments/tables/results.hpp"

@@ -10,6 +10,7 @@
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "python/external_estimators.hpp"
 #include "python/long_call.hpp"
 

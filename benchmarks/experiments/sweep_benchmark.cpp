@@ -9,6 +9,7 @@
 #include "experiments/evaluation/sweep_run.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "noise/grid.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/fields.hpp"
 #include "experiments/config/experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "noise/sensors/profile.hpp"
 #include "recordings/mapping/mapping.hpp"
 #include "scenarios/scenario_file.hpp"

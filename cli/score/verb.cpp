@@ -8,6 +8,7 @@
 #include "experiments/score_beliefs.hpp"
 #include "render/benchmark/standings_figure.hpp"
 #include "render/pictures/filmed_report.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::cli {
 
@@ -46,7 +47,9 @@ void write_report_again(const std::filesystem::path& run, const CliSession& sess
   render::draw_standings_figures(run, subject.experiment.intervals.bootstrap.level);
   std::vector<render::FilmedRun> filmed;
   if (subject.experiment.video.enabled) filmed = render::filmed_runs(subject);
-  print(fmt::format("report    {}\n", render::make_report(subject, filmed, session.stop).string()));
+  const std::filesystem::path report =
+      render::make_report(subject, filmed, render::study_pictures(), session.stop);
+  print(fmt::format("report    {}\n", report.string()));
 }
 
 void score(const experiments::BeliefRequest& request, const CliSession& session) {

@@ -10,24 +10,11 @@
 #include "core/file_names.hpp"
 #include "core/resources.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "noise/sensors/factor.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
-
-/// Describes names that must be among the experiment's own.
-KeyNotes describe_subset(Fields& fields, std::string_view key,
-                         const std::vector<std::string>& known, std::vector<std::string>& names) {
-  const KeyNotes notes = fields(key, names);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    fields.check_item(std::find(known.begin(), known.end(), names[i]) != known.end(), key, i,
-                      fmt::format("'{}' is not one of the experiment's: {}{}", names[i],
-                                  fmt::join(known, ", "), did_you_mean(names[i], known)));
-  }
-  return notes;
-}
 
 /// Keys of names from the experiment's own list.
 constexpr const char* own_estimators = "list of the experiment's estimators";
@@ -36,7 +23,6 @@ constexpr const char* test_run_index = "0 to test.runs - 1";
 /// Limits of figures: more would not be readable.
 constexpr std::size_t most_settings = 3;
 constexpr std::size_t most_estimators = 6;
-constexpr std::size_t most_panels = 4;
 
 void describe_choice(Fields& fields, DropChoice& choice, const Experiment& experiment) {
   fields("run", choice.run, 0, experiment.test.runs - 1)
@@ -164,204 +150,6 @@ static KeyNotes describe_switched(Fields& parent, std::string_view key,
   return notes.fallback("none");
 }
 
-static void describe(Fields& fields, Factor& factor, const std::vector<std::string>& simulators) {
-  fields("name", factor.name).fallback("the key").doc("Name in tables.");
-  fields.require("key", factor.key).doc("Dotted key of the scenario, such as `terrain.friction`.");
-  if (!fields.present("name", true)) factor.name = factor.key;
-  fields.require("values", factor.values).doc("Values of the key.");
-  fields.check(!factor.values.empty(), "values", "expected at least one number");
-  describe_subset(fields, "simulators", simulators, factor.simulators)
-      .fallback("all")
-      .doc("Engines with this quantity.");
-  if (fields.reading() && factor.simulators.empty()) factor.simulators = simulators;
-}
-
-/// A mapping of keys to lists of values.
-static void describe(Fields& fields, std::vector<SensorFactor>& factors) {
-  if (fields.documenting()) factors = {{"SENSOR.DISTURBANCE", {}}};
-  if (fields.reading()) {
-    for (const auto& entry : fields.node()) factors.push_back({entry.first.as<std::string>(), {}});
-  }
-  for (SensorFactor& factor : factors) {
-    fields.in_line(factor.key, factor.values)
-        .fallback("none")
-        .doc("Values of a disturbance of the sensors, such as `torque.bias` or `delay`.");
-    fields.check(!factor.values.empty(), factor.key, "expected at least one number");
-    fields.check(factor.key, [&] {
-      for (const double value : factor.values) noise::with_value({}, factor.key, value);
-    });
-  }
-}
-
-static void describe(Fields& section, CrossSimulatorConfig& config, const Experiment& experiment) {
-  section
-      .within("sensitivity",
-              [&](Fields& fields) {
-                if (fields.reading())
-                  config.sensitivity_runs = std::min(config.sensitivity_runs, experiment.test.runs);
-                fields("runs", config.sensitivity_runs, 1, 100'000)
-                    .range("1 to test.runs")
-                    .doc("Test runs per engine and value.");
-                fields.check(config.sensitivity_runs <= experiment.test.runs, "runs",
-                             fmt::format("expected at most test.runs, {}", experiment.test.runs));
-                fields.list_if_any("factors", config.factors, experiment.simulators)
-                    .doc("Quantities of the scenario that are varied, one at a time.");
-              })
-      .doc("How the results depend on quantities of the scenario.");
-  section
-      .within("verdict",
-              [&](Fields& fields) {
-                fields("largest_loss", config.verdict.largest_loss, 0.0, 1.0)
-                    .doc("Limit of the accuracy lost by a fit in the other engine.");
-                fields("smallest_gain", config.verdict.smallest_gain, -1.0, 1.0)
-                    .doc("Accuracy that must be gained over constant contact.");
-                describe_subset(fields, "demanded", experiment.estimators, config.verdict.demanded)
-                    .type(own_estimators)
-                    .doc("Estimators that must pass, or the run fails.");
-              })
-      .doc("What an estimator must achieve.");
-  section
-      .within("overlay",
-              [&](Fields& fields) {
-                fields("run", config.overlay.run, 0, experiment.test.runs - 1)
-                    .range(test_run_index)
-                    .doc("Index of the test run.");
-                fields("drop", config.overlay.drop, 0, 1000).doc("Index of the drop in the run.");
-              })
-      .doc("The drop that is plotted in both engines.");
-}
-
-static void describe(Fields& fields, BenchmarkConfig& benchmark) {
-  const auto describe_files = [&](const char* key, std::vector<std::string>& files) {
-    const KeyNotes notes = fields(key, files);
-    for (auto file = files.begin(); file != files.end(); ++file) {
-      fields.check(std::find(files.begin(), file, *file) == file, key,
-                   fmt::format("'{}' appears twice", *file));
-    }
-    return notes;
-  };
-  describe_files("robots", benchmark.robots).doc("Files of further robots.");
-  describe_files("sensors", benchmark.sensors).doc("Files of further sensor profiles.");
-  fields("transfer", benchmark.transfer)
-      .doc("Whether fits on another robot, other sensors or the other engine are scored, too.");
-  fields("refits", benchmark.refits, 0, 1000)
-      .doc("Fits repeated on resampled runs, for wider intervals.");
-  fields("refits_everywhere", benchmark.refits_everywhere)
-      .doc("Whether refits cover all robots and sensors, or the experiment's own.");
-  fields("clips", benchmark.clips).doc("Whether the worst segment of every estimator is filmed.");
-}
-
-static void describe(Fields& fields, OdometryStudyConfig& odometry) {
-  fields.renamed("late", "delay");
-  fields.in_line("delay", odometry.delay)
-      .range("above 0, to 1")
-      .doc("s", "Delays of true contact; odometry runs with each.");
-  for (auto delay = odometry.delay.begin(); delay != odometry.delay.end(); ++delay) {
-    fields.check(*delay > 0.0 && *delay <= 1.0, "delay", "expected times between 0 and 1 s");
-    fields.check(std::find(odometry.delay.begin(), delay, *delay) == delay, "delay",
-                 fmt::format("{} appears twice", *delay));
-  }
-}
-
-static void describe(Fields& fields, OperatingPointsConfig& config) {
-  const auto describe_thresholds = [&](const char* key, std::vector<double>& thresholds) {
-    const KeyNotes notes = fields.in_line(key, thresholds);
-    fields.check(!thresholds.empty(), key, "expected at least one probability");
-    fields.check(thresholds.empty() ||
-                     (thresholds.front() > 0.0 && thresholds.back() < 1.0 &&
-                      std::is_sorted(thresholds.begin(), thresholds.end(), std::less_equal<>())),
-                 key, "expected increasing probabilities, none of them 0 or 1");
-    return notes.range("between 0 and 1, increasing");
-  };
-  describe_thresholds("leave_below", config.leave_below)
-      .doc("Thresholds of P(contact) below which contact ends.");
-  describe_thresholds("return_above", config.return_above)
-      .doc("Thresholds of P(contact) above which contact begins.");
-  fields.check(config.leave_below.front() <= config.return_above.back(), "return_above",
-               "expected a threshold of at least the lowest leave_below");
-}
-
-static void describe(Fields& fields, ClosedLoopScene& scene, const Experiment& experiment) {
-  fields.require("scenario", scene.scenario).doc("Scenario file.");
-  fields.know("key");
-  fields.know("values");
-  if (fields.present("key", !scene.key.empty()) || fields.present("values", false)) {
-    fields.require("key", scene.key)
-        .fallback("none")
-        .doc("Dotted key of the scenario that is varied.");
-    fields.require("values", scene.values).fallback("none").doc("Increasing values of the key.");
-    fields.check(!scene.values.empty(), "values", "expected at least one number");
-    fields.check(std::is_sorted(scene.values.begin(), scene.values.end(), std::less_equal<>()),
-                 "values", "expected increasing numbers");
-  }
-  if (fields.present("noise", true)) {
-    fields.list("noise", scene.noise).doc("Noise settings, besides the sensor profile.");
-  }
-  fields.check(!scene.noise.empty(), "noise", "expected at least one noise setting");
-  for (noise::NoiseCell& cell : scene.noise) cell = noise::as_on_grid(cell, experiment.noise);
-  fields.renamed("late", "delay");
-  fields.in_line("delay", scene.delay)
-      .range("0 to 1, increasing")
-      .doc("s", "Delays of the contact signal.");
-  fields.check(!scene.delay.empty() && scene.delay.front() >= 0.0 && scene.delay.back() <= 1.0 &&
-                   std::is_sorted(scene.delay.begin(), scene.delay.end(), std::less_equal<>()),
-               "delay", "expected increasing times from 0 to 1 s");
-  const int varied = (scene.values.size() > 1 ? 1 : 0) + (scene.noise.size() > 1 ? 1 : 0) +
-                     (scene.delay.size() > 1 ? 1 : 0);
-  fields.check(varied <= 1, "scenario",
-               "expected at most one varied quantity: values of a key, noise, or delay");
-}
-
-static void describe(Fields& fields, ClosedLoopFilm& film, const ClosedLoopConfig& config) {
-  fields("scene", film.scene, 0, static_cast<int>(config.scenes.size()) - 1)
-      .range("an index in closed_loop.scenes")
-      .doc("Index of the scene.");
-  const std::size_t points = points_of(config.scenes[static_cast<std::size_t>(film.scene)]);
-  fields("point", film.point, 0, static_cast<int>(points) - 1)
-      .range("an index in its values")
-      .doc("Index of the varied value.");
-  fields("run", film.run, 0, config.runs - 1).range("0 to runs - 1").doc("Index of the run.");
-  if (fields.reading()) film.law = config.laws.front();
-  fields.choose("law", config.laws, film.law)
-      .type("one of closed_loop.laws")
-      .fallback("the first one")
-      .doc("Control law.");
-  if (fields.reading()) {
-    film.contact = config.contact;
-    film.contact.resize(std::min(most_panels, film.contact.size()));
-  }
-  fields.names("contact", config.contact, film.contact)
-      .type("list of closed_loop.contact")
-      .fallback("the first 4")
-      .doc("Contact sources side by side, at most 4.");
-  fields.check(film.contact.size() <= most_panels, "contact",
-               fmt::format("expected at most {} names", most_panels));
-}
-
-static void describe(Fields& fields, ClosedLoopConfig& config, const Experiment& experiment) {
-  fields.names("laws", {"balancer", "soft_landing"}, config.laws).doc("Control laws.");
-  std::vector<std::string> contact_sources = {"truth", "always"};
-  contact_sources.insert(contact_sources.end(), experiment.estimators.begin(),
-                         experiment.estimators.end());
-  if (fields.reading()) config.contact = contact_sources;
-  fields.names("contact", contact_sources, config.contact)
-      .type("list of truth, always, the experiment's estimators")
-      .fallback("all")
-      .doc("Contact sources of the policy.");
-  fields.require("scenes");
-  fields.list("scenes", config.scenes, experiment)
-      .doc("Scenes, each with at most one varied quantity.");
-  fields.check(!config.scenes.empty(), "scenes", "expected at least one scene");
-  fields("runs", config.runs, 1, 100'000)
-      .doc("Runs per scene and value, the same for all contact sources.");
-  fields.know("film");
-  if (!fields.present("film", config.film.has_value())) return;
-  if (fields.reading()) config.film.emplace();
-  fields.within("film", [&](Fields& film) { describe(film, *config.film, config); })
-      .fallback("none")
-      .doc("The run that is filmed.");
-}
-
 static void describe_fit(Fields& fit, Experiment& experiment) {
   describe(fit, experiment.fit);
   fit.renamed("pieces", "segments");
@@ -411,19 +199,6 @@ static void describe_hyperparameters(Fields& fields, Experiment& experiment) {
   fields.check(!experiment.tuning, key, "expected no fit.tuning beside it, which chooses them");
 }
 
-static void describe_cross_simulator(Fields& fields, Experiment& experiment) {
-  constexpr const char* key = "cross_simulator";
-  std::optional<CrossSimulatorConfig>& config = experiment.cross_simulator;
-  if (!fields.present(key, config.has_value())) return;
-  fields.know(key);
-  fields.finish();
-  if (fields.reading()) config.emplace();
-  fields.check(experiment.simulators.size() == 2, "simulators", "expected two engines to compare");
-  fields.section(key, *config, experiment)
-      .fallback("none")
-      .doc("How much the results depend on the engine.");
-}
-
 /// Estimators written in Python exist only in experiments that Python runs.
 static void require_python(const Fields& fields, const Experiment& experiment) {
   if (!fields.reading()) return;
@@ -438,6 +213,15 @@ static void require_python(const Fields& fields, const Experiment& experiment) {
                       fmt::format("'{}' is written in Python: run the experiment from there, by "
                                   "'python3 -m touchdown run' or touchdown.run",
                                   name));
+  }
+}
+
+/// Describes the studies' sections that are written before one of the experiment's own keys.
+static void describe_studies(Fields& fields, std::string_view before, Experiment& experiment) {
+  for (const StudySection& study : experiment.studies.known()) {
+    if (study.before != before) continue;
+    fields.know(study.key);
+    study.describe(fields, experiment);
   }
 }
 
@@ -469,12 +253,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   file_if_any("sensors", experiment.sensors)
       .fallback("ideal sensors")
       .doc("Sensor profile of all runs.");
-  fields.know("sweep");
-  if (fields.present("sweep", !experiment.sweep.empty())) {
-    fields.section("sweep", experiment.sweep)
-        .fallback("none")
-        .doc("Disturbances of the sensors that are varied, one at a time.");
-  }
+  describe_studies(fields, "noise", experiment);
   const noise::NoiseGridConfig& noise = experiment.noise;
   fields.section("noise", experiment.noise)
       .doc("The grid of white noise on the estimators' signals.");
@@ -510,47 +289,20 @@ static void describe(Fields& fields, Experiment& experiment) {
     fields("workers", experiment.workers, 0, 4096)
         .doc("Threads; 0: one per core. They change no result.");
   }
-  describe_cross_simulator(fields, experiment);
-  const bool draws = experiment.video.enabled || experiment.detail || experiment.cross_simulator;
-  fields.check(
-      !draws || experiment.recordings != KeptRecordings::none, "recordings",
-      "expected all or pictured: the video, the detail and the cross-simulator overlay are "
-      "drawn from them; none goes with video.enabled: false and without the others");
-  fields.know("benchmark");
-  fields.section("benchmark", experiment.benchmark)
-      .doc("Further robots and sensors; every scene is scored separately.");
-  fields.know("odometry");
-  fields.section("odometry", experiment.odometry)
-      .doc("Odometry on every test run, by contact source.");
-  fields.know("operating_points");
-  fields.section("operating_points", experiment.operating_points)
-      .doc("Scores of every estimator with other thresholds.");
-  fields.know("closed_loop");
-  if (fields.present("closed_loop", experiment.closed_loop.has_value())) {
-    if (fields.reading()) experiment.closed_loop.emplace();
-    fields.section("closed_loop", *experiment.closed_loop, experiment)
-        .fallback("none")
-        .doc("Runs with contact feedback from estimators, the truth or no source.");
-  }
-  fields.know("moments");
-  if (fields.present("moments", experiment.moments)) {
-    fields("moments", experiment.moments)
-        .doc("Whether torques are compared with the real robot's.");
-  }
+  const bool draws = experiment.video.enabled || experiment.detail;
+  fields.check(!draws || experiment.recordings != KeptRecordings::none, "recordings",
+               "expected all or pictured: the video and the detail are drawn from them; none goes "
+               "with video.enabled: false and without the detail");
+  for (const StudySection& study : experiment.studies.known()) fields.know(study.key);
+  describe_studies(fields, "", experiment);
 }
 
-std::vector<scoring::Hysteresis> points_of(const OperatingPointsConfig& config) {
-  std::vector<scoring::Hysteresis> points;
-  for (const double leave_below : config.leave_below) {
-    for (const double return_above : config.return_above) {
-      if (leave_below <= return_above) points.push_back({leave_below, return_above});
-    }
+static std::vector<StudyFiles> study_files(const Experiment& experiment) {
+  std::vector<StudyFiles> files;
+  for (const StudySection& study : experiment.studies.known()) {
+    if (study.files) files.push_back(study.files(experiment));
   }
-  return points;
-}
-
-std::size_t points_of(const ClosedLoopScene& scene) {
-  return std::max<std::size_t>(1, scene.values.size()) * scene.noise.size() * scene.delay.size();
+  return files;
 }
 
 std::vector<std::string> scenario_files(const Experiment& experiment) {
@@ -559,19 +311,16 @@ std::vector<std::string> scenario_files(const Experiment& experiment) {
   for (const TrainingSegments& segments : experiment.training_segments) {
     files.push_back(segments.scenario);
   }
-  if (experiment.closed_loop) {
-    for (const ClosedLoopScene& scene : experiment.closed_loop->scenes) {
-      files.push_back(scene.scenario);
-    }
+  for (const StudyFiles& more : study_files(experiment)) {
+    files.insert(files.end(), more.scenarios.begin(), more.scenarios.end());
   }
   return files;
 }
 
 std::vector<std::string> robot_files(const Experiment& experiment) {
   std::vector<std::string> files = {""};
-  if (experiment.benchmark) {
-    const std::vector<std::string>& others = experiment.benchmark->robots;
-    files.insert(files.end(), others.begin(), others.end());
+  for (const StudyFiles& more : study_files(experiment)) {
+    files.insert(files.end(), more.robots.begin(), more.robots.end());
   }
   return files;
 }
@@ -584,32 +333,40 @@ std::vector<std::string> sensor_files(const Experiment& experiment) {
     }
   };
   add(experiment.sensors);
-  if (experiment.benchmark) {
-    for (const std::string& file : experiment.benchmark->sensors) add(file);
+  for (const StudyFiles& more : study_files(experiment)) {
+    for (const std::string& file : more.sensors) add(file);
   }
   return files;
 }
 
-static Experiment default_experiment(std::vector<EstimatorEntry> external_estimators) {
+static Experiment default_experiment(std::vector<StudySection> sections,
+                                     std::vector<EstimatorEntry> external_estimators) {
   Experiment defaults;
+  defaults.studies = StudySections(std::move(sections));
   defaults.external_estimators = std::move(external_estimators);
   defaults.fit = {.scenarios = {}, .runs = 1, .perturbed = false};
   defaults.test = {.scenarios = {}, .runs = 8, .perturbed = true};
   return defaults;
 }
 
-Experiment experiment_from_yaml(const YamlDocument& document,
+Experiment experiment_from_yaml(const YamlDocument& document, std::vector<StudySection> sections,
                                 std::vector<EstimatorEntry> external_estimators) {
   check_external_names(external_estimators);
-  return from_yaml(document, default_experiment(std::move(external_estimators)));
+  return from_yaml(document,
+                   default_experiment(std::move(sections), std::move(external_estimators)));
 }
 
-std::vector<Key> experiment_keys() { return documented_keys(default_experiment({})); }
+std::vector<Key> experiment_keys(std::vector<StudySection> sections) {
+  return documented_keys(default_experiment(std::move(sections), {}));
+}
 
-void require_files(const YamlDocument& document) {
-  require_resources(document,
-                    {"fit.scenarios", "fit.segments.scenario", "test.scenarios", "robot", "sensors",
-                     "benchmark.robots", "benchmark.sensors", "closed_loop.scenes.scenario"});
+void require_files(const YamlDocument& document, const std::vector<StudySection>& sections) {
+  std::vector<std::string> keys = {"fit.scenarios", "fit.segments.scenario", "test.scenarios",
+                                   "robot", "sensors"};
+  for (const StudySection& section : sections) {
+    keys.insert(keys.end(), section.file_keys.begin(), section.file_keys.end());
+  }
+  require_resources(document, keys);
 }
 
 std::string to_yaml(const Experiment& experiment) { return YAML::Dump(to_node(experiment)) + "\n"; }

@@ -9,11 +9,11 @@
 
 #include "core/keys/key.hpp"
 #include "core/yaml.hpp"
+#include "experiments/config/study_sections.hpp"
 #include "experiments/estimators/entry.hpp"
 #include "noise/grid.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
-#include "scoring/operating_point.hpp"
 #include "scoring/transitions.hpp"
 
 namespace touchdown::experiments {
@@ -96,108 +96,6 @@ struct PosteriorConfig {
   noise::NoiseCell noise = {1.0, 5.0};
 };
 
-/// One quantity of the scenario that is varied, with all others unchanged.
-struct Factor {
-  std::string name;
-  std::string key;                      ///< of the scenario, dotted: `terrain.friction`
-  std::vector<double> values;           ///< in the key's own unit
-  std::vector<std::string> simulators;  ///< engines with this quantity; empty: all
-};
-
-/// The conditions for an estimator's verdict.
-struct VerdictConfig {
-  /// Fitted in the other engine, it must lose less accuracy than this (upper end of the paired
-  /// interval).
-  double largest_loss = 0.01;
-  /// Fitted in the other engine, it must exceed always contact by more than this (lower end).
-  double smallest_gain = 0.0;
-  std::vector<std::string> demanded;  ///< estimators that must pass, or the run fails
-};
-
-/// The drop that is plotted in both engines.
-struct OverlayConfig {
-  int run = 0;   ///< index of the test run
-  int drop = 3;  ///< of that run, from 0
-};
-
-/// The section `cross_simulator`: how much the results depend on the engine.
-struct CrossSimulatorConfig {
-  std::vector<Factor> factors;
-  int sensitivity_runs = 4;  ///< test runs per engine and value of a factor, at most
-  VerdictConfig verdict;
-  OverlayConfig overlay;
-};
-
-/// A disturbance of the sensors that is varied, with all others unchanged.
-struct SensorFactor {
-  std::string key;             ///< a key of `noise::with_value`
-  std::vector<double> values;  ///< in its own unit
-};
-
-/// The section `benchmark`: robots and sensors in addition to the experiment's own. Every estimator
-/// is fitted to and tested on each combination. Every scene is scored separately.
-struct BenchmarkConfig {
-  std::vector<std::string> robots;   ///< files
-  std::vector<std::string> sensors;  ///< likewise
-  /// Whether estimators fitted on another robot, other sensors or the other engine are scored, too.
-  bool transfer = false;
-  /// How often every fit is repeated, each time with a bootstrap resample of the fitted runs.
-  /// Intervals then include the variation due to the choice of fitted runs.
-  int refits = 0;
-  /// Whether refits cover all robots and sensors, or only the experiment's own.
-  bool refits_everywhere = false;
-  /// Whether the worst segment of every estimator is filmed, on the experiment's own robot.
-  bool clips = false;
-};
-
-/// The section `odometry`: odometry on every test run, with contact from every estimator, from the
-/// ground truth, and from the ground truth with these delays (docs/odometry.md).
-struct OdometryStudyConfig {
-  std::vector<double> delay;  ///< s
-};
-
-/// The section `operating_points`: scores of every estimator with these thresholds instead of its
-/// own. Each `leave_below` is paired with each `return_above` that is not lower (docs/metrics.md).
-struct OperatingPointsConfig {
-  std::vector<double> leave_below = {0.02, 0.05, 0.1, 0.15, 0.25, 0.4, 0.5, 0.6, 0.75, 0.85, 0.95};
-  std::vector<double> return_above = {0.25, 0.5, 0.75, 0.9, 0.98};
-};
-
-/// The pairs of thresholds.
-std::vector<scoring::Hysteresis> points_of(const OperatingPointsConfig& config);
-
-/// A closed-loop scene with at most one varied quantity: a number of the scenario, the sensor
-/// noise, or the delay of the contact signal.
-struct ClosedLoopScene {
-  std::string scenario;  ///< scenario file
-  std::string key = {};  ///< of the scenario, dotted: `terrain.pieces.1.stairs.rise`; empty: none
-  std::vector<double> values;                  ///< in the key's own unit
-  std::vector<noise::NoiseCell> noise = {{}};  ///< in addition to the sensor model
-  std::vector<double> delay = {0.0};           ///< s
-};
-
-/// The run that is filmed with several contact sources side by side.
-struct ClosedLoopFilm {
-  int scene = 0;                     ///< index of the scene, from 0
-  int point = 0;                     ///< index of the varied value, from 0
-  int run = 0;                       ///< index of the run
-  std::string law;                   ///< one of the section's laws
-  std::vector<std::string> contact;  ///< one to four contact sources
-};
-
-/// The section `closed_loop`: runs of a policy with contact from an estimator, from the ground
-/// truth or without contact feedback (docs/closed_loop.md).
-struct ClosedLoopConfig {
-  std::vector<std::string> laws = {"soft_landing"};  ///< of policies
-  std::vector<std::string> contact;  ///< contact sources: `truth`, `always`, estimators
-  std::vector<ClosedLoopScene> scenes;
-  int runs = 8;  ///< per scene and value, the same for all contact sources
-  std::optional<ClosedLoopFilm> film = {};
-};
-
-/// The number of points of a scene's survival curve.
-std::size_t points_of(const ClosedLoopScene& scene);
-
 /// The content of an experiment file: runs, estimators, sensor noise, scoring and studies.
 struct Experiment {
   std::string name;
@@ -214,9 +112,8 @@ struct Experiment {
   std::optional<std::uint64_t> fit_seed;  ///< for drawing fitted runs, if not `seed`
   std::optional<TuningConfig> tuning;     ///< of hyperparameters on fitted runs
   RunsConfig test;                        ///< runs for scoring; no model is fitted to them
-  std::string robot;                ///< file of the robot in all runs; empty: each scenario's own
-  std::string sensors;              ///< file of the sensor profile; empty: ideal sensors
-  std::vector<SensorFactor> sweep;  ///< of the sensors, one at a time
+  std::string robot;    ///< file of the robot in all runs; empty: each scenario's own
+  std::string sensors;  ///< file of the sensor profile; empty: ideal sensors
   noise::NoiseGridConfig noise;
   std::vector<noise::NoiseCell> highlights;  ///< cells of the grid that are scored in full
   scoring::LabelConfig labels;
@@ -228,12 +125,7 @@ struct Experiment {
   /// defaults.
   std::optional<DetailConfig> detail;
   std::optional<PosteriorConfig> posterior;  ///< likewise
-  std::optional<CrossSimulatorConfig> cross_simulator;
-  std::optional<BenchmarkConfig> benchmark;
-  std::optional<OdometryStudyConfig> odometry;
-  std::optional<OperatingPointsConfig> operating_points;
-  std::optional<ClosedLoopConfig> closed_loop;
-  bool moments = false;       ///< adds tables of torques next to the real robot's (docs/realism.md)
+  StudySections studies;                     ///< sections of the studies that it asks for
   bool paper_tables = false;  ///< prints the paper's Tables I to III for every highlighted cell
   int workers = 0;            ///< threads; 0: one per core. Never changes a result.
 };
@@ -248,18 +140,19 @@ std::vector<std::string> scenario_files(const Experiment& experiment);
 std::vector<std::string> robot_files(const Experiment& experiment);
 std::vector<std::string> sensor_files(const Experiment& experiment);
 
-/// Reads an experiment strictly, which may name these external estimators beside the built-in ones.
-/// It checks the names of engines and estimators, but not the scenario files. Errors: `InputError`
-/// with file:line:column; also for an external estimator with the name of a built-in one.
-Experiment experiment_from_yaml(const YamlDocument& document,
-                                std::vector<EstimatorEntry> external_estimators = {});
+/// Reads an experiment strictly, which may have these studies' sections, and may name these
+/// external estimators beside the built-in ones. It checks the names of engines and estimators, but
+/// not the scenario files. Errors: `InputError` with file:line:column; also for an external
+/// estimator with the name of a built-in one.
+Experiment experiment_from_yaml(const YamlDocument& document, std::vector<StudySection> sections,
+                                std::vector<EstimatorEntry> external_estimators);
 
-/// The keys of an experiment file.
-std::vector<Key> experiment_keys();
+/// The keys of an experiment file with these sections.
+std::vector<Key> experiment_keys(std::vector<StudySection> sections);
 
 /// Checks that the files of an experiment exist. Errors: `InputError` with the file:line:column of
 /// the first missing one, and the nearest existing file.
-void require_files(const YamlDocument& document);
+void require_files(const YamlDocument& document, const std::vector<StudySection>& sections);
 
 /// The experiment as YAML with all defaults, which reads back to the same experiment. It omits
 /// `workers`, which changes no result, and the external estimators.

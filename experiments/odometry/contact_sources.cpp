@@ -24,17 +24,16 @@ ContactTrack delayed_labels(const RunSignals& run, std::size_t steps) {
 
 }  // namespace
 
-std::vector<std::string> oracle_names(const OdometryStudyConfig& config) {
+std::vector<std::string> oracle_names(const std::vector<double>& delays) {
   std::vector<std::string> names = {"truth"};
-  for (const double delay : config.delay)
-    names.push_back(fmt::format("truth_delayed_{}ms", 1e3 * delay));
+  for (const double delay : delays) names.push_back(fmt::format("truth_delayed_{}ms", 1e3 * delay));
   return names;
 }
 
-std::vector<ContactTrack> oracle_tracks(const OdometryStudyConfig& config, const RunSignals& run) {
+std::vector<ContactTrack> oracle_tracks(const std::vector<double>& delays, const RunSignals& run) {
   const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
   std::vector<ContactTrack> tracks = {delayed_labels(run, 0)};
-  for (const double delay : config.delay) {
+  for (const double delay : delays) {
     tracks.push_back(delayed_labels(run, static_cast<std::size_t>(std::llround(delay / period))));
   }
   return tracks;

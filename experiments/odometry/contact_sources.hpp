@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/config/experiment.hpp"
 #include "experiments/signals/run_signals.hpp"
 
 namespace touchdown::experiments {
@@ -13,11 +12,11 @@ namespace touchdown::experiments {
 /// P(contact) of each wheel at every step.
 using ContactTrack = std::array<std::vector<double>, models::wheel_count>;
 
-/// Contact sources of odometry that are no estimators: the labels, without and with delay. They are
-/// oracles: no robot has them, and nothing is ever fitted to them.
-std::vector<std::string> oracle_names(const OdometryStudyConfig& config);
+/// Contact sources of odometry that are no estimators: the labels, without and with these delays
+/// (s). They are oracles: no robot has them, and nothing is ever fitted to them.
+std::vector<std::string> oracle_names(const std::vector<double>& delays);
 /// Their tracks through a run, in the same order. A delayed track starts in contact.
-std::vector<ContactTrack> oracle_tracks(const OdometryStudyConfig& config, const RunSignals& run);
+std::vector<ContactTrack> oracle_tracks(const std::vector<double>& delays, const RunSignals& run);
 
 /// The name in tables of an estimator that is odometry's contact source: `always` for
 /// `always_contact`, else its own name.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -123,7 +124,7 @@ void write_request(const RunRequest& request, const RunDirectory& directory, boo
   write_atomically(directory.path() / "config.yaml", to_yaml(request.experiment));
 }
 
-RunRequest read_request(const fs::path& directory) {
+RunRequest read_request(const fs::path& directory, std::vector<StudySection> sections) {
   const std::optional<RunDirectoryOwner> owner = owner_of(directory);
   if (!owner || owner->key.empty()) {
     throw InputError(fmt::format("{}: holds no part of an experiment", directory.string()));
@@ -134,7 +135,8 @@ RunRequest read_request(const fs::path& directory) {
                     directory.string()));
   }
   RunRequest request;
-  request.experiment = experiment_from_yaml(YamlDocument::load(directory / "config.yaml"));
+  request.experiment =
+      experiment_from_yaml(YamlDocument::load(directory / "config.yaml"), std::move(sections), {});
   request.sensors = read_sensors(request.experiment, directory);
   Digest digest(request.experiment, request.sensors);
   request.scenarios = scenarios_of(

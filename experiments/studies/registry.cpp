@@ -1,5 +1,7 @@
 #include "experiments/studies/registry.hpp"
 
+#include <utility>
+
 #include "experiments/studies/benchmark/study.hpp"
 #include "experiments/studies/closed_loop/study.hpp"
 #include "experiments/studies/cross_simulator/study.hpp"
@@ -14,24 +16,34 @@ namespace touchdown::experiments {
 namespace {
 
 template <typename... Studies>
-std::vector<std::unique_ptr<const Study>> listed() {
+std::vector<std::unique_ptr<const Study>> listed(Studies... studies) {
   std::vector<std::unique_ptr<const Study>> all;
-  (all.push_back(std::make_unique<const Studies>()), ...);
+  (all.push_back(std::move(studies)), ...);
   return all;
 }
 
 }  // namespace
 
 const std::vector<std::unique_ptr<const Study>>& studies() {
-  static const auto all = listed<LabelStudy,            //
-                                 CrossSimulatorStudy,   //
-                                 MomentsStudy,          //
-                                 BenchmarkStudy,        //
-                                 OdometryStudy,         //
-                                 OperatingPointsStudy,  //
-                                 ClosedLoopStudy,       //
-                                 SensorSweepStudy>();
+  static const auto all = listed(label_study(),             //
+                                 cross_simulator_study(),   //
+                                 benchmark_study(),         //
+                                 odometry_study(),          //
+                                 operating_points_study(),  //
+                                 closed_loop_study(),       //
+                                 moments_study(),           //
+                                 sensor_sweep_study());
   return all;
+}
+
+std::vector<StudySection> study_sections() {
+  std::vector<StudySection> sections;
+  for (const auto& study : studies()) {
+    if (std::optional<StudySection> section = study->section()) {
+      sections.push_back(std::move(*section));
+    }
+  }
+  return sections;
 }
 
 std::vector<const Study*> requested_studies(const Experiment& experiment) {

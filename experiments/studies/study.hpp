@@ -1,21 +1,13 @@
 #pragma once
 
-#include <string>
-#include <vector>
+#include <optional>
 
 #include "experiments/evaluation/tasks.hpp"
-#include "experiments/figures/figure_spec.hpp"
+#include "experiments/figures/study_result.hpp"
 #include "experiments/plan/needs.hpp"
 #include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {
-
-/// What a study found, besides its files.
-struct StudyResult {
-  std::vector<std::string> texts = {};           ///< for the terminal
-  std::vector<std::string> failed_demands = {};  ///< estimators that fail a demanded verdict
-  std::vector<FigureSpec> figures = {};          ///< of its tables
-};
 
 /// One question that an experiment file can ask beside the scores of every experiment: what it adds
 /// to the plan, and what it makes of the evaluation. Studies have no state; `studies()` lists them.
@@ -25,6 +17,9 @@ class Study {
   virtual ~Study() = default;
   Study(const Study&) = delete;
   Study& operator=(const Study&) = delete;
+
+  /// Its section of experiment files. Without one, another key asks for the study.
+  virtual std::optional<StudySection> section() const { return std::nullopt; }
 
   /// Whether the experiment file asks for it.
   virtual bool is_requested(const Experiment& experiment) const = 0;

@@ -48,7 +48,7 @@ void keep(std::vector<ExportedRun>& runs, const char* flag, const std::vector<st
 
 std::vector<ExportedRun> exported_runs(const RunRequest& request, const Plan& plan) {
   const Experiment& experiment = request.experiment;
-  if (!experiment.benchmark) {
+  if (!experiment.studies.has<BenchmarkConfig>()) {
     throw InputError(fmt::format(
         "experiment '{}' is no benchmark: expected a section 'benchmark', as in "
         "experiments/benchmark.yaml ('benchmark: {{}}' takes the scenes' own robot and sensors)",

@@ -10,6 +10,7 @@
 #include "core/tables/table.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/tuning/figures.hpp"
 
 namespace touchdown::experiments {
 
@@ -33,8 +34,6 @@ HyperparameterValues hyperparameters_in(const std::string& text) {
 /// Fits are named "_robot_sensors". The column omits the leading underscore.
 std::string fit_text(const std::string& fit) { return fit.starts_with('_') ? fit.substr(1) : fit; }
 
-}  // namespace
-
 void write_table(const std::vector<Trial>& trials, const RunDirectory& directory) {
   const auto columns = Columns<Trial>()
                            .text("simulator", &Trial::simulator)
@@ -47,19 +46,6 @@ void write_table(const std::vector<Trial>& trials, const RunDirectory& directory
                            .metric("balanced_accuracy", &Trial::score)
                            .flag("chosen", &Trial::is_chosen);
   directory.write_table("tuning.csv", columns, trials);
-}
-
-TunedHyperparameters read_chosen(const std::filesystem::path& run_directory) {
-  const std::filesystem::path file = run_directory / "tables" / "tuning.csv";
-  if (!std::filesystem::exists(file)) return {};
-  const Table table = from_csv(read_file(file));
-  TunedHyperparameters chosen;
-  for (const std::vector<std::string>& row : table.rows) {
-    if (cell(table, row, "chosen") != "1" || !cell(table, row, "fit").empty()) continue;
-    chosen[cell(table, row, "simulator")][cell(table, row, "estimator")] =
-        hyperparameters_in(cell(table, row, "hyperparameters"));
-  }
-  return chosen;
 }
 
 std::string tuning_text(const std::vector<Trial>& trials, const Experiment& experiment) {
@@ -77,6 +63,28 @@ std::string tuning_text(const std::vector<Trial>& trials, const Experiment& expe
       "Tuning: balanced accuracy, mean over scenes, of the fitted runs in {}-fold "
       "cross-validation; the best of {} trials\n{}",
       experiment.tuning->folds, experiment.tuning->trials, to_text(table, 2));
+}
+
+}  // namespace
+
+TunedHyperparameters read_chosen(const std::filesystem::path& run_directory) {
+  const std::filesystem::path file = run_directory / "tables" / "tuning.csv";
+  if (!std::filesystem::exists(file)) return {};
+  const Table table = from_csv(read_file(file));
+  TunedHyperparameters chosen;
+  for (const std::vector<std::string>& row : table.rows) {
+    if (cell(table, row, "chosen") != "1" || !cell(table, row, "fit").empty()) continue;
+    chosen[cell(table, row, "simulator")][cell(table, row, "estimator")] =
+        hyperparameters_in(cell(table, row, "hyperparameters"));
+  }
+  return chosen;
+}
+
+StudyResult summarize_tuning(const std::vector<Trial>& trials, const Experiment& experiment,
+                             const RunDirectory& directory) {
+  write_table(trials, directory);
+  return {.texts = {tuning_text(trials, experiment)},
+          .figures = {tuning_figure(directory.read_table("tuning.csv"), experiment)}};
 }
 
 }  // namespace touchdown::experiments

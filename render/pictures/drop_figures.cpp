@@ -1,34 +1,20 @@
 #include "render/pictures/drop_figures.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "core/progress.hpp"
 #include "experiments/drops/detail.hpp"
 #include "experiments/drops/posterior.hpp"
 #include "experiments/results/captions.hpp"
-#include "recordings/log/recording_file.hpp"
 #include "render/curves/drop_detail_figure.hpp"
-#include "render/curves/drop_overlay.hpp"
 #include "render/curves/phase_posterior_figure.hpp"
+#include "render/pictures/chosen_run.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
 
 namespace {
-
-/// The chosen run in one engine. Errors: `InputError` when it is not scored.
-const experiments::Rollout& chosen_run(const experiments::ExperimentResult& result,
-                                       const std::string& simulator, int run, const char* key) {
-  const experiments::Rollout* found = experiments::test_run(result.runs, simulator, run);
-  if (found == nullptr || experiments::is_failure(found->report.outcome)) {
-    throw InputError(fmt::format("{}.run: run {} in {} is not scored", key, run, simulator));
-  }
-  return *found;
-}
 
 std::string which_drop(const experiments::Experiment& experiment,
                        const experiments::DropChoice& choice) {
@@ -56,7 +42,7 @@ Figure draw_detail(const experiments::ExperimentResult& result, const std::strin
   const experiments::DetailConfig& config = *experiment.detail;
   const experiments::Rollout& run = chosen_run(result, simulator, config.choice.run, "detail");
   const recordings::Recording recording =
-      recordings::read_recording(result.directory.file("recordings", run.plan.file));
+      chosen_recording(result, simulator, config.choice.run, "detail");
   const experiments::DropDetail detail =
       experiments::drop_detail(experiment, config, recording, run.signals, result.models);
   const FigureText text{
@@ -99,44 +85,11 @@ FigureText posterior_text(const experiments::Experiment& experiment,
       "of all phases, and the contact probability of both wheels."};
 }
 
-/// Draws a figure. If an engine's run lacks what it shows, prints the reason instead of throwing.
-template <typename Draw>
-void draw_if_possible(const Draw& draw) {
-  try {
-    draw();
-  } catch (const InputError& error) {
-    print_message(fmt::format("touchdown: not drawn: {}\n", error.what()));
-  }
-}
-
-/// One drop of one test run in both engines.
-Figure draw_overlay(const experiments::ExperimentResult& result) {
-  const experiments::Experiment& experiment = result.experiment;
-  const experiments::OverlayConfig& overlay = experiment.cross_simulator->overlay;
-  const DropOverlay what{
-      .drop = overlay.drop,
-      .labels = experiment.labels,
-      .minimum_flight = experiment.scoring.minimum_flight,
-      .title = fmt::format("One drop in both engines: {}", experiment.test.scenarios.front()),
-      .caption = fmt::format("Test run {}, drop {} (of both wheels), seed {}; left wheel and leg, "
-                             "aligned at takeoff, without noise; {}.",
-                             overlay.run, overlay.drop, experiment.seed,
-                             experiments::labels_text(experiment))};
-  const auto recording = [&](const std::string& simulator) {
-    const experiments::Rollout& run = chosen_run(result, simulator, overlay.run, "overlay");
-    return recordings::read_recording(result.directory.file("recordings", run.plan.file));
-  };
-  return draw_drop_overlay(recording(experiment.simulators[0]), recording(experiment.simulators[1]),
-                           what, result.directory.file("figures", "drop_overlay"));
-}
-
 }  // namespace
 
 std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& result) {
   const experiments::Experiment& experiment = result.experiment;
   std::vector<Figure> figures;
-  if (experiment.cross_simulator)
-    draw_if_possible([&] { figures.push_back(draw_overlay(result)); });
   if (experiment.detail) {
     for (const std::string& simulator : experiment.simulators) {
       draw_if_possible([&] { figures.push_back(draw_detail(result, simulator)); });

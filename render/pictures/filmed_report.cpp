@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "render/benchmark/page.hpp"
 #include "render/film/video.hpp"
-#include "render/pictures/closed_loop_film.hpp"
 #include "render/report/html.hpp"
 #include "render/report/report.hpp"
 #include "simulators/registry.hpp"
@@ -107,10 +105,15 @@ std::string film_html(const std::vector<FilmedRun>& runs, const fs::path& direct
 }  // namespace
 
 fs::path make_report(const ReportSubject& subject, const std::vector<FilmedRun>& filmed,
-                     const std::atomic<bool>* stop) {
-  if (subject.experiment.benchmark) write_benchmark_page(subject);
-  const std::string film = filmed.empty() ? "" : film_html(filmed, subject.directory, stop);
-  return write_report(subject, film + closed_loop_films_html(subject));
+                     const std::vector<StudyPictures>& studies, const std::atomic<bool>* stop) {
+  std::string films = filmed.empty() ? "" : film_html(filmed, subject.directory, stop);
+  std::vector<ReportSection> sections;
+  for (const StudyPictures& study : studies) {
+    if (!study.is_requested(subject.experiment)) continue;
+    if (study.section) sections.push_back(study.section(subject));
+    if (study.film_html) films += study.film_html(subject);
+  }
+  return write_report(subject, films, sections);
 }
 
 }  // namespace touchdown::render

@@ -6,15 +6,11 @@
 
 #include "core/files.hpp"
 #include "core/progress.hpp"
-#include "render/benchmark/standings_figure.hpp"
-#include "render/curves/moments_figure.hpp"
 #include "render/figures/facets.hpp"
 #include "render/film/video.hpp"
-#include "render/pictures/closed_loop_film.hpp"
 #include "render/pictures/drop_figures.hpp"
 #include "render/pictures/heatmaps.hpp"
 #include "render/pictures/score_figures.hpp"
-#include "render/pictures/worst_segments.hpp"
 
 namespace touchdown::render {
 
@@ -35,7 +31,7 @@ void film(const experiments::ExperimentResult& result, const FilmedRun& run,
 }  // namespace
 
 void draw_pictures(experiments::ExperimentResult& result, const std::vector<FilmedRun>& filmed,
-                   const std::atomic<bool>* stop) {
+                   const std::vector<StudyPictures>& studies, const std::atomic<bool>* stop) {
   const auto start = std::chrono::steady_clock::now();
   {
     Progress progress("drawing", "kinds of figures", 3);
@@ -44,15 +40,8 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     draw_score_figures(result);
     progress.advance();
     draw_drop_figures(result);
-    if (result.experiment.benchmark) {
-      draw_standings_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
-    }
-    if (result.experiment.moments) {
-      const auto table = [&](const char* name) {
-        return from_csv(read_file(result.directory.file("tables", name)));
-      };
-      draw_moments_figure(table("moments.csv"), table("torque_densities.csv"),
-                          result.directory.file("figures", "moments"));
+    for (const StudyPictures& study : studies) {
+      if (study.draw && study.is_requested(result.experiment)) study.draw(result);
     }
     for (const experiments::FigureSpec& figure : result.figures) {
       draw_facets(figure, from_csv(read_file(result.directory.file("tables", figure.table))),
@@ -60,11 +49,8 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     }
     progress.advance();
   }
-  if (result.experiment.closed_loop && result.experiment.closed_loop->film) {
-    film_closed_loop(result, stop);
-  }
-  if (result.experiment.benchmark && result.experiment.benchmark->clips) {
-    film_worst_segments(result, stop);
+  for (const StudyPictures& study : studies) {
+    if (study.film && study.is_requested(result.experiment)) study.film(result, stop);
   }
   for (const FilmedRun& run : filmed) film(result, run, stop);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

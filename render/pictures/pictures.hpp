@@ -7,12 +7,13 @@
 
 #include "experiments/results/result.hpp"
 #include "render/pictures/filmed_run.hpp"
+#include "render/pictures/study_pictures.hpp"
 
 namespace touchdown::render {
 
-/// Draws all figures and films of an experiment's result into its run directory, and adds the
-/// elapsed time to the provenance.
+/// Draws all figures and films of an experiment's result, those of its studies included, into its
+/// run directory, and adds the elapsed time to the provenance.
 void draw_pictures(experiments::ExperimentResult& result, const std::vector<FilmedRun>& filmed,
-                   const std::atomic<bool>* stop);
+                   const std::vector<StudyPictures>& studies, const std::atomic<bool>* stop);
 
 }  // namespace touchdown::render

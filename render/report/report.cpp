@@ -1,6 +1,7 @@
 #include "render/report/report.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -71,31 +72,19 @@ ReportSection reproduce_section(const ReportSubject& subject) {
   return {"reproduce", "Reproduction", html};
 }
 
-/// A link to the benchmark's own page.
-ReportSection benchmark_section(const ReportSubject& subject) {
-  ReportSection section{"scenes", "Scene by scene", {}};
-  if (subject.experiment.benchmark) {
-    section.html =
-        "<p><a href=\"benchmark.html\">Which estimator works where?</a> The benchmark's page shows "
-        "every scene, for every robot with its sensors.</p>\n";
-  }
-  return section;
-}
-
 }  // namespace
 
-fs::path write_report(const ReportSubject& subject, const std::string& film_html) {
+fs::path write_report(const ReportSubject& subject, const std::string& film_html,
+                      const std::vector<ReportSection>& of_studies) {
   fs::path path = subject.directory / "report.html";
-  write_page(subject, path, header_html(subject),
-             {{"film", "Film", film_html},
-              estimators_section(subject),
-              results_section(subject),
-              benchmark_section(subject),
-              heatmap_section(subject),
-              paper_section(subject),
-              figures_section(subject),
-              more_tables_section(subject),
-              reproduce_section(subject)});
+  std::vector<ReportSection> sections = {
+      {"film", "Film", film_html}, estimators_section(subject), results_section(subject)};
+  sections.insert(sections.end(), of_studies.begin(), of_studies.end());
+  for (ReportSection (*const section)(const ReportSubject&) :
+       {heatmap_section, paper_section, figures_section, more_tables_section, reproduce_section}) {
+    sections.push_back(section(subject));
+  }
+  write_page(subject, path, header_html(subject), std::move(sections));
   return path;
 }
 

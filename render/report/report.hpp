@@ -2,15 +2,19 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "render/report/html.hpp"
 #include "render/report/subject.hpp"
 
 namespace touchdown::render {
 
 /// Writes `report.html` into an experiment's run directory: one file that opens without a network.
 /// It contains the contents of the directory's `manifest.json`, `config.yaml`, `tables/` and
-/// `figures/`, and `film_html`. Missing parts are left out. Returns the file. Errors: `InputError`
-/// when one of these files is broken; `Error` when the report cannot be written.
-std::filesystem::path write_report(const ReportSubject& subject, const std::string& film_html);
+/// `figures/`, `film_html` and the sections `of_studies`. Missing parts are left out. Returns the
+/// file. Errors: `InputError` when one of these files is broken; `Error` when the report cannot be
+/// written.
+std::filesystem::path write_report(const ReportSubject& subject, const std::string& film_html,
+                                   const std::vector<ReportSection>& of_studies);
 
 }  // namespace touchdown::render

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/tables/verbs.hpp"
+#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::render {
 

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "experiments/experiment_context.hpp"
+#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {
 namespace {

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/config/yaml_kind.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "tests/fuzz/entry.hpp"
 
 namespace touchdown::fuzz {

@@ -64,7 +64,7 @@ void add_transfers(const Experiment& experiment, const std::vector<BenchmarkSetu
 
 /// Adds the refits of the in-domain conditions of a group, after all others.
 void add_refits(const Experiment& experiment, RunGroup& group) {
-  const BenchmarkConfig& benchmark = *experiment.benchmark;
+  const BenchmarkConfig& benchmark = experiment.studies.at<BenchmarkConfig>();
   const std::vector<Condition> all = group.conditions;
   for (const Condition& condition : all) {
     if (!condition.is_fitted_in_domain(group.fit)) continue;
@@ -96,10 +96,11 @@ Measure extended_scores() {
 
 std::vector<BenchmarkSetup> benchmark_setups(const RunRequest& request, const Plan& plan) {
   const Experiment& experiment = request.experiment;
+  const auto& benchmark = experiment.studies.at<BenchmarkConfig>();
   const std::string own_robot =
       scenario_of(request, experiment.test.scenarios.front()).scenario.robot;
-  const auto robots = and_own(own_robot, experiment.benchmark->robots);
-  const auto sensors = and_own(experiment.sensors, experiment.benchmark->sensors);
+  const auto robots = and_own(own_robot, benchmark.robots);
+  const auto sensors = and_own(experiment.sensors, benchmark.sensors);
   require_different(robots, "robots");
   require_different(sensors, "sensors");
   std::vector<BenchmarkSetup> all;
@@ -125,18 +126,19 @@ std::vector<BenchmarkSetup> benchmark_setups(const RunRequest& request, const Pl
 
 void add_benchmark(const RunRequest& request, Plan& plan) {
   const Experiment& experiment = request.experiment;
-  for (const std::string& file : experiment.benchmark->sensors) {
+  const auto& benchmark = experiment.studies.at<BenchmarkConfig>();
+  for (const std::string& file : benchmark.sensors) {
     plan.sensors.push_back({short_name(file), profile_of(request.sensors, file)});
   }
   const std::vector<BenchmarkSetup> setups = benchmark_setups(request, plan);
   const std::size_t first = plan.runs.size();
   for (const BenchmarkSetup& setup : setups) {
     const std::string& fit = setup.robot_and_sensors.fit;
-    plan.refits[fit] = refits_of(*experiment.benchmark, fit);
+    plan.refits[fit] = refits_of(benchmark, fit);
     const RobotAndSensors& where = setup.robot_and_sensors;
     if (where.fit.empty()) {
       add_measure(extended_scores(), plan.groups.front());
-      if (experiment.benchmark->transfer) add_transfers(experiment, setups, plan.groups.front());
+      if (benchmark.transfer) add_transfers(experiment, setups, plan.groups.front());
       add_refits(experiment, plan.groups.front());
       continue;
     }
@@ -147,7 +149,7 @@ void add_benchmark(const RunRequest& request, Plan& plan) {
     for (Condition& condition : group.conditions) condition.fit = where.fit;
     add_measure(extended_scores(), group);
     group.fit = where.fit;
-    if (experiment.benchmark->transfer) add_transfers(experiment, setups, group);
+    if (benchmark.transfer) add_transfers(experiment, setups, group);
     add_refits(experiment, group);
     plan_runs(request, RunRole::fit, where, 0, plan);
     plan_segments(request, where, plan);

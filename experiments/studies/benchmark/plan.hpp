@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/plan/plan.hpp"
+#include "experiments/studies/benchmark/config.hpp"
 
 namespace touchdown::experiments {
 

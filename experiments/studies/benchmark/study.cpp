@@ -1,37 +1,45 @@
 #include "experiments/studies/benchmark/study.hpp"
 
+#include "experiments/studies/benchmark/config.hpp"
 #include "experiments/studies/benchmark/overlap.hpp"
 #include "experiments/studies/benchmark/submission_rows.hpp"
+#include "experiments/studies/section_study.hpp"
 
 namespace touchdown::experiments {
 
-bool BenchmarkStudy::is_requested(const Experiment& experiment) const {
-  return experiment.benchmark.has_value();
-}
+namespace {
 
-void BenchmarkStudy::add_needs(const RunRequest& request, Needs& needs) const {
-  // Each robot may run differently, and each combination of robot and sensors has fitted runs.
-  const Experiment& experiment = request.experiment;
-  const auto robots = 1.0 + static_cast<double>(experiment.benchmark->robots.size());
-  const auto profiles = 1.0 + static_cast<double>(experiment.benchmark->sensors.size());
-  const double others = robots * profiles - 1.0;
-  const auto engines = static_cast<double>(experiment.simulators.size());
-  for (const std::string& file : experiment.fit.scenarios) {
-    add_runs(needs, scenario_of(request, file).scenario, others * engines * experiment.fit.runs,
-             0.0);
+class BenchmarkStudy final : public SectionStudy<BenchmarkConfig> {
+ public:
+  std::optional<StudySection> section() const override { return benchmark_section(); }
+
+  void add_needs(const RunRequest& request, Needs& needs) const override {
+    // Each robot may run differently, and each combination of robot and sensors has fitted runs.
+    const Experiment& experiment = request.experiment;
+    const auto& benchmark = section_of(experiment);
+    const auto robots = 1.0 + static_cast<double>(benchmark.robots.size());
+    const auto profiles = 1.0 + static_cast<double>(benchmark.sensors.size());
+    const double others = robots * profiles - 1.0;
+    const auto engines = static_cast<double>(experiment.simulators.size());
+    for (const std::string& file : experiment.fit.scenarios) {
+      add_runs(needs, scenario_of(request, file).scenario, others * engines * experiment.fit.runs,
+               0.0);
+    }
+    needs.setups += others;
   }
-  needs.setups += others;
-}
 
-void BenchmarkStudy::plan(const RunRequest& request, Plan& plan) const {
-  add_benchmark(request, plan);
-}
+  void plan(const RunRequest& request, Plan& plan) const override { add_benchmark(request, plan); }
 
-StudyResult BenchmarkStudy::summarize(const Evaluation& evaluation,
-                                      const RunDirectory& directory) const {
-  const BenchmarkResult found = write_benchmark(evaluation, directory);
-  write_overlap(evaluation.models, evaluation, directory);
-  return {{benchmark_text(found, evaluation.request.experiment)}};
-}
+  StudyResult summarize(const Evaluation& evaluation,
+                        const RunDirectory& directory) const override {
+    const BenchmarkResult found = write_benchmark(evaluation, directory);
+    write_overlap(evaluation.models, evaluation, directory);
+    return {{benchmark_text(found, evaluation.request.experiment)}};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Study> benchmark_study() { return std::make_unique<const BenchmarkStudy>(); }
 
 }  // namespace touchdown::experiments

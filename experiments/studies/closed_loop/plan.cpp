@@ -38,8 +38,9 @@ std::vector<ClosedLoopCell> points(const ClosedLoopScene& scene, ClosedLoopCell 
 
 std::vector<ClosedLoopCell> closed_loop_cells(const Experiment& experiment) {
   std::vector<ClosedLoopCell> cells;
-  if (!experiment.closed_loop) return cells;
-  const ClosedLoopConfig& config = *experiment.closed_loop;
+  const auto* const section = experiment.studies.find<ClosedLoopConfig>();
+  if (section == nullptr) return cells;
+  const ClosedLoopConfig& config = *section;
   for (std::size_t scene = 0; scene < config.scenes.size(); ++scene) {
     for (const std::string& simulator : experiment.simulators) {
       for (const std::string& law : config.laws) {
@@ -56,13 +57,14 @@ std::vector<ClosedLoopCell> closed_loop_cells(const Experiment& experiment) {
 }
 
 std::size_t closed_loop_runs(const Experiment& experiment) {
-  if (!experiment.closed_loop) return 0;
-  return closed_loop_cells(experiment).size() *
-         static_cast<std::size_t>(experiment.closed_loop->runs);
+  const auto* const config = experiment.studies.find<ClosedLoopConfig>();
+  if (config == nullptr) return 0;
+  return closed_loop_cells(experiment).size() * static_cast<std::size_t>(config->runs);
 }
 
 scenarios::Scenario scenario_of(const RunRequest& request, const ClosedLoopCell& cell) {
-  const ClosedLoopScene& scene = request.experiment.closed_loop->scenes[cell.scene];
+  const ClosedLoopScene& scene =
+      request.experiment.studies.at<ClosedLoopConfig>().scenes[cell.scene];
   const NamedScenario& named = scenario_of(request, scene.scenario);
   scenarios::Scenario scenario = named.scenario;
   try {
@@ -85,11 +87,12 @@ scenarios::Scenario scenario_of(const RunRequest& request, const ClosedLoopCell&
 
 void require_closed_loop(const RunRequest& request) {
   const Experiment& experiment = request.experiment;
-  if (!experiment.closed_loop) return;
+  const auto* const config = experiment.studies.find<ClosedLoopConfig>();
+  if (config == nullptr) return;
   const std::int64_t period =
       scenario_of(request, experiment.test.scenarios.front()).scenario.simulation.steps.control_us;
   for (const ClosedLoopCell& cell : closed_loop_cells(experiment)) {
-    const ClosedLoopScene& scene = experiment.closed_loop->scenes[cell.scene];
+    const ClosedLoopScene& scene = config->scenes[cell.scene];
     if (scenario_of(request, cell).simulation.steps.control_us != period) {
       throw InputError(fmt::format(
           "closed_loop.scenes.{}: {} has another control period than the test runs, for which "

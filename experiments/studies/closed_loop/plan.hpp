@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/plan/plan.hpp"
+#include "experiments/studies/closed_loop/config.hpp"
 
 namespace touchdown::experiments {
 

@@ -64,7 +64,7 @@ ClosedLoopMetrics measure_closed_loop(const RunRequest& request, std::size_t run
                                       const FittedModels& models, scenarios::CompiledScenes& scenes,
                                       const ShouldContinue& should_continue) {
   const Experiment& experiment = request.experiment;
-  const auto of_cell = static_cast<std::size_t>(experiment.closed_loop->runs);
+  const auto of_cell = static_cast<std::size_t>(experiment.studies.at<ClosedLoopConfig>().runs);
   const ClosedLoopCell cell = closed_loop_cells(experiment)[run / of_cell];
   try {
     const ClosedLoopRun loop = run_closed_loop(

@@ -121,7 +121,7 @@ Columns<SurvivalRow> survival_columns() {
 
 std::vector<SurvivalRow> survival_rows(const RunRequest& request, const SavedMetrics& saved) {
   const Experiment& experiment = request.experiment;
-  const ClosedLoopConfig& config = *experiment.closed_loop;
+  const auto& config = experiment.studies.at<ClosedLoopConfig>();
   const auto runs = static_cast<std::size_t>(config.runs);
   const std::vector<ClosedLoopCell> cells = closed_loop_cells(experiment);
   std::vector<std::vector<ClosedLoopMetrics>> by_cell;
@@ -163,7 +163,7 @@ std::string survival_text(const std::vector<SurvivalRow>& rows, const Experiment
       "Finished runs of {}, by contact source of the policy{}; equal starts for all sources. At "
       "the last point: RMS slip speed of the tyres at landings, means over runs of the largest "
       "pitch and normal force, false takeoffs per minute of contact:\n",
-      experiment.closed_loop->runs, setup_caption(experiment));
+      experiment.studies.at<ClosedLoopConfig>().runs, setup_caption(experiment));
   const auto table_of = [](const SurvivalRow& row) {
     return std::tuple(row.cell.scene, row.cell.simulator, row.cell.law);
   };

@@ -7,6 +7,8 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/figures/groups.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/results/value_figure.hpp"
+#include "experiments/studies/cross_simulator/config.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -27,10 +29,6 @@ FigureGroups directions(const Experiment& experiment) {
   return groups;
 }
 
-FigureAxis with_interval_columns(const std::string& column, const std::string& title) {
-  return {.column = column, .title = title, .low = column + "_low", .high = column + "_high"};
-}
-
 }  // namespace
 
 FigureSpec transfer_figure(const Table& transfer, const Experiment& experiment) {
@@ -43,8 +41,8 @@ FigureSpec transfer_figure(const Table& transfer, const Experiment& experiment) 
       [](const auto& noise) { return fmt::format("{} N·m, {} m/s²", noise[0], noise[1]); });
   spec.series = directions(experiment);
   spec.rows = groups_in(transfer, "estimator", estimator_title, spec.where);
-  spec.measures = {with_interval_columns("loss", "loss of accuracy"),
-                   with_interval_columns("gain", "gain over always contact")};
+  spec.measures = {axis_with_interval("loss", "loss of accuracy"),
+                   axis_with_interval("gain", "gain over always contact")};
   spec.title = "Transfer between the engines";
   spec.caption = fmt::format(
       "Estimators fitted in one engine and tested in the other, \"fitted → tested\". Loss: "
@@ -60,24 +58,16 @@ std::vector<FigureSpec> sensitivity_figures(const Table& sensitivity,
                                             const Experiment& experiment) {
   std::vector<FigureSpec> specs;
   for (const std::string& simulator : experiment.simulators) {
-    FigureSpec spec;
-    spec.name = "sensitivity_" + simulator;
-    spec.table = "sensitivity.csv";
-    spec.where = {{"simulator", simulator}};
-    spec.panels = groups_in(
-        sensitivity, "factor", [](const auto& name) { return name; }, spec.where);
-    spec.series = groups_in(sensitivity, "estimator", estimator_title, spec.where);
-    spec.colour_order = experiment.estimators;
-    spec.x = {.column = "value", .title = "value of the factor", .scale = AxisScale::ordinal};
-    spec.measures = {with_interval_columns("success", "accuracy")};
+    FigureSpec spec = accuracy_by_value(sensitivity, "sensitivity", "factor", "value of the factor",
+                                        simulator, experiment);
     spec.title =
         fmt::format("Sensitivity of the accuracy: {}", simulators::simulator_title(simulator));
     spec.caption = fmt::format(
         "Accuracy of estimators fitted on the nominal scene, one factor at a time, {} runs each "
         "({}; {}{}; {}). Values are equally spaced; curves are shifted sideways a little.",
-        experiment.cross_simulator->sensitivity_runs, noise_text(experiment.highlights.front()),
-        labels_text(experiment), setup_caption(experiment), intervals_text(experiment));
-    spec.alt = "Accuracy." + values_text(spec, sensitivity);
+        experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs,
+        noise_text(experiment.highlights.front()), labels_text(experiment),
+        setup_caption(experiment), intervals_text(experiment));
     if (!spec.panels.groups.empty()) specs.push_back(std::move(spec));
   }
   return specs;

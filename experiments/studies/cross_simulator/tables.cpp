@@ -10,6 +10,7 @@
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/studies/cross_simulator/config.hpp"
 #include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
@@ -137,7 +138,7 @@ CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
   CaptionedTable table{
       fmt::format("Sensitivity: accuracy of estimators fitted on the nominal scene (*), one "
                   "factor at a time, {} runs each ({}{}).",
-                  result.experiment.cross_simulator->sensitivity_runs,
+                  result.experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs,
                   noise_text(result.experiment.highlights.front()),
                   setup_caption(result.experiment)),
       "sensitivity",
@@ -199,7 +200,7 @@ void write_tables(const CrossSimulatorResult& result, const RunDirectory& direct
   std::string markdown;
   for (const CaptionedTable& table : report_tables(result)) markdown += to_markdown(table) + "\n";
   markdown += "Verdicts\n\n" + verdict_lines(result.verdicts, "- ");
-  write_atomically(directory.file("tables", "cross_simulator.md"), markdown);
+  write_atomically(directory.own_file("tables", "cross_simulator.md"), markdown);
 }
 
 }  // namespace touchdown::experiments

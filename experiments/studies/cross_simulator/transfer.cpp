@@ -8,13 +8,14 @@
 
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/baselines.hpp"
+#include "experiments/studies/cross_simulator/config.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
 std::string words_of(const Verdict& verdict, const Experiment& experiment) {
-  const VerdictConfig& config = experiment.cross_simulator->verdict;
+  const VerdictConfig& config = experiment.studies.at<CrossSimulatorConfig>().verdict;
   const EstimatorEntry& estimator = estimator_entry(experiment, verdict.estimator);
   const bool keeps = verdict.loss < config.largest_loss;
   const bool gains = verdict.gain > config.smallest_gain;
@@ -88,7 +89,7 @@ std::vector<Transfer> transfers(const std::vector<ConditionCounts>& counts,
 
 std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers,
                               const Experiment& experiment) {
-  const VerdictConfig& config = experiment.cross_simulator->verdict;
+  const VerdictConfig& config = experiment.studies.at<CrossSimulatorConfig>().verdict;
   std::vector<Verdict> result;
   for (const Transfer& transfer : transfers) {
     const Condition& condition = transfer.condition;

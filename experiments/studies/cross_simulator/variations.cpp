@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/tables/table.hpp"
+#include "experiments/studies/cross_simulator/config.hpp"
 #include "scenarios/perturbation.hpp"
 #include "scenarios/varied.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 /// Adds the runs of one value, with the perturbations of the experiment's test runs.
 void plan_runs(const RunRequest& request, const Variation& variation, Plan& plan) {
   const Experiment& experiment = request.experiment;
-  const CrossSimulatorConfig& config = *experiment.cross_simulator;
+  const auto& config = experiment.studies.at<CrossSimulatorConfig>();
   const Factor& factor = config.factors[variation.factor_index];
   const NamedScenario& named = scenario_of(request, experiment.test.scenarios.front());
   try {
@@ -55,7 +56,7 @@ std::vector<Variation> variations(const RunRequest& request) {
   const Experiment& experiment = request.experiment;
   const NamedScenario& named = scenario_of(request, experiment.test.scenarios.front());
   std::vector<Variation> all;
-  const std::vector<Factor>& factors = experiment.cross_simulator->factors;
+  const std::vector<Factor>& factors = experiment.studies.at<CrossSimulatorConfig>().factors;
   for (std::size_t f = 0; f < factors.size(); ++f) {
     const double nominal = scenarios::number_at(named.scenario, factors[f].key);
     if (std::isnan(nominal)) {
@@ -97,7 +98,8 @@ std::vector<std::size_t> runs_of(const Variation& variation, const RunRequest& r
   std::vector<std::size_t> runs = plan.runs_in(0);
   std::erase_if(runs,
                 [&](std::size_t run) { return plan.runs[run].simulator != variation.simulator; });
-  runs.resize(static_cast<std::size_t>(request.experiment.cross_simulator->sensitivity_runs));
+  runs.resize(static_cast<std::size_t>(
+      request.experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs));
   return runs;
 }
 

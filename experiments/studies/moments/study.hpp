@@ -1,14 +1,12 @@
 #pragma once
 
+#include <memory>
+
 #include "experiments/studies/study.hpp"
 
 namespace touchdown::experiments {
 
 /// The key `moments`: torques beside the real robot's.
-class MomentsStudy final : public Study {
- public:
-  bool is_requested(const Experiment& experiment) const override;
-  StudyResult summarize(const Evaluation& evaluation, const RunDirectory& directory) const override;
-};
+std::unique_ptr<const Study> moments_study();
 
 }  // namespace touchdown::experiments

@@ -17,7 +17,7 @@ Measure scores_measure(const OdometryStudyConfig& config, const std::string& fit
   measure.name = odometry_measure;
   measure.of_run = [config, score](const MeasuredRun& run) {
     Scores scores;
-    for (const ContactTrack& track : oracle_tracks(config, run.signals)) {
+    for (const ContactTrack& track : oracle_tracks(config.delay, run.signals)) {
       scores.push_back(score(run, {track[0], track[1]}));
     }
     return to_bytes(scores);
@@ -27,7 +27,7 @@ Measure scores_measure(const OdometryStudyConfig& config, const std::string& fit
     return to_bytes(
         Scores{score(made.run, {made.prediction[0].p_contact, made.prediction[1].p_contact})});
   };
-  measure.bytes_of_run = oracle_names(config).size() * sizeof(scoring::TrajectoryScore);
+  measure.bytes_of_run = oracle_names(config.delay).size() * sizeof(scoring::TrajectoryScore);
   measure.bytes_of_prediction = sizeof(scoring::TrajectoryScore);
   return measure;
 }
@@ -35,14 +35,14 @@ Measure scores_measure(const OdometryStudyConfig& config, const std::string& fit
 }  // namespace
 
 std::vector<BenchmarkSetup> odometry_setups(const RunRequest& request, const Plan& plan) {
-  if (request.experiment.benchmark) return benchmark_setups(request, plan);
+  if (request.experiment.studies.has<BenchmarkConfig>()) return benchmark_setups(request, plan);
   RunRequest alone = request;
-  alone.experiment.benchmark.emplace();
+  alone.experiment.studies.emplace<BenchmarkConfig>();
   return benchmark_setups(alone, plan);
 }
 
 void add_odometry_study(const RunRequest& request, Plan& plan) {
-  const OdometryStudyConfig& config = *request.experiment.odometry;
+  const auto& config = request.experiment.studies.at<OdometryStudyConfig>();
   plan.needs_motion = true;
   for (const BenchmarkSetup& setup : odometry_setups(request, plan)) {
     RunGroup& group = plan.groups[setup.group];
@@ -52,7 +52,7 @@ void add_odometry_study(const RunRequest& request, Plan& plan) {
 
 std::vector<std::string> contact_sources_of(const OdometryStudyConfig& config,
                                             const RunGroup& group, const std::string& simulator) {
-  std::vector<std::string> names = oracle_names(config);
+  std::vector<std::string> names = oracle_names(config.delay);
   for (const Condition& condition : tested_on(group.conditions, simulator)) {
     if (condition.is_fitted_in_domain(group.fit)) {
       names.push_back(contact_name(condition.estimator));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/studies/benchmark/plan.hpp"
+#include "experiments/studies/odometry/config.hpp"
 
 namespace touchdown::experiments {
 

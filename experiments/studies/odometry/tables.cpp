@@ -33,12 +33,13 @@ struct SceneRows {
 SceneRows scene_rows(const Evaluation& evaluation, const BenchmarkSetup& setup, std::size_t scene,
                      const std::string& simulator) {
   const Experiment& experiment = evaluation.request.experiment;
+  const auto& config = experiment.studies.at<OdometryStudyConfig>();
   const RunGroup& group = evaluation.plan.groups[setup.group];
-  const std::size_t oracles = oracle_names(*experiment.odometry).size();
+  const std::size_t oracles = oracle_names(config.delay).size();
   const scenarios::Scenario& scenario =
       scenario_of(evaluation.request, experiment.test.scenarios[scene]).scenario;
   SceneRows found;
-  for (const std::string& contact : contact_sources_of(*experiment.odometry, group, simulator)) {
+  for (const std::string& contact : contact_sources_of(config, group, simulator)) {
     OdometryRow row;
     row.simulator = simulator;
     row.scene = scenario.name;

@@ -64,7 +64,7 @@ Measure trajectories(const OdometryStudyConfig& config, int runs) {
     const Texts texts(run);
     if (!is_first_of_scene(run, runs) || texts.is_empty()) return std::string();
     std::string all = texts.truth();
-    for (const ContactTrack& track : oracle_tracks(config, run.signals)) {
+    for (const ContactTrack& track : oracle_tracks(config.delay, run.signals)) {
       all += texts.with_contact({track[0], track[1]});
     }
     return all;
@@ -91,15 +91,16 @@ void write_trajectories(const Evaluation& evaluation, const RunDirectory& direct
       if (found.measure == trajectory_measure) texts += found.bytes;
     }
     if (texts.empty()) continue;
-    std::vector<std::string> names = contact_sources_of(*evaluation.request.experiment.odometry,
-                                                        plan.groups.front(), run.simulator);
+    std::vector<std::string> names =
+        contact_sources_of(evaluation.request.experiment.studies.at<OdometryStudyConfig>(),
+                           plan.groups.front(), run.simulator);
     names.insert(names.begin(), "ground_truth");
     std::size_t begin = 0;
     for (const std::string& name : names) {
       const std::size_t end = texts.find(end_of_text, begin);
       if (end == std::string::npos) throw Error("a state file is too short");
-      write_atomically(directory.file("trajectories", fmt::format("{}_{}_{}.tum", run.simulator,
-                                                                  run.scenario.name, name)),
+      write_atomically(directory.own_file("trajectories", fmt::format("{}_{}_{}.tum", run.simulator,
+                                                                      run.scenario.name, name)),
                        texts.substr(begin, end - begin));
       begin = end + 1;
     }

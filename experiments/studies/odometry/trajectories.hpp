@@ -2,6 +2,7 @@
 
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/run_directory/directory.hpp"
+#include "experiments/studies/odometry/config.hpp"
 
 namespace touchdown::experiments {
 

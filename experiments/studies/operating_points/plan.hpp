@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "experiments/plan/measure.hpp"
+#include "experiments/studies/operating_points/config.hpp"
 
 namespace touchdown::experiments {
 

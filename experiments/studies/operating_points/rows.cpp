@@ -9,6 +9,7 @@
 
 #include "core/tables/verbs.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/studies/operating_points/config.hpp"
 #include "experiments/studies/operating_points/plan.hpp"
 
 namespace touchdown::experiments {
@@ -43,7 +44,7 @@ void add_rows(const Evaluation& evaluation, std::size_t scene, const OperatingRo
               std::vector<OperatingRow>& rows) {
   const RunGroup& group = evaluation.plan.groups.front();
   const std::vector<scoring::Hysteresis> points =
-      points_of(*evaluation.request.experiment.operating_points);
+      points_of(evaluation.request.experiment.studies.at<OperatingPointsConfig>());
   const std::vector<Condition> conditions = tested_on(group.conditions, of_scene.simulator);
   for (const auto& [place, scores] : scores_of(evaluation, scene, of_scene.simulator)) {
     OperatingRow row = of_scene;

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/tables/table.hpp"
+#include "experiments/studies/sensor_sweep/config.hpp"
 #include "noise/sensors/factor.hpp"
 
 namespace touchdown::experiments {
@@ -18,7 +19,7 @@ std::string name_of(const SensorVariation& variation) {
 
 std::vector<SensorVariation> sensor_variations(const Experiment& experiment) {
   std::vector<SensorVariation> all;
-  for (const SensorFactor& factor : experiment.sweep) {
+  for (const SensorFactor& factor : experiment.studies.at<SensorSweepConfig>().factors) {
     for (const double value : factor.values) all.push_back({factor.key, value});
   }
   return all;

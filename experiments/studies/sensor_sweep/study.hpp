@@ -1,16 +1,12 @@
 #pragma once
 
+#include <memory>
+
 #include "experiments/studies/study.hpp"
 
 namespace touchdown::experiments {
 
 /// The section `sweep`: one disturbance of the sensors at a time.
-class SensorSweepStudy final : public Study {
- public:
-  bool is_requested(const Experiment& experiment) const override;
-  void add_needs(const RunRequest& request, Needs& needs) const override;
-  void plan(const RunRequest& request, Plan& plan) const override;
-  StudyResult summarize(const Evaluation& evaluation, const RunDirectory& directory) const override;
-};
+std::unique_ptr<const Study> sensor_sweep_study();
 
 }  // namespace touchdown::experiments

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/config/experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "tests/documented_defaults.hpp"
 
 namespace touchdown::experiments {

@@ -7,6 +7,7 @@
 
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 

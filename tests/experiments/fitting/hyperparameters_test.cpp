@@ -6,6 +6,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {

@@ -14,7 +14,7 @@ TEST(ContactSources, RepeatTheLabelsWithAndWithoutDelay) {
   run.signals.resize(6);
   run.contact = {scoring::ContactSequence{0, 1, 1, 0, 0, 1},
                  scoring::ContactSequence{1, 1, 0, 0, 1, 1}};
-  const OdometryStudyConfig config{{0.02}};
+  const std::vector<double> config{0.02};
   EXPECT_THAT(oracle_names(config), ElementsAre("truth", "truth_delayed_20ms"));
   const std::vector<ContactTrack> tracks = oracle_tracks(config, run);
   ASSERT_EQ(tracks.size(), 2U);

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "experiments/plan/request.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {

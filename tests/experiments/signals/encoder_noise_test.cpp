@@ -4,6 +4,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "noise/grid.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 

@@ -11,6 +11,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/request.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {

@@ -10,6 +10,7 @@
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/table_columns.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "experiments/tables/noise_columns.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "experiments/config/experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {
 namespace {

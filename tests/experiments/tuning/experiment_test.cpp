@@ -7,6 +7,7 @@
 #include "core/tables/table.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "experiments/tuning/table.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"

@@ -10,6 +10,8 @@
 #include "core/files.hpp"
 #include "experiments/results/summary_file.hpp"
 #include "render/benchmark/standings_figure.hpp"
+#include "render/pictures/filmed_report.hpp"
+#include "render/studies/registry.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -71,6 +73,17 @@ class BenchmarkPage : public ::testing::Test {
 
   const ScratchFolder folder_;
 };
+
+TEST_F(BenchmarkPage, IsLinkedFromTheReportOfABenchmarkAlone) {
+  const auto report = [&] {
+    return read_file(make_report(read_subject(folder_.path()), {}, study_pictures(), nullptr));
+  };
+  EXPECT_THAT(report(), HasSubstr("href=\"benchmark.html\""));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "benchmark.html"));
+  const std::string text = config;
+  folder_.write("config.yaml", text.substr(0, text.find("benchmark")));
+  EXPECT_THAT(report(), Not(HasSubstr("benchmark.html")));
+}
 
 TEST_F(BenchmarkPage, ShowsEveryScenesBestAndWorst) {
   const std::string html = page();

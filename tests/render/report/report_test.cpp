@@ -56,7 +56,7 @@ class Report : public ::testing::Test {
       "versions": {"touchdown": "0.1.0", "commit": "v0.1.0-3-gabc<"}, "seeds": {"experiment": 1}})");
     experiments::write_summary({}, folder_.path());
   }
-  std::string page() const { return read_file(write_report(read_subject(folder_.path()), {})); }
+  std::string page() const { return read_file(write_report(read_subject(folder_.path()), {}, {})); }
 
   const ScratchFolder folder_;
 };
@@ -167,10 +167,12 @@ TEST_F(Report, JoinsIntervalsAndMarksMissingNumbers) {
                           HasSubstr(">b</th><td>–</td><td>–</td>")));
 }
 
-TEST_F(Report, LinksTheBenchmarksOwnPage) {
-  EXPECT_THAT(page(), Not(HasSubstr("benchmark.html")));
-  folder_.write("config.yaml", std::string(config) + "benchmark: {}\n");
-  EXPECT_THAT(page(), HasSubstr("href=\"benchmark.html\""));
+TEST_F(Report, HasTheSectionsOfStudiesThatAreNotEmpty) {
+  const auto path =
+      write_report(read_subject(folder_.path()), {},
+                   {{"mine", "My study", "<p>found</p>"}, {"none", "Empty study", ""}});
+  EXPECT_THAT(read_file(path), AllOf(HasSubstr("href=\"#mine\""), HasSubstr("<p>found</p>"),
+                                     Not(HasSubstr("Empty study"))));
 }
 
 TEST_F(Report, RefusesOtherDirectories) {

@@ -11,6 +11,7 @@
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/benchmark/plan.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -9,6 +9,7 @@
 #include "experiments/run_directory/shard.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/closed_loop/rollout.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -11,6 +11,8 @@
 #include "core/files.hpp"
 #include "core/tables/table.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/cross_simulator/config.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -32,7 +34,7 @@ Transfer transfer(const std::string& fit, const std::string& test, double loss_h
 
 Verdict verdict_of(const std::vector<Transfer>& transfers) {
   Experiment experiment;
-  experiment.cross_simulator.emplace().verdict = {
+  experiment.studies.emplace<CrossSimulatorConfig>().verdict = {
       .largest_loss = 0.01, .smallest_gain = 0.0, .demanded = {"robust"}};
   const std::vector<Verdict> all = verdicts(transfers, experiment);
   EXPECT_EQ(all.size(), 1U);
@@ -215,7 +217,7 @@ TEST_F(CrossSimulatorRun, ComparesTransfersVariesAndJudges) {
 TEST_F(CrossSimulatorRun, ConfigurationReadsBackAsWritten) {
   const Experiment config = read();
   const Experiment again = experiment_from_yaml(YamlDocument::parse(to_yaml(config), "again.yaml"));
-  ASSERT_TRUE(again.cross_simulator.has_value());
+  ASSERT_TRUE(again.studies.has<CrossSimulatorConfig>());
   EXPECT_EQ(to_yaml(again), to_yaml(config));
 }
 

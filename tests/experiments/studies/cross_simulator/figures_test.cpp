@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "experiments/studies/cross_simulator/config.hpp"
+
 namespace touchdown::experiments {
 namespace {
 
@@ -12,7 +14,7 @@ Experiment two_engines() {
   Experiment experiment;
   experiment.simulators = {"mujoco", "bullet"};
   experiment.highlights = {{}};
-  experiment.cross_simulator.emplace();
+  experiment.studies.emplace<CrossSimulatorConfig>();
   return experiment;
 }
 

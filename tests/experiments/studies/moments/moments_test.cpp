@@ -10,6 +10,7 @@
 #include "core/tables/table.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "experiments/studies/moments/tables.hpp"
 #include "noise/gaussian.hpp"
 #include "tests/experiments/small_step_scene.hpp"

@@ -5,6 +5,7 @@
 #include "core/files.hpp"
 #include "core/tables/table.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "experiments/studies/sensor_sweep/plan.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"

@@ -1,4 +1,4 @@
-#include "render/pictures/worst_segments.hpp"
+#include "render/studies/worst_segments.hpp"
 
 #include <gtest/gtest.h>
 

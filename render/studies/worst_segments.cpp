@@ -1,4 +1,4 @@
-#include "render/pictures/worst_segments.hpp"
+#include "render/studies/worst_segments.hpp"
 
 #include <algorithm>
 
@@ -79,8 +79,9 @@ void film_worst_segment(const experiments::ExperimentResult& result, const Stand
   options.workers = experiment.workers;
   options.labels = run.labels;
   options.progress = film_progress(fmt::format("filming {}", standing.estimator), stop);
-  render_video({run.source()}, options,
-               result.directory.file("videos", fmt::format("worst_{}.mp4", standing.estimator)));
+  render_video(
+      {run.source()}, options,
+      result.directory.own_file("videos", fmt::format("worst_{}.mp4", standing.estimator)));
 }
 
 }  // namespace

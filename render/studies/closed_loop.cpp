@@ -1,4 +1,4 @@
-#include "render/pictures/closed_loop_film.hpp"
+#include "render/studies/closed_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "experiments/odometry/contact_sources.hpp"
+#include "experiments/studies/closed_loop/config.hpp"
 #include "experiments/studies/closed_loop/rollout.hpp"
+#include "experiments/studies/experiment_file.hpp"
 #include "render/film/video.hpp"
 #include "render/palette.hpp"
 #include "render/pictures/filmed_run.hpp"
@@ -20,12 +22,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using experiments::ClosedLoopConfig;
+
+const experiments::ClosedLoopFilm& film_of(const experiments::Experiment& experiment) {
+  return *experiment.studies.at<ClosedLoopConfig>().film;
+}
+
 std::string loop_film_stem(const std::string& simulator) { return "closed_loop_" + simulator; }
 
 /// The cell of the film's point with this contact source.
 experiments::ClosedLoopCell filmed_cell(const experiments::Experiment& experiment,
                                         const std::string& simulator, const std::string& contact) {
-  const experiments::ClosedLoopFilm& film = *experiment.closed_loop->film;
+  const experiments::ClosedLoopFilm& film = film_of(experiment);
   const std::vector<experiments::ClosedLoopCell> cells = experiments::closed_loop_cells(experiment);
   return *std::find_if(cells.begin(), cells.end(), [&](const experiments::ClosedLoopCell& cell) {
     return cell.simulator == simulator && cell.law == film.law && cell.contact == contact &&
@@ -45,8 +53,8 @@ FilmedRun rollout(const experiments::RunRequest& request, const experiments::Clo
                   const experiments::FittedModels& models, scenarios::CompiledScenes& scenes,
                   const std::atomic<bool>* stop) {
   experiments::ClosedLoopRun run =
-      experiments::run_closed_loop(request, cell, request.experiment.closed_loop->film->run, models,
-                                   scenes, [stop] { return stop == nullptr || !*stop; });
+      experiments::run_closed_loop(request, cell, film_of(request.experiment).run, models, scenes,
+                                   [stop] { return stop == nullptr || !*stop; });
   BeliefTrack track;
   track.name = experiments::contact_title(cell.contact);
   track.colour = colour_of(cell.contact, request.experiment.estimators);
@@ -66,8 +74,10 @@ double first_end(const std::list<FilmedRun>& runs) {
   return end;
 }
 
-}  // namespace
-
+/// Films the run that `closed_loop.film` names, in every engine, as
+/// `videos/closed_loop_<engine>.mp4` with a still picture beside it. Up to four contact sources
+/// start from the same conditions and are shown side by side, with their contact probabilities
+/// below. The runs are simulated again for the film.
 void film_closed_loop(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
   const experiments::RunRequest request = experiments::read_request(result.directory.path());
   const experiments::Experiment& experiment = request.experiment;
@@ -75,7 +85,7 @@ void film_closed_loop(const experiments::ExperimentResult& result, const std::at
   for (const std::string& simulator : experiment.simulators) {
     std::list<FilmedRun> runs;
     std::vector<VideoSource> sources;
-    for (const std::string& contact : experiment.closed_loop->film->contact) {
+    for (const std::string& contact : film_of(experiment).contact) {
       runs.push_back(rollout(request, filmed_cell(experiment, simulator, contact), result.models,
                              scenes, stop));
       sources.push_back(runs.back().source());
@@ -87,14 +97,14 @@ void film_closed_loop(const experiments::ExperimentResult& result, const std::at
     options.workers = experiment.workers;
     options.progress = film_progress(fmt::format("filming the closed loop in {}", simulator), stop);
     const std::string stem = loop_film_stem(simulator);
-    render_video(sources, options, result.directory.file("videos", stem + ".mp4"));
+    render_video(sources, options, result.directory.own_file("videos", stem + ".mp4"));
     render_poster(sources, options, first_end(runs),
-                  result.directory.file("videos", stem + ".jpg"));
+                  result.directory.own_file("videos", stem + ".jpg"));
   }
 }
 
+/// A still picture with a link for each of these films in the run directory; empty without films.
 std::string closed_loop_films_html(const ReportSubject& subject) {
-  if (!subject.experiment.closed_loop || !subject.experiment.closed_loop->film) return {};
   const fs::path folder = subject.directory / "videos";
   std::string html;
   for (const std::string& simulator : subject.experiment.simulators) {
@@ -113,6 +123,16 @@ std::string closed_loop_films_html(const ReportSubject& subject) {
         data_uri("image/jpeg", picture), size_text(bytes));
   }
   return html;
+}
+
+}  // namespace
+
+StudyPictures closed_loop_pictures() {
+  const auto is_filmed = [](const experiments::Experiment& experiment) {
+    const auto* const config = experiment.studies.find<ClosedLoopConfig>();
+    return config != nullptr && config->film;
+  };
+  return {.is_requested = is_filmed, .film = film_closed_loop, .film_html = closed_loop_films_html};
 }
 
 }  // namespace touchdown::render

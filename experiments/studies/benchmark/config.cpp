@@ -1,0 +1,43 @@
+#include "experiments/studies/benchmark/config.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiments/config/optional_section.hpp"
+
+namespace touchdown::experiments {
+
+static void describe(Fields& fields, BenchmarkConfig& benchmark, const Experiment& /*experiment*/) {
+  const auto describe_files = [&](const char* key, std::vector<std::string>& files) {
+    const KeyNotes notes = fields(key, files);
+    for (auto file = files.begin(); file != files.end(); ++file) {
+      fields.check(std::find(files.begin(), file, *file) == file, key,
+                   fmt::format("'{}' appears twice", *file));
+    }
+    return notes;
+  };
+  describe_files("robots", benchmark.robots).doc("Files of further robots.");
+  describe_files("sensors", benchmark.sensors).doc("Files of further sensor profiles.");
+  fields("transfer", benchmark.transfer)
+      .doc("Whether fits on another robot, other sensors or the other engine are scored, too.");
+  fields("refits", benchmark.refits, 0, 1000)
+      .doc("Fits repeated on resampled runs, for wider intervals.");
+  fields("refits_everywhere", benchmark.refits_everywhere)
+      .doc("Whether refits cover all robots and sensors, or the experiment's own.");
+  fields("clips", benchmark.clips).doc("Whether the worst segment of every estimator is filmed.");
+}
+
+StudySection benchmark_section() {
+  StudySection section = optional_section<BenchmarkConfig>(
+      "benchmark", "Further robots and sensors; every scene is scored separately.");
+  section.files = [](const Experiment& experiment) -> StudyFiles {
+    const auto* const benchmark = experiment.studies.find<BenchmarkConfig>();
+    if (benchmark == nullptr) return {};
+    return {.robots = benchmark->robots, .sensors = benchmark->sensors};
+  };
+  section.file_keys = {"benchmark.robots", "benchmark.sensors"};
+  return section;
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "render/pictures/study_pictures.hpp"
+
+namespace touchdown::render {
+
+/// One drop in both engines.
+StudyPictures cross_simulator_pictures();
+
+}  // namespace touchdown::render

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "render/pictures/study_pictures.hpp"
+
+namespace touchdown::render {
+
+/// The torques beside the real robot's.
+StudyPictures moments_pictures();
+
+}  // namespace touchdown::render
