@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/run_directory/own_files.hpp"
+#include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
+#include "render/pictures/pictures.hpp"
+#include "tests/experiments/small_step_scene.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::ThrowsMessage;
+
+namespace fs = std::filesystem;
+
+/// Three runs over a small step with the study's section.
+Experiment with(const ScratchFolder& folder, const std::string& section) {
+  const std::string scene = folder.write("small_step.yaml", small_step_scene).string();
+  return experiment_from_yaml(YamlDocument::parse(
+      "name: prompt\nsimulators: [mujoco]\nestimators: [measurement_only, free_fall]\n"
+      "fit: {scenarios: [" +
+          scene + "], runs: 2, perturbed: true}\ntest: {scenarios: [" + scene +
+          "], runs: 3}\nvideo: {enabled: false}\n" + section,
+      "prompt.yaml"));
+}
+
+/// From decisions at every step: the first delays of all flights of both wheels, in steps; -1 where
+/// a flight is missed.
+std::vector<int> delays(const ExperimentResult& result, const std::string& estimator) {
+  std::vector<int> all;
+  for (const Rollout& run : result.runs) {
+    if (run.plan.role != RunRole::test) continue;
+    const auto runner = make_estimator(result.experiment, {"mujoco", "mujoco", estimator},
+                                       result.models, run.signals);
+    const NoiseRun noise = noise_run(run.signals, noise_key(result.experiment, 0, run.plan.run));
+    const auto decided = decide(*runner, run.signals, noise, result.cells.front().levels());
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      const auto& truth = run.signals.contact[wheel];
+      int since = -1;  // steps since the takeoff of a flight that is not detected
+      for (std::size_t k = 1; k < truth.size(); ++k) {
+        if (truth[k] != 0 && since >= 0) all.push_back(-1);
+        if (truth[k] != 0) since = -1;
+        if (truth[k] == 0 && truth[k - 1] != 0) since = 0;
+        if (since < 0) continue;
+        if (decided[wheel][k] == 0) {
+          all.push_back(since);
+          since = -1;
+        } else {
+          ++since;
+        }
+      }
+    }
+  }
+  return all;
+}
+
+TEST(ExampleStudy, MeasuresTheSharesOfFlightsThatItsMetricDefines) {
+  for (const double within : {0.0, 0.02, 0.5}) {
+    const ScratchFolder folder;
+    RunOptions options;
+    options.out = folder / "run";
+    const Experiment experiment =
+        with(folder, "prompt_takeoffs: {within: " + std::to_string(within) + "}\n");
+    const ExperimentResult result = run_experiment(experiment, options);
+    const Table table = from_csv(read_file(folder / "run/tables/prompt_takeoffs.csv"));
+    ASSERT_EQ(table.rows.size(), 3U);  // two estimators and always contact
+    for (const std::vector<std::string>& row : table.rows) {
+      const std::vector<int> found = delays(result, cell(table, row, "estimator"));
+      ASSERT_GE(found.size(), 6U);
+      const auto prompt = std::count_if(found.begin(), found.end(), [&](int delay) {
+        return delay >= 0 && delay <= static_cast<int>(1000.0 * within + 0.5);
+      });
+      EXPECT_NEAR(std::stod(cell(table, row, "prompt_share")),
+                  static_cast<double>(prompt) / static_cast<double>(found.size()), 1e-4)
+          << cell(table, row, "estimator") << " within " << within;
+      EXPECT_EQ(cell(table, row, "runs"), "3");
+    }
+    EXPECT_THAT(result.studies.back(), HasSubstr("Flights detected soon after takeoff"));
+  }
+}
+
+TEST(ExampleStudy, GetsItsFigureItsResultsAndItsCleaningFromOthers) {
+  const ScratchFolder folder;
+  RunOptions options;
+  options.out = folder / "run";
+  ExperimentResult result = run_experiment(with(folder, "prompt_takeoffs: {}\n"), options);
+  EXPECT_THAT(read_file(folder / "run/tables/results.csv"), HasSubstr("\nprompt_takeoffs,mujoco,"));
+  ASSERT_EQ(result.figures.size(), 1U);
+  render::draw_pictures(result, {}, {}, nullptr);
+  EXPECT_TRUE(fs::exists(folder / "run/figures/prompt_takeoffs.png"));
+  folder.write("run/tables/mine.csv", "precious");
+  remove_own_files(folder / "run");
+  EXPECT_FALSE(fs::exists(folder / "run/tables/prompt_takeoffs.csv"));
+  EXPECT_FALSE(fs::exists(folder / "run/figures/prompt_takeoffs.png"));
+  EXPECT_TRUE(fs::exists(folder / "run/tables/mine.csv"));
+}
+
+TEST(ExampleStudy, IsTheSameInShards) {
+  const ScratchFolder folder;
+  const Experiment experiment = with(folder, "prompt_takeoffs: {within: 0.03}\n");
+  RunOptions options;
+  options.out = folder / "whole";
+  run_experiment(experiment, options);
+  options.out = folder / "shards";
+  for (int shard = 1; shard <= 3; ++shard) run_shard(experiment, Shard{shard, 3}, options);
+  merge_run(folder / "shards", options);
+  for (const char* table : {"tables/prompt_takeoffs.csv", "tables/results.csv"}) {
+    EXPECT_EQ(read_file(folder / "shards" / table), read_file(folder / "whole" / table)) << table;
+  }
+}
+
+TEST(ExampleStudy, HasASectionLikeAnyOther) {
+  const ScratchFolder folder;
+  const Experiment without = with(folder, "");
+  EXPECT_THAT(to_yaml(without), Not(HasSubstr("prompt_takeoffs")));
+  const std::string text = to_yaml(with(folder, "prompt_takeoffs: {within: 0.03}\n"));
+  EXPECT_THAT(text, HasSubstr("prompt_takeoffs:\n  within: 0.03\n"));
+  EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))), text);
+  EXPECT_NE(request_of(without).id, request_of(with(folder, "prompt_takeoffs: {}\n")).id);
+  const auto complaint = [&](const std::string& section, const char* expected) {
+    EXPECT_THAT([&] { with(folder, section); },
+                ThrowsMessage<InputError>(AllOf(HasSubstr("prompt.yaml:7:"), HasSubstr(expected))));
+  };
+  complaint("prompt_takeofs: {}\n", "did you mean 'prompt_takeoffs'?");
+  complaint("prompt_takeoffs: {withn: 0.1}\n", "did you mean 'within'?");
+  complaint("prompt_takeoffs: {within: 2}\n", "from 0 to 1");
+  complaint("prompt_takeoffs: {within: soon}\n", "a number");
+  const std::vector<Key> keys = experiment_keys();
+  EXPECT_TRUE(std::any_of(keys.begin(), keys.end(), [](const Key& key) {
+    return key.path == "prompt_takeoffs.within" && key.unit == "s";
+  }));
+}
+
+TEST(ExampleStudy, IsAtMostEightyLines) {
+  int lines = 0;
+  for (const auto& entry :
+       fs::directory_iterator(TOUCHDOWN_SOURCE_DIR "/examples/study/prompt_takeoffs")) {
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) ++lines;
+  }
+  EXPECT_LE(lines, 80);
+  EXPECT_GT(lines, 40);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
