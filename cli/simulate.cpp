@@ -10,6 +10,7 @@
 #include "experiments/config/yaml_kind.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/generation/named.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "scoring/labels.hpp"
 
@@ -27,12 +28,11 @@ struct SimulateFlags {
 };
 
 void simulate(const SimulateFlags& flags, const CliSession& session) {
-  const std::filesystem::path file = find_resource(flags.scenario);
-  YamlDocument document = YamlDocument::load(file);
+  YamlDocument document = scenarios::scenario_document(flags.scenario);
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
   experiments::require_yaml_kind(document, experiments::YamlKind::scenario);
   scenarios::Scenario scenario = scenarios::complete_scenario(document);
-  check_outputs({{file, "scenario"}, {scenario.robot, "robot"}}, {flags.output});
+  check_outputs({{document.name(), "scenario"}, {scenario.robot, "robot"}}, {flags.output});
   require_extension(flags.output, {".mpack"}, "a recording");
   if (flags.run >= 0) scenario = scenarios::perturbed(scenario, flags.seed, flags.run);
 
@@ -66,7 +66,9 @@ void add_simulate(CLI::App& program, const CliSession& session) {
             "touchdown simulate scenarios/stairs.yaml --simulator bullet -o stairs.mpack\n\n"
             "Simulates one run of a scenario and records it as an Upkie log.");
   const auto flags = std::make_shared<SimulateFlags>();
-  verb.option("scenario", &flags->scenario, "Scenario file").required();
+  verb.option("scenario", &flags->scenario,
+              "Scenario file, or a drawn scenario such as drawn:kerbs_7_000")
+      .required();
   verb.option("--simulator", &flags->simulator, "Physics engine").shows_default();
   verb.option("-o,--output", &flags->output, "Recording to write")
       .value_name("FILE.mpack")

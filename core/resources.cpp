@@ -84,16 +84,16 @@ void require_file(const std::filesystem::path& path) {
 
 namespace {
 
-/// Checks the files at the end of a dotted key below `node`, in all items of a list.
+/// Checks the names at the end of a dotted key below `node`, in all items of a list.
 void require_below(const YamlDocument& document, const YAML::Node& node, const std::string& key,
-                   std::string_view rest) {
+                   std::string_view rest, const std::function<void(const std::string&)>& require) {
   if (node.IsSequence()) {
     for (std::size_t i = 0; i < node.size(); ++i) {
-      require_below(document, node[i], fmt::format("{}.{}", key, i), rest);
+      require_below(document, node[i], fmt::format("{}.{}", key, i), rest, require);
     }
   } else if (rest.empty() && node.IsScalar()) {
     try {
-      (void)find_resource(node.Scalar());
+      require(node.Scalar());
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}: {}", document.place_of(node, key), key, error.what()));
     }
@@ -103,14 +103,15 @@ void require_below(const YamlDocument& document, const YAML::Node& node, const s
     const YAML::Node below = node[name];
     if (!below) return;
     require_below(document, below, key.empty() ? name : fmt::format("{}.{}", key, name),
-                  rest.substr(std::min(dot + 1, rest.size())));
+                  rest.substr(std::min(dot + 1, rest.size())), require);
   }
 }
 
 }  // namespace
 
-void require_resources(const YamlDocument& document, const std::vector<std::string>& keys) {
-  for (const std::string& key : keys) require_below(document, document.root(), "", key);
+void require_resources(const YamlDocument& document, const std::vector<std::string>& keys,
+                       const std::function<void(const std::string&)>& require) {
+  for (const std::string& key : keys) require_below(document, document.root(), "", key, require);
 }
 
 }  // namespace touchdown

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,11 @@ void require_file(const std::filesystem::path& path);
 std::vector<std::filesystem::path> resources_in(const std::filesystem::path& folder,
                                                 const std::string& extension);
 
-/// Checks that every file exists that a document names under these dotted keys, for example
-/// "fit.segments.scenario". Keys apply to all items of a list. Errors: `InputError` for the first
-/// missing file, with the position of its name in the document.
-void require_resources(const YamlDocument& document, const std::vector<std::string>& keys);
+/// Checks the names that a document has under these dotted keys, for example
+/// "fit.segments.scenario", by `require`, which throws `InputError` for a wrong one. Keys apply to
+/// all items of a list. Errors: `InputError` for the first wrong name, with its position in the
+/// document.
+void require_resources(const YamlDocument& document, const std::vector<std::string>& keys,
+                       const std::function<void(const std::string& name)>& require);
 
 }  // namespace touchdown

@@ -15,6 +15,7 @@
 #include "python/recording_arrays.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/generation/named.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "scoring/metrics.hpp"
 #include "simulators/registry.hpp"
@@ -35,7 +36,7 @@ py::tuple simulate(const fs::path& scenario, const std::string& simulator, std::
                    std::optional<std::int64_t> run, const std::vector<std::string>& assignments) {
   if (run && *run < 0) throw InputError("run: expected a number of at least 0");
   return with_info(long_call([&](const std::atomic<bool>& stop) {
-    YamlDocument document = YamlDocument::load(find_resource(scenario));
+    YamlDocument document = scenarios::scenario_document(scenario.string());
     for (const std::string& assignment : assignments) document.override_value(assignment);
     experiments::require_yaml_kind(document, experiments::YamlKind::scenario);
     scenarios::Scenario rollout = scenarios::complete_scenario(document);

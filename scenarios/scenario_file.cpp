@@ -90,13 +90,4 @@ Scenario complete_scenario(const YamlDocument& document) {
   return scenario;
 }
 
-Scenario find_scenario(const std::filesystem::path& path, const std::string& robot) {
-  YamlDocument document = YamlDocument::load(find_resource(path));
-  if (!robot.empty()) {
-    (void)find_resource(robot);  // otherwise the error would name the scenario
-    document.override_value("robot=" + robot);
-  }
-  return complete_scenario(document);
-}
-
 }  // namespace touchdown::scenarios

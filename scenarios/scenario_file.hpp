@@ -17,9 +17,6 @@ namespace touchdown::scenarios {
 /// Errors: `InputError` with file:line:column of either file.
 Scenario complete_scenario(const YamlDocument& document);
 
-/// The same for a path that `find_resource` resolves. A non-empty `robot` replaces the scenario's.
-Scenario find_scenario(const std::filesystem::path& path, const std::string& robot = {});
-
 /// The keys of a YAML file about a robot, those that its balancer reads included.
 std::vector<Key> robot_keys();
 

@@ -14,7 +14,7 @@
 #include "noise/sensors/reported.hpp"
 #include "recordings/signals_from.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/scenario_file.hpp"
+#include "scenarios/generation/named.hpp"
 
 namespace touchdown::training {
 

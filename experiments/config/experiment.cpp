@@ -10,6 +10,7 @@
 #include "core/file_names.hpp"
 #include "core/resources.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "scenarios/generation/named.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -56,8 +57,35 @@ std::vector<std::string> shown_by_default(const std::vector<std::string>& estima
 
 }  // namespace
 
+/// Files and drawn scenarios. A written experiment has the names of both.
+static void describe_scenarios(Fields& section, RunsConfig& runs) {
+  section("files", runs.scenarios).doc("Scenario files, before the drawn ones.");
+  section.know("generate");
+  std::optional<scenarios::Generation> generation;
+  section.section("generate", generation).doc("Scenarios to draw (`touchdown generate`).");
+  if (!generation || section.documenting()) return;
+  for (const scenarios::GeneratedScenario& drawn : scenarios::generate(*generation)) {
+    runs.scenarios.push_back(scenarios::drawn_name(drawn));
+  }
+}
+
 static void describe(Fields& fields, RunsConfig& runs) {
-  fields.require("scenarios", runs.scenarios).doc("Scenario files.");
+  constexpr const char* key = "scenarios";
+  fields.require(key);
+  const bool is_section = fields.documenting() || (fields.reading() && fields.node()[key].IsMap());
+  if (is_section) {
+    fields.within(key, [&](Fields& section) { describe_scenarios(section, runs); })
+        .type("list of texts, or section")
+        .doc("Scenario files, or names of drawn scenarios such as drawn:kerbs_7_000.");
+  } else {
+    fields(key, runs.scenarios);
+  }
+  for (std::size_t i = 0; i < runs.scenarios.size(); ++i) {
+    const std::string& name = runs.scenarios[i];
+    if (scenarios::is_drawn(name)) {
+      fields.check(key, [&] { (void)scenarios::generate_named(name); });
+    }
+  }
   fields.check(!runs.scenarios.empty(), "scenarios", "expected at least one scenario file");
   fields("runs", runs.runs, 1, 100'000).doc("Runs of each scenario.");
   fields("perturbed", runs.perturbed).doc("Whether perturbations are drawn from the seed.");
@@ -361,12 +389,15 @@ std::vector<Key> experiment_keys(std::vector<StudySection> sections) {
 }
 
 void require_files(const YamlDocument& document, const std::vector<StudySection>& sections) {
-  std::vector<std::string> keys = {"fit.scenarios", "fit.segments.scenario", "test.scenarios",
-                                   "robot", "sensors"};
+  std::vector<std::string> keys = {
+      "fit.scenarios", "fit.scenarios.files",  "test.scenarios", "test.scenarios.files", "robot",
+      "sensors",       "fit.segments.scenario"};
   for (const StudySection& section : sections) {
     keys.insert(keys.end(), section.file_keys.begin(), section.file_keys.end());
   }
-  require_resources(document, keys);
+  require_resources(document, keys, [](const std::string& name) {
+    if (!scenarios::is_drawn(name)) (void)find_resource(name);
+  });
 }
 
 std::string to_yaml(const Experiment& experiment) { return YAML::Dump(to_node(experiment)) + "\n"; }

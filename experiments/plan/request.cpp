@@ -14,7 +14,7 @@
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
-#include "scenarios/scenario_file.hpp"
+#include "scenarios/generation/named.hpp"
 
 namespace touchdown::experiments {
 

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/yaml.hpp"
 #include "scenarios/generation/family.hpp"
 #include "scenarios/generation/force_families.hpp"
 #include "scenarios/generation/motion_families.hpp"
@@ -20,10 +24,20 @@ const std::vector<Family>& families() {
       {"pushes", "Pushed from all sides while it stands.", draw_pushes},
       {"push_offs", "Pushed over the edge of a platform, straight or at an angle.", draw_push_offs},
       {"drives", "Random drive commands on level ground, always in contact.", draw_drives},
-      {"squats", "Legs that bend quickly, always in contact.", draw_squats},
+      {"squats", "Legs that bend quickly: the torso falls.", draw_squats},
       {"hops", "Legs that extend quickly: small hops.", draw_hops},
   };
   return all;
+}
+
+const Family& family_called(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Family& family : families()) {
+    if (family.name == name) return family;
+    names.push_back(family.name);
+  }
+  throw InputError(
+      fmt::format("there is no family of scenarios '{}'{}", name, did_you_mean(name, names)));
 }
 
 }  // namespace touchdown::scenarios

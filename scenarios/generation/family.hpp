@@ -19,4 +19,7 @@ struct Family {
 /// All families, in the order in which `generate` takes turns.
 const std::vector<Family>& families();
 
+/// Errors: `InputError` for an unknown family, with the nearest one.
+const Family& family_called(const std::string& name);
+
 }  // namespace touchdown::scenarios

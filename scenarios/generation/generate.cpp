@@ -1,7 +1,5 @@
 #include "scenarios/generation/generate.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
@@ -93,15 +91,10 @@ GeneratedScenario generate(const Family& family, std::uint64_t seed, std::uint64
 }
 
 std::vector<GeneratedScenario> generate(const Generation& generation) {
-  const std::vector<std::string> all_names = family_names();
   std::vector<const Family*> chosen;
-  for (const std::string& name : generation.families.empty() ? all_names : generation.families) {
-    const auto found = std::find(all_names.begin(), all_names.end(), name);
-    if (found == all_names.end()) {
-      throw InputError(fmt::format("there is no family of scenarios '{}'{}", name,
-                                   did_you_mean(name, all_names)));
-    }
-    chosen.push_back(&families()[static_cast<std::size_t>(found - all_names.begin())]);
+  for (const std::string& name : generation.families) chosen.push_back(&family_called(name));
+  if (chosen.empty()) {
+    for (const Family& family : families()) chosen.push_back(&family);
   }
   std::vector<GeneratedScenario> all;
   for (int i = 0; i < generation.count; ++i) {

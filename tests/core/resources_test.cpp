@@ -19,7 +19,8 @@ using ::testing::ThrowsMessage;
 std::string missing_in(YamlDocument document, const std::string& assignment = "") {
   if (!assignment.empty()) document.override_value(assignment);
   try {
-    require_resources(document, {"robot", "fit.scenarios", "fit.segments.scenario"});
+    require_resources(document, {"robot", "fit.scenarios", "fit.segments.scenario"},
+                      [](const std::string& name) { (void)find_resource(name); });
   } catch (const InputError& error) {
     return error.what();
   }

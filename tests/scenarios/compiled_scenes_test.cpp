@@ -4,6 +4,7 @@
 
 #include "core/resources.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/generation/named.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "simulators/registry.hpp"
 

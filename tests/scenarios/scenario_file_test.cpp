@@ -1,3 +1,4 @@
+#include "scenarios/generation/named.hpp"
 #include "scenarios/scenario_file.hpp"
 
 #include <filesystem>

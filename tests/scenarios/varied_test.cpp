@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "scenarios/generation/named.hpp"
 #include "scenarios/scenario_file.hpp"
 
 namespace touchdown::scenarios {

@@ -24,7 +24,7 @@
 #include "recordings/models/neural_network.hpp"
 #include "render/figures/facets.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/scenario_file.hpp"
+#include "scenarios/generation/named.hpp"
 #include "simulators/registry.hpp"
 #include "training/initial_weights.hpp"
 #include "training/rollout.hpp"

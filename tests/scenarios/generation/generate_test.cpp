@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "scenarios/generation/named.hpp"
 #include "scenarios/generation/rules.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "tests/scenarios/runs.hpp"
@@ -46,6 +47,21 @@ TEST(Generation, RefusesAnUnknownFamilyAndNamesTheNearest) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("did you mean 'kerbs'?"), std::string::npos);
+  }
+}
+
+TEST(Generation, OfANameGivesTheScenarioOfTheFile) {
+  for (const GeneratedScenario& drawn : generate({.seed = 5, .count = 16})) {
+    EXPECT_EQ(generate_named(drawn_name(drawn)).text, drawn.text);
+    EXPECT_EQ(find_scenario(drawn_name(drawn)).name, drawn.name);
+  }
+}
+
+TEST(Generation, RefusesNamesThatAreNone) {
+  for (const char* name : {"drawn:", "drawn:kerbs", "drawn:kerbs_7", "drawn:kerbs_7_x",
+                           "drawn:kerbs_-1_0", "drawn:kerbs_7_1.5", "drawn:7_1",
+                           "drawn:kerbs_99999999999999999999_1", "drawn:Kerbs_7_1", "kerbs_7_1"}) {
+    EXPECT_THROW((void)generate_named(name), InputError) << name;
   }
 }
 
