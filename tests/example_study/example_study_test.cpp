@@ -126,8 +126,8 @@ TEST(ExampleStudy, HasASectionLikeAnyOther) {
   const ScratchFolder folder;
   const Experiment without = with(folder, "");
   EXPECT_THAT(to_yaml(without), Not(HasSubstr("prompt_takeoffs")));
-  const std::string text = to_yaml(with(folder, "prompt_takeoffs: {within: 0.03}\n"));
-  EXPECT_THAT(text, HasSubstr("prompt_takeoffs:\n  within: 0.03\n"));
+  const std::string text = to_yaml(with(folder, "prompt_takeoffs: {within: 0.25}\n"));
+  EXPECT_THAT(text, HasSubstr("prompt_takeoffs:\n  within: 0.25\n"));
   EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))), text);
   EXPECT_NE(request_of(without).id, request_of(with(folder, "prompt_takeoffs: {}\n")).id);
   const auto complaint = [&](const std::string& section, const char* expected) {
