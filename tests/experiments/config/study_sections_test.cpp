@@ -88,7 +88,7 @@ TEST(StudySections, ComplainOnTheLineWithTheNearestKey) {
                 ThrowsMessage<InputError>(AllOf(HasSubstr(place), HasSubstr(expected))))
         << tail;
   };
-  complaint("frist: {}\n", "study.yaml:4:1", "did you mean 'first'?");
+  complaint("firstt: {}\n", "study.yaml:4:1", "did you mean 'first'?");
   complaint("secon: {}\nfirst: {}\n", "study.yaml:4:1", "did you mean 'second'?");
   complaint("first: {run: 1}\n", "study.yaml:4:", "did you mean 'runs'?");
   complaint("first: {runs: 4}\n", "study.yaml:4:", "from 1 to 3");  // another section's value
