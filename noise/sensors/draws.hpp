@@ -19,6 +19,7 @@ enum class DrawnFor : std::uint16_t {
   coloured = 6,
   white = 7,
   dropout = 8,
+  tail = 9,
 };
 
 /// The random draws of one channel of one run. Each draw is a function of (seed, run, channel,

@@ -36,6 +36,8 @@ constexpr std::array disturbances = {
     VariedDisturbance{"low_pass", [](SensorChannel& c) -> double& { return c.low_pass; }, true,
                       true, false},
     VariedDisturbance{"white", [](SensorChannel& c) -> double& { return c.white; }, false},
+    VariedDisturbance{"degrees_of_freedom",
+                      [](SensorChannel& c) -> double& { return c.degrees_of_freedom; }, true},
     VariedDisturbance{"range", [](SensorChannel& c) -> double& { return c.range; }, false, true,
                       false},
     VariedDisturbance{"resolution", [](SensorChannel& c) -> double& { return c.resolution; }, false,

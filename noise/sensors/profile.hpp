@@ -62,6 +62,8 @@ struct SensorChannel {
   ColouredNoise coloured = {};
   double low_pass = 0.0;  ///< time constant (s); 0: none
   double white = 0.0;     ///< standard deviation of the white noise
+  /// Of the white noise's Student t distribution, above 2; infinite: a normal distribution.
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();
   double range = std::numeric_limits<double>::infinity();  ///< values are clipped to ± this
   double resolution = 0.0;                                 ///< step of the values; 0: none
   double rate = 0.0;   ///< sample rate (Hz), samples are held; 0: one per step

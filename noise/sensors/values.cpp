@@ -48,6 +48,16 @@ void add_coloured(std::span<double> values, const ColouredNoise& noise, double p
   }
 }
 
+/// Turns draws from N(0, 1) into draws from Student's t distribution, scaled to variance 1. With a
+/// second independent draw, z² + y² = −2 ln u for a uniform u, and z/√(z² + y²) is the cosine of a
+/// uniform angle: Bailey's polar method (Bailey 1994, Theorem 2) in terms of normal draws.
+void make_tails_heavy(std::span<double> normal, std::span<const double> other, double freedom) {
+  for (std::size_t k = 0; k < normal.size(); ++k) {
+    const double square = normal[k] * normal[k] + other[k] * other[k];
+    normal[k] *= std::sqrt((freedom - 2.0) * std::expm1(square / freedom) / square);
+  }
+}
+
 void low_pass(std::span<double> values, double gain, ChannelState& state) {
   if (state.step == 0) state.filtered = values.front();
   for (double& value : values) {
@@ -91,7 +101,11 @@ void disturb_values(std::span<double> values, const SensorChannel& channel, doub
   if (channel.low_pass > 0.0) low_pass(values, -std::expm1(-period / channel.low_pass), state);
   if (channel.white > 0.0) {
     const std::span<const double> normal = series(DrawnFor::white);
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] += channel.white * normal[k];
+    std::vector<double> white(normal.begin(), normal.end());
+    if (std::isfinite(channel.degrees_of_freedom)) {
+      make_tails_heavy(white, series(DrawnFor::tail), channel.degrees_of_freedom);
+    }
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += channel.white * white[k];
   }
   if (std::isfinite(channel.range)) {
     for (double& value : values) value = std::clamp(value, -channel.range, channel.range);

@@ -48,7 +48,8 @@ TEST(AVariedProfile, RefusesWhatThereIsNot) {
         << key;
   };
   refused("dropot", 0.1, "did you mean 'dropout'?");
-  refused("white", 0.1, "'white' is not one of scale, low_pass, rate, delay, dropout");
+  refused("white", 0.1,
+          "'white' is not one of scale, low_pass, degrees_of_freedom, rate, delay, dropout");
   refused("acelerometer.delay", 0.1, "did you mean 'accelerometer'?");
   refused("torque.kne.white", 0.1, "did you mean 'knee'?");
   refused("accelerometer.z.delay", 0.1, "'delay' is not one of scale, bias");

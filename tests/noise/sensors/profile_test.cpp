@@ -54,6 +54,7 @@ TEST(SensorProfile, ThatIsWrittenReadsBackToTheSame) {
   const SensorProfile profile = read(
       "torque: {scale: {sd: 0.03}, knee: {dropout: {kind: nan, rate: 0.01, length: 0.02}}}\n"
       "velocity: {low_pass: {cut_off: 123.4}, delay: 0.002, range: 28.8}\n"
+      "position: {white: 0.1, degrees_of_freedom: 5, wheel: {degrees_of_freedom: 2.5}}\n"
       "accelerometer: {range: 157, vibration: {amplitude: 0.1, order: 2}, rate: 333,\n"
       "                dropout: {kind: missing, rate: 1e-3}, x: {white: 0.1}}\n"
       "orientation: {coloured: {sd: 0.01, time_constant: 3}}\n"
@@ -73,6 +74,7 @@ TEST(SensorProfile, IsNotIdealOnceAnyOfItsDisturbancesChangesAnything) {
     EXPECT_FALSE(is_ideal(read(text))) << text;
   }
   EXPECT_TRUE(is_ideal(read("gyroscope: {vibration: {order: 3}, dropout: {kind: nan}}")));
+  EXPECT_TRUE(is_ideal(read("torque: {degrees_of_freedom: 3}")));  // without white noise
 }
 
 TEST(SensorProfile, AValueThatCannotBeIsShownWithItsPlaceAndWhatWasExpected) {
@@ -82,6 +84,10 @@ TEST(SensorProfile, AValueThatCannotBeIsShownWithItsPlaceAndWhatWasExpected) {
             "s.yaml:3:21: torque.knee.dropout.rate: expected a number from 0 to 1");
   EXPECT_EQ(complaint_about("gyroscope: {white: .nan}"),
             "s.yaml:1:20: gyroscope.white: expected a number from 0 to 10000");
+  EXPECT_THAT(complaint_about("torque: {degrees_of_freedom: 2}"),
+              HasSubstr("torque.degrees_of_freedom: expected a number from 2.1 to"));
+  EXPECT_THAT(complaint_about("orientation: {x: {degrees_of_freedom: .inf}}"),
+              HasSubstr("orientation.x.degrees_of_freedom: expected a number from 2.1 to"));
   EXPECT_THAT(complaint_about("accelerometer: {range: 0}"),
               HasSubstr("accelerometer.range: expected a number from 1e-09 to"));
   EXPECT_THAT(complaint_about("accelerometer: {bias: 0.3}"),

@@ -66,6 +66,83 @@ TEST(SensorValues, WhiteNoiseHasItsVarianceAndNoMemory) {
   }
 }
 
+TEST(SensorValues, NormalWhiteNoiseIsTheSeriesOfItsDraws) {
+  std::vector<double> normal(1'000);
+  fill_standard_normal({7, 0}, static_cast<NoiseChannel>(4 + 7 * 256), 0, normal);
+  EXPECT_EQ(of_nothing({.white = 1.0}, 1'000), normal);
+}
+
+/// Share of the values beyond ± this.
+double share_beyond(const std::vector<double>& values, double limit) {
+  const auto count = std::count_if(values.begin(), values.end(),
+                                   [&](double value) { return std::abs(value) > limit; });
+  return static_cast<double>(count) / static_cast<double>(values.size());
+}
+
+TEST(HeavyTails, HaveTheQuantilesOfStudentsTAtTheSameStandardDeviation) {
+  // Two-sided quantiles of 5 %, 1 % and 0.1 %, from a table of Student's t distribution.
+  struct Row {
+    double freedom, percent_5, percent_1, percent_01;
+  };
+  for (const Row& row : {Row{3.0, 3.1824, 5.8409, 12.9240}, Row{4.0, 2.7764, 4.6041, 8.6103},
+                         Row{5.0, 2.5706, 4.0321, 6.8688}, Row{10.0, 2.2281, 3.1693, 4.5869},
+                         Row{30.0, 2.0423, 2.7500, 3.6460}}) {
+    const auto noise = of_nothing({.white = 0.5, .degrees_of_freedom = row.freedom});
+    const double scale = 0.5 * std::sqrt((row.freedom - 2.0) / row.freedom);
+    const auto expect_share = [&](double quantile, double share) {
+      const double error = std::sqrt(share * (1.0 - share) / static_cast<double>(many));
+      EXPECT_NEAR(share_beyond(noise, scale * quantile), share, 5.0 * error) << row.freedom;
+    };
+    expect_share(row.percent_5, 0.05);
+    expect_share(row.percent_1, 0.01);
+    expect_share(row.percent_01, 0.001);
+  }
+}
+
+TEST(HeavyTails, HaveTheVarianceOfTheWhiteNoiseAndTheKurtosisOfStudentsT) {
+  for (const double freedom : {12.0, 20.0, 1e6}) {
+    const auto noise = of_nothing({.white = 2.0, .degrees_of_freedom = freedom});
+    const double kurtosis = 3.0 + 6.0 / (freedom - 4.0);
+    const double five_errors = 5.0 / std::sqrt(static_cast<double>(many));
+    EXPECT_NEAR(mean(noise), 0.0, 2.0 * five_errors) << freedom;
+    EXPECT_NEAR(correlation(noise), 4.0, 4.0 * std::sqrt(kurtosis - 1.0) * five_errors) << freedom;
+    std::vector<double> squares;
+    for (const double value : noise) squares.push_back(0.25 * value * value);
+    // Its variance is the 8th moment less the square of the 4th; with 12 degrees of freedom, 533.
+    EXPECT_NEAR(correlation(squares), kurtosis, std::sqrt(533.0) * five_errors) << freedom;
+  }
+}
+
+TEST(HeavyTails, AreIndependentFromStepToStep) {
+  const auto noise = of_nothing({.white = 1.0, .degrees_of_freedom = 3.0});
+  const double limit = 3.1824 * std::sqrt(1.0 / 3.0);  // exceeded with probability 0.05
+  for (const std::size_t lag : {1U, 2U, 3U}) {
+    std::size_t both = 0;
+    for (std::size_t k = 0; k + lag < noise.size(); ++k) {
+      both += std::abs(noise[k]) > limit && std::abs(noise[k + lag]) > limit ? 1U : 0U;
+    }
+    const double expected = 0.0025 * static_cast<double>(many);
+    EXPECT_NEAR(static_cast<double>(both), expected, 5.0 * std::sqrt(1.2 * expected)) << lag;
+  }
+}
+
+TEST(HeavyTails, ScaleTheDrawsOfNormalNoiseAndDoNotDependOnTheLengthOfTheCalls) {
+  const SensorChannel heavy{.white = 1.0, .degrees_of_freedom = 3.0};
+  const auto normal = of_nothing({.white = 1.0}, 2'001), tails = of_nothing(heavy, 2'001);
+  const auto almost = of_nothing({.white = 1.0, .degrees_of_freedom = 1e6}, 2'001);
+  for (std::size_t k = 0; k < normal.size(); ++k) {
+    EXPECT_EQ(std::signbit(tails[k]), std::signbit(normal[k])) << k;
+    EXPECT_NEAR(almost[k], normal[k], 1e-4) << k;
+  }
+  ChannelDraws draws({7, 0}, NoiseChannel::accelerometer_x);
+  ChannelState state;
+  std::vector<double> in_parts(2'001);
+  for (const auto& [first, steps] : {std::pair{0U, 1U}, {1U, 999U}, {1'000U, 1'001U}}) {
+    disturb_values(std::span(in_parts).subspan(first, steps), heavy, period, draws, state, nullptr);
+  }
+  EXPECT_EQ(in_parts, tails);
+}
+
 TEST(SensorValues, AWalkBeginsAtZeroAndItsVarianceGrowsWithTime) {
   constexpr std::size_t runs = 4'000;
   std::vector<double> after_half, after_two;
@@ -205,7 +282,8 @@ TEST(ChannelDraws, OfEveryDisturbanceAreIndependentOfEachOtherAndOfTheWhiteNoise
   ChannelDraws draws(key, NoiseChannel::left_knee_torque);
   std::vector<std::vector<double>> all(1, std::vector<double>(100'000));
   fill_standard_normal(key, NoiseChannel::left_knee_torque, 0, all.front());
-  for (const DrawnFor what : {DrawnFor::walk, DrawnFor::coloured, DrawnFor::white}) {
+  for (const DrawnFor what :
+       {DrawnFor::walk, DrawnFor::coloured, DrawnFor::white, DrawnFor::tail}) {
     const auto series = draws.series(what, 0, 100'000);
     all.emplace_back(series.begin(), series.end());
   }

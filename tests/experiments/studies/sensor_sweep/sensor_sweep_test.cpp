@@ -71,9 +71,10 @@ TEST(ASensorSweep, SimulatesNothingTwice) {
 TEST(ASensorSweep, RefusesUnknownKeysAndBadValuesAtTheirLine) {
   const ScratchFolder folder;
   EXPECT_THAT([&] { swept(folder, "{dropot: [0.1]}"); },
-              ThrowsMessage<InputError>(HasSubstr("swept.yaml:8:17: sweep.dropot: 'dropot' is not "
-                                                  "one of scale, low_pass, rate, delay, dropout "
-                                                  "(did you mean 'dropout'?)")));
+              ThrowsMessage<InputError>(
+                  HasSubstr("swept.yaml:8:17: sweep.dropot: 'dropot' is not "
+                            "one of scale, low_pass, degrees_of_freedom, rate, delay, "
+                            "dropout (did you mean 'dropout'?)")));
   EXPECT_THAT([&] { swept(folder, "{dropout: [2]}"); },
               ThrowsMessage<InputError>(HasSubstr("expected a number from 0 to 1")));
   EXPECT_THAT([&] { swept(folder, "{dropout: []}"); },
