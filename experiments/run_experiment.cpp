@@ -16,6 +16,7 @@
 #include "experiments/results/manifest.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/rollouts/training_segments.hpp"
+#include "experiments/rollouts/training_sets.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/test_seed_log.hpp"
@@ -77,6 +78,45 @@ Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string
   return all;
 }
 
+bool is_tested(const std::string& fit, const Rollouts& runs, const Plan& plan) {
+  return std::any_of(runs.begin(), runs.end(), [&](const auto& entry) {
+    const PlannedRun& run = entry.second.plan;
+    if (run.role != RunRole::test) return false;
+    const std::vector<Condition>& conditions = plan.groups[run.group].conditions;
+    return std::any_of(conditions.begin(), conditions.end(),
+                       [&](const Condition& condition) { return condition.fit == fit; });
+  });
+}
+
+/// The fits to the plan's training sets, each with its refits, for every engine. Errors:
+/// `InputError`, with the size of the set, when one does not suffice for a fit.
+FittedModels fit_training_sets(const Experiment& experiment, const ExperimentContext& context,
+                               const Rollouts& runs, const TunedHyperparameters& chosen) {
+  FittedModels models;
+  const Plan& plan = context.plan;
+  if (plan.training_sets.empty()) return models;
+  const TrainingPieces pieces = training_pieces(runs, experiment);
+  Experiment of_pieces = experiment;
+  of_pieces.scoring.skip = pieces.skip;
+  for (const auto& [name, size] : plan.training_sets) {
+    if (!is_tested(name, runs, plan)) continue;
+    for (int refit = 0; refit <= plan.refits.at(name); ++refit) {
+      const std::vector<RunSignals> set = training_set(
+          refit == 0 ? pieces.runs : drawn_anew(pieces.runs, experiment.seed, refit), size);
+      try {
+        FittedModels of_set = fit_models(of_pieces, set, {}, context.should_continue, chosen);
+        for (auto& [simulator, by_estimator] : of_set) {
+          models[model_key(simulator, name, refit)] = std::move(by_estimator);
+        }
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("training sets of {}, number {}: {}: expected larger sets",
+                                     size, refit + 1, error.what()));
+      }
+    }
+  }
+  return models;
+}
+
 /// Fits the models that the evaluation of these runs needs; none if no run can be scored.
 Fitted fit(const ExperimentContext& context, const Rollouts& runs) {
   if (!is_any_scored(runs)) return {};
@@ -102,6 +142,7 @@ Fitted fit(const ExperimentContext& context, const Rollouts& runs) {
     all.models.merge(one.models);
     std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
   }
+  all.models.merge(fit_training_sets(experiment, context, runs, chosen_in(all.trials)));
   if (!context.should_continue()) throw Stopped();
   return all;
 }

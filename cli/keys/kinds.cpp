@@ -12,7 +12,6 @@
 #include "noise/sensors/profile.hpp"
 #include "recordings/mapping/mapping.hpp"
 #include "scenarios/scenario_file.hpp"
-#include "training/config/sample_efficiency.hpp"
 #include "training/config/training.hpp"
 
 namespace touchdown::cli {
@@ -42,11 +41,7 @@ const std::vector<FileKind>& file_kinds() {
       {"training", "Training files",
        "They specify data, size and training of the neural network: `touchdown train "
        "experiments/nmn.yaml`.",
-       training::training_keys},
-      {"sample_efficiency", "Sample-efficiency files",
-       "They specify a study of accuracy by amount of labelled data: `touchdown train "
-       "experiments/sample_efficiency.yaml`.",
-       training::sample_efficiency_keys}};
+       training::training_keys}};
   return kinds;
 }
 

@@ -42,8 +42,7 @@ void add_keys(CLI::App& program, const CliSession& /*session*/) {
   Verb verb(program, "keys",
             "touchdown keys scenario\n\n"
             "Prints every key of the YAML files, with type, unit, range, default and meaning.\n"
-            "Kinds of files: experiment, scenario, robot, sensors, mapping, training,\n"
-            "sample_efficiency.");
+            "Kinds of files: experiment, scenario, robot, sensors, mapping, training.");
   const auto flags = std::make_shared<KeysFlags>();
   verb.option("kind", &flags->kind, "Kind of file; all kinds if absent").value_name("KIND");
   verb.flag("--markdown", &flags->markdown, "Print the document docs/keys.md, or its section");

@@ -119,9 +119,11 @@ void add_scores(const MeasuredPrediction& prediction, std::span<const Measure> m
 
 std::string task_name(const Plan& plan, const Task& task) {
   const PlannedRun& run = plan.runs[task.run];
-  const std::string& sensors = plan.sensors[run.sensors].name;
+  // Groups may have the same runs, but their names differ.
+  std::string group = plan.group_of(task).name;
+  std::replace(group.begin(), group.end(), ' ', '_');
   return fmt::format("{}{}{}_seed_{:04}", std::filesystem::path(run.file).stem().string(),
-                     sensors.empty() ? "" : "_", sensors, task.seed);
+                     group.empty() ? "" : "_", group, task.seed);
 }
 
 SavedCounts::SavedCounts(std::filesystem::path folder, std::string key)

@@ -31,7 +31,7 @@ struct Condition {
 
 /// The key of a fit in `FittedModels`.
 std::string model_key(const std::string& simulator, const std::string& fit, int refit = 0);
-/// Whether the key belongs to a fit to resampled runs.
+/// Whether the key belongs to a fit to resampled runs, or to a training set of a part of the runs.
 bool is_of_refit(std::string_view model_key);
 
 /// The experiment's estimators, each tested on the engine of its fit, "always contact" last.

@@ -110,8 +110,11 @@ struct Plan {
   std::vector<Task> tasks;              ///< by test run in the order of the plan, then noise seed
   std::vector<ModelTasks> model_tasks;  ///< of studies
   std::map<std::string, int> refits;    ///< number of refits, by name of the fit
-  std::set<std::int64_t> pictured;      ///< indices of own test runs that pictures show
-  bool needs_motion = false;            ///< whether test runs keep their motion
+  /// Fits to a part of the experiment's own training data: the size of the training set
+  /// (experiments/rollouts/training_sets.hpp), by name of the fit. `refits` has an entry for each.
+  std::map<std::string, std::size_t> training_sets;
+  std::set<std::int64_t> pictured;  ///< indices of own test runs that pictures show
+  bool needs_motion = false;        ///< whether test runs keep their motion
   TaskRange all_tasks() const { return {0, tasks.size()}; }
   const RunGroup& group_of(const Task& task) const { return groups[runs[task.run].group]; }
   /// The group of this name, if there is one.

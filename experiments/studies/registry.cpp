@@ -6,6 +6,7 @@
 #include "experiments/studies/closed_loop/study.hpp"
 #include "experiments/studies/cross_simulator/study.hpp"
 #include "experiments/studies/labels/study.hpp"
+#include "experiments/studies/learning_curve/study.hpp"
 #include "experiments/studies/moments/study.hpp"
 #include "experiments/studies/odometry/study.hpp"
 #include "experiments/studies/operating_points/study.hpp"
@@ -32,7 +33,8 @@ const std::vector<std::unique_ptr<const Study>>& studies() {
                                  operating_points_study(),  //
                                  closed_loop_study(),       //
                                  moments_study(),           //
-                                 sensor_sweep_study());
+                                 sensor_sweep_study(),      //
+                                 learning_curve_study());
   return all;
 }
 

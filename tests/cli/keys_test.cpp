@@ -16,8 +16,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const std::vector<std::string> kinds = {
-    "experiment", "scenario", "robot", "sensors", "mapping", "training", "sample_efficiency"};
+const std::vector<std::string> kinds = {"experiment", "scenario", "robot",
+                                        "sensors",    "mapping",  "training"};
 
 struct Keys : ::testing::Test {
   std::string printed(const std::string& arguments) const {

@@ -50,14 +50,6 @@ class Examples(InFolder):
         self.assertEqual(len(rows), 4)
         self.assertEqual(len(re.findall(r"^robust .* N·m", text, re.MULTILINE)), 4)
 
-    def test_labelled_seconds(self):
-        text = self.output_of(SOURCE / "examples/python/labelled_seconds.py", "--seconds", "2", "4", "--estimators",
-                         "load_logistic", "--scenes", "stairs", "hang", "--draws", "2")
-        rows = re.findall(r"^load_logistic +(2|4) +(0\.\d{3}) \[(0\.\d{3}), ([01]\.\d{3})\] ", text, re.MULTILINE)
-        self.assertEqual([seconds for seconds, *_ in rows], ["2", "4"])
-        for _, mean, least, most in rows:
-            self.assertTrue(0.5 < float(least) <= float(mean) <= float(most) <= 1.0)
-
     def test_in_the_documents(self):
         for which in range(3):
             (self.folder / "page.py").write_text(block("docs/python.md", which))

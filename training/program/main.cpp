@@ -9,7 +9,6 @@
 #include "core/program/streams.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
-#include "training/sample_efficiency/study.hpp"
 #include "training/train.hpp"
 
 namespace touchdown::training {
@@ -31,11 +30,6 @@ int run(const Flags& flags, const TrainingRequest& request) {
   YamlDocument document = YamlDocument::load(file);
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
   experiments::require_yaml_kind(document, experiments::YamlKind::training);
-  if (is_sample_efficiency(document)) {
-    const auto directory = sample_efficiency(sample_efficiency_from_yaml(document), request);
-    fmt::print("results   {}\n", directory.string());
-    return good;
-  }
   const TrainingResult result = train(training_from_yaml(document), request);
   const IterationRecord& chosen = result.history[result.chosen];
   fmt::print("network   {}, of iteration {} of {}, validation loss {:.4f}\n",

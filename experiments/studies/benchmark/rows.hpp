@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/evaluation/joint_bootstrap.hpp"
 #include "experiments/evaluation/tasks.hpp"
-#include "experiments/studies/benchmark/joint_bootstrap.hpp"
 #include "experiments/studies/benchmark/plan.hpp"
 #include "scoring/extended_score.hpp"
 

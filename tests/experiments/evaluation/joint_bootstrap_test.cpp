@@ -1,4 +1,4 @@
-#include "experiments/studies/benchmark/joint_bootstrap.hpp"
+#include "experiments/evaluation/joint_bootstrap.hpp"
 
 #include <algorithm>
 #include <cmath>
