@@ -1,8 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -10,8 +8,6 @@
 #include "estimator/bayes/measurement_model.hpp"
 
 namespace touchdown {
-
-class KernelDensityGrid;
 
 /// Kernel widths along the two axes (N·m).
 struct TorqueBandwidth {
@@ -38,73 +34,23 @@ struct MeasurementFitConfig {
   bool operator==(const MeasurementFitConfig&) const = default;
 };
 
+/// A fitted measurement model, and the kernel widths of its densities: without contact, in contact.
+struct MeasurementFit {
+  MeasurementModel model;
+  std::array<TorqueBandwidth, 2> bandwidth;
+};
+
 /// Fits f_C and f_¬C, Eq. (5) and (6), each with its own bandwidth, to samples of both legs from
 /// `TorqueChannel`.
-/// Throws InputError for fewer than two samples of either class and for samples that are not
-/// finite.
+/// Throws InputError for fewer than two samples of either class, for samples that are not finite,
+/// and for samples that are all equal without a floor under the bandwidth.
+MeasurementFit fit_measurement(std::span<const TorqueSample> contact,
+                               std::span<const TorqueSample> no_contact,
+                               const MeasurementFitConfig& config);
+
+/// The same without the bandwidths.
 MeasurementModel fit_measurement_model(std::span<const TorqueSample> contact,
                                        std::span<const TorqueSample> no_contact,
                                        const MeasurementFitConfig& config);
-
-/// Statistics of torque samples that arrive one by one, for bandwidths and axes.
-struct TorqueSurvey {
-  std::size_t count = 0;
-  TorqueSample mean;
-  TorqueSample squares;  ///< sums of the squared differences from the mean
-  TorqueSample lowest;
-  TorqueSample highest;
-
-  void add(const TorqueSample& sample) noexcept;
-};
-
-/// `fit_measurement_model` for logs of any length in constant memory. The caller passes all samples
-/// twice: first for bandwidths and axes, then for the densities. The result is the same up to
-/// rounding.
-class MeasurementFit {
- public:
-  explicit MeasurementFit(const MeasurementFitConfig& config);
-  ~MeasurementFit();
-
-  /// First pass. Throws InputError for a sample that is not finite.
-  void survey(bool contact, const TorqueSample& sample);
-
-  /// Between the passes. Throws InputError for fewer than two samples of either class, or samples
-  /// that are all equal without a floor under the bandwidth.
-  void prepare();
-
-  /// Second pass: the same samples in any order.
-  void add(bool contact, const TorqueSample& sample);
-
-  /// After both passes.
-  [[nodiscard]] MeasurementModel model();
-
-  [[nodiscard]] std::size_t count(bool contact) const noexcept { return of(contact).survey.count; }
-  /// Valid after `prepare` (N·m).
-  [[nodiscard]] TorqueBandwidth bandwidth(bool contact) const noexcept {
-    return of(contact).bandwidth;
-  }
-
- private:
-  struct Class {
-    TorqueSurvey survey;
-    TorqueBandwidth bandwidth;
-    std::unique_ptr<KernelDensityGrid> density;
-  };
-  [[nodiscard]] Class& of(bool contact) noexcept { return class_[contact ? 1 : 0]; }
-  [[nodiscard]] const Class& of(bool contact) const noexcept { return class_[contact ? 1 : 0]; }
-  void choose_bandwidth(Class& of_class, const char* name) const;
-  [[nodiscard]] Axis axis_for(const std::optional<std::pair<double, double>>& range, int count,
-                              double TorqueSample::*torque, double TorqueBandwidth::*width) const;
-  /// Makes axes and empty densities from bandwidths and survey.
-  void make_grids();
-  friend MeasurementModel fit_measurement_model(std::span<const TorqueSample>,
-                                                std::span<const TorqueSample>,
-                                                const MeasurementFitConfig&);
-
-  MeasurementFitConfig config_;
-  std::array<Class, 2> class_;
-  Axis knee_;
-  Axis wheel_;
-};
 
 }  // namespace touchdown

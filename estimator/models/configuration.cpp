@@ -89,7 +89,9 @@ class MemberReader {
   ConfigurationText left_;
 };
 
-// These functions visit every member once; `visit` writes or reads it.
+// These functions visit every member once; `visit` writes or reads it. They are the only
+// description of these structs. `core/fields` describes those of YAML files, with yaml-cpp; this
+// library needs Eigen alone, and its texts are the metadata of models.
 
 template <typename Visit, typename Guard>
 void visit_guard(Visit& visit, Guard& guard) {

@@ -139,12 +139,8 @@ double scott_bandwidth(std::span<const double> samples, int dimensions, double f
   // A copy, because Eigen's sums over mapped memory depend on its alignment.
   const Eigen::ArrayXd x =
       Eigen::Map<const Eigen::ArrayXd>(samples.data(), static_cast<Eigen::Index>(samples.size()));
-  return scott_bandwidth(n, std::sqrt((x - x.mean()).square().sum() / (n - 1.0)), dimensions,
-                         floor);
-}
-
-double scott_bandwidth(double count, double deviation, int dimensions, double floor) {
-  const double bandwidth = std::max(floor, std::pow(count, -1.0 / (dimensions + 4)) * deviation);
+  const double deviation = std::sqrt((x - x.mean()).square().sum() / (n - 1.0));
+  const double bandwidth = std::max(floor, std::pow(n, -1.0 / (dimensions + 4)) * deviation);
   if (!(bandwidth > 0.0)) {
     throw InputError("all samples are equal: Scott's rule gives no bandwidth, set a floor");
   }

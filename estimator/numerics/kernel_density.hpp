@@ -15,9 +15,6 @@ namespace touchdown {
 /// result is zero (all samples equal and no floor).
 double scott_bandwidth(std::span<const double> samples, int dimensions, double floor = 0.0);
 
-/// The same from the number of samples and their standard deviation, for samples that are not kept.
-double scott_bandwidth(double count, double deviation, int dimensions, double floor);
-
 /// Eq. (5) of the paper in one dimension: the mean of Gaussians of standard deviation `bandwidth`
 /// around the samples, evaluated at every point of the axis. A density: it integrates to one over
 /// the real line, unit 1/[x].

@@ -115,27 +115,21 @@ void require_both_classes(std::size_t no_contact, std::size_t contact) {
 MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
                                          const BayesFilterConfig& filter,
                                          const LogFitConfig& config, LogFitReport& report) {
-  MeasurementFit fit(filter.measurement.fit);
+  std::array<std::vector<TorqueSample>, 2> samples;
   report = {};
   for (const FitLog& log : logs) {
-    if (log.path == "-") throw InputError("fit: reads a log twice: '-' cannot be read again");
     read_log(
         log, filter, config,
-        [&](bool contact, const TorqueSample& sample) { fit.survey(contact, sample); }, report);
+        [&](bool contact, const TorqueSample& sample) {
+          samples[contact ? 1 : 0].push_back(sample);
+        },
+        report);
   }
-  require_both_classes(fit.count(false), fit.count(true));
-  fit.prepare();
-  LogFitReport again;
-  for (const FitLog& log : logs) {
-    read_log(
-        log, filter, config,
-        [&](bool contact, const TorqueSample& sample) { fit.add(contact, sample); }, again);
-  }
-  for (const bool contact : {false, true}) {
-    report.samples[contact ? 1 : 0] = fit.count(contact);
-    report.bandwidth[contact ? 1 : 0] = fit.bandwidth(contact);
-  }
-  return fit.model();
+  require_both_classes(samples[0].size(), samples[1].size());
+  MeasurementFit fit = fit_measurement(samples[1], samples[0], filter.measurement.fit);
+  report.samples = {samples[0].size(), samples[1].size()};
+  report.bandwidth = fit.bandwidth;
+  return std::move(fit.model);
 }
 
 /// Errors: `InputError` for a step that the phase filter cannot be fitted to.

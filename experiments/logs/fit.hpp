@@ -11,8 +11,8 @@ namespace touchdown::experiments {
 /// logs that are unreadable, of reserved seeds, without ground truth or a declared class, or with
 /// labels of other times.
 ///
-/// A measurement model is fitted as in experiments/fitting. Memory does not grow with the logs:
-/// each is read twice, so standard input is refused. A torque that is not finite, or beyond
+/// A measurement model is fitted as in experiments; only the torques of both legs are held in
+/// memory (32 kB/s at 1 kHz). A torque that is not finite, or beyond
 /// `SignalGuardConfig::largest_torque`, is left out with its leg's step. After a gap in time, or a
 /// step back, the torque's low-pass restarts, as in the filter. Errors: `InputError` for logs
 /// without one of the two classes.

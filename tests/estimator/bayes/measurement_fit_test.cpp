@@ -15,66 +15,68 @@
 namespace touchdown {
 namespace {
 
-MeasurementModel fitted_one_by_one(const test::LabelledSamples& samples,
-                                   const MeasurementFitConfig& config) {
-  MeasurementFit fit(config);
-  const auto for_each_sample = [&](auto use) {
-    for (const TorqueSample& sample : samples.no_contact) use(false, sample);
-    for (const TorqueSample& sample : samples.contact) use(true, sample);
-  };
-  for_each_sample([&](bool contact, const TorqueSample& sample) { fit.survey(contact, sample); });
-  fit.prepare();
-  for_each_sample([&](bool contact, const TorqueSample& sample) { fit.add(contact, sample); });
-  return fit.model();
-}
-
-void expect_near(const std::vector<double>& a, const std::vector<double>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  const double largest = *std::max_element(a.begin(), a.end());
-  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-12 * largest) << i;
-}
-
-TEST(MeasurementFit, IsTheFitOfAllSamplesAtOnce) {
+TEST(MeasurementFit, IsTheKernelDensityOfTheSamplesOfEachClass) {
   for (const char* name : {"robust", "reference", "paper"}) {
     const BayesFilterConfig config = test::named(name);
     MeasurementFitConfig fit = config.measurement.fit;
     fit.knee_count = 61;
     fit.wheel_count = 47;
     const auto samples = test::labelled(test::drops(3001), config.measurement.torque);
-    const LikelihoodGrids whole_run =
-        fit_measurement_model(samples.contact, samples.no_contact, fit).grids();
-    const LikelihoodGrids one_by_one = fitted_one_by_one(samples, fit).grids();
-    EXPECT_NEAR(whole_run.knee.upper, one_by_one.knee.upper, 1e-12);
-    EXPECT_NEAR(whole_run.wheel.lower, one_by_one.wheel.lower, 1e-12);
-    expect_near(whole_run.contact, one_by_one.contact);
-    expect_near(whole_run.no_contact, one_by_one.no_contact);
+    const MeasurementFit fitted = fit_measurement(samples.contact, samples.no_contact, fit);
+    const LikelihoodGrids grids = fitted.model.grids();
+    for (const bool contact : {false, true}) {
+      std::vector<double> knee, wheel;
+      for (const TorqueSample& sample : contact ? samples.contact : samples.no_contact) {
+        knee.push_back(sample.knee);
+        wheel.push_back(sample.wheel);
+      }
+      const TorqueBandwidth bandwidth = fitted.bandwidth[contact ? 1 : 0];
+      if (!fit.bandwidth) {
+        EXPECT_EQ(bandwidth.knee, scott_bandwidth(knee, 2, fit.bandwidth_floor.knee)) << name;
+        EXPECT_EQ(bandwidth.wheel, scott_bandwidth(wheel, 2, fit.bandwidth_floor.wheel)) << name;
+      }
+      const std::vector<double> expected =
+          kernel_density(wheel, knee, bandwidth.wheel, bandwidth.knee, grids.wheel, grids.knee);
+      const std::vector<double>& found = contact ? grids.contact : grids.no_contact;
+      ASSERT_EQ(found.size(), expected.size());
+      const double largest = *std::max_element(expected.begin(), expected.end());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        ASSERT_NEAR(found[i], expected[i], 1e-12 * largest) << name << " " << i;
+      }
+    }
   }
 }
 
 TEST(MeasurementFit, FindsTheBandwidthOfTorquesFarFromZero) {
-  MeasurementFit fit({});
-  std::vector<double> knee;
+  std::vector<TorqueSample> samples, near_zero;
   for (int i = 0; i < 1000; ++i) {
-    const double offset = 1e6 + 1e-3 * i;
-    knee.push_back(offset);
-    fit.survey(true, {offset, 0.001 * i});
-    fit.survey(false, {offset, 0.001 * i});
+    samples.push_back({1e6 + 1e-3 * i, 0.001 * i});
+    near_zero.push_back({1e-3 * i, 0.001 * i});
   }
-  fit.prepare();
+  MeasurementFitConfig small;
+  small.knee_count = small.wheel_count = 5;
   // A difference of sums of squares would be off by a tenth.
-  EXPECT_NEAR(fit.bandwidth(true).knee, scott_bandwidth(knee, 2), 1e-7);
-  EXPECT_EQ(fit.count(true), 1000U);
+  EXPECT_NEAR(fit_measurement(samples, samples, small).bandwidth[1].knee,
+              fit_measurement(near_zero, near_zero, small).bandwidth[1].knee, 1e-7);
 }
 
 TEST(MeasurementFit, RefusesWhatCannotBeFitted) {
-  MeasurementFit fit({});
-  EXPECT_THROW(fit.survey(true, {std::numeric_limits<double>::quiet_NaN(), 0.0}), InputError);
-  EXPECT_THROW(fit.survey(true, {0.0, std::numeric_limits<double>::infinity()}), InputError);
-  EXPECT_THROW(fit.prepare(), InputError);  // nothing at all
-  for (int i = 0; i < 5; ++i) fit.survey(true, {0.1 * i, 0.2 * i});
-  EXPECT_THROW(fit.prepare(), InputError);  // one class only
-  for (int i = 0; i < 5; ++i) fit.survey(false, {1.0, 1.0});
-  EXPECT_THROW(fit.prepare(), InputError);  // all equal, no floor
+  using Samples = std::vector<TorqueSample>;
+  Samples good, equal(5, TorqueSample{1.0, 1.0});
+  for (int i = 0; i < 5; ++i) good.push_back({0.1 * i, 0.2 * i});
+  Samples nan = good, infinite = good;
+  nan.push_back({std::numeric_limits<double>::quiet_NaN(), 0.0});
+  infinite.push_back({0.0, std::numeric_limits<double>::infinity()});
+  for (const Samples& bad : {Samples{}, Samples{{0.1, 0.2}}, nan, infinite, equal}) {
+    EXPECT_THROW(fit_measurement(good, bad, {}), InputError);
+    EXPECT_THROW(fit_measurement(bad, good, {}), InputError);
+  }
+  MeasurementFitConfig floor;
+  floor.bandwidth_floor = {0.1, 0.1};
+  EXPECT_NO_THROW(fit_measurement(good, equal, floor));
+  floor.bandwidth_floor = {};
+  floor.bandwidth = TorqueBandwidth{0.1, 0.1};
+  EXPECT_THROW(fit_measurement(good, nan, floor), InputError);
 }
 
 }  // namespace
