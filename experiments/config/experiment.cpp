@@ -227,8 +227,21 @@ static void describe_hyperparameters(Fields& fields, Experiment& experiment) {
   fields.check(!experiment.tuning, key, "expected no fit.tuning beside it, which chooses them");
 }
 
-/// Estimators written in Python exist only in experiments that Python runs.
-static void require_python(const Fields& fields, const Experiment& experiment) {
+/// The study that alone has an estimator with this name, or null.
+static const StudySection* owner_of_estimator(const Experiment& experiment,
+                                              const std::string& name) {
+  for (const StudySection& study : experiment.studies.known()) {
+    if (!study.estimators) continue;
+    for (const EstimatorEntry& entry : study.estimators()) {
+      if (entry.name == name) return &study;
+    }
+  }
+  return nullptr;
+}
+
+/// Estimators that only some experiments have: those written in Python, if Python runs the
+/// experiment, and those of a study, if the experiment has its section.
+static void require_available(const Fields& fields, const Experiment& experiment) {
   if (!fields.reading()) return;
   const YAML::Node given = fields.node()["estimators"];
   if (!given || !given.IsSequence()) return;
@@ -241,6 +254,23 @@ static void require_python(const Fields& fields, const Experiment& experiment) {
                       fmt::format("'{}' is written in Python: run the experiment from there, by "
                                   "'python3 -m touchdown run' or touchdown.run",
                                   name));
+    const StudySection* const owner = is_present ? nullptr : owner_of_estimator(experiment, name);
+    if (owner == nullptr) continue;
+    fields.check_item(false, "estimators", i,
+                      fmt::format("'{0}' belongs to the study '{1}': expected the section '{1}' "
+                                  "beside it",
+                                  name, owner->key));
+  }
+}
+
+/// Makes the estimators that only the sections of this experiment have.
+static void add_study_estimators(const Fields& fields, Experiment& experiment) {
+  if (!fields.reading() || fields.documenting()) return;
+  for (const StudySection& study : experiment.studies.known()) {
+    if (!study.estimators || !fields.present(study.key, false)) continue;
+    for (EstimatorEntry& entry : study.estimators()) {
+      experiment.external_estimators.push_back(std::move(entry));
+    }
   }
 }
 
@@ -259,7 +289,8 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields("seed", experiment.seed).doc("Seed of all random draws.");
   fields.names("simulators", simulators::simulator_names(), experiment.simulators)
       .doc("Physics engines.");
-  require_python(fields, experiment);
+  add_study_estimators(fields, experiment);
+  require_available(fields, experiment);
   fields.names("estimators", estimator_names(experiment.external_estimators), experiment.estimators)
       .doc("Estimators, in the order of tables.");
   fields.require("fit");

@@ -102,7 +102,8 @@ struct Experiment {
   std::uint64_t seed = 1;
   std::vector<std::string> simulators = {"mujoco", "bullet"};
   std::vector<std::string> estimators = {"robust"};
-  /// Estimators of the caller, which `estimators` may name, too. They are no part of the file.
+  /// Estimators of the caller and of studies' sections, which `estimators` may name, too. They are
+  /// no part of the file.
   std::vector<EstimatorEntry> external_estimators = {};
   std::map<std::string, HyperparameterValues> hyperparameters =
       {};          ///< of these estimators, instead of the defaults

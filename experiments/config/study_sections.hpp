@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "experiments/estimators/entry.hpp"
 
 namespace touchdown {
 
@@ -36,6 +37,8 @@ struct StudySection {
   std::string before = {};
   std::function<StudyFiles(const Experiment&)> files = {};  ///< none without the section
   std::vector<std::string> file_keys = {};                  ///< dotted keys of their names
+  /// Makes the estimators that only an experiment with the section may name; none if empty.
+  std::function<std::vector<EstimatorEntry>()> estimators = {};
 };
 
 /// The studies' sections of one experiment, at most one of each type. The folders below the studies

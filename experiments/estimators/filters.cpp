@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "estimator/bayes/ablation.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/models/configuration.hpp"
 #include "estimator/numerics/number_text.hpp"
@@ -168,20 +167,6 @@ EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
           .batch = bayes_batch};
 }
 
-std::vector<EstimatorEntry> entries_from_paper_to_robust() {
-  std::vector<EstimatorEntry> entries;
-  std::string before = "paper";
-  for (const AblationStep& step : steps_from_paper_to_robust()) {
-    entries.push_back(
-        bayes_entry(step.name,
-                    fmt::format("Runs `{}` with {}, an ablation step from paper to robust", before,
-                                step.change),
-                    step.config));
-    before = step.name;
-  }
-  return entries;
-}
-
 EstimatorEntry measurement_only_entry() {
   return {
       .name = "measurement_only",
@@ -230,15 +215,6 @@ EstimatorEntry hmm_entry() {
   PhaseLabelConfig& labels = entry.phase->fit.labels;
   labels.unloading = labels.impact = {0.0, 0.0, 0.0};
   labels.held_margin = std::numeric_limits<double>::infinity();
-  return entry;
-}
-
-EstimatorEntry hmm_without_memory_entry() {
-  EstimatorEntry entry = hmm_entry();
-  entry.name = "hmm_without_memory";
-  entry.title = "Two states, no memory";
-  entry.summary = "Runs the two-state HMM with uniform transition probabilities";
-  entry.phase->fit.pseudo_count = 1e12;
   return entry;
 }
 

@@ -12,20 +12,14 @@ namespace touchdown::experiments {
 EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
                            const BayesFilterConfig& config);
 
-/// The ablation steps between the configurations `paper` and `robust`, in order
-/// (estimator/bayes/ablation.hpp).
-std::vector<EstimatorEntry> entries_from_paper_to_robust();
-
 /// The paper's ablation: the robust measurement model without transitions.
 EstimatorEntry measurement_only_entry();
 
 /// The hidden Markov model over phases of contact.
 EstimatorEntry phase_entry();
 
-/// Ablation steps from measurement only to the phase filter, with the inputs, bandwidths and
-/// hysteresis of the phase filter: without phases, and also without memory.
+/// The phase filter without phases, with its inputs, bandwidths and hysteresis.
 EstimatorEntry hmm_entry();
-EstimatorEntry hmm_without_memory_entry();
 
 /// The phase filter itself, for callers that need the probabilities of phases.
 PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup);

@@ -25,40 +25,35 @@ const EstimatorEntry* find(std::span<const EstimatorEntry> entries, std::string_
 }  // namespace
 
 std::span<const EstimatorEntry> estimator_entries() {
-  static const std::vector<EstimatorEntry> entries = [] {
-    std::vector<EstimatorEntry> all = {
-        bayes_entry("robust", "Runs the paper's Bayes filter with changes for noisy sensors",
-                    BayesFilterConfig::robust()),
-        bayes_entry("reference", "Runs the paper's Bayes filter as in the authors' robot code",
-                    BayesFilterConfig::reference()),
-        bayes_entry("paper", "Runs the paper's Bayes filter exactly as published",
-                    BayesFilterConfig::paper()),
-        bayes_entry("paper_rms",
-                    "Runs the paper's Bayes filter with the power read as a root mean square",
-                    BayesFilterConfig::paper_rms()),
-        measurement_only_entry(),
-        phase_entry(),
-        hmm_entry(),
-        hmm_without_memory_entry(),
-        neural_entry(),
-        retrained_neural_entry(),
-        upkie_observer_entry(),
-        free_fall_entry(),
-        support_force_entry(),
-        load_logistic_entry(),
-        force_kinematics_entry(),
-        decision_network_entry(),
-        evidence_curves_entry(),
-        evidence_pairs_entry(),
-        touchdown_entry(),
-        shipped_touchdown_entry(),
-        gradient_boosting_entry(),
-        oracle_entry(),
-        always_contact_entry(),
-    };
-    for (EstimatorEntry& entry : entries_from_paper_to_robust()) all.push_back(std::move(entry));
-    return all;
-  }();
+  static const std::vector<EstimatorEntry> entries = {
+      bayes_entry("robust", "Runs the paper's Bayes filter with changes for noisy sensors",
+                  BayesFilterConfig::robust()),
+      bayes_entry("reference", "Runs the paper's Bayes filter as in the authors' robot code",
+                  BayesFilterConfig::reference()),
+      bayes_entry("paper", "Runs the paper's Bayes filter exactly as published",
+                  BayesFilterConfig::paper()),
+      bayes_entry("paper_rms",
+                  "Runs the paper's Bayes filter with the power read as a root mean square",
+                  BayesFilterConfig::paper_rms()),
+      measurement_only_entry(),
+      phase_entry(),
+      hmm_entry(),
+      neural_entry(),
+      retrained_neural_entry(),
+      upkie_observer_entry(),
+      free_fall_entry(),
+      support_force_entry(),
+      load_logistic_entry(),
+      force_kinematics_entry(),
+      decision_network_entry(),
+      evidence_curves_entry(),
+      evidence_pairs_entry(),
+      touchdown_entry(),
+      shipped_touchdown_entry(),
+      gradient_boosting_entry(),
+      oracle_entry(),
+      always_contact_entry(),
+  };
   return entries;
 }
 

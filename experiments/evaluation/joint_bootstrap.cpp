@@ -1,6 +1,7 @@
 #include "experiments/evaluation/joint_bootstrap.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/random.hpp"
 
@@ -16,6 +17,15 @@ std::size_t drawn(std::size_t count, double u) {
 }
 
 }  // namespace
+
+FitsAndRuns fits_and_runs(std::vector<std::vector<scoring::Classification>> by_fit) {
+  FitsAndRuns scores;
+  if (by_fit.empty()) return scores;
+  scores.runs = std::move(by_fit.front());
+  by_fit.erase(by_fit.begin());
+  scores.of_refit = std::move(by_fit);
+  return scores;
+}
 
 Resampled balanced_accuracy(const FitsAndRuns& scores, std::uint64_t scene,
                             const scoring::BootstrapConfig& bootstrap) {
@@ -47,6 +57,14 @@ Resampled mean(const std::vector<const Resampled*>& all) {
     for (std::size_t r = 0; r < resamples; ++r) result.values[r] += share * one->values[r];
   }
   return result;
+}
+
+Resampled operator-(const Resampled& first, const Resampled& second) {
+  Resampled difference{first.estimate - second.estimate};
+  for (std::size_t r = 0; r < std::min(first.values.size(), second.values.size()); ++r) {
+    difference.values.push_back(first.values[r] - second.values[r]);
+  }
+  return difference;
 }
 
 Interval interval_of(const Resampled& resampled, double level) {

@@ -16,6 +16,9 @@ struct FitsAndRuns {
   std::vector<std::vector<scoring::Classification>> of_refit = {};
 };
 
+/// The same from the counts by fit: of the estimator's fit, then of its refits.
+FitsAndRuns fits_and_runs(std::vector<std::vector<scoring::Classification>> by_fit);
+
 /// Balanced accuracy over all runs, and over each of the resamples.
 struct Resampled {
   double estimate = 0.0;
@@ -33,6 +36,9 @@ Resampled balanced_accuracy(const FitsAndRuns& scores, std::uint64_t scene,
 /// The mean of quantities that were resampled together. It has no resamples if one of them has
 /// none.
 Resampled mean(const std::vector<const Resampled*>& all);
+
+/// The difference of quantities that were resampled together.
+Resampled operator-(const Resampled& first, const Resampled& second);
 
 Interval interval_of(const Resampled& resampled, double level);
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "experiments/studies/ablation/study.hpp"
 #include "experiments/studies/benchmark/study.hpp"
 #include "experiments/studies/closed_loop/study.hpp"
 #include "experiments/studies/cross_simulator/study.hpp"
@@ -34,7 +35,8 @@ const std::vector<std::unique_ptr<const Study>>& studies() {
                                  closed_loop_study(),       //
                                  moments_study(),           //
                                  sensor_sweep_study(),      //
-                                 learning_curve_study());
+                                 learning_curve_study(),    //
+                                 ablation_study());
   return all;
 }
 

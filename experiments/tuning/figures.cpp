@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/estimators/registry.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/figures/groups.hpp"
 #include "simulators/registry.hpp"
 
@@ -16,8 +16,8 @@ FigureSpec tuning_figure(const Table& tuning, const Experiment& experiment) {
   spec.table = "tuning.csv";
   spec.panels = groups_in(tuning, "fit", [](const auto& name) { return name; });
   spec.series = groups_in(tuning, "simulator", simulators::simulator_title);
-  spec.rows =
-      groups_in(tuning, "estimator", [](const auto& name) { return estimator_entry(name).title; });
+  spec.rows = groups_in(tuning, "estimator",
+                        [&](const auto& name) { return estimator_entry(experiment, name).title; });
   spec.measures = {{.column = "balanced_accuracy", .title = "balanced accuracy"}};
   spec.marks = {{MarkShape::points, {}},
                 {MarkShape::cross, {{"trial", "0"}}},

@@ -4,8 +4,10 @@
 #include <cstdint>
 
 #include "experiments/config/experiment.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/sweep_run.hpp"
 #include "experiments/signals/run_signals.hpp"
+#include "experiments/studies/ablation/estimators.hpp"
 #include "noise/gaussian.hpp"
 
 namespace touchdown::experiments {
@@ -50,12 +52,26 @@ inline RunSignals synthetic_run(std::int64_t number, std::size_t steps = 4000) {
   return run;
 }
 
+/// The built-in estimators and those of the ablation study.
+inline std::vector<EstimatorEntry> all_estimator_entries() {
+  std::vector<EstimatorEntry> all(estimator_entries().begin(), estimator_entries().end());
+  for (EstimatorEntry& entry : ablation_estimators()) all.push_back(std::move(entry));
+  return all;
+}
+
+/// One of them.
+inline const EstimatorEntry& any_estimator_entry(std::string_view name) {
+  static const std::vector<EstimatorEntry> ablation = ablation_estimators();
+  return estimator_entry(name, ablation);
+}
+
 /// An experiment on such runs with these estimators.
 inline Experiment synthetic_experiment(const std::vector<std::string>& estimators) {
   Experiment experiment;
   experiment.name = "synthetic";
   experiment.simulators = {"mujoco"};
   experiment.estimators = estimators;
+  experiment.external_estimators = ablation_estimators();
   experiment.noise.torque = {0.0, 0.5, 2.0};
   experiment.noise.accelerometer = {0.0, 3.0, 8.0};
   experiment.noise.knee_wheel = {{0.0, 1.0}, {0.0, 0.5}, 1.5};

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "experiments/evaluation/scenes.hpp"
+
 namespace touchdown::experiments {
 
 namespace {
@@ -15,15 +17,6 @@ bool is_fitted_scene(const Experiment& experiment, const std::string& file) {
                      [&](const TrainingSegments& segments) { return segments.scenario == file; });
 }
 
-/// The runs of a group in one of the experiment's scenes.
-std::vector<std::size_t> runs_in_scene(const Plan& plan, const Experiment& experiment,
-                                       std::size_t group, std::size_t scene) {
-  std::vector<std::size_t> runs = plan.runs_in(group);
-  std::erase_if(runs,
-                [&](std::size_t run) { return scene_of(plan.runs[run], experiment) != scene; });
-  return runs;
-}
-
 std::string fitted_on(const Condition& condition, const BenchmarkSetup& here,
                       const std::vector<BenchmarkSetup>& setups) {
   if (condition.is_fitted_in_domain(here.robot_and_sensors.fit)) return "own";
@@ -32,33 +25,6 @@ std::string fitted_on(const Condition& condition, const BenchmarkSetup& here,
     return setup.robot_and_sensors.fit == condition.fit;
   });
   return fmt::format("{} {}", there->robot, there->sensors);
-}
-
-std::vector<scoring::Classification> points_of(const std::vector<scoring::RobotScore>& runs) {
-  std::vector<scoring::Classification> points;
-  for (const scoring::RobotScore& run : runs) points.push_back(run.wheels().points);
-  return points;
-}
-
-/// The counts of an estimator's refits in one cell, each in the same runs as the estimator's own.
-std::vector<std::vector<scoring::Classification>> points_of_refits(const CollectedCounts& counts,
-                                                                   const Condition& fitted,
-                                                                   std::size_t cell) {
-  std::vector<std::vector<scoring::Classification>> all;
-  Condition refit = fitted;
-  for (const ConditionScores& other : counts.scored) {
-    refit.refit = static_cast<int>(all.size()) + 1;
-    if (other.condition == refit) all.push_back(points_of(other.samples[cell]));
-  }
-  return all;
-}
-
-/// A unique number for every scene and engine.
-std::uint64_t stream_of(std::size_t scene, const std::string& simulator,
-                        const Experiment& experiment) {
-  const std::vector<std::string>& engines = experiment.simulators;
-  const auto engine = std::find(engines.begin(), engines.end(), simulator) - engines.begin();
-  return scene * engines.size() + static_cast<std::size_t>(engine);
 }
 
 }  // namespace
@@ -100,8 +66,7 @@ std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation) {
         for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {
           if (scored.samples[cell].empty()) continue;
           row.noise = experiment.highlights[cell];
-          const FitsAndRuns fits{points_of(scored.samples[cell]),
-                                 points_of_refits(counts, scored.condition, cell)};
+          const FitsAndRuns fits = fits_and_runs(points_by_fit(counts, scored.condition, cell));
           row.refits = fits.of_refit.size();
           row.balanced_accuracy =
               balanced_accuracy(fits, stream_of(scene, simulator, experiment), bootstrap);

@@ -41,14 +41,6 @@ std::vector<Named> means_by_estimator(const Rows& rows) {
   return means;
 }
 
-Resampled operator-(const Resampled& first, const Resampled& second) {
-  Resampled difference{first.estimate - second.estimate};
-  for (std::size_t r = 0; r < std::min(first.values.size(), second.values.size()); ++r) {
-    difference.values.push_back(first.values[r] - second.values[r]);
-  }
-  return difference;
-}
-
 double standard_error(const Resampled& resampled) {
   const auto count = static_cast<double>(resampled.values.size());
   double squares = 0.0;

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "experiments/evaluation/scenes.hpp"
 #include "experiments/rollouts/training_sets.hpp"
 #include "experiments/studies/learning_curve/config.hpp"
 #include "experiments/studies/learning_curve/plan.hpp"
@@ -14,39 +15,6 @@ namespace {
 
 using PointsOfRuns = std::vector<scoring::Classification>;
 
-PointsOfRuns points_of(const std::vector<scoring::RobotScore>& runs) {
-  PointsOfRuns points;
-  for (const scoring::RobotScore& run : runs) points.push_back(run.wheels().points);
-  return points;
-}
-
-/// The counts of every training set of the first set's condition in one scene and cell.
-std::vector<PointsOfRuns> sets_of(const CollectedCounts& scene, const Condition& first,
-                                  std::size_t cell) {
-  std::vector<PointsOfRuns> sets;
-  Condition condition = first;
-  for (const ConditionScores& scored : scene.scored) {
-    if (!(scored.condition == condition)) continue;
-    sets.push_back(points_of(scored.samples[cell]));
-    ++condition.refit;
-  }
-  return sets;
-}
-
-/// Scores by scene.
-std::vector<CollectedCounts> counts_by_scene(const Evaluation& evaluation, std::size_t group) {
-  const Experiment& experiment = evaluation.request.experiment;
-  std::vector<CollectedCounts> scenes;
-  for (std::size_t scene = 0; scene < experiment.test.scenarios.size(); ++scene) {
-    std::vector<std::size_t> runs = evaluation.plan.runs_in(group);
-    std::erase_if(runs, [&](std::size_t run) {
-      return scene_of(evaluation.plan.runs[run], experiment) != scene;
-    });
-    scenes.push_back(collect(evaluation.plan, runs, evaluation.saved));
-  }
-  return scenes;
-}
-
 /// The row of one condition and cell; nothing without scored runs.
 std::optional<LearningCurveRow> row_of(const std::vector<CollectedCounts>& scenes,
                                        const Condition& first, std::size_t cell,
@@ -54,7 +22,7 @@ std::optional<LearningCurveRow> row_of(const std::vector<CollectedCounts>& scene
   LearningCurveRow row;
   std::vector<Resampled> by_scene;
   for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
-    const std::vector<PointsOfRuns> sets = sets_of(scenes[scene], first, cell);
+    const std::vector<PointsOfRuns> sets = points_by_fit(scenes[scene], first, cell);
     if (sets.empty() || sets.front().empty()) continue;
     by_scene.push_back(over_training_sets(sets, scene, bootstrap));
     for (const PointsOfRuns& set : sets) row.points += scoring::sum(set);

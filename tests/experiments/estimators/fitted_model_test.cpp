@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::string> fitted_estimators() {
   std::vector<std::string> names;
-  for (const EstimatorEntry& entry : estimator_entries()) {
+  for (const EstimatorEntry& entry : all_estimator_entries()) {
     if (entry.fits()) names.push_back(entry.name);
   }
   return names;
@@ -28,7 +28,7 @@ TEST(FittedModel, GivesTheSameBeliefsAfterReadingItsFile) {
   const FittedModels models =
       fit_models(synthetic_experiment(fitted_estimators()), {synthetic_run(first_fit_run)});
   for (const std::string& name : fitted_estimators()) {
-    const EstimatorEntry& entry = estimator_entry(name);
+    const EstimatorEntry& entry = any_estimator_entry(name);
     const FittedModel& fitted = models.at("mujoco").at(name);
     write_fitted_model(fitted, folder.path() / "m.npz");
     const ModelKind kind = kind_of_model_file(folder.path() / "m.npz");
@@ -57,7 +57,7 @@ TEST(FittedModel, IsNeverFittedToReservedSeeds) {
       EXPECT_THAT(error.what(), ::testing::HasSubstr("reserved")) << name;
     }
     // A direct call of the entry's fit is refused, too.
-    const EstimatorEntry& entry = estimator_entry(name);
+    const EstimatorEntry& entry = any_estimator_entry(name);
     EXPECT_THROW(entry.fit(entry, {.whole = {&reserved}}), InputError) << name;
   }
 }

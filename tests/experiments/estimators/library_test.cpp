@@ -21,7 +21,7 @@ namespace {
 /// Estimators for robots.
 std::vector<std::string> installed_estimators() {
   std::vector<std::string> names;
-  for (const EstimatorEntry& entry : estimator_entries()) {
+  for (const EstimatorEntry& entry : all_estimator_entries()) {
     if (entry.fits() && !entry.is_upper_bound) names.push_back(entry.name);
   }
   return names;
@@ -39,7 +39,7 @@ TEST(LoadedEstimator, EqualsItsEntryToTheBit) {
   const FittedModels models =
       fit_models(synthetic_experiment(installed_estimators()), {synthetic_run(first_fit_run)});
   for (const std::string& name : installed_estimators()) {
-    const EstimatorEntry& entry = estimator_entry(name);
+    const EstimatorEntry& entry = any_estimator_entry(name);
     const std::filesystem::path file = folder / (name + ".npz");
     write_fitted_model(models.at("mujoco").at(name), file);
     const FittedModel read = read_fitted_model(*entry.fits(), file);
@@ -57,7 +57,7 @@ TEST(LoadedEstimator, OfAShippedNetworkIsNmn) {
   for (const std::string name : {"nmn", "nmn_retrained"}) {
     const std::filesystem::path file =
         std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models" / (name + ".npz");
-    const EstimatorEntry& entry = estimator_entry(name);
+    const EstimatorEntry& entry = any_estimator_entry(name);
     EXPECT_EQ(p_contact_of(*load_estimator(file, {.sample_rate = 1000.0}), run),
               p_contact_of(*entry.make(entry, {}), run))
         << name;

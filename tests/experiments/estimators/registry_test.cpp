@@ -21,6 +21,7 @@ TEST(Registry, HasUniqueNamesAndCompleteEntries) {
   }
   EXPECT_TRUE(names.contains(std::string(always_contact_name)));
   EXPECT_THROW(estimator_entry("rubust"), InputError);
+  EXPECT_THROW(estimator_entry("paper_grid"), InputError);  // of the ablation study
 }
 
 TEST(Registry, NoiseCountsOnlyOnTheSensorsThatAreUsed) {

@@ -26,7 +26,7 @@ std::vector<noise::SensorNoise> levels_of(const std::vector<noise::NoiseCell>& c
 /// the network to 1e-5 in probability only. A step with a probability that close to the threshold
 /// may have another decision, and the network decides for five steps and two wheels at once.
 void expect_batch_equals_one_by_one(const RunSignals& run, bool can_batch) {
-  const Experiment experiment = synthetic_experiment(estimator_names());
+  const Experiment experiment = synthetic_experiment(estimator_names(ablation_estimators()));
   const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
   const std::vector<noise::NoiseCell> cells = noise::noise_cells(experiment.noise);
   ASSERT_EQ(needs_no_guard(run, levels_of(cells)), can_batch);

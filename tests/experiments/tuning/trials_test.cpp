@@ -14,7 +14,7 @@ namespace touchdown::experiments {
 namespace {
 
 TEST(Trials, BeginWithTheDefaultsAndStayInTheirRanges) {
-  for (const EstimatorEntry& entry : estimator_entries()) {
+  for (const EstimatorEntry& entry : all_estimator_entries()) {
     const std::vector<HyperparameterValues> all = trial_hyperparameters(entry, 1, 200);
     ASSERT_EQ(all.size(), entry.hyperparameters.empty() ? 0U : 200U) << entry.name;
     for (const Hyperparameter& hyperparameter : entry.hyperparameters) {
@@ -95,7 +95,7 @@ std::vector<double> beliefs(const EstimatorEntry& plain,
 TEST(Trials, ChangeBeliefsByEveryHyperparameter) {
   const RunSignals fitted = synthetic_run(first_fit_run, 1500);
   const RunSignals run = synthetic_run(0, 3000);
-  for (const EstimatorEntry& entry : estimator_entries()) {
+  for (const EstimatorEntry& entry : all_estimator_entries()) {
     const bool is_slow = entry.name == "decision_network" || entry.name == "gradient_boosting";
     if (is_slow) continue;
     const std::vector<HyperparameterValues> trials = trial_hyperparameters(entry, 1, 8);

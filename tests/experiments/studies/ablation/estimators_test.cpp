@@ -1,10 +1,12 @@
-#include "estimator/bayes/ablation.hpp"
+#include "experiments/studies/ablation/estimators.hpp"
 
 #include <algorithm>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "estimator/bayes/ablation.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
@@ -40,6 +42,14 @@ TEST(BayesAblation, StepsAreInItsExperimentFromPaperToRobust) {
             estimators.end());
 }
 
+TEST(AblationEstimators, AreNoneOfThoseThatAUserMayChoose) {
+  const std::vector<std::string> names = estimator_names();
+  EXPECT_EQ(ablation_estimators().size(), 9U);
+  for (const EstimatorEntry& entry : ablation_estimators()) {
+    EXPECT_EQ(std::count(names.begin(), names.end(), entry.name), 0) << entry.name;
+  }
+}
+
 TEST(BayesAblation, EndsInRobustToTheBitOnASimulatedRun) {
   const ScratchFolder folder;
   const std::string scene = folder.write("small_step.yaml", small_step_scene).string();
@@ -47,6 +57,7 @@ TEST(BayesAblation, EndsInRobustToTheBitOnASimulatedRun) {
   experiment.name = "ablation";
   experiment.simulators = {"mujoco"};
   experiment.estimators = from_paper_to_robust();
+  experiment.external_estimators = ablation_estimators();
   experiment.fit = {.scenarios = {scene}, .runs = 2};
   experiment.test = {.scenarios = {scene}, .runs = 1};
   experiment.highlights = {{}};
@@ -58,7 +69,7 @@ TEST(BayesAblation, EndsInRobustToTheBitOnASimulatedRun) {
   ASSERT_EQ(runs.size(), 1U);
   const auto& models = result.models.at("mujoco");
 
-  EstimatorEntry last = estimator_entry(steps_from_paper_to_robust().back().name);
+  EstimatorEntry last = estimator_entry(experiment, steps_from_paper_to_robust().back().name);
   const noise::SensorNoise noise{0.5, 0.5, 3.0};
   const auto robust = p_contact_of(estimator_entry("robust"), models.at("robust"), *runs[0], noise);
   EXPECT_NE(p_contact_of(last, models.at(last.name), *runs[0], noise), robust);
