@@ -4,6 +4,7 @@
 #include <limits>
 #include <string_view>
 
+#include "estimator/signal_bounds.hpp"
 #include "estimator/signals.hpp"
 
 namespace touchdown {
@@ -19,7 +20,7 @@ struct WheelBelief {
 /// Whether the last signals were usable and, if not, why.
 enum class SignalStatus : int {
   good,     ///< the step was used unchanged
-  invalid,  ///< NaN or infinite input: the belief relaxed towards the prior
+  invalid,  ///< a signal that is NaN or beyond its bound: the belief relaxed towards the prior
   gap,      ///< time jumped: the window restarted and the belief relaxed
   frozen,   ///< a sensor repeated itself to the bit: the belief relaxed
 };
@@ -48,6 +49,9 @@ struct Belief {
   /// P(both wheels are in contact).
   double p_both_wheels = 0.5;
   SignalStatus status = SignalStatus::good;
+  /// The first signal of the step that is NaN or beyond its bound. The status stays good if the
+  /// estimator does not use this signal.
+  SignalIndex unusable = SignalIndex::none;
 };
 
 /// Sets the robot's probabilities from the wheels'. The wheels are taken to be independent of each
@@ -92,6 +96,10 @@ struct Evidence {
 
 /// The seam for contact estimators. The caller calls `update` once per time step. Neither `reset`
 /// nor `update` allocates, locks or throws, so an estimator can run in a robot's control loop.
+///
+/// `update` checks all signals before any estimator gets them: a value beyond `SignalBounds`
+/// becomes NaN, which an estimator treats as a failed sensor. It checks the belief, too: an
+/// estimator whose probabilities leave [0, 1], or are NaN, starts anew.
 class ContactEstimator {
  public:
   virtual ~ContactEstimator() = default;
@@ -99,11 +107,23 @@ class ContactEstimator {
   /// Resets all state: the belief becomes the flat prior, P(S_0 = C) = 0.5.
   virtual void reset() noexcept = 0;
 
-  /// Takes the signals of one step and returns the new belief.
-  virtual const Belief& update(const Signals& signals) noexcept = 0;
+  /// Takes the signals of one step and returns the new belief, which is valid until the next call.
+  const Belief& update(const Signals& signals) noexcept;
+
+  /// Replaces the default bounds of the signals. Throws as `check_signal_bounds`.
+  void limit_signals(const SignalBounds& bounds) { check_ = SignalCheck(bounds); }
 
   /// What the last belief was computed from, for logs and plots.
   [[nodiscard]] virtual Evidence evidence() const noexcept { return {}; }
+
+ private:
+  /// Takes signals that are NaN or within their bounds, and returns the new belief.
+  virtual const Belief& estimate(const Signals& signals) noexcept = 0;
+
+  const Belief& reported(const Belief& belief, SignalIndex unusable) noexcept;
+
+  SignalCheck check_;
+  Belief reported_;
 };
 
 }  // namespace touchdown

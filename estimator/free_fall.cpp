@@ -23,7 +23,7 @@ void FreeFall::reset() noexcept {
   belief_ = Belief{};
 }
 
-const Belief& FreeFall::update(const Signals& signals) noexcept {
+const Belief& FreeFall::estimate(const Signals& signals) noexcept {
   const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
   if (verdict.restart) acceleration_ = 0.0;
   if (verdict.acceleration_good) {

@@ -29,9 +29,10 @@ class FreeFall : public ContactEstimator {
   explicit FreeFall(const FreeFallConfig& config = {});
 
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   FreeFallConfig config_;
   SignalGuard guard_;
   double gain_;

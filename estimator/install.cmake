@@ -8,7 +8,7 @@ include(CMakePackageConfigHelpers)
 # as "estimator/…".
 set(public
   assembly/record assembly/signal_assembler
-  contact_estimator free_fall labelled_run signal_guard signals torque_channel upkie_observer
+  contact_estimator free_fall labelled_run signal_bounds signal_guard signals torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model c_interface/handle
   decision/augmentation decision/config decision/descent decision/draws decision/filter decision/fit

@@ -7,13 +7,22 @@
 
 namespace touchdown {
 
+namespace {
+
+/// Policies use the wheel's observer alone, without the checks of `ContactEstimator`.
+bool is_velocity(double velocity) noexcept {
+  return std::abs(velocity) <= SignalBounds{}.velocity;  // written so that NaN fails
+}
+
+}  // namespace
+
 WheelContactObserver::WheelContactObserver(const WheelContactConfig& config) noexcept
     : config_(config), contact_(config.initially_in_contact) {}
 
 void WheelContactObserver::reset() noexcept { *this = WheelContactObserver(config_); }
 
 bool WheelContactObserver::update(double torque, double velocity, double time_step) noexcept {
-  if (!is_torque(torque) || !std::isfinite(velocity) || !(time_step > 0.0)) return contact_;
+  if (!is_torque(torque) || !is_velocity(velocity) || !(time_step > 0.0)) return contact_;
   if (!started_) {
     started_ = true;
     velocity_ = velocity;
@@ -45,15 +54,20 @@ UpkieObserver::UpkieObserver(const UpkieObserverConfig& config) noexcept
   apply_threshold();
 }
 
-void UpkieObserver::reset() noexcept { *this = UpkieObserver(config_); }
+void UpkieObserver::reset() noexcept {
+  for (WheelContactObserver& wheel : wheel_) wheel.reset();
+  upper_leg_torque_ = 0.0;
+  belief_ = Belief{};
+  apply_threshold();
+}
 
-const Belief& UpkieObserver::update(const Signals& signals) noexcept {
+const Belief& UpkieObserver::estimate(const Signals& signals) noexcept {
   double squares = 0.0;
   bool usable = true;
   bool upper_leg_usable = true;
   for (std::size_t side = 0; side < 2; ++side) {
     const LegSignals& leg = signals.leg[side];
-    usable = usable && is_torque(leg.wheel.torque) && std::isfinite(leg.wheel.velocity);
+    usable = usable && is_torque(leg.wheel.torque) && is_velocity(leg.wheel.velocity);
     upper_leg_usable = upper_leg_usable && is_torque(leg.hip.torque) && is_torque(leg.knee.torque);
     wheel_[side].update(leg.wheel.torque, leg.wheel.velocity, config_.time_step);
     squares += leg.hip.torque * leg.hip.torque + leg.knee.torque * leg.knee.torque;

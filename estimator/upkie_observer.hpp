@@ -75,7 +75,6 @@ class UpkieObserver : public ContactEstimator {
   explicit UpkieObserver(const UpkieObserverConfig& config = {}) noexcept;
 
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
 
   [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
   [[nodiscard]] const WheelContactObserver& wheel(Side side) const noexcept {
@@ -85,6 +84,8 @@ class UpkieObserver : public ContactEstimator {
   [[nodiscard]] double upper_leg_torque() const noexcept { return upper_leg_torque_; }
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   void apply_threshold() noexcept;
 
   UpkieObserverConfig config_;

@@ -178,7 +178,9 @@ void add_belief(py::module_& module) {
       module, "Belief",
       "An estimator's belief after one step: `p_contact` and `contact` of the left and the right "
       "wheel, `p_any_wheel`, `p_both_wheels`. `status` reports whether the signals were usable: "
-      "\"good\", \"invalid\", \"gap\" or \"frozen\".")
+      "\"good\", \"invalid\", \"gap\" or \"frozen\"; `unusable` names the first signal that is NaN "
+      "or "
+      "beyond its bound, if any (\"left hip position\").")
       .def_property_readonly("p_contact",
                              [](const Belief& belief) {
                                return both(belief, [](auto& wheel) { return wheel.p_contact; });
@@ -190,6 +192,8 @@ void add_belief(py::module_& module) {
       .def_readonly("p_any_wheel", &Belief::p_any_wheel)
       .def_readonly("p_both_wheels", &Belief::p_both_wheels)
       .def_property_readonly("status", [](const Belief& belief) { return to_text(belief.status); })
+      .def_property_readonly("unusable",
+                             [](const Belief& belief) { return to_text(belief.unusable); })
       .def("__repr__", [](const Belief& belief) {
         return fmt::format("<Belief: p_contact ({:.6g}, {:.6g}), contact ({}, {}), {}>",
                            belief.wheel[0].p_contact, belief.wheel[1].p_contact,

@@ -45,7 +45,7 @@ void BayesFilter::reset() noexcept {
   apply_threshold(belief_, config_.threshold);
 }
 
-const Belief& BayesFilter::update(const Signals& signals) noexcept {
+const Belief& BayesFilter::estimate(const Signals& signals) noexcept {
   const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
   belief_.status = verdict.status;
   if (verdict.restart) {

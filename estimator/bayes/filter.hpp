@@ -40,7 +40,6 @@ class BayesFilter : public ContactEstimator {
                        const BayesFilterConfig& config = BayesFilterConfig::robust());
 
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
   [[nodiscard]] Evidence evidence() const noexcept override;
 
   /// bel(S_t) for both values of S_t. The filter keeps both, because near certainty 1 − bel(C)
@@ -60,6 +59,8 @@ class BayesFilter : public ContactEstimator {
   }
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   BayesFilterConfig config_;
   MeasurementModel model_;
   TransitionModel transition_;

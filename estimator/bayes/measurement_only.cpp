@@ -30,7 +30,7 @@ void MeasurementOnly::reset() noexcept {
   apply_threshold(belief_, config_.threshold);
 }
 
-const Belief& MeasurementOnly::update(const Signals& signals) noexcept {
+const Belief& MeasurementOnly::estimate(const Signals& signals) noexcept {
   const SignalGuard::Verdict verdict = guard_.check(signals.time, 0.0);
   belief_.status = verdict.status;
   for (std::size_t side = 0; side < 2; ++side) {

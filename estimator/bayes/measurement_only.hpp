@@ -19,7 +19,6 @@ class MeasurementOnly : public ContactEstimator {
                            const BayesFilterConfig& config = BayesFilterConfig::robust());
 
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
   [[nodiscard]] Evidence evidence() const noexcept override {
     return {{measurement_[0].evidence(), measurement_[1].evidence()}, {}};
   }
@@ -31,6 +30,8 @@ class MeasurementOnly : public ContactEstimator {
   }
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   BayesFilterConfig config_;
   MeasurementModel model_;
   SignalGuard guard_;

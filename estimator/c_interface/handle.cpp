@@ -18,6 +18,16 @@ Eigen::Vector3d vector(const double (&values)[3]) noexcept {  // NOLINT: C's arr
   return {values[0], values[1], values[2]};
 }
 
+touchdown_belief in_c(const Belief& belief, RecordFaults faults) noexcept {
+  return {{belief.wheel[0].p_contact, belief.wheel[1].p_contact},
+          {belief.wheel[0].contact ? 1 : 0, belief.wheel[1].contact ? 1 : 0},
+          belief.p_any_wheel,
+          belief.p_both_wheels,
+          static_cast<int>(belief.status),
+          faults.bits,
+          static_cast<int>(belief.unusable)};
+}
+
 std::string described(const ModelMetadata& metadata) {
   return metadata.estimator + ", " + text_of(metadata.sample_rate) + " Hz, robot " +
          (metadata.robot.empty() ? "unknown" : metadata.robot) + ", fingerprint " +
@@ -61,6 +71,11 @@ touchdown_record touchdown_empty_record(void) {
 }
 
 touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdown_record* record) {
+  if (estimator == nullptr || record == nullptr) {
+    Belief none;
+    none.status = SignalStatus::invalid;
+    return in_c(none, {});
+  }
   std::array<JointSignals, 6> joints;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const touchdown_joint& joint = record->joint[i];
@@ -75,16 +90,11 @@ touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdow
                                      .linear_acceleration = vector(record->linear_acceleration),
                                      .proper_acceleration = vector(record->proper_acceleration),
                                      .ground_velocity_command = record->ground_velocity_command});
-  const Belief& belief = estimator->estimator->update(signals);
-  return {{belief.wheel[0].p_contact, belief.wheel[1].p_contact},
-          {belief.wheel[0].contact ? 1 : 0, belief.wheel[1].contact ? 1 : 0},
-          belief.p_any_wheel,
-          belief.p_both_wheels,
-          static_cast<int>(belief.status),
-          estimator->assembler.faults().bits};
+  return in_c(estimator->estimator->update(signals), estimator->assembler.faults());
 }
 
 void touchdown_reset(touchdown_estimator* estimator) {
+  if (estimator == nullptr) return;
   estimator->estimator->reset();
   estimator->assembler.reset();
 }
@@ -92,9 +102,14 @@ void touchdown_reset(touchdown_estimator* estimator) {
 void touchdown_destroy(touchdown_estimator* estimator) { delete estimator; }
 
 const char* touchdown_model_text(const touchdown_estimator* estimator) {
-  return estimator->text.c_str();
+  return estimator == nullptr ? "" : estimator->text.c_str();
 }
 
 const char* touchdown_status_text(int status) {
   return to_text(static_cast<SignalStatus>(status)).data();  // a literal, so zero-terminated
+}
+
+const char* touchdown_signal_text(int signal) {
+  const std::string_view text = to_text(static_cast<SignalIndex>(signal));
+  return text.empty() ? "" : text.data();
 }

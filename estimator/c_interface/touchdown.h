@@ -40,7 +40,7 @@ typedef struct touchdown_record {
 
 enum touchdown_status {
   TOUCHDOWN_GOOD = 0,
-  TOUCHDOWN_INVALID = 1, /* unusable signals: the belief relaxes to the prior */
+  TOUCHDOWN_INVALID = 1, /* signals that are NaN or beyond their bounds: the belief relaxes */
   TOUCHDOWN_GAP = 2,     /* time jumped: the belief relaxes to the prior */
   TOUCHDOWN_FROZEN = 3   /* a sensor repeats itself to the bit: the belief relaxes to the prior */
 };
@@ -66,6 +66,7 @@ typedef struct touchdown_belief {
   double p_both_wheels; /* P(both wheels are in contact) */
   int status;           /* enum touchdown_status */
   unsigned faults;      /* bits of enum touchdown_fault */
+  int unusable;         /* the first signal that is NaN or beyond its bound; -1: none */
 } touchdown_belief;
 
 /* Returns a record to fill in: all its measurements are NaN, the command is 0. */
@@ -78,21 +79,26 @@ touchdown_record touchdown_empty_record(void);
 touchdown_estimator* touchdown_create(const char* model_path, const touchdown_use* use, char* error,
                                       size_t error_size);
 
-/* Takes one record and returns the belief after it. Never fails, allocates or locks. */
+/* Takes one record and returns the belief after it. Never fails, allocates or locks. Without an
+ * estimator or a record (NULL), returns the flat prior with the status TOUCHDOWN_INVALID. */
 touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdown_record* record);
 
-/* Resets the estimator to its state after touchdown_create. */
+/* Resets the estimator to its state after touchdown_create; NULL is allowed. */
 void touchdown_reset(touchdown_estimator* estimator);
 
 /* Frees the estimator; NULL is allowed. */
 void touchdown_destroy(touchdown_estimator* estimator);
 
 /* Describes the model: "robust, 1000 Hz, robot upkie, fingerprint …". The text is valid until the
- * estimator is destroyed. */
+ * estimator is destroyed; empty for NULL. */
 const char* touchdown_model_text(const touchdown_estimator* estimator);
 
-/* The name of an enum touchdown_status: "good", "invalid", "gap" or "frozen". */
+/* The name of an enum touchdown_status: "good", "invalid", "gap" or "frozen"; empty for others. */
 const char* touchdown_status_text(int status);
+
+/* The name of a touchdown_belief's `unusable` signal: "left hip position", "vertical acceleration",
+ * …; empty for -1. */
+const char* touchdown_signal_text(int signal);
 
 #ifdef __cplusplus
 }

@@ -7,7 +7,7 @@ DecisionNetwork::DecisionNetwork(const DecisionModel& model, const DecisionConfi
   check_decision_model(model);
 }
 
-const Belief& DecisionNetwork::update(const Signals& signals) noexcept {
+const Belief& DecisionNetwork::estimate(const Signals& signals) noexcept {
   const std::array<bool, 2>& is_valid = decision_.update(signals);
   std::array<float, 2> logits{};
   if (is_valid[0] || is_valid[1]) logits = network_.logits(decision_.pair_inputs());

@@ -20,9 +20,10 @@ class DecisionNetwork : public ContactEstimator {
   explicit DecisionNetwork(const DecisionModel& model, const DecisionConfig& config = {});
 
   void reset() noexcept override { decision_.reset(); }
-  const Belief& update(const Signals& signals) noexcept override;
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   PairedDecisionNetwork network_;
   LogitDecision decision_;
 };

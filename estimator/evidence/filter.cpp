@@ -14,7 +14,7 @@ const EvidenceModel& checked(const EvidenceModel& model) {
 EvidenceCurves::EvidenceCurves(const EvidenceModel& model, const DecisionConfig& config)
     : evidence_(checked(model)), decision_(config) {}
 
-const Belief& EvidenceCurves::update(const Signals& signals) noexcept {
+const Belief& EvidenceCurves::estimate(const Signals& signals) noexcept {
   const std::array<bool, 2>& is_valid = decision_.update(signals);
   std::array<float, 2> logits{};
   if (is_valid[0] || is_valid[1]) logits = evidence_.logits(decision_.left_inputs());

@@ -19,9 +19,10 @@ class EvidenceCurves : public ContactEstimator {
   explicit EvidenceCurves(const EvidenceModel& model, const DecisionConfig& config = {});
 
   void reset() noexcept override { decision_.reset(); }
-  const Belief& update(const Signals& signals) noexcept override;
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   PairedEvidence evidence_;
   LogitDecision decision_;
 };

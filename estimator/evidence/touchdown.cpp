@@ -15,7 +15,7 @@ const TouchdownModel& checked(const TouchdownModel& model) {
 TouchdownEstimator::TouchdownEstimator(const TouchdownModel& model, const DecisionConfig& config)
     : evidence_(checked(model).evidence), network_(model.network), decision_(config) {}
 
-const Belief& TouchdownEstimator::update(const Signals& signals) noexcept {
+const Belief& TouchdownEstimator::estimate(const Signals& signals) noexcept {
   const std::array<bool, 2>& is_valid = decision_.update(signals);
   std::array<double, 2> logit{};
   if (is_valid[0] || is_valid[1]) {

@@ -28,9 +28,10 @@ class TouchdownEstimator : public ContactEstimator {
   explicit TouchdownEstimator(const TouchdownModel& model, const DecisionConfig& config = {});
 
   void reset() noexcept override { decision_.reset(); }
-  const Belief& update(const Signals& signals) noexcept override;
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   PairedEvidence evidence_;
   PairedDecisionNetwork network_;
   LogitDecision decision_;

@@ -97,7 +97,7 @@ void ForceKinematics::reset() noexcept {
   belief_ = Belief{};
 }
 
-const Belief& ForceKinematics::update(const Signals& signals) noexcept {
+const Belief& ForceKinematics::estimate(const Signals& signals) noexcept {
   const WheelLoads::Step step = observations_.update(signals);
   belief_.status = step.status;
   for (std::size_t side = 0; side < 2; ++side) {

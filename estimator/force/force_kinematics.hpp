@@ -103,9 +103,10 @@ class ForceKinematics : public ContactEstimator {
                            const ForceKinematicsConfig& config = {});
 
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   ForceKinematicsModel model_;
   WheelObservations observations_;
   double threshold_;

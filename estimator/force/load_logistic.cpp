@@ -31,7 +31,7 @@ void LoadLogistic::reset() noexcept {
   belief_ = Belief{};
 }
 
-const Belief& LoadLogistic::update(const Signals& signals) noexcept {
+const Belief& LoadLogistic::estimate(const Signals& signals) noexcept {
   loads_.update(signals, belief_, [this](WheelBelief& wheel, double force) {
     wheel.p_contact = curve_(force);
     wheel.contact = wheel.p_contact >= threshold_;

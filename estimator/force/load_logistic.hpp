@@ -43,9 +43,10 @@ class LoadLogistic : public ContactEstimator {
   explicit LoadLogistic(const LogisticCurve& curve, const LoadLogisticConfig& config = {});
 
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   LogisticCurve curve_;  ///< of the force (N)
   double threshold_;
   WheelLoads loads_;

@@ -32,7 +32,7 @@ void SupportForce::reset() noexcept {
   belief_ = Belief{};
 }
 
-const Belief& SupportForce::update(const Signals& signals) noexcept {
+const Belief& SupportForce::estimate(const Signals& signals) noexcept {
   loads_.update(signals, belief_, [this](WheelBelief& wheel, double force) {
     const double middle = 0.5 * (config_.contact + config_.release);
     wheel.p_contact = 1.0 / (1.0 + std::exp(-(force - middle) / config_.width));

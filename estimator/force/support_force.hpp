@@ -30,7 +30,6 @@ class SupportForce : public ContactEstimator {
   explicit SupportForce(const SupportForceConfig& config = {});
 
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
 
   /// The low-passed force on one wheel (N).
   [[nodiscard]] double force(Side side) const noexcept {
@@ -38,6 +37,8 @@ class SupportForce : public ContactEstimator {
   }
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   SupportForceConfig config_;
   WheelLoads loads_;
   Belief belief_;

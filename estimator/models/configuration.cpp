@@ -102,6 +102,17 @@ void visit_guard(Visit& visit, Guard& guard) {
   visit("guard.relaxation", guard.relaxation);
 }
 
+template <typename Visit, typename Bounds>
+void visit_bounds(Visit& visit, Bounds& bounds) {
+  visit("bounds.leg_position", bounds.leg_position);
+  visit("bounds.wheel_position", bounds.wheel_position);
+  visit("bounds.velocity", bounds.velocity);
+  visit("bounds.torque", bounds.torque);
+  visit("bounds.acceleration", bounds.acceleration);
+  visit("bounds.angular_velocity", bounds.angular_velocity);
+  visit("bounds.ground_velocity", bounds.ground_velocity);
+}
+
 template <typename Visit, typename Geometry>
 void visit_geometry(Visit& visit, Geometry& geometry) {
   visit("geometry.upper_length", geometry.upper_length);
@@ -219,6 +230,8 @@ template <typename Config>
 void read(Config& config, const ConfigurationText& text) {
   MemberReader reader(text);
   visit_members(reader, config);
+  SignalBounds of_robot;  // `signal_bounds_of` reads these
+  visit_bounds(reader, of_robot);
   reader.finish();
 }
 
@@ -238,6 +251,24 @@ void configure(NeuralEstimatorConfig& config, const ConfigurationText& text) { r
 void configure(LoadLogisticConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(ForceKinematicsConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(DecisionConfig& config, const ConfigurationText& text) { read(config, text); }
+
+SignalBounds signal_bounds_of(const ConfigurationText& text) {
+  SignalBounds bounds;
+  MemberReader reader(text);
+  visit_bounds(reader, bounds);
+  check_signal_bounds(bounds);
+  return bounds;
+}
+
+bool is_signal_bound(const std::string& key) {
+  static const ConfigurationText all = [] {
+    MemberWriter writer;
+    const SignalBounds defaults;
+    visit_bounds(writer, defaults);
+    return writer.text;
+  }();
+  return all.contains(key);
+}
 
 BayesFilterConfig at_rate(BayesFilterConfig config, double sample_rate) {
   config.transition.window = std::max(

@@ -7,6 +7,7 @@
 #include "estimator/models/metadata.hpp"
 #include "estimator/neural/estimator.hpp"
 #include "estimator/phase/config.hpp"
+#include "estimator/signal_bounds.hpp"
 
 namespace touchdown {
 
@@ -28,6 +29,12 @@ void configure(NeuralEstimatorConfig& config, const ConfigurationText& text);
 void configure(LoadLogisticConfig& config, const ConfigurationText& text);
 void configure(ForceKinematicsConfig& config, const ConfigurationText& text);
 void configure(DecisionConfig& config, const ConfigurationText& text);
+
+/// The bounds of the robot's signals in a configuration, keys "bounds.velocity" and so on; the
+/// defaults where it has none. Errors: `InputError` for values that are no bounds.
+SignalBounds signal_bounds_of(const ConfigurationText& text);
+/// Whether this is the key of a bound.
+bool is_signal_bound(const std::string& key);
 
 /// The configuration at another rate (Hz). The window of the transition model keeps its duration.
 BayesFilterConfig at_rate(BayesFilterConfig config, double sample_rate);

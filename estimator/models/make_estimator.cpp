@@ -182,7 +182,8 @@ ConfigurationText configuration_for(const ModelMetadata& metadata, const std::st
   const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate, {});
   if (configuration.empty()) configuration = usual;
   for (const auto& [key, value] : replaced) {
-    if (!usual.contains(key)) throw InputError(no_such_member(estimator, key, usual));
+    if (!usual.contains(key) && !is_signal_bound(key))
+      throw InputError(no_such_member(estimator, key, usual));
     configuration[key] = value;
   }
   return configuration;
@@ -225,9 +226,13 @@ ModelMetadata metadata_for(const ModelArrays& arrays, const ModelUse& use) {
 std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays, const ModelUse& use) {
   const ModelMetadata metadata = metadata_for(arrays, use);
   const std::string& name = use.estimator.empty() ? metadata.estimator : use.estimator;
-  return recipe(name).make(
+  Made made = recipe(name).make(
       arrays, {configuration_for(metadata, name, use.configuration), metadata.sample_rate,
                use.sample_rate > 0.0 ? use.sample_rate : metadata.sample_rate, use.geometry});
+  ConfigurationText bounds = use.configuration;  // of the robot, whichever estimator it runs
+  bounds.insert(metadata.configuration.begin(), metadata.configuration.end());
+  made->limit_signals(signal_bounds_of(bounds));
+  return made;
 }
 
 }  // namespace touchdown

@@ -56,7 +56,7 @@ void NeuralEstimator::reset() noexcept {
   apply_threshold(0.5);
 }
 
-const Belief& NeuralEstimator::update(const Signals& signals) noexcept {
+const Belief& NeuralEstimator::estimate(const Signals& signals) noexcept {
   const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
   belief_.status = verdict.status;
   if (verdict.restart) {

@@ -34,7 +34,6 @@ class NeuralEstimator : public ContactEstimator {
                            const NeuralEstimatorConfig& config = {});
 
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
 
   [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
   /// Velocity of the IMU in the base frame (m/s) at the network's last step; zero before the first.
@@ -46,6 +45,8 @@ class NeuralEstimator : public ContactEstimator {
   }
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   void step() noexcept;
   void apply_threshold(double p_contact) noexcept;
 

@@ -34,7 +34,7 @@ PhaseNoise PhaseFilter::noise() const noexcept {
                                            prepared_.acceleration_noise.sigma()});
 }
 
-const Belief& PhaseFilter::update(const Signals& signals) noexcept {
+const Belief& PhaseFilter::estimate(const Signals& signals) noexcept {
   const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
   belief_.status = verdict.status;
   std::array<bool, 2> torques_good{};

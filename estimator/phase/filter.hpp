@@ -24,7 +24,6 @@ class PhaseFilter : public ContactEstimator {
   explicit PhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config = {});
 
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
 
   [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
   [[nodiscard]] const PhaseFilterConfig& config() const noexcept { return config_; }
@@ -34,6 +33,8 @@ class PhaseFilter : public ContactEstimator {
   [[nodiscard]] PhaseNoise noise() const noexcept;
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   void reset_memory(double elapsed) noexcept;
   void estimate_noise(const Signals& signals, bool acceleration_good) noexcept;
   void apply_threshold() noexcept;

@@ -17,7 +17,7 @@ void BoostedTreesEstimator::reset() noexcept {
   for (WheelBelief& wheel : belief_.wheel) wheel.contact = true;
 }
 
-const Belief& BoostedTreesEstimator::update(const Signals& signals) noexcept {
+const Belief& BoostedTreesEstimator::estimate(const Signals& signals) noexcept {
   const SignalWindow::Step step = window_.update(signals);
   belief_.status = step.status;
   for (std::size_t side = 0; side < 2; ++side) {

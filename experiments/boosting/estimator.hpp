@@ -22,9 +22,10 @@ class BoostedTreesEstimator : public ContactEstimator {
   BoostedTreesEstimator(BoostedTrees trees, const Config& config);
 
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   Config config_;
   BoostedTrees trees_;
   SignalWindow window_;

@@ -15,9 +15,10 @@ using EstimatorPointer = std::unique_ptr<ContactEstimator>;
 class AlwaysContact : public ContactEstimator {
  public:
   void reset() noexcept override {}
-  const Belief& update(const Signals& /*signals*/) noexcept override { return belief_; }
 
  private:
+  const Belief& estimate(const Signals& /*signals*/) noexcept override { return belief_; }
+
   const Belief belief_ = {.wheel = {{{1.0, true}, {1.0, true}}},
                           .p_any_wheel = 1.0,
                           .p_both_wheels = 1.0,
@@ -40,7 +41,7 @@ void Oracle::reset() noexcept {
   belief_ = {};
 }
 
-const Belief& Oracle::update(const Signals& signals) noexcept {
+const Belief& Oracle::estimate(const Signals& signals) noexcept {
   belief_ = {};
   const double steps = std::round((signals.time - time_) * sample_rate_);
   if (step_ > 0 && steps > 1.0 && steps < 1e9) step_ += static_cast<std::size_t>(steps) - 1;

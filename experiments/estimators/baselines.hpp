@@ -28,9 +28,10 @@ class Oracle : public ContactEstimator {
 
   /// Returns to the first label.
   void reset() noexcept override;
-  const Belief& update(const Signals& signals) noexcept override;
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override;
+
   std::array<scoring::ContactSequence, models::wheel_count> contact_;
   double sample_rate_;
   std::size_t step_ = 0;  ///< index of the next label

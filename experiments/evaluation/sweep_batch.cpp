@@ -100,6 +100,7 @@ bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> l
   // No draw exceeds twenty standard deviations.
   if (!(20.0 * noise < 0.5 * config.largest_acceleration)) return false;
   if (!(20.0 * torque_noise < 0.5 * config.largest_torque)) return false;
+  const SignalCheck check;
   SignalGuard guard(config, 1e6 / static_cast<double>(run.info.control_period_us));
   for (const Signals& signals : run.signals) {
     const bool torques_good =
@@ -108,6 +109,7 @@ bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> l
                  std::abs(leg.wheel.torque) < 0.5 * config.largest_torque;
         });
     if (!torques_good || !neural_input(signals).allFinite()) return false;
+    if (check.first_unusable(signals) != SignalIndex::none) return false;
     if (!(std::abs(signals.vertical_acceleration) < 0.5 * config.largest_acceleration)) {
       return false;
     }

@@ -106,7 +106,10 @@ std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
   }
   EstimatorEntry resampled = entry;
   if (resampled.config) resampled.config = at_rate(*entry.config, sample_rate);
-  return resampled.make(resampled, {sample_rate, &model, request.robot.legs});
+  std::unique_ptr<ContactEstimator> made =
+      resampled.make(resampled, {sample_rate, &model, request.robot.legs});
+  if (model.metadata) made->limit_signals(signal_bounds_of(model.metadata->configuration));
+  return made;
 }
 
 std::string LogEstimator::model_text() const {

@@ -31,10 +31,11 @@ void evaluate(ContactEstimator& estimator, const RunSignals& run, const Sense& s
 template <typename Sense, typename Take>
 void evaluate(const WholeRunEstimator& estimate, const RunSignals& run, const Sense& sense,
               const Take& take) {
+  const SignalCheck check;  // as `ContactEstimator` does for one step
   std::vector<Signals> signals;
   signals.reserve(run.steps());
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (has_record(run.signals[k])) signals.push_back(sense(k));
+    if (has_record(run.signals[k])) signals.push_back(check.without_unusable(sense(k)));
   }
   const std::vector<Belief> beliefs = estimate(signals);
   Belief belief;

@@ -64,6 +64,9 @@ TEST(SweepRun, RunsOneByOneWhereASignalGuardWouldReact) {
   RunSignals broken = synthetic_run(6);
   broken.signals[700].leg[1].knee.torque = std::nan("");
   expect_batch_equals_one_by_one(broken, false);
+  RunSignals absurd = synthetic_run(7);
+  absurd.signals[700].leg[0].hip.velocity = 1e39;
+  expect_batch_equals_one_by_one(absurd, false);
 }
 
 TEST(SweepRun, StopsOnRequest) {

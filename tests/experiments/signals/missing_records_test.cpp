@@ -17,14 +17,15 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 class Counter : public ContactEstimator {
  public:
   void reset() noexcept override { belief_ = {}, updates_ = 0; }
-  const Belief& update(const Signals& /*signals*/) noexcept override {
+
+ private:
+  const Belief& estimate(const Signals& /*signals*/) noexcept override {
     ++updates_;
     belief_.wheel[0].contact = updates_ % 2 == 1;
     belief_.wheel[0].p_contact = 1e-3 * updates_;
     return belief_;
   }
 
- private:
   Belief belief_;
   int updates_ = 0;
 };

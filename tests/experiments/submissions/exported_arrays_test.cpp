@@ -14,13 +14,14 @@ namespace {
 class RecordingEstimator : public ContactEstimator {
  public:
   void reset() noexcept override { inputs.clear(); }
-  const Belief& update(const Signals& signals) noexcept override {
-    inputs.push_back(signals);
-    return belief_;
-  }
   std::vector<Signals> inputs;
 
  private:
+  const Belief& estimate(const Signals& signals) noexcept override {
+    inputs.push_back(signals);
+    return belief_;
+  }
+
   Belief belief_;
 };
 

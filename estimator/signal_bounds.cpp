@@ -1,0 +1,103 @@
+#include "estimator/signal_bounds.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+
+namespace {
+
+constexpr std::array<std::string_view, signal_count> names = {
+    "left hip position",     "left hip velocity",      "left hip torque",
+    "left knee position",    "left knee velocity",     "left knee torque",
+    "left wheel position",   "left wheel velocity",    "left wheel torque",
+    "right hip position",    "right hip velocity",     "right hip torque",
+    "right knee position",   "right knee velocity",    "right knee torque",
+    "right wheel position",  "right wheel velocity",   "right wheel torque",
+    "acceleration x",        "acceleration y",         "acceleration z",
+    "angular velocity x",    "angular velocity y",     "angular velocity z",
+    "vertical acceleration", "ground velocity command"};
+
+/// The members after the time as one array. One pass over it costs a few instructions per step.
+std::array<double, signal_count> values_of(const Signals& signals) noexcept {
+  static_assert(sizeof(Signals) == (1 + signal_count) * sizeof(double));
+  std::array<double, 1 + signal_count> all;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  std::memcpy(all.data(), &signals, sizeof(all));
+  std::array<double, signal_count> values;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  std::memcpy(values.data(), all.data() + 1, sizeof(values));
+  return values;
+}
+
+/// Written so that NaN fails.
+bool is_within(double value, double largest) noexcept { return std::abs(value) <= largest; }
+
+}  // namespace
+
+std::string_view to_text(SignalIndex signal) noexcept {
+  const int index = static_cast<int>(signal);
+  return index < 0 || index >= static_cast<int>(signal_count)
+             ? std::string_view()
+             : names[static_cast<std::size_t>(index)];
+}
+
+void check_signal_bounds(const SignalBounds& bounds) {
+  for (const double bound :
+       {bounds.leg_position, bounds.wheel_position, bounds.velocity, bounds.torque,
+        bounds.acceleration, bounds.angular_velocity, bounds.ground_velocity}) {
+    if (!(std::isfinite(bound) && bound > 0.0)) {
+      throw InputError("signal bounds: every bound must be positive and finite");
+    }
+  }
+}
+
+SignalCheck::SignalCheck(const SignalBounds& bounds) {
+  check_signal_bounds(bounds);
+  std::size_t at = 0;
+  for (std::size_t joint = 0; joint < 6; ++joint) {
+    largest_[at++] = joint % 3 == 2 ? bounds.wheel_position : bounds.leg_position;
+    largest_[at++] = bounds.velocity;
+    largest_[at++] = bounds.torque;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) largest_[at++] = bounds.acceleration;
+  for (std::size_t axis = 0; axis < 3; ++axis) largest_[at++] = bounds.angular_velocity;
+  largest_[at++] = bounds.acceleration;
+  largest_[at] = bounds.ground_velocity;
+}
+
+SignalIndex SignalCheck::first_unusable(const Signals& signals) const noexcept {
+  const std::array<double, signal_count> values = values_of(signals);
+  std::int64_t usable = 1;  // as wide as the values, so that the loop vectorises
+  for (std::size_t i = 0; i < signal_count; ++i) {
+    usable &= is_within(values[i], largest_[i]) ? 1 : 0;
+  }
+  if (usable != 0) return SignalIndex::none;
+  std::size_t first = 0;
+  while (is_within(values[first], largest_[first])) ++first;
+  return static_cast<SignalIndex>(first);
+}
+
+Signals SignalCheck::without_unusable(const Signals& signals) const noexcept {
+  std::array<double, signal_count> values = values_of(signals);
+  for (std::size_t i = 0; i < signal_count; ++i) {
+    if (!is_within(values[i], largest_[i])) values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  Signals usable;
+  usable.time = signals.time;
+  const auto joint = [&](std::size_t i) -> JointSignals {
+    return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  };
+  for (std::size_t side = 0; side < 2; ++side) {
+    usable.leg[side] = {joint(3 * side), joint(3 * side + 1), joint(3 * side + 2)};
+  }
+  usable.linear_acceleration = {values[18], values[19], values[20]};
+  usable.angular_velocity = {values[21], values[22], values[23]};
+  usable.vertical_acceleration = values[24];
+  usable.ground_velocity_command = values[25];
+  return usable;
+}
+
+}  // namespace touchdown

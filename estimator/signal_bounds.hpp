@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "estimator/signals.hpp"
+
+namespace touchdown {
+
+/// The largest absolute values that a robot's sensors can report. The defaults are far beyond any
+/// wheeled biped: a larger value is a fault of a sensor, a bus or a conversion.
+struct SignalBounds {
+  double leg_position = 1e3;      ///< of hips and knees, turns included (rad)
+  double wheel_position = 1e9;    ///< of wheels, which turn without end (rad)
+  double velocity = 1e3;          ///< of joints (rad/s)
+  double torque = 1e4;            ///< of joints (N·m)
+  double acceleration = 1e4;      ///< of the IMU, each axis and the vertical (m/s²)
+  double angular_velocity = 1e3;  ///< of the IMU, each axis (rad/s)
+  double ground_velocity = 1e3;   ///< commanded (m/s)
+
+  bool operator==(const SignalBounds&) const = default;
+};
+
+/// Throws InputError for a bound that is not a positive finite number.
+void check_signal_bounds(const SignalBounds& bounds);
+
+/// The number of a member of `Signals` after the time, in their order.
+enum class SignalIndex : int { none = -1 };
+inline constexpr std::size_t signal_count = 26;
+
+/// "left hip position", "vertical acceleration", …; empty for `none`.
+std::string_view to_text(SignalIndex signal) noexcept;
+
+/// Checks every signal of a step against its bound.
+class SignalCheck {
+ public:
+  /// Throws as `check_signal_bounds`.
+  explicit SignalCheck(const SignalBounds& bounds = {});
+
+  /// The first signal that is NaN or beyond its bound; `none` if all are usable.
+  [[nodiscard]] SignalIndex first_unusable(const Signals& signals) const noexcept;
+
+  /// The same signals with NaN in place of every value beyond its bound.
+  [[nodiscard]] Signals without_unusable(const Signals& signals) const noexcept;
+
+ private:
+  std::array<double, signal_count> largest_;
+};
+
+}  // namespace touchdown

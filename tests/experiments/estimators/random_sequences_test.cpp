@@ -1,0 +1,102 @@
+// No record, however absurd, leaves an estimator without a probability, or damaged for longer than
+// a second. `make fuzz` runs 100,000 sequences for each estimator, every other run a few.
+
+#include "tests/experiments/estimators/random_sequences.hpp"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/fitting.hpp"
+#include "tests/experiments/synthetic_runs.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+std::size_t sequences() {
+  const char* const number = std::getenv("TOUCHDOWN_RANDOM_SEQUENCES");
+  return number == nullptr ? 200 : std::strtoull(number, nullptr, 10);
+}
+
+TEST(RandomSequences, LeaveEveryRegisteredEstimatorWithProbabilities) {
+  std::vector<std::string> fitted;
+  for (const EstimatorEntry& entry : estimator_entries()) {
+    if (entry.fits()) fitted.push_back(entry.name);
+  }
+  const FittedModels models =
+      fit_models(synthetic_experiment(fitted), {synthetic_run(first_fit_run)});
+  const RunSignals run = synthetic_run(3);
+  for (const EstimatorEntry& entry : estimator_entries()) {
+    const EstimatorSetup setup{
+        .model = entry.fits() ? &models.at("mujoco").at(entry.name) : nullptr,
+        .truth = &run.contact};
+    const auto estimator = entry.make(entry, setup);
+    const auto twin = entry.make(entry, setup);
+    RandomSequences random(*estimator, *twin, run.signals, 39);
+    // The oracle's labels end.
+    random.expect_probabilities(sequences(), entry.name, !entry.needs_truth);
+  }
+}
+
+/// What a user's estimator may do: sum whatever it gets. `NaN` would stay in the sum for ever.
+class NaiveEstimator : public ContactEstimator {
+ public:
+  void reset() noexcept override { sum_ = 0.0; }
+
+ private:
+  const Belief& estimate(const Signals& signals) noexcept override {
+    sum_ = 0.99 * sum_ + signals.leg[0].hip.velocity + signals.vertical_acceleration;
+    const double p = 0.5 + 0.5 * sum_ / (1.0 + std::abs(sum_));
+    belief_.wheel.fill({p, p >= 0.5});
+    multiply_wheels(belief_);
+    return belief_;
+  }
+
+  double sum_ = 0.0;
+  Belief belief_;
+};
+
+TEST(RandomSequences, LeaveAUsersEstimatorWithProbabilities) {
+  NaiveEstimator estimator;
+  NaiveEstimator twin;
+  RandomSequences random(estimator, twin, synthetic_run(3).signals, 39);
+  random.expect_probabilities(sequences(), "naive");
+}
+
+TEST(RandomSequences, ReachEstimatorsOfWholeRunsAsNaN) {
+  RunSignals run = synthetic_run(3, 100);
+  run.signals[7].leg[1].wheel.velocity = -1e308;
+  run.signals[8].angular_velocity.y() = 1e39;
+  std::vector<Signals> seen;
+  EstimatorRunner runner(WholeRunEstimator([&](std::span<const Signals> signals) {
+    seen.assign(signals.begin(), signals.end());
+    return std::vector<Belief>(signals.size());
+  }));
+  decide(runner, run, noise_run(run, {}), {});
+  EXPECT_TRUE(std::isnan(seen[7].leg[1].wheel.velocity));
+  EXPECT_TRUE(std::isnan(seen[8].angular_velocity.y()));
+  EXPECT_EQ(seen[7].leg[1].wheel.torque, run.signals[7].leg[1].wheel.torque);
+  EXPECT_EQ(seen[9].leg[1].wheel.velocity, run.signals[9].leg[1].wheel.velocity);
+}
+
+TEST(RandomSequences, DoNotReachAFit) {
+  RunSignals absurd = synthetic_run(first_fit_run);
+  for (const std::size_t k : {1000U, 2000U, 3000U}) {
+    absurd.signals[k].leg[0].hip.position = 1e308;
+    absurd.signals[k].leg[1].knee.velocity = -1e39;
+  }
+  RunSignals missing = absurd;
+  for (const std::size_t k : {1000U, 2000U, 3000U}) {
+    missing.signals[k].leg[0].hip.position = missing.signals[k].leg[1].knee.velocity = std::nan("");
+  }
+  for (const std::string name : {"force_kinematics", "load_logistic", "decision_network"}) {
+    const auto parameters = [&](const RunSignals& run) {
+      return fit_models(synthetic_experiment({name}), {run}).at("mujoco").at(name).parameters;
+    };
+    EXPECT_EQ(parameters(absurd)->parameters, parameters(missing)->parameters) << name;
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
