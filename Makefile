@@ -101,9 +101,11 @@ tsan: build/tsan/build.ninja ## Build and test what runs in threads with ThreadS
 	cmake --build --preset tsan --parallel $(JOBS)
 	ctest --preset tsan --parallel $(JOBS)
 
-fuzz: build/fuzz/build.ninja ## Fuzz every reader of files, MINUTES (1) each
+fuzz: build/fuzz/build.ninja $(BUILD)/CTestTestfile.cmake ## Fuzz every reader of files, MINUTES (1) each, and every estimator
 	cmake --build --preset fuzz --parallel $(JOBS)
 	@scripts/fuzz.sh build/fuzz $(or $(MINUTES),1)
+	cmake --build --preset release --parallel $(JOBS) --target test_experiments
+	TOUCHDOWN_RANDOM_SEQUENCES=100000 $(BUILD)/test_experiments --gtest_filter='RandomSequences.*'
 
 clean: ## Remove what was built (runs/ stays)
 	rm -rf build

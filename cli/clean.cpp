@@ -6,6 +6,7 @@
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/program/streams.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/old_runs.hpp"
 #include "experiments/run_directory/own_files.hpp"
@@ -26,12 +27,12 @@ std::uintmax_t remove(const experiments::OldRun& run, const CliSession& session)
   try {
     lock.emplace(run.directory, experiments::Access::alone, session.command);
   } catch (const Error& error) {
-    fmt::print("{}\n", error.what());
+    print("{}\n", error.what());
     return 0;
   }
   const experiments::UntrackedFiles left = experiments::remove_run(run.directory);
   if (left.files > 0) {
-    fmt::print("{}  {} untracked files remain\n", run.directory.string(), left.files);
+    print("{}  {} untracked files remain\n", run.directory.string(), left.files);
   }
   return run.bytes - std::min(run.bytes, left.bytes);
 }
@@ -41,12 +42,12 @@ void clean(const CleanFlags& flags, const CliSession& session) {
   for (const experiments::OldRun& run : experiments::old_runs(flags.runs)) {
     const std::uintmax_t bytes = flags.dry_run ? run.bytes : remove(run, session);
     if (bytes > 0) {
-      fmt::print("{}  {:.1f} MB\n", run.directory.string(), 1e-6 * static_cast<double>(bytes));
+      print("{}  {:.1f} MB\n", run.directory.string(), 1e-6 * static_cast<double>(bytes));
     }
     all += bytes;
   }
-  fmt::print("{:.1f} MB {}\n", 1e-6 * static_cast<double>(all),
-             flags.dry_run ? "would be free" : "are free");
+  print("{:.1f} MB {}\n", 1e-6 * static_cast<double>(all),
+        flags.dry_run ? "would be free" : "are free");
 }
 
 }  // namespace

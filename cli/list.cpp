@@ -5,6 +5,7 @@
 
 #include "cli/verbs.hpp"
 #include "core/files.hpp"
+#include "core/program/streams.hpp"
 #include "core/resources.hpp"
 #include "core/tables/table.hpp"
 #include "experiments/estimators/registry.hpp"
@@ -27,12 +28,12 @@ std::string first_sentence(const std::filesystem::path& path) {
 }
 
 void print_files(const char* title, const char* folder) {
-  fmt::print("{}\n", title);
+  print("{}\n", title);
   Table table{{}, {}};
   for (const std::filesystem::path& path : resources_in(folder, ".yaml")) {
     table.rows.push_back({path.string(), first_sentence(find_resource(path))});
   }
-  fmt::print("{}\n", to_text(table, 2));
+  print("{}\n", to_text(table, 2));
 }
 
 /// Name, title and summary of each entry of a registry.
@@ -56,11 +57,11 @@ std::string families_text() {
 void list() {
   print_files("experiments", "experiments");
   print_files("scenarios", "scenarios");
-  fmt::print("families of drawn scenarios (touchdown generate)\n{}\n", families_text());
+  print("families of drawn scenarios (touchdown generate)\n{}\n", families_text());
   print_files("robots (every MJCF file is a robot, too)", "models");
   print_files("sensors", "sensors");
-  fmt::print("simulators\n{}\n", entries_text(simulators::simulator_entries()));
-  fmt::print("estimators\n{}", entries_text(experiments::estimator_entries()));
+  print("simulators\n{}\n", entries_text(simulators::simulator_entries()));
+  print("estimators\n{}", entries_text(experiments::estimator_entries()));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <new>
 
 #include <CLI/CLI.hpp>
@@ -67,6 +68,11 @@ std::string complaint(const CLI::App& program, int argc, char** argv,
   return fmt::format("{}: {}", verb, on_one_line(error.what()));
 }
 
+/// "file: reason", without the name of the failed function.
+std::string reason_of(const std::filesystem::filesystem_error& error) {
+  return fmt::format("{}: {}", error.path1().string(), error.code().message());
+}
+
 int run_command_line(int argc, char** argv) {
   const CliSession session{joined(argc, argv), argc > 0 ? argv[0] : "touchdown",
                            &stop_on_interrupt()};
@@ -95,7 +101,7 @@ int run_command_line(int argc, char** argv) {
   add_manual(program, session);
 
   if (argc < 2) {
-    fmt::print("{}", program.help());
+    print("{}", program.help());
     return wrong_request;
   }
   try {
@@ -109,6 +115,8 @@ int run_command_line(int argc, char** argv) {
     return complain(error.what(), wrong_request);
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(reason_of(error), failed);
   } catch (const std::exception& error) {
     return complain(error.what(), failed);
   }
@@ -118,6 +126,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace touchdown::cli
 
 int main(int argc, char** argv) {
+  touchdown::stop_on_interrupt();
   touchdown::keep_freed_memory();
   touchdown::open_standard_streams();
   return touchdown::finished([&] { return touchdown::cli::run_command_line(argc, argv); });

@@ -7,6 +7,7 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/program/outputs.hpp"
+#include "core/program/streams.hpp"
 #include "core/progress.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "render/film/video.hpp"
@@ -95,12 +96,12 @@ void render(const RenderFlags& flags, const CliSession& session) {
     } else {
       render::render_poster(sources, options, moment, flags.output);
     }
-    fmt::print("{}\n", flags.output);
+    print("{}\n", flags.output);
     return;
   }
   options.progress = render::film_progress("filming", session.stop);
   const render::VideoStatistics statistics = render::render_video(sources, options, flags.output);
-  fmt::print("{}: {} frames, {:.1f} frames/s\n", flags.output, statistics.frames, statistics.fps());
+  print("{}: {} frames, {:.1f} frames/s\n", flags.output, statistics.frames, statistics.fps());
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
+#include "core/program/streams.hpp"
 #include "experiments/run_directory/lock.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
 #include "render/pictures/filmed_report.hpp"
 #include "render/studies/registry.hpp"
@@ -31,6 +33,7 @@ void add_report(CLI::App& program, const CliSession& session) {
   verb.option("directory", &flags->directory, "Run directory").required();
   verb.flag("--no-film", &flags->no_film, "Leave out the video");
   verb.action([flags, &session] {
+    experiments::require_no_links(flags->directory);
     std::optional<experiments::DirectoryLock> lock;
     if (experiments::owner_of(flags->directory)) {
       lock.emplace(flags->directory, experiments::Access::alone, session.command);
@@ -40,8 +43,8 @@ void add_report(CLI::App& program, const CliSession& session) {
     if (!flags->no_film && subject.experiment.video.enabled) filmed = render::filmed_runs(subject);
     const std::filesystem::path path =
         render::make_report(subject, filmed, render::study_pictures(), session.stop);
-    fmt::print("report    {} ({:.1f} MB)\n", path.string(),
-               static_cast<double>(std::filesystem::file_size(path)) / 1e6);
+    print("report    {} ({:.1f} MB)\n", path.string(),
+          static_cast<double>(std::filesystem::file_size(path)) / 1e6);
   });
 }
 

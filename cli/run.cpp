@@ -8,6 +8,7 @@
 #include "cli/show_result.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/program/streams.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/run_experiment.hpp"
@@ -31,19 +32,18 @@ void run_one_shard(const experiments::Experiment& experiment, const experiments:
                    const experiments::RunOptions& options) {
   const experiments::ShardReport report = experiments::run_shard(experiment, shard, options);
   for (const experiments::Rollout& run : report.failed_runs) {
-    fmt::print(
-        "Not used: {} ({})\n", run.plan.file,
-        run.report.error.empty() ? recordings::to_text(run.report.outcome) : run.report.error);
+    print("Not used: {} ({})\n", run.plan.file,
+          run.report.error.empty() ? recordings::to_text(run.report.outcome) : run.report.error);
   }
-  fmt::print("shard {}: {} parts, {} computed now\n", experiments::to_text(shard), report.tasks,
-             report.computed);
-  fmt::print("when all {} are done: touchdown merge {}\n", shard.count,
-             report.directory.path().string());
+  print("shard {}: {} parts, {} computed now\n", experiments::to_text(shard), report.tasks,
+        report.computed);
+  print("when all {} are done: touchdown merge {}\n", shard.count,
+        report.directory.path().string());
 }
 
 void outline(const experiments::Experiment& experiment, const experiments::RunOptions& options) {
   const experiments::RunOutline outline = experiments::outline_of(experiment, options);
-  fmt::print("results   {}\nparts     {}\n", outline.directory.string(), outline.tasks);
+  print("results   {}\nparts     {}\n", outline.directory.string(), outline.tasks);
 }
 
 void run(const RunFlags& flags, const CliSession& session) {

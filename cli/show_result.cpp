@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/program/streams.hpp"
 #include "experiments/results/manifest.hpp"
 #include "experiments/results/terminal.hpp"
@@ -33,7 +34,7 @@ std::string last_screen(const experiments::ExperimentResult& result, const CliSe
   std::string text =
       fmt::format("{}\nreport    {}\nfigures   {}\n", experiments::closing_text(result),
                   (directory / "report.html").string(), (directory / "figures").string());
-  if (std::filesystem::exists(directory / "videos")) {
+  if (is_there(directory / "videos")) {
     text += fmt::format("videos    {}\n", (directory / "videos").string());
   }
   const char* next = result.experiment.name == "noise_study" ? "cross_simulator" : "noise_study";

@@ -5,6 +5,7 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/program/outputs.hpp"
+#include "core/program/streams.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
@@ -54,9 +55,9 @@ void simulate(const SimulateFlags& flags, const CliSession& session) {
   if (*session.stop) throw Stopped();
   recordings::write_recording(recording, flags.output);
   const auto all = scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, {})));
-  fmt::print("{}: {} {} after {:.3f} s, {} flights\n", flags.output, recording.info.scenario,
-             recordings::to_text(*recording.info.outcome),
-             static_cast<double>(recording.steps()) * recording.period(), all.size());
+  print("{}: {} {} after {:.3f} s, {} flights\n", flags.output, recording.info.scenario,
+        recordings::to_text(*recording.info.outcome),
+        static_cast<double>(recording.steps()) * recording.period(), all.size());
 }
 
 }  // namespace

@@ -1,8 +1,16 @@
 #include "cli/verb.hpp"
 
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <type_traits>
 #include <utility>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "core/yaml_text.hpp"
 
 namespace touchdown::cli {
 
@@ -49,8 +57,51 @@ Option& Option::one_at_a_time() {
 Verb::Verb(CLI::App& program, const std::string& name, const std::string& help)
     : app_(program.add_subcommand(name, help)) {}
 
+namespace {
+
+/// What is wrong with a number on the command line; empty if nothing is. CLI11 alone would wrap -1
+/// to 2^64 - 1, cut 2^64 down, and read 010 as octal.
+template <typename Number>
+std::string complaint_about(const std::string& text) {
+  if (has_leading_zero(text)) return fmt::format("{}: a number has no leading zero", text);
+  Number number{};
+  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);
+  const bool is_whole_text = error == std::errc{} && end == text.data() + text.size();
+  if constexpr (std::floating_point<Number>) {
+    return is_whole_text && std::isfinite(number)
+               ? ""
+               : fmt::format("{}: expected a finite number", text);
+  } else {
+    using Limits = std::numeric_limits<Number>;
+    return is_whole_text ? ""
+                         : fmt::format("{}: expected a whole number from {} to {}", text,
+                                       Limits::min(), Limits::max());
+  }
+}
+
+/// The element of a list, or the variable itself.
+template <typename T>
+struct Element {
+  using Type = T;
+};
+template <typename T>
+struct Element<std::vector<T>> {
+  using Type = T;
+};
+
+}  // namespace
+
 Option Verb::option(const std::string& names, OptionValue value, const std::string& help) {
-  const auto add = [&](auto* variable) { return app_->add_option(names, *variable, help); };
+  const auto add = [&]<typename T>(T* variable) {
+    CLI::Option* const option = app_->add_option(names, *variable, help);
+    using Number = typename Element<T>::Type;
+    if constexpr (std::is_arithmetic_v<Number>) {
+      option->check(
+          CLI::Validator([](std::string& text) { return complaint_about<Number>(text); }, "", ""));
+    }
+    return option;
+  };
   return Option(std::visit(add, value));
 }
 

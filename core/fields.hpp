@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <functional>
@@ -47,28 +48,22 @@ class Fields {
   /// The node that is read, or that has been written so far; empty when documenting.
   const YAML::Node& node() const { return node_; }
 
-  /// Reads or writes one value. When reading, an absent key leaves the value unchanged.
+  /// Reads or writes one value. When reading, an absent key leaves the value unchanged, and numbers
+  /// must be finite and at most 1e15, also where no range follows.
   template <typename T>
   KeyNotes operator()(std::string_view key, T& value) {
-    if (documenting()) return document(key, kind_name<T>(), value_text(YAML::Node(value)));
-    if (!reading()) {
-      node_[std::string(key)] = value;
-    } else if (const YAML::Node given = take(key)) {
-      if constexpr (of_numbers<T>()) refuse_leading_zeros(given, key);
-      try {
-        value = given.as<T>();
-      } catch (const YAML::Exception&) {
-        fail(key, fmt::format("expected {}", type_name<T>()));
-      }
+    const KeyNotes notes = read_or_write(key, value);
+    if constexpr (of_numbers<T>()) {
+      if (reading() && has(key)) refuse_absurd_numbers(key, value);
     }
-    return {};
+    return notes;
   }
 
   /// The same with a range: `low <= value <= high`.
   template <typename T>
   KeyNotes operator()(std::string_view key, T& value, std::type_identity_t<T> low,
                       std::type_identity_t<T> high) {
-    const KeyNotes notes = (*this)(key, value);
+    const KeyNotes notes = read_or_write(key, value);
     const auto least = static_cast<double>(low);
     const auto most = static_cast<double>(high);
     if (documenting()) return notes.range(range_text(least, most));
@@ -185,6 +180,22 @@ class Fields {
   Fields(YAML::Node node, YamlDocument document, std::string path);
   Fields(KeyCollection& keys, std::string path);
 
+  template <typename T>
+  KeyNotes read_or_write(std::string_view key, T& value) {
+    if (documenting()) return document(key, kind_name<T>(), value_text(YAML::Node(value)));
+    if (!reading()) {
+      node_[std::string(key)] = value;
+    } else if (const YAML::Node given = take(key)) {
+      if constexpr (of_numbers<T>()) refuse_leading_zeros(given, key);
+      try {
+        value = given.as<T>();
+      } catch (const YAML::Exception&) {
+        fail(key, fmt::format("expected {}", type_name<T>()));
+      }
+    }
+    return {};
+  }
+
   KeyNotes document(std::string_view key, std::string type, std::string fallback);
   KeyNotes document_list(std::string_view key, std::type_index item_type, std::string fallback,
                          const std::function<void(Fields&)>& describe_item);
@@ -242,6 +253,18 @@ class Fields {
   /// Rejects leading zeros in quoted numbers. YAML parses these as text, so earlier checks pass
   /// them.
   void refuse_leading_zeros(const YAML::Node& given, std::string_view key) const;
+
+  /// Rejects what no quantity reaches: NaN, infinities and numbers beyond ±1e15.
+  template <typename T>
+  void refuse_absurd_numbers(std::string_view key, const T& value) const {
+    if constexpr (std::floating_point<T>) {
+      constexpr double largest = 1e15;
+      check(std::abs(static_cast<double>(value)) <= largest, key,
+            "expected a finite number, from -1e15 to 1e15");
+    } else if constexpr (!std::integral<T>) {
+      for (const auto& one : value) refuse_absurd_numbers(key, one);
+    }
+  }
 
   bool reading_ = false;
   KeyCollection* keys_ = nullptr;  ///< when documenting

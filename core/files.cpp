@@ -26,6 +26,12 @@ struct TemporaryFile {
   }
 };
 
+/// `number` is `errno` of the failed write; 0 if it is unknown.
+std::string unwritable(const std::filesystem::path& path, int number) {
+  return fmt::format("{}: cannot be written: {}", path.string(),
+                     number == 0 ? "is the disk full?" : std::generic_category().message(number));
+}
+
 /// Flushes the file to disk. A delayed write error is reported here, and nowhere later.
 void flush_to_disk(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -67,16 +73,55 @@ void write_atomically(const std::filesystem::path& path,
 void write_atomically(const std::filesystem::path& path, std::string_view content) {
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream file(temporary, std::ios::binary);
+    errno = 0;
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     file.close();
-    if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
+    if (!file) throw Error(unwritable(path, errno));
   });
 }
 
+void write_stream_atomically(const std::filesystem::path& path,
+                             const std::function<void(std::ostream&)>& write) {
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    errno = 0;
+    std::ofstream file(temporary, std::ios::binary);
+    if (!file) throw Error(unwritable(path, errno));
+    try {
+      write(file);
+    } catch (const Error&) {
+      if (file) throw;
+      throw Error(unwritable(path, errno));
+    }
+    errno = 0;
+    file.close();
+    if (!file) throw Error(unwritable(path, errno));
+  });
+}
+
+bool is_there(const std::filesystem::path& path) noexcept {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+void require_regular_file(const std::filesystem::path& path) {
+  using Type = std::filesystem::file_type;
+  std::error_code error;
+  const Type type = std::filesystem::status(path, error).type();
+  if (type == Type::regular) return;
+  std::string reason = "is not a regular file";
+  if (type == Type::not_found) reason = "no such file";
+  if (type == Type::directory) reason = "is a folder, expected a file";
+  if (type == Type::none) reason = fmt::format("cannot be opened: {}", error.message());
+  throw InputError(fmt::format("{}: {}", path.string(), reason));
+}
+
 std::string read_file(const std::filesystem::path& path) {
+  require_regular_file(path);
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw InputError(fmt::format("{}: no such file", path.string()));
+  if (!file) {
+    throw InputError(fmt::format("{}: cannot be opened: {}", path.string(),
+                                 std::generic_category().message(errno)));
   }
   std::string content;
   std::array<char, 16384> block;
@@ -90,12 +135,12 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 void require_writable(const std::filesystem::path& path) {
-  const std::filesystem::path absolute = std::filesystem::absolute(path);
-  if (!absolute.has_filename() || std::filesystem::is_directory(absolute)) {
+  std::error_code ignored;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, ignored);
+  if (!absolute.has_filename() || std::filesystem::is_directory(absolute, ignored)) {
     throw Error(fmt::format("{}: cannot be written: it is a folder", path.string()));
   }
   // The nearest existing folder must be writable.
-  std::error_code ignored;
   std::filesystem::path folder = absolute.parent_path();
   while (!folder.empty() && folder != folder.root_path() &&
          std::filesystem::status(folder, ignored).type() == std::filesystem::file_type::not_found) {

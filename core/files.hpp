@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <string_view>
 
@@ -16,7 +17,20 @@ void write_atomically(const std::filesystem::path& path,
 /// The same for content in memory.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
-/// The whole file. Errors: `InputError` when it cannot be read.
+/// The same for a stream that `write` fills. Errors: `Error` with the file's name if the stream
+/// failed, on a full disk for example, whatever `write` made of it.
+void write_stream_atomically(const std::filesystem::path& path,
+                             const std::function<void(std::ostream& stream)>& write);
+
+/// Whether a file or folder is there. What cannot be looked at, such as a file in a folder without
+/// permission, is not.
+bool is_there(const std::filesystem::path& path) noexcept;
+
+/// Errors: `InputError` with the reason, unless `path` is a regular file or a link to one. Opens
+/// nothing: a pipe would wait for its writer, a device would not end.
+void require_regular_file(const std::filesystem::path& path);
+
+/// The whole file. Errors: `InputError` when it cannot be read or is no regular file.
 std::string read_file(const std::filesystem::path& path);
 
 /// Throws `Error` if no file can be made at `path`. Called before long work, not after it.

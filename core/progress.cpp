@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/terminal_text.hpp"
+
 namespace touchdown {
 
 namespace {
@@ -49,9 +51,7 @@ class WithoutBrokenPipe {
   sigset_t before_{};
 };
 
-}  // namespace
-
-void print_message(std::string_view text) {
+void write_to_terminal(std::string_view text) {
   const WithoutBrokenPipe guard;
   while (!text.empty()) {
     const ssize_t size = ::write(STDERR_FILENO, text.data(), text.size());
@@ -60,6 +60,10 @@ void print_message(std::string_view text) {
     text.remove_prefix(static_cast<std::size_t>(size));
   }
 }
+
+}  // namespace
+
+void print_message(std::string_view text) { write_to_terminal(terminal_text(text, "\n")); }
 
 Progress::Progress(std::string what, std::string unit, std::int64_t total)
     : what_(std::move(what)),
@@ -104,8 +108,8 @@ void Progress::show(Clock::time_point now, bool last) {
                          duration(static_cast<double>(total_ - done_) / rate));
   }
   if (terminal_) {
-    print_message(
-        fmt::format("\r\x1b[K{:<14} {} {}{}", what_, bar(done_, total_), state, last ? "\n" : ""));
+    write_to_terminal(fmt::format("\r\x1b[K{:<14} {} {}{}", terminal_text(what_),
+                                  bar(done_, total_), state, last ? "\n" : ""));
   } else {
     print_message(fmt::format("{}: {}\n", what_, state));
   }

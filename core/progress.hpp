@@ -8,8 +8,9 @@
 
 namespace touchdown {
 
-/// Prints a message on standard error. If standard error is full, closed or a broken pipe, the rest
-/// of the message is dropped. It never throws and never ends the program.
+/// Prints a message on standard error, as `terminal_text` with line ends. If standard error is
+/// full, closed or a broken pipe, the rest of the message is dropped. It never throws and never
+/// ends the program.
 void print_message(std::string_view text);
 
 /// Shows the progress of a long computation on standard error. A terminal shows a bar with the rate

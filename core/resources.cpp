@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/fingerprint.hpp"
 
 namespace touchdown {
@@ -34,11 +35,13 @@ std::vector<std::string> neighbours_of(const std::filesystem::path& path) {
   return names;
 }
 
-/// Errors: `InputError` for a folder.
-void require_no_folder(const std::filesystem::path& path) {
+/// Errors: `InputError` for what is there, but cannot be a file: a folder, a pipe, a device, a loop
+/// of links, a name that is too long.
+void require_missing(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (!std::filesystem::is_directory(path, ignored)) return;
-  throw InputError(fmt::format("{}: is a folder, expected a file", path.string()));
+  if (std::filesystem::status(path, ignored).type() != std::filesystem::file_type::not_found) {
+    require_regular_file(path);
+  }
 }
 
 }  // namespace
@@ -65,7 +68,7 @@ std::filesystem::path find_resource(const std::filesystem::path& path) {
       if (std::filesystem::is_regular_file(root / path, ignored)) return root / path;
     }
   }
-  require_no_folder(path);
+  require_missing(path);
   std::vector<std::string> neighbours;  // as a request would name them
   for (const auto& file : resources_in(path.parent_path(), path.extension().string())) {
     neighbours.push_back(file.string());
@@ -75,9 +78,10 @@ std::filesystem::path find_resource(const std::filesystem::path& path) {
 }
 
 void require_file(const std::filesystem::path& path) {
-  require_no_folder(path);
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) return;
+  std::error_code error;
+  if (std::filesystem::status(path, error).type() != std::filesystem::file_type::not_found) {
+    return require_regular_file(path);
+  }
   throw InputError(fmt::format("{}: no such file{}", path.string(),
                                did_you_mean(path.filename().string(), neighbours_of(path))));
 }

@@ -16,7 +16,7 @@ namespace touchdown {
 std::filesystem::path find_resource(const std::filesystem::path& path);
 
 /// Errors: `InputError` when the file does not exist, with the nearest name in its folder, or when
-/// it is a folder.
+/// it is no regular file.
 void require_file(const std::filesystem::path& path);
 
 /// The files with this extension in `folder`, in all places where `find_resource` looks; sorted.

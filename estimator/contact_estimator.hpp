@@ -99,7 +99,7 @@ struct Evidence {
 ///
 /// `update` checks all signals before any estimator gets them: a value beyond `SignalBounds`
 /// becomes NaN, which an estimator treats as a failed sensor. It checks the belief, too: an
-/// estimator whose probabilities leave [0, 1], or are NaN, starts anew.
+/// estimator with probabilities outside [0, 1], or NaN, starts anew.
 class ContactEstimator {
  public:
   virtual ~ContactEstimator() = default;

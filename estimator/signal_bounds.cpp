@@ -26,8 +26,9 @@ constexpr std::array<std::string_view, signal_count> names = {
 std::array<double, signal_count> values_of(const Signals& signals) noexcept {
   static_assert(sizeof(Signals) == (1 + signal_count) * sizeof(double));
   std::array<double, 1 + signal_count> all;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-  std::memcpy(all.data(), &signals, sizeof(all));
-  std::array<double, signal_count> values;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  // Eigen's vectors have constructors of their own, but nothing besides their numbers.
+  std::memcpy(all.data(), &signals, sizeof(all));  // NOLINT(bugprone-undefined-memory-manipulation)
+  std::array<double, signal_count> values;         // NOLINT(cppcoreguidelines-pro-type-member-init)
   std::memcpy(values.data(), all.data() + 1, sizeof(values));
   return values;
 }

@@ -18,7 +18,8 @@ namespace touchdown::experiments {
 namespace {
 
 RunRequest request_in(const std::filesystem::path& source) {
-  if (std::filesystem::is_directory(source)) return read_request(source);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(source, ignored)) return read_request(source);
   const YamlDocument document = YamlDocument::load(find_resource(source));
   require_yaml_kind(document, YamlKind::experiment);
   return request_of(experiment_from_yaml(document));
@@ -73,7 +74,8 @@ ExportReport export_benchmark(const ExportRequest& wanted, const RunOptions& opt
   };
   const std::string name = request.experiment.name;
   const std::string id = request.id;
-  if (std::filesystem::is_directory(wanted.source)) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(wanted.source, ignored)) {
     RunDirectory directory(name, id, wanted.source);
     directory.keep(DirectoryLock::for_reading(wanted.source, options.command));
     return write(std::move(directory));

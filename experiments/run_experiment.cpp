@@ -312,6 +312,7 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
 }
 
 ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& options) {
+  require_no_links(path);
   std::optional<DirectoryLock> lock;
   if (owner_of(path)) lock.emplace(path, Access::alone, options.command);
   RunRequest request = read_request(path);  // throws if no run owns the directory

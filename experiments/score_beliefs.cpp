@@ -10,7 +10,9 @@
 
 #include "core/error.hpp"
 #include "core/file_names.hpp"
+#include "core/files.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
 #include "experiments/studies/benchmark/submission_rows.hpp"
 #include "experiments/studies/benchmark/submission_scores.hpp"
@@ -169,10 +171,11 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
 }  // namespace
 
 BeliefReport score_beliefs(const BeliefRequest& wanted, const RunOptions& options) {
+  require_no_links(wanted.run);
   std::optional<DirectoryLock> lock;
   if (owner_of(wanted.run)) lock.emplace(wanted.run, Access::alone, options.command);
   RunRequest request = read_request(wanted.run);  // throws if no run owns the directory
-  if (!fs::exists(wanted.run / "manifest.json")) {
+  if (!is_there(wanted.run / "manifest.json")) {
     throw InputError(fmt::format("{}: is not finished: run the same experiment again first",
                                  wanted.run.string()));
   }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <system_error>
 #include <zip.h>
 
 #include "core/error.hpp"
@@ -78,10 +79,15 @@ void for_each_array(zip_t& archive, const std::filesystem::path& path, const Vis
 }
 
 Zip open_npz(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) throw InputError(path.string() + ": is a folder");
-  if (!std::filesystem::is_regular_file(path)) {
-    throw InputError(path.string() + ": no such file");
+  using Type = std::filesystem::file_type;
+  std::error_code error;
+  const Type type = std::filesystem::status(path, error).type();
+  if (type == Type::directory) throw InputError(path.string() + ": is a folder");
+  if (type == Type::not_found) throw InputError(path.string() + ": no such file");
+  if (type == Type::none) {  // a folder without permission, a loop of links, too long a name
+    throw InputError(path.string() + ": cannot be opened: " + error.message());
   }
+  if (type != Type::regular) throw InputError(path.string() + ": is not a regular file");
   return open_zip(path, ZIP_RDONLY | ZIP_CHECKCONS);
 }
 

@@ -56,7 +56,7 @@ Interval percentile_interval(double estimate, std::vector<double>& values, doubl
 }
 
 Interval with_exact_end(const Interval& share, std::int64_t events, double level) {
-  if (events < 1) return share;
+  if (events < 1 || std::isnan(share.low)) return share;
   const double reach = std::pow(0.5 * (1.0 - level), 1.0 / static_cast<double>(events));
   if (share.estimate == 1.0) return {1.0, std::fmin(share.low, reach), 1.0};
   if (share.estimate == 0.0) return {0.0, 0.0, std::fmax(share.high, 1.0 - reach)};

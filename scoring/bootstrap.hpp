@@ -58,7 +58,8 @@ Sample sum(const std::vector<Sample>& samples) {
 /// samples: means, ratios of sums (precision, recall), differences of paired ones. A sample is a
 /// run or a drop, never a time step. `Sample` needs a default value and `+=`; each statistic maps a
 /// sum of samples to a number. Returns one interval per statistic. All statistics, and all calls
-/// with the same number of samples and the same seed, use the same resamples.
+/// with the same number of samples and the same seed, use the same resamples. One sample alone has
+/// no interval: its ends are NaN.
 template <typename Sample>
 std::vector<Interval> bootstrap(std::span<const Sample> samples,
                                 const std::vector<std::function<double(const Sample&)>>& statistics,
@@ -67,8 +68,10 @@ std::vector<Interval> bootstrap(std::span<const Sample> samples,
   Sample all{};
   for (const Sample& sample : samples) all += sample;
 
+  // Resamples of one sample are that sample again: it has no interval, not one without width.
+  const bool has_interval = samples.size() > 1;
   std::vector<std::vector<double>> values(statistics.size());
-  for (std::size_t r = 0; samples.size() * r < indices.size(); ++r) {
+  for (std::size_t r = 0; has_interval && samples.size() * r < indices.size(); ++r) {
     Sample sum{};
     for (std::size_t i = 0; i < samples.size(); ++i)
       sum += samples[indices[samples.size() * r + i]];

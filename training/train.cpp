@@ -64,11 +64,12 @@ class TrainingSession {
         validation_scenes_(validation_scenes(config.rollout)),
         directory_(config.name, digest(), request.out),
         history_file_(directory_.file("tables", "training.csv")) {
+    experiments::require_no_links(directory_.path());
     experiments::require_place_beside(directory_.path(), to_yaml(config), "tables/training.csv");
     directory_.keep({directory_.path(), experiments::Access::alone, request.command});
     experiments::remove_partial_files(directory_.path());
     write_atomically(directory_.path() / "config.yaml", to_yaml(config));
-    if (fs::exists(history_file_)) history_ = read_history(history_file_);
+    if (is_there(history_file_)) history_ = read_history(history_file_);
   }
 
   TrainingResult run() {

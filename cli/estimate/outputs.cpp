@@ -1,7 +1,6 @@
 #include "cli/estimate/outputs.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <set>
 
@@ -81,15 +80,7 @@ void write_file(const fs::path& path, const std::function<void(std::ostream*)>& 
   } else if (path == "-") {
     use(&std::cout);
   } else {
-    write_atomically(path, [&](const fs::path& temporary) {
-      std::ofstream file(temporary, std::ios::binary);
-      if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
-      use(&file);
-      file.close();
-      if (!file) {
-        throw Error(fmt::format("{}: cannot be written: is the disk full?", path.string()));
-      }
-    });
+    write_stream_atomically(path, [&](std::ostream& file) { use(&file); });
   }
 }
 

@@ -7,6 +7,7 @@
 #include "cli/estimate/outputs.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/program/streams.hpp"
 #include "core/progress.hpp"
 #include "experiments/logs/belief_csv.hpp"
 #include "experiments/logs/estimator.hpp"
@@ -149,7 +150,7 @@ void print_text(const EstimateOutputs& outputs, const std::string& text) {
   if (outputs.prints_csv()) {
     print_message(text);
   } else {
-    fmt::print("{}", text);
+    print("{}", text);
   }
 }
 

@@ -1,12 +1,11 @@
 #include "cli/export/log.hpp"
 
-#include <fstream>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program/outputs.hpp"
+#include "core/program/streams.hpp"
 #include "core/progress.hpp"
 #include "recordings/mapping/conversion.hpp"
 #include "recordings/mcap/log.hpp"
@@ -54,38 +53,34 @@ std::string labels_text(const ExportedLog& files, const recordings::ConvertedLog
 void export_log(const ExportedLog& files, const CliSession& session) {
   check_files(files);
   recordings::ConvertedLog log;
-  write_atomically(files.output, [&](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
+  write_stream_atomically(files.output, [&](std::ostream& stream) {
     log = recordings::convert_log(files.log, files.mapping, stream, [&] { check_stop(session); });
-    stream.close();
-    if (!stream) throw Error(fmt::format("{}: cannot be written: is the disk full?", files.output));
+    stream.flush();  // labels only beside a whole log
+    if (!stream) return;
     if (!files.labels.empty()) write_atomically(files.labels, labels_text(files, log));
   });
   report_faults(files, log);
-  fmt::print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", files.output, log.rows,
-             log.start, log.end, files.log);
+  print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", files.output, log.rows,
+        log.start, log.end, files.log);
   if (!files.labels.empty()) {
-    fmt::print("labels    {}, {} intervals\n", files.labels, log.contact.intervals.size());
+    print("labels    {}, {} intervals\n", files.labels, log.contact.intervals.size());
   }
-  fmt::print("next      touchdown estimate {} --model MODEL.npz{}\n", files.output,
-             files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
+  print("next      touchdown estimate {} --model MODEL.npz{}\n", files.output,
+        files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
 }
 
 void export_mcap(const std::string& log, const std::string& output, const CliSession& session) {
   check_outputs({{log, "log"}}, {output});
   recordings::LogReader reader(log, session.stop);
   std::uint64_t rows = 0;
-  write_atomically(output, [&](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
+  write_stream_atomically(output, [&](std::ostream& stream) {
     rows = recordings::write_mcap(reader, stream);
-    stream.close();
-    if (!stream) throw Error(fmt::format("{}: cannot be written: is the disk full?", output));
     check_stop(session);
   });
   for (const std::string& warning : reader.warnings())
     print_message(fmt::format("touchdown: {}\n", warning));
-  fmt::print("log       {}, {} records, {:.1f} MB\n", output, rows,
-             1e-6 * static_cast<double>(std::filesystem::file_size(output)));
+  print("log       {}, {} records, {:.1f} MB\n", output, rows,
+        1e-6 * static_cast<double>(std::filesystem::file_size(output)));
 }
 
 }  // namespace touchdown::cli

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program/outputs.hpp"
+#include "core/program/streams.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/export_benchmark.hpp"
@@ -75,9 +76,9 @@ void export_header(const std::filesystem::path& model, const ExportFlags& flags)
   const std::string name = name_of(flags.output);
   const std::string text = recordings::header_of_model(model, name, use_of(flags));
   write_atomically(flags.output, text);
-  fmt::print("header    {}, {:.2f} MB\n", flags.output, 1e-6 * static_cast<double>(text.size()));
-  fmt::print("next      #include \"{}\"; touchdown::make_estimator(touchdown::compiled::{})\n",
-             std::filesystem::path(flags.output).filename().string(), name);
+  print("header    {}, {:.2f} MB\n", flags.output, 1e-6 * static_cast<double>(text.size()));
+  print("next      #include \"{}\"; touchdown::make_estimator(touchdown::compiled::{})\n",
+        std::filesystem::path(flags.output).filename().string(), name);
 }
 
 void export_model(const ExportFlags& flags) {
@@ -87,16 +88,16 @@ void export_model(const ExportFlags& flags) {
     return export_header(model, flags);
   }
   const ModelMetadata metadata = recordings::copy_model(model, flags.output, use_of(flags));
-  fmt::print("model     {}, for '{}' at {:.6g} Hz on {}, fingerprint {}\n", flags.output,
-             metadata.estimator, metadata.sample_rate, experiments::robot_text(metadata.robot),
-             metadata.fingerprint);
-  fmt::print("next      touchdown estimate LOG --model {}\n", flags.output);
+  print("model     {}, for '{}' at {:.6g} Hz on {}, fingerprint {}\n", flags.output,
+        metadata.estimator, metadata.sample_rate, experiments::robot_text(metadata.robot),
+        metadata.fingerprint);
+  print("next      touchdown estimate LOG --model {}\n", flags.output);
 }
 
 void export_benchmark(const ExportFlags& flags, const CliSession& session) {
   const experiments::ExportRequest request{flags.source, flags.folder, flags.part};
   if (flags.dry_run) {
-    fmt::print("{}", experiments::export_outline(request));
+    print("{}", experiments::export_outline(request));
     return;
   }
   const experiments::ExportReport report = experiments::export_benchmark(
@@ -106,10 +107,10 @@ void export_benchmark(const ExportFlags& flags, const CliSession& session) {
         fmt::format("touchdown: {} runs fell and are not scored, so they are left out: {}\n",
                     report.failed.size(), fmt::join(report.failed, ", ")));
   }
-  fmt::print("signals   {} files, {:.1f} MB, in {}\n", report.files,
-             1e-6 * static_cast<double>(report.bytes), flags.folder);
-  fmt::print("read      {0}/README.md, {0}/index.csv\n", flags.folder);
-  fmt::print("next      touchdown score RUN --beliefs FOLDER --name NAME\n");
+  print("signals   {} files, {:.1f} MB, in {}\n", report.files,
+        1e-6 * static_cast<double>(report.bytes), flags.folder);
+  print("read      {0}/README.md, {0}/index.csv\n", flags.folder);
+  print("next      touchdown score RUN --beliefs FOLDER --name NAME\n");
 }
 
 void export_source(const ExportFlags& flags, const CliSession& session) {

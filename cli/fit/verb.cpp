@@ -7,6 +7,7 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/program/outputs.hpp"
+#include "core/program/streams.hpp"
 #include "core/progress.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/logs/fit.hpp"
@@ -150,13 +151,12 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
 void show_samples(const experiments::LogFitReport& report, bool with_bandwidth) {
   for (const bool contact : {true, false}) {
     const std::size_t i = contact ? 1 : 0;
-    fmt::print("{:<12} {} samples of both legs", contact ? "contact" : "no contact",
-               report.samples[i]);
+    print("{:<12} {} samples of both legs", contact ? "contact" : "no contact", report.samples[i]);
     if (with_bandwidth) {
-      fmt::print(", bandwidth {:.4g} N·m (knee), {:.4g} N·m (wheel)", report.bandwidth[i].knee,
-                 report.bandwidth[i].wheel);
+      print(", bandwidth {:.4g} N·m (knee), {:.4g} N·m (wheel)", report.bandwidth[i].knee,
+            report.bandwidth[i].wheel);
     }
-    fmt::print("\n");
+    print("\n");
   }
 }
 
@@ -190,11 +190,11 @@ void fit(const FitFlags& flags, const CliSession& session) {
         "left out\n",
         report.unusable));
   }
-  fmt::print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.seconds, logs.size(),
-             logs.size() == 1 ? "log" : "logs");
+  print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.seconds, logs.size(),
+        logs.size() == 1 ? "log" : "logs");
   show_samples(report, entry.config.has_value());
-  fmt::print("{:<12} touchdown estimate LOG --model {} --estimator {}\n", "next", flags.output,
-             entry.name);
+  print("{:<12} touchdown estimate LOG --model {} --estimator {}\n", "next", flags.output,
+        entry.name);
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 #include <filesystem>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "cli/verbs.hpp"
 #include "core/files.hpp"
+#include "core/program/streams.hpp"
 #include "scenarios/generation/generate.hpp"
 
 namespace touchdown::cli {
@@ -21,9 +20,9 @@ void generate(const GenerateFlags& flags) {
   for (const scenarios::GeneratedScenario& drawn : scenarios::generate(flags.generation)) {
     const std::filesystem::path path = folder / (drawn.name + ".yaml");
     write_atomically(path, drawn.text);
-    fmt::print("{}\n", path.string());
+    print("{}\n", path.string());
     for (const std::string& reason : drawn.rejected) {
-      fmt::print("  an earlier draw was rejected: {}\n", reason);
+      print("  an earlier draw was rejected: {}\n", reason);
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
+#include "core/files.hpp"
 #include "core/program/streams.hpp"
 #include "experiments/score_beliefs.hpp"
 #include "render/benchmark/standings_figure.hpp"
@@ -58,8 +59,7 @@ void score(const experiments::BeliefRequest& request, const CliSession& session)
   print(fmt::format("{}\n{}: {} runs scored, each through one noise setting\n{}", report.table,
                     report.name, report.scored, left_out(report)));
   print(fmt::format("table     {}\n", (request.run / "tables" / "benchmark.csv").string()));
-  if (std::filesystem::exists(request.run / "report.html"))
-    write_report_again(request.run, session);
+  if (is_there(request.run / "report.html")) write_report_again(request.run, session);
 }
 
 }  // namespace

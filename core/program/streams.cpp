@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/progress.hpp"
+#include "core/terminal_text.hpp"
 
 namespace touchdown {
 
@@ -24,10 +25,13 @@ void open_standard_streams() {
   }
 }
 
-void print(std::string_view text) { (void)std::fwrite(text.data(), 1, text.size(), stdout); }
+void print(std::string_view text) {
+  const std::string shown = terminal_text(text, "\n\t");
+  (void)std::fwrite(shown.data(), 1, shown.size(), stdout);
+}
 
 int complain(const std::string& message, ExitCode code) {
-  print_message(fmt::format("touchdown: {}\n", message));
+  print_message(fmt::format("touchdown: {}\n", terminal_text(message)));
   return code;
 }
 

@@ -3,6 +3,9 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace touchdown {
 
@@ -14,11 +17,17 @@ enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
 /// before any file is opened.
 void open_standard_streams();
 
-/// Prints on standard output. A write error does not stop the work; `finished` reports it at the
-/// end.
+/// Prints on standard output, as `terminal_text` with line ends and tabs. A write error does not
+/// stop the work; `finished` reports it at the end.
 void print(std::string_view text);
+/// The same for a format and its arguments.
+template <typename First, typename... More>
+void print(fmt::format_string<First, More...> format, First&& first, More&&... more) {
+  print(std::string_view(
+      fmt::format(format, std::forward<First>(first), std::forward<More>(more)...)));
+}
 
-/// Prints an error message on standard error and returns `code`.
+/// Prints an error message as one line on standard error and returns `code`.
 int complain(const std::string& message, ExitCode code);
 
 /// Runs a whole program and returns the exit code of `work`. Reports and returns an error if memory

@@ -1,6 +1,7 @@
 #include "core/tables/table.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <sstream>
@@ -9,13 +10,30 @@
 #include <fmt/format.h>
 
 #include "core/csv/rows.hpp"
+#include "core/terminal_text.hpp"
 
 namespace touchdown {
 
 namespace {
 
-std::string csv_cell(const std::string& cell) {
-  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+bool is_number(std::string_view text) {
+  double number = 0.0;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// Whether spreadsheets compute this cell: names come from files and command lines. Cells with an
+/// apostrophe in front count, too, so that it can be removed again.
+bool is_formula(std::string_view cell) {
+  cell.remove_prefix(std::min(cell.find_first_not_of('\''), cell.size()));
+  return cell.size() > 1 && std::string_view("=+-@\t\r").find(cell.front()) != std::string::npos &&
+         !is_number(cell);
+}
+
+std::string csv_cell(std::string cell) {
+  if (is_formula(cell)) cell.insert(0, 1, '\'');
+  if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
   std::string quoted(1, '"');
   for (const char c : cell) quoted.append(c == '"' ? 2 : 1, c);
   quoted.push_back('"');
@@ -31,6 +49,16 @@ std::string csv_line(const std::vector<std::string>& cells) {
 std::string padded(const std::string& cell, std::size_t to, bool left) {
   const std::string space(to - width(cell), ' ');
   return left ? cell + space : space + cell;
+}
+
+/// Cells come from files, too: a line end or an escape sequence would break the table.
+Table shown(Table table) {
+  const auto show = [](std::vector<std::string>& cells) {
+    for (std::string& cell : cells) cell = terminal_text(cell);
+  };
+  show(table.header);
+  for (std::vector<std::string>& row : table.rows) show(row);
+  return table;
 }
 
 }  // namespace
@@ -62,6 +90,9 @@ Table from_csv(std::string_view text) {
     std::vector<std::string> row;
     for (const CsvCell& cell : rows.cells()) row.push_back(content_of(cell));
     if (row.back().ends_with('\r')) row.back().pop_back();
+    for (std::string& one : row) {
+      if (one.starts_with('\'') && is_formula(std::string_view(one).substr(1))) one.erase(0, 1);
+    }
     if (row.size() == 1 && row.front().empty()) continue;
     if (table.header.empty()) {
       table.header = std::move(row);
@@ -73,7 +104,8 @@ Table from_csv(std::string_view text) {
   return table;
 }
 
-std::string to_text(const Table& table, std::size_t text_columns) {
+std::string to_text(const Table& raw, std::size_t text_columns) {
+  const Table table = shown(raw);
   std::vector<std::size_t> widths(table.header.size(), 0);
   const auto measure = [&](const std::vector<std::string>& cells) {
     widths.resize(std::max(widths.size(), cells.size()), 0);
@@ -102,11 +134,15 @@ std::string to_text(const Table& table, std::size_t text_columns) {
   return text;
 }
 
+std::string fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
 std::string exact(double value) { return std::isnan(value) ? "nan" : fmt::format("{}", value); }
 
-std::string metric(double value) {
-  return std::isnan(value) ? "nan" : fmt::format("{:.6f}", value);
-}
+std::string metric(double value) { return std::isnan(value) ? "nan" : fixed(value, 6); }
 
 std::vector<std::string> header_with_intervals(std::vector<std::string> first,
                                                const std::vector<std::string>& names,
@@ -135,9 +171,9 @@ std::vector<std::string> row_with_intervals(std::vector<std::string> first,
 
 std::string with_interval(const Interval& interval, int decimals) {
   if (std::isnan(interval.estimate)) return "–";
-  if (std::isnan(interval.low)) return fmt::format("{:.{}f}", interval.estimate, decimals);
-  return fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", interval.estimate, decimals, interval.low,
-                     decimals, interval.high, decimals);
+  if (std::isnan(interval.low)) return fixed(interval.estimate, decimals);
+  return fmt::format("{} [{}, {}]", fixed(interval.estimate, decimals),
+                     fixed(interval.low, decimals), fixed(interval.high, decimals));
 }
 
 }  // namespace touchdown

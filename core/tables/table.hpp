@@ -14,7 +14,9 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// Comma-separated values (RFC 4180: cells with commas or quotes are quoted), one line per row.
+/// Comma-separated values (RFC 4180: cells with commas or quotes are quoted), one line per row. A
+/// text that spreadsheets would compute, as it begins with = + - or @, is preceded by an
+/// apostrophe.
 std::string to_csv(const Table& table);
 
 /// Parses CSV, the inverse of `to_csv`. Quoted cells may contain commas, quotes and line ends.
@@ -30,6 +32,9 @@ std::string to_text(const Table& table, std::size_t text_columns = 1);
 
 /// Number of characters of a UTF-8 text, as a terminal counts them.
 std::size_t width(const std::string& text);
+
+/// A number with so many decimals; never a negative zero.
+std::string fixed(double value, int decimals);
 
 /// Numbers for CSV files: `exact` is the shortest text that reads back to the same number, `metric`
 /// has six decimals. Undefined values are `nan`.

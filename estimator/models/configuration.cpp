@@ -40,9 +40,11 @@ class MemberReader {
 
   void operator()(const std::string& key, double& value) {
     take(key, [&](const std::string& text) {
+      constexpr double largest = 1e15;  // beyond any quantity
       const std::optional<double> number = number_of(text);
-      if (number) value = *number;
-      return number.has_value();
+      if (!number || std::abs(*number) > largest) return false;
+      value = *number;
+      return true;
     });
   }
   void operator()(const std::string& key, int& value) {

@@ -203,6 +203,7 @@ bool share_fit(std::string_view estimator, std::string_view other) {
 }
 
 ModelMetadata metadata_for(const ModelArrays& arrays, const ModelUse& use) {
+  check_sample_rate(use);
   const std::optional<ModelMetadata> written = metadata_of(arrays);
   ModelMetadata metadata = written ? *written : metadata_from_arrays(arrays);
   if (metadata.estimator.empty()) metadata.estimator = use.estimator;

@@ -135,8 +135,16 @@ std::optional<ModelMetadata> metadata_of(const ModelArrays& arrays) {
   return metadata;
 }
 
+void check_sample_rate(const ModelUse& use) {
+  if (use.sample_rate == 0.0 || (std::isfinite(use.sample_rate) && use.sample_rate > 0.0)) return;
+  throw InputError(
+      "sample_rate: expected a positive number (Hz), or 0 for the model's own, found " +
+      text_of(use.sample_rate));
+}
+
 void check_use(const ModelMetadata& metadata, const ModelUse& use) {
   constexpr double tolerance = 1e-6;
+  check_sample_rate(use);
   if (use.sample_rate > 0.0 &&
       !(std::abs(use.sample_rate - metadata.sample_rate) <= tolerance * metadata.sample_rate)) {
     throw InputError("was fitted at " + text_of(metadata.sample_rate) + " Hz, not at " +

@@ -58,8 +58,11 @@ struct ModelUse {
   ConfigurationText configuration = {};
 };
 
-/// Errors: `InputError` if the required rate or robot differs from the model's; the message names
-/// both. A model without a robot fits any robot.
+/// Errors: `InputError` for a rate that is neither 0 nor a positive finite number.
+void check_sample_rate(const ModelUse& use);
+
+/// Errors: `InputError` as above, and if the required rate or robot differs from the model's; the
+/// message names both. A model without a robot fits any robot.
 void check_use(const ModelMetadata& metadata, const ModelUse& use);
 
 }  // namespace touchdown

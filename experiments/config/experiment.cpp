@@ -1,6 +1,7 @@
 #include "experiments/config/experiment.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <utility>
 

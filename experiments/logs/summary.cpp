@@ -82,6 +82,9 @@ LogSummary::LogSummary(double period, const scoring::ScoringConfig& scoring)
 
 void LogSummary::add(double time, const Belief& belief) {
   clock_.add(time);
+  if (belief.status == SignalStatus::invalid && belief.unusable != SignalIndex::none) {
+    ++unusable_[static_cast<std::size_t>(belief.unusable)];
+  }
   ++status_[static_cast<std::size_t>(belief.status)];
   const std::array<bool, 2> now = {belief.wheel[0].contact, belief.wheel[1].contact};
   if (steps_ >= skipped_) {
@@ -118,7 +121,16 @@ std::string LogSummary::signals_text() const {
     const std::int64_t count = status_[static_cast<std::size_t>(status)];
     if (count > 0) parts.push_back(fmt::format("{} {}", count, to_text(status)));
   }
-  return fmt::format("{} of {} steps", fmt::join(parts, ", "), steps_);
+  std::string text = fmt::format("{} of {} steps", fmt::join(parts, ", "), steps_);
+  const auto most = std::max_element(unusable_.begin(), unusable_.end());
+  if (*most > 0) {
+    const auto signal = static_cast<SignalIndex>(most - unusable_.begin());
+    const auto kinds = std::count_if(unusable_.begin(), unusable_.end(),
+                                     [](std::int64_t steps) { return steps > 0; });
+    text += fmt::format("; unusable: {}{}", to_text(signal),
+                        kinds == 1 ? "" : fmt::format(" and {} others", kinds - 1));
+  }
+  return text;
 }
 
 std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, double start) const {

@@ -51,6 +51,8 @@ class LogSummary {
   std::string signals_text() const;
 
   Clock clock_;
+  /// Steps with an invalid status, by their first unusable signal.
+  std::array<std::int64_t, signal_count> unusable_{};
   std::int64_t skipped_;
   std::int64_t steps_ = 0;
   std::array<std::int64_t, scoring::view_count> contact_{};

@@ -91,6 +91,7 @@ const NamedScenario& scenario_of(const RunRequest& request, const std::string& f
 std::string state_key(const RunRequest& request) { return key_of(request.id, build_fingerprint()); }
 
 void require_place(const RunRequest& request, const fs::path& directory, bool overwrite) {
+  require_no_links(directory);
   std::optional<RunDirectoryOwner> owner = owner_of(directory);
   if (!owner) {
     require_no_untracked_files(directory);

@@ -9,4 +9,7 @@ namespace touchdown::experiments {
 /// A list of its rows, each an object by column; cells that are numbers as numbers, `nan` as null.
 nlohmann::ordered_json json_of(const Table& table);
 
+/// What is wrong with a JSON file, without the library's own number of the error.
+std::string reason_of(const nlohmann::json::exception& error);
+
 }  // namespace touchdown::experiments

@@ -1,6 +1,7 @@
 #include "experiments/results/paper.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -40,8 +41,10 @@ std::string latency_cell(const ScoreSummary& summary, const std::string& event) 
   const Interval& mean = summary[event + "_latency_ms"];
   const Interval& deviation = summary[event + "_latency_deviation_ms"];
   if (std::isnan(mean.estimate)) return "–";
-  return fmt::format("{:.1f} ± {:.1f} [{:.1f}, {:.1f}]", mean.estimate, deviation.estimate,
-                     mean.low, mean.high);
+  const std::string text =
+      fmt::format("{} ± {}", fixed(mean.estimate, 1), fixed(deviation.estimate, 1));
+  if (std::isnan(mean.low)) return text;
+  return fmt::format("{} [{}, {}]", text, fixed(mean.low, 1), fixed(mean.high, 1));
 }
 
 std::string metric_cell(const ScoreSummary& summary, const std::string& metric) {
@@ -93,6 +96,35 @@ std::string latex_text(const std::string& text) {
 std::vector<std::string> latex_cells(const std::vector<std::string>& cells) {
   std::vector<std::string> result;
   for (const std::string& cell : cells) result.push_back(latex_text(cell));
+  return result;
+}
+
+/// Titles and names come from files: raw HTML in them would be a part of the page. A < before a
+/// number or a blank is only a sign.
+std::string markdown_text(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char next = i + 1 < text.size() ? text[i + 1] : ' ';
+    const bool opens_tag = std::isalpha(static_cast<unsigned char>(next)) != 0 || next == '/' ||
+                           next == '!' || next == '?';
+    if (text[i] == '<' && opens_tag) {
+      result += "&lt;";
+    } else if (text[i] == '\n' || text[i] == '\r') {
+      result += ' ';
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+/// A | would end the cell.
+std::vector<std::string> markdown_cells(const std::vector<std::string>& cells) {
+  std::vector<std::string> result;
+  for (const std::string& cell : cells) {
+    std::string& text = result.emplace_back();
+    for (const char c : markdown_text(cell)) text.append(c == '|' ? "\\|" : std::string(1, c));
+  }
   return result;
 }
 
@@ -171,10 +203,13 @@ std::string to_text(const CaptionedTable& table) {
 }
 
 std::string to_markdown(const CaptionedTable& table) {
-  std::string text = table.caption + "\n\n| " + joined(table.table.header, " | ") + " |\n|";
+  std::string text = markdown_text(table.caption) + "\n\n| " +
+                     joined(markdown_cells(table.table.header), " | ") + " |\n|";
   for (std::size_t i = 0; i < table.table.header.size(); ++i) text += i < 2 ? "---|" : "---:|";
   text += "\n";
-  for (const auto& row : table.table.rows) text += "| " + joined(row, " | ") + " |\n";
+  for (const auto& row : table.table.rows) {
+    text += "| " + joined(markdown_cells(row), " | ") + " |\n";
+  }
   return text;
 }
 

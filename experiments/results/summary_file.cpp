@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiments/results/json_table.hpp"
 #include "experiments/results/result.hpp"
 #include "experiments/run_directory/recorded_files.hpp"
 
@@ -120,7 +121,7 @@ Summary read_summary(const fs::path& run_directory) {
   try {
     summary = Json::parse(read_file(file)).get<Summary>();
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+    throw InputError(fmt::format("{}: {}", file.string(), reason_of(error)));
   }
   const auto has_all = [](const auto& row) {
     return row.metric.size() == scoring::metrics().size();

@@ -214,6 +214,18 @@ std::vector<fs::path> own_files(const fs::path& directory) {
   return names;
 }
 
+void require_no_links(const fs::path& directory) {
+  std::error_code ignored;
+  for (const char* const folder : all_folders) {
+    const fs::path path = directory / folder;
+    if (!fs::is_symlink(path, ignored)) continue;
+    throw InputError(
+        fmt::format("{}: is a link, where a run makes a folder of its own: remove the link, or "
+                    "choose another --out",
+                    path.string()));
+  }
+}
+
 void remove_own_files(const fs::path& directory) {
   for (const fs::path& name : own_files(directory)) remove_file(directory / name);
   remove_empty_folders(directory);

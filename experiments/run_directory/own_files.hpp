@@ -12,6 +12,10 @@ namespace touchdown::experiments {
 /// last, because most names follow from it. Other files, and targets of links, are not included.
 std::vector<std::filesystem::path> own_files(const std::filesystem::path& directory);
 
+/// Errors: `InputError` that names the link, if a link stands for one of the run's own folders:
+/// the run would write, and replace files, outside its directory.
+void require_no_links(const std::filesystem::path& directory);
+
 /// Removes these files, and folders that are empty afterwards.
 void remove_own_files(const std::filesystem::path& directory);
 

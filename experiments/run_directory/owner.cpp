@@ -49,6 +49,10 @@ fs::path untracked_file_in(const fs::path& folder) {
     if (!is_lock && !is_part_file_name(entry.path().filename())) return entry.path();
   }
   if (unreadable == std::errc::not_enough_memory) throw std::bad_alloc();
+  const bool is_no_folder = unreadable == std::errc::not_a_directory;
+  if (unreadable && !is_no_folder) {
+    throw Error(fmt::format("{}: cannot be read: {}", folder.string(), unreadable.message()));
+  }
   return unreadable ? folder : fs::path();
 }
 

@@ -13,7 +13,7 @@ int log_evaluation(const std::filesystem::path& run_directory, const TestSeedUse
   const std::filesystem::path log =
       std::filesystem::absolute(run_directory).parent_path() / "reserved_seeds.csv";
   Table table{{"seed", "id", "commit"}, {}};
-  if (std::filesystem::exists(log)) table.rows = from_csv(read_file(log)).rows;
+  if (is_there(log)) table.rows = from_csv(read_file(log)).rows;
   const std::vector<std::string> own = {std::to_string(use.seed), use.id, use.commit};
   std::set<std::vector<std::string>> others;
   bool is_logged = false;

@@ -170,7 +170,7 @@ void write_results(const RunRequest& request, const RunDirectory& directory) {
   std::vector<ResultRow> all;
   for (const std::string& name : tables_with_columns(directory.path())) {
     const std::filesystem::path file = directory.file("tables", name);
-    if (!std::filesystem::exists(file)) continue;
+    if (!is_there(file)) continue;
     std::vector<ResultRow> rows = long_rows(file.stem().string(), from_csv(read_file(file)),
                                             read_columns(directory.path(), name), setup);
     std::move(rows.begin(), rows.end(), std::back_inserter(all));

@@ -69,7 +69,7 @@ std::string tuning_text(const std::vector<Trial>& trials, const Experiment& expe
 
 TunedHyperparameters read_chosen(const std::filesystem::path& run_directory) {
   const std::filesystem::path file = run_directory / "tables" / "tuning.csv";
-  if (!std::filesystem::exists(file)) return {};
+  if (!is_there(file)) return {};
   const Table table = from_csv(read_file(file));
   TunedHyperparameters chosen;
   for (const std::vector<std::string>& row : table.rows) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -76,10 +77,18 @@ auto first_after(Intervals& intervals, double time) {
                           [](double t, const ContactInterval& one) { return t < one.start; });
 }
 
-/// Inserts an interval in order of time. Returns an error if it overlaps with another.
+struct StartsBefore {
+  bool operator()(const ContactInterval& one, const ContactInterval& other) const {
+    return one.start < other.start;
+  }
+};
+/// In order of time, with rows of the file in any order.
+using OrderedIntervals = std::set<ContactInterval, StartsBefore>;
+
+/// Inserts an interval. Returns an error if it overlaps with another.
 std::optional<ColumnError> insert(const ContactInterval& interval, std::size_t start_column,
-                                  std::vector<ContactInterval>& intervals) {
-  const auto next = first_after(intervals, interval.start);
+                                  OrderedIntervals& intervals) {
+  const auto next = intervals.upper_bound(interval);
   const ContactInterval* overlapping = nullptr;
   if (next != intervals.end() && next->start < interval.end) overlapping = &*next;
   if (next != intervals.begin() && std::prev(next)->end > interval.start) {
@@ -106,13 +115,15 @@ const ContactInterval* ContactIntervals::at(double time) const {
 ContactIntervals read_contact_intervals(const std::filesystem::path& path) {
   ContactIntervals read{path.string(), {}};
   IntervalColumns columns;
+  OrderedIntervals intervals;
   read_numbers_csv(
       path, {[&](std::span<const std::string> names) { return find_columns(names, columns); },
              [&](std::span<const double> values, std::size_t /*line*/) {
                ContactInterval interval;
                const std::optional<ColumnError> wrong = interval_of(values, columns, interval);
-               return wrong ? wrong : insert(interval, columns.start, read.intervals);
+               return wrong ? wrong : insert(interval, columns.start, intervals);
              }});
+  read.intervals.assign(intervals.begin(), intervals.end());
   if (read.intervals.empty()) {
     throw InputError(fmt::format("{}:1:1: contains no contact interval", path.string()));
   }

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <memory>
 #include <poll.h>
+#include <string_view>
 #include <unistd.h>
 #include <utility>
 
@@ -36,16 +37,21 @@ void wait_for_bytes(int descriptor, const std::atomic<bool>& stop) {
   }
 }
 
+/// Whether a path stands for a descriptor of this process, such as a shell's <(…): to open it does
+/// not wait, as it does for a pipe with a name.
+bool is_opened_already(std::string_view name) {
+  return name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
+}
+
 }  // namespace
 
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop) {
   const std::string name = path.string();
+  if (name != "-" && !is_opened_already(name)) require_file(name);
   const int opened =
       name == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT
   if (opened < 0) {
-    const std::string why = std::strerror(errno);
-    require_file(name);
-    throw InputError(fmt::format("{}: cannot be opened: {}", name, why));
+    throw InputError(fmt::format("{}: cannot be opened: {}", name, std::strerror(errno)));
   }
   const auto descriptor = std::make_shared<Descriptor>(opened);
   return [descriptor, name, stop](std::span<char> buffer) {

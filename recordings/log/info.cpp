@@ -1,5 +1,7 @@
 #include "recordings/log/info.hpp"
 
+#include <type_traits>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -22,7 +24,14 @@ const msgpack::object* find(const msgpack::object& map, std::string_view key) {
 
 template <typename T>
 void take(const msgpack::object& map, std::string_view key, T& value) {
-  if (const msgpack::object* found = find(map, key)) found->convert(value);
+  const msgpack::object* found = find(map, key);
+  if (found == nullptr) return;
+  try {
+    found->convert(value);
+  } catch (const msgpack::type_error&) {
+    throw InputError(
+        fmt::format("{}: expected {}", key, std::is_integral_v<T> ? "a whole number" : "a text"));
+  }
 }
 
 /// The same for texts, which must be UTF-8: they are copied to files that allow nothing else.

@@ -1,7 +1,5 @@
 #include "recordings/log/recording_file.hpp"
 
-#include <fstream>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -20,21 +18,13 @@ void write_recording(const Recording& recording, const std::filesystem::path& pa
         "actions, {} true states",
         path.string(), recording.steps(), recording.action.size(), recording.truth.size()));
   }
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
-    if (!file) throw Error(fmt::format("{}: cannot be written", path.string()));
-    try {
-      LogWriter writer(file, recording.info, truth_of(recording));
-      for (std::size_t step = 0; step < recording.steps(); ++step) {
-        writer.write(recording.observation[step], recording.action[step],
-                     with_truth ? &recording.truth[step] : nullptr);
-      }
-      writer.finish();
-      file.close();
-    } catch (const Error&) {
-      if (file) throw;  // otherwise the message lacks the file's name
+  write_stream_atomically(path, [&](std::ostream& file) {
+    LogWriter writer(file, recording.info, truth_of(recording));
+    for (std::size_t step = 0; step < recording.steps(); ++step) {
+      writer.write(recording.observation[step], recording.action[step],
+                   with_truth ? &recording.truth[step] : nullptr);
     }
-    if (!file) throw Error(fmt::format("{}: cannot be written: is the disk full?", path.string()));
+    writer.finish();
   });
 }
 

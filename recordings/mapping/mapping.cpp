@@ -33,6 +33,8 @@ struct SignalKind {
 constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double turn = 360.0 * degree;
 constexpr double standard_gravity = 9.80665;
+constexpr double largest_zero = 1e6;      // rad, of an encoder that counts turns
+constexpr double shortest_period = 1e-6;  // s, the unit of recordings
 constexpr const char* six_joints = "left hip, knee, wheel, right hip, knee, wheel";
 
 std::vector<Unit> speeds() {
@@ -152,7 +154,10 @@ class MappingReader {
       number_for_each(fields, "zero", kind.count, zero)
           .doc("rad", "The log's position where touchdown's is zero.");
     }
-    for (const double one : zero) fields.check(std::isfinite(one), "zero", "expected a number");
+    for (const double one : zero) {
+      fields.check(std::abs(one) <= largest_zero, "zero",
+                   fmt::format("expected an angle from -{0} to {0} rad", largest_zero));
+    }
     signal.unit = unit_of(fields, kind.units);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       signal.numbers.push_back(
@@ -212,6 +217,7 @@ class MappingReader {
     const char* what = names_.are_arrays ? "array" : "column";
     fields.check(count < 2, "from",
                  fmt::format("{} has {} columns '{}'", names_.file, count, name));
+    if (count == 1) return;  // a hint compares the name with every column
     std::string hint = did_you_mean(name, names_.names);
     if (hint.empty()) hint = some_of(names_.names);
     fields.check(count == 1, "from",
@@ -257,12 +263,15 @@ void describe_axes(Fields& fields, Eigen::Matrix3d& axes) {
 
 void describe_time(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   fields("period", mapping.period)
-      .range(fmt::format("above 0, to {}", longest_period))
+      .range(fmt::format("{} to {}", shortest_period, longest_period))
       .fallback("none")
       .doc("s", "Time between two rows, instead of `time`.");
   const bool has_period = fields.present("period", false);
-  fields.check(!has_period || (mapping.period > 0.0 && mapping.period <= longest_period), "period",
-               fmt::format("expected the time between two rows (s), at most {}", longest_period));
+  fields.check(
+      !has_period || (mapping.period >= shortest_period && mapping.period <= longest_period),
+      "period",
+      fmt::format("expected the time between two rows (s), at most {} and at least {}",
+                  longest_period, shortest_period));
   reader
       .optional(fields, "time",
                 {"the time of each row", 1, {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}},

@@ -1,5 +1,6 @@
 #include "recordings/mcap/log.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -40,7 +41,9 @@ Json observation_in(std::string_view record, std::string_view log) {
   try {
     return Json::from_msgpack(record).at("observation");
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: a record cannot be written as JSON: {}", log, error.what()));
+    const std::string_view reason = error.what();  // begins with the library's "[json.exception…] "
+    throw InputError(fmt::format("{}: a record cannot be written as JSON: {}", log,
+                                 reason.substr(std::min(reason.find("] ") + 2, reason.size()))));
   }
 }
 

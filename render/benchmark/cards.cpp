@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/files.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/report/html.hpp"
@@ -84,7 +85,7 @@ std::string card(const BenchmarkScores& scores, const std::string& estimator,
   const std::filesystem::path film =
       run_directory / "videos" / fmt::format("worst_{}.mp4", estimator);
   const std::string film_html =
-      std::filesystem::exists(film)
+      is_there(film)
           ? fmt::format(
                 "<figure class=\"film\"><video controls muted playsinline "
                 "preload=\"metadata\" aria-label=\"The worst two seconds of {0}\" "

@@ -51,7 +51,7 @@ std::string figure_html(const fs::path& run_directory, const Standing& standing)
   const fs::path stem = standings_stem(run_directory, standing);
   const fs::path svg = stem.string() + ".svg";
   const fs::path script = stem.string() + ".gp";
-  if (!fs::exists(svg) || !fs::exists(script)) return {};
+  if (!is_there(svg) || !is_there(script)) return {};
   const FigureText text = figure_text(read_file(script));
   return fmt::format(
       "<figure class=\"wide\"><div class=\"pan\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\">"

@@ -14,7 +14,7 @@ namespace {
 class Rows {
  public:
   explicit Rows(const std::filesystem::path& file) {
-    if (std::filesystem::exists(file)) table_ = from_csv(read_file(file));
+    if (is_there(file)) table_ = from_csv(read_file(file));
   }
 
   template <typename Each>

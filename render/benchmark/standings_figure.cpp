@@ -141,7 +141,7 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
           panels.front().upper_bound ? " The dashed line is the reference upper bound." : ""),
       names_width + mean_width + bars_width + worst_width + words_width,
       static_cast<double>(panels.size()) * (height + gap_y));
-  const std::string file = gnuplot_text(stem.filename().string() + ".dat");
+  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
   std::string commands = "unset key\nset grid noytics\n";
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const std::vector<Standing>& standings = panels[p].standings;

@@ -97,7 +97,7 @@ Figure draw_drop_overlay(const recordings::Recording& first, const recordings::R
     for (std::size_t i = 0; i < recordings.size(); ++i) {
       commands +=
           fmt::format("{}{} using 1:{} with lines lt {} title {}", i == 0 ? "" : ", ",
-                      gnuplot_text(data[i].name), panel + 2, i + 1,
+                      gnuplot_file(data[i].name), panel + 2, i + 1,
                       gnuplot_text(simulators::simulator_title(recordings[i]->info.simulator)));
     }
     commands += '\n';

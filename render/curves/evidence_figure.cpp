@@ -191,7 +191,7 @@ Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem:
     height = std::max(height, largest_contribution(figure.model, panel));
   }
   height *= 1.05;
-  const std::string file = gnuplot_text(stem.filename().string() + ".dat");
+  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
   std::string commands = fmt::format(
       "unset key\nset border 3\nset tics nomirror out scale 0.5\nset grid xtics ytics\n"
       "set yrange [{:.4g}:{:.4g}]\nset ytics {}\n",

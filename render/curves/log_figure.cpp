@@ -59,7 +59,7 @@ constexpr int truth_column = contact_column + 2;
 constexpr int status_column = contact_column + 4;
 
 std::string plot(const std::string& file, const std::vector<std::string>& columns) {
-  return fmt::format("plot {} using {}\n", gnuplot_text(file), fmt::join(columns, ", '' using "));
+  return fmt::format("plot {} using {}\n", gnuplot_file(file), fmt::join(columns, ", '' using "));
 }
 
 std::string curve_commands(const Panel& panel, const std::string& file) {

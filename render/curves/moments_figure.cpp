@@ -144,7 +144,7 @@ Figure draw_moments_figure(const Table& moments, const Table& densities,
       "curve, because its published densities include their kernels.",
       torque_left + 2.0 * torque_width + torque_gap_x + 24.0,
       torque_top + 2.0 * (moments_height + density_height) + torque_gap_y + 50.0);
-  const std::string file = gnuplot_text(stem.filename().string() + ".dat");
+  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
   std::string commands = "unset key\nset grid xtics noytics\nset border 3\nset tics nomirror\n";
   std::string data = "#torque_nm\tdensity_per_nm, then #mean_nm\tsd_nm\trow\n";
   std::size_t block = 0;

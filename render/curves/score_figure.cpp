@@ -73,7 +73,7 @@ Figure draw_reliability_figure(const ScoreFigure& figure, const std::filesystem:
   const FigureFrame frame(figure.title, figure.caption,
                           left_margin + panels * side + (panels - 1.0) * gap + key,
                           counts_top + counts_height + 58.0);
-  const std::string file = gnuplot_text(stem.filename().string() + ".dat");
+  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
   std::string commands = "set xrange [0:1]\nset bars 0\n";
   std::size_t block = 0;
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
@@ -206,7 +206,7 @@ Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::pat
   const FigureFrame frame(figure.title, figure.caption,
                           names + 2.0 * (panel_width + numbers) + right_margin,
                           static_cast<double>(figure.panels.size()) * (height + gap_y));
-  const std::string file = gnuplot_text(stem.filename().string() + ".dat");
+  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
   std::string commands = fmt::format(
       "unset key\nset grid noytics\nset style fill solid 0.55\nset yrange [-0.15:{}]\nset border "
       "1\n",

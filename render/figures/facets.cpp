@@ -74,7 +74,7 @@ class FacetFigure {
   FacetFigure(const FigureSpec& spec, FacetData data, const std::filesystem::path& stem)
       : spec_(spec),
         data_(std::move(data)),
-        file_(gnuplot_text(stem.filename().string() + ".dat")),
+        file_(gnuplot_file(stem.filename().string() + ".dat")),
         panels_(used(data_, &FacetRow::panel)),
         series_(used(data_, &FacetRow::series)),
         rows_(has_rows() ? used(data_, &FacetRow::row) : std::vector<std::size_t>()) {

@@ -89,7 +89,8 @@ std::string gnuplot_style() {
 
 /// The first line of a figure's script. It marks the figure's files as written by this program.
 std::string first_line(const std::string& name) {
-  return fmt::format("# Draws {0}.png, {0}.svg and {0}.pdf: gnuplot {0}.gp\n", name);
+  return fmt::format("# Draws {0}.png, {0}.svg and {0}.pdf: gnuplot {1}.gp\n", name,
+                     file_argument(name));
 }
 
 /// The user chooses a figure's name, so a file of that name which this program did not draw is the
@@ -97,11 +98,11 @@ std::string first_line(const std::string& name) {
 void require_own_files(const std::filesystem::path& folder, const std::string& name,
                        const std::vector<std::string>& files) {
   const std::filesystem::path script = folder / (name + ".gp");
-  if (std::filesystem::is_regular_file(script) && read_file(script).starts_with(first_line(name))) {
+  if (is_there(script) && read_file(script).starts_with(first_line(name))) {
     return;
   }
   for (const std::string& file : files) {
-    if (file == name + ".png" || !std::filesystem::exists(folder / file)) continue;
+    if (file == name + ".png" || !is_there(folder / file)) continue;
     throw InputError(
         fmt::format("{}: is not part of a figure and would be replaced by one: move it away, or "
                     "give the figure another name",
@@ -146,7 +147,7 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
       "unset output\n"
       "}}\n",
       first_line(name), comments(text), terminals, gnuplot_style(), width, height,
-      gnuplot_text(name + "."), commands);
+      gnuplot_file(name + "."), commands);
   write_whole(scratch.path() / (name + ".gp"), script, folder / (name + ".gp"));
   for (const PlotData& table : data) {
     write_whole(scratch.path() / table.name, table.content, folder / table.name);

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "render/gnuplot/text.hpp"
 #include "render/gnuplot/whole_file.hpp"
 
 namespace touchdown::render {
@@ -43,7 +44,7 @@ std::vector<char*> environment_in_utc() {
 
 std::string gnuplot_complaint(const std::filesystem::path& folder, const std::string& script) {
   // -d ignores ~/.gnuplot: the user's settings are commands, and would change the figure.
-  std::array<std::string, 3> words = {"gnuplot", "-d", script};
+  std::array<std::string, 3> words = {"gnuplot", "-d", file_argument(script)};
   const std::array<char*, 4> arguments = {words[0].data(), words[1].data(), words[2].data(),
                                           nullptr};
   const std::vector<char*> environment = environment_in_utc();

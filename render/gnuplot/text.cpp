@@ -1,6 +1,7 @@
 #include "render/gnuplot/text.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -26,6 +27,14 @@ std::string gnuplot_text(std::string_view text) {
   }
   return result + "'";
 }
+
+std::string file_argument(const std::string& name) {
+  const bool is_plain = !name.empty() && (std::isalnum(static_cast<unsigned char>(name[0])) != 0 ||
+                                          static_cast<unsigned char>(name[0]) >= 0x80);
+  return is_plain ? name : "./" + name;
+}
+
+std::string gnuplot_file(const std::string& name) { return gnuplot_text(file_argument(name)); }
 
 std::string row_tics(const std::vector<std::string>& names) {
   std::string tics;

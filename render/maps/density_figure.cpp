@@ -219,7 +219,7 @@ Figure draw_density_figure(const DensityFigure& figure, const std::filesystem::p
   const double body = top_margin + rows * panel_height + (rows - 1.0) * gap_y;
   const FigureFrame frame(figure.title, figure.caption,
                           left_margin + 3.0 * panel_width + 2.0 * gap_x + 30.0, body + 126.0);
-  const std::string file = gnuplot_text(stem.filename().string() + ".dat");
+  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
   std::string commands =
       "unset key\nset border 15\nset tics out\nunset grid\n"
       "set xlabel 'knee torque (N·m)' offset 0,0.3\nset xtics autofreq\n";

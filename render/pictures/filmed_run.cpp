@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/experiment_estimators.hpp"
@@ -116,7 +117,7 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
   for (const experiments::RunSummary& run : subject.summary.runs) {
     if (run.role != experiments::RunRole::test || run.run != video.run) continue;
     const fs::path log = subject.directory / "recordings" / run.recording;
-    if (!fs::exists(log)) continue;
+    if (!is_there(log)) continue;
     experiments::FittedModels models;
     for (const std::string& estimator : video.estimators) {
       experiments::FittedModel& model = models[run.simulator][estimator];

@@ -67,7 +67,7 @@ std::vector<fs::path> more_data_of(const fs::path& figure) {
   std::vector<fs::path> names;
   for (const auto& entry : fs::directory_iterator(figure.parent_path())) {
     const std::string name = entry.path().filename().string();
-    const bool is_its_own = fs::exists(fs::path(entry.path()).replace_extension(".svg"));
+    const bool is_its_own = is_there(fs::path(entry.path()).replace_extension(".svg"));
     if (name.starts_with(beginning) && name.ends_with(".dat") && !is_its_own) {
       names.emplace_back(name);
     }

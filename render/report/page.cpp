@@ -15,7 +15,9 @@ namespace {
 std::string built_from(const nlohmann::ordered_json& manifest) {
   const auto versions = manifest.find("versions");
   if (versions == manifest.end() || !versions->is_object()) return {};
-  const std::string commit = versions->value("commit", "");
+  const auto written = versions->find("commit");
+  if (written == versions->end() || !written->is_string()) return {};
+  const auto commit = written->get<std::string>();
   if (commit.empty()) return {};
   return escaped(commit.starts_with("unknown") ? " (commit " + commit + ")"
                                                : ", built from commit " + commit);

@@ -61,7 +61,11 @@ ReportSection reproduce_section(const ReportSubject& subject) {
       !manifest["failed_runs"].empty()) {
     Table failed{{"recording", "outcome"}, {}};
     for (const auto& run : manifest["failed_runs"]) {
-      failed.rows.push_back({run.value("recording", ""), run.value("outcome", "")});
+      if (!run.is_object()) continue;  // the file may have been edited
+      const auto text = [&](const char* key) {
+        return run.contains(key) ? text_of(run[key]) : std::string();
+      };
+      failed.rows.push_back({text("recording"), text("outcome")});
     }
     html += table_html({"Runs that are not scored", "failed runs", failed}, 1);
   }

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/tables/verbs.hpp"
+#include "experiments/results/json_table.hpp"
 #include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::render {
@@ -22,8 +23,8 @@ ReportSubject read_subject(const std::filesystem::path& run_directory) {
   try {
     subject.manifest = nlohmann::ordered_json::parse(read_file(run_directory / "manifest.json"));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(
-        fmt::format("{}: {}", (run_directory / "manifest.json").string(), error.what()));
+    throw InputError(fmt::format("{}: {}", (run_directory / "manifest.json").string(),
+                                 experiments::reason_of(error)));
   }
   subject.experiment =
       experiments::experiment_from_yaml(YamlDocument::load(run_directory / "config.yaml"));

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace touchdown::render {
 namespace {
@@ -14,7 +15,7 @@ const char* const font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 }  // namespace
 
 TextPen::TextPen() : font_(cv::freetype::createFreeType2()) {
-  if (!std::filesystem::exists(font_file)) {
+  if (!is_there(font_file)) {
     throw Error(std::string(font_file) + " is missing: install fonts-dejavu-core");
   }
   font_->loadFontData(font_file, 0);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/files.hpp"
 #include "experiments/odometry/contact_sources.hpp"
 #include "experiments/studies/closed_loop/config.hpp"
 #include "experiments/studies/closed_loop/rollout.hpp"
@@ -112,7 +113,7 @@ std::string closed_loop_films_html(const ReportSubject& subject) {
     const fs::path picture = folder / (loop_film_stem(simulator) + ".jpg");
     std::error_code error;
     const std::uintmax_t bytes = fs::file_size(folder / name, error);
-    if (error || !fs::exists(picture)) continue;
+    if (error || !is_there(picture)) continue;
     html += fmt::format(
         "<figure class=\"still\"><a href=\"videos/{0}\"><img alt=\"{1}: the same run with "
         "each contact source\" src=\"{2}\"></a>\n<figcaption>{1}: the same run with each contact "

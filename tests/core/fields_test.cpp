@@ -131,5 +131,16 @@ TEST(Fields, ANumberBetweenQuotesHasNoLeadingZeroEither) {
   EXPECT_EQ(read("owner: \"010\"\nengine: {power: \"10\"}\n").owner, "010");
 }
 
+TEST(Fields, RefuseNumbersThatNoQuantityReaches) {
+  // Keys without a range of their own, alone and in lists.
+  for (const char* const number : {".nan", ".inf", "-.inf", "1e300", "-1e16", "1e308"}) {
+    EXPECT_THAT(complaint(fmt::format("place: [0, {}]", number)),
+                AllOf(StartsWith("car.yaml:1:8: place: "), HasSubstr("expected a finite number")))
+        << number;
+  }
+  EXPECT_THAT(complaint("wheels: [{name: a, radius: .nan}]"), HasSubstr("radius: expected"));
+  EXPECT_EQ(complaint("place: [1e15, -1e-300]"), "nothing was thrown");
+}
+
 }  // namespace
 }  // namespace touchdown

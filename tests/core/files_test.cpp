@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -116,6 +118,63 @@ TEST_F(Files, OneThatCannotBeReadToItsEndIsAnErrorAndNoShorterFile) {
 TEST_F(Files, AnEmptyFileIsRead) {
   write_atomically(folder_ / "empty", "");
   EXPECT_EQ(read_file(folder_ / "empty"), "");
+}
+
+TEST_F(Files, ThatAreNotRegularAreRefusedAtOnce) {
+  std::filesystem::create_symlink("/dev/zero", folder_ / "zero");
+  std::filesystem::create_symlink("b", folder_ / "a");
+  std::filesystem::create_symlink("a", folder_ / "b");
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);  // without a writer
+  std::filesystem::create_symlink("pipe", folder_ / "to_pipe");
+  scratch_.write("file", "x");
+  std::filesystem::create_symlink("file", folder_ / "to_file");
+  const auto complaint = [&](const std::filesystem::path& path) -> std::string {
+    try {
+      return read_file(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  for (const char* const special : {"zero", "pipe", "to_pipe"}) {
+    EXPECT_THAT(complaint(folder_ / special), ::testing::EndsWith(": is not a regular file"));
+  }
+  EXPECT_THAT(complaint("/dev/null"), ::testing::EndsWith(": is not a regular file"));
+  EXPECT_THAT(complaint(folder_), ::testing::EndsWith(": is a folder, expected a file"));
+  EXPECT_THAT(complaint(folder_ / "none"), ::testing::EndsWith(": no such file"));
+  EXPECT_THAT(complaint(folder_ / "a"), ::testing::HasSubstr(": cannot be opened: "));
+  EXPECT_THAT(complaint(folder_ / std::string(300, 'x')),
+              ::testing::HasSubstr(": cannot be opened: "));
+  EXPECT_THAT(complaint(folder_ / "file" / "below"), ::testing::HasSubstr("file/below: "));
+  EXPECT_EQ(complaint(folder_ / "to_file"), "x");
+  for (const std::string name : {"zero", "pipe", "file"}) EXPECT_TRUE(is_there(folder_ / name));
+  for (const std::string name : {"none", "a", std::string(300, 'x').c_str()}) {
+    EXPECT_FALSE(is_there(folder_ / name)) << name;
+  }
+}
+
+TEST_F(Files, AStreamThatFailsIsReportedByTheNameOfItsFile) {
+  const auto path = folder_ / "beliefs.csv";
+  const auto complaint = [&](const std::function<void(std::ostream&)>& write) -> std::string {
+    try {
+      write_stream_atomically(path, write);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint([](std::ostream& file) { file << "x"; }), "");
+  EXPECT_EQ(read_file(path), "x");
+  const std::string expected = fmt::format("{}: cannot be written", path.string());
+  EXPECT_THAT(complaint([](std::ostream& file) { file.setstate(std::ios::badbit); }),
+              ::testing::StartsWith(expected));
+  EXPECT_THAT(complaint([](std::ostream& file) {
+                file.setstate(std::ios::badbit);
+                throw Error("the log cannot be written");
+              }),
+              ::testing::StartsWith(expected));
+  EXPECT_EQ(complaint([](std::ostream&) { throw Error("a record is broken"); }),
+            "a record is broken");
+  EXPECT_EQ(read_file(path), "x");  // as before
 }
 
 }  // namespace

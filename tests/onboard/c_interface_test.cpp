@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -95,6 +96,59 @@ TEST_F(CInterface, ReportsFaultsOfARecord) {
   }
   EXPECT_EQ(belief.faults & TOUCHDOWN_UPSIDE_DOWN, 0U);
   touchdown_destroy(estimator);
+}
+
+TEST_F(CInterface, TakesNullWithoutACrash) {
+  touchdown_estimator* const estimator = touchdown_create(model().c_str(), nullptr, nullptr, 0);
+  ASSERT_NE(estimator, nullptr);
+  const touchdown_record record = touchdown_empty_record();
+  for (const touchdown_belief& belief :
+       {touchdown_update(nullptr, &record), touchdown_update(estimator, nullptr),
+        touchdown_update(nullptr, nullptr)}) {
+    EXPECT_EQ(belief.status, TOUCHDOWN_INVALID);
+    EXPECT_EQ(belief.p_contact[0], 0.5);
+    EXPECT_EQ(belief.unusable, -1);
+  }
+  touchdown_reset(nullptr);
+  EXPECT_STREQ(touchdown_model_text(nullptr), "");
+  for (const int number : {-1, -7, 4, 26, 1 << 30}) {
+    EXPECT_STREQ(touchdown_signal_text(number == 4 ? -1 : number), "") << number;
+    EXPECT_STREQ(touchdown_status_text(number), "") << number;
+  }
+  touchdown_destroy(estimator);
+}
+
+TEST_F(CInterface, NamesASignalBeyondItsBound) {
+  touchdown_estimator* const estimator = touchdown_create(model().c_str(), nullptr, nullptr, 0);
+  ASSERT_NE(estimator, nullptr);
+  std::size_t k = 0;
+  for (const Signals& s : test::drops(1200)) {
+    touchdown_record record = record_of(s);
+    if (k == 100) record.joint[4].torque = 1e308;    // right knee
+    if (k == 101) record.joint[0].velocity = -1e39;  // left hip
+    if (k == 102) record.angular_velocity[2] = 1e4;
+    const touchdown_belief belief = touchdown_update(estimator, &record);
+    const std::string expected = k == 100   ? "right knee torque"
+                                 : k == 101 ? "left hip velocity"
+                                 : k == 102 ? "angular velocity x"  // NaN: never reported
+                                            : touchdown_signal_text(belief.unusable);
+    EXPECT_EQ(touchdown_signal_text(belief.unusable), expected) << k;
+    if (k == 100) {
+      EXPECT_EQ(belief.status, TOUCHDOWN_INVALID);
+    }
+    EXPECT_TRUE(belief.p_contact[1] >= 0.0 && belief.p_contact[1] <= 1.0);
+    ++k;
+  }
+  touchdown_destroy(estimator);
+}
+
+TEST_F(CInterface, RefusesASampleRateThatIsNone) {
+  for (const double rate : {std::nan(""), -5.0, HUGE_VAL, -HUGE_VAL}) {
+    std::array<char, 200> error{};
+    const touchdown_use use = {nullptr, rate, nullptr};
+    EXPECT_EQ(touchdown_create(model().c_str(), &use, error.data(), error.size()), nullptr);
+    EXPECT_THAT(error.data(), HasSubstr("m.npz: sample_rate: expected a positive number (Hz)"));
+  }
 }
 
 }  // namespace

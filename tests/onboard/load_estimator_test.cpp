@@ -1,6 +1,8 @@
 #include "onboard/load_estimator.hpp"
 
 #include <functional>
+#include <memory>
+#include <sys/stat.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -109,6 +111,31 @@ TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveMetadata) {
               AllOf(HasSubstr("inline constexpr CompiledArray grid[] = {"),
                     HasSubstr("for 'reference' at 1000 Hz on the robot 'upkie'"),
                     HasSubstr("sample_rate: 1000\\n\"")));
+}
+
+TEST_F(LoadEstimator, ThrowsNothingButInputErrorsAboutPaths) {
+  namespace fs = std::filesystem;
+  fs::create_symlink("b.npz", folder_ / "a.npz");
+  fs::create_symlink("a.npz", folder_ / "b.npz");
+  fs::create_symlink("/dev/zero", folder_ / "zero.npz");
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.npz").c_str(), 0600), 0);
+  const fs::path m = file("m.npz", test::fitted_model("robust"));
+  fs::create_directories(folder_ / "locked");
+  fs::copy_file(m, folder_ / "locked" / "m.npz");
+  fs::permissions(folder_ / "locked", fs::perms::none);
+  const bool is_root =
+      fs::exists(folder_ / "locked" / "m.npz", *std::make_unique<std::error_code>());
+  for (const fs::path& path :
+       {folder_ / "a.npz", folder_ / std::string(300, 'x'), folder_ / "zero.npz",
+        folder_ / "pipe.npz", m / "below.npz", fs::path(""), fs::path(std::string(5000, 'y'))}) {
+    EXPECT_THAT(complaint([&] { load_estimator(path); }), HasSubstr(path.string() + ": ")) << path;
+    EXPECT_THAT(complaint([&] { load_metadata(path); }), HasSubstr(path.string() + ": ")) << path;
+  }
+  if (!is_root) {
+    EXPECT_THAT(complaint([&] { load_estimator(folder_ / "locked" / "m.npz"); }),
+                HasSubstr("cannot be opened"));
+  }
+  fs::permissions(folder_ / "locked", fs::perms::owner_all);
 }
 
 }  // namespace

@@ -65,6 +65,47 @@ class Fit(InFolder):
 
 
 class Run(InFolder):
+    def test_of_every_estimator_gives_the_numbers_of_the_program(self):
+        run = hop()
+        run.save("hop.mpack")
+        fitted = {}
+        for about in touchdown.estimators():
+            name = about["name"]
+            if name == "oracle":
+                continue  # repeats the ground truth, which the program does not take
+            options = []
+            if about["fitted"]:
+                touchdown.fit(run, name).save(f"{name}.npz")
+                fitted[name] = options = ["--model", f"{name}.npz"]
+            with self.subTest(name):
+                program("estimate", "hop.mpack", "--estimator", name, *options, "-o", "beliefs.csv")
+                with open("beliefs.csv", newline="", encoding="utf-8") as file:
+                    rows = list(csv.DictReader(file))
+                beliefs = touchdown.Estimator(name, options[1] if options else None).run(run)
+                for column, values in (("p_contact_left", beliefs["p_contact"][:, 0]),
+                                       ("p_contact_right", beliefs["p_contact"][:, 1]),
+                                       ("contact_left", beliefs["contact"][:, 0]),
+                                       ("contact_right", beliefs["contact"][:, 1]),
+                                       ("p_any_wheel", beliefs["p_any_wheel"]),
+                                       ("p_both_wheels", beliefs["p_both_wheels"])):
+                    np.testing.assert_array_equal(values, [float(row[column]) for row in rows], column)
+                self.assertEqual([touchdown.STATUS[k] for k in beliefs["status"]], [row["status"] for row in rows])
+        self.assertGreater(len(fitted), 10)
+
+    def test_names_the_signal_that_no_sensor_reports(self):
+        run = hop()
+        estimator = touchdown.Estimator("upkie_observer")
+        for k, step in enumerate(steps_of(run)):
+            step = {name: np.array(value, copy=True) for name, value in step.items()}
+            if k == 100:
+                step["velocity"][5] = 1e308
+            if k == 200:
+                step["position"][0] = -1e308
+            belief = estimator.update(step)
+            expected = {100: "right wheel velocity", 200: "left hip position"}.get(k, "")
+            self.assertEqual(belief.unusable, expected)
+            self.assertEqual(belief.status, "invalid" if k == 100 else "good")
+
     def test_gives_the_beliefs_of_the_program(self):
         run = hop()
         run.save("hop.mpack")

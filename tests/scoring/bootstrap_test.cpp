@@ -141,5 +141,18 @@ TEST(Bootstrap, LeavesOutResamplesWithZeroDenominator) {
   EXPECT_TRUE(std::isnan(empty.high));
 }
 
+TEST(Bootstrap, OfOneSampleHasNoInterval) {
+  const std::vector<Mean> one = {{3.0, 4.0}};
+  const Interval interval = bootstrap<Mean>(one, {mean}, {}).front();
+  EXPECT_EQ(interval.estimate, 0.75);
+  EXPECT_TRUE(std::isnan(interval.low) && std::isnan(interval.high));
+  const Interval perfect = with_exact_end({1.0, interval.low, interval.high}, 10, 0.95);
+  EXPECT_EQ(perfect.estimate, 1.0);
+  EXPECT_TRUE(std::isnan(perfect.low) && std::isnan(perfect.high));
+  const Interval difference = bootstrap_differences<Mean>(one, one, {mean}, {}).front();
+  EXPECT_EQ(difference.estimate, 0.0);
+  EXPECT_TRUE(std::isnan(difference.low));
+}
+
 }  // namespace
 }  // namespace touchdown::scoring

@@ -32,11 +32,11 @@ int run(const Flags& flags, const TrainingRequest& request) {
   experiments::require_yaml_kind(document, experiments::YamlKind::training);
   const TrainingResult result = train(training_from_yaml(document), request);
   const IterationRecord& chosen = result.history[result.chosen];
-  fmt::print("network   {}, of iteration {} of {}, validation loss {:.4f}\n",
-             (request.network.empty() ? result.network : request.network).string(),
-             chosen.iteration, result.history.size(), chosen.validation.total);
-  fmt::print("results   {}\n", result.directory.string());
-  if (!result.figure.empty()) fmt::print("figure    {}\n", result.figure.string());
+  print("network   {}, of iteration {} of {}, validation loss {:.4f}\n",
+        (request.network.empty() ? result.network : request.network).string(), chosen.iteration,
+        result.history.size(), chosen.validation.total);
+  print("results   {}\n", result.directory.string());
+  if (!result.figure.empty()) print("figure    {}\n", result.figure.string());
   return good;
 }
 
@@ -91,6 +91,7 @@ int run_program(int argc, char** argv) {
 }  // namespace touchdown::training
 
 int main(int argc, char** argv) {
+  touchdown::stop_on_interrupt();
   touchdown::open_standard_streams();
   return touchdown::finished([&] { return touchdown::training::run_program(argc, argv); });
 }

@@ -1,9 +1,11 @@
 #include "experiments/studies/benchmark/config.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
+#include "core/file_names.hpp"
 #include "experiments/config/optional_section.hpp"
 
 namespace touchdown::experiments {
@@ -18,6 +20,13 @@ static void describe(Fields& fields, BenchmarkConfig& benchmark, const Experimen
     return notes;
   };
   describe_files("robots", benchmark.robots).doc("Files of further robots.");
+  for (std::size_t i = 0; i < benchmark.robots.size(); ++i) {
+    // Recordings are named after the robot's file.
+    const std::string name = std::filesystem::path(benchmark.robots[i]).stem().string();
+    fields.check_item(
+        is_name_word(name), "robots", i,
+        fmt::format("the file's name without extension, '{}': {}", name, expected_name_word));
+  }
   describe_files("sensors", benchmark.sensors).doc("Files of further sensor profiles.");
   fields("transfer", benchmark.transfer)
       .doc("Whether fits on another robot, other sensors or the other engine are scored, too.");

@@ -45,5 +45,35 @@ TEST(IntervalColumns, KeepTheUnitLastAndHoldMetrics) {
       "a,0.500000,0.250000,0.750000,nan,nan,nan,7\n");
 }
 
+TEST(Csv, MarksTextsThatSpreadsheetsWouldCompute) {
+  const std::vector<std::string> harmful = {
+      "=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "\r=1", "'=1", "=\"a\",\"b\""};
+  for (const std::string& cell : harmful) {
+    const std::string csv = to_csv({{"name"}, {{cell}}});
+    const std::string second = csv.substr(csv.find('\n') + 1);
+    EXPECT_TRUE(second.starts_with('\'') || second.starts_with("\"'")) << csv;
+    EXPECT_EQ(from_csv(csv).rows.at(0).at(0), cell) << csv;
+  }
+  // Numbers, dashes and other texts are as they are.
+  for (const std::string cell : {"-1.5", "+2", "-1e-9", "-inf", "nan", "-", "–", "a=b", "'tis"}) {
+    EXPECT_EQ(to_csv({{"x"}, {{cell}}}), "x\n" + cell + "\n");
+    EXPECT_EQ(from_csv("x\n" + cell + "\n").rows.at(0).at(0), cell);
+  }
+}
+
+TEST(Fixed, HasNoNegativeZero) {
+  EXPECT_EQ(fixed(-0.0, 1), "0.0");
+  EXPECT_EQ(fixed(-0.04, 1), "0.0");
+  EXPECT_EQ(fixed(-0.06, 1), "-0.1");
+  EXPECT_EQ(fixed(-0.4, 0), "0");
+  EXPECT_EQ(fixed(-10.0, 1), "-10.0");
+  EXPECT_EQ(metric(-1e-9), "0.000000");
+  EXPECT_EQ(with_interval({-0.0001, -0.0002, 0.0001}), "0.000 [0.000, 0.000]");
+}
+
+TEST(WithInterval, OfOneRunHasNone) {
+  EXPECT_EQ(with_interval({0.977, std::nan(""), std::nan("")}), "0.977");
+}
+
 }  // namespace
 }  // namespace touchdown

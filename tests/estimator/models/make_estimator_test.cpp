@@ -267,5 +267,37 @@ TEST(CompiledModel, BelievesTheSameToTheBit) {
   }
 }
 
+TEST(MakeEstimator, TakesTheBoundsOfSignalsFromMetadataAndUse) {
+  ModelArrays arrays = test::fitted_model("robust");
+  Signals fast = test::drops(1).front();
+  fast.leg[0].hip.velocity = 60.0;
+  fast.leg[1].knee.torque = 50.0;
+  EXPECT_EQ(make_estimator(arrays)->update(fast).unusable, SignalIndex::none);
+  const auto limited = make_estimator(arrays, {.configuration = {{"bounds.velocity", "50"}}});
+  EXPECT_EQ(to_text(limited->update(fast).unusable), "left hip velocity");
+
+  ModelMetadata metadata = metadata_of(arrays).value();
+  metadata.configuration["bounds.torque"] = "40";
+  add_metadata(arrays, metadata);
+  const Belief& belief = make_estimator(arrays)->update(fast);
+  EXPECT_EQ(to_text(belief.unusable), "right knee torque");
+  EXPECT_EQ(belief.status, SignalStatus::invalid);
+  EXPECT_EQ(
+      to_text(make_estimator(arrays, {.estimator = "measurement_only"})->update(fast).unusable),
+      "right knee torque");
+  EXPECT_EQ(
+      make_estimator(arrays, {.configuration = {{"bounds.torque", "70"}}})->update(fast).unusable,
+      SignalIndex::none);
+  for (const char* const value : {"0", "-1", "nan", "inf", "many"}) {
+    EXPECT_NE(complaint_about(test::fitted_model("robust"),
+                              {.configuration = {{"bounds.velocity", value}}}),
+              "nothing was thrown")
+        << value;
+  }
+  EXPECT_THAT(
+      complaint_about(test::fitted_model("robust"), {.configuration = {{"bounds.speed", "1"}}}),
+      HasSubstr("has no 'bounds.speed'"));
+}
+
 }  // namespace
 }  // namespace touchdown

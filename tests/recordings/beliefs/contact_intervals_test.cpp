@@ -1,5 +1,6 @@
 #include "recordings/beliefs/contact_intervals.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -72,6 +73,23 @@ TEST_F(Intervals, OfSeveralLogsAreAFileForEachOrNone) {
   EXPECT_TRUE(read_contact_intervals(std::vector<std::string>{}, 3).empty());
   EXPECT_EQ(read_contact_intervals({file, file}, 2).size(), 2U);
   EXPECT_THROW((void)read_contact_intervals(std::vector<std::string>{file}, 2), InputError);
+}
+
+TEST_F(Intervals, OverlapIsFoundInAnyOrderOfRows) {
+  for (const char* const rows : {"0,1,1\n5,6,1\n0.5,2,0\n", "5,6,1\n0.5,2,0\n0,1,1\n",
+                                 "0,9,1\n5,6,1\n", "5,6,1\n0,9,1\n", "5,6,1\n5,6,1\n"}) {
+    EXPECT_THAT(intervals_complaint(std::string("start,end,contact\n") + rows),
+                HasSubstr("overlaps with"))
+        << rows;
+  }
+  std::string reversed = "start,end,contact\n";
+  for (int k = 3000; k > 0; --k) reversed += fmt::format("{},{}.5,{}\n", k, k, k % 2);
+  const ContactIntervals read_back = read(reversed);
+  ASSERT_EQ(read_back.intervals.size(), 3000U);
+  for (std::size_t k = 0; k < 3000; ++k) {
+    ASSERT_EQ(read_back.intervals[k].start, static_cast<double>(k + 1));
+    ASSERT_EQ(read_back.intervals[k].contact[0], (k + 1) % 2 == 1);
+  }
 }
 
 }  // namespace

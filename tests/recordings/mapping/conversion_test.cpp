@@ -259,7 +259,7 @@ TEST_F(Conversion, MappingThatIsWrongIsNamedByItsPlaceWithTheNearestName) {
          "joints.position.unit: expected one of rad, deg, rev (did you mean 'deg'?)");
   expect("q5]", "q5], sign: 2", "joints.position.sign: expected 1 or -1");
   expect("q5]", "q5], sign: [1, -1]", "joints.position.sign: expected a number, or 6");
-  expect("q5]", "q5], zero: .inf", "joints.position.zero: expected a number");
+  expect("q5]", "q5], zero: .inf", "joints.position.zero: expected a finite number");
   expect("v5]", "v5], zero: 1", "joints.velocity.zero: unknown key");
   expect("q5]", "q5], index: 1", "joints.position.index: unknown key");
   expect(", q5]", "]", "expected 6 of the names of columns: left hip, knee, wheel, right hip");

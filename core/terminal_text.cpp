@@ -1,0 +1,85 @@
+#include "core/terminal_text.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/yaml_text.hpp"
+
+namespace touchdown {
+
+namespace {
+
+/// Control characters of one byte, as a programmer would write them.
+std::string escaped(unsigned char byte) {
+  switch (byte) {
+    case '\n':
+      return "\\n";
+    case '\r':
+      return "\\r";
+    case '\t':
+      return "\\t";
+    default:
+      return fmt::format("\\x{:02x}", byte);
+  }
+}
+
+/// The code point of a valid sequence of two or three bytes; 0 for others.
+unsigned code_point(std::string_view text) {
+  const auto bits = [&](std::size_t i, unsigned mask) {
+    return static_cast<unsigned>(static_cast<unsigned char>(text[i])) & mask;
+  };
+  if (text.size() == 2) return bits(0, 0x1fU) << 6U | bits(1, 0x3fU);
+  if (text.size() == 3) return bits(0, 0x0fU) << 12U | bits(1, 0x3fU) << 6U | bits(2, 0x3fU);
+  return 0;
+}
+
+/// C1 controls, line and paragraph separators, and marks of direction.
+bool is_obeyed(unsigned point) {
+  return (point >= 0x80 && point < 0xa0) || (point >= 0x200e && point <= 0x200f) ||
+         (point >= 0x2028 && point <= 0x202e) || (point >= 0x2066 && point <= 0x2069);
+}
+
+std::size_t sequence_size(unsigned char lead) {
+  if (lead < 0xc0) return 1;
+  if (lead < 0xe0) return 2;
+  return lead < 0xf0 ? 3 : 4;
+}
+
+}  // namespace
+
+std::string terminal_text(std::string_view text, std::string_view kept) {
+  std::string result;
+  std::size_t valid = utf8_size(text);  // where the valid UTF-8 that begins before `at` ends
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (at == valid) {
+      result += fmt::format("\\x{:02x}", byte);
+      ++at;
+      valid = at + utf8_size(text.substr(at));
+      continue;
+    }
+    if (byte < 0x80) {
+      const bool is_control = byte < 0x20 || byte == 0x7f;
+      const bool stays = !is_control || kept.find(text[at]) != std::string_view::npos;
+      if (stays) {
+        result.push_back(text[at]);
+      } else {
+        result += escaped(byte);
+      }
+      ++at;
+      continue;
+    }
+    const std::string_view sequence = text.substr(at, sequence_size(byte));
+    const unsigned point = code_point(sequence);
+    if (is_obeyed(point)) {
+      result += fmt::format("\\u{:04x}", point);
+    } else {
+      result += sequence;
+    }
+    at += sequence.size();
+  }
+  return result;
+}
+
+}  // namespace touchdown
