@@ -59,7 +59,8 @@ TEST_F(Ablation, ComparesEachStepWithTheOneBeforeIt) {
   std::map<std::string, std::string> mean;
   for (const auto& row : standings.rows) {
     mean[cell(standings, row, "torque_noise_nm") + cell(standings, row, "estimator")] =
-        cell(standings, row, "mean") + cell(standings, row, "mean_low");
+        cell(standings, row, "mean_balanced_accuracy") +
+        cell(standings, row, "mean_balanced_accuracy_low");
   }
   const std::vector<std::string> steps = {"paper", "paper_low_pass", "paper_switch", "robust"};
   ASSERT_EQ(table.rows.size(), 2 * steps.size());
@@ -98,7 +99,7 @@ TEST_F(Ablation, IsNamedWhereAnOrdinaryExperimentHasOneOfItsEstimators) {
   for (const std::string name :
        {"paper_low_pass", "paper_grid", "paper_margin", "hmm_without_memory"}) {
     EXPECT_THAT(complaint("estimators: [robust, " + name + "]\n"),
-                AllOf(HasSubstr("steps.yaml:7:22: estimators"),
+                AllOf(HasSubstr("steps.yaml:8:22: estimators"),
                       HasSubstr("'" + name + "' belongs to the study 'ablation'"),
                       HasSubstr("expected the section 'ablation'")));
   }
@@ -109,7 +110,7 @@ TEST_F(Ablation, IsNamedWhereAnOrdinaryExperimentHasOneOfItsEstimators) {
 TEST_F(Ablation, ComplainsOnTheLine) {
   const std::string estimators = "estimators: [paper, paper_grid, robust]\n";
   EXPECT_THAT(complaint(estimators + "ablation: {from: phase}\n"),
-              AllOf(HasSubstr("steps.yaml:8:"), HasSubstr("ablation.from")));
+              AllOf(HasSubstr("steps.yaml:9:"), HasSubstr("ablation.from")));
   EXPECT_THAT(complaint(estimators + "ablation: {from: robust, to: paper}\n"),
               AllOf(HasSubstr("ablation.to"), HasSubstr("after the first one of the row")));
   EXPECT_THAT(complaint(estimators + "ablation: {to: paper}\n"),
