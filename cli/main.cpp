@@ -93,6 +93,7 @@ int run_command_line(int argc, char** argv) {
   add_train(program, session);
   add_fit(program, session);
   add_estimate(program, session);
+  add_check(program, session);
   add_export(program, session);
   add_score(program, session);
   add_clean(program, session);

@@ -24,6 +24,7 @@ void add_report(CLI::App& program, const CliSession& session);
 void add_train(CLI::App& program, const CliSession& session);
 void add_fit(CLI::App& program, const CliSession& session);
 void add_estimate(CLI::App& program, const CliSession& session);
+void add_check(CLI::App& program, const CliSession& session);
 void add_export(CLI::App& program, const CliSession& session);
 void add_score(CLI::App& program, const CliSession& session);
 void add_clean(CLI::App& program, const CliSession& session);

@@ -6,34 +6,29 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "recordings/sample_times.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-std::int64_t nominal_period_us(const recordings::RecordingInfo& info) {
-  constexpr std::int64_t raster = 500;
-  const std::int64_t period = info.control_period_us;
-  const std::int64_t nearest = (period + raster / 2) / raster * raster;
-  constexpr std::int64_t percent = 2;
-  const bool jitters = nearest > 0 && 100 * std::abs(period - nearest) <= percent * period;
-  return info.simulator.empty() && jitters ? nearest : period;
-}
-
-std::int64_t usable_period_us(recordings::LogReader& reader) {
-  const std::int64_t period = nominal_period_us(reader.info());
-  constexpr std::int64_t shortest = 50;
-  constexpr std::int64_t longest = 10'000;
-  if (period < shortest || period > longest) {
-    throw InputError(fmt::format("{}: {:.4g} steps per second: expected 100 to 20000",
-                                 reader.name(), 1e6 / static_cast<double>(period)));
+/// The rate of the log (Hz). A simulated log specifies its own.
+double usable_rate(recordings::LogReader& reader) {
+  const recordings::RecordingInfo& info = reader.info();
+  const double measured = 1e6 / static_cast<double>(info.control_period_us);
+  const double rate = info.simulator.empty() ? recordings::nominal_rate(measured) : measured;
+  constexpr double lowest = 100.0;
+  constexpr double highest = 20'000.0;
+  if (!(rate >= lowest && rate <= highest)) {
+    throw InputError(
+        fmt::format("{}: {:.4g} steps per second: expected 100 to 20000", reader.name(), rate));
   }
-  return period;
+  return rate;
 }
 
 /// Repeated values are no fault: a simulated robot at rest reports the same values again.
-AssemblyConfig assembly_of(std::int64_t period_us) {
-  return {.sample_rate = 1e6 / static_cast<double>(period_us), .stale_after = 0.0};
+AssemblyConfig assembly_of(double sample_rate) {
+  return {.sample_rate = sample_rate, .stale_after = 0.0};
 }
 
 /// Stand-ins for the forces of a log with labels of contact alone.
@@ -46,15 +41,19 @@ std::optional<std::array<double, models::wheel_count>> forces(
 
 }  // namespace
 
-LogSteps::LogSteps(recordings::LogReader& reader, const recordings::ContactIntervals* labels)
+LogSteps::LogSteps(recordings::LogReader& reader, const recordings::ContactIntervals* labels,
+                   const recordings::CheckedRobot& robot)
     : reader_(reader),
       labels_(labels),
-      period_us_(usable_period_us(reader)),
-      assembler_(assembly_of(period_us_)) {}
+      sample_rate_(usable_rate(reader)),
+      period_us_(std::llround(1e6 / sample_rate_)),
+      assembler_(assembly_of(sample_rate_)),
+      plausibility_(1.0 / sample_rate_, robot) {}
 
 const LogStep* LogSteps::next() {
   const std::optional<recordings::LogRow> row = reader_.next();
   if (!row) return nullptr;
+  plausibility_.add(row->observation);
   step_.signals = assembler_.assemble(recordings::record_of(row->observation, command_, joints_));
   command_ = recordings::ground_velocity_command(row->action);
   step_.normal_force.reset();

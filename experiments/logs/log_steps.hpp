@@ -7,6 +7,7 @@
 #include "estimator/assembly/signal_assembler.hpp"
 #include "recordings/beliefs/contact_intervals.hpp"
 #include "recordings/log/reader.hpp"
+#include "recordings/plausibility/check.hpp"
 #include "recordings/signals_from.hpp"
 
 namespace touchdown::experiments {
@@ -24,29 +25,36 @@ struct LogStep {
 class LogSteps {
  public:
   /// `reader` and `labels` must outlive this. `labels`, if given, replace the log's own ground
-  /// truth. Errors: those of the reader; `InputError` for a log with fewer than 100 steps per
-  /// second, where every step would be a gap (`SignalGuardConfig`), or with more than 20,000.
+  /// truth. `robot` is for the findings. Errors: those of the reader; `InputError` for a log with
+  /// fewer than 100 steps per second, where every step would be a gap (`SignalGuardConfig`), or
+  /// with more than 20,000.
   explicit LogSteps(recordings::LogReader& reader,
-                    const recordings::ContactIntervals* labels = nullptr);
+                    const recordings::ContactIntervals* labels = nullptr,
+                    const recordings::CheckedRobot& robot = {});
 
   /// The next step, valid until the next call; null at the end of the log.
   const LogStep* next();
 
-  /// The log's period. For a robot's log it is the median step, rounded to a multiple of 0.5 ms if
-  /// one lies within 2 %: clocks jitter, and some estimators support only certain rates.
+  /// The log's period. For a robot's log it is that of `recordings::nominal_rate`: clocks jitter,
+  /// and some estimators support only certain rates.
   std::int64_t period_us() const { return period_us_; }
-  double period() const { return 1e-6 * static_cast<double>(period_us_); }
-  double sample_rate() const { return 1e6 / static_cast<double>(period_us_); }
+  double period() const { return 1.0 / sample_rate_; }
+  double sample_rate() const { return sample_rate_; }
 
   /// Number of steps so far with an IMU orientation that contradicts gravity. Their vertical
   /// acceleration is NaN.
   std::uint64_t upside_down() const { return assembler_.count(RecordFault::upside_down); }
 
+  /// What is implausible about the steps so far, one line each.
+  std::vector<std::string> findings() const { return plausibility_.findings(); }
+
  private:
   recordings::LogReader& reader_;
   const recordings::ContactIntervals* labels_;
+  double sample_rate_;
   std::int64_t period_us_;
   SignalAssembler assembler_;
+  recordings::PlausibilityCheck plausibility_;
   recordings::RecordedJoints joints_;
   double command_ = 0.0;
   LogStep step_;

@@ -2,18 +2,65 @@
 
 #include <filesystem>
 
+#include "core/error.hpp"
 #include "core/resources.hpp"
+#include "core/yaml.hpp"
 #include "models/robot_model.hpp"
 #include "scenarios/leg_geometry.hpp"
 
 namespace touchdown::experiments {
 
+namespace {
+
+recordings::JointRanges ranges_of(const models::RobotModel& robot) {
+  recordings::JointRanges ranges;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const int joint = robot.mj->dof_jntid[robot.dof_address[i]];
+    const bool is_limited = robot.mj->jnt_limited[joint] != 0;
+    constexpr double turn = 6.283185307179586;
+    ranges[i] = is_limited ? recordings::JointRange{robot.mj->jnt_range[2 * joint],
+                                                    robot.mj->jnt_range[2 * joint + 1]}
+                           : recordings::JointRange{-turn, turn};
+  }
+  return ranges;
+}
+
+LogRobot robot_in_file(const std::filesystem::path& path) {
+  const models::RobotModel robot = models::compile_robot_model(find_resource(path), {});
+  return {.name = path.stem().string(),
+          .legs = scenarios::leg_geometry(robot),
+          .ranges = ranges_of(robot)};
+}
+
+/// The path of a simulated log's robot; empty for other logs.
+std::filesystem::path robot_file_of(const recordings::RecordingInfo& log) {
+  if (log.scenario_yaml.empty()) return {};
+  const YamlDocument scenario = YamlDocument::parse(log.scenario_yaml, log.scenario);
+  const YAML::Node robot = scenario.root()["robot"];
+  return robot.IsDefined() && robot.IsScalar() ? robot.Scalar() : std::string();
+}
+
+}  // namespace
+
 LogRobot robot_called(const std::string& name_or_file) {
   const std::filesystem::path path(name_or_file);
   const bool is_file = path.extension() == ".xml" || path.extension() == ".yaml";
-  if (!is_file) return {.name = name_or_file};
-  return {.name = path.stem().string(),
-          .legs = scenarios::leg_geometry(models::compile_robot_model(find_resource(path), {}))};
+  return is_file ? robot_in_file(path) : LogRobot{.name = name_or_file};
+}
+
+recordings::CheckedRobot checked_robot(const LogRobot& requested,
+                                       const recordings::RecordingInfo& log) {
+  LogRobot robot = requested;
+  if (!robot.legs) {
+    try {
+      if (const std::filesystem::path file = robot_file_of(log); !file.empty()) {
+        robot = robot_in_file(file);
+      }
+    } catch (const InputError&) {
+      robot.legs.reset();  // the file is elsewhere: the checks assume Upkie
+    }
+  }
+  return {robot.legs, robot.ranges};
 }
 
 std::string robot_text(const std::string& name) {

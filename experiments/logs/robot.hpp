@@ -4,19 +4,27 @@
 #include <string>
 
 #include "estimator/force/leg_geometry.hpp"
+#include "recordings/plausibility/robot.hpp"
+#include "recordings/recording.hpp"
 
 namespace touchdown::experiments {
 
 /// The robot of some logs.
 struct LogRobot {
-  std::string name = {};                 ///< empty: as in the logs, if they name one
-  std::optional<LegGeometry> legs = {};  ///< from its file, if there is one
+  std::string name = {};                               ///< empty: as in the logs, if they name one
+  std::optional<LegGeometry> legs = {};                ///< from its file, if there is one
+  std::optional<recordings::JointRanges> ranges = {};  ///< of its joints, likewise
 };
 
 /// Takes a name, or a file: an MJCF, or a YAML description of one (models/robot_description.hpp). A
 /// file gives the robot its name and its legs. Errors: `InputError` for a missing file (with the
 /// nearest name in its folder) and for a file that describes no robot.
 LogRobot robot_called(const std::string& name_or_file);
+
+/// What the checks of a log know about its robot: the requested one, else the one that a simulated
+/// log names, if its file is there.
+recordings::CheckedRobot checked_robot(const LogRobot& requested,
+                                       const recordings::RecordingInfo& log);
 
 /// A model's robot for messages: its name in quotes, or "an unnamed robot".
 std::string robot_text(const std::string& name);

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "recordings/log/info.hpp"
+#include "recordings/sample_times.hpp"
 
 namespace touchdown::recordings {
 
@@ -42,25 +45,33 @@ const RecordingInfo& LogReader::info() {
   if (!info_) info_.emplace();
   if (!has_period_) {
     look_ahead(rows_for_period);
-    std::vector<double> differences;
-    for (std::size_t i = 1; i < ahead_.size(); ++i) {
-      if (!ahead_[i].row) break;
-      const double difference =
-          ahead_[i].row->observation.time - ahead_[i - 1].row->observation.time;
-      if (std::isfinite(difference)) differences.push_back(difference);
+    std::vector<double> times;
+    for (const Entry& entry : ahead_) {
+      if (!entry.row) break;
+      times.push_back(entry.row->observation.time);
     }
-    if (!differences.empty()) {
-      const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-      std::nth_element(differences.begin(), middle, differences.end());
-      const double microseconds = std::round(1e6 * *middle);
-      if (!(microseconds >= 1.0 && microseconds <= 1e9)) {
-        throw InputError(fmt::format("{}: observation.time: expected times that increase", name_));
-      }
-      info_->control_period_us = static_cast<std::int64_t>(microseconds);
-    }
+    if (times.size() > 1) info_->control_period_us = period_us_of(times);
     has_period_ = true;
   }
   return *info_;
+}
+
+std::int64_t LogReader::period_us_of(const std::vector<double>& times) const {
+  const std::optional<double> step = typical_step(times);
+  if (!step) {
+    throw InputError(
+        fmt::format("{}: observation.time: expected times that increase: of a log that has no "
+                    "clock, `period:` in a mapping gives the time between two rows",
+                    name_));
+  }
+  if (const std::string unit = unit_of_step(*step); !unit.empty()) {
+    throw InputError(
+        fmt::format("{}: observation.time: expected seconds: steps of {:.6g} look like {}", name_,
+                    *step, unit));
+  }
+  const double microseconds = std::round(1e6 * *step);
+  constexpr double longest = 1e9;
+  return static_cast<std::int64_t>(std::clamp(microseconds, 1.0, longest));
 }
 
 void LogReader::look_ahead(std::size_t rows) {
@@ -81,12 +92,20 @@ void LogReader::read_entry(Entry& entry) {
     offset_ += record_size_;
     ++record_count_;
     if (parser_.has_config() && !info_) info_ = unpack_info(record, name_);
-    const bool lacks_keys = parser_.is_missing_any();
+    LogValues values = parser_.values();
+    LogPresence present = parser_.present();
+    const bool lacks_keys = parser_.is_missing_any() && !is_completed(values, present);
     if (lacks_keys) {
       ++skipped_count_;
       count_malformed();
     } else {
-      entry.row = to_row(parser_.values(), parser_.present());
+      if (!parser_.is_missing_any()) held_servos_.remember(values, present);
+      entry.row = to_row(values, present);
+    }
+    if (!lacks_keys && repeats_last()) {
+      entry.row.reset();
+      entry.skipped += record;
+      continue;
     }
     if (lacks_keys || is_without_time(*entry.row)) {
       entry.row.reset();
@@ -114,6 +133,25 @@ bool LogReader::is_without_time(const LogRow& row) {
         fmt::format("byte {}: the time of record {}", offset_ - record_size_, record_count_);
   }
   return true;
+}
+
+/// Whether missing numbers of servos could be held from an earlier record. A value of another type
+/// is no missing number.
+bool LogReader::is_completed(LogValues& values, LogPresence& present) {
+  return parser_.malformed().empty() && held_servos_.complete(values, present);
+}
+
+/// Whether the record has the time and all numbers of the last row: it was written twice.
+bool LogReader::repeats_last() {
+  LogValues values = parser_.values();
+  if (parser_.present()[log_slot::time]) values[log_slot::wall_time] = 0.0;
+  // Byte by byte, because missing commands are NaN.
+  if (has_rows_ && std::memcmp(values.data(), last_values_.data(), sizeof values) == 0) {
+    ++repeated_count_;
+    return true;
+  }
+  last_values_ = values;
+  return false;
 }
 
 void LogReader::count_malformed() {
@@ -178,6 +216,21 @@ void LogReader::finish() {
         timeless_count_ == 1
             ? ""
             : fmt::format(", and {} more before the first good record", timeless_count_ - 1)));
+  }
+  if (held_servos_.records() > 0 && !has_finished_) {
+    warnings_.push_back(
+        fmt::format("{}: {} of {} records lack numbers of servos: they are held from the record "
+                    "before, for up to {:.4g} ms{}",
+                    name_, held_servos_.records(), record_count_, 1e3 * held_servos_.oldest(),
+                    held_servos_.lost() == 0
+                        ? ""
+                        : fmt::format("; {} records lack them for longer", held_servos_.lost())));
+  }
+  if (repeated_count_ > 0 && !has_finished_) {
+    warnings_.push_back(
+        fmt::format("{}: {} of {} records repeat the one before, with its time and all its "
+                    "numbers, and were left out",
+                    name_, repeated_count_, record_count_));
   }
   has_finished_ = true;
 }

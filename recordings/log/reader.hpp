@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "recordings/log/byte_source.hpp"
+#include "recordings/log/held_servos.hpp"
 #include "recordings/log/parser.hpp"
 #include "recordings/log/row.hpp"
 #include "recordings/recording.hpp"
@@ -17,9 +18,11 @@ namespace touchdown::recordings {
 
 /// Reads Upkie's logs (`.mpack`, all versions so far) row by row, live or from a file, with
 /// constant memory. It skips and reports in `warnings()`
-/// - records that lack needed keys, such as those of a starting spine,
+/// - records that lack needed keys, such as those of a starting spine (a number of a servo that is
+///   missing now and then is held from an earlier record: recordings/log/held_servos.hpp),
 /// - records with another type of value at a needed key,
 /// - records without a finite time before the first row,
+/// - records that repeat the one before with its time and all its numbers,
 /// - and a last record that is cut off.
 /// The time of a robot's log counts from its first row. Errors (`InputError`): a file that cannot
 /// be read; bytes that are not MessagePack maps (named by their offset); a log without a single
@@ -37,8 +40,9 @@ class LogReader {
   /// The next row, or nothing at the end of the log.
   std::optional<LogRow> next();
 
-  /// The content of `config.touchdown`. For a robot's log only the control period: the median time
-  /// difference of the first rows.
+  /// The content of `config.touchdown`. For a robot's log only the control period: the typical step
+  /// of the first 200 rows (recordings/sample_times.hpp). Errors: `InputError` for a robot's log
+  /// whose times do not increase.
   const RecordingInfo& info();
 
   /// The log's clock at time 0 (s). It is 0 for a log of touchdown, and before the first row.
@@ -62,8 +66,11 @@ class LogReader {
   void read_entry(Entry& entry);
   bool parse_record();
   bool refill();
+  std::int64_t period_us_of(const std::vector<double>& times) const;
   void look_ahead(std::size_t rows);
   bool is_without_time(const LogRow& row);
+  bool repeats_last();
+  bool is_completed(LogValues& values, LogPresence& present);
   void count_malformed();
   [[noreturn]] void complain_about_garbage(std::size_t offset) const;
   [[noreturn]] void complain_about_missing_keys() const;
@@ -84,6 +91,9 @@ class LogReader {
   std::string first_timeless_;  ///< position of the record
   std::uint64_t malformed_count_ = 0;
   std::string first_malformed_;  ///< position of the record and its errors
+  HeldServos held_servos_;
+  std::uint64_t repeated_count_ = 0;
+  LogValues last_values_{};  ///< of the last row, without its wall time
   bool has_rows_ = false;
   bool at_end_ = false;
   bool has_finished_ = false;

@@ -1,0 +1,38 @@
+#include "cli/check/log.hpp"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/program/streams.hpp"
+#include "core/progress.hpp"
+#include "experiments/logs/log_steps.hpp"
+#include "recordings/log/reader.hpp"
+
+namespace touchdown::cli {
+
+std::size_t check_log(const std::string& path, const experiments::LogRobot& robot,
+                      const CliSession& session) {
+  recordings::LogReader reader(path, session.stop);
+  experiments::LogSteps log(reader, nullptr, experiments::checked_robot(robot, reader.info()));
+  std::int64_t steps = 0;
+  double last = 0.0;
+  while (const experiments::LogStep* step = log.next()) {
+    ++steps;
+    last = step->signals.time;
+  }
+  if (*session.stop) throw Stopped("stopped");
+  for (const std::string& warning : reader.warnings()) {
+    print_message(fmt::format("touchdown: {}\n", warning));
+  }
+  const std::vector<std::string> findings = log.findings();
+  std::string text =
+      fmt::format("{}: {} records at {:.6g} Hz, up to {:.3f} s: {}\n", reader.name(), steps,
+                  log.sample_rate(), last, findings.empty() ? "plausible" : "check it");
+  for (const std::string& finding : findings) text += fmt::format("  {}\n", finding);
+  print(text);
+  return findings.size();
+}
+
+}  // namespace touchdown::cli

@@ -1,0 +1,38 @@
+#include "recordings/plausibility/check.hpp"
+
+namespace touchdown::recordings {
+
+PlausibilityCheck::PlausibilityCheck(double period, const CheckedRobot& robot)
+    : windows_(period),
+      clock_(period),
+      range_(robot),
+      load_(robot.legs.value_or(LegGeometry{}), robot.legs.has_value()) {}
+
+void PlausibilityCheck::add(const models::Observation& record) {
+  clock_.add(record.time);
+  constant_.add(record);
+  range_.add(record);
+  const std::optional<CheckedWindow> window = windows_.add(record);
+  if (!window) return;
+  motion_.add(*window);
+  turning_.add(*window);
+  load_.add(*window);
+  if (const std::optional<CheckedWindow> stretch = still_.add(*window)) {
+    gravity_.add_still(*stretch);
+    load_.add_still(*stretch);
+  }
+}
+
+std::vector<std::string> PlausibilityCheck::findings() const {
+  Findings findings;
+  clock_.report(findings);
+  constant_.report(findings);
+  range_.report(findings);
+  motion_.report(findings);
+  turning_.report(findings);
+  gravity_.report(findings);
+  load_.report(findings);
+  return findings.lines();
+}
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recordings/plausibility/clock.hpp"
+#include "recordings/plausibility/constant_channels.hpp"
+#include "recordings/plausibility/gravity.hpp"
+#include "recordings/plausibility/joint_motion.hpp"
+#include "recordings/plausibility/joint_range.hpp"
+#include "recordings/plausibility/load.hpp"
+#include "recordings/plausibility/robot.hpp"
+#include "recordings/plausibility/still.hpp"
+#include "recordings/plausibility/turning.hpp"
+#include "recordings/plausibility/window.hpp"
+
+namespace touchdown::recordings {
+
+/// Checks whether the signals of a log can be those of a wheeled biped. It reads the log record by
+/// record, in constant memory. A finding is one line: the channel, what is wrong about it, and the
+/// likely cause. The recordings of a simulated robot have no findings, also with bad sensors
+/// (sensors/harsh.yaml).
+class PlausibilityCheck {
+ public:
+  /// `period`: between two records (s).
+  explicit PlausibilityCheck(double period, const CheckedRobot& robot = {});
+
+  void add(const models::Observation& record);
+
+  /// One line per finding so far.
+  std::vector<std::string> findings() const;
+
+ private:
+  WindowCollector windows_;
+  StillStretches still_;
+  ClockCheck clock_;
+  ConstantChannels constant_;
+  JointRangeCheck range_;
+  JointMotionCheck motion_;
+  TurningCheck turning_;
+  GravityCheck gravity_;
+  LoadCheck load_;
+};
+
+}  // namespace touchdown::recordings

@@ -1,0 +1,283 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/robot_model.hpp"
+#include "noise/sensors/profile.hpp"
+#include "noise/sensors/reported.hpp"
+#include "recordings/plausibility/check.hpp"
+#include "scenarios/engine.hpp"
+#include "scenarios/leg_geometry.hpp"
+#include "scenarios/scenario_file.hpp"
+
+namespace touchdown::recordings {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+using Records = std::vector<models::Observation>;
+
+/// A simulated run as its sensors report it.
+Records reported(const std::string& scenario, const std::string& simulator,
+                 const std::string& sensors, const std::string& robot = {},
+                 std::uint64_t seed = 7) {
+  const scenarios::Scenario rollout =
+      scenarios::find_scenario("scenarios/" + scenario + ".yaml", robot);
+  Recording run = scenarios::play(rollout, simulator);
+  noise::report_through(noise::find_sensor_profile("sensors/" + sensors + ".yaml"),
+                        {.seed = seed, .run = 0}, run.period(), run.observation);
+  return run.observation;
+}
+
+std::vector<std::string> findings(const Records& records, const CheckedRobot& robot = {}) {
+  PlausibilityCheck check(1e-3, robot);
+  for (const models::Observation& record : records) check.add(record);
+  return check.findings();
+}
+
+TEST(PlausibilityCheck, IsSilentOnSimulatedRecordings) {
+  for (const std::string scenario :
+       {"hop", "stairs", "hang", "roam", "lift", "push_off", "squat"}) {
+    for (const std::string simulator : {"mujoco", "bullet"}) {
+      for (const std::string sensors : {"ideal", "upkie", "harsh"}) {
+        EXPECT_THAT(findings(reported(scenario, simulator, sensors)), IsEmpty())
+            << scenario << ' ' << simulator << ' ' << sensors;
+      }
+    }
+  }
+}
+
+TEST(PlausibilityCheck, IsSilentOnOtherRobots) {
+  for (const std::string robot : {"upkie_straight_actuated", "upkie_heavy", "upkie_long_legs"}) {
+    const std::string file = "models/" + robot + ".yaml";
+    const CheckedRobot facts{.legs =
+                                 scenarios::leg_geometry(models::compile_robot_model(file, {}))};
+    for (const std::string sensors : {"ideal", "harsh"}) {
+      for (const std::string scenario : {"flat", "hang"}) {
+        EXPECT_THAT(findings(reported(scenario, "mujoco", sensors, file), facts), IsEmpty())
+            << robot << ' ' << scenario << ' ' << sensors;
+      }
+    }
+  }
+}
+
+/// One way in which a log is wrong, and a part of the line about it.
+struct Damage {
+  std::string name;
+  std::function<void(models::Observation& record, std::size_t k)> change;
+  std::string finding;
+};
+
+/// Applies a factor to one member of some servos.
+auto scaled(double models::ServoReading::*member, std::vector<std::size_t> servos, double factor) {
+  return [=](models::Observation& o, std::size_t /*k*/) {
+    for (const std::size_t servo : servos) o.servo[servo].*member *= factor;
+  };
+}
+
+const std::vector<std::size_t> all = {0, 1, 2, 3, 4, 5};
+constexpr auto position = &models::ServoReading::position;
+constexpr auto velocity = &models::ServoReading::velocity;
+constexpr auto torque = &models::ServoReading::torque;
+
+std::vector<Damage> damages() {
+  using O = models::Observation;
+  const auto swapped = [](std::size_t a, std::size_t b) {
+    return [=](O& o, std::size_t) { std::swap(o.servo[a], o.servo[b]); };
+  };
+  const auto linear_to = [](double factor) {
+    return [=](O& o, std::size_t) {
+      o.imu.linear_acceleration = factor * o.imu.raw_linear_acceleration;
+      o.imu.raw_linear_acceleration =
+          o.imu.linear_acceleration - o.imu.orientation.conjugate() * Eigen::Vector3d(0, 0, 9.81);
+    };
+  };
+  const auto proper = [](double factor) {
+    return [=](O& o, std::size_t) { o.imu.raw_linear_acceleration *= factor; };
+  };
+  const auto gyroscope = [](const Eigen::Matrix3d& matrix) {
+    return [=](O& o, std::size_t) { o.imu.angular_velocity = matrix * o.imu.angular_velocity; };
+  };
+  Eigen::Matrix3d x_and_y = Eigen::Matrix3d::Zero();
+  x_and_y(0, 1) = x_and_y(1, 0) = x_and_y(2, 2) = 1.0;
+  Eigen::Matrix3d cycle = Eigen::Matrix3d::Zero();
+  cycle(0, 1) = cycle(1, 2) = cycle(2, 0) = 1.0;
+  const Eigen::Matrix3d forward = Eigen::Vector3d(-1, 1, -1).asDiagonal();
+  const auto wrong_order = [](O& o, std::size_t) {
+    const Eigen::Quaterniond q = o.imu.orientation;
+    o.imu.orientation = Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w());
+  };
+  return {
+      // gravity in the linear acceleration
+      {"gravity in it", linear_to(1.0), "linear_acceleration: holds gravity: mean 9."},
+      {"gravity in it, in g", linear_to(1.0 / 9.81), "holds gravity in g"},
+      {"gravity twice", linear_to(2.0), "linear_acceleration: mean 19"},
+      // proper acceleration
+      {"proper in g", proper(1.0 / 9.81), "is it in g"},
+      {"proper in mg", proper(1e3 / 9.81), "is it in mg"},
+      {"proper converted twice", proper(9.81), "converted from g twice"},
+      {"proper without gravity",
+       [](O& o, std::size_t) { o.imu.raw_linear_acceleration = 0.9 * o.imu.linear_acceleration; },
+       "gravity was removed"},
+      // orientation
+      {"x y z w as w x y z", wrong_order, "proper_acceleration: points"},
+      {"inverse orientation of a pitched IMU",
+       [](O& o, std::size_t) {
+         o.imu.orientation = o.imu.orientation * Eigen::Quaterniond(0.8, 0, 0.6, 0);
+         o.imu.orientation = o.imu.orientation.conjugate();
+       },
+       "proper_acceleration: points"},
+      {"z up as z down",
+       [](O& o, std::size_t) {
+         o.imu.orientation = Eigen::Quaterniond(0, 1, 0, 0) * o.imu.orientation;
+       },
+       "proper_acceleration: points 1"},
+      // torques
+      {"all torques negated", scaled(torque, all, -1.0), "is negative"},
+      {"hips and knees negated", scaled(torque, {0, 1, 3, 4}, -1.0), "is negative"},
+      {"sides swapped in the torques",
+       [](O& o, std::size_t) {
+         for (std::size_t i = 0; i < 3; ++i) std::swap(o.servo[i].torque, o.servo[i + 3].torque);
+       },
+       "is negative"},
+      {"right leg negated", scaled(torque, {3, 4, 5}, -1.0), "right leg: pulls the robot down"},
+      {"left leg negated", scaled(torque, {0, 1, 2}, -1.0), "left leg: pulls the robot down"},
+      {"torques in mNm", scaled(torque, all, 1000.0), "torques are in mNm"},
+      {"torques in cNm", scaled(torque, all, 100.0), "the unit of the torques"},
+      {"torques divided by 1000", scaled(torque, all, 1e-3), "never exceed"},
+      // joints
+      {"hips and knees swapped",
+       [](O& o, std::size_t) {
+         std::swap(o.servo[0], o.servo[1]);
+         std::swap(o.servo[3], o.servo[4]);
+       },
+       "load while the robot is still"},
+      {"torques of hips and knees swapped",
+       [](O& o, std::size_t) {
+         std::swap(o.servo[0].torque, o.servo[1].torque);
+         std::swap(o.servo[3].torque, o.servo[4].torque);
+       },
+       "load while the robot is still"},
+      {"knee and wheel swapped", swapped(1, 2), "left_knee: position reaches"},
+      {"hip and wheel swapped", swapped(3, 5), "right_hip: position reaches"},
+      // velocity against position
+      {"velocities in deg/s", scaled(velocity, all, 1.0 / degree), "is the velocity in deg/s"},
+      {"velocities in rpm", scaled(velocity, all, 30.0 / std::numbers::pi),
+       "is the velocity in rpm"},
+      {"velocities in rev/s", scaled(velocity, all, 0.5 / std::numbers::pi), "in rev/s"},
+      {"wheel velocities negated", scaled(velocity, {2, 5}, -1.0),
+       "left_wheel, right_wheel: velocity has the other sign"},
+      {"wheel positions negated", scaled(position, {2, 5}, -1.0),
+       "left_wheel, right_wheel: velocity has the other sign"},
+      {"a gear ratio of 6", scaled(velocity, {2, 5}, 6.0), "is 6 times the derivative"},
+      {"sides swapped in wheel velocities",
+       [](O& o, std::size_t) { std::swap(o.servo[2].velocity, o.servo[5].velocity); },
+       "velocity has the other sign"},
+      // degrees
+      {"positions in degrees", scaled(position, all, 1.0 / degree), "is it in degrees"},
+      {"knees in degrees", scaled(position, {1, 4}, 1.0 / degree),
+       "left_knee, right_knee: position reaches"},
+      // gyroscope
+      {"gyroscope in deg/s", gyroscope(Eigen::Matrix3d::Identity() / degree), "is it in deg/s"},
+      {"gyroscope negated", gyroscope(-Eigen::Matrix3d::Identity()), "turns the other way"},
+      {"gyroscope with other axes", gyroscope(x_and_y),
+       "angular_velocity: fits the orientation as"},
+      {"gyroscope in cyclic order", gyroscope(cycle), "angular_velocity: fits the orientation as"},
+      {"gyroscope of a forward IMU", gyroscope(forward),
+       "angular_velocity: fits the orientation as"},
+      {"gyroscope mapped as deg/s", gyroscope(degree * Eigen::Matrix3d::Identity()),
+       "mapped as deg/s"},
+      // dead channels
+      {"knees silent", scaled(torque, {1, 4}, 0.0),
+       "left_knee, right_knee: torque is 0 throughout"},
+      {"a torque that is stuck", [](O& o, std::size_t) { o.servo[0].torque = 0.25; },
+       "left_hip: torque is 0.25 throughout"},
+      {"velocities silent", scaled(velocity, {2, 5}, 0.0),
+       "left_wheel, right_wheel: velocity is 0"},
+      {"gyroscope silent", gyroscope(Eigen::Matrix3d::Zero()),
+       "angular_velocity: is 0 0 0 throughout"},
+      {"accelerometer silent", linear_to(0.0), "linear_acceleration: is 0 0 0 throughout"},
+      {"one axis silent", [](O& o, std::size_t) { o.imu.linear_acceleration.y() = 0.0; },
+       "linear_acceleration y: it is 0 throughout"},
+      {"orientation silent",
+       [](O& o, std::size_t) { o.imu.orientation = Eigen::Quaterniond(0, 0, 1, 0); },
+       "orientation: never changes"},
+      // missing values
+      {"a torque that is often missing",
+       [](O& o, std::size_t k) {
+         if (k % 5 == 0) o.servo[4].torque = std::nan("");
+       },
+       "right_knee: torque is missing in 20 % of the records"},
+      {"no gyroscope", [](O& o, std::size_t) { o.imu.angular_velocity.setConstant(std::nan("")); },
+       "angular_velocity: is never a finite number"},
+      // clock
+      {"half of the rate",
+       [](O& o, std::size_t k) {
+         if (k > 4000) o.time += 1e-3 * static_cast<double>(k - 4000);
+       },
+       "time: the rate changes: 500 Hz at 4."},
+      {"twice the rate",
+       [](O& o, std::size_t k) {
+         if (k > 3000) o.time -= 5e-4 * static_cast<double>(k - 3000);
+       },
+       "time: the rate changes: 2000 Hz at 3."},
+      {"times in pairs", [](O& o, std::size_t k) { o.time = 2e-3 * static_cast<double>(k / 2); },
+       "time: is that of the record before"},
+      {"a step back",
+       [](O& o, std::size_t k) {
+         if (k > 2500) o.time -= 0.2;
+       },
+       "time: goes back once, by up to 0.199 s"},
+      {"a jump",
+       [](O& o, std::size_t k) {
+         if (k > 2500) o.time += 3600.0;
+       },
+       "time: jumps once"},
+  };
+}
+
+TEST(PlausibilityCheck, NamesEveryKindOfDamage) {
+  const std::vector<std::pair<std::string, Records>> undamaged = {
+      {"ideal hop", reported("hop", "mujoco", "ideal")},
+      {"upkie roam", reported("roam", "bullet", "upkie")}};
+  for (const auto& [name, records] : undamaged) {
+    for (const Damage& damage : damages()) {
+      Records changed = records;
+      for (std::size_t k = 0; k < changed.size(); ++k) damage.change(changed[k], k);
+      const std::vector<std::string> lines = findings(changed);
+      EXPECT_THAT(lines, Contains(HasSubstr(damage.finding))) << damage.name << ", " << name;
+      if (std::getenv("TOUCHDOWN_PRINT_FINDINGS") != nullptr) {
+        fmt::print("| {} | {} | {} |\n", name, damage.name, fmt::join(lines, "; "));
+      }
+    }
+  }
+}
+
+TEST(PlausibilityCheck, TakesAHipThatTheRobotLacksAsItIs) {
+  Records records = reported("hop", "mujoco", "ideal");
+  for (models::Observation& o : records) o.servo[0] = o.servo[3] = {};
+  for (const std::string& line : findings(records))
+    EXPECT_THAT(line, ::testing::Not(HasSubstr("hip")));
+}
+
+TEST(PlausibilityCheck, HasNoFindingsWithoutRecords) {
+  EXPECT_THAT(findings({}), IsEmpty());
+  EXPECT_THAT(findings(Records(3)), IsEmpty());
+}
+
+}  // namespace
+}  // namespace touchdown::recordings
