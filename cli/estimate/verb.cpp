@@ -1,6 +1,9 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -35,6 +38,7 @@ struct EstimateFlags {
   std::string estimator;
   std::string robot;
   bool transfer = false;
+  bool strict = false;
   std::vector<std::string> hyperparameters;
   std::vector<std::string> outputs;
   std::string figure;
@@ -88,6 +92,8 @@ class BeliefWriter {
   }
 
   std::int64_t steps() const { return summary_->steps(); }
+  std::int64_t valid_steps() const { return summary_->valid_steps(); }
+  double duration() const { return summary_->duration(); }
   const render::LogTrace& trace() const { return trace_; }
 
  private:
@@ -124,10 +130,26 @@ std::string gravity_line(const experiments::LogSteps& log) {
       "imu", log.upside_down());
 }
 
-/// Runs the estimator over the log and returns the summary.
-std::string evaluate(recordings::LogReader& reader, const experiments::LogEstimator& chosen,
-                     const recordings::ContactIntervals* labels, BeliefWriter& writer) {
-  experiments::LogSteps log(reader, labels);
+/// The result about one log.
+struct Evaluation {
+  std::string summary;
+  std::vector<std::string> findings;  ///< what is implausible about the log
+};
+
+/// Errors: `Error` for a log without a step whose signals are usable: no belief is about it.
+void require_valid_steps(const recordings::LogReader& reader, const BeliefWriter& writer,
+                         const std::vector<std::string>& findings) {
+  if (writer.valid_steps() > 0 || writer.steps() == 0) return;
+  throw Error(fmt::format("{}: none of its {} steps has usable signals{}", reader.name(),
+                          writer.steps(),
+                          findings.empty() ? "" : fmt::format(": {}", findings.front())));
+}
+
+/// Runs the estimator over the log.
+Evaluation evaluate(recordings::LogReader& reader, const experiments::LogEstimator& chosen,
+                    const recordings::ContactIntervals* labels, BeliefWriter& writer) {
+  experiments::LogSteps log(reader, labels,
+                            experiments::checked_robot(chosen.request.robot, reader.info()));
   const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), reader.info());
   writer.begin(log, labels != nullptr);
   try {
@@ -139,10 +161,12 @@ std::string evaluate(recordings::LogReader& reader, const experiments::LogEstima
     throw;
   }
   const std::string summary = writer.finish(reader);
-  return fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
-                     static_cast<double>(writer.steps()) * log.period(), log.sample_rate(),
-                     chosen.entry.title) +
-         summary + gravity_line(log) + model_line(chosen);
+  std::vector<std::string> findings = log.findings();
+  require_valid_steps(reader, writer, findings);
+  return {fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
+                      writer.duration(), log.sample_rate(), chosen.entry.title) +
+              summary + gravity_line(log) + model_line(chosen),
+          std::move(findings)};
 }
 
 /// Prints to standard output, or to standard error if the table goes to standard output.
@@ -154,10 +178,12 @@ void print_text(const EstimateOutputs& outputs, const std::string& text) {
   }
 }
 
-void estimate_log(const std::string& path, const recordings::ContactIntervals* labels,
-                  const experiments::LogEstimator& estimator, const EstimateFlags& flags,
-                  const EstimateOutputs& outputs, const CliSession& session) {
+/// Returns the number of findings.
+std::size_t estimate_log(const std::string& path, const recordings::ContactIntervals* labels,
+                         const experiments::LogEstimator& estimator, const EstimateFlags& flags,
+                         const EstimateOutputs& outputs, const CliSession& session) {
   std::string summary;
+  std::size_t findings = 0;
   write_outputs(outputs, [&](std::ostream* csv, std::ostream* mpack) {
     BeliefWriter writer(csv, mpack,
                         flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
@@ -169,10 +195,15 @@ void estimate_log(const std::string& path, const recordings::ContactIntervals* l
           return bytes(buffer);
         };
     recordings::LogReader reader(source, live ? "standard input" : path);
-    summary = evaluate(reader, estimator, labels, writer);
+    const Evaluation evaluation = evaluate(reader, estimator, labels, writer);
+    summary = evaluation.summary;
+    findings = evaluation.findings.size();
     if (*session.stop && !live) throw Stopped("stopped; nothing was written");
     for (const std::string& warning : reader.warnings()) {
       print_message(fmt::format("touchdown: {}\n", warning));
+    }
+    for (const std::string& finding : evaluation.findings) {
+      print_message(fmt::format("touchdown: {}: {}\n", reader.name(), finding));
     }
     if (!outputs.figure.empty()) {
       if (writer.trace().bins().empty()) {
@@ -189,6 +220,7 @@ void estimate_log(const std::string& path, const recordings::ContactIntervals* l
   }
   if (!outputs.mpack.empty()) summary += fmt::format("{:<12} {}\n", "log", outputs.mpack.string());
   print_text(outputs, summary);
+  return findings;
 }
 
 void estimate(const EstimateFlags& flags, const CliSession& session) {
@@ -199,10 +231,15 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
       estimate_outputs(flags.logs, flags.model, flags.labels, flags.outputs, flags.figure);
   const std::vector<recordings::ContactIntervals> labels =
       recordings::read_contact_intervals(flags.labels, flags.logs.size());
+  std::size_t findings = 0;
   for (std::size_t i = 0; i < flags.logs.size(); ++i) {
     if (i > 0) print_text(outputs[i], "\n");
-    estimate_log(flags.logs[i], labels.empty() ? nullptr : &labels[i], estimator, flags, outputs[i],
-                 session);
+    findings += estimate_log(flags.logs[i], labels.empty() ? nullptr : &labels[i], estimator, flags,
+                             outputs[i], session);
+  }
+  if (flags.strict && findings > 0) {
+    throw Error(fmt::format("--strict: {} finding{} about the signals", findings,
+                            findings == 1 ? "" : "s"));
   }
 }
 
@@ -210,10 +247,12 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
 
 void add_estimate(CLI::App& program, const CliSession& session) {
   Verb verb(program, "estimate",
+            "touchdown estimate robot.mpack\n"
             "touchdown estimate robot.mpack --model model.npz -o beliefs.csv --figure beliefs.png\n"
             "… | touchdown estimate - --model model.npz\n\n"
             "Estimates from Upkie's logs which wheels are in contact. With - it reads a live\n"
-            "stream from standard input and prints one line per record.");
+            "stream from standard input and prints one line per record. Signals that are not\n"
+            "plausible (`touchdown check`) are named above the result.");
   const auto flags = std::make_shared<EstimateFlags>();
   verb.option("log", &flags->logs, "Logs in Upkie's layout; - is standard input")
       .value_name("LOG")
@@ -222,7 +261,9 @@ void add_estimate(CLI::App& program, const CliSession& session) {
               "Ground truth for intervals of each LOG, in the order of the logs: rows "
               "start,end,contact or start,end,left,right. Only these intervals are scored")
       .value_name("FILE.csv");
-  verb.option("--model", &flags->model, "Model that `touchdown fit` wrote").value_name("FILE.npz");
+  verb.option("--model", &flags->model,
+              "Model that `touchdown fit` wrote (default: the shipped one, models/touchdown.npz)")
+      .value_name("FILE.npz");
   verb.option("--estimator", &flags->estimator,
               "Estimator from `touchdown list` (default: the one that the model was fitted for)");
   verb.option(
@@ -239,6 +280,8 @@ void add_estimate(CLI::App& program, const CliSession& session) {
       .one_at_a_time();
   verb.flag("--transfer", &flags->transfer,
             "Use a model at another rate or on another robot than it was fitted for");
+  verb.flag("--strict", &flags->strict,
+            "Exit with code 1 if the signals of a log are not plausible");
   verb.option("-o,--output", &flags->outputs,
               "Beliefs as FILE.csv, or the log with beliefs in it as FILE.mpack, or both; - "
               "prints the table. With several logs, each file's name begins with the log's name")

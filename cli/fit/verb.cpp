@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,7 +24,7 @@ struct FitFlags {
   std::vector<std::string> no_contact;
   std::vector<std::string> labels;
   std::string output;
-  std::string estimator = "robust";
+  std::string estimator = "touchdown";
   std::vector<std::string> hyperparameters;
   experiments::LogFitConfig config;
   std::string robot;
@@ -47,6 +49,24 @@ std::pair<double, double> range_from(const std::vector<double>& values, const ch
   return {values[0], values[1]};
 }
 
+/// Errors: `InputError` for a log that is named twice: it would count twice, or be both classes.
+void require_different(const std::vector<experiments::FitLog>& logs) {
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    for (std::size_t j = i + 1; j < logs.size(); ++j) {
+      std::error_code error;
+      const bool is_same = logs[i].path == logs[j].path ||
+                           std::filesystem::equivalent(logs[i].path, logs[j].path, error);
+      if (!is_same) continue;
+      throw InputError(
+          logs[i].contact != logs[j].contact
+              ? fmt::format("fit: {} is named twice, once as --contact, once as "
+                            "--no-contact or with labels: one log is one of them",
+                            logs[j].path.string())
+              : fmt::format("fit: {} is named twice: it would count twice", logs[j].path.string()));
+    }
+  }
+}
+
 std::vector<experiments::FitLog> logs_of(const FitFlags& flags) {
   std::vector<experiments::FitLog> logs;
   for (const std::string& path : flags.logs) logs.push_back({path, {}});
@@ -57,6 +77,7 @@ std::vector<experiments::FitLog> logs_of(const FitFlags& flags) {
   for (const std::string& path : flags.contact) logs.push_back({path, true});
   for (const std::string& path : flags.no_contact) logs.push_back({path, false});
   if (logs.empty()) throw InputError("fit: a log is missing: touchdown fit LOG -o model.npz");
+  require_different(logs);
   return logs;
 }
 

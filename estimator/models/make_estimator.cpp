@@ -227,9 +227,11 @@ ModelMetadata metadata_for(const ModelArrays& arrays, const ModelUse& use) {
 std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays, const ModelUse& use) {
   const ModelMetadata metadata = metadata_for(arrays, use);
   const std::string& name = use.estimator.empty() ? metadata.estimator : use.estimator;
+  const bool is_fitted_rate =
+      use.sample_rate == 0.0 || is_same_rate(use.sample_rate, metadata.sample_rate);
   Made made = recipe(name).make(
       arrays, {configuration_for(metadata, name, use.configuration), metadata.sample_rate,
-               use.sample_rate > 0.0 ? use.sample_rate : metadata.sample_rate, use.geometry});
+               is_fitted_rate ? metadata.sample_rate : use.sample_rate, use.geometry});
   ConfigurationText bounds = use.configuration;  // of the robot, whichever estimator it runs
   bounds.insert(metadata.configuration.begin(), metadata.configuration.end());
   made->limit_signals(signal_bounds_of(bounds));

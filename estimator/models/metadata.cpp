@@ -142,13 +142,32 @@ void check_sample_rate(const ModelUse& use) {
       text_of(use.sample_rate));
 }
 
+bool is_same_rate(double rate, double other) {
+  constexpr double tolerance = 0.01;
+  return std::abs(rate - other) <= tolerance * other;
+}
+
+ServedRates served_rates(const ModelMetadata& metadata) {
+  const double fitted = metadata.sample_rate;
+  // The features of `touchdown` last as long at any rate.
+  constexpr double measured_fit = 1000.0;  // Hz
+  constexpr double lowest_measured = 200.0;
+  const bool is_measured = metadata.estimator == "touchdown" && is_same_rate(fitted, measured_fit);
+  return {is_measured ? lowest_measured : fitted, fitted};
+}
+
 void check_use(const ModelMetadata& metadata, const ModelUse& use) {
-  constexpr double tolerance = 1e-6;
   check_sample_rate(use);
-  if (use.sample_rate > 0.0 &&
-      !(std::abs(use.sample_rate - metadata.sample_rate) <= tolerance * metadata.sample_rate)) {
-    throw InputError("was fitted at " + text_of(metadata.sample_rate) + " Hz, not at " +
-                     text_of(use.sample_rate) + " Hz");
+  const auto [lowest, highest] = served_rates(metadata);
+  const double rate = use.sample_rate;
+  const bool is_served = (rate >= lowest && rate <= highest) || is_same_rate(rate, lowest) ||
+                         is_same_rate(rate, highest);
+  if (rate > 0.0 && !is_served) {
+    const std::string range =
+        lowest < highest ? " and serves " + text_of(lowest) + " to " + text_of(highest) + " Hz"
+                         : std::string();
+    throw InputError("was fitted at " + text_of(metadata.sample_rate) + " Hz" + range +
+                     ", not at " + text_of(rate) + " Hz");
   }
   if (!use.robot.empty() && !metadata.robot.empty() && use.robot != metadata.robot) {
     throw InputError("was fitted to the robot '" + metadata.robot + "', not to '" + use.robot +

@@ -61,8 +61,19 @@ struct ModelUse {
 /// Errors: `InputError` for a rate that is neither 0 nor a positive finite number.
 void check_sample_rate(const ModelUse& use);
 
-/// Errors: `InputError` as above, and if the required rate or robot differs from the model's; the
-/// message names both. A model without a robot fits any robot.
+/// The rates at which a model may be used (Hz): those that its estimator was measured at
+/// (docs/robot.md), and the fitted one. Rates that differ by less than 1 % are equal.
+struct ServedRates {
+  double lowest = 0.0;
+  double highest = 0.0;
+};
+ServedRates served_rates(const ModelMetadata& metadata);
+
+/// Whether two rates are equal: clocks of one robot differ from day to day.
+bool is_same_rate(double rate, double other);
+
+/// Errors: `InputError` as above, if the required rate is not one of `served_rates`, or the robot differs
+/// from the model's; the message names both. A model without a robot fits any robot.
 void check_use(const ModelMetadata& metadata, const ModelUse& use);
 
 }  // namespace touchdown

@@ -48,7 +48,8 @@ void FittedTo::add(const recordings::RecordingInfo& info) {
 }
 
 std::size_t skipped_steps(const RunSignals& run, double skip) {
-  return std::min(run.steps(), static_cast<std::size_t>(std::llround(skip / period_of(run))));
+  const double rest = std::max(0.0, skip - run.start);
+  return std::min(run.steps(), static_cast<std::size_t>(std::llround(rest / period_of(run))));
 }
 
 recordings::ModelProvenance provenance_of(std::string_view estimator,

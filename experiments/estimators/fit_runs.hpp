@@ -48,7 +48,7 @@ struct FittedTo {
   void add(const recordings::RecordingInfo& info);
 };
 
-/// The number of steps in the first `skip` seconds of a run, at most all of them.
+/// The number of a run's steps in the first `skip` seconds of its log, at most all of them.
 std::size_t skipped_steps(const RunSignals& run, double skip);
 
 /// The provenance of a fit of this estimator: scenarios, simulators, seeds, runs and seconds. Each

@@ -104,10 +104,14 @@ std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
                                    request.model.string(), error.what()));
     }
   }
+  // Clocks jitter, and some estimators support only certain rates.
+  const bool is_fitted_rate =
+      model.metadata && is_same_rate(sample_rate, model.metadata->sample_rate);
+  const double rate = is_fitted_rate ? model.metadata->sample_rate : sample_rate;
   EstimatorEntry resampled = entry;
-  if (resampled.config) resampled.config = at_rate(*entry.config, sample_rate);
+  if (resampled.config) resampled.config = at_rate(*entry.config, rate);
   std::unique_ptr<ContactEstimator> made =
-      resampled.make(resampled, {sample_rate, &model, request.robot.legs});
+      resampled.make(resampled, {rate, &model, request.robot.legs});
   if (model.metadata) made->limit_signals(signal_bounds_of(model.metadata->configuration));
   return made;
 }
@@ -125,12 +129,18 @@ std::string LogEstimator::model_text() const {
 }
 
 LogEstimator log_estimator(LogEstimatorRequest request) {
+  const bool is_shipped = request.name.empty() || request.name == "touchdown_shipped";
+  if (is_shipped && request.model.empty()) {
+    request.name = "touchdown";
+    request.model = shipped_model;
+    LogEstimator estimator = log_estimator(std::move(request));
+    estimator.entry.title += fmt::format(" as shipped ({})", shipped_model);
+    return estimator;
+  }
   if (!request.name.empty()) check_needs(estimator_entry(request.name), request.model);
   if (request.model.empty()) {
     const FittedModel none;
-    const EstimatorEntry& entry = request.name.empty()
-                                      ? usual_estimator(ModelKind::measurement, none)
-                                      : estimator_entry(request.name);
+    const EstimatorEntry& entry = estimator_entry(request.name);
     check_needs(entry, request.model);
     check_names(request.hyperparameters, entry);
     return {with_hyperparameters(entry, request.hyperparameters), none, request};

@@ -11,10 +11,13 @@
 
 namespace touchdown::experiments {
 
+/// The model that is used without a request for another one (core/resources.hpp).
+inline constexpr const char* shipped_model = "models/touchdown.npz";
+
 /// An estimator to run on logs, and its model.
 struct LogEstimatorRequest {
   std::string name = {};             ///< empty: the one in the model's metadata
-  std::filesystem::path model = {};  ///< empty: none
+  std::filesystem::path model = {};  ///< empty: none; the shipped one if the name is empty, too
   LogRobot robot = {};               ///< robot of the logs; its legs replace the model's
   /// Allows other rates and robots than those that the model was fitted for.
   bool transfer = false;
@@ -27,9 +30,10 @@ struct LogEstimator {
   FittedModel model;
   LogEstimatorRequest request;
 
-  /// The estimator at a log's rate (Hz). The window of a transition model keeps its duration at
-  /// 1 kHz. Errors: `InputError` for a rate at which the estimator cannot run. Without
-  /// `request.transfer` also for a rate or a robot that the model was not fitted for.
+  /// The estimator at a log's rate (Hz), or at the model's where both are equal to 1 %. The window
+  /// of a transition model keeps its duration at 1 kHz. Errors: `InputError` for a rate at which
+  /// the estimator cannot run. Without `request.transfer` also for a rate or a robot that the model
+  /// was not fitted for.
   std::unique_ptr<ContactEstimator> make(double sample_rate,
                                          const recordings::RecordingInfo& log = {}) const;
 

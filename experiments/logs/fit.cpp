@@ -98,17 +98,30 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
   report.seconds += static_cast<double>(used) * steps.period();
 }
 
-/// Errors: `InputError` without samples of one class.
-void require_both_classes(std::size_t no_contact, std::size_t contact) {
-  if (no_contact < 2) {
+/// Samples of both legs; index 0 is no contact, 1 is contact.
+using ClassCounts = std::array<std::size_t, 2>;
+
+/// Errors: `InputError` without samples of one class. `skipped` are those at the beginning of logs.
+void require_both_classes(const ClassCounts& used, const ClassCounts& skipped, double skip) {
+  const auto left_out = [&](std::size_t of_class) {
+    return skipped[of_class] == 0
+               ? std::string()
+               : fmt::format(
+                     " ({} such steps lie in the first {:.4g} s of their logs, which --skip "
+                     "leaves out)",
+                     skipped[of_class] / models::wheel_count, skip);
+  };
+  if (used[0] < 2) {
     throw InputError(
-        "fit: no step of the logs is without contact: add a log with flights, or one of a robot "
-        "that hangs after --no-contact");
+        fmt::format("fit: no step of the logs is without contact{}: add a log with flights, or one "
+                    "of a robot that hangs after --no-contact",
+                    left_out(0)));
   }
-  if (contact < 2) {
+  if (used[1] < 2) {
     throw InputError(
-        "fit: no step of the logs is in contact: add a log of a robot that rolls, after --contact "
-        "if it has no ground truth");
+        fmt::format("fit: no step of the logs is in contact{}: add a log of a robot that rolls, "
+                    "after --contact if it has no ground truth",
+                    left_out(1)));
   }
 }
 
@@ -125,7 +138,7 @@ MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
         },
         report);
   }
-  require_both_classes(samples[0].size(), samples[1].size());
+  require_both_classes({samples[0].size(), samples[1].size()}, {}, config.skip);
   MeasurementFit fit = fit_measurement(samples[1], samples[0], filter.measurement.fit);
   report.samples = {samples[0].size(), samples[1].size()};
   report.bandwidth = fit.bandwidth;
@@ -183,12 +196,13 @@ void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep ch
     run = {};
   };
   std::int64_t used = 0;
-  while (const LogStep* step = reader.next()) {
+  for (std::int64_t k = 0; const LogStep* step = reader.next(); ++k) {
     if (!reader.is_covered()) {
       finish();
       continue;
     }
     check(log, reader, *step, run.signals.empty() ? NAN : run.signals.back().time);
+    if (run.signals.empty()) run.start = static_cast<double>(k) * reader.steps().period();
     append(run, *step, log.contact);
     ++used;
   }
@@ -196,10 +210,13 @@ void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep ch
   reader.finish(used);
 }
 
-/// Loads all logs into memory, and adds to the report how much of them is used.
+/// Loads all logs into memory, and adds to the report how much of them is used. `skipped` gets the
+/// samples at the beginning of logs.
 std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogFitConfig& config,
-                                        CheckStep check, LogFitReport& report) {
+                                        CheckStep check, LogFitReport& report,
+                                        ClassCounts& skipped_samples) {
   report = {};
+  skipped_samples = {};
   std::vector<RunSignals> runs;
   for (const FitLog& log : logs) add_runs_of_log(log, config, check, report, runs);
   for (RunSignals& run : runs) {
@@ -207,7 +224,9 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
     const std::size_t skipped = skipped_steps(run, config.skip);
     report.seconds += static_cast<double>(run.steps() - skipped) * period_of(run);
     for (const scoring::ContactSequence& contact : run.contact) {
-      for (std::size_t k = skipped; k < contact.size(); ++k) ++report.samples[contact[k] & 1U];
+      for (std::size_t k = 0; k < contact.size(); ++k) {
+        ++(k < skipped ? skipped_samples : report.samples)[contact[k] & 1U];
+      }
     }
   }
   return runs;
@@ -230,7 +249,8 @@ std::vector<RunSignals> logs_with_takeoffs(std::span<const FitLog> logs, const L
         "to logs with ground truth or --labels, not to --contact and --no-contact",
         log.path.string()));
   }
-  std::vector<RunSignals> runs = signals_of_logs(logs, config, check_step, report);
+  ClassCounts skipped{};
+  std::vector<RunSignals> runs = signals_of_logs(logs, config, check_step, report, skipped);
   const bool takeoff = std::any_of(runs.begin(), runs.end(), [&](const RunSignals& run) {
     return has_takeoff(run, skipped_steps(run, config.skip));
   });
@@ -242,12 +262,13 @@ std::vector<RunSignals> logs_with_takeoffs(std::span<const FitLog> logs, const L
 
 std::vector<RunSignals> logs_of_both_classes(std::span<const FitLog> logs,
                                              const LogFitConfig& config, LogFitReport& report) {
+  ClassCounts skipped{};
   std::vector<RunSignals> runs = signals_of_logs(
       logs, config,
       [](const FitLog& /*log*/, const FitLogSteps& reader, const LogStep& /*step*/,
          double /*before*/) { reader.require_truth(); },
-      report);
-  require_both_classes(report.samples[0], report.samples[1]);
+      report, skipped);
+  require_both_classes(report.samples, skipped, config.skip);
   return runs;
 }
 

@@ -26,6 +26,14 @@ FitLogSteps::FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitRe
       info_(reader_.info()) {
   check_may_be_fitted(info_);
   info_.control_period_us = steps_.period_us();
+  const double fitted = report_.fitted_to.sample_rate;
+  if (fitted > 0.0 && !is_same_rate(steps_.sample_rate(), fitted)) {
+    throw InputError(fmt::format(
+        "{}: {:.6g} steps per second, and the logs before it have {:.6g}: a model is fitted at one "
+        "rate; resample the log, or fit another model",
+        log.path.string(), steps_.sample_rate(), fitted));
+  }
+  if (fitted == 0.0) report_.fitted_to.sample_rate = steps_.sample_rate();
   report_.fitted_to.add(info_);
 }
 

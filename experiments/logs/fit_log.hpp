@@ -52,7 +52,7 @@ struct LogFitReport {
 class FitLogSteps {
  public:
   /// The arguments must outlive this. Errors: those of `LogSteps`; `InputError` for a log of a
-  /// reserved seed.
+  /// reserved seed, or of another rate than the logs before it.
   FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitReport& report);
 
   /// The next step, valid until the next call; null at the end of the log.

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "recordings/recording.hpp"
+#include "estimator/signal_guard.hpp"
 
 namespace touchdown::experiments {
 
@@ -18,6 +18,7 @@ std::string percent(std::int64_t part, std::int64_t whole) {
   return fmt::format("{:.1f} %", 100.0 * scoring::ratio(part, whole));
 }
 
+/// The events of the truth: flights that last long enough.
 std::string found(const scoring::TransitionCounts& counts, std::string_view name) {
   std::string text = fmt::format("{} {} of {} found", name, counts.detected, counts.events);
   if (counts.detected > 0) {
@@ -57,9 +58,14 @@ void LogSummary::Clock::add(double time) {
   if (std::isnan(previous)) {
     first = last = time;
   } else {
-    // A record with a delay below half a step does not count as lost.
-    if (time - previous > 1.5 * period) lost += time - previous - period;
+    // Jitter, and stamps rounded to a tick, are no lost records.
+    constexpr double least = 2.5;  // periods
+    if (time - previous > least * period) {
+      lost += time - previous - period;
+      ++gaps;
+    }
     if (time < previous) ++steps_back;
+    if (time == previous) ++repeated;
   }
   first = std::fmin(first, time);
   last = std::fmax(last, time);
@@ -71,14 +77,52 @@ std::string LogSummary::Clock::text(double start) const {
   std::string text = fmt::format("from {:.3f} to {:.3f} s", first, last);
   if (start != 0.0) text += fmt::format(", 0 being {:.3f} s of the log's clock", start);
   if (lost > 0.0) text += fmt::format("; {:.3f} s without records", lost);
+  if (gaps > 1) text += fmt::format(" in {} gaps", gaps);
   if (steps_back > 0) {
     text += fmt::format("; it goes back {} time{}", steps_back, steps_back == 1 ? "" : "s");
   }
+  if (repeated > 0) text += fmt::format("; {} steps repeat the time before", repeated);
   return text;
 }
 
+LogSummary::WheelEvents::WheelEvents(double period) : period_(period) { interrupt(); }
+
+void LogSummary::WheelEvents::interrupt() {
+  if (stream_) stream_->finish();
+  times_.clear();
+  raw_.reset();
+  labelled_.reset();
+  constexpr double between = 0.5;  // of 0, no contact, and 1
+  stream_.emplace(
+      period_,
+      scoring::LabelConfig{.force_threshold = between, .debounce = scoring::LabelConfig{}.debounce},
+      [this](std::uint8_t contact) { label(contact != 0); });
+}
+
+void LogSummary::WheelEvents::add(double time, bool contact) {
+  if (raw_ && *raw_ != contact) ++switches;
+  raw_ = contact;
+  times_.push_back(time);
+  stream_->add(contact ? 1.0 : 0.0);
+}
+
+void LogSummary::WheelEvents::label(bool contact) {
+  if (labelled_ && *labelled_ != contact) (contact ? landings : takeoffs).add(times_.front());
+  labelled_ = contact;
+  times_.pop_front();
+}
+
+void LogSummary::WheelEvents::finish() { interrupt(); }
+
 LogSummary::LogSummary(double period, const scoring::ScoringConfig& scoring)
-    : clock_{period, NAN, NAN, NAN}, skipped_(std::llround(scoring.skip / period)) {}
+    : clock_{period, NAN, NAN, NAN},
+      skipped_(std::llround(scoring.skip / period)),
+      longest_bridged_(std::llround(SignalGuardConfig{}.maximum_gap / period)),
+      wheels_{std::make_unique<WheelEvents>(period), std::make_unique<WheelEvents>(period)} {}
+
+double LogSummary::duration() const {
+  return std::isnan(clock_.previous) ? 0.0 : clock_.last - clock_.first + clock_.period;
+}
 
 void LogSummary::add(double time, const Belief& belief) {
   clock_.add(time);
@@ -86,31 +130,43 @@ void LogSummary::add(double time, const Belief& belief) {
     ++unusable_[static_cast<std::size_t>(belief.unusable)];
   }
   ++status_[static_cast<std::size_t>(belief.status)];
-  const std::array<bool, 2> now = {belief.wheel[0].contact, belief.wheel[1].contact};
-  if (steps_ >= skipped_) {
-    const auto views = scoring::views_of(belief);
-    for (std::size_t v = 0; v < scoring::view_count; ++v) contact_[v] += views[v].contact ? 1 : 0;
-    for (std::size_t wheel = 0; wheel < 2 && steps_ > skipped_; ++wheel) {
-      if (now[wheel] == was_in_contact_[wheel]) continue;
-      (now[wheel] ? landings_ : takeoffs_)[wheel].add(time);
-    }
+  if (steps_++ < skipped_) return;
+  if (belief.status == SignalStatus::good) {
+    add_valid(time, belief);
+    invalid_in_a_row_ = 0;
+  } else if (++invalid_in_a_row_ == longest_bridged_ + 1) {
+    for (const auto& wheel : wheels_) wheel->interrupt();
   }
-  was_in_contact_ = now;
-  ++steps_;
+}
+
+void LogSummary::add_valid(double time, const Belief& belief) {
+  ++counted_;
+  const auto views = scoring::views_of(belief);
+  for (std::size_t v = 0; v < scoring::view_count; ++v) contact_[v] += views[v].contact ? 1 : 0;
+  for (std::size_t w = 0; w < wheels_.size(); ++w) wheels_[w]->add(time, belief.wheel[w].contact);
 }
 
 std::string LogSummary::contact_text() const {
-  const std::int64_t counted = std::max<std::int64_t>(steps_ - skipped_, 0);
-  if (counted == 0) return "too short to count";
-  return fmt::format("left {}, right {}, any wheel {}, both {}", percent(contact_[0], counted),
-                     percent(contact_[1], counted), percent(contact_[2], counted),
-                     percent(contact_[3], counted));
+  if (counted_ == 0) return steps_ > skipped_ ? "no valid step" : "too short to count";
+  std::string text = fmt::format("left {}, right {}, any wheel {}, both {}",
+                                 percent(contact_[0], counted_), percent(contact_[1], counted_),
+                                 percent(contact_[2], counted_), percent(contact_[3], counted_));
+  if (valid_steps() < steps_) text += fmt::format(" of {} valid steps", counted_);
+  return text;
 }
 
-std::string LogSummary::events_text(std::size_t wheel) const {
-  if (takeoffs_[wheel].count + landings_[wheel].count == 0) return "no takeoff, no landing";
-  return fmt::format("takeoffs at (s) {}; landings at (s) {}", takeoffs_[wheel].text(),
-                     landings_[wheel].text());
+std::string LogSummary::events_text(std::size_t w) const {
+  const WheelEvents& wheel = *wheels_[w];
+  std::string text = "no takeoff, no landing";
+  const std::int64_t events = wheel.takeoffs.count + wheel.landings.count;
+  if (events > 0) {
+    text = fmt::format("takeoffs at (s) {}; landings at (s) {}", wheel.takeoffs.text(),
+                       wheel.landings.text());
+  }
+  if (wheel.switches > events) {
+    text += fmt::format("; {} raw switches", wheel.switches);
+  }
+  return text;
 }
 
 std::string LogSummary::signals_text() const {
@@ -133,7 +189,8 @@ std::string LogSummary::signals_text() const {
   return text;
 }
 
-std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, double start) const {
+std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, double start) {
+  for (const auto& wheel : wheels_) wheel->finish();
   std::string text =
       fmt::format("{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n", "time",
                   clock_.text(start), "contact", contact_text(), "left wheel", events_text(0),

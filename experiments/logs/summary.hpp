@@ -2,18 +2,23 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "estimator/contact_estimator.hpp"
+#include "scoring/labels.hpp"
 #include "scoring/score.hpp"
 
 namespace touchdown::experiments {
 
 /// Counts an estimator's results on a log. It keeps only the first takeoffs and landings, so its
-/// memory does not grow with the log. In the first `scoring.skip` seconds it counts the signals'
-/// status alone: there, beliefs still depend on the prior.
+/// memory does not grow with the log. Only steps with good signals count: what is invalid is no
+/// contact information. In the first `scoring.skip` seconds it counts the signals' status alone:
+/// there, beliefs still depend on the prior. Takeoffs and landings are those of the decision after
+/// the debounce of the labels; the switches of the raw decision are counted beside them.
 class LogSummary {
  public:
   /// `period` in seconds.
@@ -22,10 +27,14 @@ class LogSummary {
   void add(double time, const Belief& belief);
 
   std::int64_t steps() const { return steps_; }
+  /// Steps with good signals.
+  std::int64_t valid_steps() const { return status_[0]; }
+  /// From the first to the last step by the log's clock, one step more (s).
+  double duration() const;
 
-  /// A few lines, each with a line end: time, contact, takeoffs and landings, signals, and the
-  /// score if the log has ground truth. `start` is the log's clock at time 0 (s).
-  std::string text(const std::optional<scoring::RobotScore>& score, double start = 0.0) const;
+  /// Ends the log. A few lines, each with a line end: time, contact, takeoffs and landings,
+  /// signals, and the score if the log has ground truth. `start` is the log's clock at time 0 (s).
+  std::string text(const std::optional<scoring::RobotScore>& score, double start = 0.0);
 
  private:
   /// One kind of transition of one wheel.
@@ -41,11 +50,40 @@ class LogSummary {
     double period = 0.0;
     double first = 0.0, last = 0.0, previous = 0.0;  ///< NaN before the first step
     double lost = 0.0;                               ///< time without records
+    std::int64_t gaps = 0;                           ///< intervals without records
     std::int64_t steps_back = 0;
+    std::int64_t repeated = 0;  ///< steps with the time of the one before
     void add(double time);
     std::string text(double start) const;
   };
 
+  /// The decisions about one wheel, debounced.
+  class WheelEvents {
+   public:
+    explicit WheelEvents(double period);
+    WheelEvents(const WheelEvents&) = delete;
+    WheelEvents& operator=(const WheelEvents&) = delete;
+
+    void add(double time, bool contact);
+    /// Signals were missing for long: the next decision is no event.
+    void interrupt();
+    void finish();
+
+    Events takeoffs;
+    Events landings;
+    std::int64_t switches = 0;  ///< of the raw decision
+
+   private:
+    void label(bool contact);
+
+    double period_;
+    std::optional<scoring::LabelStream> stream_;
+    std::deque<double> times_;  ///< of the decisions that are not labelled yet
+    std::optional<bool> raw_;
+    std::optional<bool> labelled_;
+  };
+
+  void add_valid(double time, const Belief& belief);
   std::string contact_text() const;
   std::string events_text(std::size_t wheel) const;
   std::string signals_text() const;
@@ -57,9 +95,10 @@ class LogSummary {
   std::int64_t steps_ = 0;
   std::array<std::int64_t, scoring::view_count> contact_{};
   std::array<std::int64_t, 4> status_{};
-  std::array<bool, 2> was_in_contact_{};
-  std::array<Events, 2> takeoffs_;
-  std::array<Events, 2> landings_;
+  std::int64_t counted_ = 0;  ///< valid steps after the skipped ones
+  std::int64_t invalid_in_a_row_ = 0;
+  std::int64_t longest_bridged_;  ///< steps
+  std::array<std::unique_ptr<WheelEvents>, 2> wheels_;
 };
 
 }  // namespace touchdown::experiments

@@ -26,6 +26,9 @@ inline bool has_record(const Signals& signals) { return !std::isnan(signals.time
 /// The data that a study keeps of a recording: the signals at every step and the ground truth.
 struct RunSignals {
   recordings::RecordingInfo info;
+  /// Time from the beginning of the log to the first step (s). Only the beginning of a log is
+  /// skipped, not that of each of its segments.
+  double start = 0.0;
   std::vector<Signals> signals;            ///< noiseless
   std::vector<Eigen::Vector3d> up_in_imu;  ///< the world's vertical in the IMU frame
   std::array<scoring::ContactSequence, models::wheel_count> contact;  ///< labels
