@@ -140,13 +140,34 @@ constexpr NumberType number_type(std::string_view name) {
   return {name, sizeof(T), numbers<T>};
 }
 
-constexpr std::array<NumberType, 11> number_types = {
-    number_type<double>("<f8"),        number_type<float>("<f4"),
-    number_type<std::int64_t>("<i8"),  number_type<std::int32_t>("<i4"),
-    number_type<std::int16_t>("<i2"),  number_type<std::int8_t>("|i1"),
-    number_type<std::uint64_t>("<u8"), number_type<std::uint32_t>("<u4"),
-    number_type<std::uint16_t>("<u2"), number_type<std::uint8_t>("|u1"),
-    number_type<std::uint8_t>("|b1"),
+/// Times of NumPy in seconds, from the number of their units per second.
+template <std::int64_t per_second>
+std::vector<double> times(Bytes& bytes, std::size_t count) {
+  std::vector<double> values = numbers<std::int64_t>(bytes, count);
+  constexpr auto not_a_time = static_cast<double>(std::numeric_limits<std::int64_t>::min());
+  for (double& value : values) {
+    value = value == not_a_time ? std::numeric_limits<double>::quiet_NaN()
+                                : value / static_cast<double>(per_second);
+  }
+  return values;
+}
+
+template <std::int64_t per_second>
+constexpr NumberType time_type(std::string_view name) {
+  return {name, sizeof(std::int64_t), times<per_second>};
+}
+
+constexpr std::array<NumberType, 19> number_types = {
+    number_type<double>("<f8"),          number_type<float>("<f4"),
+    number_type<std::int64_t>("<i8"),    number_type<std::int32_t>("<i4"),
+    number_type<std::int16_t>("<i2"),    number_type<std::int8_t>("|i1"),
+    number_type<std::uint64_t>("<u8"),   number_type<std::uint32_t>("<u4"),
+    number_type<std::uint16_t>("<u2"),   number_type<std::uint8_t>("|u1"),
+    number_type<std::uint8_t>("|b1"),    time_type<1>("<M8[s]"),
+    time_type<1000>("<M8[ms]"),          time_type<1'000'000>("<M8[us]"),
+    time_type<1'000'000'000>("<M8[ns]"), time_type<1>("<m8[s]"),
+    time_type<1000>("<m8[ms]"),          time_type<1'000'000>("<m8[us]"),
+    time_type<1'000'000'000>("<m8[ns]"),
 };
 
 std::vector<double> transposed(const std::vector<double>& columns, std::size_t rows,
@@ -179,7 +200,8 @@ ModelArray read_npy(const NpyBytes& source, std::size_t size, const std::string&
   const auto* const type = std::find_if(number_types.begin(), number_types.end(),
                                         [&](const NumberType& t) { return t.name == header.type; });
   if (type == number_types.end()) {
-    throw InputError(name + ": expected float64, float32, whole numbers or bool, found '" +
+    throw InputError(name +
+                     ": expected float64, float32, whole numbers, bool or datetime64, found '" +
                      header.type + "'");
   }
   const std::size_t expected = count * type->size;

@@ -17,8 +17,8 @@ inline constexpr std::string_view npy_magic = "\x93NUMPY";
 /// returns their number.
 using NpyBytes = std::function<std::size_t(std::span<char>)>;
 
-/// Reads float64, float32, whole numbers (those beyond 2^53 rounded) and bool, C and Fortran order,
-/// one or two axes, formats 1.0 to 3.0.
+/// Reads float64, float32, whole numbers (those beyond 2^53 rounded), bool, and datetime64 and
+/// timedelta64 as seconds (NaT as NaN), C and Fortran order, one or two axes, formats 1.0 to 3.0.
 /// Errors: `InputError` for anything else or when bytes are missing; `name` starts the message.
 ModelArray from_npy(std::string_view bytes, const std::string& name);
 

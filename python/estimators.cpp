@@ -10,6 +10,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/fit.hpp"
+#include "experiments/logs/log_steps.hpp"
 #include "python/belief_arrays.hpp"
 #include "python/long_call.hpp"
 #include "python/recording_arrays.hpp"
@@ -76,15 +77,55 @@ Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double 
   });
 }
 
-experiments::LogEstimator with_model(const std::string& name, const Model& model) {
+/// `request` has the name, the robot and whether transfer is allowed.
+experiments::LogEstimator with_model(experiments::LogEstimatorRequest request, const Model& model) {
   const experiments::EstimatorEntry& fitted = model.estimator.entry;
-  if (name.empty() || name == fitted.name) return model.estimator;
+  const std::string name = request.name;
+  request.model = model.estimator.request.model;
+  if (name.empty() || name == fitted.name) {
+    return {fitted, model.estimator.model, std::move(request)};
+  }
   const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
   if (!share_model(entry, fitted)) {
     throw InputError(
         fmt::format("the model is one of '{}', which '{}' cannot use", fitted.name, name));
   }
-  return {entry, model.estimator.model, {.name = name}};
+  return {entry, model.estimator.model, std::move(request)};
+}
+
+/// The signals that an estimator uses.
+SignalNeeds needs_of(const experiments::EstimatorEntry& entry) {
+  const experiments::Sensors& sensors = entry.sensors;
+  const bool is_neural = entry.name.starts_with("nmn");
+  const bool uses_motion = sensors.joint_position && sensors.hip_torque && sensors.joint_velocity;
+  return {.torque = sensors.hip_torque || sensors.knee_torque || sensors.wheel_torque,
+          .position = sensors.joint_position,
+          .velocity = sensors.joint_velocity,
+          .acceleration = sensors.acceleration,
+          .angular_velocity = is_neural || uses_motion,
+          .acceleration_vector = is_neural,
+          .command = is_neural};
+}
+
+/// What is implausible about a recording in memory, or about a log by path.
+std::vector<std::string> check(const py::object& log, const std::string& robot) {
+  const bool in_memory = py::hasattr(log, "info");
+  const auto records = in_memory ? records_of(log) : nullptr;
+  const fs::path path = in_memory ? fs::path("recording") : log.cast<fs::path>();
+  return long_call([&](const std::atomic<bool>& stop) {
+    recordings::LogReader reader =
+        in_memory ? recordings::LogReader(recordings::memory_source(records, &stop), path.string())
+                  : recordings::LogReader(path, &stop);
+    experiments::LogSteps steps(
+        reader, nullptr,
+        experiments::checked_robot(experiments::robot_called(robot), reader.info()));
+    while (steps.next() != nullptr) {
+    }
+    std::vector<std::string> lines = reader.warnings();
+    const std::vector<std::string> findings = steps.findings();
+    lines.insert(lines.end(), findings.begin(), findings.end());
+    return lines;
+  });
 }
 
 /// A running estimator. Only one thread at a time may use it, because `run` releases Python's lock.
@@ -113,8 +154,12 @@ class Estimator {
     return update(recordings::signals_from(observation_of(spine, time), ground_velocity_command));
   }
 
-  py::dict run(const py::object& arrays) {
-    const SignalArrays signals(arrays);
+  Belief update(const py::object& signals, bool gravity_included) {
+    return update(signals_of_step(signals, needs_of(source_.entry), gravity_in(gravity_included)));
+  }
+
+  py::dict run(const py::object& arrays, bool gravity_included) {
+    const SignalArrays signals(arrays, needs_of(source_.entry), gravity_in(gravity_included));
     require_rate(signals);
     const ExclusiveUse use(busy_);
     std::vector<Belief> beliefs(signals.steps());
@@ -134,6 +179,10 @@ class Estimator {
   }
 
  private:
+  static GravityIn gravity_in(bool is_included) {
+    return is_included ? GravityIn::acceleration : GravityIn::nothing;
+  }
+
   class ExclusiveUse {
    public:
     explicit ExclusiveUse(std::atomic<bool>& busy) : busy_(busy) {
@@ -235,33 +284,44 @@ void add_estimator(py::module_& module) {
       module, "Estimator",
       "An estimator by name (`estimators()` lists them), with its model if it is fitted.\n\n"
       "name: without it, the estimator of the model\n"
-      "model: a result of `fit`, or the path of a file that `touchdown fit` wrote\n"
-      "sample_rate: steps per second of its signals (Hz)")
-      .def(py::init([](const std::string& name, const py::object& model, double sample_rate) {
+      "model: a result of `fit`, or the path of a file that `touchdown fit` wrote; without name "
+      "and model, the shipped one\n"
+      "sample_rate: steps per second of its signals (Hz)\n"
+      "robot: name or file of the robot; a file gives the leg geometry\n"
+      "transfer: allow another rate or robot than the model was fitted for")
+      .def(py::init([](const std::string& name, const py::object& model, double sample_rate,
+                       const std::string& robot, bool transfer) {
+             experiments::LogEstimatorRequest request{
+                 .name = name, .robot = experiments::robot_called(robot), .transfer = transfer};
              if (py::isinstance<Model>(model)) {
-               return std::make_unique<Estimator>(with_model(name, model.cast<const Model&>()),
-                                                  sample_rate);
+               return std::make_unique<Estimator>(
+                   with_model(std::move(request), model.cast<const Model&>()), sample_rate);
              }
-             const fs::path path = model.is_none() ? fs::path() : model.cast<fs::path>();
-             return std::make_unique<Estimator>(
-                 experiments::log_estimator({.name = name, .model = path}), sample_rate);
+             if (!model.is_none()) request.model = model.cast<fs::path>();
+             return std::make_unique<Estimator>(experiments::log_estimator(std::move(request)),
+                                                sample_rate);
            }),
-           "name"_a = "", "model"_a = py::none(), "sample_rate"_a = 1000.0)
+           "name"_a = "", "model"_a = py::none(), "sample_rate"_a = 1000.0, "robot"_a = "",
+           "transfer"_a = false)
       .def_property_readonly("name", &Estimator::name)
       .def_property_readonly("sample_rate", &Estimator::sample_rate)
       .def("reset", &Estimator::reset, "Return to the initial belief: P(contact) is 0.5.")
       .def(
           "update",
-          [](Estimator& estimator, const py::object& signals) {
-            return estimator.update(signals_of_step(signals));
+          [](Estimator& estimator, const py::object& signals, bool gravity_included) {
+            return estimator.update(signals, gravity_included);
           },
-          "signals"_a,
+          "signals"_a, "gravity_included"_a = false,
           "Update the belief by one step. signals: `time` (s), `position` (6, rad), `velocity` (6, "
           "rad/s), `torque` (6, "
           "N·m) of the joints, left hip, knee, wheel, then right; `linear_acceleration` (3, m/s², "
-          "without gravity) and `angular_velocity` (3, rad/s) in the IMU's frame; "
+          "without gravity) and `angular_velocity` (3, rad/s) in the IMU's frame (x back, y left, "
+          "z down); "
           "`vertical_acceleration` (m/s², upwards), `ground_velocity_command` (m/s, of the step "
-          "before). NaN marks a failed sensor.")
+          "before). Only the signals that this estimator uses are needed. Without "
+          "`vertical_acceleration` it follows from `linear_acceleration` and `orientation` (4: w x "
+          "y z, from the IMU to a frame with z down); with gravity_included, the orientation also "
+          "takes gravity out of `linear_acceleration`. NaN marks a failed sensor.")
       .def("update_from_spine", &Estimator::update_from_spine, "observation"_a,
            "ground_velocity_command"_a = 0.0,
            "Update the belief by one observation of Upkie's spine: `info[\"spine_observation\"]` "
@@ -269,10 +329,11 @@ void add_estimator(py::module_& module) {
            "gym environment, or `observation` of a log's record. A missing number, or None, is a "
            "failed sensor. Without `time`, steps are counted at the sample rate. "
            "ground_velocity_command: of the step before (m/s).")
-      .def("run", &Estimator::run, "signals"_a,
+      .def("run", &Estimator::run, "signals"_a, "gravity_included"_a = false,
            "Reset, then run on a whole run: the arrays of a `Recording`, or any others with the "
            "names "
-           "and units of `update` and one row per step. The optional `has_record` is 0 at steps "
+           "and units of `update` and one row per step: `torque` (steps, 6), `orientation` (steps, "
+           "4). The optional `has_record` is 0 at steps "
            "without a record, where the last belief stays. "
            "Returns `p_contact` (steps, 2) and `contact` (steps, 2, bool) of the wheels, "
            "`p_any_wheel` and `p_both_wheels` (steps,), `status` (steps,): numbers of `STATUS`.")
@@ -302,6 +363,7 @@ void add_estimators(py::module_& module) {
   add_model(module);
   add_estimator(module);
   module.def("estimators", &estimators);
+  module.def("check", &check, py::arg("log"), py::arg("robot"));
 }
 
 }  // namespace touchdown::python

@@ -1,6 +1,7 @@
 #include "python/signal_arrays.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -8,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "estimator/assembly/record.hpp"
+#include "recordings/sample_times.hpp"
 
 namespace touchdown::python {
 
@@ -41,86 +44,134 @@ bool have_layout_of_signals(const StepArray& position, const StepArray& velocity
          is_member(torque, offsetof(JointSignals, torque));
 }
 
-/// `count` numbers of one step, by name.
-StepArray numbers_of(const py::object& step, const char* name, std::size_t count) {
+/// `count` numbers of one step, by name; nothing if they are missing and not needed.
+std::optional<StepArray> numbers_of(const py::object& step, const char* name, std::size_t count,
+                                    bool is_needed) {
+  const auto expected = [&] {
+    return count == 1 ? std::string("a number") : fmt::format("{} numbers", count);
+  };
   if (!step.contains(name)) {
-    throw InputError(fmt::format("signals: '{}' is missing: expected {}", name,
-                                 count == 1 ? "a number" : fmt::format("{} numbers", count)));
+    if (!is_needed) return std::nullopt;
+    throw InputError(fmt::format("signals: '{}' is missing: expected {}", name, expected()));
   }
   auto array = StepArray::Array::ensure(step[name]);
   if (!array || array.size() != static_cast<py::ssize_t>(count) || array.ndim() > 1) {
-    throw InputError(fmt::format("signals: '{}': expected {}", name,
-                                 count == 1 ? "a number" : fmt::format("{} numbers", count)));
+    throw InputError(fmt::format("signals: '{}': expected {}", name, expected()));
   }
   return StepArray(StepArray::Array(array.reshape({static_cast<py::ssize_t>(count)})));
 }
 
+/// Whether the vertical acceleration follows from acceleration and orientation.
+bool is_derived(const py::object& arrays, const SignalNeeds& needs, GravityIn gravity) {
+  if (!needs.acceleration) return false;
+  if (gravity == GravityIn::acceleration) return true;
+  return !arrays.contains("vertical_acceleration") && arrays.contains("orientation");
+}
+
+/// Sets the accelerations from that of the IMU and its orientation (w x y z).
+void derive_accelerations(Signals& signals, const std::array<double, 4>& orientation,
+                          GravityIn gravity) {
+  const RobotRecord record{.orientation = orientation,
+                           .linear_acceleration = signals.linear_acceleration,
+                           .proper_acceleration = signals.linear_acceleration};
+  const bool is_proper = gravity == GravityIn::acceleration;
+  const Signals derived =
+      signals_of(record, {.acceleration = is_proper ? AccelerationSource::proper
+                                                    : AccelerationSource::without_gravity});
+  signals.linear_acceleration = derived.linear_acceleration;
+  signals.vertical_acceleration = derived.vertical_acceleration;
+}
+
 }  // namespace
 
-SignalArrays::SignalArrays(const py::object& arrays)
-    : map_(arrays, "signals"),
-      time_(map_.column("time")),
-      position_(map_.column("position", joint_count)),
-      velocity_(map_.column("velocity", joint_count)),
-      torque_(map_.column("torque", joint_count)),
-      linear_acceleration_(map_.column("linear_acceleration", 3)),
-      angular_velocity_(map_.column("angular_velocity", 3)),
-      vertical_acceleration_(map_.column("vertical_acceleration")),
-      ground_velocity_command_(map_.column("ground_velocity_command")) {
+std::optional<StepArray> SignalArrays::column(const char* name, std::size_t columns,
+                                              bool is_needed) {
+  if (!is_needed && !map_.has(name)) return std::nullopt;
+  return map_.column(name, columns);
+}
+
+SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, GravityIn gravity)
+    : map_(arrays, "signals"), gravity_(gravity), time_(map_.column("time")) {
+  const bool derives = is_derived(arrays, needs, gravity);
+  position_ = column("position", joint_count, needs.position);
+  velocity_ = column("velocity", joint_count, needs.velocity);
+  torque_ = column("torque", joint_count, needs.torque);
+  linear_acceleration_ = column("linear_acceleration", 3, needs.acceleration_vector || derives);
+  angular_velocity_ = column("angular_velocity", 3, needs.angular_velocity);
+  if (derives) {
+    orientation_.emplace(map_.column("orientation", 4));
+  } else {
+    vertical_acceleration_ = column("vertical_acceleration", 0, needs.acceleration);
+  }
+  ground_velocity_command_ = column("ground_velocity_command", 0, needs.command);
   if (map_.has("heard")) {
     throw InputError("signals: 'heard' was renamed: expected 'has_record'");
   }
   if (map_.has("has_record")) has_record_.emplace(map_.column("has_record"));
-  has_layout_of_signals_ = have_layout_of_signals(position_, velocity_, torque_);
+  has_layout_of_signals_ =
+      position_ && velocity_ && torque_ && have_layout_of_signals(*position_, *velocity_, *torque_);
 }
 
 Signals SignalArrays::at(std::size_t step) const {
   Signals signals;
   signals.time = time_(step);
+  const auto number = [&](const std::optional<StepArray>& array, std::size_t item) {
+    return array ? (*array)(step, item) : 0.0;
+  };
   if (has_layout_of_signals_) {
-    std::memcpy(signals.leg.data(), position_.row(step), sizeof signals.leg);
+    std::memcpy(signals.leg.data(), position_->row(step), sizeof signals.leg);
   } else {
     set_joints(signals, [&](std::size_t i) {
-      return JointSignals{position_(step, i), velocity_(step, i), torque_(step, i)};
+      return JointSignals{number(position_, i), number(velocity_, i), number(torque_, i)};
     });
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    signals.linear_acceleration[static_cast<int>(i)] = linear_acceleration_(step, i);
-    signals.angular_velocity[static_cast<int>(i)] = angular_velocity_(step, i);
+    signals.linear_acceleration[static_cast<int>(i)] = number(linear_acceleration_, i);
+    signals.angular_velocity[static_cast<int>(i)] = number(angular_velocity_, i);
   }
-  signals.vertical_acceleration = vertical_acceleration_(step);
-  signals.ground_velocity_command = ground_velocity_command_(step);
+  signals.vertical_acceleration = number(vertical_acceleration_, 0);
+  signals.ground_velocity_command = number(ground_velocity_command_, 0);
+  if (orientation_) {
+    const StepArray& q = *orientation_;
+    derive_accelerations(signals, {q(step, 0), q(step, 1), q(step, 2), q(step, 3)}, gravity_);
+  }
   return signals;
 }
 
 std::optional<double> SignalArrays::period() const {
   constexpr std::size_t most = 1000;
-  std::vector<double> differences;
-  for (std::size_t k = 1; k < std::min(steps(), most); ++k) {
-    const double difference = time_(k) - time_(k - 1);
-    if (std::isfinite(difference)) differences.push_back(difference);
-  }
-  if (differences.empty()) return std::nullopt;
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return *middle;
+  std::vector<double> times;
+  for (std::size_t k = 0; k < std::min(steps(), most); ++k) times.push_back(time_(k));
+  return recordings::typical_step(times);
 }
 
-Signals signals_of_step(const py::object& step) {
+Signals signals_of_step(const py::object& step, const SignalNeeds& needs, GravityIn gravity) {
   Signals signals;
-  signals.time = numbers_of(step, "time", 1)(0);
-  const StepArray position = numbers_of(step, "position", joint_count);
-  const StepArray velocity = numbers_of(step, "velocity", joint_count);
-  const StepArray torque = numbers_of(step, "torque", joint_count);
+  signals.time = (*numbers_of(step, "time", 1, true))(0);
+  const auto position = numbers_of(step, "position", joint_count, needs.position);
+  const auto velocity = numbers_of(step, "velocity", joint_count, needs.velocity);
+  const auto torque = numbers_of(step, "torque", joint_count, needs.torque);
+  const auto number = [](const std::optional<StepArray>& array, std::size_t i) {
+    return array ? (*array)(i) : 0.0;
+  };
   set_joints(signals, [&](std::size_t i) {
-    return JointSignals{position(i), velocity(i), torque(i)};
+    return JointSignals{number(position, i), number(velocity, i), number(torque, i)};
   });
-  const StepArray linear = numbers_of(step, "linear_acceleration", 3);
-  const StepArray angular = numbers_of(step, "angular_velocity", 3);
-  signals.linear_acceleration = {linear(0), linear(1), linear(2)};
-  signals.angular_velocity = {angular(0), angular(1), angular(2)};
-  signals.vertical_acceleration = numbers_of(step, "vertical_acceleration", 1)(0);
-  signals.ground_velocity_command = numbers_of(step, "ground_velocity_command", 1)(0);
+  const bool derives = is_derived(step, needs, gravity);
+  const auto linear =
+      numbers_of(step, "linear_acceleration", 3, needs.acceleration_vector || derives);
+  const auto angular = numbers_of(step, "angular_velocity", 3, needs.angular_velocity);
+  signals.linear_acceleration = {number(linear, 0), number(linear, 1), number(linear, 2)};
+  signals.angular_velocity = {number(angular, 0), number(angular, 1), number(angular, 2)};
+  if (derives) {
+    const StepArray q = *numbers_of(step, "orientation", 4, true);
+    derive_accelerations(signals, {q(0), q(1), q(2), q(3)}, gravity);
+  } else {
+    signals.vertical_acceleration =
+        number(numbers_of(step, "vertical_acceleration", 1, needs.acceleration), 0);
+  }
+  signals.ground_velocity_command =
+      number(numbers_of(step, "ground_velocity_command", 1, needs.command), 0);
   return signals;
 }
 

@@ -8,13 +8,31 @@
 
 namespace touchdown::python {
 
+/// The signals that an estimator uses. Arrays of others may be missing: they are 0.
+struct SignalNeeds {
+  bool torque = true;
+  bool position = true;
+  bool velocity = true;
+  bool acceleration = true;  ///< along the vertical
+  bool angular_velocity = true;
+  bool acceleration_vector = true;
+  bool command = true;
+};
+
+/// How the acceleration along the vertical is found.
+enum class GravityIn : int {
+  nothing,       ///< `vertical_acceleration`, or else `linear_acceleration` along `orientation`
+  acceleration,  ///< `linear_acceleration` holds gravity, which `orientation` takes out
+};
+
 /// Signals of a run, read from arrays with the names of `touchdown export`: `time`, `position`,
 /// `velocity`, `torque` (six joints), `linear_acceleration`, `angular_velocity`,
-/// `vertical_acceleration`, `ground_velocity_command`, and optionally `has_record`.
+/// `vertical_acceleration`, `ground_velocity_command`, `orientation` (w x y z, to a frame with z
+/// down), and optionally `has_record`.
 class SignalArrays {
  public:
-  /// Errors: `InputError` for arrays that are missing, renamed or have another shape.
-  explicit SignalArrays(const py::object& arrays);
+  /// Errors: `InputError` for arrays that are needed and missing, renamed or have another shape.
+  SignalArrays(const py::object& arrays, const SignalNeeds& needs, GravityIn gravity);
 
   std::size_t steps() const { return map_.steps(); }
   bool has_record(std::size_t step) const { return !has_record_ || (*has_record_)(step) != 0.0; }
@@ -23,21 +41,25 @@ class SignalArrays {
   std::optional<double> period() const;
 
  private:
+  std::optional<StepArray> column(const char* name, std::size_t columns, bool is_needed);
+
   ArrayMap map_;
+  GravityIn gravity_;
   StepArray time_;
-  StepArray position_;
-  StepArray velocity_;
-  StepArray torque_;
-  StepArray linear_acceleration_;
-  StepArray angular_velocity_;
-  StepArray vertical_acceleration_;
-  StepArray ground_velocity_command_;
+  std::optional<StepArray> position_;
+  std::optional<StepArray> velocity_;
+  std::optional<StepArray> torque_;
+  std::optional<StepArray> linear_acceleration_;
+  std::optional<StepArray> angular_velocity_;
+  std::optional<StepArray> vertical_acceleration_;
+  std::optional<StepArray> ground_velocity_command_;
+  std::optional<StepArray> orientation_;
   std::optional<StepArray> has_record_;
-  bool has_layout_of_signals_;
+  bool has_layout_of_signals_ = false;
 };
 
 /// Signals of one step: numbers, and rows of six and of three. Errors: as above.
-Signals signals_of_step(const py::object& step);
+Signals signals_of_step(const py::object& step, const SignalNeeds& needs, GravityIn gravity);
 
 /// Arrays that view the signals of a run, with the same names.
 py::dict arrays_of(std::vector<Signals> steps);

@@ -33,6 +33,7 @@ struct RecordingInfo {
   std::optional<Outcome> outcome;
   /// The resolved scenario as YAML: enough to rebuild the terrain for a video.
   std::string scenario_yaml;
+  std::string robot = {};  ///< name of the robot of a robot's log, if the log states it
 };
 
 /// One run, stored by columns. Row k is the observation at time k·period and the action for it.

@@ -9,13 +9,12 @@ namespace touchdown::recordings {
 
 namespace {
 
-/// Steps of `times`, in order.
+/// Steps between neighbours that both have a time.
 std::vector<double> steps_of(std::span<const double> times) {
   std::vector<double> steps;
   double before = NAN;
   for (const double time : times) {
-    if (!std::isfinite(time)) continue;
-    if (std::isfinite(before)) steps.push_back(time - before);
+    if (std::isfinite(time - before)) steps.push_back(time - before);
     before = time;
   }
   return steps;
@@ -29,17 +28,18 @@ double median(std::vector<double> values) {
 
 /// Times as whole multiples of a base step: some samples were lost, others are on time.
 struct Grid {
-  double step = 0.0;
-  double single_share = 0.0;   ///< of the steps that are one base step long
-  double fitting_share = 0.0;  ///< of the steps that are a multiple of it
+  double step = 0.0;           ///< mean, of all multiples
+  double single_step = 0.0;    ///< mean of the steps that are one base step long
+  double single_share = 0.0;   ///< of those
+  double fitting_share = 0.0;  ///< of the steps that are a multiple
 };
 
 Grid grid_of(std::span<const double> steps, double base) {
   constexpr double fit = 0.2;         // of a base step: jitter of a real-time loop
   constexpr double longest = 1000.0;  // base steps; a longer one is a jump of the clock
-  Grid grid;
   double sum = 0.0;
   double count = 0.0;
+  double single_sum = 0.0;
   double single = 0.0;
   double fitting = 0.0;
   for (const double step : steps) {
@@ -50,12 +50,13 @@ Grid grid_of(std::span<const double> steps, double base) {
     sum += step;
     count += multiple;
     fitting += 1.0;
-    if (multiple == 1.0) single += 1.0;
+    if (multiple != 1.0) continue;
+    single += 1.0;
+    single_sum += step;
   }
-  if (count > 0.0) grid.step = sum / count;
-  grid.single_share = single / static_cast<double>(steps.size());
-  grid.fitting_share = fitting / static_cast<double>(steps.size());
-  return grid;
+  const auto all = static_cast<double>(steps.size());
+  return {count > 0.0 ? sum / count : base, single > 0.0 ? single_sum / single : base, single / all,
+          fitting / all};
 }
 
 /// The straight line through the times by their number.
@@ -97,18 +98,24 @@ std::optional<double> typical_step(std::span<const double> times) {
                [](double step) { return step > 0.0; });
   if (forward.empty()) return std::nullopt;
   const double base = median(forward);
-  // Nearly all steps alike: a clock with jitter, and a few samples lost.
   const Grid grid = grid_of(steps, base);
   constexpr double nearly_all = 0.985;
   if (grid.single_share >= nearly_all) return grid.step;
   // Samples at equal distances whose stamps are rounded or come in bursts stay near a line, within
   // half a tick or half a burst. Lost samples walk away from it.
-  constexpr double half = 0.5;
-  if (const Line line = line_through(steps);
-      line.slope > 0.0 && line.deviation <= half * std::max(base, line.slope)) {
-    return line.slope;
+  const Line line = line_through(steps);
+  const double tick = std::max(base, line.slope);
+  const bool are_multiples = grid.fitting_share >= nearly_all;
+  constexpr double of_rounding = 0.33;  // of a tick; uniform rounding has 0.29
+  constexpr double of_bursts = 0.5;
+  if (are_multiples) {
+    const bool may_be_bursts = line.slope > 1.5 * base;
+    const double bound = may_be_bursts ? of_bursts : of_rounding;
+    return line.deviation <= bound * tick ? line.slope : grid.step;
   }
-  constexpr double most = 0.9;
+  constexpr double most = 0.85;
+  if (grid.single_share >= most) return grid.single_step;  // others were late
+  if (line.slope > 0.0 && line.deviation <= of_bursts * tick) return line.slope;
   if (grid.fitting_share >= most) return grid.step;
   // Neither: the mean of the steps without jumps.
   constexpr double jump = 20.0;  // typical steps

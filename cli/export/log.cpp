@@ -7,6 +7,8 @@
 #include "core/program/outputs.hpp"
 #include "core/program/streams.hpp"
 #include "core/progress.hpp"
+#include "experiments/logs/log_steps.hpp"
+#include "experiments/logs/robot.hpp"
 #include "recordings/mapping/conversion.hpp"
 #include "recordings/mcap/log.hpp"
 
@@ -36,6 +38,35 @@ void report_faults(const ExportedLog& files, const recordings::ConvertedLog& log
     print_message(
         fmt::format("touchdown: {}: time goes back at {} rows\n", files.log, log.time_reversals));
   }
+  if (log.completed_rows > 0) {
+    print_message(fmt::format(
+        "touchdown: {}: {} of {} records hold numbers of an earlier row, for up to {:.4g} ms\n",
+        files.log, log.completed_rows, log.rows, 1e3 * log.oldest));
+  }
+  if (log.rows_without_joints > 0) {
+    print_message(fmt::format(
+        "touchdown: {}: {} rows have no number of a joint: they are no records of their own\n",
+        files.log, log.rows_without_joints));
+  }
+  for (const std::string& note : log.notes) print_message(fmt::format("touchdown: {}\n", note));
+}
+
+/// Prints what is implausible about the signals of the written log, one line each. Returns their
+/// number.
+std::size_t report_findings(const ExportedLog& files, const CliSession& session) {
+  recordings::LogReader reader(files.output, session.stop);
+  std::vector<std::string> findings;
+  try {
+    experiments::LogSteps log(reader, nullptr, experiments::checked_robot({}, reader.info()));
+    while (log.next() != nullptr) check_stop(session);
+    findings = log.findings();
+  } catch (const InputError& error) {
+    findings = {error.what()};  // no estimator can read the log
+  }
+  for (const std::string& finding : findings) {
+    print_message(fmt::format("touchdown: {}: {}\n", files.log, finding));
+  }
+  return findings.size();
 }
 
 /// Errors: `InputError` for a log without contact labels.
@@ -53,20 +84,27 @@ std::string labels_text(const ExportedLog& files, const recordings::ConvertedLog
 void export_log(const ExportedLog& files, const CliSession& session) {
   check_files(files);
   recordings::ConvertedLog log;
-  write_stream_atomically(files.output, [&](std::ostream& stream) {
-    log = recordings::convert_log(files.log, files.mapping, stream, [&] { check_stop(session); });
-    stream.flush();  // labels only beside a whole log
-    if (!stream) return;
+  write_atomically(files.output, [&](const std::filesystem::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    log = recordings::convert_log(
+        files.log, files.mapping, stream, [&] { check_stop(session); }, !files.labels.empty());
+    stream.close();
+    if (!stream) throw Error(fmt::format("{}: cannot be written: is the disk full?", files.output));
     if (!files.labels.empty()) write_atomically(files.labels, labels_text(files, log));
   });
   report_faults(files, log);
+  const std::size_t findings = report_findings(files, session);
   print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", files.output, log.rows,
-        log.start, log.end, files.log);
+             log.start, log.end, files.log);
   if (!files.labels.empty()) {
     print("labels    {}, {} intervals\n", files.labels, log.contact.intervals.size());
   }
-  print("next      touchdown estimate {} --model MODEL.npz{}\n", files.output,
-        files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
+  print("next      touchdown estimate {}{}\n", files.output,
+             files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
+  if (files.is_strict && findings > 0) {
+    throw Error(fmt::format("--strict: {} finding{} about the signals", findings,
+                            findings == 1 ? "" : "s"));
+  }
 }
 
 void export_mcap(const std::string& log, const std::string& output, const CliSession& session) {

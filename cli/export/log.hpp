@@ -8,10 +8,11 @@ namespace touchdown::cli {
 
 /// Files of the conversion of a log in another layout.
 struct ExportedLog {
-  std::string log;      ///< .csv or .npz
-  std::string mapping;  ///< .yaml
-  std::string output;   ///< .mpack
-  std::string labels;   ///< .csv, or empty
+  std::string log;         ///< .csv or .npz
+  std::string mapping;     ///< .yaml
+  std::string output;      ///< .mpack
+  std::string labels;      ///< .csv, or empty
+  bool is_strict = false;  ///< whether implausible signals are an error
 };
 
 /// Converts the log to Upkie's layout, writes its contact column as labels and prints a summary.

@@ -29,6 +29,7 @@ struct ExportFlags {
   std::string output;
   std::string mapping;
   std::string labels;
+  bool strict = false;
   ModelUse use;
   std::vector<std::string> configuration;  ///< key=value
 };
@@ -132,7 +133,7 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
     throw InputError("--mapping: expected -o FILE.mpack, for a log in another layout");
   }
   if (!flags.mapping.empty()) {
-    export_log({flags.source, flags.mapping, flags.output, flags.labels}, session);
+    export_log({flags.source, flags.mapping, flags.output, flags.labels, flags.strict}, session);
   } else if (std::filesystem::path(flags.output).extension() == ".mcap") {
     export_mcap(flags.source, flags.output, session);
   } else if (!flags.output.empty()) {
@@ -179,6 +180,8 @@ void add_export(CLI::App& program, const CliSession& session) {
           "With --mapping: writes the log's contact labels as start,end,left,right, for `fit` and "
           "`estimate`")
       .value_name("FILE.csv");
+  verb.flag("--strict", &flags->strict,
+            "With --mapping: exit with code 1 if the signals of the log are not plausible");
   verb.option("--estimator", &flags->use.estimator,
               "For a model without metadata: the estimator that it was fitted for");
   verb.option("--rate", &flags->use.sample_rate,

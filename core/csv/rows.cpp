@@ -6,7 +6,8 @@ namespace touchdown {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
+/// A tab is no blank where it separates cells.
+std::string_view blanks_beside(char separator) { return separator == '\t' ? " \r" : " \t\r"; }
 
 /// The end of the quote at the beginning of a text. Two quote characters in a row stand for one.
 std::size_t quote_end(std::string_view text) {
@@ -17,7 +18,7 @@ std::size_t quote_end(std::string_view text) {
   return end;
 }
 
-std::string_view without_blanks(std::string_view text) {
+std::string_view without_blanks(std::string_view text, std::string_view blanks) {
   text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
   return text.substr(0, text.find_last_not_of(blanks) + 1);
 }
@@ -37,11 +38,17 @@ std::string content_of(const CsvCell& cell) {
 bool CsvRows::next() {
   row_.clear();
   if (!std::getline(text_, row_) && lines_read_ > 0) return false;
+  is_unfinished_ = text_.eof() && !row_.empty();
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (lines_read_ == 0 && row_.starts_with(byte_order_mark)) row_.erase(0, byte_order_mark.size());
   line_ = ++lines_read_;
   split();
   return true;
+}
+
+void CsvRows::separate_by(char separator) {
+  separator_ = separator;
+  split();
 }
 
 bool CsvRows::append_line() {
@@ -61,15 +68,17 @@ bool CsvRows::is_open() const {
 void CsvRows::split() {
   cells_.clear();
   const std::string_view row = row_;
+  const std::string_view blanks = blanks_beside(separator_);
   std::size_t begin = 0;
   while (true) {
     const std::size_t first = std::min(row.find_first_not_of(blanks, begin), row.size());
     const bool has_quote = row.substr(first, 1) == "\"";
     const std::size_t quoted = has_quote ? quote_end(row.substr(first)) : 0;
     const bool is_open = quoted == std::string_view::npos;
-    const std::size_t end = std::min(row.find(',', is_open ? first : first + quoted), row.size());
+    const std::size_t end =
+        std::min(row.find(separator_, is_open ? first : first + quoted), row.size());
     const std::string_view raw = row.substr(begin, end - begin);
-    std::string_view text = without_blanks(raw);
+    std::string_view text = without_blanks(raw, blanks);
     const bool is_quoted = has_quote && !is_open && text.size() == quoted + 1;
     if (is_quoted) text = text.substr(1, quoted - 1);
     cells_.push_back({raw, text, first + 1, is_quoted, is_open});

@@ -20,8 +20,8 @@ struct CsvCell {
 /// The text of a quoted cell, in which two quote characters stand for one, otherwise the raw cell.
 std::string content_of(const CsvCell& cell);
 
-/// Reads comma-separated values (RFC 4180) row by row. A byte order mark at the beginning is left
-/// out. An empty text has one row with one empty cell.
+/// Reads comma-separated values (RFC 4180) row by row, or values with another separator. A byte
+/// order mark at the beginning is left out. An empty text has one row with one empty cell.
 class CsvRows {
  public:
   /// `text` must outlive the object.
@@ -31,6 +31,14 @@ class CsvRows {
   bool next();
   /// Appends the next line to the row, for quotes with line ends in them. Returns false at the end.
   bool append_line();
+
+  /// Splits this row, and those that follow, at another character: ';' or a tab.
+  void separate_by(char separator);
+
+  /// The row as it is in the file, until the next call.
+  std::string_view row() const { return row_; }
+  /// Whether the file ends within the row, without a line end: it may be cut off.
+  bool is_unfinished() const { return is_unfinished_; }
 
   /// Cells of the row, until the next call.
   const std::vector<CsvCell>& cells() const { return cells_; }
@@ -47,6 +55,8 @@ class CsvRows {
   std::vector<CsvCell> cells_;
   std::size_t line_ = 0;
   std::size_t lines_read_ = 0;
+  char separator_ = ',';
+  bool is_unfinished_ = false;
 };
 
 }  // namespace touchdown

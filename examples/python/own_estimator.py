@@ -23,7 +23,7 @@ class FallsOrPushes:
 # %% On one run.
 fitted = touchdown.simulate("scenarios/stairs.yaml", run=0)
 run = touchdown.simulate("scenarios/stairs.yaml", run=1)
-robust = touchdown.Estimator(model=touchdown.fit(fitted))
+robust = touchdown.Estimator(model=touchdown.fit(fitted, "robust"))
 for name, beliefs in (("robust", robust.run(run)),
                       ("mine", FallsOrPushes().run({**run, "sample_rate": run.sample_rate}))):
     print(f"{name:<8} success {touchdown.score(beliefs, run)['wheels']['success']:.4f}")

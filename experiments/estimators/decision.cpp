@@ -1,8 +1,14 @@
 #include "experiments/estimators/decision.hpp"
 
+#include <cmath>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "core/error.hpp"
 #include "core/resources.hpp"
 #include "estimator/decision/filter.hpp"
 #include "estimator/decision/fit.hpp"
@@ -47,6 +53,28 @@ EstimatorPointer make_fitted(const EstimatorEntry& entry, const EstimatorSetup& 
   return std::make_unique<Estimator>(
       model_of(setup.model->parameters->parameters),
       configured(DecisionConfig{.sample_rate = setup.sample_rate}, entry, setup));
+}
+
+/// Whether both legs, and the robots that they carry, are the same to a percent. Rotors may differ.
+bool are_alike(const LegGeometry& one, const LegGeometry& other) {
+  const auto is_near = [](double a, double b) { return std::abs(a - b) <= 0.01 * std::abs(b); };
+  return is_near(one.upper_length, other.upper_length) &&
+         is_near(one.lower_length, other.lower_length) &&
+         is_near(one.upper_mass, other.upper_mass) && is_near(one.lower_mass, other.lower_mass) &&
+         is_near(one.wheel_mass, other.wheel_mass) && is_near(one.robot_mass, other.robot_mass);
+}
+
+/// Errors: `InputError` for a rate or a robot that the shipped model does not serve.
+void check_shipped_model(const ModelMetadata& metadata, const std::filesystem::path& path,
+                         const EstimatorSetup& setup) {
+  const bool is_own_robot = !setup.legs || are_alike(*setup.legs, LegGeometry{});
+  try {
+    check_use(metadata,
+              {.sample_rate = setup.sample_rate, .robot = is_own_robot ? "" : setup.robot});
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("touchdown_shipped: {}: {} (fit 'touchdown' in this experiment)",
+                                 path.string(), error.what()));
+  }
 }
 
 Hyperparameter decay() { return fitted_with(around("decay", DecisionFitConfig{}.decay, 10.0)); }
@@ -123,7 +151,10 @@ EstimatorEntry shipped_touchdown_entry() {
   entry.hyperparameters = {};
   entry.make = [](const EstimatorEntry& /*entry*/,
                   const EstimatorSetup& setup) -> EstimatorPointer {
-    const auto file = recordings::read_parameter_model(find_resource("models/touchdown.npz"));
+    const std::filesystem::path path = find_resource("models/touchdown.npz");
+    std::optional<ModelMetadata> metadata;
+    const auto file = recordings::read_parameter_model(path, &metadata);
+    if (metadata) check_shipped_model(*metadata, path, setup);
     return std::make_unique<TouchdownEstimator>(
         touchdown_model_of(file.parameters),
         DecisionConfig{.sample_rate = setup.sample_rate,

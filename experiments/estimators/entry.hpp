@@ -30,6 +30,8 @@ struct EstimatorSetup {
   std::optional<LegGeometry> legs = {};
   /// The labels of the run, for the oracle.
   const std::array<scoring::ContactSequence, models::wheel_count>* truth = nullptr;
+  /// Name of the robot; empty if unknown.
+  std::string robot = {};
 };
 
 /// Sensors with noise that can change an estimator's decisions about the wheels.

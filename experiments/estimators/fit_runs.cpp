@@ -33,7 +33,7 @@ double period_of(const RunSignals& run) {
 }
 
 std::string robot_of(const recordings::RecordingInfo& info) {
-  if (info.scenario_yaml.empty()) return {};
+  if (info.scenario_yaml.empty()) return info.robot;
   const YamlDocument scenario =
       YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)");
   const YAML::Node robot = scenario.root()["robot"];

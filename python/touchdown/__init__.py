@@ -7,11 +7,11 @@ See docs/python.md.
 """
 from touchdown._touchdown import Belief, Error, Estimator, InputError, Model, __version__, estimators, simulators
 from touchdown.experiment import Result, run
-from touchdown.recording import Recording, contact_labels, fit, score, simulate
+from touchdown.recording import Recording, check, contact_labels, fit, score, simulate
 from touchdown.upkie import ContactWrapper
 
 #: Names of the numbers in `status` of `Estimator.run`.
 STATUS = ("good", "invalid", "gap", "frozen")
 
 __all__ = ["Belief", "ContactWrapper", "Error", "Estimator", "InputError", "Model", "Recording", "Result", "STATUS", "__version__",
-           "contact_labels", "estimators", "fit", "run", "score", "simulate", "simulators"]
+           "check", "contact_labels", "estimators", "fit", "run", "score", "simulate", "simulators"]

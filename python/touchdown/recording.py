@@ -115,11 +115,22 @@ def _several(runs: Any) -> list:
     return [runs] if isinstance(runs, (dict, str, os.PathLike)) else list(runs)
 
 
-def fit(runs: Any = (), estimator: str = "robust", *, contact: Any = (), no_contact: Any = (), skip: float = 0.3,
+def check(log: Any, *, robot: str = "") -> list[str]:
+    """What is implausible about a run, one line each, as `touchdown check` prints: clock, units, signs, axes, gravity,
+    loads, dead channels. An empty list: nothing.
+
+    log: a `Recording`, or the path of a log
+    robot: its name, or its file, which gives weight, legs and ranges of joints
+    """
+    return _touchdown.check(log, robot)
+
+
+def fit(runs: Any = (), estimator: str = "touchdown", *, contact: Any = (), no_contact: Any = (), skip: float = 0.3,
         force_threshold: float = 1.0, debounce: float = 0.005) -> Model:
     """Fit an estimator's model, as `touchdown fit` does.
 
     runs: a `Recording` with ground truth, or a path to one, or several
+    estimator: its name, as in `estimators()`
     contact, no_contact: the same, for runs in which both wheels, or neither, are in contact all the time
     skip: time at the beginning of each run that is not used (s)
     force_threshold, debounce: definition of contact (`contact_labels`)

@@ -20,11 +20,15 @@ struct NumbersCsvSink {
   std::function<bool(std::size_t column)> needs = {};
   /// The value of an empty cell; without it an empty cell is an error.
   std::optional<double> empty_cell = {};
+  /// Gets a line about a last row that is cut off and was left out; without it that is an error.
+  std::function<void(const std::string& line)> note = {};
 };
 
-/// Reads a line of names, then lines of numbers. true and false are 1 and 0; empty lines are
-/// skipped. Quoted cells may contain commas and must end on the same line. Errors: `InputError`
-/// with file:line:column for
+/// Reads a line of names, then lines of numbers. Cells are separated by commas, semicolons or tabs,
+/// whichever the names have most. true and false are 1 and 0; a date and time (2024-02-28 01:02:03)
+/// is in seconds since 1970. Empty lines, and comments from # or % on, are skipped; a comment
+/// before numbers may hold the names. Quoted cells may contain commas and must end on the same
+/// line. Errors: `InputError` with file:line:column for
 /// - a file without names, or a row of another length;
 /// - a cell that is not a number, or a quote without end;
 /// - errors of the sink.

@@ -9,6 +9,9 @@ namespace touchdown::recordings {
 
 namespace {
 
+/// As long as estimators bridge a gap (s), and a rounding error of the clock.
+constexpr double longest_hold = SignalGuardConfig{}.maximum_gap + 1e-6;
+
 double time_of(const LogValues& values, const LogPresence& present) {
   return values[present[log_slot::time] ? log_slot::time : log_slot::wall_time];
 }
@@ -39,12 +42,12 @@ bool HeldServos::complete(LogValues& values, LogPresence& present) {
       continue;
     }
     const double age = now - time_[i];
-    const bool is_held = age >= 0.0 && age <= SignalGuardConfig{}.maximum_gap;
+    const bool is_held = age >= 0.0 && age <= longest_hold;
     values[slot] = is_held ? value_[i] : std::numeric_limits<double>::quiet_NaN();
     present.set(slot);
     oldest = is_held ? std::max(oldest, age) : std::numeric_limits<double>::infinity();
   }
-  if (oldest > SignalGuardConfig{}.maximum_gap) {
+  if (oldest > longest_hold) {
     ++lost_;
   } else {
     ++records_;

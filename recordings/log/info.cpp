@@ -59,6 +59,22 @@ void pack_info(LogPacker& packer, const RecordingInfo& info) {
   text("scenario_yaml"), text(info.scenario_yaml);
 }
 
+void pack_robot(LogPacker& packer, std::string_view robot) {
+  pack_text(packer, "config");
+  packer.pack_map(1);
+  pack_text(packer, "robot");
+  pack_text(packer, robot);
+}
+
+std::string unpack_robot(std::string_view record) {
+  const msgpack::object_handle handle = msgpack::unpack(record.data(), record.size());
+  const msgpack::object* config = find(handle.get(), "config");
+  const msgpack::object* robot = config == nullptr ? nullptr : find(*config, "robot");
+  if (robot == nullptr || robot->type != msgpack::type::STR) return {};
+  const std::string_view name(robot->via.str.ptr, robot->via.str.size);
+  return utf8_size(name) == name.size() ? std::string(name) : std::string();
+}
+
 std::optional<RecordingInfo> unpack_info(std::string_view record, std::string_view log_name) {
   try {
     const msgpack::object_handle handle = msgpack::unpack(record.data(), record.size());

@@ -42,7 +42,7 @@ std::optional<LogRow> LogReader::next() {
 
 const RecordingInfo& LogReader::info() {
   if (!info_) look_ahead(1);
-  if (!info_) info_.emplace();
+  if (!info_) info_.emplace().robot = robot_;
   if (!has_period_) {
     look_ahead(rows_for_period);
     std::vector<double> times;
@@ -91,7 +91,10 @@ void LogReader::read_entry(Entry& entry) {
     begin_ += record_size_;
     offset_ += record_size_;
     ++record_count_;
-    if (parser_.has_config() && !info_) info_ = unpack_info(record, name_);
+    if (parser_.has_config() && !info_) {
+      info_ = unpack_info(record, name_);
+      if (!info_) robot_ = unpack_robot(record);
+    }
     LogValues values = parser_.values();
     LogPresence present = parser_.present();
     const bool lacks_keys = parser_.is_missing_any() && !is_completed(values, present);

@@ -99,6 +99,7 @@ class LogReader {
   bool has_finished_ = false;
   std::optional<double> start_time_;
   std::optional<RecordingInfo> info_;
+  std::string robot_;  ///< of a robot's log
   bool has_period_ = false;
   std::deque<Entry> ahead_;
   Entry current_;

@@ -29,12 +29,15 @@ LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, WrittenTruth trut
       }),
       packer_(buffer_) {}
 
-LogWriter::LogWriter(std::ostream& stream, const LogPresence& present)
+LogWriter::LogWriter(std::ostream& stream, const LogPresence& present, std::string robot)
     : stream_(stream),
-      is_first_(false),
+      is_robots_(true),
+      is_first_(!robot.empty()),
       tree_(
           [&](const LogKey& key) { return key.role != LogKey::Role::alias && present[key.slot]; }),
-      packer_(buffer_) {}
+      packer_(buffer_) {
+  info_.robot = std::move(robot);
+}
 
 void LogWriter::write(const models::Observation& observation, const models::Action& action,
                       const models::GroundTruth* truth) {
@@ -45,16 +48,24 @@ void LogWriter::write(const models::Observation& observation, const models::Acti
 void LogWriter::write(const LogValues& values) {
   const LogKeyTree::Node& record = tree_.node(0);
   packer_.pack_map(static_cast<std::uint32_t>(record.children.size()) + (is_first_ ? 1U : 0U));
-  if (is_first_) pack_info(packer_, info_);
+  if (is_first_) pack_origin();
   is_first_ = false;
   for (const int child : record.children) pack_node(child, values);
   flush();
 }
 
+void LogWriter::pack_origin() {
+  if (is_robots_) {
+    pack_robot(packer_, info_.robot);
+  } else {
+    pack_info(packer_, info_);
+  }
+}
+
 void LogWriter::finish() {
   if (!is_first_) return;
   packer_.pack_map(1);
-  pack_info(packer_, info_);
+  pack_origin();
   is_first_ = false;
   flush();
 }

@@ -23,8 +23,8 @@ class LogWriter {
   /// Every row must have the ground truth that `truth` specifies. `stream` must outlive the writer.
   LogWriter(std::ostream& stream, RecordingInfo info, WrittenTruth truth);
   /// For a robot's log: without origin, and with the values that are `present`. For a vector, its
-  /// first number counts.
-  LogWriter(std::ostream& stream, const LogPresence& present);
+  /// first number counts. A robot's name is under `config.robot` of the first record.
+  LogWriter(std::ostream& stream, const LogPresence& present, std::string robot = {});
 
   /// Errors: `Error` when the stream fails or the ground truth is missing.
   void write(const models::Observation& observation, const models::Action& action,
@@ -36,6 +36,7 @@ class LogWriter {
   void finish();
 
  private:
+  void pack_origin();
   void pack_node(int node, const LogValues& values);
   void pack_value(const LogKey& key, const LogValues& values);
   void flush();
@@ -43,6 +44,7 @@ class LogWriter {
   std::ostream& stream_;
   RecordingInfo info_;
   bool with_truth_ = false;
+  bool is_robots_ = false;
   bool is_first_ = true;
   LogKeyTree tree_;
   msgpack::sbuffer buffer_;

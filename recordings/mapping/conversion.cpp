@@ -11,7 +11,9 @@
 #include "core/error.hpp"
 #include "estimator/assembly/record.hpp"
 #include "recordings/log/writer.hpp"
+#include "recordings/mapping/row_hold.hpp"
 #include "recordings/mapping/source_log.hpp"
+#include "recordings/sample_times.hpp"
 
 namespace touchdown::recordings {
 
@@ -156,19 +158,30 @@ class IntervalBuilder {
 /// Converts a log row by row. The mapping is read once the names of the log are known.
 class Converter {
  public:
-  Converter(const std::filesystem::path& mapping, std::ostream& stream)
-      : path_(mapping), stream_(stream) {}
+  Converter(const std::filesystem::path& mapping, std::ostream& stream, bool with_labels)
+      : path_(mapping), stream_(stream), with_labels_(with_labels) {}
 
   std::vector<SourceColumn> begin(const SourceNames& names) {
     mapping_ = read_log_mapping(path_, names);
-    writer_.emplace(stream_, log_presence(mapping_));
+    writer_.emplace(stream_, log_presence(mapping_), mapping_.robot);
     intervals_.emplace(mapping_, converted_.contact);
+    hold_.emplace(mapping_);
     return mapping_.columns;
   }
 
-  void add(std::span<const double> row, const SourceLocation& place) {
+  void add(std::span<const double> given, const SourceLocation& place) {
+    row_.assign(given.begin(), given.end());
+    const double given_time = mapping_.time
+                                  ? mapping_.time->value(given, 0)
+                                  : static_cast<double>(converted_.rows) * mapping_.period;
+    if (!hold_->complete(row_, given_time)) {
+      if (has_time_) add_labels(given_time - converted_.start, given, place);
+      return;
+    }
+    const std::span<const double> row = row_;
     const LogValues values = log_values(mapping_, converted_.rows++, row);
     writer_->write(values);
+    first_step_.add(values[log_slot::time]);
     const bool is_whole =
         std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
     if (!is_whole) ++converted_.incomplete_rows;
@@ -183,7 +196,7 @@ class Converter {
       converted_.end = time;
       has_time_ = true;
     }
-    intervals_->add(time - converted_.start, row, place);
+    add_labels(time - converted_.start, row, place);
   }
 
   ConvertedLog finish(const std::filesystem::path& log) {
@@ -191,22 +204,67 @@ class Converter {
     if (!has_time_) {
       throw InputError(fmt::format("{}: no row has a time that is a finite number", log.string()));
     }
+    check_clock(log);
+    if (with_labels_) intervals_->finish();
+    converted_.completed_rows = hold_->completed();
+    converted_.oldest = hold_->oldest();
+    converted_.rows_without_joints = hold_->without_joints();
+    return std::move(converted_);
+  }
+
+ private:
+  /// The first times of the log.
+  class FirstTimes {
+   public:
+    void add(double time) {
+      constexpr std::size_t most = 200;
+      if (times_.size() < most) times_.push_back(time);
+    }
+    std::optional<double> step() const { return typical_step(times_); }
+
+   private:
+    std::vector<double> times_;
+  };
+
+  void add_labels(double time, std::span<const double> row, const SourceLocation& place) {
+    if (with_labels_) intervals_->add(time, row, place);
+  }
+
+  /// Errors: `InputError` for a clock that counts another unit than the mapping states.
+  void check_clock(const std::filesystem::path& log) const {
+    const double step = first_step_.step().value_or(0.0);
+    const std::string unit = unit_of_step(step);
+    constexpr std::uint64_t few = 10;  // rows: their steps may be pauses
+    if (!unit.empty() && converted_.rows > few && mapping_.time && mapping_.time->unit == 1.0) {
+      throw InputError(
+          fmt::format("{}: times look like {}: rows are {:.6g} apart; set the `unit` of "
+                      "`time`",
+                      log.string(), unit, step));
+    }
     if (2 * long_steps_ > converted_.rows) {
       throw InputError(fmt::format(
           "{}: most rows come more than {} s after the one before: is time in ms, us or ns? "
           "Then set its `unit`",
           log.string(), longest_period));
     }
-    intervals_->finish();
-    return std::move(converted_);
+    constexpr double shortest_step = 4e-5;  // s, at 25,000 Hz
+    if (converted_.rows > few && step > 0.0 && step < shortest_step) {
+      throw InputError(
+          fmt::format("{}: rows are {:.3g} s apart: is the `unit` of `time` smaller "
+                      "than that of the log",
+                      log.string(), step));
+    }
   }
 
- private:
   const std::filesystem::path& path_;
   std::ostream& stream_;
+  bool with_labels_;
   LogMapping mapping_;
   std::optional<LogWriter> writer_;
   std::optional<IntervalBuilder> intervals_;
+  std::optional<RowHold> hold_;
+  std::vector<double> row_;
+  FirstTimes first_step_;
   ConvertedLog converted_;
   std::uint64_t long_steps_ = 0;
   bool has_time_ = false;
@@ -215,15 +273,20 @@ class Converter {
 }  // namespace
 
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
-                         std::ostream& stream, const std::function<void()>& check_stop) {
-  Converter converter(mapping, stream);
+                         std::ostream& stream, const std::function<void()>& check_stop,
+                         bool with_labels) {
+  Converter converter(mapping, stream, with_labels);
+  std::vector<std::string> notes;
   read_source_log(log, {.wanted = [&](const SourceNames& names) { return converter.begin(names); },
                         .row =
                             [&](std::span<const double> row, const SourceLocation& place) {
                               if (check_stop) check_stop();
                               converter.add(row, place);
-                            }});
-  return converter.finish(log);
+                            },
+                        .note = [&](const std::string& line) { notes.push_back(line); }});
+  ConvertedLog converted = converter.finish(log);
+  converted.notes.insert(converted.notes.end(), notes.begin(), notes.end());
+  return converted;
 }
 
 }  // namespace touchdown::recordings

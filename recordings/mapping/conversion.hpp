@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "recordings/beliefs/contact_intervals.hpp"
 
@@ -12,20 +14,26 @@ namespace touchdown::recordings {
 /// The result of converting another robot's log.
 struct ConvertedLog {
   std::uint64_t rows = 0;
-  double start = 0.0;                 ///< first finite time (s)
-  double end = 0.0;                   ///< last finite time (s)
-  std::uint64_t incomplete_rows = 0;  ///< rows with an empty, NaN or infinite number
-  std::uint64_t time_reversals = 0;   ///< rows with a time before that of the previous row
+  double start = 0.0;                     ///< first finite time (s)
+  double end = 0.0;                       ///< last finite time (s)
+  std::uint64_t incomplete_rows = 0;      ///< rows with an empty, NaN or infinite number
+  std::uint64_t time_reversals = 0;       ///< rows with a time before that of the previous row
+  std::uint64_t completed_rows = 0;       ///< rows with numbers held from an earlier row (RowHold)
+  double oldest = 0.0;                    ///< largest age of a held number (s)
+  std::uint64_t rows_without_joints = 0;  ///< rows of another topic, which are no records
+  std::vector<std::string> notes;         ///< one line for each thing to know about the source
   /// Contact labels, if the mapping specifies their columns. Times count from `start`.
   ContactIntervals contact;
 };
 
 /// Converts another robot's log, CSV or NumPy's arrays, to a robot's log in Upkie's layout, by a
-/// mapping file. Each row becomes one record with the measurements only. Missing values become NaN.
+/// mapping file. Each row becomes one record with the measurements only. Missing values are held
+/// from an earlier row or become NaN. Without `with_labels`, contact labels are not looked at.
 /// `check_stop` is called regularly, and may throw. Errors: `InputError` as in `read_log_mapping`
 /// and `read_source_log`, for a log without rows or times, and for contact labels with decreasing
 /// times; `Error` when the stream fails.
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
-                         std::ostream& stream, const std::function<void()>& check_stop = {});
+                         std::ostream& stream, const std::function<void()>& check_stop = {},
+                         bool with_labels = true);
 
 }  // namespace touchdown::recordings

@@ -12,6 +12,7 @@
 
 #include "core/fields.hpp"
 #include "core/resources.hpp"
+#include "recordings/mapping/mounting.hpp"
 
 namespace touchdown::recordings {
 
@@ -36,6 +37,7 @@ constexpr double standard_gravity = 9.80665;
 constexpr double largest_zero = 1e6;      // rad, of an encoder that counts turns
 constexpr double shortest_period = 1e-6;  // s, the unit of recordings
 constexpr const char* six_joints = "left hip, knee, wheel, right hip, knee, wheel";
+constexpr const char* four_joints = "left knee, wheel, right knee, wheel";
 
 std::vector<Unit> speeds() {
   return {{"rad/s", 1.0}, {"deg/s", degree}, {"rev/s", turn}, {"rpm", turn / 60.0}};
@@ -105,6 +107,10 @@ class MappingReader {
 
   /// Orientations have an order and a reference instead of a unit.
   void describe_orientation(Fields& fields) {
+    fields.check(fields.documenting() || fields.present("orientation", false), "",
+                 "'orientation' is missing: estimators need the direction of gravity. Map the "
+                 "quaternion of an attitude filter, such as Upkie's or imu_filter_madgwick, run "
+                 "over the log if it has none");
     fields.require("orientation");
     const auto describe_quaternion = [&](Fields& inner) {
       std::size_t order = 0;
@@ -126,7 +132,9 @@ class MappingReader {
     const auto describe_labels = [&](Fields& inner) {
       inner("above", mapping_.contact_above).doc("A number above this is contact.");
       const YAML::Node from = inner.node()["from"];
-      const bool is_pair = inner.documenting() || (from && from.size() == 2);
+      const YAML::Node index = inner.node()["index"];
+      const bool is_pair = inner.documenting() || (from && from.size() == 2) ||
+                           (index && index.size() == 2) || (from && !index && is_wide(from));
       describe_signal(inner, {"both wheels, or left and right", is_pair ? 2U : 1U},
                       mapping_.contact.emplace());
     };
@@ -136,11 +144,16 @@ class MappingReader {
   }
 
  private:
+  /// Whether the name is that of an array with a column for each wheel.
+  bool is_wide(const YAML::Node& name) const {
+    return names_.width && name.IsScalar() && names_.width(name.Scalar()) == models::wheel_count;
+  }
+
   void describe_signal(Fields& fields, const SignalKind& kind, MappedSignal& signal) {
     if (names_.are_arrays) fields.know("index");
     if (kind.has_zero) fields.know("zero");
     if (!kind.units.empty()) fields.know("unit");
-    expect_keys(fields, {"from", "sign"});
+    expect_keys(fields, {"from", "sign", "scale"});
     fields.require("from");
     const std::vector<SourceColumn> columns = columns_of(fields, kind);
     std::vector<double> sign;
@@ -149,6 +162,15 @@ class MappingReader {
         .fallback("1")
         .doc("Sign of all numbers, or of each.");
     for (const double one : sign) fields.check(std::abs(one) == 1.0, "sign", "expected 1 or -1");
+    std::vector<double> scale;
+    number_for_each(fields, "scale", kind.count, scale)
+        .range("above 0")
+        .fallback("1")
+        .doc("Factor of all numbers, or of each: a gear ratio, or a torque constant (N·m/A).");
+    for (const double one : scale) {
+      fields.check(std::isfinite(one) && one > 0.0, "scale",
+                   "expected a number above 0; a reversed direction is a 'sign' of -1");
+    }
     std::vector<double> zero;
     if (kind.has_zero) {
       number_for_each(fields, "zero", kind.count, zero)
@@ -162,6 +184,7 @@ class MappingReader {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       signal.numbers.push_back(
           {take(fields, columns[i]), sign.empty() ? 1.0 : sign[i], zero.empty() ? 0.0 : zero[i]});
+      if (!scale.empty()) signal.numbers.back().scale = scale[i];
     }
   }
 
@@ -282,14 +305,35 @@ void describe_time(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   fields.check(has_period || mapping.time, "time", "is missing: expected 'time' or 'period'");
 }
 
+/// Puts a number that is 0 before those of each leg.
+void add_missing_hips(MappedSignal& signal) {
+  if (signal.numbers.empty()) return;  // documenting
+  const MappedSignal::Number none{MappedSignal::no_column};
+  signal.numbers.insert(signal.numbers.begin() + 2, none);
+  signal.numbers.insert(signal.numbers.begin(), none);
+}
+
 void describe_joints(Fields& fields, MappingReader& reader, LogMapping& mapping) {
-  expect_keys(fields, {"position", "velocity", "torque", "wheel_velocity_target"});
-  const SignalKind angle{six_joints, 6, {{"rad", 1.0}, {"deg", degree}, {"rev", turn}}, true};
+  expect_keys(fields, {"position", "velocity", "torque", "wheel_velocity_target", "hip"});
+  std::size_t hip = 0;
+  fields.choose("hip", {"joint", "none"}, hip)
+      .doc(
+          "`none`: the robot has knees and wheels only; four joints are mapped, and the hips are "
+          "0.");
+  const bool has_hips = hip == 0;
+  const std::string joints = has_hips ? six_joints : four_joints;
+  const std::size_t count = has_hips ? 6 : 4;
+  const SignalKind angle{joints, count, {{"rad", 1.0}, {"deg", degree}, {"rev", turn}}, true};
   reader.require(fields, "position", angle, mapping.position).doc("Joint positions.");
-  reader.require(fields, "velocity", {six_joints, 6, speeds()}, mapping.velocity)
+  reader.require(fields, "velocity", {joints, count, speeds()}, mapping.velocity)
       .doc("Joint velocities.");
-  reader.require(fields, "torque", {six_joints, 6, {{"Nm", 1.0}, {"mNm", 1e-3}}}, mapping.torque)
+  reader.require(fields, "torque", {joints, count, {{"Nm", 1.0}, {"mNm", 1e-3}}}, mapping.torque)
       .doc("Joint torques.");
+  if (!has_hips) {
+    for (MappedSignal* signal : {&mapping.position, &mapping.velocity, &mapping.torque}) {
+      add_missing_hips(*signal);
+    }
+  }
   reader
       .optional(fields, "wheel_velocity_target", {"left wheel, right wheel", 2, speeds()},
                 mapping.wheel_velocity_target)
@@ -298,7 +342,7 @@ void describe_joints(Fields& fields, MappingReader& reader, LogMapping& mapping)
 
 void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   expect_keys(fields, {"orientation", "angular_velocity", "linear_acceleration",
-                       "proper_acceleration", "axes"});
+                       "proper_acceleration", "axes", "rotation"});
   reader.describe_orientation(fields);
   reader
       .require(fields, "angular_velocity", {"x, y, z", 3, {{"rad/s", 1.0}, {"deg/s", degree}}},
@@ -309,14 +353,27 @@ void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
       .doc("Acceleration without gravity; this or the next is needed.");
   reader.optional(fields, "proper_acceleration", acceleration, mapping.proper_acceleration)
       .doc("Acceleration as the chip measures it, gravity included.");
+  const bool has_rotation = fields.present("rotation", false);
+  fields.check(fields.documenting() || !has_rotation || !fields.present("axes", false), "rotation",
+               "expected either 'rotation' or 'axes'");
   describe_axes(fields, mapping.axes);
+  if (has_rotation) {
+    fields.within("rotation", [&](Fields& inner) { describe_mounting(inner, mapping.axes); })
+        .fallback("none")
+        .doc(
+            "Mounting of the log's IMU, from its axes to the robot's (forward, left, up), instead "
+            "of `axes`.");
+  }
   fields.check(mapping.linear_acceleration || mapping.proper_acceleration, "",
                "expected 'linear_acceleration', without gravity, or 'proper_acceleration', as the "
                "chip measures it");
 }
 
 void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping) {
-  expect_keys(fields, {"period", "time", "joints", "imu", "contact"});
+  expect_keys(fields, {"robot", "period", "time", "joints", "imu", "contact"});
+  fields("robot", mapping.robot)
+      .fallback("none")
+      .doc("Name of the robot; a model that was fitted to another robot is then refused.");
   describe_time(fields, reader, mapping);
   fields.require("joints");
   fields.within("joints", [&](Fields& inner) { describe_joints(inner, reader, mapping); })

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,14 +30,20 @@ struct SourceNames {
   std::string file;
   bool are_arrays = false;
   std::vector<std::string> names;
+  /// The number of columns of an array; 1 for an array with one axis. May be empty: unknown.
+  std::function<std::size_t(const std::string& name)> width = {};
 };
 
-/// The numbers of one signal. Each is converted by sign · (unit · value − zero).
+/// The numbers of one signal. Each is converted by sign · (scale · unit · value − zero).
 struct MappedSignal {
+  /// The column of a number that the robot lacks: it is 0.
+  static constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
+
   struct Number {
     std::size_t column = 0;  ///< among `LogMapping::columns`
     double sign = 1.0;
     double zero = 0.0;  ///< in the unit of touchdown
+    double scale = 1.0;
   };
   std::vector<Number> numbers;
   double unit = 1.0;  ///< the unit of the log in the unit of touchdown
@@ -43,7 +51,8 @@ struct MappedSignal {
   /// Number `i`, from a row with the values of `LogMapping::columns`.
   double value(std::span<const double> row, std::size_t i) const {
     const Number& number = numbers[i];
-    return number.sign * (unit * row[number.column] - number.zero);
+    if (number.column == no_column) return 0.0;
+    return number.sign * (number.scale * (unit * row[number.column]) - number.zero);
   }
 };
 
@@ -56,6 +65,7 @@ struct LogMapping {
   /// All needed columns, each once.
   std::vector<SourceColumn> columns;
 
+  std::string robot;                 ///< its name; empty if unknown
   std::optional<MappedSignal> time;  ///< s
   double period = 0.0;               ///< between rows, without `time` (s)
   MappedSignal position;             ///< 6, rad

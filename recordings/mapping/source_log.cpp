@@ -1,6 +1,7 @@
 #include "recordings/mapping/source_log.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <optional>
 
@@ -22,7 +23,7 @@ void read_csv(const std::filesystem::path& path, const SourceLogSink& sink) {
   csv.names = [&](std::span<const std::string> given) -> std::optional<ColumnError> {
     const std::vector<std::string> names(given.begin(), given.end());
     if (names == std::vector<std::string>{""}) return ColumnError{0, "expected a line of names"};
-    for (const SourceColumn& column : sink.wanted({path.string(), false, names})) {
+    for (const SourceColumn& column : sink.wanted({path.string(), false, names, {}})) {
       const auto found = std::find(names.begin(), names.end(), column.name);
       positions.push_back(static_cast<std::size_t>(found - names.begin()));
     }
@@ -33,6 +34,7 @@ void read_csv(const std::filesystem::path& path, const SourceLogSink& sink) {
     return std::find(positions.begin(), positions.end(), column) != positions.end();
   };
   csv.empty_cell = std::numeric_limits<double>::quiet_NaN();
+  csv.note = sink.note;
   csv.row = [&](std::span<const double> values, std::size_t line) -> std::optional<ColumnError> {
     for (std::size_t i = 0; i < positions.size(); ++i) row[i] = values[positions[i]];
     sink.row(row, [&] { return fmt::format("{}:{}", path.string(), line); });
@@ -66,7 +68,14 @@ ArrayColumn column_of(const NpzArrays& arrays, const SourceColumn& column,
 }
 
 void read_arrays(const std::filesystem::path& path, const SourceLogSink& sink) {
-  const std::vector<SourceColumn> wanted = sink.wanted({path.string(), true, npz_names(path)});
+  const auto width = [&](const std::string& name) -> std::size_t {
+    const NpzArrays one = read_npz(
+        path, [&](std::string_view other) { return other == name ? any_array(other) : 0; });
+    const auto found = one.find(name);
+    return found != one.end() && found->second.shape.size() == 2 ? found->second.shape[1] : 1;
+  };
+  const std::vector<SourceColumn> wanted =
+      sink.wanted({path.string(), true, npz_names(path), width});
   const NpzArrays arrays = read_npz(path, [&](std::string_view name) {
     const bool is_wanted = std::any_of(wanted.begin(), wanted.end(),
                                        [&](const SourceColumn& one) { return one.name == name; });
@@ -94,9 +103,12 @@ void read_arrays(const std::filesystem::path& path, const SourceLogSink& sink) {
 }  // namespace
 
 void read_source_log(const std::filesystem::path& path, const SourceLogSink& sink) {
-  if (path.extension() == ".csv") {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".csv" || extension == ".tsv") {
     read_csv(path, sink);
-  } else if (path.extension() == ".npz") {
+  } else if (extension == ".npz") {
     read_arrays(path, sink);
   } else {
     throw InputError(fmt::format("{}: expected a log as FILE.csv or FILE.npz", path.string()));

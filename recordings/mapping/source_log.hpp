@@ -18,6 +18,8 @@ using SourceLocation = std::function<std::string()>;
 struct SourceLogSink {
   std::function<std::vector<SourceColumn>(const SourceNames& names)> wanted;
   std::function<void(std::span<const double> row, const SourceLocation& place)> row;
+  /// Gets a line about rows that were left out; may be empty.
+  std::function<void(const std::string& line)> note = {};
 };
 
 /// Reads the wanted columns of a log by its extension: comma-separated values (a line of names,

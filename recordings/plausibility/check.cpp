@@ -27,11 +27,11 @@ std::vector<std::string> PlausibilityCheck::findings() const {
   Findings findings;
   clock_.report(findings);
   constant_.report(findings);
-  range_.report(findings);
+  const bool has_positions = range_.report(findings);
   motion_.report(findings);
   turning_.report(findings);
   gravity_.report(findings);
-  load_.report(findings);
+  if (has_positions) load_.report(findings);  // a leg's pose is part of its load
   return findings.lines();
 }
 

@@ -13,8 +13,9 @@ namespace {
 constexpr std::int64_t least_records = 300;  // a third of a second at 1 kHz
 
 std::string throughout(std::string_view channel, double value) {
+  // 0 is added to show −0 as 0.
   return fmt::format("{} is {:.6g} throughout: is the sensor dead, or the column empty", channel,
-                     value);
+                     value + 0.0);
 }
 
 }  // namespace
@@ -94,7 +95,7 @@ void ConstantChannels::report_vector(const char* name, const std::array<Channel,
   if (all) {
     findings.add(name, fmt::format("is {:.6g} {:.6g} {:.6g} throughout: is the sensor dead, or the "
                                    "column empty",
-                                   axes[0].first, axes[1].first, axes[2].first));
+                                   axes[0].first + 0.0, axes[1].first + 0.0, axes[2].first + 0.0));
     return;
   }
   for (std::size_t i = 0; i < axes.size(); ++i) {

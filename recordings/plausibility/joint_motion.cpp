@@ -36,7 +36,8 @@ std::string cause_of(double factor) {
        {1000.0, "is the velocity in mrad/s"},
        {1e-3, "is the position in mrad"}}};
   for (const KnownFactor& one : known) {
-    if (std::abs(std::log(factor / one.size)) < 0.2) return one.cause;
+    constexpr double error = 0.04;  // 2π and a gear of 6 differ by this
+    if (std::abs(std::log(factor / one.size)) < error) return one.cause;
   }
   return "check their units, or a gear ratio between motor and joint";
 }

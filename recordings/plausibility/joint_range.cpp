@@ -41,20 +41,21 @@ void JointRangeCheck::add(const models::Observation& record) {
   }
 }
 
-void JointRangeCheck::report(Findings& findings) const {
+bool JointRangeCheck::report(Findings& findings) const {
+  bool are_within = true;
   for (std::size_t i = 0; i < found_.size(); ++i) {
     const bool is_wheel = i % 3 == 2;
     if (is_wheel || found_[i].lowest > found_[i].highest) continue;
     if (is_within(found_[i], range_[i], 1.0)) continue;
+    are_within = false;
     const bool fits_degrees = is_within(found_[i], range_[i], degrees_per_radian);
-    findings.add(
-        models::servo_names.at(i),
-        fmt::format("position reaches {:.3g} rad, beyond its range of {:.3g} to {:.3g}: {}",
-                    -found_[i].lowest > found_[i].highest ? found_[i].lowest : found_[i].highest,
-                    range_[i].lowest, range_[i].highest,
-                    fits_degrees ? "is it in degrees"
-                                 : "check its zero, its sign and the order of joints"));
+    findings.add(models::servo_names.at(i),
+                 fmt::format("position leaves its range of {:.3g} to {:.3g} rad: {}",
+                             range_[i].lowest, range_[i].highest,
+                             fits_degrees ? "is it in degrees, or are joints in another order"
+                                          : "check its zero, its sign and the order of joints"));
   }
+  return are_within;
 }
 
 }  // namespace touchdown::recordings

@@ -13,7 +13,8 @@ class JointRangeCheck {
   explicit JointRangeCheck(const CheckedRobot& robot);
 
   void add(const models::Observation& record);
-  void report(Findings& findings) const;
+  /// Returns whether all joints are within their range.
+  bool report(Findings& findings) const;
 
  private:
   JointRanges range_;

@@ -26,9 +26,10 @@ class LoadCheck {
   void report(Findings& findings) const;
 
  private:
-  static constexpr std::size_t hypotheses = 8;
+  static constexpr std::size_t hypotheses = 9;
 
   void report_small_torques(Findings& findings) const;
+  void report_pose(Findings& findings) const;
 
   LegGeometry geometry_;
   bool is_known_;
@@ -36,6 +37,8 @@ class LoadCheck {
   std::array<double, hypotheses> misfit_ = {};  ///< sums (N); the first is the log as it is
   double tolerance_ = 0.0;                      ///< sum (N)
   double load_ = 0.0;                           ///< sum of both legs' (N)
+  int standing_stretches_ = 0;                  ///< in which the torques carry the robot
+  double axle_offset_ = 0.0;                    ///< sum (m)
   int windows_ = 0;
   double largest_torque_ = 0.0;  ///< of hips and knees (N·m)
 };

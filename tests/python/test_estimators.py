@@ -49,7 +49,7 @@ class Fit(InFolder):
         run = hop()
         rolls = touchdown.Recording({name: values[:1000] for name, values in run.items()}, run.info)
         hangs = touchdown.simulate("scenarios/hang.yaml", overrides={"end.duration": 1.5})
-        touchdown.Estimator(model=touchdown.fit(contact=rolls, no_contact=[hangs]))
+        touchdown.Estimator(model=touchdown.fit(estimator="robust", contact=rolls, no_contact=[hangs]))
         with self.assertRaisesRegex(touchdown.InputError, "no step of the logs is without contact"):
             touchdown.fit(contact=rolls)
 
@@ -57,7 +57,7 @@ class Fit(InFolder):
         run = copy.copy(hop())
         run.info = {**run.info, "seed": 900_000_001}
         with self.assertRaisesRegex(touchdown.InputError, "reserved for reporting and must not be fitted to"):
-            touchdown.fit(run)
+            touchdown.fit(run, "robust")
         with self.assertRaisesRegex(touchdown.InputError, "'free_fall' is not fitted"):
             touchdown.fit(hop(), "free_fall")
         with self.assertRaisesRegex(touchdown.InputError, "expected a Recording"):
@@ -109,7 +109,7 @@ class Run(InFolder):
     def test_gives_the_beliefs_of_the_program(self):
         run = hop()
         run.save("hop.mpack")
-        model = touchdown.fit(run)
+        model = touchdown.fit(run, "robust")
         model.save("model.npz")
         for name, options, loaded in (("robust", ["--model", "model.npz"], "model.npz"), ("free_fall", [], None)):
             program("estimate", "hop.mpack", "--estimator", name, *options, "-o", "beliefs.csv")
@@ -127,7 +127,7 @@ class Run(InFolder):
 
     def test_equals_successive_updates(self):
         run = hop()
-        estimator = touchdown.Estimator(model=touchdown.fit(run))
+        estimator = touchdown.Estimator(model=touchdown.fit(run, "robust"))
         whole_run = estimator.run(run)
         estimator.reset()
         for k, step in enumerate(steps_of(run)):
@@ -142,7 +142,7 @@ class Run(InFolder):
         run = hop()
         falling = {name: np.asfortranarray(run[name]) for name in NAMES}
         # These estimators use every joint: torques, and a leg's geometry.
-        for model in (touchdown.fit(run), touchdown.fit(run, "load_logistic"), touchdown.fit(run, "decision_network")):
+        for model in (touchdown.fit(run, "robust"), touchdown.fit(run, "load_logistic"), touchdown.fit(run, "decision_network")):
             estimator = touchdown.Estimator(model=model)
             expected = estimator.run(run)["p_contact"]
             np.testing.assert_array_equal(estimator.run(falling)["p_contact"], expected, err_msg=model.estimator)
@@ -184,19 +184,81 @@ class Run(InFolder):
 
     def test_needs_the_model_that_the_estimator_is_fitted_with(self):
         for name, model, words in (("robust", None, "'robust' has to be fitted"),
-                                   ("free_fall", touchdown.fit(hop()), "one of 'robust', which 'free_fall' cannot use"),
+                                   ("free_fall", touchdown.fit(hop(), "robust"), "one of 'robust', which 'free_fall' cannot use"),
                                    ("oracle", None, "does not run on logs"),
                                    ("robusd", None, "did you mean 'robust'")):
             with self.assertRaisesRegex(touchdown.InputError, words):
                 touchdown.Estimator(name, model)
         # The paper's filter and its robust form have different densities; its ablation shares them.
-        self.assertEqual(touchdown.Estimator("measurement_only", touchdown.fit(hop())).name, "measurement_only")
+        self.assertEqual(touchdown.Estimator("measurement_only", touchdown.fit(hop(), "robust")).name, "measurement_only")
+
+
+class OwnArrays(InFolder):
+    def test_need_only_the_signals_that_the_estimator_uses(self):
+        run = hop()
+        for name, model, used in (("free_fall", None, ("vertical_acceleration",)),
+                                  ("robust", touchdown.fit(run, "robust"), ("torque", "vertical_acceleration")),
+                                  ("touchdown_shipped", None, ("position", "velocity", "torque", "angular_velocity",
+                                                               "vertical_acceleration"))):
+            estimator = touchdown.Estimator(name, model)
+            few = {key: run[key] for key in ("time", *used)}
+            np.testing.assert_array_equal(estimator.run(few)["p_contact"], estimator.run(run)["p_contact"])
+            for missing in used:
+                with self.assertRaisesRegex(touchdown.InputError, f"'{missing}' is missing"):
+                    estimator.run({key: few[key] for key in few if key != missing})
+            estimator.reset()
+            self.assertEqual(estimator.update({key: few[key][0] for key in few}).status, "good")
+
+    def test_have_gravity_taken_out_by_the_orientation(self):
+        run = hop()
+        estimator = touchdown.Estimator("free_fall")
+        expected = estimator.run(run)["p_contact"]
+        arrays = {"time": run["time"], "orientation": run["orientation"], "linear_acceleration": run["linear_acceleration"]}
+        np.testing.assert_allclose(estimator.run(arrays)["p_contact"], expected, atol=1e-9)
+        arrays["linear_acceleration"] = run["raw_linear_acceleration"]
+        np.testing.assert_allclose(estimator.run(arrays, gravity_included=True)["p_contact"], expected, atol=1e-6)
+        del arrays["orientation"]
+        with self.assertRaisesRegex(touchdown.InputError, "'orientation' is missing"):
+            estimator.run(arrays, gravity_included=True)
+
+
+class Shipped(InFolder):
+    def test_is_used_without_a_name_and_a_model(self):
+        run = hop()
+        expected = touchdown.Estimator("touchdown", "models/touchdown.npz").run(run)["p_contact"]
+        for estimator in (touchdown.Estimator(), touchdown.Estimator("touchdown_shipped")):
+            np.testing.assert_array_equal(estimator.run(run)["p_contact"], expected)
+
+    def test_serves_other_rates_and_refuses_other_robots_without_transfer(self):
+        for rate in (200.0, 400.0, 600.0, 1000.0):
+            touchdown.Estimator(sample_rate=rate)
+        with self.assertRaisesRegex(touchdown.InputError, "serves 200 to 1000 Hz, not at 100 Hz"):
+            touchdown.Estimator(sample_rate=100.0)
+        touchdown.Estimator(sample_rate=100.0, transfer=True)
+        for robot in ("mine", "models/upkie_heavy.yaml"):
+            with self.assertRaisesRegex(touchdown.InputError, "was fitted to the robot 'upkie', not to"):
+                touchdown.Estimator(robot=robot)
+            touchdown.Estimator(robot=robot, transfer=True)
+
+
+class Check(InFolder):
+    def test_is_silent_on_a_recording_and_names_what_is_wrong(self):
+        run = hop()
+        self.assertEqual(touchdown.check(run), [])
+        run.save("hop.mpack")
+        self.assertEqual(touchdown.check("hop.mpack", robot="models/upkie.xml"), [])
+        for name, change, words in (("torque", lambda x: 0 * x, "torque is 0 throughout"),
+                                    ("torque", lambda x: -x, "torques have the other sign"),
+                                    ("velocity", lambda x: np.degrees(x), "is the velocity in deg/s"),
+                                    ("position", lambda x: np.degrees(x), "is it in degrees")):
+            wrong = touchdown.Recording({**run, name: change(np.array(run[name]))}, run.info)
+            self.assertRegex("\n".join(touchdown.check(wrong)), words)
 
 
 class Spine(unittest.TestCase):
     def test_gives_the_beliefs_of_the_recording(self):
         run = hop()
-        estimator = touchdown.Estimator(model=touchdown.fit(run))
+        estimator = touchdown.Estimator(model=touchdown.fit(run, "robust"))
         whole_run = estimator.run(run)["p_contact"]
         estimator.reset()
         beliefs = [estimator.update_from_spine(spine_observation(run, k), run["ground_velocity_command"][k])
@@ -206,7 +268,7 @@ class Spine(unittest.TestCase):
 
     def test_without_torques_has_invalid_signals(self):
         run = hop()
-        estimator = touchdown.Estimator(model=touchdown.fit(run))
+        estimator = touchdown.Estimator(model=touchdown.fit(run, "robust"))
         whole = spine_observation(run, 0)
         self.assertEqual(estimator.update_from_spine(whole).status, "good")
         for broken in ({"torque": None}, {"torque": float("nan")}, {}):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -17,6 +18,8 @@
 
 namespace touchdown::experiments {
 namespace {
+
+using ::testing::HasSubstr;
 
 /// Estimators for robots.
 std::vector<std::string> installed_estimators() {
@@ -72,6 +75,40 @@ TEST(LoadedEstimator, OfTheShippedModelEqualsItsEntry) {
   EXPECT_EQ(p_contact_of(*load_estimator(file), run), p_contact_of(*entry.make(entry, {}), run));
   EXPECT_EQ(load_metadata(file).estimator, "touchdown");
   EXPECT_EQ(load_metadata(file).robot, "upkie");
+}
+
+TEST(ShippedModel, RefusesAnotherRobotOrRateInExperimentsAsItsFileDoes) {
+  const EstimatorEntry& entry = estimator_entry("touchdown_shipped");
+  const auto complaint = [&](const EstimatorSetup& setup) -> std::string {
+    try {
+      (void)entry.make(entry, setup);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  LegGeometry long_legs;
+  long_legs.upper_length *= 1.5;
+  LegGeometry heavy;
+  heavy.robot_mass *= 1.3;
+  for (const LegGeometry& legs : {long_legs, heavy}) {
+    EXPECT_THAT(complaint({.legs = legs, .robot = "other"}),
+                HasSubstr("was fitted to the robot 'upkie', not to 'other'"));
+  }
+  LegGeometry with_rotors;
+  with_rotors.wheel_inertia *= 1.2;
+  EXPECT_EQ(complaint({.legs = with_rotors, .robot = "upkie_actuated"}), "none");
+  EXPECT_EQ(complaint({.legs = LegGeometry{}, .robot = "upkie"}), "none");
+  for (const double rate : {199.0, 200.0, 250.0, 400.0, 600.0, 1000.0, 1005.0}) {
+    EXPECT_EQ(complaint({.sample_rate = rate}), "none") << rate;
+    const auto file = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/touchdown.npz";
+    EXPECT_NO_THROW((void)load_estimator(file, {.sample_rate = rate})) << rate;
+  }
+  for (const double rate : {100.0, 190.0, 1100.0, 2000.0}) {
+    EXPECT_THAT(complaint({.sample_rate = rate}), HasSubstr("serves 200 to 1000 Hz")) << rate;
+    const auto file = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/touchdown.npz";
+    EXPECT_THROW((void)load_estimator(file, {.sample_rate = rate}), InputError) << rate;
+  }
 }
 
 TEST(ShippedModel, HasTheChecksumInItsManifest) {

@@ -22,6 +22,7 @@ using nlohmann::json;
 using test::pack;
 using test::upkie_record;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -284,9 +285,9 @@ TEST(UglyLogs, ALiveStreamGivesARowAsSoonAsItIsThere) {
   // A pipe in place of standard input's: the writer waits for the reader before it goes on.
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
-  const std::string record = pack({upkie_record(0.0)});
   LogReader reader("/proc/self/fd/" + std::to_string(ends[0]));
   for (int i = 0; i < 3; ++i) {
+    const std::string record = pack({upkie_record(0.001 * i)});
     const std::size_t half = record.size() / 2;
     ASSERT_EQ(::write(ends[1], record.data(), half), static_cast<ssize_t>(half));
     ASSERT_EQ(::write(ends[1], record.data() + half, record.size() - half),
@@ -297,6 +298,71 @@ TEST(UglyLogs, ALiveStreamGivesARowAsSoonAsItIsThere) {
   EXPECT_FALSE(reader.next().has_value());
   EXPECT_FALSE(reader.next().has_value()) << "the end stays the end";
   ::close(ends[0]);
+}
+
+TEST(UglyLogs, ARecordThatWasWrittenTwiceCountsOnce) {
+  std::vector<json> records;
+  for (const json& record : upkie_records(40)) {
+    records.push_back(record);
+    records.push_back(record);
+    records.back()["time"] = 1e9;  // its logger's clock differs
+  }
+  std::istringstream stream(pack(records));
+  LogReader reader(test::stream_source(stream), "log");
+  EXPECT_EQ(reader.info().control_period_us, 1000);
+  std::size_t rows = 0;
+  while (reader.next()) ++rows;
+  EXPECT_EQ(rows, 40U);
+  EXPECT_THAT(reader.warnings(), ElementsAre(HasSubstr("40 of 80 records repeat the one before")));
+}
+
+TEST(UglyLogs, ANumberOfAServoThatIsMissingNowAndThenIsHeld) {
+  std::vector<json> records = upkie_records(60);
+  const auto servo = [&](std::size_t k, const char* name) -> json& {
+    return records[k]["observation"]["servo"][name];
+  };
+  for (const std::size_t k : {7U, 20U, 21U}) servo(k, "left_knee").erase("torque");
+  servo(20, "right_hip")["velocity"] = nullptr;
+  for (std::size_t k = 30; k < 55; ++k) records[k]["observation"]["servo"].erase("left_wheel");
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    if (servo(k, "left_knee").contains("torque")) {
+      servo(k, "left_knee")["torque"] = static_cast<double>(k);
+    }
+  }
+  std::istringstream stream(pack(records));
+  LogReader reader(test::stream_source(stream), "log");
+  EXPECT_EQ(reader.info().control_period_us, 1000);
+  std::vector<models::Observation> rows;
+  while (const std::optional<LogRow> row = reader.next()) rows.push_back(row->observation);
+  ASSERT_EQ(rows.size(), 60U);
+  EXPECT_EQ(rows[7].servo[1].torque, 6.0);
+  EXPECT_EQ(rows[21].servo[1].torque, 19.0);
+  EXPECT_EQ(rows[20].servo[3].velocity, rows[19].servo[3].velocity);
+  EXPECT_EQ(rows[31].servo[2].torque, rows[29].servo[2].torque);
+  EXPECT_TRUE(std::isnan(rows[54].servo[2].torque)) << "not for longer than a gap";
+  EXPECT_EQ(rows[54].servo[1].torque, 54.0);
+  EXPECT_THAT(reader.warnings(),
+              ElementsAre(AllOf(HasSubstr("records lack numbers of servos: they are held"),
+                                HasSubstr("for up to 20 ms; 5 records lack them for longer"))));
+}
+
+TEST(UglyLogs, TimesInAnotherUnitThanSecondsAreRefusedByName) {
+  for (const auto& [factor, unit] : std::vector<std::pair<double, std::string>>{
+           {1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}) {
+    std::vector<json> records = upkie_records(50);
+    for (json& record : records) {
+      const double time = record["observation"]["time"];
+      record["observation"]["time"] = factor * time;
+    }
+    std::istringstream stream(pack(records));
+    LogReader reader(test::stream_source(stream), "log");
+    try {
+      (void)reader.info();
+      FAIL() << unit;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("look like " + unit));
+    }
+  }
 }
 
 TEST(UglyLogs, ConsumesALongLogAtAConstantMemory) {

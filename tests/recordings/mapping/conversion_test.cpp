@@ -1,7 +1,11 @@
 #include "recordings/mapping/conversion.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -353,6 +357,292 @@ TEST_F(Conversion, ArraysThatDoNotFitAreNamed) {
   folder_.write("log.npz", "no zip");
   EXPECT_THAT(complaint_about(folder_ / "log.npz", array_mapping),
               HasSubstr("log.npz: is not a readable .npz"));
+}
+
+// Habits of other programs ----------------------------------------------------------------------
+
+/// The log with rows 10 ms apart, each `row` of the index.
+std::string log_of(std::size_t rows) {
+  std::string text = names + "\n";
+  for (std::size_t k = 0; k < rows; ++k)
+    text += row(fmt::format("{}", 0.01 * static_cast<double>(k))) + "\n";
+  return text;
+}
+
+std::string with_separator(std::string text, const std::string& separator) {
+  std::string result;
+  for (const char c : text) result += c == ',' ? separator : std::string(1, c);
+  return result;
+}
+
+TEST_F(Conversion, SeparatorIsThatOfTheNames) {
+  for (const char* separator : {",", ";", "\t", " ; "}) {
+    const auto rows = convert(with_separator(log_of(3), separator));
+    ASSERT_EQ(rows.size(), 3U) << separator;
+    EXPECT_EQ(rows[1].observation.servo[4].torque, 17.5) << separator;
+  }
+  // Names that contain another separator are quoted; decimal commas go with semicolons.
+  std::string german = with_separator(log_of(2), ";");
+  std::replace(german.begin(), german.end(), '.', ',');
+  EXPECT_EQ(convert(german).at(1).observation.servo[0].position, 1.5);
+  const std::string quoted = replaced(with_separator(log_of(2), ";"), "q0", "\"hip, left\"");
+  EXPECT_EQ(convert(quoted, replaced(mapping_head, "q0", "'hip, left'")).size(), 2U);
+  EXPECT_THAT(complaint(replaced(with_separator(log_of(2), ";"), ";1.5;", ";1.5 V;")),
+              HasSubstr("log.csv:2:3: expected a number, found '1.5 V'"));
+}
+
+TEST_F(Conversion, CommentsAreSkippedAndMayHoldTheNames) {
+  const std::string plain = log_of(2);
+  for (const std::string& text :
+       {"# recorded by us, in a hall\n" + plain, "% a\n# b\n" + plain,
+        replaced(plain, "\n0.01,", "\n# a stop\n0.01,"), "# " + plain, "#" + plain,
+        "# recorded by us\n# " + plain, "#" + with_separator(plain, "\t")}) {
+    EXPECT_EQ(convert(text).size(), 2U) << text.substr(0, 40);
+  }
+  EXPECT_THAT(complaint("# nothing but a comment\n"), HasSubstr("log.csv"));
+}
+
+TEST_F(Conversion, NumbersMayHaveAPlus) {
+  for (const char* number : {"+1.5e0", "+1.5", "+15e-1", "+001.50"}) {
+    const auto rows = convert(replaced(log_of(2), ",1.5,", fmt::format(",{},", number)));
+    EXPECT_EQ(rows.at(0).observation.servo[0].position, 1.5) << number;
+  }
+  EXPECT_TRUE(std::isinf(
+      convert(replaced(log_of(2), ",1.5,", ",+inf,")).at(0).observation.servo[0].position));
+  for (const char* wrong : {"+", "++1", "+-1", "1+", "+ 1"}) {
+    EXPECT_THAT(complaint(replaced(log_of(2), ",1.5,", fmt::format(",{},", wrong))),
+                HasSubstr("expected a number, found '" + std::string(wrong)))
+        << wrong;
+  }
+}
+
+TEST_F(Conversion, ExtensionMayBeInAnyCase) {
+  for (const char* name : {"LOG.CSV", "log.Csv", "log.TSV"}) {
+    EXPECT_EQ(convert_file(folder_.write(name, log_of(2)), mapping_head).size(), 2U) << name;
+  }
+  write_npz(sample_arrays(), folder_ / "LOG.NPZ");
+  EXPECT_EQ(convert_file(folder_ / "LOG.NPZ", array_mapping).size(), 4U);
+  EXPECT_THAT(complaint_about(folder_.write("log.csvx", log_of(2)), mapping_head),
+              HasSubstr("expected a log as FILE.csv"));
+}
+
+TEST_F(Conversion, LastRowThatIsCutOffIsLeftOutAndNamed) {
+  const std::string whole = log_of(4);
+  const std::string last = row("0.03");
+  const std::string before = whole.substr(0, whole.size() - last.size() - 1);
+  for (const std::string& cut :
+       {last.substr(0, 3), last.substr(0, 40), last.substr(0, last.size() - 1),
+        last.substr(0, last.size() - 1) + "-", last.substr(0, last.size() - 1) + "1e",
+        std::string("\"0.03")}) {
+    const auto rows = convert(before + cut);
+    const bool is_whole = cut == last.substr(0, last.size() - 1);  // an empty last cell
+    EXPECT_EQ(rows.size(), is_whole ? 4U : 3U) << cut;
+    if (is_whole) continue;
+    EXPECT_THAT(converted_.notes,
+                ::testing::ElementsAre(HasSubstr("log.csv:5: the last row is cut off")));
+  }
+  EXPECT_EQ(convert(before + last).size(), 4U) << "a whole row needs no line end";
+  EXPECT_THAT(converted_.notes, ::testing::IsEmpty());
+  EXPECT_THAT(complaint(before + last.substr(0, 40) + "\n" + last),
+              HasSubstr("expected 29 values"));
+}
+
+TEST_F(Conversion, TimesMayBeDates) {
+  const auto rows_of = [&](const char* first, const char* second) {
+    std::string text = replaced(log_of(2), "\n0,", fmt::format("\n{},", first));
+    return convert(replaced(text, "\n0.01,", fmt::format("\n{},", second)));
+  };
+  for (const auto& [first, second] : std::vector<std::pair<const char*, const char*>>{
+           {"2024-02-28 23:59:59.995", "2024-02-29 00:00:00.005"},
+           {"2024-02-28T23:59:59.995000", "2024-02-29T00:00:00.005000Z"},
+           {"\"2024-12-31 23:59:59.99\"", "\"2025-01-01 00:00:00\""}}) {
+    EXPECT_NEAR(rows_of(first, second).at(1).observation.time, 0.01, 1e-6) << first;
+  }
+  (void)rows_of("1970-01-02 00:00:01", "1970-01-02 00:00:01.01");
+  EXPECT_EQ(converted_.start, 86401.0);
+  for (const char* wrong : {"2024-02-30 00:00:00", "2024-02-28", "2024-02-28 1:00:00"}) {
+    EXPECT_THAT(complaint(replaced(log_of(2), "\n0,", fmt::format("\n{},", wrong))),
+                HasSubstr("expected a number"))
+        << wrong;
+  }
+}
+
+TEST_F(Conversion, LabelsAreLookedAtOnlyIfAsked) {
+  std::string text = names + ",c\n";
+  for (const char* time : {"0", "0.01", "0.005"}) text += row(time) + ",1\n";
+  const std::string mapping = mapping_head + "contact: {from: c}\n";
+  EXPECT_THAT(complaint(text, mapping), HasSubstr("contact labels need increasing times"));
+  std::ostringstream stream;
+  const ConvertedLog converted = convert_log(folder_.write("log.csv", text),
+                                             folder_.write("map.yaml", mapping), stream, {}, false);
+  EXPECT_EQ(converted.rows, 3U);
+  EXPECT_EQ(converted.time_reversals, 1U);
+}
+
+TEST_F(Conversion, CellsThatAreEmptyNowAndThenAreHeld) {
+  // Rows 2 ms apart; every third lacks the torque of a knee.
+  std::string text = names + "\n";
+  for (int k = 0; k < 30; ++k) {
+    std::string one = row(fmt::format("{}", 0.002 * k));
+    one = replaced(one, ",14.5,", k % 3 == 1 ? ",," : fmt::format(",{},", k));
+    text += one + "\n";
+  }
+  const auto rows = convert(text);
+  ASSERT_EQ(rows.size(), 30U);
+  EXPECT_EQ(rows[4].observation.servo[1].torque, 3.0);
+  EXPECT_EQ(rows[5].observation.servo[1].torque, 5.0);
+  EXPECT_EQ(converted_.completed_rows, 10U);
+  EXPECT_NEAR(converted_.oldest, 0.002, 1e-9);
+  EXPECT_EQ(converted_.incomplete_rows, 0U);
+}
+
+TEST_F(Conversion, RowsOfTwoTopicsAreJoinedAtTheJoints) {
+  // Joints at 500 Hz, the IMU at 200 Hz, each in rows of its own.
+  std::string text = names + "\n";
+  for (int ms = 0; ms < 100; ++ms) {
+    const bool joints = ms % 2 == 0;
+    const bool imu = ms % 5 == 0;
+    if (!joints && !imu) continue;
+    text += fmt::format("{}", 1e-3 * ms);
+    for (int i = 0; i < 18; ++i) text += joints ? fmt::format(",{}", ms) : ",";
+    text += imu ? fmt::format(",0,0,1,0,{0},.2,.3,1,2,3", ms) : ",,,,,,,,,,";
+    text += "\n";
+  }
+  const auto rows = convert(text);
+  ASSERT_EQ(rows.size(), 50U);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const int ms = 2 * static_cast<int>(k);
+    EXPECT_EQ(rows[k].observation.servo[0].position, ms);
+    EXPECT_EQ(rows[k].observation.imu.angular_velocity.x(), ms / 5 * 5);
+  }
+  EXPECT_EQ(converted_.rows_without_joints, 10U);
+  EXPECT_NEAR(converted_.oldest, 0.004, 1e-9);
+}
+
+TEST_F(Conversion, TimesThatCountAnotherUnitAreNamed) {
+  const auto text = [](double step) {
+    std::string log = names + "\n";
+    for (int k = 0; k < 40; ++k) log += row(fmt::format("{}", step * k)) + "\n";
+    return log;
+  };
+  EXPECT_THAT(complaint(text(2.0)), HasSubstr("times look like milliseconds"));
+  EXPECT_THAT(complaint(text(1000.0)), HasSubstr("times look like microseconds"));
+  EXPECT_THAT(complaint(text(5e6)), HasSubstr("times look like nanoseconds"));
+  const std::string in_ns = replaced(mapping_head, "from: t", "from: t, unit: ns");
+  EXPECT_EQ(complaint(text(5e6), in_ns), "none");
+  EXPECT_THAT(complaint(text(0.005), in_ns), HasSubstr("is the `unit` of `time` smaller"));
+}
+
+TEST_F(Conversion, ScaleIsAFactorOfEachNumber) {
+  std::string mapping = replaced(mapping_head, "m5]", "m5], scale: 0.1");
+  mapping =
+      replaced(mapping, "q5]", "q5], scale: [1, 2, 1, 1, 1, 0.5], zero: 0.25, sign: -1, unit: deg");
+  const auto rows = convert(log_of(2), mapping);
+  const models::Observation& o = rows.at(0).observation;
+  EXPECT_DOUBLE_EQ(o.servo[0].torque, 1.35);
+  EXPECT_DOUBLE_EQ(o.servo[1].position, 0.25 - 2.0 * 2.5 * M_PI / 180.0);
+  EXPECT_DOUBLE_EQ(o.servo[5].position, 0.25 - 0.5 * 6.5 * M_PI / 180.0);
+  for (const char* wrong : {"0", "-2", ".nan", ".inf", "[1, 2]"}) {
+    EXPECT_THAT(
+        complaint(log_of(2), replaced(mapping_head, "m5]", fmt::format("m5], scale: {}", wrong))),
+        HasSubstr("joints.torque.scale: expected"))
+        << wrong;
+  }
+}
+
+TEST_F(Conversion, ImuMayBeMountedAtAnyRotation) {
+  const auto mounted = [&](const std::string& how) {
+    const auto rows = convert(log_of(2), mapping_head + "  " + how + "\n");
+    return rows.at(0).observation.imu;
+  };
+  const models::ImuReading with_axes = mounted("axes: [-x, y, -z]");
+  for (const char* same : {"rotation: {rpy: [0, 0, 0]}", "rotation: {quaternion: [1, 0, 0, 0]}",
+                           "rotation: {rpy: [0, 0, 360], unit: deg}"}) {
+    const models::ImuReading imu = mounted(same);
+    EXPECT_NEAR((imu.angular_velocity - with_axes.angular_velocity).norm(), 0.0, 1e-12) << same;
+    EXPECT_NEAR(imu.orientation.angularDistance(with_axes.orientation), 0.0, 1e-7) << same;
+  }
+  // Turned to the left by a quarter: its x axis is the robot's left.
+  for (const char* turned :
+       {"rotation: {rpy: [0, 0, 90], unit: deg}", "rotation: {rpy: [0, 0, 1.5707963267948966]}",
+        "rotation: {quaternion: [0.7071067811865476, 0, 0, 0.7071067811865476]}"}) {
+    const models::ImuReading imu = mounted(turned);
+    EXPECT_NEAR((imu.angular_velocity - Eigen::Vector3d(.2, .1, -.3)).norm(), 0.0, 1e-12) << turned;
+    EXPECT_NEAR((imu.linear_acceleration - Eigen::Vector3d(2, 1, -3)).norm(), 0.0, 1e-12) << turned;
+    // What the world sees of a vector does not depend on the mounting.
+    EXPECT_NEAR((imu.orientation * imu.linear_acceleration -
+                 with_axes.orientation * with_axes.linear_acceleration)
+                    .norm(),
+                0.0, 1e-12);
+  }
+  const models::ImuReading tilted = mounted("rotation: {rpy: [0.1, -0.2, 0.3]}");
+  EXPECT_NEAR(tilted.angular_velocity.norm(), with_axes.angular_velocity.norm(), 1e-12);
+  EXPECT_GT((tilted.angular_velocity - with_axes.angular_velocity).norm(), 0.01);
+  for (const auto& [wrong, what] : std::vector<std::pair<std::string, std::string>>{
+           {"rotation: {rpy: [0, 0]}", "expected roll, pitch and yaw"},
+           {"rotation: {quaternion: [1, 0, 0]}", "expected w, x, y, z"},
+           {"rotation: {quaternion: [2, 0, 0, 0]}", "length 1"},
+           {"rotation: {}", "expected either"},
+           {"rotation: {rpy: [0, 0, 0], quaternion: [1, 0, 0, 0]}", "expected either"},
+           {"rotation: {rpy: [0, 0, 0]}\n  axes: [x, y, z]", "either 'rotation' or 'axes'"}}) {
+    EXPECT_THAT(complaint(log_of(2), mapping_head + "  " + wrong + "\n"), HasSubstr(what)) << wrong;
+  }
+}
+
+TEST_F(Conversion, RobotMayLackHips) {
+  std::string mapping = mapping_head;
+  for (const char* one : {"q", "v", "m"}) {
+    mapping = replaced(mapping, fmt::format("[{0}0, {0}1, {0}2, {0}3, {0}4, {0}5]", one),
+                       fmt::format("[{0}1, {0}2, {0}4, {0}5], sign: [1, 1, -1, -1]", one));
+  }
+  mapping = replaced(mapping, "imu:", "  hip: none\nimu:");
+  const models::Observation o = convert(log_of(2), mapping).at(0).observation;
+  EXPECT_EQ(o.servo[0].position, 0.0);
+  EXPECT_EQ(o.servo[3].torque, 0.0);
+  EXPECT_EQ(o.servo[1].position, 2.5);
+  EXPECT_EQ(o.servo[2].velocity, 9.5);
+  EXPECT_EQ(o.servo[4].torque, -17.5);
+  EXPECT_EQ(o.servo[5].torque, -18.5);
+  EXPECT_THAT(complaint(log_of(2), replaced(mapping_head, "imu:", "  hip: none\nimu:")),
+              HasSubstr("expected 4 of the names of columns: left knee, wheel, right knee, wheel"));
+}
+
+TEST_F(Conversion, RobotOfTheMappingIsThatOfTheLog) {
+  std::ostringstream stream;
+  (void)convert_log(folder_.write("log.csv", log_of(5)),
+                    folder_.write("map.yaml", "robot: mine\n" + mapping_head), stream);
+  LogReader reader(memory_source(std::make_shared<const std::string>(stream.str())), "log");
+  EXPECT_EQ(reader.info().robot, "mine");
+  EXPECT_EQ(reader.info().simulator, "");
+  EXPECT_EQ(reader.info().control_period_us, 10000);
+  std::size_t rows = 0;
+  while (reader.next()) ++rows;
+  EXPECT_EQ(rows, 5U);
+}
+
+TEST_F(Conversion, LogWithoutOrientationSaysWhatWouldDo) {
+  EXPECT_THAT(
+      complaint(log_of(2), replaced(mapping_head, "  orientation: {from: [qw, qx, qy, qz]}\n", "")),
+      AllOf(HasSubstr("'orientation' is missing"), HasSubstr("attitude filter")));
+}
+
+TEST_F(Conversion, ArrayWithAColumnForEachWheelHoldsBothLabels) {
+  NpzArrays arrays = sample_arrays();
+  arrays["contact"] = {{4, 2}, {1, 1, 0, 1, 0, 1, 1, 1}};
+  write_npz(arrays, folder_ / "log.npz");
+  for (const char* contact :
+       {"contact: {from: contact}", "contact: {from: contact, index: [0, 1]}"}) {
+    (void)convert_file(
+        folder_ / "log.npz",
+        replaced(array_mapping, "contact: {from: [left, right], above: 1.5}", contact));
+    ASSERT_EQ(converted_.contact.intervals.size(), 3U) << contact;
+    EXPECT_EQ(converted_.contact.intervals[1].contact, (std::array<bool, 2>{false, true}))
+        << contact;
+  }
+  (void)convert_file(folder_ / "log.npz",
+                     replaced(array_mapping, "contact: {from: [left, right], above: 1.5}",
+                              "contact: {from: contact, index: 1}"));
+  EXPECT_EQ(converted_.contact.intervals.size(), 1U);
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -160,6 +163,26 @@ TEST(Npy, ReadsFortranOrderAndSinglePrecision) {
                                   "a.npy");
   EXPECT_THAT(array.shape, ElementsAre(2, 3));
   EXPECT_THAT(array.data, ElementsAre(1, 3, 5, 2, 4, 6));
+}
+
+TEST(Npy, ReadsTimesAsSeconds) {
+  const std::int64_t count = 1'709'157'401'500;  // ms
+  for (const auto& [unit, per_ms] : std::vector<std::pair<std::string, std::int64_t>>{
+           {"ms", 1}, {"us", 1000}, {"ns", 1'000'000}}) {
+    for (const std::string kind : {"<M8", "<m8"}) {
+      const NpyArray array = from_npy(
+          npy("{'descr': '" + kind + "[" + unit + "]', 'fortran_order': False, 'shape': (2,), }",
+              raw<std::int64_t>({per_ms * count, std::numeric_limits<std::int64_t>::min()})),
+          "a.npy");
+      EXPECT_NEAR(array.data[0], 1709157401.5, 1e-6) << unit;
+      EXPECT_TRUE(std::isnan(array.data[1])) << "NaT";
+    }
+  }
+  EXPECT_EQ(from_npy(npy("{'descr': '<M8[s]', 'fortran_order': False, 'shape': (1,), }",
+                         raw<std::int64_t>({7})),
+                     "a")
+                .data[0],
+            7.0);
 }
 
 TEST(Npy, HeaderIsPaddedAsNumPyAsks) {
