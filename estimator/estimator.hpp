@@ -3,6 +3,7 @@
 /// All that a robot needs: its measurements (`Signals`), the belief about its contacts (`Belief`),
 /// the estimators, and the fits of those that have a model.
 
+#include "core/error.hpp"
 #include "estimator/assembly/record.hpp"
 #include "estimator/assembly/signal_assembler.hpp"
 #include "estimator/bayes/config.hpp"

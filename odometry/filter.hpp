@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/error.hpp"
 #include "odometry/lie.hpp"
 #include "odometry/wheeled_leg.hpp"
 

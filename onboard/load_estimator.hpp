@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/error.hpp"
 #include "estimator/models/make_estimator.hpp"
 
 namespace touchdown {

@@ -101,8 +101,8 @@ std::optional<double> typical_step(std::span<const double> times) {
   const Grid grid = grid_of(steps, base);
   constexpr double nearly_all = 0.985;
   if (grid.single_share >= nearly_all) return grid.step;
-  // Samples at equal distances whose stamps are rounded or come in bursts stay near a line, within
-  // half a tick or half a burst. Lost samples walk away from it.
+  // Samples at equal distances, with stamps that are rounded or come in bursts, stay near a line,
+  // within half a tick or half a burst. Lost samples walk away from it.
   const Line line = line_through(steps);
   const double tick = std::max(base, line.slope);
   const bool are_multiples = grid.fitting_share >= nearly_all;

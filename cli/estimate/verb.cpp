@@ -136,7 +136,7 @@ struct Evaluation {
   std::vector<std::string> findings;  ///< what is implausible about the log
 };
 
-/// Errors: `Error` for a log without a step whose signals are usable: no belief is about it.
+/// Errors: `Error` for a log without a step with usable signals: no belief is about it.
 void require_valid_steps(const recordings::LogReader& reader, const BeliefWriter& writer,
                          const std::vector<std::string>& findings) {
   if (writer.valid_steps() > 0 || writer.steps() == 0) return;

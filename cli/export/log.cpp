@@ -84,23 +84,22 @@ std::string labels_text(const ExportedLog& files, const recordings::ConvertedLog
 void export_log(const ExportedLog& files, const CliSession& session) {
   check_files(files);
   recordings::ConvertedLog log;
-  write_atomically(files.output, [&](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
+  write_stream_atomically(files.output, [&](std::ostream& stream) {
     log = recordings::convert_log(
         files.log, files.mapping, stream, [&] { check_stop(session); }, !files.labels.empty());
-    stream.close();
-    if (!stream) throw Error(fmt::format("{}: cannot be written: is the disk full?", files.output));
+    stream.flush();  // labels only beside a whole log
+    if (!stream) return;
     if (!files.labels.empty()) write_atomically(files.labels, labels_text(files, log));
   });
   report_faults(files, log);
   const std::size_t findings = report_findings(files, session);
   print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", files.output, log.rows,
-             log.start, log.end, files.log);
+        log.start, log.end, files.log);
   if (!files.labels.empty()) {
     print("labels    {}, {} intervals\n", files.labels, log.contact.intervals.size());
   }
   print("next      touchdown estimate {}{}\n", files.output,
-             files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
+        files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
   if (files.is_strict && findings > 0) {
     throw Error(fmt::format("--strict: {} finding{} about the signals", findings,
                             findings == 1 ? "" : "s"));

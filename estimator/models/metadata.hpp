@@ -72,8 +72,8 @@ ServedRates served_rates(const ModelMetadata& metadata);
 /// Whether two rates are equal: clocks of one robot differ from day to day.
 bool is_same_rate(double rate, double other);
 
-/// Errors: `InputError` as above, if the required rate is not one of `served_rates`, or the robot differs
-/// from the model's; the message names both. A model without a robot fits any robot.
+/// Errors: `InputError` as above, if the required rate is not one of `served_rates`, or the robot
+/// differs from the model's; the message names both. A model without a robot fits any robot.
 void check_use(const ModelMetadata& metadata, const ModelUse& use);
 
 }  // namespace touchdown

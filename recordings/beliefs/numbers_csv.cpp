@@ -195,7 +195,7 @@ class RowReader {
     return *value;
   }
 
-  /// A decimal comma, as in files whose cells are separated by semicolons.
+  /// A decimal comma, as in files with semicolons between cells.
   static std::optional<double> number_with_comma(std::string_view text) {
     std::string copy(text);
     const std::size_t comma = copy.find(',');

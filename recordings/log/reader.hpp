@@ -42,7 +42,7 @@ class LogReader {
 
   /// The content of `config.touchdown`. For a robot's log only the control period: the typical step
   /// of the first 200 rows (recordings/sample_times.hpp). Errors: `InputError` for a robot's log
-  /// whose times do not increase.
+  /// with times that do not increase.
   const RecordingInfo& info();
 
   /// The log's clock at time 0 (s). It is 0 for a log of touchdown, and before the first row.

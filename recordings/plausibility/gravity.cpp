@@ -33,7 +33,7 @@ void GravityCheck::add_still(const CheckedWindow& stretch) {
   ++stretches_;
   linear_ += stretch.linear_acceleration;
   up_ += stretch.up;
-  // A log without proper acceleration gets it from the linear one; it then says nothing new.
+  // A log without proper acceleration gets it from the linear one; it then adds nothing.
   const Eigen::Vector3d derived = stretch.linear_acceleration + gravity_at_rest * stretch.up;
   const Eigen::Vector3d& proper = stretch.proper_acceleration;
   constexpr double rounding = 0.3;  // m/s²: the orientation changes within the stretch

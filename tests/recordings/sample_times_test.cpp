@@ -122,7 +122,7 @@ TEST(NominalRate, IsTheOneThatALoggerWasSetTo) {
   EXPECT_EQ(nominal_rate(480.0), 480.0);
 }
 
-TEST(UnitOfStep, TellsTheUnitsOfClocksApart) {
+TEST(UnitOfStep, DistinguishesTheUnitsOfClocks) {
   for (const double rate : {100.0, 200.0, 400.0, 1000.0}) {
     EXPECT_EQ(unit_of_step(1.0 / rate), "");
     EXPECT_EQ(unit_of_step(1e3 / rate), "milliseconds");

@@ -620,7 +620,7 @@ TEST_F(Conversion, RobotOfTheMappingIsThatOfTheLog) {
   EXPECT_EQ(rows, 5U);
 }
 
-TEST_F(Conversion, LogWithoutOrientationSaysWhatWouldDo) {
+TEST_F(Conversion, LogWithoutOrientationNamesWhatWouldDo) {
   EXPECT_THAT(
       complaint(log_of(2), replaced(mapping_head, "  orientation: {from: [qw, qx, qy, qz]}\n", "")),
       AllOf(HasSubstr("'orientation' is missing"), HasSubstr("attitude filter")));

@@ -1,0 +1,204 @@
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "synthetic_log.hpp"
+
+namespace touchdown::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+using Change = std::function<void(models::Observation& record, std::size_t k)>;
+
+/// A simulated hop as a robot's log, changed record by record.
+class RobotsLog : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const ScratchFolder folder;
+    ASSERT_EQ(
+        touchdown_program("simulate scenarios/hop.yaml -o hop.mpack", folder.path()).exit_code, 0);
+    hop() = recordings::read_recording(folder / "hop.mpack");
+    hop().info = {};
+    hop().truth.clear();
+  }
+
+  static recordings::Recording& hop() {
+    static recordings::Recording recording;
+    return recording;
+  }
+
+  void write(const std::string& name, const Change& change, std::size_t every = 1) {
+    recordings::Recording log = hop();
+    log.observation.clear();
+    log.action.clear();
+    for (std::size_t k = 0; k < hop().steps(); k += every) {
+      log.observation.push_back(hop().observation[k]);
+      log.action.push_back(hop().action[k]);
+      if (change) change(log.observation.back(), k);
+    }
+    log.info.control_period_us *= static_cast<std::int64_t>(every);
+    recordings::write_recording(log, folder_ / name);
+  }
+
+  Ended run(const std::string& arguments) const {
+    return touchdown_program(arguments, folder_.path());
+  }
+
+  const ScratchFolder folder_;
+};
+
+void negate_torques(models::Observation& o, std::size_t /*k*/) {
+  for (models::ServoReading& servo : o.servo) servo.torque *= -1.0;
+}
+void silence_knees(models::Observation& o, std::size_t /*k*/) {
+  o.servo[1].torque = o.servo[4].torque = 0.0;
+}
+
+TEST_F(RobotsLog, IsPlausibleAsItIs) {
+  write("robot.mpack", {});
+  const Ended checked = run("check robot.mpack --strict");
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_THAT(checked.output, HasSubstr("robot.mpack: 7001 records at 1000 Hz"));
+  EXPECT_THAT(checked.output, HasSubstr("plausible"));
+  EXPECT_EQ(run("estimate robot.mpack --strict").exit_code, 0);
+  EXPECT_THAT(run("check robot.mpack --robot models/upkie.xml").output, HasSubstr("plausible"));
+}
+
+TEST_F(RobotsLog, IsEstimatedWithTheShippedModelByDefault) {
+  write("robot.mpack", {});
+  const Ended estimated = run("estimate robot.mpack");
+  EXPECT_EQ(estimated.exit_code, 0);
+  EXPECT_THAT(estimated.output.substr(0, estimated.output.find('\n')),
+              AllOf(HasSubstr("7001 steps, 7.001 s at 1000 Hz"), HasSubstr("Touchdown as shipped"),
+                    HasSubstr("models/touchdown.npz")));
+  EXPECT_EQ(estimated.output, run("estimate robot.mpack --estimator touchdown_shipped").output);
+  for (const int every : {2, 4, 5}) {
+    write("slow.mpack", {}, static_cast<std::size_t>(every));
+    EXPECT_THAT(run("estimate slow.mpack").output,
+                HasSubstr(fmt::format("at {} Hz", 1000 / every)));
+  }
+  write("slow.mpack", {}, 10);
+  EXPECT_THAT(run("estimate slow.mpack").errors, HasSubstr("serves 200 to 1000 Hz, not at 100 Hz"));
+  EXPECT_THAT(run("estimate robot.mpack --robot models/upkie_heavy.yaml").errors,
+              HasSubstr("was fitted to the robot 'upkie', not to 'upkie_heavy'"));
+}
+
+TEST_F(RobotsLog, WithImplausibleSignalsIsNamedAboveTheResult) {
+  for (const auto& [change, finding] :
+       std::vector<std::pair<Change, const char*>>{{negate_torques, "torques have the other sign"},
+                                                   {silence_knees, "torque is 0 throughout"}}) {
+    write("wrong.mpack", change);
+    const Ended checked = run("check wrong.mpack");
+    EXPECT_EQ(checked.exit_code, 0);
+    EXPECT_THAT(checked.output, AllOf(HasSubstr("check it"), HasSubstr(finding)));
+    EXPECT_EQ(run("check wrong.mpack --strict").exit_code, 1);
+    const Ended estimated = run("estimate wrong.mpack");
+    EXPECT_EQ(estimated.exit_code, 0);
+    EXPECT_THAT(estimated.errors, HasSubstr(finding));
+    EXPECT_THAT(estimated.output, StartsWith("wrong.mpack: 7001 steps"));
+    const Ended strict = run("estimate wrong.mpack --strict -o beliefs.csv");
+    EXPECT_EQ(strict.exit_code, 1);
+    EXPECT_EQ(strict.output.substr(0, 20), estimated.output.substr(0, 20)) << "with its result";
+  }
+}
+
+TEST_F(RobotsLog, WithoutAValidStepHasNoContactInformation) {
+  const double nan = std::nan("");
+  for (const Change& change : std::vector<Change>{
+           [&](models::Observation&o, std::size_t) { o.imu.linear_acceleration.setConstant(nan); },
+           [&](models::Observation&o, std::size_t) { o.imu.orientation.coeffs().setConstant(3.0); },
+           [&](models::Observation&o, std::size_t) {
+             for (models::ServoReading& servo : o.servo) servo.torque = nan;
+           }}) {
+    write("invalid.mpack", change);
+    const Ended estimated = run("estimate invalid.mpack -o beliefs.csv");
+    EXPECT_EQ(estimated.exit_code, 1);
+    EXPECT_THAT(estimated.errors, HasSubstr("none of its 7001 steps has usable signals"));
+    EXPECT_THAT(estimated.output, Not(HasSubstr("contact")));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "beliefs.csv"));
+  }
+}
+
+TEST_F(RobotsLog, CountsValidStepsOnlyAndNamesTheirNumber) {
+  const double nan = std::nan("");
+  write("half.mpack", [&](models::Observation& o, std::size_t k) {
+    if (k >= 2000 && k < 5000) o.imu.linear_acceleration.setConstant(nan);
+  });
+  const Ended estimated = run("estimate half.mpack");
+  EXPECT_EQ(estimated.exit_code, 0);
+  EXPECT_THAT(estimated.output, HasSubstr("of 3701 valid steps"));
+  EXPECT_THAT(estimated.output, HasSubstr("3000 invalid of 7001 steps"));
+  EXPECT_THAT(run("estimate half.mpack --estimator free_fall").output, HasSubstr("raw switches"));
+}
+
+TEST(Fit, RefusesALogThatIsNamedTwice) {
+  const ScratchFolder folder;
+  recordings::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");
+  std::filesystem::create_symlink("a.mpack", folder / "link.mpack");
+  std::filesystem::create_hard_link(folder / "a.mpack", folder / "same.mpack");
+  for (const char* logs :
+       {"--contact a.mpack --no-contact a.mpack", "--contact a.mpack --no-contact ./a.mpack",
+        "--contact a.mpack --no-contact link.mpack", "--contact a.mpack --no-contact same.mpack",
+        "--contact a.mpack a.mpack"}) {
+    const Ended ended = touchdown_program(fmt::format("fit {} -o m.npz", logs), folder.path());
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_THAT(ended.errors, HasSubstr("is named twice")) << logs;
+  }
+}
+
+TEST(Fit, RefusesLogsOfTwoRates) {
+  const ScratchFolder folder;
+  recordings::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");
+  recordings::Recording slow = test::one_class_log(2.0, false);
+  for (const int every : {2, 5}) {
+    recordings::Recording part = slow;
+    part.observation.clear();
+    part.action.clear();
+    for (std::size_t k = 0; k < slow.steps(); k += static_cast<std::size_t>(every)) {
+      part.observation.push_back(slow.observation[k]);
+      part.action.push_back(slow.action[k]);
+    }
+    part.info.control_period_us = 1000 * every;
+    recordings::write_recording(part, folder / "b.mpack");
+    for (const char* name : {"robust", "load_logistic"}) {
+      const Ended ended = touchdown_program(
+          fmt::format("fit --contact a.mpack --no-contact b.mpack -o m.npz --estimator {}", name),
+          folder.path());
+      EXPECT_EQ(ended.exit_code, 2);
+      EXPECT_THAT(ended.errors, HasSubstr(fmt::format("{} steps per second", 1000 / every)));
+    }
+  }
+}
+
+TEST(Fit, SkipsTheBeginningOfTheLogAloneAndNotThatOfEachSegment) {
+  const ScratchFolder folder;
+  recordings::write_recording(test::robot_log(3.0), folder / "robot.mpack");
+  // Flights of 0.2 s, with a gap around each.
+  folder.write(
+      "robot.csv",
+      "start,end,contact\n0.35,0.55,1\n0.62,0.78,0\n1.0,1.5,1\n1.62,1.78,0\n2.62,2.78,0\n");
+  const Ended fitted = touchdown_program(
+      "fit robot.mpack --labels robot.csv -o m.npz --estimator load_logistic", folder.path());
+  EXPECT_EQ(fitted.exit_code, 0) << fitted.errors;
+  EXPECT_THAT(fitted.output, HasSubstr("no contact   960 samples"));
+  EXPECT_THAT(fitted.output, HasSubstr("1.180 s of 1 log"));
+  // The message counts what was left out.
+  folder.write("early.csv", "start,end,contact\n0.0,0.2,0\n0.62,0.78,1\n");
+  const Ended refused = touchdown_program(
+      "fit robot.mpack --labels early.csv -o m.npz --estimator load_logistic", folder.path());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("200 such steps lie in the first 0.3 s of their logs"));
+}
+
+}  // namespace
+}  // namespace touchdown::cli
