@@ -24,7 +24,7 @@ struct FitFlags {
   std::vector<std::string> no_contact;
   std::vector<std::string> labels;
   std::string output;
-  std::string estimator = "touchdown";
+  std::string estimator;
   std::vector<std::string> hyperparameters;
   experiments::LogFitConfig config;
   std::string robot;
@@ -77,18 +77,19 @@ std::vector<experiments::FitLog> logs_of(const FitFlags& flags) {
   for (const std::string& path : flags.contact) logs.push_back({path, true});
   for (const std::string& path : flags.no_contact) logs.push_back({path, false});
   if (logs.empty()) throw InputError("fit: a log is missing: touchdown fit LOG -o model.npz");
-  require_different(logs);
   return logs;
+}
+
+bool shapes_densities(const FitFlags& flags) {
+  return !flags.grid.empty() || !flags.bandwidth.empty() || !flags.bandwidth_floor.empty() ||
+         !flags.knee_range.empty() || !flags.wheel_range.empty();
 }
 
 /// Applies the flags for densities to the estimator. Errors: `InputError` for an estimator without
 /// them.
 void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) {
   if (!entry.config) {
-    if (flags.grid.empty() && flags.bandwidth.empty() && flags.bandwidth_floor.empty() &&
-        flags.knee_range.empty() && flags.wheel_range.empty()) {
-      return;
-    }
+    if (!shapes_densities(flags)) return;
     throw InputError(
         fmt::format("fit: --grid, --bandwidth, --bandwidth-floor, --knee-range and "
                     "--wheel-range are not for {}",
@@ -105,6 +106,13 @@ void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) 
   }
   if (!flags.knee_range.empty()) fit.knee_range = range_from(flags.knee_range, "--knee-range");
   if (!flags.wheel_range.empty()) fit.wheel_range = range_from(flags.wheel_range, "--wheel-range");
+}
+
+/// The estimator to fit: the recommended one, or with flags that shape densities, the recommended
+/// one of those that have them.
+std::string estimator_of(const FitFlags& flags) {
+  if (!flags.estimator.empty()) return flags.estimator;
+  return shapes_densities(flags) ? "robust" : "touchdown";
 }
 
 /// "robust, reference, … or phase".
@@ -131,7 +139,9 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
               "start,end,left,right")
       .value_name("FILE.csv");
   verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
-  verb.option("--estimator", &flags.estimator, "Estimator: " + fitted_estimators()).shows_default();
+  verb.option("--estimator", &flags.estimator,
+              "Estimator: " + fitted_estimators() +
+                  " (default: touchdown; robust with flags for densities)");
   verb.option("--set", &flags.hyperparameters,
               "Run and fit the estimator with another value of a hyperparameter, for example\n"
               "leave_below=0.25")
@@ -182,7 +192,7 @@ void show_samples(const experiments::LogFitReport& report, bool with_bandwidth) 
 }
 
 void fit(const FitFlags& flags, const CliSession& session) {
-  experiments::EstimatorEntry entry = experiments::estimator_entry(flags.estimator);
+  experiments::EstimatorEntry entry = experiments::estimator_entry(estimator_of(flags));
   const std::vector<experiments::FitLog> logs = logs_of(flags);
   if (!entry.fits()) {
     throw InputError(fmt::format(
@@ -200,6 +210,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   for (const std::string& labels : flags.labels) inputs.push_back({labels, "file of labels"});
   check_outputs(inputs, {flags.output});
   require_extension(flags.output, {".npz"}, "a model");
+  require_different(logs);
   experiments::LogFitReport report;
   experiments::write_fitted_model(experiments::fit_to_logs(entry, logs, config, report),
                                   flags.output);

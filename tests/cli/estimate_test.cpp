@@ -241,8 +241,13 @@ TEST_F(Estimate, ReportsTheLogsTimesGapsAndStepsBack) {
   // A clock that is set back draws over what it drew before, from the earliest time on.
   for (std::size_t k = 700; k < robot.steps(); ++k) robot.observation[k].time -= 2.5;
   log("back.mpack", robot);
-  EXPECT_THAT(estimate("back.mpack --model m.npz --figure fig.png"),
-              HasSubstr("time         from 8.700 to 10.699 s; it goes back 1 time\n"));
+  const Ended back =
+      touchdown_program("estimate back.mpack --model m.npz --figure fig.png", folder_.path());
+  EXPECT_EQ(back.exit_code, 0);
+  EXPECT_EQ(
+      back.errors,
+      "touchdown: back.mpack: time: goes back once, by up to 2 s: sort the log, or split it\n");
+  EXPECT_THAT(back.output, HasSubstr("time         from 8.700 to 10.699 s; it goes back 1 time\n"));
   EXPECT_THAT(read_file(folder_ / "fig.gp"), HasSubstr("set xrange [8.7:10.69"));
   experiments::LogSummary summary(0.001, {});
   EXPECT_THAT(summary.text({}), StartsWith("time         no finite value\n"));
@@ -345,7 +350,7 @@ TEST_F(Estimate, AnswersWrongRequestsInOneLine) {
   folder_.write("b.mpack", "name: stairs\n");
   EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator robst"),
               HasSubstr("did you mean 'robust'?"));
-  EXPECT_THAT(complaint_about("a.mpack"), HasSubstr("--model is missing"));
+  EXPECT_THAT(complaint_about("a.mpack --estimator robust"), HasSubstr("--model is missing"));
   EXPECT_THAT(complaint_about("a.mpack --model x.npz"), HasSubstr("x.npz"));
   EXPECT_THAT(complaint_about("a.mpack --model a.mpack"), HasSubstr("a.mpack"));
   EXPECT_THAT(complaint_about("a.mpack --estimator free_fall --model m.npz"),

@@ -393,10 +393,13 @@ TEST_F(Conversion, SeparatorIsThatOfTheNames) {
 
 TEST_F(Conversion, CommentsAreSkippedAndMayHoldTheNames) {
   const std::string plain = log_of(2);
+  const auto after = [](const char* comment, const std::string& text) {
+    return fmt::format("{}{}", comment, text);
+  };
   for (const std::string& text :
-       {"# recorded by us, in a hall\n" + plain, "% a\n# b\n" + plain,
-        replaced(plain, "\n0.01,", "\n# a stop\n0.01,"), "# " + plain, "#" + plain,
-        "# recorded by us\n# " + plain, "#" + with_separator(plain, "\t")}) {
+       {after("# recorded by us, in a hall\n", plain), after("% a\n# b\n", plain),
+        replaced(plain, "\n0.01,", "\n# a stop\n0.01,"), after("# ", plain), after("#", plain),
+        after("# recorded by us\n# ", plain), after("#", with_separator(plain, "\t"))}) {
     EXPECT_EQ(convert(text).size(), 2U) << text.substr(0, 40);
   }
   EXPECT_THAT(complaint("# nothing but a comment\n"), HasSubstr("log.csv"));
