@@ -29,6 +29,7 @@ void check_stop(const CliSession& session) {
 
 /// Prints one line for each fault of the log that affects estimators.
 void report_faults(const ExportedLog& files, const recordings::ConvertedLog& log) {
+  for (const std::string& note : log.notes) print_message(fmt::format("touchdown: {}\n", note));
   if (log.incomplete_rows > 0) {
     print_message(
         fmt::format("touchdown: {}: {} of {} rows lack a number, which is NaN in the log\n",

@@ -10,7 +10,9 @@
 
 #include "core/error.hpp"
 #include "estimator/assembly/record.hpp"
+#include "recordings/bags/bag.hpp"
 #include "recordings/log/writer.hpp"
+#include "recordings/mapping/joined_log.hpp"
 #include "recordings/mapping/row_hold.hpp"
 #include "recordings/mapping/source_log.hpp"
 #include "recordings/sample_times.hpp"
@@ -61,7 +63,7 @@ constexpr std::size_t velocity_target(models::Servo wheel) {
 LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const double> row) {
   LogValues values{};
   values[log_slot::time] =
-      mapping.time ? mapping.time->value(row, 0) : static_cast<double>(k) * mapping.period;
+      mapping.time ? mapping.time->at(row) : static_cast<double>(k) * mapping.period;
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
     const std::size_t slot = log_slot::servo + 3 * servo;
     values[slot] = mapping.position.value(row, servo);
@@ -161,18 +163,18 @@ class Converter {
   Converter(const std::filesystem::path& mapping, std::ostream& stream, bool with_labels)
       : path_(mapping), stream_(stream), with_labels_(with_labels) {}
 
-  std::vector<SourceColumn> begin(const SourceNames& names) {
-    mapping_ = read_log_mapping(path_, names);
+  const LogMapping& begin(std::span<const SourceNames> sources) {
+    mapping_ = read_log_mapping(path_, sources);
     writer_.emplace(stream_, log_presence(mapping_), mapping_.robot);
     intervals_.emplace(mapping_, converted_.contact);
     hold_.emplace(mapping_);
-    return mapping_.columns;
+    return mapping_;
   }
 
   void add(std::span<const double> given, const SourceLocation& place) {
     row_.assign(given.begin(), given.end());
     const double given_time = mapping_.time
-                                  ? mapping_.time->value(given, 0)
+                                  ? mapping_.time->at(given)
                                   : static_cast<double>(converted_.rows) * mapping_.period;
     if (!hold_->complete(row_, given_time)) {
       if (has_time_) add_labels(given_time - converted_.start, given, place);
@@ -235,7 +237,8 @@ class Converter {
     const double step = first_step_.step().value_or(0.0);
     const std::string unit = unit_of_step(step);
     constexpr std::uint64_t few = 10;  // rows: their steps may be pauses
-    if (!unit.empty() && converted_.rows > few && mapping_.time && mapping_.time->unit == 1.0) {
+    if (!unit.empty() && converted_.rows > few && mapping_.time &&
+        mapping_.time->time.unit == 1.0) {
       throw InputError(
           fmt::format("{}: times look like {}: rows are {:.6g} apart; set the `unit` of "
                       "`time`",
@@ -277,13 +280,26 @@ ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem
                          bool with_labels) {
   Converter converter(mapping, stream, with_labels);
   std::vector<std::string> notes;
-  read_source_log(log, {.wanted = [&](const SourceNames& names) { return converter.begin(names); },
-                        .row =
-                            [&](std::span<const double> row, const SourceLocation& place) {
-                              if (check_stop) check_stop();
-                              converter.add(row, place);
-                            },
-                        .note = [&](const std::string& line) { notes.push_back(line); }});
+  const auto row = [&](std::span<const double> numbers, const SourceLocation& place) {
+    if (check_stop) check_stop();
+    converter.add(numbers, place);
+  };
+  const LogSources sources = read_log_sources(mapping);
+  if (!sources.empty() || is_bag(log)) {
+    notes =
+        read_joined_log(log, sources,
+                        {.mapping = [&](std::span<const SourceNames> names) -> const LogMapping& {
+                           return converter.begin(names);
+                         },
+                         .row = row});
+  } else {
+    read_source_log(log, {.wanted =
+                              [&](const SourceNames& names) {
+                                return converter.begin(std::span(&names, 1)).columns;
+                              },
+                          .row = row,
+                          .note = [&](const std::string& line) { notes.push_back(line); }});
+  }
   ConvertedLog converted = converter.finish(log);
   converted.notes.insert(converted.notes.end(), notes.begin(), notes.end());
   return converted;

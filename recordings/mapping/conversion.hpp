@@ -21,16 +21,17 @@ struct ConvertedLog {
   std::uint64_t completed_rows = 0;       ///< rows with numbers held from an earlier row (RowHold)
   double oldest = 0.0;                    ///< largest age of a held number (s)
   std::uint64_t rows_without_joints = 0;  ///< rows of another topic, which are no records
-  std::vector<std::string> notes;         ///< one line for each thing to know about the source
+  std::vector<std::string> notes;         ///< one line for each thing to know about the sources
   /// Contact labels, if the mapping specifies their columns. Times count from `start`.
   ContactIntervals contact;
 };
 
-/// Converts another robot's log, CSV or NumPy's arrays, to a robot's log in Upkie's layout, by a
-/// mapping file. Each row becomes one record with the measurements only. Missing values are held
-/// from an earlier row or become NaN. Without `with_labels`, contact labels are not looked at.
-/// `check_stop` is called regularly, and may throw. Errors: `InputError` as in `read_log_mapping`
-/// and `read_source_log`, for a log without rows or times, and for contact labels with decreasing
+/// Converts another robot's log, CSV, NumPy's arrays or a ROS 2 bag, to a robot's log in Upkie's
+/// layout, by a mapping file. `log` is the folder of the sources if the mapping has several. Each
+/// row becomes one record with the measurements only. Missing values are held from an earlier row
+/// or become NaN. Without `with_labels`, contact labels are not looked at. `check_stop` is called
+/// regularly, and may throw. Errors: `InputError` as in `read_log_mapping`, `read_source_log` and
+/// `read_joined_log`, for a log without rows or times, and for contact labels with decreasing
 /// times; `Error` when the stream fails.
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
                          std::ostream& stream, const std::function<void()>& check_stop = {},

@@ -13,6 +13,7 @@
 
 #include "core/keys/key.hpp"
 #include "models/robot.hpp"
+#include "recordings/mapping/log_sources.hpp"
 
 namespace touchdown::recordings {
 
@@ -21,15 +22,20 @@ namespace touchdown::recordings {
 struct SourceColumn {
   std::string name;
   std::optional<std::size_t> index = {};
+  std::size_t source = 0;  ///< index of its source, of a log with several
 
   bool operator==(const SourceColumn&) const = default;
 };
 
-/// Names of the columns or arrays of another robot's log.
+/// Names of the columns or arrays of another robot's log, or of one of its sources.
 struct SourceNames {
   std::string file;
   bool are_arrays = false;
   std::vector<std::string> names;
+  /// The section of the mapping that a source belongs to: joints, imu or contact. Empty: all.
+  std::string section = {};
+  /// Whether it is a topic of a bag, whose messages have defined names and conventions.
+  bool is_topic = false;
   /// The number of columns of an array; 1 for an array with one axis. May be empty: unknown.
   std::function<std::size_t(const std::string& name)> width = {};
 };
@@ -56,6 +62,17 @@ struct MappedSignal {
   }
 };
 
+/// When a row was logged.
+struct SourceClock {
+  MappedSignal time;                    ///< s
+  std::optional<MappedSignal> nanosec;  ///< added to it (ns)
+
+  /// s, from a row with the values of `LogMapping::columns`.
+  double at(std::span<const double> row) const {
+    return time.value(row, 0) + (nanosec ? 1e-9 * nanosec->value(row, 0) : 0.0);
+  }
+};
+
 /// Longest plausible time between two rows (s). A longer one indicates a wrong unit of time.
 inline constexpr double longest_period = 0.5;
 
@@ -65,12 +82,15 @@ struct LogMapping {
   /// All needed columns, each once.
   std::vector<SourceColumn> columns;
 
-  std::string robot;                 ///< its name; empty if unknown
-  std::optional<MappedSignal> time;  ///< s
-  double period = 0.0;               ///< between rows, without `time` (s)
-  MappedSignal position;             ///< 6, rad
-  MappedSignal velocity;             ///< 6, rad/s
-  MappedSignal torque;               ///< 6, N·m
+  std::string robot;  ///< its name; empty if unknown
+  LogSources sources;
+  std::optional<SourceClock> time;  ///< of the joints
+  double period = 0.0;              ///< between rows, without `time` (s)
+  /// The clock of each source, of a log with several.
+  std::vector<SourceClock> clocks;
+  MappedSignal position;  ///< 6, rad
+  MappedSignal velocity;  ///< 6, rad/s
+  MappedSignal torque;    ///< 6, N·m
   /// Commanded velocity of the left and right wheel (rad/s).
   std::optional<MappedSignal> wheel_velocity_target;
 
@@ -89,11 +109,13 @@ struct LogMapping {
   double contact_above = 0.5;  ///< a number above this is contact
 };
 
-/// Reads a mapping file for a log with these names. Errors: `InputError` with file:line:column for
+/// Reads a mapping file for a log with these names; a log with several sources has several. Errors:
+/// `InputError` with file:line:column for
 /// - an unknown or missing key;
 /// - a name that the log lacks, or a column that is used twice;
 /// - a wrong number of names, signs or units.
-LogMapping read_log_mapping(const std::filesystem::path& path, const SourceNames& names);
+LogMapping read_log_mapping(const std::filesystem::path& path,
+                            std::span<const SourceNames> sources);
 
 /// The keys of a mapping file.
 std::vector<Key> mapping_keys();

@@ -18,6 +18,7 @@ RowHold::RowHold(const LogMapping& mapping) {
   for (const MappedSignal* signal : {&mapping.position, &mapping.velocity, &mapping.torque}) {
     add(*signal, true);
   }
+  if (!mapping.clocks.empty()) return;  // the others have sources of their own (SourceJoin)
   add(mapping.orientation, false);
   add(mapping.angular_velocity, false);
   if (mapping.linear_acceleration) add(*mapping.linear_acceleration, false);

@@ -23,7 +23,7 @@ void read_csv(const std::filesystem::path& path, const SourceLogSink& sink) {
   csv.names = [&](std::span<const std::string> given) -> std::optional<ColumnError> {
     const std::vector<std::string> names(given.begin(), given.end());
     if (names == std::vector<std::string>{""}) return ColumnError{0, "expected a line of names"};
-    for (const SourceColumn& column : sink.wanted({path.string(), false, names, {}})) {
+    for (const SourceColumn& column : sink.wanted({path.string(), false, names})) {
       const auto found = std::find(names.begin(), names.end(), column.name);
       positions.push_back(static_cast<std::size_t>(found - names.begin()));
     }
@@ -75,7 +75,7 @@ void read_arrays(const std::filesystem::path& path, const SourceLogSink& sink) {
     return found != one.end() && found->second.shape.size() == 2 ? found->second.shape[1] : 1;
   };
   const std::vector<SourceColumn> wanted =
-      sink.wanted({path.string(), true, npz_names(path), width});
+      sink.wanted({path.string(), true, npz_names(path), "", false, width});
   const NpzArrays arrays = read_npz(path, [&](std::string_view name) {
     const bool is_wanted = std::any_of(wanted.begin(), wanted.end(),
                                        [&](const SourceColumn& one) { return one.name == name; });

@@ -1,0 +1,144 @@
+#include "recordings/bags/topic_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace touchdown::recordings {
+
+namespace {
+
+constexpr std::array<const char*, 3> joint_fields = {"position", "velocity", "effort"};
+constexpr std::array<const char*, 10> imu_fields = {
+    "orientation.x",         "orientation.y",        "orientation.z",      "orientation.w",
+    "angular_velocity.x",    "angular_velocity.y",   "angular_velocity.z", "linear_acceleration.x",
+    "linear_acceleration.y", "linear_acceleration.z"};
+/// A header without a stamp was sent now, unless the clock is a simulation's, which starts at zero.
+constexpr double longest_delay = 60.0;
+
+double seconds(std::int64_t nanoseconds) {
+  constexpr std::int64_t second = 1'000'000'000;
+  return static_cast<double>(nanoseconds / second) +
+         1e-9 * static_cast<double>(nanoseconds % second);
+}
+
+std::size_t slot_of(const std::vector<std::string>& columns, const std::string& name,
+                    std::size_t none) {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  return found == columns.end() ? none : static_cast<std::size_t>(found - columns.begin());
+}
+
+}  // namespace
+
+std::vector<std::string> SignalTopic::columns() const {
+  std::vector<std::string> names = {stamp_column, log_time_column};
+  for (const std::string& joint : joints) {
+    for (const char* field : joint_fields) names.push_back(fmt::format("{}/{}", joint, field));
+  }
+  if (type == imu_type) names.insert(names.end(), imu_fields.begin(), imu_fields.end());
+  return names;
+}
+
+TopicRows::TopicRows(SignalTopic topic, std::vector<std::string> columns, const Config& config)
+    : topic_(std::move(topic)), config_(config), row_(columns.size()) {
+  stamp_slot_ = slot_of(columns, stamp_column, no_slot);
+  log_time_slot_ = slot_of(columns, log_time_column, no_slot);
+  for (std::size_t i = 0; i < imu_fields.size(); ++i) {
+    imu_slot_[i] = slot_of(columns, imu_fields[i], no_slot);
+  }
+  for (const std::string& name : topic_.joints) {
+    Joint joint{name};
+    for (std::size_t i = 0; i < joint_fields.size(); ++i) {
+      joint.slot[i] = slot_of(columns, fmt::format("{}/{}", name, joint_fields[i]), no_slot);
+    }
+    joints_.push_back(std::move(joint));
+  }
+  // The joint of the first column is the first one.
+  const auto first_slot = [](const Joint& joint) {
+    return *std::min_element(joint.slot.begin(), joint.slot.end());
+  };
+  std::stable_sort(joints_.begin(), joints_.end(),
+                   [&](const Joint& a, const Joint& b) { return first_slot(a) < first_slot(b); });
+  std::erase_if(joints_, [&](const Joint& joint) { return first_slot(joint) == no_slot; });
+}
+
+void TopicRows::set_time(const MessageStamp& stamp, std::int64_t recorded) {
+  const double log_time = seconds(recorded);
+  const bool lacks_stamp = stamp.is_zero() && std::abs(topic_.stamp_delay) < longest_delay;
+  time_ = config_.uses_log_time || lacks_stamp ? log_time : seconds(stamp.time());
+  if (stamp_slot_ != no_slot) row_[stamp_slot_] = time_;
+  if (log_time_slot_ != no_slot) {
+    row_[log_time_slot_] = log_time;
+    time_ = log_time;
+  }
+}
+
+bool TopicRows::update(const BagMessage& message) {
+  try {
+    if (topic_.type == imu_type) {
+      decode(message.data, imu_);
+      set_time(imu_.stamp, message.time);
+      take(imu_);
+      return true;
+    }
+    decode(message.data, joint_state_);
+  } catch (const InputError& error) {
+    if (malformed_++ == 0) first_malformed_ = error.what();
+    return false;
+  }
+  set_time(joint_state_.stamp, message.time);
+  return take(joint_state_);
+}
+
+void TopicRows::put(std::size_t slot, Held& held, double value, bool is_given) {
+  if (slot == no_slot) return;
+  if (is_given && std::isfinite(value)) {
+    row_[slot] = value;
+    held = {{value, held.value[0]}, {time_, held.time[0]}};
+    return;
+  }
+  row_[slot] = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < held.time.size(); ++i) {
+    const double age = time_ - held.time.at(i);
+    if (age < 0.0 || age > config_.stale_after) continue;
+    row_[slot] = held.value.at(i);
+    ages_.add(age);
+    return;
+  }
+}
+
+bool TopicRows::take(const JointState& state) {
+  bool is_row = joints_.empty();
+  for (Joint& joint : joints_) {
+    const auto named = std::find(state.name.begin(), state.name.end(), joint.name);
+    const auto i = static_cast<std::size_t>(named - state.name.begin());
+    const bool is_there = named != state.name.end();
+    if (is_there && &joint == &joints_.front()) is_row = true;
+    const auto value = [&](const std::vector<double>& values) {
+      return is_there && !values.empty() ? values[i] : std::numeric_limits<double>::quiet_NaN();
+    };
+    put(joint.slot[0], joint.held[0], value(state.position), is_there);
+    put(joint.slot[1], joint.held[1], value(state.velocity), is_there);
+    put(joint.slot[2], joint.held[2], value(state.effort), is_there);
+  }
+  return is_row;
+}
+
+void TopicRows::take(const ImuState& state) {
+  std::size_t field = 0;
+  const auto put_all = [&](const auto& values) {
+    for (const double value : values) {
+      const std::size_t slot = imu_slot_.at(field++);
+      if (slot != no_slot) row_[slot] = value;
+    }
+  };
+  put_all(state.orientation);
+  put_all(state.angular_velocity);
+  put_all(state.linear_acceleration);
+}
+
+}  // namespace touchdown::recordings
