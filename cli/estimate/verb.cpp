@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/estimate/converted_input.hpp"
 #include "cli/estimate/outputs.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
@@ -34,6 +36,7 @@ struct DrawnPart {
 struct EstimateFlags {
   std::vector<std::string> logs;
   std::vector<std::string> labels;
+  std::string mapping;
   std::string model;
   std::string estimator;
   std::string robot;
@@ -188,9 +191,12 @@ std::size_t estimate_log(const std::string& path, const recordings::ContactInter
     BeliefWriter writer(csv, mpack,
                         flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
     const bool live = path == "-";
+    std::optional<ConvertedInput> converted;
+    if (!flags.mapping.empty()) converted.emplace(path, flags.mapping, session);
+    const std::string log = converted ? converted->path().string() : path;
     // A reader of a live stream gets every line before the program waits for the next record.
     const recordings::ByteSource source =
-        [&, bytes = recordings::file_source(path, session.stop)](std::span<char> buffer) {
+        [&, bytes = recordings::file_source(log, session.stop)](std::span<char> buffer) {
           if (outputs.prints_csv()) writer.flush();
           return bytes(buffer);
         };
@@ -224,6 +230,10 @@ std::size_t estimate_log(const std::string& path, const recordings::ContactInter
 }
 
 void estimate(const EstimateFlags& flags, const CliSession& session) {
+  const bool is_live = std::find(flags.logs.begin(), flags.logs.end(), "-") != flags.logs.end();
+  if (is_live && !flags.mapping.empty()) {
+    throw InputError("--mapping: expected a file or a bag, found standard input");
+  }
   const experiments::LogEstimator estimator = experiments::log_estimator(
       {flags.estimator, flags.model, experiments::robot_called(flags.robot), flags.transfer,
        experiments::hyperparameters_of(flags.hyperparameters)});
@@ -246,21 +256,28 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
 }  // namespace
 
 void add_estimate(CLI::App& program, const CliSession& session) {
-  Verb verb(program, "estimate",
-            "touchdown estimate robot.mpack\n"
-            "touchdown estimate robot.mpack --model model.npz -o beliefs.csv --figure beliefs.png\n"
-            "… | touchdown estimate - --model model.npz\n\n"
-            "Estimates from Upkie's logs which wheels are in contact. With - it reads a live\n"
-            "stream from standard input and prints one line per record. Signals that are not\n"
-            "plausible (`touchdown check`) are named above the result.");
+  Verb verb(
+      program, "estimate",
+      "touchdown estimate robot.mpack\n"
+      "touchdown estimate robot.mpack --model model.npz -o beliefs.csv --figure beliefs.png\n"
+      "… | touchdown estimate - --model model.npz\n"
+      "touchdown estimate rosbag2_2026_03_01/ --mapping robot.yaml --model model.npz\n\n"
+      "Estimates from Upkie's logs which wheels are in contact. With - it reads a live\n"
+      "stream from standard input and prints one line per record. With --mapping it reads\n"
+      "another robot's logs: ROS 2 bags, CSV or NumPy arrays. Signals that are not plausible\n"
+      "(`touchdown check`) are named above the result.");
   const auto flags = std::make_shared<EstimateFlags>();
-  verb.option("log", &flags->logs, "Logs in Upkie's layout; - is standard input")
+  verb.option("log", &flags->logs,
+              "Logs in Upkie's layout, or in another one with --mapping; - is standard input")
       .value_name("LOG")
       .required();
   verb.option("--labels", &flags->labels,
               "Ground truth for intervals of each LOG, in the order of the logs: rows "
               "start,end,contact or start,end,left,right. Only these intervals are scored")
       .value_name("FILE.csv");
+  verb.option("--mapping", &flags->mapping,
+              "Maps the columns or topics of the logs to signals, as for `touchdown export`")
+      .value_name("FILE.yaml");
   verb.option("--model", &flags->model,
               "Model that `touchdown fit` wrote (default: the shipped one, models/touchdown.npz)")
       .value_name("FILE.npz");

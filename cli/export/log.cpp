@@ -27,31 +27,6 @@ void check_stop(const CliSession& session) {
   if (*session.stop) throw Stopped("stopped; nothing was written");
 }
 
-/// Prints one line for each fault of the log that affects estimators.
-void report_faults(const ExportedLog& files, const recordings::ConvertedLog& log) {
-  for (const std::string& note : log.notes) print_message(fmt::format("touchdown: {}\n", note));
-  if (log.incomplete_rows > 0) {
-    print_message(
-        fmt::format("touchdown: {}: {} of {} rows lack a number, which is NaN in the log\n",
-                    files.log, log.incomplete_rows, log.rows));
-  }
-  if (log.time_reversals > 0) {
-    print_message(
-        fmt::format("touchdown: {}: time goes back at {} rows\n", files.log, log.time_reversals));
-  }
-  if (log.completed_rows > 0) {
-    print_message(fmt::format(
-        "touchdown: {}: {} of {} records hold numbers of an earlier row, for up to {:.4g} ms\n",
-        files.log, log.completed_rows, log.rows, 1e3 * log.oldest));
-  }
-  if (log.rows_without_joints > 0) {
-    print_message(fmt::format(
-        "touchdown: {}: {} rows have no number of a joint: they are no records of their own\n",
-        files.log, log.rows_without_joints));
-  }
-  for (const std::string& note : log.notes) print_message(fmt::format("touchdown: {}\n", note));
-}
-
 /// Prints what is implausible about the signals of the written log, one line each. Returns their
 /// number.
 std::size_t report_findings(const ExportedLog& files, const CliSession& session) {
@@ -92,7 +67,9 @@ void export_log(const ExportedLog& files, const CliSession& session) {
     if (!stream) return;
     if (!files.labels.empty()) write_atomically(files.labels, labels_text(files, log));
   });
-  report_faults(files, log);
+  for (const std::string& warning : recordings::warnings_of(log, files.log)) {
+    print_message(fmt::format("touchdown: {}\n", warning));
+  }
   const std::size_t findings = report_findings(files, session);
   print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", files.output, log.rows,
         log.start, log.end, files.log);

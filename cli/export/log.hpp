@@ -8,7 +8,7 @@ namespace touchdown::cli {
 
 /// Files of the conversion of a log in another layout.
 struct ExportedLog {
-  std::string log;         ///< .csv or .npz
+  std::string log;         ///< .csv, .npz, a ROS 2 bag, or the folder of several sources
   std::string mapping;     ///< .yaml
   std::string output;      ///< .mpack
   std::string labels;      ///< .csv, or empty

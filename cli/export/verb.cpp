@@ -153,18 +153,22 @@ void add_export(CLI::App& program, const CliSession& session) {
       "touchdown export model.npz -o model.hpp\n"
       "touchdown export models/touchdown.npz --robot my_robot.xml -o mine.npz\n"
       "touchdown export robot.csv --mapping robot.yaml -o robot.mpack\n"
+      "touchdown export rosbag2_2026_03_01/ --mapping robot.yaml -o robot.mpack\n"
       "touchdown export robot.mpack -o robot.mcap\n\n"
       "Exports a benchmark's signals, a model or a log. A benchmark's signals are for an\n"
       "external estimator in any language; `touchdown score` scores its beliefs. A model becomes\n"
       "a C++ header for a robot without files, or another model file. That file can contain\n"
       "another robot's leg geometry or other hyperparameters, so that users need not set them.\n"
-      "A log of another robot, as CSV or NumPy arrays, becomes a log in Upkie's layout, which\n"
-      "all other commands read. A log in Upkie's layout, with the beliefs of `estimate`,\n"
+      "A log of another robot, as CSV, NumPy arrays or a ROS 2 bag, becomes a log in Upkie's\n"
+      "layout, which all other commands read. A log in Upkie's layout, with the beliefs of "
+      "`estimate`,\n"
       "becomes an MCAP file for Foxglove.");
   const auto flags = std::make_shared<ExportFlags>();
   verb.option("source", &flags->source,
               "Experiment file with a section `benchmark`, or its run directory; or a model that "
-              "`touchdown fit` wrote; or a log as .csv, .npz or .mpack")
+              "`touchdown fit` wrote; or a log as .csv, .npz or .mpack, or a ROS 2 bag (its "
+              "folder, .mcap "
+              "or .db3)")
       .value_name("RUN_OR_EXPERIMENT_OR_MODEL_OR_LOG")
       .required();
   verb.option("--benchmark", &flags->folder, "New or empty folder for a benchmark's signals")

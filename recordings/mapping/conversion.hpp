@@ -26,6 +26,9 @@ struct ConvertedLog {
   ContactIntervals contact;
 };
 
+/// One line for each thing that a user should know about the log of this name.
+std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::string& log);
+
 /// Converts another robot's log, CSV, NumPy's arrays or a ROS 2 bag, to a robot's log in Upkie's
 /// layout, by a mapping file. `log` is the folder of the sources if the mapping has several. Each
 /// row becomes one record with the measurements only. Missing values are held from an earlier row

@@ -34,7 +34,7 @@ struct SourceNames {
   std::vector<std::string> names;
   /// The section of the mapping that a source belongs to: joints, imu or contact. Empty: all.
   std::string section = {};
-  /// Whether it is a topic of a bag, whose messages have defined names and conventions.
+  /// Whether it is a topic of a bag: its messages have defined names and conventions.
   bool is_topic = false;
   /// The number of columns of an array; 1 for an array with one axis. May be empty: unknown.
   std::function<std::size_t(const std::string& name)> width = {};

@@ -111,7 +111,8 @@ void read_source_log(const std::filesystem::path& path, const SourceLogSink& sin
   } else if (extension == ".npz") {
     read_arrays(path, sink);
   } else {
-    throw InputError(fmt::format("{}: expected a log as FILE.csv or FILE.npz", path.string()));
+    throw InputError(
+        fmt::format("{}: expected a log as FILE.csv, FILE.npz or a ROS 2 bag", path.string()));
   }
 }
 

@@ -28,7 +28,7 @@ class SourceJoin {
 
   struct Config {
     std::vector<std::size_t> widths;  ///< numbers per row of each source
-    std::size_t clock = 0;            ///< the source whose rows are kept
+    std::size_t clock = 0;            ///< the source that gives the rows
     double stale_after = 0.05;        ///< s
   };
 

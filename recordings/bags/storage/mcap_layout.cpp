@@ -58,7 +58,7 @@ class Walk {
       return;
     }
     if (op == McapOp::chunk) {
-      if (there >= 16) add_chunk(head, {content, there, 0, true, is_cut});
+      if (there >= 16 || !is_cut) add_chunk(head, {content, there, 0, true, is_cut});
       if (is_cut) return end("the rest of a chunk is missing");
     }
     if (is_cut) return end("the rest of a record is missing");

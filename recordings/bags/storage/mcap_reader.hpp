@@ -30,7 +30,7 @@ class McapReader {
   /// Proceeds to the next message. Returns false at the end.
   bool next(BagMessage& message);
 
-  /// Topics whose definition was read so far.
+  /// Topics that are defined in what was read so far.
   const std::vector<BagTopic>& topics() const { return topics_; }
   /// What is missing at the end of a file that is cut off, or empty.
   std::string note() const;

@@ -1,6 +1,8 @@
 #include "recordings/bags/storage/mcap_reader.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -10,18 +12,18 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "tests/recordings/bags/bag_writer.hpp"
+#include "tests/bag_writer.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::recordings {
 namespace {
 
-using test::McapOptions;
 using test::mcap_bytes;
+using test::McapOptions;
 using test::TestBag;
 using ::testing::HasSubstr;
 
-/// Two topics, whose messages differ in size.
+/// Two topics with messages of different sizes.
 TestBag made_up_bag(std::size_t messages = 45) {
   TestBag bag{{{"/a", "pkg/msg/A"}, {"/b", "pkg/msg/B"}}, {}};
   for (std::size_t k = 0; k < messages; ++k) {
@@ -56,11 +58,12 @@ class Mcap : public ::testing::Test {
   Read read(const std::string& bytes, const TopicFilter& wanted = {}) {
     Read result;
     try {
-      McapReader reader(folder_.write("bag.mcap", bytes), wanted);
+      const std::filesystem::path path = folder_ / "bag.mcap";
+      std::ofstream(path, std::ios::binary) << bytes;
+      McapReader reader(path, wanted);
       BagMessage message;
       while (reader.next(message)) {
-        result.messages.push_back(
-            line(message.time, reader.topics()[message.topic], message.data));
+        result.messages.push_back(line(message.time, reader.topics()[message.topic], message.data));
       }
       result.note = reader.note();
     } catch (const InputError& error) {
@@ -181,11 +184,11 @@ TEST_F(Mcap, MalformedFilesAreRefusedWithTheirByte) {
   EXPECT_THAT(read(head + message).error, HasSubstr("channel 7, which is not defined"));
   // Sizes far beyond the chunk: more than the file, and more than the memory.
   for (const std::uint64_t size : {std::uint64_t{1} << 40U, ~std::uint64_t{0}}) {
-    const std::string chunk = test::mcap_record(
-        6, u64(1) + u64(2) + u64(size) + none + none + u64(3) + "abc");
+    const std::string chunk =
+        test::mcap_record(6, u64(1) + u64(2) + u64(size) + none + none + u64(3) + "abc");
     EXPECT_THAT(read(head + chunk).error, HasSubstr("byte 17: chunk")) << size;
-    const std::string records = test::mcap_record(
-        6, u64(1) + u64(2) + u64(3) + none + none + u64(size) + "abc");
+    const std::string records =
+        test::mcap_record(6, u64(1) + u64(2) + u64(3) + none + none + u64(size) + "abc");
     EXPECT_THAT(read(head + records).error, HasSubstr("byte 17: chunk")) << size;
     const std::string beyond = head + "\6" + u64(size) + "abc";
     EXPECT_THAT(read(beyond).note, HasSubstr("cut off"));
@@ -206,10 +209,10 @@ TEST_F(Mcap, AChunkThatHoldsMoreThanItDeclaresIsRefused) {
   for (const std::string name : {"lz4", "zstd"}) {
     const std::string stored =
         name == "lz4" ? test::lz4_compressed(zeros) : test::zstd_compressed(zeros);
-    const std::string chunk = test::mcap_record(
-        6, u64(1) + u64(2) + u64(100) + std::string(4, '\0') +
-               std::string(1, static_cast<char>(name.size())) + std::string(3, '\0') + name +
-               u64(stored.size()) + stored);
+    const std::string chunk =
+        test::mcap_record(6, u64(1) + u64(2) + u64(100) + std::string(4, '\0') +
+                                 std::string(1, static_cast<char>(name.size())) +
+                                 std::string(3, '\0') + name + u64(stored.size()) + stored);
     EXPECT_THAT(read(std::string("\x89MCAP0\r\n", 8) + chunk).error,
                 HasSubstr("more bytes than it declares"));
   }

@@ -55,8 +55,8 @@ struct TestBag {
 };
 
 struct McapOptions {
-  std::string compression;       ///< of chunks: "", "lz4", "zstd"
-  std::size_t per_chunk = 10;    ///< messages; 0: no chunks
+  std::string compression;     ///< of chunks: "", "lz4", "zstd"
+  std::size_t per_chunk = 10;  ///< messages; 0: no chunks
   bool has_summary = true;
   bool has_crc = true;
   bool has_unknown_records = false;
@@ -70,6 +70,9 @@ std::string mcap_record(std::uint8_t op, std::string_view content);
 /// Writes a SQLite bag. With `zstd` each payload is compressed.
 void write_db3(const TestBag& bag, const std::filesystem::path& path, bool zstd = false,
                bool has_index = true);
+
+/// Runs statements on the SQLite database of this path, which is made if it is missing.
+void run_sql(const std::filesystem::path& path, const std::string& sql);
 
 std::string zstd_compressed(std::string_view bytes);
 std::string lz4_compressed(std::string_view bytes);

@@ -1,4 +1,4 @@
-#include "tests/recordings/bags/bag_writer.hpp"
+#include "tests/bag_writer.hpp"
 
 #include <bit>
 #include <boost/crc.hpp>
@@ -189,6 +189,13 @@ void write_db3(const TestBag& bag, const std::filesystem::path& path, bool zstd,
   }
   sqlite3_finalize(insert);
   run(database, "COMMIT");
+  sqlite3_close(database);
+}
+
+void run_sql(const std::filesystem::path& path, const std::string& sql) {
+  sqlite3* database = nullptr;
+  if (sqlite3_open(path.c_str(), &database) != SQLITE_OK) throw std::runtime_error("sqlite");
+  run(database, sql);
   sqlite3_close(database);
 }
 

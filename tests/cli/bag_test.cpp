@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "program.hpp"
+#include "recordings/log/recording_file.hpp"
+#include "tests/bag_writer.hpp"
+
+namespace touchdown::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// The robot's joints in the order of its driver, by their index in Upkie's order.
+constexpr std::array<std::pair<const char*, std::size_t>, 6> driver_joints = {
+    {{"right_hip_joint", 3},
+     {"left_hip_joint", 0},
+     {"right_knee_joint", 4},
+     {"left_knee_joint", 1},
+     {"right_wheel_joint", 5},
+     {"left_wheel_joint", 2}}};
+
+const char* const bag_mapping = R"(sources: {joints: /joint_states, imu: /imu/data}
+joints:
+  names: [left_hip_joint, left_knee_joint, left_wheel_joint, right_hip_joint, right_knee_joint, right_wheel_joint]
+  sign: [1, 1, 1, -1, -1, -1]
+)";
+
+/// A run of Upkie as another robot's bag: joints at 500 Hz in another order, the right leg counted
+/// like the left one; the IMU at 200 Hz on a clock of its own, by REP 103 and 145.
+test::TestBag other_robots_bag(const recordings::Recording& run) {
+  constexpr std::int64_t epoch = 1'732'540'000'000'000'000;
+  test::TestBag bag{
+      {{"/joint_states", "sensor_msgs/msg/JointState"}, {"/imu/data", "sensor_msgs/msg/Imu"}}, {}};
+  const auto stamp = [&](std::size_t k) {
+    return epoch + std::llround(1e9 * run.observation[k].time);
+  };
+  for (std::size_t k = 0; k < run.steps(); ++k) {
+    const models::Observation& o = run.observation[k];
+    if (k % 2 == 0) {
+      test::TestJoints joints;
+      for (const auto& [name, i] : driver_joints) {
+        const double sign = i < 3 ? 1.0 : -1.0;
+        joints.name.emplace_back(name);
+        joints.position.push_back(sign * o.servo[i].position);
+        joints.velocity.push_back(sign * o.servo[i].velocity);
+        joints.effort.push_back(sign * o.servo[i].torque);
+      }
+      bag.messages.push_back({0, stamp(k) + 1'000'000, test::joint_state_cdr(stamp(k), joints)});
+    }
+    if (k % 5 == 0) {
+      const auto& q = o.imu.orientation;
+      const Eigen::Vector3d& g = o.imu.angular_velocity;
+      const Eigen::Vector3d& a = o.imu.raw_linear_acceleration;
+      // From back, left, down to forward, left, up; from a reference with z down to one with z up.
+      const Eigen::Quaterniond up = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0) * q *
+                                    Eigen::Quaterniond(0.0, 0.0, 1.0, 0.0).conjugate();
+      const std::int64_t measured = stamp(k) + 350'000;
+      bag.messages.push_back({1, measured + 1'500'000,
+                              test::imu_cdr(measured, {{up.x(), up.y(), up.z(), up.w()},
+                                                       {-g.x(), g.y(), -g.z()},
+                                                       {-a.x(), a.y(), -a.z()}})});
+    }
+  }
+  return bag;
+}
+
+/// Balanced accuracy of the decisions in a table of beliefs against the run, both wheels together.
+/// `offset` is the run's time at the table's time 0.
+double balanced_accuracy(const std::filesystem::path& csv, const recordings::Recording& run,
+                         double offset) {
+  std::istringstream lines(read_file(csv));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_THAT(line, HasSubstr("time_s,p_contact_left,p_contact_right,contact_left,contact_right"));
+  std::array<double, 2> right{};
+  std::array<double, 2> all{};
+  while (std::getline(lines, line)) {
+    std::vector<double> cells;
+    std::istringstream text(line);
+    for (std::string cell; cells.size() < 5 && std::getline(text, cell, ',');) {
+      cells.push_back(std::stod(cell));
+    }
+    if (cells.at(0) < 0.3) continue;
+    const auto k = static_cast<std::size_t>(std::llround((cells[0] + offset) / run.period()));
+    for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+      const std::size_t contact = run.truth.at(k).wheel_normal_force.at(wheel) > 1.0 ? 1 : 0;
+      ++all.at(contact);
+      if ((cells.at(3 + wheel) > 0.5) == (contact == 1)) ++right.at(contact);
+    }
+  }
+  return 0.5 * (right[0] / all[0] + right[1] / all[1]);
+}
+
+/// One command from a bag to beliefs; they are nearly as good as those from the run's own log.
+TEST(Bag, OfAnotherRobotGivesBeliefsAsGoodAsTheRunsOwnLog) {
+  const ScratchFolder folder;
+  const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
+  const std::string model = TOUCHDOWN_SOURCE_DIR "/models/touchdown.npz";
+  ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
+            0);
+  const recordings::Recording run = recordings::read_recording(folder / "run.mpack");
+  const test::TestBag bag = other_robots_bag(run);
+  std::filesystem::create_directories(folder / "bag");
+  std::ofstream(folder / "bag" / "bag_0.mcap", std::ios::binary)
+      << test::mcap_bytes(bag, {"zstd", 1000});
+  folder.write("robot.yaml", bag_mapping);
+  const Ended own =
+      touchdown_program("estimate run.mpack --model " + model + " -o own.csv", folder.path());
+  ASSERT_EQ(own.exit_code, 0) << own.errors;
+  const Ended ended = touchdown_program("estimate bag --mapping robot.yaml --transfer --model " +
+                                            model + " -o bag.csv -o annotated.mpack",
+                                        folder.path());
+  ASSERT_EQ(ended.exit_code, 0) << ended.errors;
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("bag: "), HasSubstr("at 500 Hz")));
+  EXPECT_THAT(ended.errors, HasSubstr("/imu/data: held at the rows of /joint_states"));
+  const double of_own = balanced_accuracy(folder / "own.csv", run, 0.0);
+  const double of_bag = balanced_accuracy(folder / "bag.csv", run, 0.002);
+  RecordProperty("balanced_accuracy", fmt::format("own log {:.4f}, bag {:.4f}", of_own, of_bag));
+  fmt::print("balanced accuracy: own log {:.4f}, bag {:.4f}\n", of_own, of_bag);
+  EXPECT_GT(of_bag, of_own - 0.02);
+
+  // In two steps, and from SQLite: the same log.
+  test::write_db3(bag, folder / "bag.db3");
+  ASSERT_EQ(
+      touchdown_program("export bag --mapping robot.yaml -o a.mpack", folder.path()).exit_code, 0);
+  ASSERT_EQ(
+      touchdown_program("export bag.db3 --mapping robot.yaml -o b.mpack", folder.path()).exit_code,
+      0);
+  EXPECT_EQ(read_file(folder / "a.mpack"), read_file(folder / "b.mpack"));
+  ASSERT_EQ(
+      touchdown_program("estimate a.mpack --transfer --model " + model + " -o a.csv", folder.path())
+          .exit_code,
+      0);
+  EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "bag.csv"));
+}
+
+TEST(Bag, WhatIsWrongWithOneIsOneLine) {
+  const ScratchFolder folder;
+  folder.write("robot.yaml", bag_mapping);
+  folder.write("old.bag", "#ROSBAG V2.0\n");
+  const auto complaint = [&](const std::string& arguments) {
+    const Ended ended = touchdown_program(arguments, folder.path());
+    EXPECT_EQ(ended.exit_code, 2) << arguments;
+    EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
+    return ended.errors;
+  };
+  const std::string free_fall = " --mapping robot.yaml --estimator free_fall";
+  EXPECT_THAT(complaint("estimate old.bag" + free_fall), HasSubstr("rosbags-convert"));
+  EXPECT_THAT(complaint("export old.bag --mapping robot.yaml -o a.mpack"),
+              HasSubstr("rosbags-convert"));
+  EXPECT_THAT(complaint("estimate none.mcap" + free_fall), HasSubstr("none.mcap"));
+  EXPECT_THAT(complaint("estimate -" + free_fall), HasSubstr("found standard input"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.mpack"));
+}
+
+}  // namespace
+}  // namespace touchdown::cli

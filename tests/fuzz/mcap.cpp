@@ -1,0 +1,23 @@
+#include "core/error.hpp"
+#include "recordings/bags/storage/mcap_reader.hpp"
+#include "tests/fuzz/entry.hpp"
+#include "tests/fuzz/memory_file.hpp"
+
+namespace touchdown::fuzz {
+
+/// An MCAP file.
+TOUCHDOWN_FUZZ(mcap) {
+  const MemoryFile file(input);
+  try {
+    recordings::McapReader reader(file.path());
+    recordings::BagMessage message;
+    std::size_t bytes = 0;
+    while (reader.next(message)) {
+      for (const char c : message.data) bytes += static_cast<unsigned char>(c);
+    }
+    if (bytes == 1 && reader.note().empty()) return;  // the data were read
+  } catch (const Error&) {                            // NOLINT(bugprone-empty-catch): expected
+  }
+}
+
+}  // namespace touchdown::fuzz
