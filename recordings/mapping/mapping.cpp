@@ -442,7 +442,7 @@ void describe_time(Fields& fields, MappingReader& reader, LogMapping& mapping) {
       "period",
       fmt::format("expected the time between two rows (s), at most {} and at least {}",
                   longest_period, shortest_period));
-  if (!mapping.sources.empty() && !fields.documenting()) {
+  if (!reader.sources().front().section.empty()) {
     fields.check(!has_period, "period", "sources are joined by their times: expected 'time'");
     return describe_clocks(fields, reader, mapping);
   }

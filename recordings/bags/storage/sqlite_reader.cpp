@@ -55,24 +55,30 @@ SqliteReader::SqliteReader(const std::filesystem::path& path, const TopicFilter&
   all_ = prepare("SELECT topic_id, timestamp, data FROM messages NOT INDEXED " + where);
 }
 
-/// Opens the database to read it. A journal (`-wal`) beside it needs a folder that can be written;
-/// otherwise the database is read without it.
+/// Opens the database to read it; returns SQLite's code. `salvages` accepts a file that is shorter
+/// than it declares.
+int SqliteReader::try_open(const std::string& uri, bool salvages) {
+  sqlite3* opened = nullptr;
+  const int result =
+      sqlite3_open_v2(uri.c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+  database_.reset(opened);
+  if (opened == nullptr) throw Error("SQLite: no memory");
+  if (result != SQLITE_OK) return result;
+  sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, most_message_bytes);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_WRITABLE_SCHEMA, salvages ? 1 : 0, nullptr);
+  sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+  return sqlite3_exec(opened, "SELECT name FROM sqlite_master LIMIT 1", nullptr, nullptr, nullptr);
+}
+
+/// A journal (`-wal`) beside the database needs a folder that can be written; otherwise the
+/// database is read without it.
 void SqliteReader::open(const std::string& path) {
-  int result = SQLITE_OK;
-  for (const char* options : {"?mode=ro", "?mode=ro&immutable=1"}) {
-    sqlite3* opened = nullptr;
-    result = sqlite3_open_v2(uri_of(path, options).c_str(), &opened,
-                             SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
-    database_.reset(opened);
-    if (opened == nullptr) throw Error("SQLite: no memory");
-    sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, most_message_bytes);
-    sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-    sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-    sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
-    result =
-        sqlite3_exec(opened, "SELECT name FROM sqlite_master LIMIT 1", nullptr, nullptr, nullptr);
-    if (result != SQLITE_CANTOPEN && result != SQLITE_READONLY) break;
+  int result = try_open(uri_of(path, "?mode=ro"), false);
+  if (result == SQLITE_CANTOPEN || result == SQLITE_READONLY) {
+    result = try_open(uri_of(path, "?mode=ro&immutable=1"), false);
   }
+  if (result == SQLITE_CORRUPT) result = try_open(uri_of(path, "?mode=ro"), true);
   if (result == SQLITE_NOTADB) complain("is no SQLite database: is it compressed?");
   if (result != SQLITE_OK) {
     complain(fmt::format("cannot be read: {}", sqlite3_errmsg(database_.get())));

@@ -39,6 +39,7 @@ class SqliteReader {
   };
   using Statement = std::unique_ptr<sqlite3_stmt, Close>;
 
+  int try_open(const std::string& uri, bool salvages);
   void open(const std::string& path);
   bool has_table(std::string_view name);
   void read_topics(const TopicFilter& wanted);
