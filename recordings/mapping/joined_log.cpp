@@ -58,10 +58,6 @@ std::vector<SourceColumn> columns_of(const LogMapping& mapping, std::size_t sour
   return columns;
 }
 
-std::size_t joint_source(const LogMapping& mapping) {
-  return mapping.columns[mapping.position.numbers.front().column].source;
-}
-
 /// One line for each source that is held, and for rows that are left out.
 std::vector<std::string> notes_of(const SourceJoin& join, const std::vector<SourceNames>& names,
                                   std::size_t clock, double stale_after) {
@@ -226,7 +222,7 @@ std::vector<std::string> read_joined_files(const fs::path& log, const LogSources
   std::vector<SourceNames> names = named_files(log, sources);
   for (SourceNames& one : names) one = read_names(one);
   const LogMapping& mapping = sink.mapping(names);
-  const std::size_t clock = joint_source(mapping);
+  const std::size_t clock = mapping.joint_source();
   ColumnOrder order(mapping, names.size());
   SourceJoin join({order.widths(), clock, sources.stale_after},
                   [&](std::span<const double> row, std::uint64_t position) {
@@ -340,7 +336,7 @@ std::vector<std::string> read_joined_bag(const fs::path& log, const LogSources& 
   BagSources bag = bag_sources(log, sources);
   const LogMapping& mapping = sink.mapping(bag.names);
   check_given(log, mapping, bag);
-  const std::size_t clock = joint_source(mapping);
+  const std::size_t clock = mapping.joint_source();
   ColumnOrder order(mapping, bag.names.size());
   SourceJoin join({order.widths(), clock, sources.stale_after}, [&](std::span<const double> row,
                                                                     std::uint64_t position) {

@@ -603,11 +603,17 @@ void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping
   }
   reader.enter("contact");
   reader.describe_contact(fields);
-  if (mapping.clocks.empty() || mapping.position.numbers.empty()) return;
-  mapping.time = mapping.clocks[mapping.columns[mapping.position.numbers.front().column].source];
+  if (!mapping.clocks.empty()) mapping.time = mapping.clocks[mapping.joint_source()];
 }
 
 }  // namespace
+
+std::size_t LogMapping::joint_source() const {
+  for (const MappedSignal::Number& number : position.numbers) {
+    if (number.column < columns.size()) return columns[number.column].source;
+  }
+  return 0;
+}
 
 std::vector<Key> mapping_keys() {
   const SourceNames arrays{.file = "", .are_arrays = true, .names = {}};

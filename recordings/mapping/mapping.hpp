@@ -104,6 +104,9 @@ struct LogMapping {
   /// Rotation from the axes of the log's IMU to those of Upkie's (x back, y left, z down).
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 
+  /// The source of the joints' rows, of a log with several: that of the first joint.
+  std::size_t joint_source() const;
+
   /// Contact labels: one number for both wheels, or left and right.
   std::optional<MappedSignal> contact;
   double contact_above = 0.5;  ///< a number above this is contact
