@@ -1,8 +1,6 @@
 #include "recordings/bags/bag.hpp"
 
 #include <algorithm>
-#include <system_error>
-#include <unistd.h>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,15 +18,6 @@ namespace fs = std::filesystem;
 
 /// Largest payload of a message that is compressed.
 constexpr std::uint64_t most_payload_bytes = std::uint64_t{1} << 28U;
-
-/// An empty file for the content of a compressed one.
-fs::path temporary_file() {
-  std::string name = (fs::temp_directory_path() / "touchdown_bag_XXXXXX").string();
-  const int descriptor = ::mkstemp(name.data());
-  if (descriptor < 0) throw Error(fmt::format("{}: cannot be made", name));
-  ::close(descriptor);
-  return name;
-}
 
 std::string first_bytes(const fs::path& path) {
   std::string bytes;
@@ -54,24 +43,19 @@ bool is_bag(const fs::path& path) {
 BagReader::BagReader(const fs::path& path, TopicFilter wanted)
     : wanted_(std::move(wanted)), files_(bag_files(path)) {}
 
-BagReader::~BagReader() { close(); }
-
 void BagReader::close() {
   mcap_.reset();
   sqlite_.reset();
-  if (temporary_.empty()) return;
-  std::error_code ignored;
-  fs::remove(temporary_, ignored);
-  temporary_.clear();
+  temporary_.reset();
 }
 
 void BagReader::open_next() {
   const fs::path& named = files_[next_file_++];
   fs::path file = named;
   if (is_zstd(first_bytes(file))) {
-    temporary_ = temporary_file();
-    decompress_file(file, temporary_);
-    file = temporary_;
+    const fs::path& plain = temporary_.emplace().path();
+    decompress_file(file, plain);
+    file = plain;
   }
   const std::string bytes = first_bytes(file);
   if (bytes.starts_with("#ROSBAG")) {

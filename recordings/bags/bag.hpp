@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "recordings/bags/storage/mcap_reader.hpp"
 #include "recordings/bags/storage/message.hpp"
 #include "recordings/bags/storage/sqlite_reader.hpp"
+#include "recordings/bags/storage/temporary_file.hpp"
 
 namespace touchdown::recordings {
 
@@ -25,9 +27,6 @@ class BagReader {
  public:
   /// A topic is read if `wanted` is empty or true for it.
   explicit BagReader(const std::filesystem::path& path, TopicFilter wanted = {});
-  ~BagReader();
-  BagReader(const BagReader&) = delete;
-  BagReader& operator=(const BagReader&) = delete;
 
   /// Proceeds to the next message. Returns false at the end.
   bool next(BagMessage& message);
@@ -46,7 +45,7 @@ class BagReader {
   TopicFilter wanted_;
   std::vector<std::filesystem::path> files_;
   std::size_t next_file_ = 0;
-  std::filesystem::path temporary_;  ///< empty, or the decompressed current file
+  std::optional<TemporaryFile> temporary_;  ///< the current file, decompressed
   std::unique_ptr<McapReader> mcap_;
   std::unique_ptr<SqliteReader> sqlite_;
   std::vector<std::size_t> topic_of_;  ///< of each topic of the current file

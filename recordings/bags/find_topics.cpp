@@ -96,7 +96,7 @@ std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& path,
   };
   BagMessage message;
   while (!std::all_of(found.begin(), found.end(), is_complete) && bag.next(message)) {
-    const BagTopic& topic = bag.topics()[message.topic];
+    const BagTopic topic = bag.topics()[message.topic];  // a copy: reading on moves them
     for (SignalTopic& one : found) {
       if (one.name != topic.name || is_complete(one)) continue;
       if (one.type.empty()) check_readable(topic, bag, path);

@@ -112,7 +112,7 @@ void read_source_log(const std::filesystem::path& path, const SourceLogSink& sin
     read_arrays(path, sink);
   } else {
     throw InputError(
-        fmt::format("{}: expected a log as FILE.csv, FILE.npz or a ROS 2 bag", path.string()));
+        fmt::format("{}: expected a log as FILE.csv or FILE.npz, or a ROS 2 bag", path.string()));
   }
 }
 

@@ -1,12 +1,15 @@
 #include "recordings/bags/storage/sqlite_reader.hpp"
 
+#include <algorithm>
 #include <sqlite3.h>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "core/resources.hpp"
+#include "recordings/bags/storage/random_file.hpp"
 
 namespace touchdown::recordings {
 
@@ -42,7 +45,7 @@ SqliteReader::SqliteReader(const std::filesystem::path& path, const TopicFilter&
                            const std::string& name)
     : name_(name.empty() ? path.string() : name) {
   require_file(path);
-  open(path.string());
+  open(path);
   for (const char* table : {"topics", "messages"}) {
     if (!has_table(table)) complain(fmt::format("is no ROS 2 bag: it has no table '{}'", table));
   }
@@ -71,14 +74,37 @@ int SqliteReader::try_open(const std::string& uri, bool salvages) {
   return sqlite3_exec(opened, "SELECT name FROM sqlite_master LIMIT 1", nullptr, nullptr, nullptr);
 }
 
+/// SQLite would take the missing bytes of the last page for zeros, and those for messages.
+void SqliteReader::copy_whole_pages(const std::filesystem::path& path) {
+  std::string head;
+  const RandomFile file(path, name_);
+  file.read(16, 2, head);  // the size of a page, big-endian; 1 is 65536
+  const auto byte = [&](std::size_t i) {
+    return i < head.size() ? static_cast<std::uint64_t>(static_cast<unsigned char>(head[i])) : 0U;
+  };
+  const std::uint64_t given = 256 * byte(0) + byte(1);
+  const std::uint64_t page = given == 1 ? 65536 : std::max<std::uint64_t>(given, 512);
+  const std::filesystem::path& copy = copy_.emplace().path();
+  std::error_code wrong;
+  std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing, wrong);
+  if (!wrong) std::filesystem::resize_file(copy, file.size() / page * page, wrong);
+  if (wrong) {
+    throw Error(
+        fmt::format("{}: cannot be copied to {}: {}", name_, copy.string(), wrong.message()));
+  }
+}
+
 /// A journal (`-wal`) beside the database needs a folder that can be written; otherwise the
 /// database is read without it.
-void SqliteReader::open(const std::string& path) {
+void SqliteReader::open(const std::filesystem::path& path) {
   int result = try_open(uri_of(path, "?mode=ro"), false);
   if (result == SQLITE_CANTOPEN || result == SQLITE_READONLY) {
     result = try_open(uri_of(path, "?mode=ro&immutable=1"), false);
   }
-  if (result == SQLITE_CORRUPT) result = try_open(uri_of(path, "?mode=ro"), true);
+  if (result == SQLITE_CORRUPT) {
+    copy_whole_pages(path);
+    result = try_open(uri_of(copy_->path(), "?mode=ro"), true);
+  }
   if (result == SQLITE_NOTADB) complain("is no SQLite database: is it compressed?");
   if (result != SQLITE_OK) {
     complain(fmt::format("cannot be read: {}", sqlite3_errmsg(database_.get())));
@@ -139,7 +165,11 @@ bool SqliteReader::take(sqlite3_stmt* row, BagMessage& message) {
 bool SqliteReader::next(BagMessage& message) {
   if (order_) {
     try {
-      return next_in_order(message);
+      if (next_in_order(message)) return true;
+      if (copy_) {
+        note_ = fmt::format("{}: cut off: {} messages were read", name_, messages_);
+      }
+      return false;
     } catch (const InputError&) {
       if (messages_ > 0) {
         note_ = fmt::format("{}: damaged: {} messages were read, later ones are lost", name_,

@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "recordings/bags/storage/message.hpp"
+#include "recordings/bags/storage/temporary_file.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -40,7 +42,8 @@ class SqliteReader {
   using Statement = std::unique_ptr<sqlite3_stmt, Close>;
 
   int try_open(const std::string& uri, bool salvages);
-  void open(const std::string& path);
+  void open(const std::filesystem::path& path);
+  void copy_whole_pages(const std::filesystem::path& path);
   bool has_table(std::string_view name);
   void read_topics(const TopicFilter& wanted);
   Statement prepare(const std::string& sql);
@@ -51,6 +54,7 @@ class SqliteReader {
   [[noreturn]] void complain(const std::string& what) const;
 
   std::string name_;
+  std::optional<TemporaryFile> copy_;  ///< the whole pages of a file that is cut off
   std::unique_ptr<sqlite3, Close> database_;
   std::vector<BagTopic> topics_;
   std::map<std::int64_t, std::size_t> index_of_id_;  ///< of the wanted topics
