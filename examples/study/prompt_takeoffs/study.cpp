@@ -48,6 +48,9 @@ class PromptTakeoffsStudy final : public SectionStudy<PromptTakeoffs> {
                           estimates<Share>(study_name, &Share::value, evaluation));
     const Table table = directory.read_table("prompt_takeoffs.csv");
     FigureSpec figure{.name = study_name, .table = "prompt_takeoffs.csv"};
+    figure.panels =
+        combinations_in(table, {"torque_noise_nm", "accelerometer_noise_mps2"},
+                        [](const auto& noise) { return noise[0] + " N·m, " + noise[1] + " m/s²"; });
     figure.series = groups_in(table, "simulator", [](const auto& engine) { return engine; });
     figure.rows = groups_in(table, "estimator", estimator_title);
     figure.measures = {axis_with_interval("prompt_share", "share of flights")};

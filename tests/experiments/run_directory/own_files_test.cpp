@@ -119,8 +119,8 @@ TEST_F(OwnFiles, OfAnyNameAreRemovedIfTheRunRecordedThem) {
   for (const fs::path& file : recorded) EXPECT_THAT(found, ::testing::Contains(file));
   remove_own_files(folder.path());
   std::vector<std::string> expected = untracked;
-  expected.insert(expected.end(),
-                  {"state/key", "state/lock", "tables/.hidden.csv", "state/my_study/notes"});
+  expected.insert(expected.end(), {"state/key", "state/lock", "tables/.hidden.csv",
+                                   "state/files/..:outside.csv", "state/my_study/notes"});
   EXPECT_THAT(left(), UnorderedElementsAreArray(expected));
 }
 
