@@ -32,8 +32,7 @@ void run_one_shard(const experiments::Experiment& experiment, const experiments:
                    const experiments::RunOptions& options) {
   const experiments::ShardReport report = experiments::run_shard(experiment, shard, options);
   for (const experiments::Rollout& run : report.failed_runs) {
-    print("Not used: {} ({})\n", run.plan.file,
-          run.report.error.empty() ? recordings::to_text(run.report.outcome) : run.report.error);
+    print("Not used: {} ({})\n", run.plan.file, run.report.ending);
   }
   print("shard {}: {} parts, {} computed now\n", experiments::to_text(shard), report.tasks,
         report.computed);

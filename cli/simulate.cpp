@@ -10,6 +10,7 @@
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "recordings/log/recording_file.hpp"
+#include "scenarios/ending.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/generation/named.hpp"
 #include "scenarios/scenario_file.hpp"
@@ -55,9 +56,8 @@ void simulate(const SimulateFlags& flags, const CliSession& session) {
   if (*session.stop) throw Stopped();
   recordings::write_recording(recording, flags.output);
   const auto all = scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, {})));
-  print("{}: {} {} after {:.3f} s, {} flights\n", flags.output, recording.info.scenario,
-        recordings::to_text(*recording.info.outcome),
-        static_cast<double>(recording.steps()) * recording.period(), all.size());
+  print("{}: {} {}, {} flights\n", flags.output, recording.info.scenario,
+        scenarios::ending_text(recording, scenario.end), all.size());
 }
 
 }  // namespace

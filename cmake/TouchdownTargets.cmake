@@ -196,7 +196,7 @@ endfunction()
 # installs the robots, scenarios, sensor profiles, experiments and fitted models below the folder.
 function(touchdown_install_data destination)
   foreach(folder models scenarios sensors experiments)
-    set(patterns xml yaml npz json)
+    set(patterns xml urdf yaml npz json)
     list(TRANSFORM patterns PREPEND ${PROJECT_SOURCE_DIR}/${folder}/*.)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${patterns})
     foreach(file ${files})

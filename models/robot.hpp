@@ -52,7 +52,11 @@ struct ServoReading {
   double torque = 0.0;
 };
 
-/// Measurement of the IMU. Its frame on Upkie: x back, y left, z down.
+/// The IMU's frame in the base frame, in all recordings: x back, y left, z down, as on Upkie. An
+/// IMU that is mounted otherwise is read in this frame.
+inline Eigen::Quaterniond imu_convention() { return {0.0, 0.0, 1.0, 0.0}; }
+
+/// Measurement of the IMU, in the frame above.
 struct ImuReading {
   /// From the IMU frame to the attitude reference system (x forward, y right, z down).
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();

@@ -1,5 +1,6 @@
 #include "models/robot_description.hpp"
 
+#include <algorithm>
 #include <system_error>
 #include <vector>
 
@@ -8,6 +9,11 @@
 #include "core/resources.hpp"
 
 namespace touchdown::models {
+
+namespace {
+/// Joints may turn once from any zero. The robot's own ranges are checked with its model.
+constexpr double largest_angle = 6.2832;  // rad
+}  // namespace
 
 static void describe(Fields& fields, LegActuators& actuators) {
   fields.section("hip", actuators.hip).doc("Actuators of the hips.");
@@ -27,14 +33,72 @@ static void describe(Fields& fields, LegLengths& legs) {
 }
 
 static void describe(Fields& fields, Stance& stance) {
-  fields("hip", stance.hip, -1.26, 1.26).doc("rad", "Hip angle.");
-  fields("knee", stance.knee, -2.51, 2.51).doc("rad", "Knee angle.");
+  fields("hip", stance.hip, -largest_angle, largest_angle)
+      .doc("rad", "Hip angle, forward positive, within the joint's range.");
+  fields("knee", stance.knee, -largest_angle, largest_angle)
+      .doc("rad", "Knee angle, backward positive, within the joint's range.");
+}
+
+/// A name, written only if it is given.
+static KeyNotes describe_name(Fields& fields, const std::string& key, std::string& name) {
+  fields.know(key);
+  return fields.present(key, !name.empty()) ? fields(key, name) : KeyNotes();
+}
+
+static void describe_parts(Fields& fields, PartNames& parts) {
+  fields.know("joints");
+  const bool has_joints = std::any_of(parts.joint.begin(), parts.joint.end(),
+                                      [](const std::string& name) { return !name.empty(); });
+  if (fields.present("joints", has_joints)) {
+    fields
+        .within("joints",
+                [&](Fields& joints) {
+                  for (std::size_t i = 0; i < servo_count; ++i) {
+                    describe_name(joints, std::string(servo_names[i]), parts.joint[i])
+                        .fallback("its key")
+                        .doc("Joint of the MJCF.");
+                  }
+                })
+        .doc("Names of the servos' joints in the MJCF.");
+  }
+  std::string hip = parts.has_hips ? "joint" : "none";
+  fields.know("hip");
+  if (fields.present("hip", !parts.has_hips)) {
+    fields.choose("hip", {"joint", "none"}, hip)
+        .doc("Whether legs have hips; `none` for legs of a knee and a wheel.");
+  }
+  parts.has_hips = hip == "joint";
+  fields.know("held");
+  if (fields.present("held", !parts.held.empty())) {
+    fields("held", parts.held).doc("Joints that are held at their reference, such as hip rolls.");
+  }
+  fields.know("tyres");
+  if (fields.present("tyres", !parts.tyre[0].empty() || !parts.tyre[1].empty())) {
+    fields
+        .within("tyres",
+                [&](Fields& tyres) {
+                  describe_name(tyres, "left", parts.tyre[0])
+                      .fallback("left_tire")
+                      .doc("Geom of the left tyre, or a body with one round collider.");
+                  describe_name(tyres, "right", parts.tyre[1])
+                      .fallback("right_tire")
+                      .doc("Geom of the right tyre, or a body with one round collider.");
+                })
+        .doc("Names of the tyres in the MJCF.");
+  }
+  describe_name(fields, "imu", parts.imu)
+      .fallback("imu")
+      .doc("Site of the IMU, or a body that is fixed to the base.");
+  describe_name(fields, "base", parts.base)
+      .fallback("the root link")
+      .doc("Floating link of a URDF.");
 }
 
 void describe(Fields& fields, RobotDescription& robot) {
   std::string mjcf = robot.mjcf.string();
-  fields.require("mjcf", mjcf).doc("MJCF that this file modifies, beside this file.");
+  fields.require("mjcf", mjcf).doc("MJCF or URDF that this file is about, beside this file.");
   robot.mjcf = mjcf;
+  describe_parts(fields, robot.parts);
   fields("mass", robot.mass, 0.01, 100.0).doc("Factor on mass and inertia of every body.");
   fields.optional("wheel_radius", robot.wheel_radius, 0.005, 1.0)
       .fallback("as in the MJCF")
@@ -59,7 +123,9 @@ const std::optional<Actuator>& RobotDescription::actuator(Servo servo) const {
   }
 }
 
-bool is_about_an_mjcf(const std::filesystem::path& file) { return file.extension() == ".yaml"; }
+bool is_about_an_mjcf(const std::filesystem::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
+}
 
 RobotDescription robot_description(const std::filesystem::path& file) {
   if (!is_about_an_mjcf(file)) {
@@ -70,6 +136,8 @@ RobotDescription robot_description(const std::filesystem::path& file) {
   const YamlDocument document = YamlDocument::load(file);
   auto robot = from_yaml<RobotDescription>(document);
   robot.mjcf = file.parent_path() / robot.mjcf;
+  robot.is_named = true;
+  robot.has_stance = document.root()["stance"].IsDefined();
   // Checked here, as the model may be compiled later, for the controller gains only.
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(robot.mjcf, ignored)) {

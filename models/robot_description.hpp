@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "models/actuator.hpp"
 #include "models/robot.hpp"
@@ -29,6 +30,17 @@ struct Stance {
   double knee = 0.791;
 };
 
+/// The parts of a robot in its MJCF or URDF. An empty name stands for the name in the contract
+/// (docs/models.md).
+struct PartNames {
+  std::array<std::string, servo_count> joint;  ///< in servo order
+  bool has_hips = true;                        ///< false: legs of a knee and a wheel
+  std::vector<std::string> held;               ///< joints that stay at their reference
+  std::array<std::string, wheel_count> tyre;   ///< geoms, or bodies with one round collider
+  std::string imu;                             ///< a site, or a body with the frame of the IMU
+  std::string base;                            ///< the floating link of a URDF
+};
+
 /// A robot as described by a file. The file is either an MJCF, with joints that may have
 /// `frictionloss`, `damping` and `armature`, or a YAML file that modifies an MJCF:
 ///
@@ -42,14 +54,27 @@ struct Stance {
 ///       knee: {friction: 0.06, armature: 0.003}
 ///     balancer: {gains: lqr}     # read by the balancer (scenarios/scenario_file.hpp)
 ///     tyre: {law: spring_damper} # of both wheels (models/tyre.hpp)
+///
+/// or that names the parts of an MJCF or URDF with other names:
+///
+///     mjcf: robot.urdf
+///     base: trunk
+///     joints: {left_knee: l_knee, left_wheel: l_axle, right_knee: r_knee, right_wheel: r_axle}
+///     hip: none
+///     held: [l_hip_roll, r_hip_roll]
+///     tyres: {left: l_tire, right: r_tire}
+///     imu: imu_link
 struct RobotDescription {
   std::filesystem::path mjcf;
   double mass = 1.0;
   std::optional<double> wheel_radius;  ///< as in the MJCF if absent
   LegLengths legs;
   Stance stance;
+  bool has_stance = false;  ///< whether the file gives the stance, from the zeros of its joints
   LegActuators actuators;
   Tyre tyre;
+  PartNames parts;
+  bool is_named = false;  ///< whether a YAML file gave this description, not an MJCF alone
 
   /// The actuator of a servo, if the file specifies one.
   const std::optional<Actuator>& actuator(Servo servo) const;
@@ -58,7 +83,7 @@ struct RobotDescription {
 /// Describes all keys. The section `balancer` is accepted, but read elsewhere.
 void describe(Fields& fields, RobotDescription& robot);
 
-/// Whether a robot's file is a YAML description, not an MJCF.
+/// Whether a robot's file is a YAML description (`.yaml`, `.yml`), not an MJCF.
 bool is_about_an_mjcf(const std::filesystem::path& file);
 
 /// Errors: `InputError` with file:line:column.

@@ -2,71 +2,63 @@
 
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <mujoco/mujoco.h>
 
 #include "models/actuator.hpp"
+#include "models/mjcf/types.hpp"
 #include "models/robot.hpp"
 #include "models/terrain.hpp"
 #include "models/tyre.hpp"
 
 namespace touchdown::models {
 
-struct MjModelDeleter {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-using MjModelPtr = std::unique_ptr<mjModel, MjModelDeleter>;
-
-struct MjDataDeleter {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using MjDataPtr = std::unique_ptr<mjData, MjDataDeleter>;
-
-// Rows of MuJoCo's arrays as Eigen vectors and quaternions. MuJoCo stores quaternions as w x y z.
-
-inline Eigen::Vector3d vector_at(const mjtNum* x, int row) {
-  return {x[3 * row], x[3 * row + 1], x[3 * row + 2]};
-}
-inline Eigen::Quaterniond quaternion_at(const mjtNum* x, int row) {
-  return {x[4 * row], x[4 * row + 1], x[4 * row + 2], x[4 * row + 3]};
-}
-
 /// A compiled robot on a terrain. Both physics engines and the renderer are built from it.
 ///
-/// Any robot works if its MJCF keeps the naming contract:
-/// - one free-floating base body with exactly six hinge joints and six motors, named as in
-///   `servo_names`;
-/// - a site `imu` on the base body;
-/// - geoms `left_tire` and `right_tire` on the bodies that the wheel joints move.
-/// touchdown uses no other names of the robot.
+/// Any robot works if its file keeps the contract of docs/models.md, or if a YAML file names its
+/// parts. The model follows touchdown's conventions for axes, signs and zeros, whatever those of
+/// the file (models/contract/conventions.hpp).
 struct RobotModel {
   MjModelPtr mj;
   std::string name;  ///< the MJCF's model name
   int base_body = -1;
   int imu_site = -1;
-  std::array<int, servo_count> qpos_address = {};  ///< of each servo's joint in mjData::qpos
-  std::array<int, servo_count> dof_address = {};   ///< of each servo's joint in mjData::qvel
-  std::array<int, wheel_count> tyre_geom = {};     ///< left, right
-  Tyre tyre;                                       ///< tyre model of both wheels
+  Eigen::Vector3d imu_position = Eigen::Vector3d::Zero();  ///< in the base frame (m)
+  /// Of each servo's joint: its number, and its places in mjData::qpos and mjData::qvel. −1 for the
+  /// hips of legs that have none.
+  std::array<int, servo_count> joint = {};
+  std::array<int, servo_count> qpos_address = {};
+  std::array<int, servo_count> dof_address = {};
+  std::array<int, wheel_count> tyre_geom = {};  ///< left, right
+  Tyre tyre;                                    ///< tyre model of both wheels
   /// All geoms of each tyre: its `tyre_geom`, then the strips beside it if the tyre has a width.
   std::array<std::vector<int>, wheel_count> tyre_strips = {};
   double wheel_radius = 0.0;                        ///< of the tyres (m)
   std::array<double, servo_count> effort = {};      ///< torque limit of each servo's motor (N·m)
   std::array<Actuator, servo_count> actuator = {};  ///< of each servo
+  /// Whether the axis of a servo's joint is the opposite of that in the file.
+  std::array<bool, servo_count> is_reversed = {};
+  /// What is added to an angle of the file's joint, after its sign, to count from a straight leg
+  /// (rad).
+  std::array<double, servo_count> zero = {};
+  std::array<std::string, servo_count> joint_name;  ///< in the file
+  std::vector<std::string> ignored;                 ///< what of the file is not simulated
+
+  bool has(std::size_t servo) const { return joint[servo] >= 0; }
+  /// The angle of a servo's joint at the reference pose, that of the file (rad).
+  double reference(std::size_t servo) const { return mj->qpos0[qpos_address[servo]]; }
 
   /// Address of the base's free joint in mjData::qpos (x y z, then w x y z) and in mjData::qvel.
   int base_qpos() const { return mj->jnt_qposadr[mj->body_jntadr[base_body]]; }
   int base_dof() const { return mj->jnt_dofadr[mj->body_jntadr[base_body]]; }
 };
 
-/// Compiles a robot (an MJCF, or a YAML file about one: models/robot_description.hpp) together with
-/// a terrain. Errors: `InputError` with file:line:column for broken XML; `InputError` that names
-/// the missing element if the model does not keep the contract.
+/// Compiles a robot (an MJCF, or a YAML file about an MJCF or URDF: models/robot_description.hpp)
+/// together with a terrain. Errors: `InputError` with file:line:column for broken XML, for an
+/// element that the contract lacks, and for one that not every engine simulates.
 ///
 /// From the first call on, MuJoCo's fatal errors are thrown as `Error` in the whole process, and
 /// its warnings are dropped. MuJoCo's own handlers wait for a key press and write files.
@@ -80,5 +72,12 @@ void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
 /// Kinematics of the robot with all joints at zero and the base upright at the origin. Errors:
 /// `Error` when memory is out.
 MjDataPtr at_zero(const RobotModel& robot);
+
+/// The same at the pose of the robot's file.
+MjDataPtr at_reference(const RobotModel& robot);
+
+/// Bits of the robot's collision geoms: they meet the terrain (2, 1) and not each other.
+inline constexpr int robot_contype = 1;
+inline constexpr int robot_conaffinity = 2;
 
 }  // namespace touchdown::models

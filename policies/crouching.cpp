@@ -11,7 +11,7 @@ const CrouchCommand* crouch_at(const CrouchScript& script, double time) {
 
 void describe(Fields& fields, CrouchCommand& command, const CrouchScript& script) {
   fields("time", command.time, 0.0, 1e6).doc("s", "Start of the command.");
-  fields.require("hip", command.hip, -1.26, 1.26)
+  fields.require("hip", command.hip, -largest_angle, largest_angle)
       .doc("rad", "Hip angle, forward positive; 0: straight legs. The knee follows.");
   fields("rate", command.rate, 1e-3, 100.0).doc("rad/s", "Rate of the hip angle.");
   check_order(fields, command, script);

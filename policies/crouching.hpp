@@ -18,6 +18,9 @@ struct CrouchCommand {
 /// Crouch commands, sorted by time. Before the first one the legs keep their initial posture.
 using CrouchScript = std::vector<CrouchCommand>;
 
+/// Bound of joint angles in files (rad). Robots have their own ranges.
+inline constexpr double largest_angle = 6.2832;
+
 /// Ratio of knee to hip angle. A ratio of 2 would keep the axle of legs with equal links below the
 /// hip. But bent knees move mass forward: at a hip of .455 rad the torso would have to lean back by
 /// .066 rad. This is the ratio of `start`'s knee .791 and hip .455, where the centre of mass is

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/error.hpp"
+
 namespace touchdown::policies {
 
 namespace {
@@ -27,10 +29,11 @@ Eigen::Vector2d SideView::centre(double hip, double knee, double pitch) const {
 
 SideView side_view(const models::RobotModel& robot) {
   const mjModel& mj = *robot.mj;
+  if (!robot.has(models::index(models::Servo::left_hip))) {
+    throw InputError(robot.name + ": soft_landing: expected legs with hips");
+  }
   const models::MjDataPtr data = models::at_zero(robot);
-  const auto joint = [&](models::Servo servo) {
-    return mj.dof_jntid[robot.dof_address[models::index(servo)]];
-  };
+  const auto joint = [&](models::Servo servo) { return robot.joint[models::index(servo)]; };
   const auto anchor = [&](models::Servo servo) {
     return seen(models::vector_at(data->xanchor, joint(servo)));
   };

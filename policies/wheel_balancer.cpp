@@ -1,6 +1,7 @@
 #include "policies/wheel_balancer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace touchdown::policies {
@@ -17,6 +18,10 @@ void WheelBalancer::reset(const models::Observation& observation) {
   *this = WheelBalancer(config_, std::move(course_.script), course_.wheel_radius, course_.period,
                         std::move(course_.crouch), std::move(given_contact_source_));
   course_.begin(observation, config_);
+  // A robot that leans at rest, with its centre of mass above its axle, keeps this lean. Smaller
+  // ones are left to the integral.
+  constexpr double least_lean = 0.05;  // rad
+  lean_ = std::abs(observation.pitch) > least_lean ? observation.pitch : 0.0;
 }
 
 bool WheelBalancer::in_the_air(const models::Observation& observation) {
@@ -25,7 +30,7 @@ bool WheelBalancer::in_the_air(const models::Observation& observation) {
 }
 
 void WheelBalancer::update_ground_velocity(const models::Observation& observation) {
-  const double pitch_error = -observation.pitch;
+  const double pitch_error = -(observation.pitch - lean_);
   const double period = course_.period;
   if (in_the_air(observation)) {
     // Wheels in the air cannot control the position, and hardly the pitch: the integral decays. The

@@ -31,6 +31,7 @@ class WheelBalancer : public Policy {
   WheelContact given_contact_source_;  ///< empty: Upkie's observer
   WheelContact contact_source_;
 
+  double lean_ = 0.0;  ///< pitch at which the robot balances (rad)
   double integral_ = 0.0;
   double ground_velocity_ = 0.0;
 };

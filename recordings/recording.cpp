@@ -9,8 +9,8 @@
 namespace touchdown::recordings {
 
 namespace {
-constexpr std::array<std::string_view, 4> outcome_texts = {"finished", "timed_out", "fell",
-                                                           "diverged"};
+constexpr std::array<std::string_view, 5> outcome_texts = {"finished", "timed_out", "fell",
+                                                           "diverged", "left_terrain"};
 }
 
 std::string_view to_text(Outcome outcome) {

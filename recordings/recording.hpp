@@ -12,13 +12,14 @@ namespace touchdown::recordings {
 
 /// How a run ended.
 enum class Outcome : int {
-  finished,   ///< reached the end of its scenario
-  timed_out,  ///< upright at the time limit, but not at the end
-  fell,       ///< something other than a tyre touched the terrain, or the robot tipped over
-  diverged,   ///< the physics engine gave NaN or unrealistic velocities
+  finished,      ///< reached the end of its scenario
+  timed_out,     ///< upright at the time limit, but not at the end
+  fell,          ///< something other than a tyre touched the terrain, or the robot tipped over
+  diverged,      ///< the physics engine gave NaN or unrealistic velocities
+  left_terrain,  ///< the base is below the floor: the robot fell through the ground
 };
 
-/// "finished", "timed_out", "fell", "diverged".
+/// "finished", "timed_out", "fell", "diverged", "left_terrain".
 std::string_view to_text(Outcome outcome);
 /// The inverse. Errors: `InputError` for anything else.
 Outcome outcome_from_text(std::string_view text);

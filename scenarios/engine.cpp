@@ -32,6 +32,7 @@ class TerminationCheck {
     const double time = simulator.observation().time;
     const models::GroundTruth& truth = simulator.ground_truth();
     if (!simulator.healthy()) return recordings::Outcome::diverged;
+    if (truth.base_position.z() < 0.0) return recordings::Outcome::left_terrain;
     if (truth.body_touches_terrain || tipped_over(truth, end_.fall_tilt))
       return recordings::Outcome::fell;
     if (truth.base_position.x() > end_.x) passed_ = std::min(passed_, time);

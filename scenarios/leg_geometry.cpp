@@ -20,7 +20,7 @@ struct Link {
 };
 
 int joint_of(const models::RobotModel& robot, Servo servo) {
-  return robot.mj->dof_jntid[robot.dof_address[models::index(servo)]];
+  return robot.joint[models::index(servo)];
 }
 
 std::array<Link, leg_servos.size()> links_of(const models::RobotModel& robot, const mjData& data) {
@@ -31,7 +31,7 @@ std::array<Link, leg_servos.size()> links_of(const models::RobotModel& robot, co
       const int joint = mj.body_jntnum[above] > 0 ? mj.body_jntadr[above] : -1;
       const auto mover = std::find_if(leg_servos.begin(), leg_servos.end(),
                                       [&](Servo servo) { return joint_of(robot, servo) == joint; });
-      if (joint < 0) continue;
+      if (joint < 0) continue;  // fixed to the body above
       if (mover != leg_servos.end()) {
         Link& link = links[static_cast<std::size_t>(mover - leg_servos.begin())];
         link.mass += mj.body_mass[body];
@@ -54,17 +54,23 @@ double inertia_about_axle(const models::RobotModel& robot, mjData& data) {
 /// Rounds to multiples of 1/`parts`: finer digits come from the arithmetic.
 double rounded(double value, double parts) { return std::round(value * parts) / parts; }
 
+/// A leg without a hip is like one with an infinitely long upper link and no torque at its hip:
+/// with Fx = 0, `vertical_force` is then the knee's load over its lever. The factor on the lower
+/// link's length leaves an error of a hundredth.
+constexpr double without_hip = 100.0;
+
 }  // namespace
 
 LegGeometry leg_geometry(const models::RobotModel& robot) {
   const models::MjDataPtr data = models::at_zero(robot);
-  const int hip = joint_of(robot, leg_servos[0]);
-  const Eigen::Vector3d axis = models::vector_at(data->xaxis, hip);
+  const bool has_hip = robot.has(models::index(Servo::left_hip));
+  const Eigen::Vector3d axis =
+      models::vector_at(data->xaxis, joint_of(robot, leg_servos[has_hip ? 0 : 1]));
   const auto in_plane = [&](const Eigen::Vector3d& vector) -> Eigen::Vector3d {
     return vector - axis * axis.dot(vector);
   };
   std::array<Eigen::Vector3d, leg_servos.size()> anchor;
-  for (std::size_t i = 0; i < leg_servos.size(); ++i) {
+  for (std::size_t i = has_hip ? 0 : 1; i < leg_servos.size(); ++i) {
     anchor[i] = models::vector_at(data->xanchor, joint_of(robot, leg_servos[i]));
   }
   const auto links = links_of(robot, *data);
@@ -77,8 +83,9 @@ LegGeometry leg_geometry(const models::RobotModel& robot) {
   const Link& wheel = links[2];
   const double off_axle = in_plane(wheel.weighted_centre / wheel.mass - anchor[2]).norm();
   const double wheel_inertia = inertia_about_axle(robot, *data) - wheel.mass * off_axle * off_axle;
-  const auto [upper_length, upper_centre] = length_and_centre(0);
   const auto [lower_length, lower_centre] = length_and_centre(1);
+  const auto [upper_length, upper_centre] =
+      has_hip ? length_and_centre(0) : std::pair(without_hip * lower_length, 0.0);
   return {.upper_length = rounded(upper_length, 1e6),
           .lower_length = rounded(lower_length, 1e6),
           .upper_mass = rounded(links[0].mass, 1e6),

@@ -67,7 +67,8 @@ static void describe(Fields& fields, RandomDrive& drive) {
 }
 
 static void describe(Fields& fields, RandomCrouches& crouches) {
-  describe_range(fields, "hip", crouches.hip, -1.26, 1.26).doc("rad", "Hip angle.");
+  describe_range(fields, "hip", crouches.hip, -policies::largest_angle, policies::largest_angle)
+      .doc("rad", "Hip angle.");
   fields("exponent", crouches.exponent, 0.1, 10.0)
       .doc("Exponent of the uniform draw; above 1 the low end is likelier.");
   describe_range(fields, "hold", crouches.hold, 0.01, 1e4)

@@ -16,10 +16,14 @@ static void describe(Fields& fields, Start& start) {
   fields("x", start.x, -1e3, 1e3).doc("m", "Position of the wheels along the course.");
   fields("y", start.y, -1e3, 1e3).doc("m", "Position of the wheels across the course.");
   fields("yaw", start.yaw, -3.2, 3.2).doc("rad", "Heading, positive to the left.");
-  fields("hip", start.hip, -1.26, 1.26)
-      .doc("rad", "Hip angle; a robot's file may set another default.");
-  fields("knee", start.knee, -2.51, 2.51)
-      .doc("rad", "Knee angle; a robot's file may set another default.");
+  fields("hip", start.hip, -policies::largest_angle, policies::largest_angle)
+      .doc("rad",
+           "Hip angle, forward from a straight leg, within the joint's range. A robot's file "
+           "may set another default.");
+  fields("knee", start.knee, -policies::largest_angle, policies::largest_angle)
+      .doc("rad",
+           "Knee angle, backward from a straight leg, within the joint's range. A robot's "
+           "file may set another default.");
   fields("clearance", start.clearance, 0.0, 100.0)
       .doc("m", "Height of the tyres above the ground.");
 }

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+
+#include <fmt/format.h>
 
 #include "core/fields.hpp"
 #include "core/resources.hpp"
@@ -13,15 +16,59 @@ namespace touchdown::scenarios {
 
 namespace {
 
-/// LQR gains of the robot as its file describes it, at rest on level ground.
-policies::LqrGains lqr_gains(const std::filesystem::path& robot, const Start& start) {
-  return [robot, legs = Start{.hip = start.hip, .knee = start.knee}](
+/// The robot as its file describes it, compiled when it is first needed.
+class DescribedRobot {
+ public:
+  explicit DescribedRobot(std::filesystem::path file) : file_(std::move(file)) {}
+
+  const std::filesystem::path& file() const { return file_; }
+  const models::RobotModel& model() {
+    if (!model_) {
+      model_ = std::make_shared<models::RobotModel>(models::compile_robot_model(file_, {}));
+    }
+    return *model_;
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::shared_ptr<const models::RobotModel> model_;
+};
+
+/// LQR gains of a robot at rest on level ground.
+policies::LqrGains lqr_gains(DescribedRobot& robot, const Start& start) {
+  return [&robot, legs = Start{.hip = start.hip, .knee = start.knee}](
              const policies::WheelBalancerConfig& config) {
-    const models::RobotModel model = models::compile_robot_model(robot, {});
-    const simulators::RobotState pose = start_pose(model, {}, legs);
-    return with_lqr_gains(config,
-                          policies::wheeled_pendulum(model, pose.orientation, pose.joint_position));
+    const simulators::RobotState pose = start_pose(robot.model(), {}, legs);
+    return with_lqr_gains(
+        config, policies::wheeled_pendulum(robot.model(), pose.orientation, pose.joint_position));
   };
+}
+
+/// The stance that a robot's file specifies, from straight legs.
+models::Stance stance_of(DescribedRobot& robot) {
+  const models::RobotDescription body = models::robot_description(robot.file());
+  return body.has_stance ? from_straight(robot.model(), body.stance) : body.stance;
+}
+
+/// Checks that the robot's joints can have all angles of the scenario.
+void check_angles(const Scenario& scenario, DescribedRobot& robot) {
+  const auto check = [&](const std::string& key, double hip, double knee) {
+    try {
+      require_stance(robot.model(), hip, knee);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}{}", robot.file().string(), key, error.what()));
+    }
+  };
+  check("start.", scenario.start.hip, scenario.start.knee);
+  if (!robot.model().has(models::index(models::Servo::left_hip))) return;
+  const auto check_crouch = [&](const std::string& key, double hip) {
+    check(key, hip, scenario.start.knee + policies::knee_per_hip * (hip - scenario.start.hip));
+  };
+  for (const policies::CrouchCommand& crouch : scenario.crouch) check_crouch("crouch.", crouch.hip);
+  if (scenario.perturbation.crouching) {
+    check_crouch("perturbation.crouching.", scenario.perturbation.crouching->hip.low);
+    check_crouch("perturbation.crouching.", scenario.perturbation.crouching->hip.high);
+  }
 }
 
 void describe_robot(Fields& fields, models::RobotDescription& body,
@@ -44,10 +91,9 @@ policies::WheelBalancerConfig balancer_of(const std::filesystem::path& robot,
 }
 
 /// Scales forces that are written for a robot of another mass to the mass of this one.
-void scale_forces(Scenario& scenario) {
+void scale_forces(Scenario& scenario, DescribedRobot& robot) {
   if (!scenario.forces_for_mass) return;
-  const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
-  const double mass = mj_getTotalmass(robot.mj.get());
+  const double mass = mj_getTotalmass(robot.model().mj.get());
   const double factor = mass / *scenario.forces_for_mass;
   constexpr double same_mass = 1e-6;  // then the forces stay bit-identical
   if (std::abs(factor - 1.0) < same_mass) return;
@@ -79,14 +125,17 @@ Scenario complete_scenario(const YamlDocument& document) {
                               [](const policies::WheelBalancerConfig& config) { return config; });
   Scenario defaults;
   Fields(document).check("robot", [&] { defaults.robot = find_resource(wanted.robot); });
-  const models::Stance stance = models::robot_description(defaults.robot).stance;
+  DescribedRobot robot(defaults.robot);
+  (void)robot.model();  // complaints about the robot come before those about its scenario
+  const models::Stance stance = stance_of(robot);
   defaults.start.hip = std::isnan(wanted.start.hip) ? stance.hip : wanted.start.hip;
   defaults.start.knee = std::isnan(wanted.start.knee) ? stance.knee : wanted.start.knee;
-  const policies::LqrGains lqr = lqr_gains(defaults.robot, defaults.start);
+  const policies::LqrGains lqr = lqr_gains(robot, defaults.start);
   defaults.balancer = balancer_of(defaults.robot, lqr);
   Scenario scenario = scenario_from_yaml(document, defaults, lqr);
   scenario.robot = defaults.robot;
-  scale_forces(scenario);
+  scale_forces(scenario, robot);
+  check_angles(scenario, robot);
   return scenario;
 }
 

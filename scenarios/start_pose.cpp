@@ -1,6 +1,7 @@
 #include "scenarios/start_pose.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ struct Leg {
 
 /// Whether the angle is within the joint's range.
 bool can_turn(const models::RobotModel& model, std::size_t servo, double angle) {
-  const int joint = model.mj->dof_jntid[model.dof_address[servo]];
+  const int joint = model.joint[servo];
   const mjtNum* range = &model.mj->jnt_range[2 * joint];
   return model.mj->jnt_limited[joint] == 0 || (range[0] <= angle && angle <= range[1]);
 }
@@ -84,15 +85,16 @@ void line_up(const models::RobotModel& model, mjData& data, simulators::RobotSta
   std::array<Eigen::Vector2d, 2> tyre;
   std::array<double, 2> length;
   for (std::size_t i = 0; i < legs.size(); ++i) {
-    const int hip = model.mj->dof_jntid[model.dof_address[legs[i].hip]];
+    const int top = model.joint[model.has(legs[i].hip) ? legs[i].hip : legs[i].knee];
     tyre[i] = from_the_side(data.geom_xpos, legs[i].tyre);
-    length[i] = (tyre[i] - from_the_side(data.xanchor, hip)).norm();
+    length[i] = (tyre[i] - from_the_side(data.xanchor, top)).norm();
   }
   if ((tyre[0] - tyre[1]).norm() < 1e-9) return;
   const std::size_t longer = length[0] > length[1] ? 0 : 1;
   const bool backward = state.joint_position[models::index(models::Servo::right_knee)] < 0.0;
   const double forward = (longer == 0) == backward ? -1.0 : 1.0;
-  if (!reach(model, data, state, legs[longer], tyre[1 - longer], forward)) {
+  if (!model.has(legs[longer].hip) ||
+      !reach(model, data, state, legs[longer], tyre[1 - longer], forward)) {
     throw InputError(fmt::format(
         "{}: its legs differ too much to stand on one axle, however the longer one bends",
         model.name));
@@ -101,6 +103,30 @@ void line_up(const models::RobotModel& model, mjData& data, simulators::RobotSta
 
 }  // namespace
 
+void require_stance(const models::RobotModel& model, double hip, double knee) {
+  const std::array<double, models::servo_count> angle = {hip, -knee, 0.0, -hip, knee, 0.0};
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    if (i % 3 == 2 || !model.has(i) || can_turn(model, i, angle[i])) continue;
+    // The range in the words of the stance, hip forward and knee backward.
+    const double sign = (i < 3) == (i % 3 == 0) ? 1.0 : -1.0;
+    const mjtNum* range = &model.mj->jnt_range[2 * model.joint[i]];
+    throw InputError(fmt::format(
+        "{} {:g}: expected {:g} to {:g}, the range of joint '{}' from a straight leg{}",
+        i % 3 == 0 ? "hip" : "knee", sign * angle[i], sign * range[sign > 0.0 ? 0 : 1],
+        sign * range[sign > 0.0 ? 1 : 0], model.joint_name[i],
+        model.zero[i] == 0.0 ? "" : fmt::format(" (its zero is {:g} rad from it)", model.zero[i])));
+  }
+}
+
+models::Stance from_straight(const models::RobotModel& model, const models::Stance& stance) {
+  using models::Servo;
+  constexpr double turn = 2.0 * std::numbers::pi;
+  const double hip = stance.hip + model.zero[models::index(Servo::left_hip)];
+  const double knee = stance.knee - model.zero[models::index(Servo::left_knee)];
+  if (hip == stance.hip && knee == stance.knee) return stance;
+  return {std::remainder(hip, turn), std::remainder(knee, turn)};
+}
+
 simulators::RobotState start_pose(const models::RobotModel& model, const models::Terrain& terrain,
                                   const Start& start) {
   const models::MjDataPtr data(mj_makeData(model.mj.get()));
@@ -108,6 +134,9 @@ simulators::RobotState start_pose(const models::RobotModel& model, const models:
   simulators::RobotState state;
   // The left hip swings the foot forward and the knee folds it back under the hip.
   state.joint_position = {start.hip, -start.knee, 0.0, -start.hip, start.knee, 0.0};
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    if (!model.has(i)) state.joint_position[i] = 0.0;
+  }
 
   (void)kinematics(model, *data, state);
   line_up(model, *data, state);

@@ -15,7 +15,8 @@ Actuators::Actuators(const models::RobotModel& model, const StepSizes& steps)
   for (std::size_t i = 0; i < joint_.size(); ++i) {
     Joint& joint = joint_[i];
     joint.actuator = model.actuator[i];
-    joint.effort = model.effort[i];
+    joint.effort = model.effort[i];  // zero without a joint
+    if (!model.has(i)) continue;
     // The limit keeps the spring's oscillation with the joint's inertia below 0.5 rad per step.
     const double inertia = 1.0 / model.mj->dof_invweight0[model.dof_address[i]];
     joint.stiffness = std::min(joint.actuator.presliding_stiffness,

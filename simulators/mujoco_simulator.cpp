@@ -47,6 +47,7 @@ void MujocoSimulator::place(const RobotState& start) {
   Eigen::Map<Eigen::Matrix<mjtNum, 6, 1>> velocity(&data_->qvel[model().base_dof()]);
   velocity << start.linear_velocity, start.orientation.conjugate() * start.angular_velocity;
   for (std::size_t i = 0; i < models::servo_count; ++i) {
+    if (!model().has(i)) continue;
     data_->qvel[model().dof_address[i]] = start.joint_velocity[i];
   }
 }
@@ -54,6 +55,7 @@ void MujocoSimulator::place(const RobotState& start) {
 void MujocoSimulator::advance(const JointTorques& torques,
                               std::span<const ExternalWrench> wrenches) {
   for (std::size_t i = 0; i < models::servo_count; ++i) {
+    if (!model().has(i)) continue;
     data_->qfrc_applied[model().dof_address[i]] = torques[i];
   }
   Eigen::Map<Eigen::Matrix<mjtNum, 6, 1>> applied(
@@ -86,6 +88,7 @@ void MujocoSimulator::read(RobotState& state) const {
   state.linear_velocity = models::vector_at(v, 0);
   state.angular_velocity = state.orientation * models::vector_at(v, 1);
   for (std::size_t i = 0; i < models::servo_count; ++i) {
+    if (!model().has(i)) continue;
     state.joint_position[i] = data_->qpos[model().qpos_address[i]];
     state.joint_velocity[i] = data_->qvel[model().dof_address[i]];
   }

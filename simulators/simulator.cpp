@@ -25,9 +25,8 @@ Simulator::Simulator(std::shared_ptr<const models::RobotModel> model,
     : model_(std::move(model)),
       options_(with_steps_for_tyres(options, *model_)),
       actuators_(*model_, options_.steps),
-      imu_position_in_base_(models::vector_at(model_->mj->site_pos, model_->imu_site)),
-      imu_rotation_in_base_(
-          models::quaternion_at(model_->mj->site_quat, model_->imu_site).toRotationMatrix()) {}
+      imu_position_in_base_(model_->imu_position),
+      imu_rotation_in_base_(models::imu_convention().toRotationMatrix()) {}
 
 void Simulator::reset(const RobotState& start) {
   step_count_ = 0;

@@ -1,12 +1,12 @@
 #include <memory>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/check/log.hpp"
+#include "cli/check/robot.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "experiments/logs/robot.hpp"
 
 namespace touchdown::cli {
 
@@ -16,40 +16,56 @@ struct CheckFlags {
   std::vector<std::string> files;
   std::string robot;
   bool strict = false;
+  bool json = false;
 };
 
-/// Returns the number of findings. The type of a file follows from its extension.
-std::size_t check_file(const std::string& file, const CheckFlags& flags,
-                       const CliSession& session) {
-  return check_log(file, experiments::robot_called(flags.robot), session);
+/// What the checks found: complaints about robots always count, findings about logs if --strict.
+struct Found {
+  std::size_t complaints = 0;
+  std::size_t findings = 0;
+};
+
+/// The type of a file follows from its extension.
+void check_file(const std::string& file, const CheckFlags& flags, const CliSession& session,
+                Found& found) {
+  if (is_robot_file(file)) {
+    found.complaints += check_robot(file, flags.json);
+    return;
+  }
+  if (flags.json) throw InputError(fmt::format("{}: --json is for robots", file));
+  found.findings += check_log(file, experiments::robot_called(flags.robot), session);
 }
 
 void check(const CheckFlags& flags, const CliSession& session) {
-  std::size_t findings = 0;
-  for (const std::string& file : flags.files) findings += check_file(file, flags, session);
-  if (flags.strict && findings > 0) {
-    throw Error(fmt::format("check: {} finding{}", findings, findings == 1 ? "" : "s"));
-  }
+  Found found;
+  for (const std::string& file : flags.files) check_file(file, flags, session, found);
+  const std::size_t all = found.complaints + (flags.strict ? found.findings : 0);
+  if (all > 0) throw Error(fmt::format("check: {} finding{}", all, all == 1 ? "" : "s"));
 }
 
 }  // namespace
 
 void add_check(CLI::App& program, const CliSession& session) {
   Verb verb(program, "check",
-            "touchdown check robot.mpack\n"
+            "touchdown check models/upkie.xml\n"
             "touchdown check robot.mpack --robot my_robot.xml --strict\n\n"
-            "Checks whether a log's signals can be those of a wheeled biped: clock, units, signs,\n"
-            "axes, gravity, loads, dead channels. Prints one line per finding, with its likely\n"
-            "cause.");
+            "Checks robots and logs. Of a robot it prints what was read from its file, what is\n"
+            "ignored, where the engines differ, and how it stands for two seconds in each. The\n"
+            "exit code is 1 if it cannot be simulated. Of a log it checks whether the signals can\n"
+            "be those of a wheeled biped: clock, units, signs, axes, gravity, loads, dead\n"
+            "channels. It prints one line per finding, with its likely cause.");
   const auto flags = std::make_shared<CheckFlags>();
-  verb.option("file", &flags->files, "Logs in Upkie's layout; - is standard input")
+  verb.option("file", &flags->files,
+              "Robots: MJCF files, or YAML files about an MJCF or URDF. Logs in Upkie's layout; - "
+              "is standard input")
       .value_name("FILE")
       .required();
   verb.option("--robot", &flags->robot,
               "Robot that recorded the logs: its file gives weight, legs and ranges of joints\n"
               "(default: that of a simulated log, else Upkie's)")
       .value_name("NAME|FILE");
-  verb.flag("--strict", &flags->strict, "Exit with code 1 if there is a finding");
+  verb.flag("--strict", &flags->strict, "Exit with code 1 if there is a finding about a log");
+  verb.flag("--json", &flags->json, "Print JSON about robots");
   verb.action([flags, &session] { check(*flags, session); });
 }
 

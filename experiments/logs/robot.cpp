@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
+#include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
 #include "scenarios/leg_geometry.hpp"
 
@@ -44,7 +45,7 @@ std::filesystem::path robot_file_of(const recordings::RecordingInfo& log) {
 
 LogRobot robot_called(const std::string& name_or_file) {
   const std::filesystem::path path(name_or_file);
-  const bool is_file = path.extension() == ".xml" || path.extension() == ".yaml";
+  const bool is_file = path.extension() == ".xml" || models::is_about_an_mjcf(path);
   return is_file ? robot_in_file(path) : LogRobot{.name = name_or_file};
 }
 

@@ -42,8 +42,9 @@ Json failed_runs(const std::vector<Rollout>& runs) {
   Json list = Json::array();
   for (const Rollout& run : runs) {
     if (!run.failed()) continue;
-    list.push_back(
-        {{"recording", run.plan.file}, {"outcome", recordings::to_text(run.report.outcome)}});
+    list.push_back({{"recording", run.plan.file},
+                    {"outcome", recordings::to_text(run.report.outcome)},
+                    {"ending", run.report.ending}});
   }
   return list;
 }

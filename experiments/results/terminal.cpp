@@ -85,11 +85,7 @@ std::string summary_text(const ExperimentResult& result) {
   text += fmt::format("\n{}\n", conditions_text(experiment));
   for (const Rollout& run : result.runs) {
     if (!run.failed()) continue;
-    text += run.report.error.empty()
-                ? fmt::format("Not used: {} ({} after {:.1f} s)\n", run.plan.file,
-                              recordings::to_text(run.report.outcome), run.report.duration)
-                : fmt::format("Not used: {} (could not be simulated: {})\n", run.plan.file,
-                              run.report.error);
+    text += fmt::format("Not used: {} ({})\n", run.plan.file, run.report.ending);
   }
   return text;
 }

@@ -16,6 +16,7 @@
 #include "experiments/run_directory/saved_state.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/compiled_scenes.hpp"
+#include "scenarios/ending.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/leg_geometry.hpp"
 
@@ -55,7 +56,11 @@ bool is_whole(const PlannedRun& run, const RunDirectory& directory, const std::s
 
 /// The rollout of a run that could not be simulated.
 Rollout failed(const PlannedRun& plan, const std::string& why) {
-  Rollout run{plan, {.outcome = recordings::Outcome::diverged, .error = why}, {}};
+  Rollout run{plan,
+              {.outcome = recordings::Outcome::diverged,
+               .error = why,
+               .ending = "could not be simulated: " + why},
+              {}};
   run.signals.info.simulator = plan.simulator;
   run.signals.info.run = plan.run;
   return run;
@@ -82,7 +87,9 @@ Rollout rollout(const PlannedRun& run, recordings::Recording recording, const Pl
   return {run,
           {recording.info.outcome.value_or(recordings::Outcome::finished),
            static_cast<double>(recording.steps()) * recording.period(),
-           static_cast<int>(flights.size())},
+           static_cast<int>(flights.size()),
+           {},
+           scenarios::ending_text(recording, run.scenario.end)},
           std::move(signals)};
 }
 

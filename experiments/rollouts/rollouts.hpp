@@ -15,14 +15,16 @@ namespace touchdown::experiments {
 /// The outcome of a planned run.
 struct RunReport {
   recordings::Outcome outcome = recordings::Outcome::finished;
-  double duration = 0.0;   ///< s
-  int flights = 0;         ///< with both wheels off the ground for the scoring's minimum time
-  std::string error = {};  ///< why there is no recording; the outcome is then `diverged`
+  double duration = 0.0;    ///< s
+  int flights = 0;          ///< with both wheels off the ground for the scoring's minimum time
+  std::string error = {};   ///< why there is no recording; the outcome is then `diverged`
+  std::string ending = {};  ///< outcome, time and reason (scenarios/ending.hpp)
 };
 
 /// Whether studies exclude runs with this outcome.
 inline bool is_failure(recordings::Outcome outcome) {
-  return outcome == recordings::Outcome::fell || outcome == recordings::Outcome::diverged;
+  return outcome == recordings::Outcome::fell || outcome == recordings::Outcome::diverged ||
+         outcome == recordings::Outcome::left_terrain;
 }
 
 /// A planned run that was simulated or read.

@@ -15,19 +15,23 @@ Eigen::Vector3d in_its_plane(const Eigen::Vector3d& link) { return {link.x(), 0.
 }  // namespace
 
 odometry::WheeledBiped wheeled_biped(const models::RobotModel& robot) {
-  const mjModel& mj = *robot.mj;
   const models::MjDataPtr data = models::at_zero(robot);
-  const Eigen::Vector3d imu = models::vector_at(data->site_xpos, robot.imu_site);
+  const Eigen::Vector3d imu = robot.imu_position;
   odometry::WheeledBiped biped;
-  biped.imu_in_base =
-      models::quaternion_at(mj.site_quat, robot.imu_site).normalized().toRotationMatrix();
+  biped.imu_in_base = models::imu_convention().toRotationMatrix();
   biped.wheel_radius = robot.wheel_radius;
   for (std::size_t side = 0; side < models::wheel_count; ++side) {
     odometry::WheeledLeg& leg = biped.leg[side];
     std::array<Eigen::Vector3d, 3> anchor;
     for (std::size_t i = 0; i < anchor.size(); ++i) {
       const std::size_t servo = anchor.size() * side + i;
-      const int joint = mj.dof_jntid[robot.dof_address[servo]];
+      if (!robot.has(servo)) {
+        // A leg without a hip has one that never turns, and an upper link without length.
+        anchor[i] = models::vector_at(data->xanchor, robot.joint[servo + 1]);
+        leg.turn[i] = servo < anchor.size() ? -1.0 : 1.0;
+        continue;
+      }
+      const int joint = robot.joint[servo];
       anchor[i] = models::vector_at(data->xanchor, joint);
       const double along = models::vector_at(data->xaxis, joint).y();
       leg.turn[i] = along > 0.0 ? 1.0 : -1.0;
@@ -46,7 +50,7 @@ odometry::WheeledBiped wheeled_biped(const models::RobotModel& robot) {
 }
 
 RunMotion motion_of(const recordings::Recording& recording, const models::RobotModel& robot) {
-  const Eigen::Vector3d imu = models::vector_at(robot.mj->site_pos, robot.imu_site);
+  const Eigen::Vector3d imu = robot.imu_position;
   RunMotion motion{wheeled_biped(robot), {}, {}};
   motion.specific_force.reserve(recording.steps());
   motion.truth.reserve(recording.steps());

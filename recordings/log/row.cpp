@@ -20,7 +20,7 @@ struct BaseAttitude {
 };
 
 /// Computes the attitude from the IMU's orientation (to x forward, y right, z down) and angular
-/// velocity. The IMU is mounted as on Upkie: x back, y left, z down.
+/// velocity, which are in the IMU frame of all recordings (`imu_convention`).
 BaseAttitude base_attitude(const models::ImuReading& imu) {
   const Eigen::DiagonalMatrix<double, 3> base_to_imu(-1.0, 1.0, -1.0);
   const Eigen::DiagonalMatrix<double, 3> ars_to_world(1.0, -1.0, -1.0);

@@ -21,8 +21,11 @@ struct Label {
   unsigned colour;
 };
 /// By `Outcome`, and by the number of wheels in contact.
-constexpr Label outcome_labels[] = {
-    {"FINISHED", 0x2f6f4f}, {"TIME IS OVER", 0x5c636e}, {"FELL", 0xb0304f}, {"DIVERGED", 0xb0304f}};
+constexpr Label outcome_labels[] = {{"FINISHED", 0x2f6f4f},
+                                    {"TIME IS OVER", 0x5c636e},
+                                    {"FELL", 0xb0304f},
+                                    {"DIVERGED", 0xb0304f},
+                                    {"LEFT THE TERRAIN", 0xb0304f}};
 constexpr Label contact_labels[] = {
     {"IN THE AIR", 0xd9760f}, {"ON ONE WHEEL", 0x8a6d1d}, {"ON THE GROUND", 0x2f6f4f}};
 

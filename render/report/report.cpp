@@ -65,7 +65,8 @@ ReportSection reproduce_section(const ReportSubject& subject) {
       const auto text = [&](const char* key) {
         return run.contains(key) ? text_of(run[key]) : std::string();
       };
-      failed.rows.push_back({text("recording"), text("outcome")});
+      failed.rows.push_back(
+          {text("recording"), run.contains("ending") ? text("ending") : text("outcome")});
     }
     html += table_html({"Runs that are not scored", "failed runs", failed}, 1);
   }

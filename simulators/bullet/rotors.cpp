@@ -14,6 +14,7 @@ btVector3 axis_in_world(const btMultiBody& robot, int link) {
 btVector3 angular_velocity(const btMultiBody& robot, int link) {
   btVector3 velocity = robot.getBaseOmega();
   for (; link >= 0; link = robot.getParent(link)) {
+    if (robot.getLink(link).m_dofCount == 0) continue;
     velocity += axis_in_world(robot, link) * robot.getJointVel(link);
   }
   return velocity;
@@ -23,6 +24,7 @@ btVector3 angular_velocity(const btMultiBody& robot, int link) {
 
 Rotors::Rotors(const models::RobotModel& model, const BulletWorld& world) {
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    if (!model.has(servo)) continue;
     const double inertia = model.mj->dof_armature[model.dof_address[servo]];
     if (inertia > 0.0) rotors_.push_back({world.link_of(servo), inertia});
   }

@@ -25,7 +25,8 @@ void BulletSimulator::place(const RobotState& start) {
   robot.setBaseVel(to_bullet(start.linear_velocity + start.angular_velocity.cross(com_offset)));
   robot.setBaseOmega(to_bullet(start.angular_velocity));
   for (std::size_t i = 0; i < models::servo_count; ++i) {
-    robot.setJointPos(world_->link_of(i), start.joint_position[i]);
+    if (!model().has(i)) continue;
+    robot.setJointPos(world_->link_of(i), world_->to_bullet_angle(i, start.joint_position[i]));
     robot.setJointVel(world_->link_of(i), start.joint_velocity[i]);
   }
   btAlignedObjectArray<btQuaternion> rotations;
@@ -38,6 +39,7 @@ void BulletSimulator::advance(const JointTorques& torques,
                               std::span<const ExternalWrench> wrenches) {
   btMultiBody& robot = world_->robot();
   for (std::size_t i = 0; i < models::servo_count; ++i) {
+    if (!model().has(i)) continue;
     robot.addJointTorque(world_->link_of(i), torques[i]);
   }
   for (const ExternalWrench& wrench : wrenches) {
@@ -57,7 +59,8 @@ void BulletSimulator::read(RobotState& state) const {
   state.position = to_eigen(robot.getBasePos()) - com_offset;
   state.linear_velocity = to_eigen(robot.getBaseVel()) - state.angular_velocity.cross(com_offset);
   for (std::size_t i = 0; i < models::servo_count; ++i) {
-    state.joint_position[i] = robot.getJointPos(world_->link_of(i));
+    if (!model().has(i)) continue;
+    state.joint_position[i] = world_->from_bullet_angle(i, robot.getJointPos(world_->link_of(i)));
     state.joint_velocity[i] = robot.getJointVel(world_->link_of(i));
   }
 }

@@ -134,6 +134,17 @@ void BulletWorld::build_links(const models::RobotModel& model) {
     const Eigen::Quaterniond link_in_parent =
         above.orientation.conjugate() * body_in_parent * own.orientation;
     const int joint = mj.body_jntadr[body];
+    const int link = link_of_body_[static_cast<std::size_t>(body)];
+    const int link_above = link_of_body_[static_cast<std::size_t>(parent)];
+    if (joint < 0) {
+      robot_->setupFixed(link, mj.body_mass[body], to_bullet(own.inertia), link_above,
+                         to_bullet(link_in_parent.conjugate()),
+                         to_bullet(above.orientation.conjugate() *
+                                   (models::vector_at(mj.body_pos, body) +
+                                    body_in_parent * own.position - above.position)),
+                         btVector3(0.0, 0.0, 0.0), true);
+      continue;
+    }
     const Eigen::Vector3d pivot = models::vector_at(mj.jnt_pos, joint);
     const Eigen::Vector3d axis =
         own.orientation.conjugate() * models::vector_at(mj.jnt_axis, joint);
@@ -141,8 +152,7 @@ void BulletWorld::build_links(const models::RobotModel& model) {
         above.orientation.conjugate() *
         (models::vector_at(mj.body_pos, body) + body_in_parent * pivot - above.position);
     const Eigen::Vector3d pivot_to_link = own.orientation.conjugate() * (own.position - pivot);
-    robot_->setupRevolute(link_of_body_[static_cast<std::size_t>(body)], mj.body_mass[body],
-                          to_bullet(own.inertia), link_of_body_[static_cast<std::size_t>(parent)],
+    robot_->setupRevolute(link, mj.body_mass[body], to_bullet(own.inertia), link_above,
                           to_bullet(link_in_parent.conjugate()), to_bullet(axis),
                           to_bullet(parent_to_pivot), to_bullet(pivot_to_link), true);
   }
@@ -154,20 +164,23 @@ void BulletWorld::build_links(const models::RobotModel& model) {
   robot_->setMaxCoordinateVelocity(1e4);
 
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
-    const int dof = model.dof_address[servo];
+    if (!model.has(servo)) continue;
     link_of_servo_[servo] =
-        link_of_body_[static_cast<std::size_t>(mj.jnt_bodyid[mj.dof_jntid[dof]])];
+        link_of_body_[static_cast<std::size_t>(mj.jnt_bodyid[model.joint[servo]])];
+    reference_[servo] = model.reference(servo);
   }
 }
 
 void BulletWorld::add_joint_limits(const models::RobotModel& model) {
   const mjModel& mj = *model.mj;
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
-    const int joint = mj.dof_jntid[model.dof_address[servo]];
+    if (!model.has(servo)) continue;
+    const int joint = model.joint[servo];
     if (mj.jnt_limited[joint] == 0) continue;
     const mjtNum* range = &mj.jnt_range[2 * joint];
     auto& limit = joint_limits_.emplace_back(std::make_unique<btMultiBodyJointLimitConstraint>(
-        robot_.get(), link_of_servo_[servo], range[0], range[1]));
+        robot_.get(), link_of_servo_[servo], to_bullet_angle(servo, range[0]),
+        to_bullet_angle(servo, range[1])));
     world_.addMultiBodyConstraint(limit.get());
   }
 }

@@ -40,8 +40,17 @@ class BulletWorld {
   btMultiBody& robot() { return *robot_; }
   const btMultiBody& robot() const { return *robot_; }
 
-  /// Bullet's link that a servo's joint moves.
+  /// Bullet's link that a servo's joint moves; the robot has this joint.
   int link_of(std::size_t servo) const { return link_of_servo_[servo]; }
+
+  /// Bullet's joints are at zero in the reference pose of the model, those of the model need not
+  /// be. (Without an offset, zeros keep their sign.)
+  double to_bullet_angle(std::size_t servo, double angle) const {
+    return reference_[servo] == 0.0 ? angle : angle - reference_[servo];
+  }
+  double from_bullet_angle(std::size_t servo, double angle) const {
+    return reference_[servo] == 0.0 ? angle : angle + reference_[servo];
+  }
 
   const BulletTyres& tyres() const { return tyres_; }
 
@@ -65,6 +74,7 @@ class BulletWorld {
   std::vector<std::unique_ptr<btMultiBodyJointLimitConstraint>> joint_limits_;
   std::vector<int> link_of_body_;
   std::array<int, models::servo_count> link_of_servo_ = {};
+  std::array<double, models::servo_count> reference_ = {};  ///< of each joint (rad)
   BulletTyres tyres_;
   WorldWithTyres world_;
 

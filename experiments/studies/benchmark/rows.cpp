@@ -1,6 +1,7 @@
 #include "experiments/studies/benchmark/rows.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -25,6 +26,14 @@ std::string fitted_on(const Condition& condition, const BenchmarkSetup& here,
     return setup.robot_and_sensors.fit == condition.fit;
   });
   return fmt::format("{} {}", there->robot, there->sensors);
+}
+
+/// The row of a scene in which every run failed.
+BenchmarkRow without_scores(BenchmarkRow row) {
+  row.balanced_accuracy = {std::numeric_limits<double>::quiet_NaN()};
+  row.score = {};
+  row.extended = {};
+  return row;
 }
 
 }  // namespace
@@ -64,8 +73,11 @@ std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation) {
           row.failed += run.failed() ? 1 : 0;
         }
         for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {
-          if (scored.samples[cell].empty()) continue;
           row.noise = experiment.highlights[cell];
+          if (scored.samples[cell].empty()) {
+            if (row.runs > 0 && row.failed == row.runs) rows.push_back(without_scores(row));
+            continue;
+          }
           const FitsAndRuns fits = fits_and_runs(points_by_fit(counts, scored.condition, cell));
           row.refits = fits.of_refit.size();
           row.balanced_accuracy =

@@ -29,9 +29,12 @@ struct BenchmarkRow {
   std::size_t refits = 0;  ///< resampled together with the runs
   int runs = 0;            ///< simulated
   int failed = 0;          ///< of these; not scored
+
+  bool is_scored() const { return failed < runs; }
 };
 
-/// Rows by setup, scene, engine, estimator, then noise. A scene without a scored run has no rows.
+/// Rows by setup, scene, engine, estimator, then noise. If every run of a scene failed, its scores
+/// are NaN.
 std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation);
 
 }  // namespace touchdown::experiments

@@ -117,11 +117,10 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
     entry.estimator = mean.name;
     entry.mean = interval_of(mean.value, level);
     entry.worst = 1.0;
-    double scored = 0.0;
     for (const BenchmarkRow* row : rows) {
       if (row->estimator == mean.name) {
         entry.log_loss += bits_of(*row);
-        scored += 1.0;
+        ++entry.scored;
       }
       const double value = row->balanced_accuracy.estimate;
       if (row->estimator != mean.name || value > entry.worst) continue;
@@ -129,7 +128,7 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
       entry.worst_scene = row->scene;
       entry.worst_simulator = row->simulator;
     }
-    entry.log_loss /= scored;
+    entry.log_loss /= static_cast<double>(entry.scored);
     entries.push_back(std::move(entry));
   }
   const auto upper_bound = std::find_if(entries.begin(), entries.end(), is_upper_bound_entry);
@@ -163,8 +162,11 @@ void mark_not_significantly_worse(std::vector<Standings::Entry>& entries,
 
 std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double level) {
   Rows own;
+  Rows planned;
   for (const BenchmarkRow& row : rows) {
-    if (row.fitted_on == "own") own.push_back(&row);
+    if (row.fitted_on != "own") continue;
+    planned.push_back(&row);
+    if (row.is_scored()) own.push_back(&row);
   }
   std::vector<Standings> all;
   for (const auto& scored : group_by(own, setting_of)) {
@@ -172,6 +174,12 @@ std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double l
     const std::vector<Named> means = means_by_estimator(alike);
     Standings standings{alike.front()->robot, alike.front()->sensors, alike.front()->noise,
                         entries_of(alike, means, level), all_pairs("", means, level)};
+    for (Standings::Entry& entry : standings.entries) {
+      entry.planned = where(planned, [&](const BenchmarkRow* row) {
+                        return row->estimator == entry.estimator &&
+                               setting_of(row) == setting_of(alike.front());
+                      }).size();
+    }
     mark_not_significantly_worse(standings.entries, standings.differences);
     for (const auto& scene : group_by(alike, scene_name)) {
       const auto pairs = all_pairs(scene.key, means_by_estimator(scene.rows), level);

@@ -29,6 +29,8 @@ struct Standings {
     /// Log loss minus that of the reference upper bound (bits per wheel and step). NaN without an
     /// upper bound.
     double excess_log_loss = 0.0;
+    std::size_t scored = 0;   ///< pairs of scene and engine with a scored run
+    std::size_t planned = 0;  ///< pairs of scene and engine
   };
   std::vector<Entry> entries;  ///< by mean, the best first
 

@@ -111,7 +111,11 @@ Columns<Standings::Entry> entry_columns() {
       .is(ColumnRole::note)
       .flag("is_not_significantly_worse", &Entry::is_not_significantly_worse)
       .metric("log_loss_bits", &Entry::log_loss)
-      .metric("excess_log_loss_bits", &Entry::excess_log_loss);
+      .metric("excess_log_loss_bits", &Entry::excess_log_loss)
+      .number("scored_scenes", &Entry::scored)
+      .is(ColumnRole::note)
+      .number("planned_scenes", &Entry::planned)
+      .is(ColumnRole::note);
 }
 
 Columns<Standings::Difference> pair_columns() {
@@ -124,9 +128,11 @@ Columns<Standings::Difference> pair_columns() {
 }
 
 /// Rows: estimators. Columns: scenes, then the mean and the worst scene of estimators that were
-/// scored in every scene.
+/// scored in every scene with a scored run.
 Table scene_table(const std::vector<BenchmarkRow>& rows) {
-  const auto shown = [](double value) { return fmt::format("{:.3f}", value); };
+  const auto shown = [](double value) {
+    return std::isnan(value) ? std::string("–") : fmt::format("{:.3f}", value);
+  };
   Table table = pivot(
       rows, [](const BenchmarkRow& row) { return estimator_title(row.estimator); },
       &BenchmarkRow::scene,
@@ -137,11 +143,12 @@ Table scene_table(const std::vector<BenchmarkRow>& rows) {
   for (const auto& scored : group_by(rows, &BenchmarkRow::estimator)) {
     double mean = 0.0;
     double worst = 1.0;
-    for (const BenchmarkRow& row : scored.rows) {
-      mean += row.balanced_accuracy.estimate / static_cast<double>(scored.rows.size());
+    const auto scored_rows = where(scored.rows, &BenchmarkRow::is_scored);
+    for (const BenchmarkRow& row : scored_rows) {
+      mean += row.balanced_accuracy.estimate / static_cast<double>(scored_rows.size());
       worst = std::fmin(worst, row.balanced_accuracy.estimate);
     }
-    const bool is_complete = scored.rows.size() == scenes;
+    const bool is_complete = scored.rows.size() == scenes && !scored_rows.empty();
     for (const double value : {mean, worst}) {
       cells->push_back(is_complete ? shown(value) : "–");
     }
@@ -161,8 +168,13 @@ std::string standings_text(const Standings& standings) {
                           fmt::format("{}, {}", entry.worst_scene, entry.worst_simulator)});
     if (has_upper_bound) table.rows.back().push_back(fmt::format("{:.3f}", entry.excess_log_loss));
   }
-  return fmt::format("\n{}, sensors {}, {}: mean over scenes and engines\n{}", standings.robot,
-                     standings.sensors, noise_text(standings.noise), to_text(table));
+  const Standings::Entry& first = standings.entries.front();
+  const std::string fewer =
+      first.scored == first.planned
+          ? ""
+          : fmt::format(" ({} of {}: the others have no scored run)", first.scored, first.planned);
+  return fmt::format("\n{}, sensors {}, {}: mean over scenes and engines{}\n{}", standings.robot,
+                     standings.sensors, noise_text(standings.noise), fewer, to_text(table));
 }
 
 /// Every scene of one engine, robot, sensors and noise.
@@ -177,12 +189,18 @@ std::string scenes_text(const Standings& standings, const std::string& simulator
       fmt::format("\n{}, {}, sensors {}, {}\n{}", simulator, standings.robot, standings.sensors,
                   noise_text(standings.noise), to_text(scene_table(alike)));
   std::set<std::string> failures;
+  std::set<std::string> unscored;
   for (const BenchmarkRow& row : alike) {
     if (row.failed == 0) continue;
+    if (!row.is_scored()) unscored.insert(row.scene);
     failures.insert(fmt::format("{} of {} in {}", row.failed, row.runs, row.scene));
   }
   if (!failures.empty()) {
     text += fmt::format("Failed runs, not scored: {}\n", fmt::join(failures, ", "));
+  }
+  if (!unscored.empty()) {
+    text +=
+        fmt::format("Without a scored run, not in mean and worst: {}\n", fmt::join(unscored, ", "));
   }
   return text;
 }
@@ -212,6 +230,7 @@ void write_tables(const BenchmarkResult& result, double level, const RunDirector
 
 std::string benchmark_text(const BenchmarkResult& result, const Experiment& experiment) {
   std::string text = fmt::format("Balanced accuracy by scene ({})\n", labels_text(experiment));
+  if (result.standings.empty()) return text + "No run was scored.\n";
   const Standings& first = result.standings.front();
   for (const Standings& standings : result.standings) {
     text += standings_text(standings);

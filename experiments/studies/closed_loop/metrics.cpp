@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/rollouts/rollouts.hpp"
 #include "scoring/score.hpp"
 
 namespace touchdown::experiments {
@@ -86,7 +87,7 @@ ClosedLoopMetrics closed_loop_metrics_of(
   metrics.runs = 1;
   const auto how = recording.info.outcome.value_or(recordings::Outcome::finished);
   metrics.finished = how == recordings::Outcome::finished ? 1 : 0;
-  metrics.fell = how == recordings::Outcome::fell || how == recordings::Outcome::diverged ? 1 : 0;
+  metrics.fell = is_failure(how) ? 1 : 0;
   const double period = recording.period();
   const auto shortest = static_cast<std::size_t>(std::llround(scoring.minimum_flight / period));
   const auto contact = scoring::contact_labels(recording, labels);

@@ -1,0 +1,117 @@
+#include "models/mjcf/compiler.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <new>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "models/mjcf/later_versions.hpp"
+
+namespace touchdown::models {
+namespace {
+
+/// Whether an error message of MuJoCo is about memory.
+bool is_about_memory(std::string_view message) {
+  return message.find("ould not allocate") != std::string_view::npos;
+}
+
+/// Replaces MuJoCo's own handlers, which wait for a key press or write MUJOCO_LOG.TXT into the
+/// working directory.
+void install_mujoco_handlers() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    mju_user_error = [](const char* message) {
+      if (is_about_memory(message)) throw std::bad_alloc();
+      throw Error(std::string("MuJoCo: ") + message);
+    };
+    mju_user_warning = [](const char*) {};  // a simulator reports divergence as an outcome
+  });
+}
+
+/// MuJoCo saves the model that it read last, in whichever thread.
+std::mutex& last_model() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// Formats an error message of MuJoCo as one line that begins with a place.
+std::string located(const std::filesystem::path& file, const MjcfDocument::Text& xml,
+                    std::string message) {
+  std::smatch match;
+  std::string where = file.string();
+  if (std::regex_search(message, match, std::regex("line[ =]+(\\d+)"))) {
+    const std::string digits = match[1].str();
+    std::size_t line = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), line);
+    if (line >= 1 && line <= xml.place_of_line.size() && !xml.place_of_line[line - 1].empty()) {
+      where = xml.place_of_line[line - 1];
+    }
+    // The message's own line is that of the composed text.
+    message = std::regex_replace(message, std::regex(",? *line[ =]+\\d+(, *column +-?\\d+)?"), "");
+  }
+  message += later_version_text(message);
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  while (!message.empty() && message.back() == ' ') message.pop_back();
+  return where + ": " + message;
+}
+
+MjModelPtr load(const MjcfDocument::Text& xml, const std::filesystem::path& file) {
+  install_mujoco_handlers();
+  // The name is in the folder of the robot's file, so that meshes are found there.
+  const char* const file_name = "touchdown_composed.xml";
+  const auto release = [](mjVFS* vfs) {
+    mj_deleteVFS(vfs);
+    delete vfs;
+  };
+  std::unique_ptr<mjVFS, decltype(release)> vfs(new mjVFS, release);
+  mj_defaultVFS(vfs.get());
+  if (mj_makeEmptyFileVFS(vfs.get(), file_name, static_cast<int>(xml.text.size())) != 0) {
+    throw Error("MuJoCo has no room for the composed model");
+  }
+  const int slot = mj_findFileVFS(vfs.get(), file_name);
+  std::memcpy(vfs->filedata[slot], xml.text.data(), xml.text.size());
+
+  std::array<char, 1000> message = {};
+  const std::string beside = (file.parent_path() / file_name).string();
+  MjModelPtr model(
+      mj_loadXML(beside.c_str(), vfs.get(), message.data(), static_cast<int>(message.size())));
+  if (!model && is_about_memory(message.data())) throw std::bad_alloc();
+  if (!model) throw InputError(located(file, xml, message.data()));
+  return model;
+}
+
+}  // namespace
+
+MjModelPtr compile_xml(const MjcfDocument::Text& xml, const std::filesystem::path& file) {
+  const std::scoped_lock lock(last_model());
+  return load(xml, file);
+}
+
+std::string converted_to_mjcf(const MjcfDocument::Text& urdf, const std::filesystem::path& file) {
+  const std::scoped_lock lock(last_model());
+  const MjModelPtr model = load(urdf, file);
+  // MuJoCo writes to files only.
+  std::string folder = (std::filesystem::temp_directory_path() / "touchdown_XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) {
+    throw Error(fmt::format("{}: cannot make a temporary folder", folder));
+  }
+  const std::filesystem::path saved = std::filesystem::path(folder) / "robot.xml";
+  std::array<char, 1000> message = {};
+  const bool is_saved = mj_saveLastXML(saved.c_str(), model.get(), message.data(),
+                                       static_cast<int>(message.size())) != 0;
+  std::string text = is_saved ? read_file(saved) : std::string();
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+  if (!is_saved) throw Error(fmt::format("{}: MuJoCo: {}", file.string(), message.data()));
+  return text;
+}
+
+}  // namespace touchdown::models

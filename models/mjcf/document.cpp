@@ -1,0 +1,213 @@
+#include "models/mjcf/document.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace touchdown::models {
+
+namespace {
+
+using tinyxml2::XMLElement;
+
+std::unique_ptr<tinyxml2::XMLDocument> parsed(const std::string& text,
+                                              const std::filesystem::path& file) {
+  auto document = std::make_unique<tinyxml2::XMLDocument>();
+  if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw InputError(fmt::format("{}:{}:1: expected well-formed XML ({})", file.string(),
+                                 std::max(document->ErrorLineNum(), 1), document->ErrorName()));
+  }
+  if (document->RootElement() == nullptr) {
+    throw InputError(
+        fmt::format("{}:1:1: expected a robot in <mujoco>...</mujoco>", file.string()));
+  }
+  return document;
+}
+
+/// An attribute's value as XML text on one line.
+std::string escaped(std::string_view value) {
+  std::string text;
+  for (const char c : value) {
+    switch (c) {
+      case '&':
+        text += "&amp;";
+        break;
+      case '<':
+        text += "&lt;";
+        break;
+      case '"':
+        text += "&quot;";
+        break;
+      case '\n':
+      case '\r':
+        text += ' ';
+        break;
+      default:
+        text += c;
+    }
+  }
+  return text;
+}
+
+std::string start_of(const XMLElement& element, const char* end) {
+  std::string text = fmt::format("<{}", element.Name());
+  for (const auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
+    text += fmt::format(" {}=\"{}\"", a->Name(), escaped(a->Value()));
+  }
+  return text + end + "\n";
+}
+
+}  // namespace
+
+MjcfDocument MjcfDocument::load(const std::filesystem::path& file) {
+  MjcfDocument document;
+  document.file_ = file;
+  document.document_ = parsed(read_file(file), file);
+  document.add_places(document.root(), file);
+  std::vector<std::filesystem::path> included = {file.lexically_normal()};
+  document.expand(document.root(), file.parent_path(), included);
+  return document;
+}
+
+MjcfDocument MjcfDocument::parse(const std::string& text, const std::filesystem::path& file) {
+  MjcfDocument document;
+  document.file_ = file;
+  document.document_ = parsed(text, file);
+  return document;
+}
+
+void MjcfDocument::add_places(const XMLElement& element, const std::filesystem::path& file) {
+  place_[&element] = {file, element.GetLineNum()};
+  for (const auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    add_places(*child, file);
+  }
+}
+
+void MjcfDocument::expand(XMLElement& element, const std::filesystem::path& folder,
+                          std::vector<std::filesystem::path>& included) {
+  for (XMLElement* child = element.FirstChildElement(); child != nullptr;) {
+    XMLElement* const next = child->NextSiblingElement();
+    if (std::string_view(child->Name()) != "include") {
+      expand(*child, folder, included);
+      child = next;
+      continue;
+    }
+    const std::filesystem::path file =
+        (folder / std::string(attribute(*child, "file"))).lexically_normal();
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) {
+      fail(*child, fmt::format("include: {}: no such file", file.string()));
+    }
+    if (std::find(included.begin(), included.end(), file) != included.end()) {
+      fail(*child, fmt::format("include: {} is included already", file.string()));
+    }
+    included.push_back(file);
+    const auto other = parsed(read_file(file), file);
+    // Clones have no line numbers, so those of the original are kept for them.
+    const std::function<void(const XMLElement&, const XMLElement&)> keep_places =
+        [&](const XMLElement& clone, const XMLElement& original) {
+          place_[&clone] = {file, original.GetLineNum()};
+          const XMLElement* from = original.FirstChildElement();
+          for (const auto* to = clone.FirstChildElement(); to != nullptr;
+               to = to->NextSiblingElement(), from = from->NextSiblingElement()) {
+            keep_places(*to, *from);
+          }
+        };
+    tinyxml2::XMLNode* last = child;
+    XMLElement* first = nullptr;
+    for (const auto* from = other->RootElement()->FirstChildElement(); from != nullptr;
+         from = from->NextSiblingElement()) {
+      XMLElement* const clone = from->DeepClone(document_.get())->ToElement();
+      keep_places(*clone, *from);
+      last = element.InsertAfterChild(last, clone);
+      if (first == nullptr) first = clone;
+    }
+    place_.erase(child);
+    element.DeleteChild(child);
+    child = first != nullptr ? first : next;  // the included elements may include others
+  }
+}
+
+std::string MjcfDocument::place_of(const XMLElement& element) const {
+  const auto place = place_.find(&element);
+  if (place == place_.end()) return file_.string();
+  return fmt::format("{}:{}:1", place->second.file.string(), place->second.line);
+}
+
+XMLElement* MjcfDocument::find(std::string_view tag, std::string_view name) const {
+  XMLElement* found = nullptr;
+  for_each_element(*document_->RootElement(), [&](XMLElement& element) {
+    if (found == nullptr && tag == element.Name() && attribute(element, "name") == name) {
+      found = &element;
+    }
+  });
+  return found;
+}
+
+void MjcfDocument::fail(const XMLElement& element, const std::string& message) const {
+  throw InputError(place_of(element) + ": " + message);
+}
+
+void MjcfDocument::insert_before(XMLElement& next, const std::string& elements) {
+  const auto added = parsed("<added>" + elements + "</added>", file_);
+  tinyxml2::XMLNode* const parent = next.Parent();
+  tinyxml2::XMLNode* before = next.PreviousSibling();
+  for (const auto* from = added->RootElement()->FirstChildElement(); from != nullptr;
+       from = from->NextSiblingElement()) {
+    tinyxml2::XMLNode* const clone = from->DeepClone(document_.get());
+    before = before == nullptr ? parent->InsertFirstChild(clone)
+                               : parent->InsertAfterChild(before, clone);
+  }
+}
+
+MjcfDocument::Text MjcfDocument::text(const std::string& more) const {
+  Text written;
+  const std::function<void(const XMLElement&)> write = [&](const XMLElement& element) {
+    const auto add = [&](const std::string& line) {
+      written.text += line;
+      written.place_of_line.push_back(place_.contains(&element) ? place_of(element) : "");
+    };
+    const bool is_root = &element == &root();
+    const XMLElement* child = element.FirstChildElement();
+    if (child == nullptr && !is_root) {
+      add(start_of(element, "/>"));
+      return;
+    }
+    add(start_of(element, ">"));
+    for (; child != nullptr; child = child->NextSiblingElement()) write(*child);
+    if (is_root) {
+      written.text += more;
+      written.place_of_line.resize(
+          written.place_of_line.size() +
+          static_cast<std::size_t>(std::count(more.begin(), more.end(), '\n')));
+    }
+    add(fmt::format("</{}>\n", element.Name()));
+  };
+  write(root());
+  return written;
+}
+
+void for_each_element(XMLElement& element, const std::function<void(XMLElement&)>& visit) {
+  visit(element);
+  for (XMLElement* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    for_each_element(*child, visit);
+  }
+}
+
+std::string_view attribute(const XMLElement& element, const char* name) {
+  const char* const value = element.Attribute(name);
+  return value == nullptr ? std::string_view() : std::string_view(value);
+}
+
+std::string title_of(const XMLElement& element) {
+  const std::string_view name = attribute(element, "name");
+  return name.empty() ? element.Name() : fmt::format("{} '{}'", element.Name(), name);
+}
+
+}  // namespace touchdown::models

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <tinyxml2.h>
+#include <unordered_map>
+#include <vector>
+
+namespace touchdown::models {
+
+/// A robot's XML file as a tree of elements, included files spliced in. Every element knows the
+/// file and the line that it comes from.
+class MjcfDocument {
+ public:
+  /// Reads a file and the files that it includes. As in MuJoCo, these are relative to the folder of
+  /// the first one. Errors: `InputError` with file:line:1 for anything that is not XML, a missing
+  /// file or one that is included twice.
+  static MjcfDocument load(const std::filesystem::path& file);
+  /// The same for a text in memory. Its elements have no lines: the text is not the user's.
+  static MjcfDocument parse(const std::string& text, const std::filesystem::path& file);
+
+  tinyxml2::XMLElement& root() { return *document_->RootElement(); }
+  const tinyxml2::XMLElement& root() const { return *document_->RootElement(); }
+  const std::filesystem::path& file() const { return file_; }
+
+  /// "file:line:1" of an element.
+  std::string place_of(const tinyxml2::XMLElement& element) const;
+
+  /// The first element with this tag and name, in the order of the file; null if there is none.
+  tinyxml2::XMLElement* find(std::string_view tag, std::string_view name) const;
+
+  /// Throws an `InputError` about an element.
+  [[noreturn]] void fail(const tinyxml2::XMLElement& element, const std::string& message) const;
+
+  /// Parses elements and inserts them before `next`.
+  void insert_before(tinyxml2::XMLElement& next, const std::string& elements);
+
+  /// The tree as text, one element per line. `more` is inserted before the end of the root.
+  struct Text {
+    std::string text;
+    std::vector<std::string> place_of_line;  ///< file:line:1 by line; empty where unknown
+  };
+  Text text(const std::string& more) const;
+
+ private:
+  struct Place {
+    std::filesystem::path file;
+    int line = 0;
+  };
+
+  void add_places(const tinyxml2::XMLElement& element, const std::filesystem::path& file);
+  void expand(tinyxml2::XMLElement& element, const std::filesystem::path& folder,
+              std::vector<std::filesystem::path>& included);
+
+  std::filesystem::path file_;
+  std::unique_ptr<tinyxml2::XMLDocument> document_;
+  std::unordered_map<const tinyxml2::XMLElement*, Place> place_;
+};
+
+/// Calls `visit` for an element and all elements below it, in the order of the file.
+void for_each_element(tinyxml2::XMLElement& element,
+                      const std::function<void(tinyxml2::XMLElement&)>& visit);
+
+/// The value of an attribute, or "" if it is absent.
+std::string_view attribute(const tinyxml2::XMLElement& element, const char* name);
+
+/// A short name of an element for messages: "joint 'left_hip'", or "geom" without a name.
+std::string title_of(const tinyxml2::XMLElement& element);
+
+}  // namespace touchdown::models

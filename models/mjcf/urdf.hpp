@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "models/mjcf/document.hpp"
+
+namespace touchdown::models {
+
+/// A URDF as MJCF, with a free joint on its base link.
+struct ConvertedUrdf {
+  MjcfDocument mjcf;
+  std::map<std::string, double> effort;  ///< by joint (N·m), where the URDF has a limit
+};
+
+/// Converts a URDF by MuJoCo's own reader, which rounds to six digits. `base` is the link that
+/// floats, the root link if empty. Links stay bodies of their names. Errors: `InputError` for an
+/// unknown base and for mimic joints; and those of MuJoCo.
+ConvertedUrdf converted_urdf(const std::filesystem::path& file, const std::string& base);
+
+}  // namespace touchdown::models

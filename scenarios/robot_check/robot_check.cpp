@@ -1,0 +1,177 @@
+#include "scenarios/robot_check/robot_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/resources.hpp"
+#include "estimator/force/leg_geometry.hpp"
+#include "models/robot_model.hpp"
+#include "scenarios/ending.hpp"
+#include "scenarios/engine.hpp"
+#include "scenarios/leg_geometry.hpp"
+#include "scenarios/scenario_file.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::scenarios {
+
+namespace {
+
+std::string actuator_text(const models::Actuator& actuator) {
+  std::string text;
+  const auto add = [&](const char* what, double value) {
+    if (value != 0.0) text += fmt::format("{}{} {:g}", text.empty() ? "" : ", ", what, value);
+  };
+  add("friction", actuator.friction);
+  add("viscous", actuator.viscous);
+  add("armature", actuator.armature);
+  return text;
+}
+
+CheckedJoint checked(const models::RobotModel& robot, const mjData& data, std::size_t servo) {
+  const int joint = robot.joint[servo];
+  const mjtNum* const range = &robot.mj->jnt_range[2 * joint];
+  CheckedJoint checked{.servo = std::string(models::servo_names[servo]),
+                       .joint = robot.joint_name[servo],
+                       .axis = models::vector_at(data.xaxis, joint),
+                       .is_reversed = robot.is_reversed[servo],
+                       .zero = robot.zero[servo],
+                       .is_limited = robot.mj->jnt_limited[joint] != 0,
+                       .low = range[0],
+                       .high = range[1],
+                       .torque_limit = robot.effort[servo],
+                       .actuator = actuator_text(robot.actuator[servo])};
+  if (checked.is_reversed) checked.axis = -checked.axis + Eigen::Vector3d::Zero();
+  return checked;
+}
+
+/// The mass that a leg's first joint moves.
+double mass_below(const models::RobotModel& robot, std::size_t leg) {
+  const std::size_t top = robot.has(3 * leg) ? 3 * leg : 3 * leg + 1;
+  return robot.mj->body_subtreemass[robot.mj->jnt_bodyid[robot.joint[top]]];
+}
+
+/// Knee torque per newton of load, in the stance: the distance of the axle from the knee, level.
+double lever_of(const models::RobotModel& robot, double hip, double knee) {
+  LegSignals leg;
+  leg.hip.position = hip;
+  leg.knee.position = -knee;
+  return std::abs(foot_jacobian(leg_geometry(robot), leg, false).lower_z);
+}
+
+bool has_shape(const models::RobotModel& robot, int type) {
+  const mjModel& mj = *robot.mj;
+  for (int geom = 0; geom < mj.ngeom; ++geom) {
+    if (mj.body_rootid[mj.geom_bodyid[geom]] == robot.base_body && mj.geom_contype[geom] != 0 &&
+        mj.geom_type[geom] == type) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<std::string> differences(const models::RobotModel& robot) {
+  std::vector<std::string> all;
+  if (robot.tyre.law == models::Tyre::Law::engine) {
+    all.emplace_back(
+        "tyres: each engine has its own contact model (tyre: {law: spring_damper} is "
+        "the same in both)");
+  }
+  if (robot.mj->geom_type[robot.tyre_geom[0]] == mjGEOM_CYLINDER) {
+    all.emplace_back(
+        "tyres: cylinders have several contact points on flat ground, and their number "
+        "differs; spheres have one");
+  }
+  if (has_shape(robot, mjGEOM_MESH)) {
+    all.emplace_back("meshes: both engines use the convex hull, Bullet with a rounding margin");
+  }
+  const bool has_rotors = std::any_of(robot.actuator.begin(), robot.actuator.end(),
+                                      [](const auto& a) { return a.armature != 0.0; });
+  if (has_rotors) {
+    all.emplace_back("armature: in Bullet, contacts see the rotor as a part of its link");
+  }
+  return all;
+}
+
+CheckedStand stand(const Scenario& scenario, const std::string& engine) {
+  const recordings::Recording recording = play(scenario, engine);
+  CheckedStand stand{.engine = engine, .ending = ending_text(recording, scenario.end)};
+  stand.stands = recording.info.outcome == recordings::Outcome::finished;
+  constexpr double averaged = 0.5;  // s
+  const auto steps = std::min(recording.steps(),
+                              static_cast<std::size_t>(std::lround(averaged / recording.period())));
+  for (std::size_t k = recording.steps() - steps; k < recording.steps(); ++k) {
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      stand.load[wheel] +=
+          recording.truth[k].wheel_normal_force[wheel] / static_cast<double>(steps);
+    }
+  }
+  return stand;
+}
+
+/// Complaints about a stand that ended well: wheels that carry nothing, or not the weight.
+void check_loads(const CheckedStand& stand, double weight, std::vector<std::string>& complaints) {
+  const double sum = stand.load[0] + stand.load[1];
+  constexpr double tolerance = 0.2;
+  if (std::abs(sum - weight) > tolerance * weight) {
+    complaints.push_back(
+        fmt::format("{}: standing: the tyres carry {:.1f} N, expected the weight, "
+                    "{:.1f} N",
+                    stand.engine, sum, weight));
+  } else if (std::min(stand.load[0], stand.load[1]) < tolerance * weight) {
+    complaints.push_back(
+        fmt::format("{}: standing: {:.1f} N on the left tyre, {:.1f} N on the right", stand.engine,
+                    stand.load[0], stand.load[1]));
+  }
+}
+
+void read_robot(const Scenario& scenario, RobotCheck& check) {
+  const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
+  const models::MjDataPtr data = models::at_reference(robot);
+  check.name = robot.name;
+  check.mass = mj_getTotalmass(robot.mj.get());
+  check.leg_mass = {mass_below(robot, 0), mass_below(robot, 1)};
+  check.wheel_radius = robot.wheel_radius;
+  check.track = (models::vector_at(data->geom_xpos, robot.tyre_geom[0]) -
+                 models::vector_at(data->geom_xpos, robot.tyre_geom[1]))
+                    .norm();
+  check.imu = robot.imu_position;
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    if (robot.has(i)) check.joints.push_back(checked(robot, *data, i));
+  }
+  check.hip = robot.has(0) ? scenario.start.hip : 0.0;
+  check.knee = scenario.start.knee;
+  check.lever = lever_of(robot, check.hip, check.knee);
+  check.ignored = robot.ignored;
+  check.differences = differences(robot);
+}
+
+}  // namespace
+
+RobotCheck check_robot(const std::filesystem::path& file) {
+  RobotCheck check;
+  try {
+    const Scenario scenario = complete_scenario(
+        YamlDocument::parse(fmt::format("name: stand\nrobot: {}\nend: {{duration: 2}}\n",
+                                        YAML::Dump(YAML::Node(file.string()))),
+                            "stand"));
+    read_robot(scenario, check);
+    constexpr double gravity = 9.81;
+    for (const std::string& engine : simulators::simulator_names()) {
+      check.stands.push_back(stand(scenario, engine));
+      const CheckedStand& last = check.stands.back();
+      if (!last.stands) {
+        check.complaints.push_back(fmt::format("{}: standing: {}", engine, last.ending));
+      } else {
+        check_loads(last, gravity * check.mass, check.complaints);
+      }
+    }
+  } catch (const InputError& error) {
+    check.complaints.emplace_back(error.what());
+  }
+  return check;
+}
+
+}  // namespace touchdown::scenarios

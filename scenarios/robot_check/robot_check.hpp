@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "models/robot.hpp"
+
+namespace touchdown::scenarios {
+
+/// What was read about a servo's joint.
+struct CheckedJoint {
+  std::string servo;                               ///< touchdown's name
+  std::string joint;                               ///< the file's name
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< the file's, in the base frame
+  bool is_reversed = false;                        ///< whether recordings have the opposite sign
+  double zero = 0.0;          ///< added to the file's angle, after its sign (rad)
+  bool is_limited = false;    ///< whether there is a range
+  double low = 0.0;           ///< of the range, from a straight leg (rad)
+  double high = 0.0;          ///< likewise
+  double torque_limit = 0.0;  ///< N·m
+  std::string actuator;       ///< friction, viscous friction and armature; empty if there are none
+};
+
+/// The robot standing still for two seconds in one engine.
+struct CheckedStand {
+  std::string engine;
+  std::string ending;  ///< how and when the run ended, and why
+  bool stands = false;
+  std::array<double, models::wheel_count> load = {};  ///< at the end, left and right (N)
+};
+
+/// What touchdown makes of a robot's file.
+struct RobotCheck {
+  std::string name;
+  double mass = 0.0;                                      ///< kg
+  std::array<double, models::wheel_count> leg_mass = {};  ///< kg, wheels included
+  double wheel_radius = 0.0;                              ///< m
+  double track = 0.0;                                     ///< between the tyres (m)
+  Eigen::Vector3d imu = Eigen::Vector3d::Zero();          ///< in the base frame (m)
+  std::vector<CheckedJoint> joints;
+  double hip = 0.0;                      ///< stance, from straight legs (rad)
+  double knee = 0.0;                     ///< likewise
+  double lever = 0.0;                    ///< knee torque per newton of load in the stance (m)
+  std::vector<std::string> ignored;      ///< in the file, but not simulated
+  std::vector<std::string> differences;  ///< between the engines
+  std::vector<CheckedStand> stands;      ///< in every engine
+  std::vector<std::string> complaints;   ///< none if the robot is usable
+};
+
+/// Compiles a robot and lets it stand for two seconds in every engine. A file that is refused has
+/// one complaint, and nothing else is filled in.
+RobotCheck check_robot(const std::filesystem::path& file);
+
+}  // namespace touchdown::scenarios
