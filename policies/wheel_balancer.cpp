@@ -8,20 +8,18 @@ namespace touchdown::policies {
 
 WheelBalancer::WheelBalancer(const WheelBalancerConfig& config, VelocityScript script,
                              double wheel_radius, double period, CrouchScript crouch,
-                             WheelContact contact)
+                             WheelContact contact, bool keep_lean)
     : config_(config),
       course_{std::move(script), std::move(crouch), wheel_radius, period},
       given_contact_source_(std::move(contact)),
-      contact_source_(given_contact_source_ ? given_contact_source_ : upkie_contact(period)) {}
+      contact_source_(given_contact_source_ ? given_contact_source_ : upkie_contact(period)),
+      keep_lean_(keep_lean) {}
 
 void WheelBalancer::reset(const models::Observation& observation) {
   *this = WheelBalancer(config_, std::move(course_.script), course_.wheel_radius, course_.period,
-                        std::move(course_.crouch), std::move(given_contact_source_));
+                        std::move(course_.crouch), std::move(given_contact_source_), keep_lean_);
   course_.begin(observation, config_);
-  // A robot that leans at rest, with its centre of mass above its axle, keeps this lean. Smaller
-  // ones are left to the integral.
-  constexpr double least_lean = 0.05;  // rad
-  lean_ = std::abs(observation.pitch) > least_lean ? observation.pitch : 0.0;
+  if (keep_lean_) lean_ = observation.pitch;
 }
 
 bool WheelBalancer::in_the_air(const models::Observation& observation) {

@@ -12,9 +12,11 @@ namespace touchdown::policies {
 /// observer, unless another contact source is given.
 class WheelBalancer : public Policy {
  public:
-  /// `wheel_radius` in m; `period` of the control loop in s.
+  /// `wheel_radius` in m; `period` of the control loop in s. `keep_lean`: balance at the pitch of
+  /// the reset, not at zero.
   WheelBalancer(const WheelBalancerConfig& config, VelocityScript script, double wheel_radius,
-                double period, CrouchScript crouch = {}, WheelContact contact = {});
+                double period, CrouchScript crouch = {}, WheelContact contact = {},
+                bool keep_lean = false);
 
   void reset(const models::Observation& observation) override;
   models::Action act(const models::Observation& observation) override;
@@ -31,6 +33,7 @@ class WheelBalancer : public Policy {
   WheelContact given_contact_source_;  ///< empty: Upkie's observer
   WheelContact contact_source_;
 
+  bool keep_lean_;
   double lean_ = 0.0;  ///< pitch at which the robot balances (rad)
   double integral_ = 0.0;
   double ground_velocity_ = 0.0;

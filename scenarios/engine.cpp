@@ -48,6 +48,15 @@ class TerminationCheck {
   double passed_ = std::numeric_limits<double>::infinity();  ///< first time past `end.x` (s)
 };
 
+/// Whether the balancer keeps the lean that the robot has at rest, its centre of mass above its
+/// axle. Leans of Upkie's size are left to the balancer's integral; a leg without a hip leans with
+/// its knee.
+bool keeps_lean(const simulators::Simulator& simulator) {
+  constexpr double largest = 0.03;  // rad
+  return !simulator.model().has(models::index(models::Servo::left_hip)) ||
+         std::abs(simulator.observation().pitch) > largest;
+}
+
 std::unique_ptr<policies::Policy> make_policy(const Scenario& scenario,
                                               const simulators::Simulator& simulator,
                                               policies::WheelContact contact_source) {
@@ -60,7 +69,8 @@ std::unique_ptr<policies::Policy> make_policy(const Scenario& scenario,
         policies::side_view(simulator.model()), std::move(contact));
   }
   return std::make_unique<policies::WheelBalancer>(scenario.balancer, scenario.velocity, radius,
-                                                   period, scenario.crouch, std::move(contact));
+                                                   period, scenario.crouch, std::move(contact),
+                                                   keeps_lean(simulator));
 }
 
 }  // namespace

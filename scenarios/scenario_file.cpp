@@ -8,6 +8,7 @@
 
 #include "core/fields.hpp"
 #include "core/resources.hpp"
+#include "models/contract/stance.hpp"
 #include "models/robot_description.hpp"
 #include "policies/wheeled_pendulum.hpp"
 #include "scenarios/start_pose.hpp"
@@ -51,23 +52,23 @@ models::Stance stance_of(DescribedRobot& robot) {
 }
 
 /// Checks that the robot's joints can have all angles of the scenario.
-void check_angles(const Scenario& scenario, DescribedRobot& robot) {
-  const auto check = [&](const std::string& key, double hip, double knee) {
-    try {
-      require_stance(robot.model(), hip, knee);
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}{}", robot.file().string(), key, error.what()));
+void check_angles(const Scenario& scenario, const std::string& document, DescribedRobot& robot) {
+  const auto check = [&](const std::string& section, const models::Stance& stance) {
+    if (const auto error = stance_error(robot.model(), stance)) {
+      throw InputError(fmt::format("{}: {}.{}: {} ({})", document, section, error->key,
+                                   error->message, robot.file().string()));
     }
   };
-  check("start.", scenario.start.hip, scenario.start.knee);
+  const Start& start = scenario.start;
+  check("start", {start.hip, start.knee});
   if (!robot.model().has(models::index(models::Servo::left_hip))) return;
-  const auto check_crouch = [&](const std::string& key, double hip) {
-    check(key, hip, scenario.start.knee + policies::knee_per_hip * (hip - scenario.start.hip));
+  const auto check_crouch = [&](const std::string& section, double hip) {
+    check(section, {hip, start.knee + policies::knee_per_hip * (hip - start.hip)});
   };
-  for (const policies::CrouchCommand& crouch : scenario.crouch) check_crouch("crouch.", crouch.hip);
+  for (const policies::CrouchCommand& crouch : scenario.crouch) check_crouch("crouch", crouch.hip);
   if (scenario.perturbation.crouching) {
-    check_crouch("perturbation.crouching.", scenario.perturbation.crouching->hip.low);
-    check_crouch("perturbation.crouching.", scenario.perturbation.crouching->hip.high);
+    check_crouch("perturbation.crouching", scenario.perturbation.crouching->hip.low);
+    check_crouch("perturbation.crouching", scenario.perturbation.crouching->hip.high);
   }
 }
 
@@ -135,7 +136,7 @@ Scenario complete_scenario(const YamlDocument& document) {
   Scenario scenario = scenario_from_yaml(document, defaults, lqr);
   scenario.robot = defaults.robot;
   scale_forces(scenario, robot);
-  check_angles(scenario, robot);
+  check_angles(scenario, document.name(), robot);
   return scenario;
 }
 

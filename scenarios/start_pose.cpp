@@ -1,12 +1,12 @@
 #include "scenarios/start_pose.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "models/contract/stance.hpp"
 #include "models/profile.hpp"
 
 namespace touchdown::scenarios {
@@ -36,13 +36,6 @@ struct Leg {
   std::size_t hip, knee;
   int tyre;
 };
-
-/// Whether the angle is within the joint's range.
-bool can_turn(const models::RobotModel& model, std::size_t servo, double angle) {
-  const int joint = model.joint[servo];
-  const mjtNum* range = &model.mj->jnt_range[2 * joint];
-  return model.mj->jnt_limited[joint] == 0 || (range[0] <= angle && angle <= range[1]);
-}
 
 /// Bends a leg by Newton's method until its tyre is at `target`, seen from the side of the upright
 /// base. Returns whether that succeeded. The leg starts with some extra bend, its knee on the side
@@ -102,30 +95,6 @@ void line_up(const models::RobotModel& model, mjData& data, simulators::RobotSta
 }
 
 }  // namespace
-
-void require_stance(const models::RobotModel& model, double hip, double knee) {
-  const std::array<double, models::servo_count> angle = {hip, -knee, 0.0, -hip, knee, 0.0};
-  for (std::size_t i = 0; i < models::servo_count; ++i) {
-    if (i % 3 == 2 || !model.has(i) || can_turn(model, i, angle[i])) continue;
-    // The range in the words of the stance, hip forward and knee backward.
-    const double sign = (i < 3) == (i % 3 == 0) ? 1.0 : -1.0;
-    const mjtNum* range = &model.mj->jnt_range[2 * model.joint[i]];
-    throw InputError(fmt::format(
-        "{} {:g}: expected {:g} to {:g}, the range of joint '{}' from a straight leg{}",
-        i % 3 == 0 ? "hip" : "knee", sign * angle[i], sign * range[sign > 0.0 ? 0 : 1],
-        sign * range[sign > 0.0 ? 1 : 0], model.joint_name[i],
-        model.zero[i] == 0.0 ? "" : fmt::format(" (its zero is {:g} rad from it)", model.zero[i])));
-  }
-}
-
-models::Stance from_straight(const models::RobotModel& model, const models::Stance& stance) {
-  using models::Servo;
-  constexpr double turn = 2.0 * std::numbers::pi;
-  const double hip = stance.hip + model.zero[models::index(Servo::left_hip)];
-  const double knee = stance.knee - model.zero[models::index(Servo::left_knee)];
-  if (hip == stance.hip && knee == stance.knee) return stance;
-  return {std::remainder(hip, turn), std::remainder(knee, turn)};
-}
 
 simulators::RobotState start_pose(const models::RobotModel& model, const models::Terrain& terrain,
                                   const Start& start) {

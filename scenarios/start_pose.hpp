@@ -13,10 +13,4 @@ namespace touchdown::scenarios {
 simulators::RobotState start_pose(const models::RobotModel& model, const models::Terrain& terrain,
                                   const Start& start);
 
-/// Errors: `InputError` unless hips and knees can have these angles (rad).
-void require_stance(const models::RobotModel& model, double hip, double knee);
-
-/// A stance in the zeros of the robot's file, as angles from straight legs.
-models::Stance from_straight(const models::RobotModel& model, const models::Stance& stance);
-
 }  // namespace touchdown::scenarios

@@ -64,8 +64,9 @@ std::string text_of(const std::string& path, const RobotCheck& check) {
     text += "engines differ: " + difference + "\n";
   }
   for (const CheckedStand& stand : check.stands) {
-    text += fmt::format("{}: {}, {:.1f} N on the left tyre, {:.1f} N on the right\n", stand.engine,
-                        stand.ending, stand.load[0], stand.load[1]);
+    text +=
+        fmt::format("{}: {}, moved {:.2f} m, {:.1f} N on the left tyre, {:.1f} N on the right\n",
+                    stand.engine, stand.ending, stand.moved, stand.load[0], stand.load[1]);
   }
   for (const std::string& complaint : check.complaints) text += "complaint: " + complaint + "\n";
   return text;
@@ -107,6 +108,7 @@ Json json_of(const std::string& path, const RobotCheck& check) {
     json["stands"].push_back({{"engine", stand.engine},
                               {"stands", stand.stands},
                               {"ending", stand.ending},
+                              {"moved_m", rounded(stand.moved)},
                               {"load_n", {rounded(stand.load[0]), rounded(stand.load[1])}}});
   }
   return json;

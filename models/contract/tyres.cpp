@@ -69,6 +69,10 @@ void find_tyres(RobotModel& robot, const Contract& contract) {
     if (type != mjGEOM_SPHERE && type != mjGEOM_CYLINDER && type != mjGEOM_CAPSULE) {
       fail_at_tyre(contract, i, "expected a sphere, a cylinder or a capsule");
     }
+    if (robot.tyre.strips().size() > 1 && type != mjGEOM_SPHERE) {
+      contract.fail(
+          fmt::format("geom '{}': expected a sphere, as the tyre has a width", tyre_names[i]));
+    }
     robot.tyre_geom[i] = geom;
     robot.tyre_strips[i] = {geom};
     check_axle(robot, contract, i);
@@ -83,14 +87,11 @@ void find_tyres(RobotModel& robot, const Contract& contract) {
   }
 }
 
-void add_strips(MjcfDocument& document, const RobotModel& robot, const Contract& contract) {
+void add_strips(MjcfDocument& document, const RobotModel& robot) {
   const mjModel& model = *robot.mj;
   const std::vector<double> strips = robot.tyre.strips();
   for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
     const int tyre = robot.tyre_geom[wheel];
-    if (model.geom_type[tyre] != mjGEOM_SPHERE) {
-      fail_at_tyre(contract, wheel, "expected a sphere, as the tyre has a width");
-    }
     const Eigen::Vector3d middle = vector_at(model.geom_pos, tyre);
     const Eigen::Vector3d axle = vector_at(model.jnt_axis, robot.joint[index(wheel_servos[wheel])]);
     std::string spheres;

@@ -106,6 +106,20 @@ std::string removed_section(const MjcfDocument& document, XMLElement& section) {
   return {};
 }
 
+/// Refuses actuators with a state of their own. (MuJoCo's complaint would be about their order.)
+void check_actuators(const MjcfDocument& document, const XMLElement& section) {
+  for (const auto* e = section.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    const std::string_view dynamics = attribute(*e, "dyntype");
+    if (!dynamics.empty() && dynamics != "none") {
+      document.fail(
+          *e, fmt::format("{}: expected a motor, found an activation (dyntype)", title_of(*e)));
+    }
+    if (is_any_of(e->Name(), {"intvelocity", "damper", "cylinder", "muscle", "adhesion"})) {
+      document.fail(*e, fmt::format("{}: expected a motor", title_of(*e)));
+    }
+  }
+}
+
 bool has_free_joint(const XMLElement& body) {
   for (const auto* e = body.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
     if (std::string_view(e->Name()) == "freejoint") return true;
@@ -224,6 +238,8 @@ std::vector<std::string> keep_robot_only(MjcfDocument& document) {
       root.DeleteChild(section);
     } else if (std::string_view(section->Name()) == "worldbody") {
       reduce_world(document, *section, has_robot, notes);
+    } else if (std::string_view(section->Name()) == "actuator") {
+      check_actuators(document, *section);
     } else if (std::string_view(section->Name()) == "size") {
       reduce_sizes(*section);
     }

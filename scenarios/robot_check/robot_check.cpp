@@ -99,6 +99,9 @@ CheckedStand stand(const Scenario& scenario, const std::string& engine) {
   const recordings::Recording recording = play(scenario, engine);
   CheckedStand stand{.engine = engine, .ending = ending_text(recording, scenario.end)};
   stand.stands = recording.info.outcome == recordings::Outcome::finished;
+  stand.moved = (recording.truth.back().base_position - recording.truth.front().base_position)
+                    .head<2>()
+                    .norm();
   constexpr double averaged = 0.5;  // s
   const auto steps = std::min(recording.steps(),
                               static_cast<std::size_t>(std::lround(averaged / recording.period())));
@@ -111,8 +114,14 @@ CheckedStand stand(const Scenario& scenario, const std::string& engine) {
   return stand;
 }
 
-/// Complaints about a stand that ended well: wheels that carry nothing, or not the weight.
+/// Complaints about a stand that ended well: a robot that rolls away, wheels that carry nothing, or
+/// not the weight.
 void check_loads(const CheckedStand& stand, double weight, std::vector<std::string>& complaints) {
+  constexpr double farthest = 0.4;  // m
+  if (stand.moved > farthest) {
+    complaints.push_back(fmt::format("{}: standing: rolled {:.2f} m away within two seconds",
+                                     stand.engine, stand.moved));
+  }
   const double sum = stand.load[0] + stand.load[1];
   constexpr double tolerance = 0.2;
   if (std::abs(sum - weight) > tolerance * weight) {

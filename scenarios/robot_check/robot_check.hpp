@@ -30,6 +30,7 @@ struct CheckedStand {
   std::string engine;
   std::string ending;  ///< how and when the run ended, and why
   bool stands = false;
+  double moved = 0.0;                                 ///< along the ground (m)
   std::array<double, models::wheel_count> load = {};  ///< at the end, left and right (N)
 };
 

@@ -188,10 +188,12 @@ TEST_F(RefusedRobot, TooManyGeomsAreRefusedAtOnce) {
 }
 
 TEST_F(RefusedRobot, OtherJointsAndLegsAreNamedWithTheWayOut) {
-  EXPECT_THAT(complaint(edited_upkie({{"<body name=\"left_wheel\"",
-                                       "<body name=\"ankle\"><joint name=\"left_ankle\" axis=\"0 1 "
-                                       "0\"/><geom size=\"0.01\" mass=\"0.1\"/></body><body "
-                                       "name=\"left_wheel\""}})),
+  EXPECT_THAT(complaint(edited_upkie(
+                  {{"<body name=\"left_wheel\"",
+                    "<body name=\"ankle\"><inertial pos=\"0 0 0\" mass=\"0.1\" diaginertia=\"1e-4 "
+                    "1e-4 1e-4\"/><joint name=\"left_ankle\" axis=\"0 1 "
+                    "0\"/><geom size=\"0.01\" mass=\"0.1\"/></body><body "
+                    "name=\"left_wheel\""}})),
               AllOf(HasSubstr("joint 'left_ankle'"), HasSubstr("held")));
   EXPECT_THAT(complaint(edited_upkie({{"left_hip", "hip_l"}})),
               AllOf(HasSubstr("expected a hinge joint named 'left_hip'"), HasSubstr("hip_l"),

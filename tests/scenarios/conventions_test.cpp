@@ -144,9 +144,9 @@ TEST_P(SameRobot, HasTheSameRecording) {
 INSTANTIATE_TEST_SUITE_P(Variants, SameRobot,
                          ::testing::Combine(::testing::Range(std::size_t{0}, variants().size()),
                                             ::testing::ValuesIn(simulators::simulator_names())),
-                         [](const auto& info) {
-                           return variants()[std::get<0>(info.param)].name + "_" +
-                                  std::get<1>(info.param);
+                         [](const auto& which) {
+                           return variants()[std::get<0>(which.param)].name + "_" +
+                                  std::get<1>(which.param);
                          });
 
 class AnotherRobot : public InEveryEngine {

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+#include "models/contract/conventions.hpp"
+#include "models/contract/servos.hpp"
+#include "models/contract/stance.hpp"
+#include "models/contract/tyres.hpp"
+#include "models/mjcf/compiler.hpp"
+#include "models/mjcf/parts.hpp"
+#include "models/mjcf/robot_only.hpp"
+#include "models/mjcf/scene.hpp"
+#include "models/mjcf/urdf.hpp"
+#include "models/resizing.hpp"
+#include "models/robot_description.hpp"
+#include "models/robot_model.hpp"
+#include "models/terrain_mjcf.hpp"
+
+namespace touchdown::models {
+namespace {
+
+/// The robot's file in the names of the contract, with nothing but the robot in it.
+struct RobotFile {
+  MjcfDocument document;
+  std::vector<std::string> ignored;
+};
+
+void require_mjcf(const MjcfDocument& document) {
+  const tinyxml2::XMLElement& root = document.root();
+  if (std::strcmp(root.Name(), "mujoco") == 0 && root.FirstChildElement() != nullptr) return;
+  const char* const more = std::strcmp(root.Name(), "robot") == 0
+                               ? ", or a YAML file about this URDF that names its joints"
+                               : "";
+  document.fail(root,
+                fmt::format("{}: expected a robot in <mujoco>...</mujoco>{}", root.Name(), more));
+}
+
+bool is_urdf(const MjcfDocument& document) {
+  return std::strcmp(document.root().Name(), "robot") == 0;
+}
+
+RobotFile robot_file(const RobotDescription& description) {
+  RobotFile robot{MjcfDocument::load(description.mjcf), {}};
+  std::map<std::string, double> effort;
+  if (description.is_named && is_urdf(robot.document)) {
+    ConvertedUrdf converted = converted_urdf(description.mjcf, description.parts.base);
+    robot.document = std::move(converted.mjcf);
+    effort = std::move(converted.effort);
+  }
+  require_mjcf(robot.document);
+  robot.ignored = keep_robot_only(robot.document);
+  name_parts(robot.document, description, effort);
+  return robot;
+}
+
+MjModelPtr compile(const RobotFile& robot, const Terrain& terrain) {
+  return compile_xml(robot.document.text(scene_mjcf + terrain_mjcf(terrain)),
+                     robot.document.file());
+}
+
+/// Sets the actuators of the robot's file in the model. MuJoCo simulates the rotor inertia; the
+/// simulators add everything else (simulators/actuators.hpp).
+void set_actuators(RobotModel& robot, const RobotDescription& description) {
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    if (const auto& given = description.actuator(static_cast<Servo>(i))) robot.actuator[i] = *given;
+    if (!robot.has(i)) continue;
+    const int dof = robot.dof_address[i];
+    robot.effort[i] = std::min(robot.effort[i], robot.actuator[i].maximum_torque);
+    robot.mj->dof_armature[dof] = robot.actuator[i].armature;
+    robot.mj->dof_damping[dof] = 0.0;
+    robot.mj->dof_frictionloss[dof] = 0.0;
+  }
+  if (std::any_of(robot.actuator.begin(), robot.actuator.end(),
+                  [](const Actuator& actuator) { return actuator.armature != 0.0; })) {
+    recompute(*robot.mj);
+  }
+}
+
+/// Sets the size that the robot's file specifies.
+void set_size(RobotModel& robot, const RobotDescription& description, const Contract& contract) {
+  const double wheels = description.wheel_radius.value_or(robot.wheel_radius) / robot.wheel_radius;
+  bool changed = description.mass != 1.0 || wheels != 1.0;
+  if (description.mass != 1.0) scale_mass(*robot.mj, description.mass);
+  if (wheels != 1.0) {
+    scale_wheels(*robot.mj, wheels);
+    robot.wheel_radius *= wheels;
+  }
+  for (std::size_t leg = 0; leg < description.legs.one.size(); ++leg) {
+    const double length = description.legs.both * description.legs.one[leg];
+    if (length == 1.0) continue;
+    try {
+      scale_leg(*robot.mj, leg, length);
+    } catch (const InputError& error) {
+      contract.fail(error.what());
+    }
+    changed = true;
+  }
+  if (changed) recompute(*robot.mj);
+}
+
+/// Looks up the robot's parts in the model of its file.
+RobotModel with_parts(MjModelPtr mj, const Tyre& tyre, const Contract& contract) {
+  RobotModel robot;
+  robot.mj = std::move(mj);
+  robot.tyre = tyre;
+  robot.name = robot.mj->names;  // the model's own name comes first
+  find_servos(robot, contract);
+  find_tyres(robot, contract);
+  return robot;
+}
+
+/// Checks that the joints can have the stance that the robot's file gives.
+void check_stance(const RobotModel& robot, const RobotDescription& description,
+                  const std::filesystem::path& file) {
+  if (!description.has_stance) return;
+  const auto error = stance_error(robot, from_straight(robot, description.stance), true);
+  if (!error) return;
+  Fields fields(YamlDocument::load(file));
+  fields.within("stance", [&](Fields& stance) {
+    stance.know("hip");
+    stance.know("knee");
+    stance.check(false, error->key, error->message);
+  });
+}
+
+}  // namespace
+
+RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain& terrain) {
+  RobotDescription description = robot_description(file);
+  RobotFile source = robot_file(description);
+  PartNames& parts = description.parts;
+  MjModelPtr mj = compile(source, terrain);
+  const Contract contract(source.document, parts, *mj);
+  RobotModel robot = with_parts(std::move(mj), description.tyre, contract);
+  const bool swapped = sides_are_swapped(robot, contract);
+  const bool has_strips = description.tyre.strips().size() > 1;
+  if (swapped) {
+    swap_sides(source.document);
+    std::swap_ranges(parts.joint.begin(), parts.joint.begin() + 3, parts.joint.begin() + 3);
+    std::swap(parts.tyre[0], parts.tyre[1]);
+  }
+  // Strips are added at the file's size; the description then scales them, too.
+  if (has_strips) add_strips(source.document, robot);
+  if (swapped || has_strips) {
+    MjModelPtr again = compile(source, terrain);
+    const Contract renewed(source.document, parts, *again);
+    robot = with_parts(std::move(again), description.tyre, renewed);
+    if (has_strips) find_strips(robot, renewed);
+  }
+  const Contract final_contract(source.document, parts, *robot.mj);
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    // A swapped leg keeps the file's name.
+    robot.joint_name[i] = parts.joint[i].empty()
+                              ? std::string(servo_names[swapped ? (i + 3) % servo_count : i])
+                              : parts.joint[i];
+  }
+  robot.ignored = std::move(source.ignored);
+  apply_conventions(robot, final_contract);
+  check_stance(robot, description, file);
+  set_actuators(robot, description);
+  set_size(robot, description, final_contract);
+  return robot;
+}
+
+}  // namespace touchdown::models

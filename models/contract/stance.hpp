@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "models/robot_description.hpp"
+#include "models/robot_model.hpp"
+
+namespace touchdown::models {
+
+/// Whether a servo's angle (rad) is within the range of its joint.
+bool can_turn(const RobotModel& robot, std::size_t servo, double angle);
+
+/// A stance in the zeros of the robot's file, as angles from straight legs.
+Stance from_straight(const RobotModel& robot, const Stance& stance);
+
+/// An angle that a joint cannot have.
+struct StanceError {
+  std::string key;  ///< "hip" or "knee"
+  std::string message;
+};
+
+/// The first angle of a stance, from straight legs, that a joint of either leg cannot have. The
+/// message has angles from straight legs, or in the zeros of the robot's file.
+std::optional<StanceError> stance_error(const RobotModel& robot, const Stance& stance,
+                                        bool in_zeros_of_file = false);
+
+}  // namespace touchdown::models

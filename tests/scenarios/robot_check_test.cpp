@@ -1,0 +1,95 @@
+#include "scenarios/robot_check/robot_check.hpp"
+
+#include "core/resources.hpp"
+#include "tests/models/edited_upkie.hpp"
+#include "tests/scenarios/runs.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::scenarios {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+class RobotCheckOf : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(RobotCheckOf, AShippedRobotHasNoComplaints) {
+  const RobotCheck check = check_robot(GetParam());
+  EXPECT_THAT(check.complaints, IsEmpty());
+  ASSERT_THAT(check.stands, SizeIs(simulators::simulator_names().size()));
+  for (const CheckedStand& stand : check.stands) {
+    EXPECT_TRUE(stand.stands) << stand.engine;
+    EXPECT_NEAR(stand.load[0] + stand.load[1], 9.81 * check.mass, 0.02 * 9.81 * check.mass);
+  }
+}
+
+std::vector<std::string> shipped() {
+  std::vector<std::string> files;
+  for (const char* extension : {".yaml", ".xml"}) {
+    for (const auto& file : resources_in("models", extension)) files.push_back(file.string());
+  }
+  return files;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RobotCheckOf, ::testing::ValuesIn(shipped()),
+                         [](const ::testing::TestParamInfo<std::string>& file) {
+                           const std::filesystem::path path = file.param;
+                           return path.stem().string() + "_" + path.extension().string().substr(1);
+                         });
+
+TEST(ARobotCheck, ReadsUpkieAsItIs) {
+  const RobotCheck check = check_robot(upkie_mjcf);
+  EXPECT_NEAR(check.mass, 5.33922, 1e-5);
+  EXPECT_NEAR(check.leg_mass[0], 0.69241 + 0.3954 + 0.18455, 1e-6);
+  EXPECT_EQ(check.wheel_radius, 0.05);
+  EXPECT_NEAR(check.imu.z(), -0.1, 1e-9);
+  ASSERT_THAT(check.joints, SizeIs(6));
+  EXPECT_EQ(check.joints[0].axis, Eigen::Vector3d(0.0, -1.0, 0.0));
+  EXPECT_EQ(check.joints[0].low, -1.26);
+  EXPECT_EQ(check.joints[2].torque_limit, 1.7);
+  EXPECT_FALSE(check.joints[2].is_limited);
+  // The axle is L₂ sin(knee − hip) behind the knee.
+  EXPECT_NEAR(check.lever, 0.175 * std::sin(0.791 - 0.455), 1e-6);
+  EXPECT_THAT(check.ignored, IsEmpty());
+}
+
+TEST(ARobotCheck, NamesWhatIsReversedAndWhatIsIgnored) {
+  const ScratchFolder folder;
+  const RobotCheck check = check_robot(folder.write(
+      "robot.xml",
+      edited_upkie({{"axis=\"0 -1 0\" range", "axis=\"0 1 0\" range"},
+                    {"<joint name=\"left_hip\"", "<joint armature=\"0.01\" name=\"left_hip\""},
+                    added("<option timestep=\"0.01\"/><sensor><gyro site=\"imu\"/></sensor>")})));
+  EXPECT_THAT(check.complaints, IsEmpty());
+  EXPECT_TRUE(check.joints[0].is_reversed);
+  EXPECT_EQ(check.joints[0].axis, Eigen::Vector3d(0.0, 1.0, 0.0)) << "as in the file";
+  EXPECT_FALSE(check.joints[3].is_reversed);
+  EXPECT_EQ(check.joints[0].actuator, "armature 0.01");
+  EXPECT_THAT(check.ignored, ElementsAre(HasSubstr(": option: "), HasSubstr(": sensor: ")));
+  EXPECT_THAT(check.differences, Contains(HasSubstr("armature")));
+}
+
+TEST(ARobotCheck, ComplainsOfRobotsThatCannotBeUsed) {
+  const ScratchFolder folder;
+  const auto complaints = [&](const std::vector<Edit>& edits) {
+    return check_robot(folder.write("robot.xml", edited_upkie(edits))).complaints;
+  };
+  // Refused, weak, top-heavy on one side, and with a part below the tyres.
+  EXPECT_THAT(complaints({added("<option wind=\"1 0 0\"/>")}), ElementsAre(HasSubstr("wind")));
+  EXPECT_THAT(
+      complaints({{"-16 16\"", "-0.1 0.1\""}}),
+      ElementsAre(HasSubstr("mujoco: standing: fell"), HasSubstr("bullet: standing: fell")));
+  EXPECT_THAT(complaints({{"<inertial pos=\"-0.011451 0 -0.118768\"",
+                           "<inertial pos=\"-0.011451 0.3 -0.118768\""}}),
+              Contains(HasSubstr("standing:")));
+  EXPECT_THAT(complaints({{"<geom name=\"left_tire\"",
+                           "<geom class=\"collider\" type=\"sphere\" size=\"0.07\" pos=\"0 -0.046 "
+                           "0\"/><geom name=\"left_tire\""}}),
+              Contains(HasSubstr("a part other than a tyre touched the terrain")));
+}
+
+}  // namespace
+}  // namespace touchdown::scenarios
