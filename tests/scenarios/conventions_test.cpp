@@ -222,6 +222,31 @@ TEST_P(AnotherRobot, WithWeakMotorsFallsWhateverTheirUnits) {
 INSTANTIATE_TEST_SUITE_P(Engine, AnotherRobot, ::testing::ValuesIn(simulators::simulator_names()),
                          engine_name);
 
+TEST(AnglesOfAScenario, AreWithinTheRangesOfItsRobot) {
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      (void)complete_scenario(
+          YamlDocument::parse("name: a\nrobot: " + upkie_mjcf + "\n" + text, "a.yaml"));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  };
+  const std::string hip = "hip: expected -1.26 to 1.26, the range of joint 'left_hip'";
+  const std::string knee = "knee: expected -2.51 to 2.51, the range of joint 'left_knee'";
+  for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{
+           {"start: {hip: 1.3, knee: 0}\n", "start." + hip},
+           {"start: {hip: -1.3, knee: 0}\n", "start." + hip},
+           {"start: {hip: 0, knee: 2.6}\n", "start." + knee},
+           {"crouch: [{time: 1, hip: 1.3}]\n", "crouch." + hip},
+           {"crouch: [{time: 1, hip: 0.2}, {time: 2, hip: -1.3}]\n", "crouch." + hip},
+           {"perturbation: {crouching: {hip: [0, 1.4]}}\n", "perturbation.crouching." + hip},
+           {"start: {hip: 1.25, knee: 2.5}\n", "no complaint"},
+           {"crouch: [{time: 1, hip: 1.25}]\n", "no complaint"}}) {
+    EXPECT_THAT(complaint(text), ::testing::HasSubstr(words)) << text;
+  }
+}
+
 TEST(YamlRobots, MayBeYml) {
   const ScratchFolder folder;
   folder.write("base.xml", edited_upkie({}));
