@@ -216,7 +216,7 @@ std::vector<fs::path> own_files(const fs::path& directory) {
 
 void require_no_links(const fs::path& directory) {
   std::error_code ignored;
-  for (const char* const folder : all_folders) {
+  for (const std::string& folder : all_folders(directory)) {
     const fs::path path = directory / folder;
     if (!fs::is_symlink(path, ignored)) continue;
     throw InputError(

@@ -31,7 +31,8 @@ std::vector<std::string> PlausibilityCheck::findings() const {
   motion_.report(findings);
   turning_.report(findings);
   gravity_.report(findings);
-  if (has_positions) load_.report(findings);  // a leg's pose is part of its load
+  // A leg's load follows from its pose.
+  if (has_positions && !constant_.lacks_hips()) load_.report(findings);
   return findings.lines();
 }
 

@@ -61,20 +61,18 @@ void ConstantChannels::report_missing(std::string_view subject, const char* chan
                                                    channel, 100.0 * share));
 }
 
+bool ConstantChannels::lacks_hips() const {
+  constexpr std::size_t right = 3;
+  return joints_[0].is_zero() && joints_[right].is_zero();
+}
+
 void ConstantChannels::report_joint(std::size_t servo, Findings& findings) const {
   const Joint& joint = joints_[servo];
   const std::string_view name = models::servo_names.at(servo);
   report_missing(name, "position ", joint.position, findings);
   report_missing(name, "velocity ", joint.velocity, findings);
   report_missing(name, "torque ", joint.torque, findings);
-  const auto is_zero = [](const Channel& channel) {
-    return channel.is_constant() && channel.first == 0.0;
-  };
-  // A mapping with `hip: none` fills in a joint that the robot lacks.
-  if (is_zero(joint.position) && is_zero(joint.velocity) && is_zero(joint.torque) &&
-      servo % 3 == 0) {
-    return;
-  }
+  if (servo % 3 == 0 && lacks_hips()) return;
   if (joint.torque.is_constant()) findings.add(name, throughout("torque", joint.torque.first));
   constexpr double moved = 0.1;  // rad/s, mean of its size
   const bool reports_motion =

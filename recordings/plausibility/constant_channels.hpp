@@ -15,6 +15,9 @@ class ConstantChannels {
  public:
   void add(const models::Observation& record);
   void report(Findings& findings) const;
+  /// Whether both hips are 0 throughout: a mapping with `hip: none` fills in joints that the robot
+  /// lacks.
+  bool lacks_hips() const;
 
  private:
   /// One number per record.
@@ -27,11 +30,14 @@ class ConstantChannels {
 
     void add(double value);
     bool is_constant() const;
+    bool is_zero() const { return is_constant() && first == 0.0; }
   };
   struct Joint {
     Channel position;
     Channel velocity;
     Channel torque;
+
+    bool is_zero() const { return position.is_zero() && velocity.is_zero() && torque.is_zero(); }
   };
 
   static void report_missing(std::string_view subject, const char* channel, const Channel& of_log,

@@ -138,10 +138,9 @@ TEST_F(RobotsLog, CountsValidStepsOnlyAndNamesTheirNumber) {
   EXPECT_EQ(estimated.exit_code, 0);
   EXPECT_THAT(estimated.output, HasSubstr("of 3701 valid steps"));
   EXPECT_THAT(estimated.output, HasSubstr("3000 invalid of 7001 steps"));
-  EXPECT_THAT(run("estimate half.mpack --estimator free_fall").output, HasSubstr("raw switches"));
 }
 
-TEST(Fit, RefusesALogThatIsNamedTwice) {
+TEST(FittedLogs, RefusesALogThatIsNamedTwice) {
   const ScratchFolder folder;
   recordings::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");
   std::filesystem::create_symlink("a.mpack", folder / "link.mpack");
@@ -156,7 +155,7 @@ TEST(Fit, RefusesALogThatIsNamedTwice) {
   }
 }
 
-TEST(Fit, RefusesLogsOfTwoRates) {
+TEST(FittedLogs, RefusesLogsOfTwoRates) {
   const ScratchFolder folder;
   recordings::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");
   recordings::Recording slow = test::one_class_log(2.0, false);
@@ -180,20 +179,20 @@ TEST(Fit, RefusesLogsOfTwoRates) {
   }
 }
 
-TEST(Fit, SkipsTheBeginningOfTheLogAloneAndNotThatOfEachSegment) {
+TEST(FittedLogs, SkipsTheBeginningOfTheLogAloneAndNotThatOfEachSegment) {
   const ScratchFolder folder;
   recordings::write_recording(test::robot_log(3.0), folder / "robot.mpack");
   // Flights of 0.2 s, with a gap around each.
-  folder.write(
-      "robot.csv",
-      "start,end,contact\n0.35,0.55,1\n0.62,0.78,0\n1.0,1.5,1\n1.62,1.78,0\n2.62,2.78,0\n");
+  folder.write("robot.csv",
+               "start,end,contact\n0.3495,0.5495,1\n0.6195,0.7795,0\n0.9995,1.4995,1\n"
+               "1.6195,1.7795,0\n2.6195,2.7795,0\n");
   const Ended fitted = touchdown_program(
       "fit robot.mpack --labels robot.csv -o m.npz --estimator load_logistic", folder.path());
   EXPECT_EQ(fitted.exit_code, 0) << fitted.errors;
   EXPECT_THAT(fitted.output, HasSubstr("no contact   960 samples"));
   EXPECT_THAT(fitted.output, HasSubstr("1.180 s of 1 log"));
   // The message counts what was left out.
-  folder.write("early.csv", "start,end,contact\n0.0,0.2,0\n0.62,0.78,1\n");
+  folder.write("early.csv", "start,end,contact\n0.0,0.1995,0\n0.6195,0.7795,1\n");
   const Ended refused = touchdown_program(
       "fit robot.mpack --labels early.csv -o m.npz --estimator load_logistic", folder.path());
   EXPECT_EQ(refused.exit_code, 2);

@@ -72,9 +72,9 @@ TEST_F(Metadata, HoldsTheHyperparametersOfTheFit) {
                     HasSubstr("did you mean 'threshold'")));
   EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --set bandwidth_floor=0.01"),
               HasSubstr("'bandwidth_floor' is fixed by the fit: touchdown fit --set"));
-  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set thresold=0.5"),
+  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set thresold=0.5 --estimator robust"),
               HasSubstr("did you mean 'threshold'"));
-  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set threshold=half"),
+  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set threshold=half --estimator robust"),
               HasSubstr("threshold=half: expected name=number, as in leave_below=0.25"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "x.npz"));
 }

@@ -1,7 +1,7 @@
 // A program that includes the documented header alone can catch what it throws.
-#include "estimator/estimator.hpp"
-
 #include <gtest/gtest.h>
+
+#include "estimator/estimator.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // A program that includes the documented header alone can catch what it throws.
-#include "odometry/filter.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "odometry/filter.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // A program that includes the documented header alone can catch what it throws.
-#include "onboard/load_estimator.hpp"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "onboard/load_estimator.hpp"
 
 namespace {
 

@@ -92,7 +92,7 @@ struct Damage {
   std::string name;
   std::function<void(models::Observation& record, std::size_t k)> change;
   std::string finding;
-  bool needs_turns = false;  ///< about several axes, which a hop does not have
+  bool needs_turns = false;  ///< faster ones than those of `roam`
 };
 
 /// Applies a factor to one member of some servos.
@@ -129,7 +129,6 @@ std::vector<Damage> damages() {
   x_and_y(0, 1) = x_and_y(1, 0) = x_and_y(2, 2) = 1.0;
   Eigen::Matrix3d cycle = Eigen::Matrix3d::Zero();
   cycle(0, 1) = cycle(1, 2) = cycle(2, 0) = 1.0;
-  const Eigen::Matrix3d forward = Eigen::Vector3d(-1, 1, -1).asDiagonal();
   const auto wrong_order = [](O& o, std::size_t) {
     const Eigen::Quaterniond q = o.imu.orientation;
     o.imu.orientation = Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w());
@@ -204,14 +203,13 @@ std::vector<Damage> damages() {
        "left_knee, right_knee: position leaves its range"},
       // gyroscope
       {"gyroscope in deg/s", gyroscope(Eigen::Matrix3d::Identity() / degree), "is it in deg/s"},
-      {"gyroscope negated", gyroscope(-Eigen::Matrix3d::Identity()), "turns the other way"},
-      {"gyroscope with other axes", gyroscope(x_and_y),
-       "angular_velocity: fits the orientation as"},
-      {"gyroscope in cyclic order", gyroscope(cycle), "angular_velocity: fits the orientation as"},
-      {"gyroscope of a forward IMU", gyroscope(forward),
-       "angular_velocity: fits the orientation as", true},
+      {"gyroscope negated", gyroscope(-Eigen::Matrix3d::Identity()), "turns the other way", true},
+      {"gyroscope with other axes", gyroscope(x_and_y), "angular_velocity: fits the orientation as",
+       true},
+      {"gyroscope in cyclic order", gyroscope(cycle), "angular_velocity: fits the orientation as",
+       true},
       {"gyroscope mapped as deg/s", gyroscope(degree * Eigen::Matrix3d::Identity()),
-       "mapped as deg/s"},
+       "mapped as deg/s", true},
       // dead channels
       {"knees silent", scaled(torque, {1, 4}, 0.0),
        "left_knee, right_knee: torque is 0 throughout"},
@@ -267,7 +265,7 @@ TEST(PlausibilityCheck, NamesEveryKindOfDamage) {
       {"upkie roam", reported("roam", "bullet", "upkie")}};
   for (const auto& [name, records] : undamaged) {
     for (const Damage& damage : damages()) {
-      if (damage.needs_turns && name == "ideal hop") continue;
+      if (damage.needs_turns && name == "upkie roam") continue;
       Records changed = records;
       for (std::size_t k = 0; k < changed.size(); ++k) damage.change(changed[k], k);
       const std::vector<std::string> lines = findings(changed);
