@@ -157,7 +157,10 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
                               ? std::string(servo_names[swapped ? (i + 3) % servo_count : i])
                               : parts.joint[i];
   }
-  robot.ignored = std::move(source.ignored);
+  for (const std::string& joint : parts.held) {
+    robot.ignored.push_back(fmt::format("joint '{}': held at the pose of the file", joint));
+  }
+  robot.ignored.insert(robot.ignored.begin(), source.ignored.begin(), source.ignored.end());
   apply_conventions(robot, final_contract);
   check_stance(robot, description, file);
   set_actuators(robot, description);

@@ -162,6 +162,8 @@ void find_servos(RobotModel& robot, const Contract& contract) {
     }
     if (model.actuator_biastype[i] == mjBIAS_NONE) continue;
     // The servos' law is touchdown's: MuJoCo must not add that of the file.
+    robot.ignored.push_back(fmt::format("actuator '{}': its own law; its forcerange counts",
+                                        mj_id2name(&model, mjOBJ_ACTUATOR, i)));
     std::fill_n(&model.actuator_gainprm[mjNGAIN * i], mjNGAIN, 0.0);
     std::fill_n(&model.actuator_biasprm[mjNBIAS * i], mjNBIAS, 0.0);
   }

@@ -111,7 +111,8 @@ void name_servos(MjcfDocument& document, const RobotDescription& description,
 bool is_round_collider(const XMLElement& geom) {
   const std::string_view type = attribute(geom, "type");
   const bool is_visual = attribute(geom, "contype") == "0" && attribute(geom, "conaffinity") == "0";
-  return !is_visual && (type == "sphere" || type == "cylinder" || type == "capsule");
+  const bool is_sphere = type == "sphere" || (type.empty() && geom.Attribute("mesh") == nullptr);
+  return !is_visual && (is_sphere || type == "cylinder" || type == "capsule");
 }
 
 XMLElement& only_round_collider(const MjcfDocument& document, XMLElement& body,

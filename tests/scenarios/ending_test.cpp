@@ -62,7 +62,10 @@ TEST_P(Ending, OfARobotThatFallsThroughTheGroundIsNoRun) {
     for (int geom = 0; geom < model->mj->ngeom; ++geom) {
       const bool is_terrain = model->mj->geom_bodyid[geom] == 0;
       if (is_terrain == whole_robot) continue;
-      model->mj->geom_contype[geom] = model->mj->geom_conaffinity[geom] = 0;
+      // MuJoCo needs its tyres, with bits that meet nothing; Bullet takes any bit for a collider.
+      const bool has_bits = GetParam() == "mujoco";
+      model->mj->geom_contype[geom] = has_bits ? 4 : 0;
+      model->mj->geom_conaffinity[geom] = has_bits ? 8 : 0;
     }
     const auto simulator = make_simulator(scenario, GetParam(), model);
     const recordings::Recording recording = play(scenario, *simulator);
