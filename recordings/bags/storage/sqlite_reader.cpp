@@ -74,16 +74,20 @@ int SqliteReader::try_open(const std::string& uri, bool salvages) {
   return sqlite3_exec(opened, "SELECT name FROM sqlite_master LIMIT 1", nullptr, nullptr, nullptr);
 }
 
-/// SQLite would take the missing bytes of the last page for zeros, and those for messages.
-void SqliteReader::copy_whole_pages(const std::filesystem::path& path) {
+/// The size of a file's pages, from its head: big-endian; 1 is 65536.
+std::uint64_t SqliteReader::page_bytes(const RandomFile& file) {
   std::string head;
-  const RandomFile file(path, name_);
-  file.read(16, 2, head);  // the size of a page, big-endian; 1 is 65536
+  file.read(16, 2, head);
   const auto byte = [&](std::size_t i) {
     return i < head.size() ? static_cast<std::uint64_t>(static_cast<unsigned char>(head[i])) : 0U;
   };
   const std::uint64_t given = 256 * byte(0) + byte(1);
-  const std::uint64_t page = given == 1 ? 65536 : std::max<std::uint64_t>(given, 512);
+  return given == 1 ? 65536 : std::max<std::uint64_t>(given, 512);
+}
+
+/// SQLite would take the missing bytes of the last page for zeros, and those for messages.
+void SqliteReader::copy_whole_pages(const std::filesystem::path& path, const RandomFile& file) {
+  const std::uint64_t page = page_bytes(file);
   const std::filesystem::path& copy = copy_.emplace().path();
   std::error_code wrong;
   std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing, wrong);
@@ -101,8 +105,10 @@ void SqliteReader::open(const std::filesystem::path& path) {
   if (result == SQLITE_CANTOPEN || result == SQLITE_READONLY) {
     result = try_open(uri_of(path, "?mode=ro&immutable=1"), false);
   }
-  if (result == SQLITE_CORRUPT) {
-    copy_whole_pages(path);
+  const RandomFile file(path, name_);
+  const bool is_cut = file.size() % page_bytes(file) != 0;
+  if (result == SQLITE_CORRUPT || (result == SQLITE_OK && is_cut)) {
+    copy_whole_pages(path, file);
     result = try_open(uri_of(copy_->path(), "?mode=ro"), true);
   }
   if (result == SQLITE_NOTADB) complain("is no SQLite database: is it compressed?");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "recordings/bags/storage/message.hpp"
+#include "recordings/bags/storage/random_file.hpp"
 #include "recordings/bags/storage/temporary_file.hpp"
 
 struct sqlite3;
@@ -43,7 +44,8 @@ class SqliteReader {
 
   int try_open(const std::string& uri, bool salvages);
   void open(const std::filesystem::path& path);
-  void copy_whole_pages(const std::filesystem::path& path);
+  static std::uint64_t page_bytes(const RandomFile& file);
+  void copy_whole_pages(const std::filesystem::path& path, const RandomFile& file);
   bool has_table(std::string_view name);
   void read_topics(const TopicFilter& wanted);
   Statement prepare(const std::string& sql);
