@@ -109,8 +109,8 @@ TEST_F(Mcap, OfNoLogIsRefusedAndNothingIsWritten) {
   std::string bytes = read_file(folder_ / "keys.mpack");
   const auto entries = static_cast<unsigned char>(bytes[0]);
   ASSERT_EQ(entries & 0xf0U, 0x80U);  // a map of a few entries, which gets one more
-  bytes =
-      std::string(1, static_cast<char>(entries + 1)) + std::string("\x05\x05") + bytes.substr(1);
+  bytes[0] = static_cast<char>(entries + 1);
+  bytes.insert(1, "\x05\x05");
   folder_.write("keys.mpack", bytes);
   EXPECT_THAT(refused("export keys.mpack -o a.mcap"), HasSubstr("keys.mpack: a record cannot be"));
   EXPECT_EQ(names_in(folder_.path()),

@@ -1,5 +1,7 @@
 #include "experiments/studies/benchmark/submission_rows.hpp"
 
+#include <set>
+
 #include "experiments/studies/benchmark/submission_scores.hpp"
 
 namespace touchdown::experiments {
@@ -30,15 +32,17 @@ void add_submission_rows(const Evaluation& evaluation, const RunDirectory& direc
       request.experiment.highlights = {evaluation.request.experiment.highlights[cell]};
       Plan plan = plan_for(scores.name, request.experiment.highlights.front(), evaluation);
       std::map<std::string, TaskCounts> counts = scores.by_cell[cell];
-      constexpr std::size_t no_group = std::size_t{0} - 1;
+      std::set<std::size_t> incomplete;
       for (const Task& task : plan.tasks) {
         const std::string name = task_name(plan, task);
         if (evaluation.runs.at(task.run).failed()) {
           counts.emplace(name, TaskCounts{});
         } else if (!counts.contains(name)) {
-          plan.runs[task.run].group = no_group;
+          incomplete.insert(task.run);
         }
       }
+      constexpr std::size_t no_group = std::size_t{0} - 1;
+      for (const std::size_t run : incomplete) plan.runs[run].group = no_group;
       const SavedCounts in_memory(std::move(counts));
       const Evaluation alone{request,
                              plan,

@@ -18,7 +18,7 @@
 #include "recordings/plausibility/check.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/leg_geometry.hpp"
-#include "scenarios/scenario_file.hpp"
+#include "scenarios/generation/named.hpp"
 
 namespace touchdown::recordings {
 namespace {
