@@ -1,9 +1,9 @@
-#include "scenarios/generation/named.hpp"
 #include "scenarios/scenario_file.hpp"
 
 #include <filesystem>
 
 #include "core/files.hpp"
+#include "scenarios/generation/named.hpp"
 #include "tests/scenarios/runs.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -17,8 +17,8 @@
 #include "noise/sensors/reported.hpp"
 #include "recordings/plausibility/check.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/leg_geometry.hpp"
 #include "scenarios/generation/named.hpp"
+#include "scenarios/leg_geometry.hpp"
 
 namespace touchdown::recordings {
 namespace {
