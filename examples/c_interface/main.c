@@ -26,6 +26,7 @@ static touchdown_record read_robot(int step) {
   }
   record.orientation[0] = record.orientation[1] = record.orientation[2] = 0.0;
   record.orientation[3] = 1.0;
+  record.angular_velocity[0] = record.angular_velocity[1] = record.angular_velocity[2] = noise;
   record.linear_acceleration[0] = record.linear_acceleration[1] = noise;
   record.linear_acceleration[2] = (air ? 9.81 : 0.0) + noise;
   return record;

@@ -89,7 +89,8 @@ TEST(ModelFor, AMismatchIsAnError) {
               HasSubstr("'phase' uses no kinematics"));
   EXPECT_THAT(complaint(network, {.robot = "stilts"}), HasSubstr("not to 'stilts'"))
       << "the legs of that robot are unknown";
-  EXPECT_THAT(complaint(network, {.sample_rate = 200.0}), HasSubstr("was fitted at 1000 Hz"));
+  EXPECT_THAT(complaint(network, {.sample_rate = 100.0}),
+              HasSubstr("was fitted at 1000 Hz and serves 200 to 1000 Hz, not at 100 Hz"));
   EXPECT_THAT(complaint(network, {.configuration = {{"leave_bellow", "0.25"}}}),
               HasSubstr("has no 'leave_bellow': expected one of"));
   EXPECT_THAT(complaint(network, {.configuration = {{"leave_below", "often"}}}),
