@@ -41,8 +41,7 @@ std::string latency_cell(const ScoreSummary& summary, const std::string& event) 
   const Interval& mean = summary[event + "_latency_ms"];
   const Interval& deviation = summary[event + "_latency_deviation_ms"];
   if (std::isnan(mean.estimate)) return "–";
-  const std::string text =
-      fmt::format("{} ± {}", fixed(mean.estimate, 1), fixed(deviation.estimate, 1));
+  std::string text = fmt::format("{} ± {}", fixed(mean.estimate, 1), fixed(deviation.estimate, 1));
   if (std::isnan(mean.low)) return text;
   return fmt::format("{} [{}, {}]", text, fixed(mean.low, 1), fixed(mean.high, 1));
 }

@@ -216,7 +216,11 @@ std::vector<fs::path> own_files(const fs::path& directory) {
 
 void require_no_links(const fs::path& directory) {
   std::error_code ignored;
-  for (const std::string& folder : all_folders(directory)) {
+  Names folders = all_folders(directory);
+  for (const auto& entry : fs::directory_iterator(directory / "state", ignored)) {
+    folders.push_back("state/" + entry.path().filename().string());
+  }
+  for (const std::string& folder : folders) {
     const fs::path path = directory / folder;
     if (!fs::is_symlink(path, ignored)) continue;
     throw InputError(

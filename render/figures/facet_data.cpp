@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiments/figures/groups.hpp"
 
@@ -65,9 +66,12 @@ FacetData facet_data(const experiments::FigureSpec& spec, const Table& table) {
 }
 
 std::string data_file(const FacetData& data) {
-  Table table{encoded(data.table.header), {}};
-  for (const FacetRow& row : data.rows) table.rows.push_back(encoded(data.table.rows[row.index]));
-  return to_csv(table);
+  // Not `to_csv`, which marks names that spreadsheets would compute: gnuplot compares the names.
+  std::string text = fmt::format("{}\n", fmt::join(encoded(data.table.header), ","));
+  for (const FacetRow& row : data.rows) {
+    text += fmt::format("{}\n", fmt::join(encoded(data.table.rows[row.index]), ","));
+  }
+  return text;
 }
 
 std::string percent_encoded(const std::string& text) {

@@ -34,11 +34,11 @@ TEST(CheckOfARobot, PrintsItsComplaintAndExitsWithOne) {
 TEST(CheckOfARobot, PrintsJson) {
   const ScratchFolder folder;
   folder.write("robot.xml", edited_upkie({}));
-  folder.write("robot.yml", "# mine\nmjcf: robot.xml\nmass: 2\n");
+  folder.write("robot.yml", "# mine\nmjcf: robot.xml\nmass: 1.2\n");
   const auto json =
       nlohmann::json::parse(touchdown_program("check robot.yml --json", folder.path()).output);
   EXPECT_EQ(json["is_usable"], true);
-  EXPECT_NEAR(json["mass_kg"].get<double>(), 2 * 5.33922, 1e-4);
+  EXPECT_NEAR(json["mass_kg"].get<double>(), 1.2 * 5.33922, 1e-4);
   EXPECT_EQ(json["joints"].size(), 6U);
   EXPECT_EQ(json["joints"][3]["axis_in_base"], (std::vector<double>{0, 1, 0}));
   EXPECT_EQ(json["stands"].size(), 2U);

@@ -138,7 +138,7 @@ TEST(ForceScript, ComplainsOnTheLine) {
   EXPECT_THAT(complaint([] { (void)forces("forces:\n  - {force: [1, 2]}\n"); }),
               AllOf(HasSubstr("forces.yaml:2:"), HasSubstr("three numbers")));
   EXPECT_THAT(complaint([] { (void)forces("forces:\n  - {force: [1, 2, .inf]}\n"); }),
-              HasSubstr("three numbers"));
+              HasSubstr("forces.0.force: expected a finite number"));
   EXPECT_THAT(complaint([] { (void)forces("forces:\n  - {fource: [1, 2, 3]}\n"); }),
               HasSubstr("did you mean 'force'"));
   EXPECT_THAT(complaint([] { (void)forces("forces:\n  - {duration: -1}\n"); }),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct BenchmarkRow {
   int runs = 0;            ///< simulated
   int failed = 0;          ///< of these; not scored
 
-  bool is_scored() const { return failed < runs; }
+  bool is_scored() const { return !std::isnan(balanced_accuracy.estimate); }
 };
 
 /// Rows by setup, scene, engine, estimator, then noise. If every run of a scene failed, its scores

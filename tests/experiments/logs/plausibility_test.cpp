@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/resources.hpp"
 #include "models/robot_model.hpp"
 #include "noise/sensors/profile.hpp"
 #include "noise/sensors/reported.hpp"
@@ -76,8 +77,8 @@ TEST(PlausibilityCheck, IsSilentOnSimulatedRecordings) {
 TEST(PlausibilityCheck, IsSilentOnOtherRobots) {
   for (const std::string robot : {"upkie_straight_actuated", "upkie_heavy", "upkie_long_legs"}) {
     const std::string file = "models/" + robot + ".yaml";
-    const CheckedRobot facts{.legs =
-                                 scenarios::leg_geometry(models::compile_robot_model(file, {}))};
+    const CheckedRobot facts{
+        .legs = scenarios::leg_geometry(models::compile_robot_model(find_resource(file), {}))};
     for (const std::string sensors : {"ideal", "harsh"}) {
       for (const std::string scenario : {"flat", "hang"}) {
         EXPECT_THAT(findings_about(scenario, "mujoco", sensors, file, facts), IsEmpty())
