@@ -17,7 +17,7 @@ double TimedForce::share_at(double t) const {
 }
 
 Eigen::Vector3d force_in_world(const TimedForce& force, double t, double yaw) {
-  const Eigen::Vector3d now = force.share_at(t) * force.force;
+  Eigen::Vector3d now = force.share_at(t) * force.force;
   if (!force.along_heading) return now;
   return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * now;
 }

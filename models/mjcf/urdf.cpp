@@ -26,7 +26,7 @@ std::string root_link(const XMLElement& robot) {
   }
   for (auto* link = robot.FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
-    const std::string name(attribute(*link, "name"));
+    std::string name(attribute(*link, "name"));
     if (!children.contains(name)) return name;
   }
   return {};

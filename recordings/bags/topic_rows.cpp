@@ -22,8 +22,8 @@ constexpr double longest_delay = 60.0;
 
 double seconds(std::int64_t nanoseconds) {
   constexpr std::int64_t second = 1'000'000'000;
-  return static_cast<double>(nanoseconds / second) +
-         1e-9 * static_cast<double>(nanoseconds % second);
+  const std::int64_t whole = nanoseconds / second;
+  return static_cast<double>(whole) + 1e-9 * static_cast<double>(nanoseconds % second);
 }
 
 std::size_t slot_of(const std::vector<std::string>& columns, const std::string& name,
@@ -43,7 +43,8 @@ std::vector<std::string> SignalTopic::columns() const {
   return names;
 }
 
-TopicRows::TopicRows(SignalTopic topic, std::vector<std::string> columns, const Config& config)
+TopicRows::TopicRows(SignalTopic topic, const std::vector<std::string>& columns,
+                     const Config& config)
     : topic_(std::move(topic)), config_(config), row_(columns.size()) {
   stamp_slot_ = slot_of(columns, stamp_column, no_slot);
   log_time_slot_ = slot_of(columns, log_time_column, no_slot);

@@ -43,7 +43,7 @@ class TopicRows {
     double stale_after = 0.05;   ///< s
   };
 
-  TopicRows(SignalTopic topic, std::vector<std::string> columns, const Config& config);
+  TopicRows(SignalTopic topic, const std::vector<std::string>& columns, const Config& config);
 
   /// Decodes the message. Returns whether it is a row: an Imu, or a JointState with the first of
   /// the selected joints. Values that a JointState does not give, as from a driver that sends a

@@ -1,8 +1,9 @@
 #include "recordings/log/reader.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 
 #include <fmt/format.h>
@@ -148,8 +149,11 @@ bool LogReader::is_completed(LogValues& values, LogPresence& present) {
 bool LogReader::repeats_last() {
   LogValues values = parser_.values();
   if (parser_.present()[log_slot::time]) values[log_slot::wall_time] = 0.0;
-  // Byte by byte, because missing commands are NaN.
-  if (has_rows_ && std::memcmp(values.data(), last_values_.data(), sizeof values) == 0) {
+  // By bits, because missing commands are NaN.
+  const auto is_same = [](double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  };
+  if (has_rows_ && std::equal(values.begin(), values.end(), last_values_.begin(), is_same)) {
     ++repeated_count_;
     return true;
   }

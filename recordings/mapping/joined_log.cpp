@@ -350,8 +350,7 @@ std::vector<std::string> read_joined_bag(const fs::path& log, const LogSources& 
   for (std::size_t i = 0; i < bag.topics.size(); ++i) {
     std::vector<std::string> columns;
     for (const SourceColumn& column : columns_of(mapping, i)) columns.push_back(column.name);
-    rows.emplace_back(bag.topics[i], std::move(columns),
-                      TopicRows::Config{lacks_stamps, sources.stale_after});
+    rows.emplace_back(bag.topics[i], columns, TopicRows::Config{lacks_stamps, sources.stale_after});
   }
   BagReader reader(log, [&](std::string_view topic) {
     return std::any_of(bag.names.begin(), bag.names.end(),

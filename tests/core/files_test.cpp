@@ -147,7 +147,8 @@ TEST_F(Files, ThatAreNotRegularAreRefusedAtOnce) {
   EXPECT_THAT(complaint(folder_ / "file" / "below"), ::testing::HasSubstr("file/below: "));
   EXPECT_EQ(complaint(folder_ / "to_file"), "x");
   for (const std::string name : {"zero", "pipe", "file"}) EXPECT_TRUE(is_there(folder_ / name));
-  for (const std::string name : {"none", "a", std::string(300, 'x').c_str()}) {
+  const std::string long_name(300, 'x');
+  for (const std::string& name : {std::string("none"), std::string("a"), long_name}) {
     EXPECT_FALSE(is_there(folder_ / name)) << name;
   }
 }

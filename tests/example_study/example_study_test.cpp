@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -81,7 +81,7 @@ TEST(ExampleStudy, MeasuresTheSharesOfFlightsThatItsMetricDefines) {
       const std::vector<int> found = delays(result, cell(table, row, "estimator"));
       ASSERT_GE(found.size(), 6U);
       const auto prompt = std::count_if(found.begin(), found.end(), [&](int delay) {
-        return delay >= 0 && delay <= static_cast<int>(1000.0 * within + 0.5);
+        return delay >= 0 && delay <= std::lround(1000.0 * within);
       });
       EXPECT_NEAR(std::stod(cell(table, row, "prompt_share")),
                   static_cast<double>(prompt) / static_cast<double>(found.size()), 1e-4)

@@ -97,7 +97,8 @@ struct Damage {
 };
 
 /// Applies a factor to one member of some servos.
-auto scaled(double models::ServoReading::*member, std::vector<std::size_t> servos, double factor) {
+auto scaled(double models::ServoReading::*member, const std::vector<std::size_t>& servos,
+            double factor) {
   return [=](models::Observation& o, std::size_t /*k*/) {
     for (const std::size_t servo : servos) o.servo[servo].*member *= factor;
   };
@@ -245,7 +246,8 @@ std::vector<Damage> damages() {
          if (k > 3000) o.time -= 5e-4 * static_cast<double>(k - 3000);
        },
        "time: the rate changes: 2000 Hz at 3."},
-      {"times in pairs", [](O& o, std::size_t k) { o.time = 2e-3 * static_cast<double>(k / 2); },
+      {"times in pairs",
+       [](O& o, std::size_t k) { o.time = 1e-3 * static_cast<double>(k - k % 2); },
        "time: is that of the record before"},
       {"a step back",
        [](O& o, std::size_t k) {
