@@ -73,14 +73,14 @@ std::vector<std::string> lines_of(const TestBag& bag) {
 class Bag : public ::testing::Test {
  protected:
   fs::path write(const std::string& name, const std::string& bytes) const {
-    const fs::path path = folder_ / name;
+    fs::path path = folder_ / name;
     fs::create_directories(path.parent_path());
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
   }
   fs::path write_db3(const std::string& name, const TestBag& bag, bool zstd = false,
                      bool has_index = true) const {
-    const fs::path path = folder_ / name;
+    fs::path path = folder_ / name;
     fs::create_directories(path.parent_path());
     test::write_db3(bag, path, zstd, has_index);
     return path;
@@ -182,7 +182,7 @@ TEST_F(Bag, OtherFilesAreRefusedWithARemedy) {
 /// A database without a bag's tables, or with something else of their names.
 TEST_F(Bag, OtherDatabasesAreRefused) {
   const auto with = [&](const std::string& name, const std::string& sql) {
-    const fs::path path = folder_ / name;
+    fs::path path = folder_ / name;
     test::run_sql(path, sql);
     return read_bag(path).error;
   };

@@ -184,13 +184,13 @@ TEST_F(Mcap, MalformedFilesAreRefusedWithTheirByte) {
   EXPECT_THAT(read(head + message).error, HasSubstr("channel 7, which is not defined"));
   // Sizes far beyond the chunk: more than the file, and more than the memory.
   for (const std::uint64_t size : {std::uint64_t{1} << 40U, ~std::uint64_t{0}}) {
-    const std::string chunk =
-        test::mcap_record(6, u64(1) + u64(2) + u64(size) + none + none + u64(3) + "abc");
+    const std::string chunk = test::mcap_record(
+        6, fmt::format("{}{}{}{}{}{}abc", u64(1), u64(2), u64(size), none, none, u64(3)));
     EXPECT_THAT(read(head + chunk).error, HasSubstr("byte 17: chunk")) << size;
-    const std::string records =
-        test::mcap_record(6, u64(1) + u64(2) + u64(3) + none + none + u64(size) + "abc");
+    const std::string records = test::mcap_record(
+        6, fmt::format("{}{}{}{}{}{}abc", u64(1), u64(2), u64(3), none, none, u64(size)));
     EXPECT_THAT(read(head + records).error, HasSubstr("byte 17: chunk")) << size;
-    const std::string beyond = head + "\6" + u64(size) + "abc";
+    const std::string beyond = fmt::format("{}\6{}abc", head, u64(size));
     EXPECT_THAT(read(beyond).note, HasSubstr("cut off"));
   }
   const std::string compression = test::mcap_record(
@@ -210,9 +210,9 @@ TEST_F(Mcap, AChunkThatHoldsMoreThanItDeclaresIsRefused) {
     const std::string stored =
         name == "lz4" ? test::lz4_compressed(zeros) : test::zstd_compressed(zeros);
     const std::string chunk =
-        test::mcap_record(6, u64(1) + u64(2) + u64(100) + std::string(4, '\0') +
-                                 std::string(1, static_cast<char>(name.size())) +
-                                 std::string(3, '\0') + name + u64(stored.size()) + stored);
+        test::mcap_record(6, fmt::format("{}{}{}{}{}{}{}{}{}", u64(1), u64(2), u64(100),
+                                         std::string(4, '\0'), static_cast<char>(name.size()),
+                                         std::string(3, '\0'), name, u64(stored.size()), stored));
     EXPECT_THAT(read(std::string("\x89MCAP0\r\n", 8) + chunk).error,
                 HasSubstr("more bytes than it declares"));
   }

@@ -369,7 +369,7 @@ std::string log_of(std::size_t rows) {
   return text;
 }
 
-std::string with_separator(std::string text, const std::string& separator) {
+std::string with_separator(const std::string& text, const std::string& separator) {
   std::string result;
   for (const char c : text) result += c == ',' ? separator : std::string(1, c);
   return result;
@@ -588,7 +588,8 @@ TEST_F(Conversion, ImuMayBeMountedAtAnyRotation) {
            {"rotation: {}", "expected either"},
            {"rotation: {rpy: [0, 0, 0], quaternion: [1, 0, 0, 0]}", "expected either"},
            {"rotation: {rpy: [0, 0, 0]}\n  axes: [x, y, z]", "either 'rotation' or 'axes'"}}) {
-    EXPECT_THAT(complaint(log_of(2), mapping_head + "  " + wrong + "\n"), HasSubstr(what)) << wrong;
+    EXPECT_THAT(complaint(log_of(2), fmt::format("{}  {}\n", mapping_head, wrong)), HasSubstr(what))
+        << wrong;
   }
 }
 

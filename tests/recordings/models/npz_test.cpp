@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -171,7 +172,8 @@ TEST(Npy, ReadsTimesAsSeconds) {
            {"ms", 1}, {"us", 1000}, {"ns", 1'000'000}}) {
     for (const std::string kind : {"<M8", "<m8"}) {
       const NpyArray array = from_npy(
-          npy("{'descr': '" + kind + "[" + unit + "]', 'fortran_order': False, 'shape': (2,), }",
+          npy(fmt::format("{{'descr': '{}[{}]', 'fortran_order': False, 'shape': (2,), }}", kind,
+                          unit),
               raw<std::int64_t>({per_ms * count, std::numeric_limits<std::int64_t>::min()})),
           "a.npy");
       EXPECT_NEAR(array.data[0], 1709157401.5, 1e-6) << unit;
