@@ -98,10 +98,13 @@ void SqliteReader::copy_whole_pages(const std::filesystem::path& path, const Ran
   }
 }
 
-/// A journal (`-wal`) beside the database needs a folder that can be written; otherwise the
-/// database is read without it.
+/// Only a journal (`-wal`) beside the database is a reason to write beside it: SQLite then needs a
+/// file of its own. In a folder that cannot be written the database is read without its journal.
 void SqliteReader::open(const std::filesystem::path& path) {
-  int result = try_open(uri_of(path, "?mode=ro"), false);
+  std::error_code none;
+  const std::uintmax_t journal = std::filesystem::file_size(path.string() + "-wal", none);
+  int result = SQLITE_CANTOPEN;
+  if (!none && journal > 0) result = try_open(uri_of(path, "?mode=ro"), false);
   if (result == SQLITE_CANTOPEN || result == SQLITE_READONLY) {
     result = try_open(uri_of(path, "?mode=ro&immutable=1"), false);
   }

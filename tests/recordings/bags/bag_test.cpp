@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <sqlite3.h>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,21 @@ TEST_F(Bag, SqliteBagsOfAnyKindHaveTheSameMessages) {
       EXPECT_EQ(read_bag(path, [](auto topic) { return topic == "/b"; }).messages.size(), 14U);
     }
   }
+}
+
+/// rosbag2 writes databases with a journal, which SQLite would open beside the bag.
+TEST_F(Bag, ASqliteBagIsReadWithoutAFileBesideIt) {
+  const TestBag bag = two_topics();
+  const fs::path path = write_db3("bag/bag.db3", bag);
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  const int changed =
+      sqlite3_exec(database, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+  EXPECT_EQ(changed, SQLITE_OK);
+  sqlite3_close(database);
+  EXPECT_EQ(read_bag(path).messages, lines_of(bag));
+  const auto files = fs::directory_iterator(path.parent_path());
+  EXPECT_EQ(std::distance(fs::begin(files), fs::end(files)), 1);
 }
 
 TEST_F(Bag, MessagesOfASqliteBagAreSortedByTime) {
