@@ -58,9 +58,20 @@ std::vector<std::string> shown_by_default(const std::vector<std::string>& estima
 
 }  // namespace
 
+/// Names of scenarios, of which the drawn ones must be known.
+static KeyNotes describe_names(Fields& fields, std::string_view key,
+                               std::vector<std::string>& names) {
+  const KeyNotes notes = fields(key, names);
+  for (const std::string& name : names) {
+    if (!scenarios::is_drawn(name)) continue;
+    fields.check(key, [&] { (void)scenarios::generate_named(name); });
+  }
+  return notes;
+}
+
 /// Files and drawn scenarios. A written experiment has the names of both.
 static void describe_scenarios(Fields& section, RunsConfig& runs) {
-  section("files", runs.scenarios).doc("Scenario files, before the drawn ones.");
+  describe_names(section, "files", runs.scenarios).doc("Scenario files, before the drawn ones.");
   section.know("generate");
   std::optional<scenarios::Generation> generation;
   section.section("generate", generation).doc("Scenarios to draw (`touchdown generate`).");
@@ -79,13 +90,7 @@ static void describe(Fields& fields, RunsConfig& runs) {
         .type("list of texts, or section")
         .doc("Scenario files, or names of drawn scenarios such as drawn:kerbs_7_000.");
   } else {
-    fields(key, runs.scenarios);
-  }
-  for (std::size_t i = 0; i < runs.scenarios.size(); ++i) {
-    const std::string& name = runs.scenarios[i];
-    if (scenarios::is_drawn(name)) {
-      fields.check(key, [&] { (void)scenarios::generate_named(name); });
-    }
+    describe_names(fields, key, runs.scenarios);
   }
   fields.check(!runs.scenarios.empty(), "scenarios", "expected at least one scenario file");
   fields("runs", runs.runs, 1, 100'000).doc("Runs of each scenario.");
