@@ -16,7 +16,7 @@ double slewed(double value, double target, double most) {
 }  // namespace
 
 void Course::begin(const models::Observation& observation, const WheelBalancerConfig& config) {
-  *this = Course{std::move(script), std::move(crouch), wheel_radius, period};
+  *this = Course{std::move(scripts), wheel_radius, period};
   for (std::size_t i = 0; i < models::servo_count; ++i) posture[i] = observation.servo[i].position;
   last_distance = rolled_distance(observation);
   last_yaw = observation.yaw;
@@ -47,7 +47,7 @@ static void update_odometry(const models::Observation& observation, Course& cour
 }
 
 static void follow_crouch(double time, Course& course) {
-  const CrouchCommand* command = crouch_at(course.crouch, time);
+  const CrouchCommand* command = crouch_at(course.scripts->crouch, time);
   if (command == nullptr) return;
   double& left_hip = course.posture[models::index(models::Servo::left_hip)];
   const double hip = slewed(left_hip, command->hip, command->rate * course.period);
@@ -60,7 +60,7 @@ static void follow_crouch(double time, Course& course) {
 
 void Course::follow(const models::Observation& observation, const WheelBalancerConfig& config) {
   update_odometry(observation, *this);
-  const VelocityCommand command = command_at(script, observation.time);
+  const VelocityCommand command = command_at(scripts->velocity, observation.time);
   target_velocity = slewed(target_velocity, command.velocity, config.max_acceleration * period);
   target_position += target_velocity * period;
   target_yaw += command.yaw_rate * period;

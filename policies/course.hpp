@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <utility>
 
 #include "models/robot.hpp"
 #include "policies/crouching.hpp"
@@ -8,11 +10,17 @@
 
 namespace touchdown::policies {
 
+/// The driving and crouch commands of a run.
+struct CourseScripts {
+  VelocityScript velocity;
+  CrouchScript crouch;
+};
+
 /// The common part of the balancing laws: targets of position, speed and crouch from the scripts,
 /// and the robot's position from wheel odometry.
 struct Course {
-  VelocityScript script;
-  CrouchScript crouch;
+  /// Never null. Its owner may add commands during the run.
+  std::shared_ptr<const CourseScripts> scripts = std::make_shared<CourseScripts>();
   double wheel_radius = 0.05;  ///< m
   double period = 1e-3;        ///< of the control loop (s)
 
@@ -37,6 +45,11 @@ struct Course {
   double rolled_distance(const models::Observation& observation) const;
   double rolling_speed(const models::Observation& observation) const;
 };
+
+/// A course at its beginning.
+inline Course make_course(CourseScripts scripts, double wheel_radius, double period) {
+  return {std::make_shared<CourseScripts>(std::move(scripts)), wheel_radius, period};
+}
 
 /// The wheel commands of both laws: a ground velocity (m/s), and a raw torque on each wheel (N·m).
 void command_wheels(double ground_velocity, const std::array<double, models::wheel_count>& torque,

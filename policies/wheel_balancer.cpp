@@ -6,18 +6,17 @@
 
 namespace touchdown::policies {
 
-WheelBalancer::WheelBalancer(const WheelBalancerConfig& config, VelocityScript script,
-                             double wheel_radius, double period, CrouchScript crouch,
-                             WheelContact contact, bool keep_lean)
+WheelBalancer::WheelBalancer(const WheelBalancerConfig& config, Course course, WheelContact contact,
+                             bool keep_lean)
     : config_(config),
-      course_{std::move(script), std::move(crouch), wheel_radius, period},
+      course_(std::move(course)),
       given_contact_source_(std::move(contact)),
-      contact_source_(given_contact_source_ ? given_contact_source_ : upkie_contact(period)),
+      contact_source_(given_contact_source_ ? given_contact_source_
+                                            : upkie_contact(course_.period)),
       keep_lean_(keep_lean) {}
 
 void WheelBalancer::reset(const models::Observation& observation) {
-  *this = WheelBalancer(config_, std::move(course_.script), course_.wheel_radius, course_.period,
-                        std::move(course_.crouch), std::move(given_contact_source_), keep_lean_);
+  *this = WheelBalancer(config_, std::move(course_), std::move(given_contact_source_), keep_lean_);
   course_.begin(observation, config_);
   if (keep_lean_) lean_ = observation.pitch;
 }

@@ -12,10 +12,8 @@ namespace touchdown::policies {
 /// observer, unless another contact source is given.
 class WheelBalancer : public Policy {
  public:
-  /// `wheel_radius` in m; `period` of the control loop in s. `keep_lean`: balance at the pitch of
-  /// the reset, not at zero.
-  WheelBalancer(const WheelBalancerConfig& config, VelocityScript script, double wheel_radius,
-                double period, CrouchScript crouch = {}, WheelContact contact = {},
+  /// `keep_lean`: balance at the pitch of the reset, not at zero.
+  WheelBalancer(const WheelBalancerConfig& config, Course course, WheelContact contact = {},
                 bool keep_lean = false);
 
   void reset(const models::Observation& observation) override;

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "models/robot.hpp"
 
@@ -20,6 +21,22 @@ using WheelContact = std::function<std::array<bool, models::wheel_count>(
 /// Upkie's own observer, one per wheel. `period` of the control loop in s.
 WheelContact upkie_contact(double period);
 
+/// From `time` on, the policy receives this contact.
+struct ContactCommand {
+  double time = 0.0;  ///< s
+  bool left = true;
+  bool right = true;
+
+  bool operator==(const ContactCommand&) const = default;
+};
+
+/// Contact that was recorded in another run, sorted by time. Before the first one both wheels are
+/// in contact.
+using ContactScript = std::vector<ContactCommand>;
+
+/// Repeats recorded contact.
+WheelContact scripted_contact(ContactScript script);
+
 /// The control law of the robot and its contact source.
 struct PolicyConfig {
   enum class Law : int {
@@ -27,13 +44,16 @@ struct PolicyConfig {
     soft_landing  ///< policies/soft_lander.hpp
   };
   Law law = Law::balancer;
-  /// An estimator that needs no fit, `always`, or the oracle `truth`, which no robot has.
+  /// An estimator that needs no fit, `always`, `script`, or the oracle `truth`, which no robot has.
   std::string contact = "upkie_observer";
-  double delay = 0.0;  ///< of the contact signal (s)
+  double delay = 0.0;                 ///< of the contact signal (s)
+  ContactScript contact_script = {};  ///< for the contact source `script`
 
   bool operator==(const PolicyConfig&) const = default;
 };
 
+/// Describes one command of `script`. When reading, it is the last so far, and must be the latest.
+void describe(Fields& fields, ContactCommand& command, const ContactScript& script);
 void describe(Fields& fields, PolicyConfig& policy);
 
 }  // namespace touchdown::policies

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <string_view>
-#include <vector>
 
 #include "recordings/recording.hpp"
 #include "scenarios/scenario.hpp"
@@ -25,10 +24,9 @@ std::unique_ptr<simulators::Simulator> make_simulator(
     const Scenario& scenario, std::string_view name,
     const std::shared_ptr<const models::RobotModel>& scene);
 
-/// External forces on the robot during the next control step: its tether, its guides and the timed
-/// forces that act now.
-std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenario,
-                                                          const simulators::Simulator& simulator);
+/// A recording's description of its run.
+recordings::RecordingInfo recording_info(const Scenario& scenario, std::string_view simulator,
+                                         std::uint64_t seed, std::int64_t run);
 
 /// Simulates `scenario` as it is, without random draws, and records every control step. Falling,
 /// running out of time and diverging are outcomes, not errors. `seed` and `run` are only stored in

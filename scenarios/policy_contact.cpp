@@ -58,6 +58,7 @@ policies::WheelContact named_source(const Scenario& scenario,
   if (name == "always") {
     return [](const models::Observation&, double) { return WheelContacts{true, true}; };
   }
+  if (name == "script") return policies::scripted_contact(scenario.policy.contact_script);
   if (name == "free_fall") {
     return contact_from(std::make_shared<FreeFall>(FreeFallConfig{.sample_rate = 1.0 / period}));
   }

@@ -28,7 +28,7 @@ models::Observation crouched(double hip, double knee) {
 /// Leg commands of a balancer, step by step.
 std::vector<models::Action> followed(const CrouchScript& script, double hip, double knee,
                                      double seconds) {
-  WheelBalancer policy({}, {}, 0.05, control_period, script);
+  WheelBalancer policy({}, make_course({{}, script}, 0.05, control_period));
   models::Observation seen = crouched(hip, knee);
   policy.reset(seen);
   std::vector<models::Action> actions;
@@ -88,7 +88,7 @@ TEST(CrouchScript, AnEmptyOneKeepsThePostureToTheBit) {
 }
 
 TEST(CrouchScript, BeginsAgainAfterAReset) {
-  WheelBalancer policy({}, {}, 0.05, control_period, {{0.0, 0.5, 100.0}});
+  WheelBalancer policy({}, make_course({{}, {{0.0, 0.5, 100.0}}}, 0.05, control_period));
   const models::Observation seen = crouched(0.1, 0.2);
   for (int i = 0; i < 2; ++i) {
     policy.reset(seen);

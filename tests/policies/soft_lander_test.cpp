@@ -77,7 +77,7 @@ class SoftLanding : public ::testing::Test {
   bool in_contact_ = true;
   bool right_in_contact_too_ = true;
   SoftLander policy_{
-      WheelBalancerConfig{}, Course{{}, {}, 0.05, 1e-3}, side_view(upkie_model()),
+      WheelBalancerConfig{}, make_course({}, 0.05, 1e-3), side_view(upkie_model()),
       [this](const models::Observation&, double) {
         return std::array<bool, 2>{in_contact_, in_contact_ && right_in_contact_too_};
       }};
@@ -112,7 +112,7 @@ TEST_F(SoftLanding, BalancesOnThroughAFalseAlarmAsIfThereWereNone) {
   roll_at(0.6);
   seen_.yaw = 0.3;
   seen_.pitch = 0.05;
-  SoftLander calm(WheelBalancerConfig{}, Course{{}, {}, 0.05, 1e-3}, side_view(upkie_model()),
+  SoftLander calm(WheelBalancerConfig{}, make_course({}, 0.05, 1e-3), side_view(upkie_model()),
                   [](const models::Observation&, double) {
                     return std::array{true, true};
                   });

@@ -24,7 +24,7 @@ static_assert(
     std::is_same_v<decltype(&Policy::reset), void (Policy::*)(const models::Observation&)>);
 
 WheelBalancer balancer(VelocityScript script = {}, WheelBalancerConfig config = {}) {
-  return {config, std::move(script), radius, period};
+  return {config, make_course({std::move(script), {}}, radius, period)};
 }
 
 /// Torque that each wheel servo would apply to a wheel at rest, along its forward direction.

@@ -1,3 +1,4 @@
+#include "scenarios/rollout.hpp"
 #include "simulators/registry.hpp"
 #include "tests/scenarios/runs.hpp"
 

@@ -1,0 +1,132 @@
+#include "scenarios/rollout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "policies/soft_lander.hpp"
+#include "policies/wheel_balancer.hpp"
+#include "scenarios/policy_contact.hpp"
+#include "scenarios/start_pose.hpp"
+
+namespace touchdown::scenarios {
+
+namespace {
+
+bool tipped_over(const models::GroundTruth& truth, double limit) {
+  const double cosine = (truth.base_orientation * Eigen::Vector3d::UnitZ()).z();
+  return cosine < std::cos(limit);
+}
+
+/// Whether the balancer keeps the lean that the robot has at rest, its centre of mass above its
+/// axle. Leans of Upkie's size are left to the balancer's integral; a leg without a hip leans with
+/// its knee.
+bool keeps_lean(const simulators::Simulator& simulator) {
+  constexpr double largest = 0.03;  // rad
+  return !simulator.model().has(models::index(models::Servo::left_hip)) ||
+         std::abs(simulator.observation().pitch) > largest;
+}
+
+std::unique_ptr<policies::Policy> make_policy(
+    const Scenario& scenario, std::shared_ptr<const policies::CourseScripts> scripts,
+    const simulators::Simulator& simulator, policies::WheelContact contact_source) {
+  policies::Course course{std::move(scripts), simulator.model().wheel_radius,
+                          simulator.control_period()};
+  policies::WheelContact contact = policy_contact(scenario, simulator, std::move(contact_source));
+  if (scenario.policy.law == policies::PolicyConfig::Law::soft_landing) {
+    return std::make_unique<policies::SoftLander>(scenario.balancer, std::move(course),
+                                                  policies::side_view(simulator.model()),
+                                                  std::move(contact));
+  }
+  return std::make_unique<policies::WheelBalancer>(scenario.balancer, std::move(course),
+                                                   std::move(contact), keeps_lean(simulator));
+}
+
+/// Makes `command` the last one of its script.
+template <typename Command>
+void append(std::vector<Command>& script, const Command& command) {
+  std::erase_if(script, [&](const Command& other) { return other.time >= command.time; });
+  script.push_back(command);
+}
+
+}  // namespace
+
+std::vector<simulators::ExternalWrench> external_wrenches(const Scenario& scenario,
+                                                          const simulators::Simulator& simulator) {
+  std::vector<simulators::ExternalWrench> wrenches;
+  const models::GroundTruth& truth = simulator.ground_truth();
+  if (scenario.tether) {
+    wrenches.push_back(
+        {policies::tether_force(*scenario.tether, truth), scenario.tether->point_in_base});
+  }
+  for (const policies::Guide& guide : scenario.guides) {
+    wrenches.push_back({policies::guide_force(guide, truth), guide.point_in_base});
+  }
+  const models::Observation& now = simulator.observation();
+  for (const policies::TimedForce& force : scenario.forces) {
+    if (force.acts_at(now.time)) {
+      wrenches.push_back({policies::force_in_world(force, now.time, now.yaw), force.point_in_base});
+    }
+  }
+  return wrenches;
+}
+
+Rollout::Rollout(Scenario scenario, simulators::Simulator& simulator,
+                 policies::WheelContact contact_source)
+    : scenario_(std::move(scenario)),
+      simulator_(simulator),
+      scripts_(std::make_shared<policies::CourseScripts>(
+          policies::CourseScripts{scenario_.velocity, scenario_.crouch})),
+      passed_(std::numeric_limits<double>::infinity()) {
+  simulator_.reset(start_pose(simulator_.model(), scenario_.terrain, scenario_.start));
+  policy_ = make_policy(scenario_, scripts_, simulator_, std::move(contact_source));
+  policy_->reset(simulator_.observation());
+}
+
+const models::Action& Rollout::act() {
+  action_ = policy_->act(simulator_.observation());
+  const models::GroundTruth& truth = simulator_.ground_truth();
+  const End& end = scenario_.end;
+  if (truth.base_position.x() > end.x) passed_ = std::min(passed_, time());
+  if (!simulator_.healthy()) {
+    outcome_ = recordings::Outcome::diverged;
+  } else if (truth.base_position.z() < 0.0) {
+    outcome_ = recordings::Outcome::left_terrain;
+  } else if (truth.body_touches_terrain || tipped_over(truth, end.fall_tilt)) {
+    outcome_ = recordings::Outcome::fell;
+  } else if (time() - passed_ >= end.settle) {
+    outcome_ = recordings::Outcome::finished;
+  } else if (time() >= end.duration) {
+    outcome_ = std::isinf(end.x) ? recordings::Outcome::finished : recordings::Outcome::timed_out;
+  }
+  return action_;
+}
+
+void Rollout::advance() { simulator_.step(action_, external_wrenches(scenario_, simulator_)); }
+
+void Rollout::drive(double velocity, double yaw_rate) {
+  if (!outcome_) append(scripts_->velocity, {time(), velocity, yaw_rate});
+}
+
+void Rollout::crouch(double hip, double rate, double delay) {
+  if (!outcome_) append(scripts_->crouch, {time() + delay, hip, rate});
+}
+
+void Rollout::apply(const policies::TimedForce& force) {
+  if (!outcome_) scenario_.forces.push_back(force);
+}
+
+double Rollout::commanded_hip() const {
+  const policies::CrouchCommand* command = policies::crouch_at(scripts_->crouch, time());
+  return command == nullptr ? scenario_.start.hip : command->hip;
+}
+
+Scenario Rollout::scenario() const {
+  Scenario scenario = scenario_;
+  scenario.velocity = scripts_->velocity;
+  scenario.crouch = scripts_->crouch;
+  return scenario;
+}
+
+}  // namespace touchdown::scenarios
