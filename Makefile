@@ -3,8 +3,8 @@ JOBS ?= $(shell nproc)
 BUILD := build/release
 
 .DEFAULT_GOAL := help
-.PHONY: help setup program-packages trainer-packages python-packages test-packages fuzz-packages \
-	build run trainer python everything test faults package lint lint-all format bench asan tsan fuzz clean
+.PHONY: help setup program-packages trainer-packages viewer-packages python-packages test-packages \
+	fuzz-packages build run trainer viewer python everything test faults package lint lint-all format bench asan tsan fuzz clean
 
 help: ## Show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -16,22 +16,31 @@ program-packages:
 	@scripts/install_packages.sh program
 trainer-packages:
 	@scripts/install_packages.sh program trainer
+viewer-packages:
+	@scripts/install_packages.sh program viewer
 python-packages:
 	@scripts/install_packages.sh program python
 fuzz-packages:
 	@scripts/install_packages.sh lint
 test-packages:
-	@scripts/install_packages.sh program trainer python tests $(if $(wildcard /run/systemd/system),,servers)
+	@scripts/install_packages.sh program trainer viewer python tests $(if $(wildcard /run/systemd/system),,servers)
 
 # Configured once; afterwards ninja itself notices changes of a CMakeLists.txt. Each target is a file
-# that only a successful configuration writes: of the program, with the trainer, with Python, with the
-# tests.
+# that only a successful configuration writes: of the program, of a part of its own with the parts that
+# are there already, of the tests with all parts.
+configured = $(BUILD)/$(1)/cmake_install.cmake
+with = $(if $(or $(filter $(1),$(3)),$(wildcard $(call configured,$(1)))),-D$(2)=ON)
+parts = $(call with,training,TOUCHDOWN_TRAINER,$(1)) $(call with,viewer,TOUCHDOWN_VIEWER,$(1)) \
+	$(call with,python,TOUCHDOWN_PYTHON,$(1))
+
 $(BUILD)/build.ninja: | program-packages
 	cmake --preset program
-$(BUILD)/training/cmake_install.cmake: | trainer-packages
-	cmake --preset program -DTOUCHDOWN_TRAINER=ON $(if $(wildcard $(BUILD)/python/cmake_install.cmake),-DTOUCHDOWN_PYTHON=ON)
-$(BUILD)/python/cmake_install.cmake: | python-packages
-	cmake --preset program -DTOUCHDOWN_PYTHON=ON $(if $(wildcard $(BUILD)/training/cmake_install.cmake),-DTOUCHDOWN_TRAINER=ON)
+$(call configured,training): | trainer-packages
+	cmake --preset program $(call parts,training)
+$(call configured,viewer): | viewer-packages
+	cmake --preset program $(call parts,viewer)
+$(call configured,python): | python-packages
+	cmake --preset program $(call parts,python)
 $(BUILD)/CTestTestfile.cmake: CMakePresets.json | test-packages
 	cmake --preset release
 	@touch $@
@@ -60,10 +69,13 @@ run: build ## Build the program, then run the first experiment
 	@echo "== the first experiment: simulate, fit, evaluate, score, draw, film: a minute or two on two cores"
 	$(BUILD)/touchdown run experiments/stairs.yaml
 
-trainer: $(BUILD)/training/cmake_install.cmake ## Build the program and the trainer of the neural network
+trainer: $(call configured,training) ## Build the program and the trainer of the neural network
 	cmake --build --preset program --parallel $(JOBS) --target touchdown touchdown-train
 
-python: $(BUILD)/python/cmake_install.cmake ## Build the Python package: build/release/python
+viewer: $(call configured,viewer) ## Build the program and the window of `touchdown watch`
+	cmake --build --preset program --parallel $(JOBS) --target touchdown touchdown-watch
+
+python: $(call configured,python) ## Build the Python package: build/release/python
 	cmake --build --preset program --parallel $(JOBS) --target touchdown_python
 
 everything: $(BUILD)/CTestTestfile.cmake ## Build the program, the trainer, the Python package, the tests and the benchmarks

@@ -91,6 +91,7 @@ int run_command_line(int argc, char** argv) {
   add_render(program, session);
   add_report(program, session);
   add_train(program, session);
+  add_watch(program, session);
   add_fit(program, session);
   add_estimate(program, session);
   add_check(program, session);

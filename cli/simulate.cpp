@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
+#include "recordings/log/reader.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/ending.hpp"
 #include "scenarios/engine.hpp"
@@ -22,15 +25,36 @@ namespace {
 
 struct SimulateFlags {
   std::string scenario;
-  std::string simulator = "mujoco";
+  std::string simulator;  ///< empty: MuJoCo, or the one of the recording
   std::string output;
   std::vector<std::string> overrides;
   std::uint64_t seed = 1;
   std::int64_t run = -1;
+  std::int64_t recorded_run = 0;  ///< only stored in the recording
 };
 
-void simulate(const SimulateFlags& flags, const CliSession& session) {
-  YamlDocument document = scenarios::scenario_document(flags.scenario);
+/// The scenario of a recorded run, to simulate it again: its draws are done. The flags get the
+/// engine, the seed and the run of the recording.
+YamlDocument recorded_scenario(SimulateFlags& flags) {
+  recordings::LogReader log(find_resource(flags.scenario));
+  const recordings::RecordingInfo info = log.info();
+  if (info.scenario_yaml.empty()) {
+    throw InputError(
+        fmt::format("{}: contains no scenario: it is not a recording of `touchdown "
+                    "simulate`",
+                    flags.scenario));
+  }
+  if (flags.simulator.empty()) flags.simulator = info.simulator;
+  flags.seed = info.seed;
+  flags.recorded_run = info.run;
+  return YamlDocument::parse(info.scenario_yaml, flags.scenario);
+}
+
+void simulate(SimulateFlags flags, const CliSession& session) {
+  const bool is_recording = std::filesystem::path(flags.scenario).extension() == ".mpack";
+  YamlDocument document =
+      is_recording ? recorded_scenario(flags) : scenarios::scenario_document(flags.scenario);
+  if (flags.simulator.empty()) flags.simulator = "mujoco";
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);
   experiments::require_yaml_kind(document, experiments::YamlKind::scenario);
   scenarios::Scenario scenario = scenarios::complete_scenario(document);
@@ -45,7 +69,7 @@ void simulate(const SimulateFlags& flags, const CliSession& session) {
                       static_cast<std::int64_t>(ticks_per_second * scenario.end.duration));
     std::int64_t shown = 0;
     recording = scenarios::play(scenario, flags.simulator, flags.seed,
-                                std::max(flags.run, std::int64_t{0}), [&](double time) {
+                                std::max(flags.run, flags.recorded_run), [&](double time) {
                                   const auto ticks =
                                       static_cast<std::int64_t>(ticks_per_second * time);
                                   progress.advance(ticks - shown);
@@ -68,9 +92,11 @@ void add_simulate(CLI::App& program, const CliSession& session) {
             "Simulates one run of a scenario and records it as an Upkie log.");
   const auto flags = std::make_shared<SimulateFlags>();
   verb.option("scenario", &flags->scenario,
-              "Scenario file, or a drawn scenario such as drawn:kerbs_7_000")
+              "Scenario file, a drawn scenario such as drawn:kerbs_7_000, or a recording: its run "
+              "is simulated again")
       .required();
-  verb.option("--simulator", &flags->simulator, "Physics engine").shows_default();
+  verb.option("--simulator", &flags->simulator,
+              "Physics engine (default: mujoco, or the one of the recording)");
   verb.option("-o,--output", &flags->output, "Recording to write")
       .value_name("FILE.mpack")
       .required();

@@ -22,6 +22,7 @@ void add_simulate(CLI::App& program, const CliSession& session);
 void add_render(CLI::App& program, const CliSession& session);
 void add_report(CLI::App& program, const CliSession& session);
 void add_train(CLI::App& program, const CliSession& session);
+void add_watch(CLI::App& program, const CliSession& session);
 void add_fit(CLI::App& program, const CliSession& session);
 void add_estimate(CLI::App& program, const CliSession& session);
 void add_check(CLI::App& program, const CliSession& session);

@@ -23,6 +23,7 @@ struct BeliefTrack {
   std::array<std::vector<float>, models::wheel_count> p_contact;
   std::array<std::vector<float>, models::wheel_count> p_takeoff;
   std::array<std::vector<float>, models::wheel_count> p_landing;
+  std::array<std::vector<std::uint8_t>, models::wheel_count> contact = {};  ///< its decisions
 };
 
 /// One run of a film: the robot that was compiled for the run's terrain, the recording, and the

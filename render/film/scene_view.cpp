@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 
@@ -10,8 +11,9 @@ namespace {
 
 /// The distance of the sun's shadow map from the robot (m).
 constexpr double sun_distance = 6.0;
-/// The offset of the camera's target from the base, in the world (m).
-const Eigen::Vector3d look_at_offset = {0.12, 0.0, -0.28};
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr float vector_width = 0.012F;                        // m
+constexpr float vector_colour[4] = {0.85F, 0.46F, 0.06F, 1};  // of the film's orange labels
 
 }  // namespace
 
@@ -33,9 +35,6 @@ SceneView::SceneView(const models::RobotModel& robot)
   mjr_setBuffer(mjFB_WINDOW, &context_);
   std::fill(std::begin(visibility_.sitegroup), std::end(visibility_.sitegroup), mjtByte{0});
   camera_.type = mjCAMERA_FREE;
-  camera_.azimuth = 128.0;    // degrees
-  camera_.elevation = -13.0;  // degrees
-  camera_.distance = 2.3;     // m
   scene_.flags[mjRND_HAZE] = 1;
   scene_.flags[mjRND_SHADOW] = 1;
 }
@@ -45,14 +44,57 @@ SceneView::~SceneView() {
   mjv_freeScene(&scene_);
 }
 
-void SceneView::draw(const mjrRect& viewport, const Eigen::Vector3d& target) {
-  const Eigen::Vector3d look_at = target + look_at_offset;
+void SceneView::draw(const mjrRect& viewport, const Eigen::Vector3d& target,
+                     const SceneCamera& camera, std::span<const SceneVector> vectors) {
+  const Eigen::Vector3d look_at = target + camera.look_at;
   std::copy_n(look_at.data(), 3, camera_.lookat);
+  camera_.azimuth = camera.azimuth;
+  camera_.elevation = camera.elevation;
+  camera_.distance = camera.distance;
   mjv_updateScene(robot_.mj.get(), data_.get(), &visibility_, nullptr, &camera_, mjCAT_ALL,
                   &scene_);
   place_sun(target);
   switch_haze_on();
+  for (const SceneVector& vector : vectors) add(vector);
   mjr_render(viewport, &scene_, &context_);
+}
+
+std::optional<Eigen::Vector3d> SceneView::robot_at(const mjrRect& viewport, double x,
+                                                   double y) const {
+  Eigen::Vector3d point;
+  int geom = -1;
+  int skin = -1;
+  const int body = mjv_select(robot_.mj.get(), data_.get(), &visibility_,
+                              static_cast<double>(viewport.width) / std::max(1, viewport.height), x,
+                              y, &scene_, point.data(), &geom, &skin);
+  if (body <= 0) return std::nullopt;  // body 0 is the world
+  return point;
+}
+
+Eigen::Vector3d SceneView::motion_of(const mjrRect& viewport, const Eigen::Vector3d& point,
+                                     const Eigen::Vector2d& pixels) const {
+  const mjvGLCamera& eye = scene_.camera[0];
+  const Eigen::Vector3d forward = Eigen::Map<const Eigen::Vector3f>(eye.forward).cast<double>();
+  const Eigen::Vector3d up = Eigen::Map<const Eigen::Vector3f>(eye.up).cast<double>();
+  const Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3f>(eye.pos).cast<double>();
+  const double depth = std::max(0.1, (point - position).dot(forward));
+  const double height = 2.0 * depth * std::tan(0.5 * degree * robot_.mj->vis.global.fovy);
+  const double metres = height / std::max(1, viewport.height);
+  return metres * (pixels.x() * forward.cross(up) + pixels.y() * up);
+}
+
+void SceneView::copy(const std::uint8_t* pixels, const mjrRect& area) const {
+  mjr_drawPixels(pixels, nullptr, area, &context_);
+}
+
+void SceneView::add(const SceneVector& vector) {
+  if (scene_.ngeom >= scene_.maxgeom) return;
+  mjvGeom& geom = scene_.geoms[scene_.ngeom++];
+  mjv_initGeom(&geom, mjGEOM_ARROW, nullptr, nullptr, nullptr, vector_colour);
+  const Eigen::Vector3d& a = vector.from;
+  const Eigen::Vector3d& b = vector.to;
+  mjv_makeConnector(&geom, mjGEOM_ARROW, vector_width, a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
+  geom.category = mjCAT_DECOR;
 }
 
 /// The shadow map covers a box around the sun's axis, so the axis goes through the robot. It moves

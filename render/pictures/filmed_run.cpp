@@ -63,6 +63,7 @@ BeliefTrack beliefs_of(const experiments::Experiment& experiment,
     const Evidence::Transition transition = estimator->evidence().transition;
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       track.p_contact[wheel].push_back(static_cast<float>(belief.wheel[wheel].p_contact));
+      track.contact[wheel].push_back(belief.wheel[wheel].contact ? 1 : 0);
       if (std::isnan(transition.p_takeoff)) continue;
       track.p_takeoff[wheel].push_back(static_cast<float>(transition.p_takeoff));
       track.p_landing[wheel].push_back(static_cast<float>(transition.p_landing));

@@ -96,6 +96,11 @@ StripPlots::StripPlots(const std::vector<StripRow>& rows, std::vector<PlotArea> 
                        int height, double seconds)
     : rows_(rows), areas_(std::move(areas)), width_(width), height_(height), seconds_(seconds) {}
 
+void StripPlots::redraw_from(double time) {
+  const int first = static_cast<int>(std::floor(time / seconds_));
+  for (auto& tiles : tiles_) tiles.erase(tiles.lower_bound(first), tiles.end());
+}
+
 void StripPlots::copy_window(double from, const cv::Mat& image) {
   const int begin = static_cast<int>(std::lround(from * width_ * oversampling / seconds_));
   const int first = floor_div(begin, oversampling);

@@ -14,7 +14,7 @@ namespace touchdown::render {
 
 /// One line of a plot.
 struct StripCurve {
-  std::string label;
+  std::string label;  ///< in the legend; empty: not there
   Colour colour;
   std::vector<float> values;  ///< one per row of the recording; NaN leaves a gap
   bool emphasis = true;       ///< false: thin and without a dot
@@ -53,6 +53,9 @@ class StripPlots {
   /// Keeps a reference to `rows`. A window is `width` pixels wide and shows `seconds`.
   StripPlots(const std::vector<StripRow>& rows, std::vector<PlotArea> areas, int width, int height,
              double seconds);
+
+  /// Draws again what is later than `time` (s), because its rows have grown.
+  void redraw_from(double time);
 
   /// Copies the window that begins at time `from` (s) into `image` (8UC3, width·height).
   void copy_window(double from, const cv::Mat& image);

@@ -9,14 +9,14 @@
 namespace touchdown::render {
 namespace {
 
-constexpr double window_seconds = 4.0;
-constexpr double present = 0.75;  ///< position of the present in the window
-constexpr int wide = 1000;        ///< from this width on, names fit beside the plots
+constexpr int wide = 1000;  ///< from this width on, names fit beside the plots
 
 }  // namespace
 
-SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height)
+SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height,
+                         const StripWindow& window)
     : rows_(std::move(rows)),
+      window_(window),
       width_(width),
       height_(height),
       narrow_(width < wide),
@@ -34,9 +34,9 @@ SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height)
     }
   }
   const int plot_width = right_ - left_;
-  const int now = static_cast<int>(std::lround(present * plot_width));
+  const int now = static_cast<int>(std::lround(window_.present * plot_width));
   fog_ = cv::Mat(height_, plot_width - now, CV_8UC3, strip_paper);
-  plots_ = std::make_unique<StripPlots>(rows_, areas_, plot_width, height_, window_seconds);
+  plots_ = std::make_unique<StripPlots>(rows_, areas_, plot_width, height_, window_.seconds);
 }
 
 void SignalStrip::place_rows(int header) {
@@ -81,7 +81,7 @@ void SignalStrip::draw_names_beside(std::size_t i) {
   int x = left;
   // The first curve of the legend is drawn last.
   for (auto curve = rows_[i].curves.rbegin(); curve != rows_[i].curves.rend(); ++curve) {
-    if (!curve->emphasis) continue;
+    if (!curve->emphasis || curve->label.empty()) continue;
     if (x > left && x + legend_width(*curve) > left_ - letters_ * 2) {
       x = left;
       top += line;
@@ -97,17 +97,22 @@ void SignalStrip::draw_names_above(std::size_t i) {
   int x = left_;
   x += pen_.write(background_, rows_[i].title, x, top, letters_, strip_ink) + letters_;
   for (auto curve = rows_[i].curves.rbegin(); curve != rows_[i].curves.rend(); ++curve) {
-    if (!curve->emphasis) continue;
+    if (!curve->emphasis || curve->label.empty()) continue;
     if (x + legend_width(*curve) > right_) break;
     draw_legend(*curve, x, top);
     x += legend_width(*curve) + letters_ / 2;
   }
 }
 
+StripRow& SignalStrip::growing_row(std::size_t i, double time) {
+  plots_->redraw_from(time);
+  return rows_[i];
+}
+
 void SignalStrip::draw(cv::Mat image, double time) {
   background_.copyTo(image);
   cv::Mat plots = image.colRange(left_, right_);
-  plots_->copy_window(time - present * window_seconds, plots);
+  plots_->copy_window(time - window_.present * window_.seconds, plots);
   if (narrow_) {  // names stand on the plots' paper, above them
     for (const PlotArea& area : areas_) {
       const int top = std::max(0, area.top - letters_ - letters_ / 2);

@@ -9,12 +9,22 @@
 
 namespace touchdown::render {
 
-/// Moving plots below the view: a window of 4 s with the present at three quarters and the future
+/// The time that a strip shows.
+struct StripWindow {
+  double seconds = 4.0;
+  double present = 0.75;  ///< position of the present in the window
+};
+
+/// Moving plots below the view: a window of time with the present at its place and the future
 /// faded. Titles and legends are left of the plots, or above them in a narrow strip.
 class SignalStrip {
  public:
   /// A strip of `width`·`height` pixels.
-  SignalStrip(std::vector<StripRow> rows, int width, int height);
+  SignalStrip(std::vector<StripRow> rows, int width, int height, const StripWindow& window = {});
+
+  const std::vector<StripRow>& rows() const { return rows_; }
+  /// The row, to add values that are later than `time` (s).
+  StripRow& growing_row(std::size_t i, double time);
 
   /// Draws the strip at `time` (s) into `image`, which must have width·height pixels (8UC3).
   void draw(cv::Mat image, double time);
@@ -28,6 +38,7 @@ class SignalStrip {
   int legend_width(const StripCurve& curve) const;
 
   std::vector<StripRow> rows_;
+  StripWindow window_;
   int width_, height_;
   bool narrow_;
   int letters_;       ///< height of the text

@@ -1,0 +1,58 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "viewer/watch_log.hpp"
+
+namespace touchdown::viewer {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using Steps = std::vector<std::uint8_t>;
+
+TEST(StepRanges, AreMaximal) {
+  EXPECT_THAT(ranges_of({}), IsEmpty());
+  EXPECT_THAT(ranges_of({0, 0}), IsEmpty());
+  EXPECT_THAT(ranges_of({1}), ElementsAre(StepRange{0, 1}));
+  EXPECT_THAT(ranges_of({1, 0, 1, 1}), ElementsAre(StepRange{0, 1}, StepRange{2, 4}));
+}
+
+LoggedRun run_of(const Steps& left, const Steps& right) {
+  LoggedRun run;
+  run.recording.info.control_period_us = 1000;
+  run.contact = {left, right};
+  run.recording.observation.resize(left.size());
+  return run;
+}
+
+TEST(Flights, HaveNoWheelInContact) {
+  EXPECT_THAT(flights_of(run_of({1, 0, 0, 1, 0}, {1, 1, 0, 0, 0})),
+              ElementsAre(StepRange{2, 3}, StepRange{4, 5}));
+}
+
+TEST(Flights, AreTheFirstEstimatorsWithoutTrueContact) {
+  LoggedRun run = run_of({}, {});
+  EXPECT_THAT(flights_of(run), IsEmpty());
+  render::BeliefTrack belief;
+  belief.contact = {Steps{1, 0, 0}, Steps{1, 0, 1}};
+  run.beliefs = {belief};
+  EXPECT_THAT(flights_of(run), ElementsAre(StepRange{1, 2}));
+}
+
+TEST(Errors, LastAtLeastFiveMilliseconds) {
+  Steps truth(40, 1);
+  LoggedRun run = run_of(truth, truth);
+  render::BeliefTrack belief;
+  belief.contact = {truth, truth};
+  for (std::size_t k = 10; k < 14; ++k) belief.contact[0][k] = 0;  // 4 ms
+  for (std::size_t k = 20; k < 23; ++k) belief.contact[0][k] = 0;  // 3 ms, then the other wheel
+  for (std::size_t k = 23; k < 25; ++k) belief.contact[1][k] = 0;
+  run.beliefs = {belief};
+  EXPECT_THAT(errors_of(run, 0), ElementsAre(StepRange{20, 25}));
+  EXPECT_THAT(errors_of(run, 1), IsEmpty()) << "no such estimator";
+  run.contact = {};
+  EXPECT_THAT(errors_of(run, 0), IsEmpty()) << "no true contact";
+}
+
+}  // namespace
+}  // namespace touchdown::viewer

@@ -1,0 +1,227 @@
+#include "viewer/live/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "recordings/signals_from.hpp"
+#include "scenarios/engine.hpp"
+#include "scenarios/policy_contact.hpp"
+#include "scoring/labels.hpp"
+
+namespace touchdown::viewer {
+
+namespace {
+
+using WheelContacts = std::array<bool, models::wheel_count>;
+
+constexpr double longest_delay = 0.2;     // s: of the policy's contact
+constexpr double longest_run = 1e5;       // s
+constexpr std::uint64_t pull_steps = 10;  // control steps with the same force of a drag
+constexpr double gravity = 9.81;          // m/s²
+// A drag is a spring and a damper per kilogram of the robot: 1 m lifts a robot at 10 times its
+// weight, but the force is limited.
+constexpr double drag_stiffness = 100.0;  // 1/s²
+constexpr double drag_damping = 12.0;     // 1/s
+constexpr double largest_drag = 3.0;      // weights of the robot
+// A hop: bend the legs, then extend them quickly, as in scenarios/hop.yaml.
+constexpr double hop_crouch = 0.9, hop_extension = 0.3;            // rad
+constexpr double hop_crouch_rate = 1.5, hop_extension_rate = 8.0;  // rad/s
+constexpr double hop_delay = 0.8;                                  // s
+constexpr double crouch_rate = 0.6;                                // rad/s
+
+/// The scenario without an end, for a user to stop.
+LiveScene endless(LiveScene scene) {
+  if (scene.run >= 0) {
+    scene.scenario = scenarios::perturbed(scene.scenario, scene.seed, scene.run);
+  }
+  scene.scenario.end.x = std::numeric_limits<double>::infinity();
+  scene.scenario.end.duration = longest_run;
+  return scene;
+}
+
+noise::NoiseKey noise_key(const LiveScene& scene) {
+  return {scene.seed, static_cast<std::uint64_t>(std::max(scene.run, std::int64_t{0}))};
+}
+
+double mass_of(const simulators::Simulator& simulator) {
+  return simulator.model().mj->body_subtreemass[0];
+}
+
+}  // namespace
+
+LiveRun::LiveRun(LiveScene scene, const std::vector<experiments::LogEstimator>& estimators,
+                 const LiveSettings& settings, bool records)
+    : scene_(endless(std::move(scene))),
+      settings_(settings),
+      records_(records),
+      simulator_(scenarios::make_simulator(scene_.scenario, scene_.engine)),
+      sensors_(settings.sensors, noise_key(scene_), simulator_->control_period()) {
+  const double rate = 1.0 / simulator_->control_period();
+  for (const experiments::LogEstimator& estimator : estimators) {
+    estimators_.push_back({.title = estimator.entry.title, .estimator = estimator.make(rate)});
+    estimators_.back().estimator->reset();
+  }
+  make_contact_sources();
+  settings_.contact_source = std::min(settings_.contact_source, source_names_.size() - 1);
+  const auto most =
+      static_cast<std::size_t>(std::llround(longest_delay / simulator_->control_period()));
+  contacts_.assign(most + 1, {true, true});
+  scenarios::Scenario undelayed = scene_.scenario;
+  undelayed.policy.delay = 0.0;  // `contact_for_policy` delays
+  rollout_ = std::make_unique<scenarios::Rollout>(
+      undelayed, *simulator_, [this](const models::Observation& observation, double command) {
+        return contact_for_policy(observation, command);
+      });
+  recording_.info = scenarios::recording_info(scene_.scenario, scene_.engine, scene_.seed,
+                                              std::max(scene_.run, std::int64_t{0}));
+}
+
+void LiveRun::make_contact_sources() {
+  scenarios::Scenario scenario = scene_.scenario;
+  scenario.policy.delay = 0.0;
+  source_names_.push_back(scenario.policy.contact);
+  built_in_sources_.push_back(scenarios::policy_contact(scenario, *simulator_));
+  if (scenario.policy.contact != "truth") {
+    scenario.policy.contact = "truth";
+    source_names_.push_back(scenario.policy.contact);
+    built_in_sources_.push_back(scenarios::policy_contact(scenario, *simulator_));
+  }
+  for (const LiveEstimator& estimator : estimators_) source_names_.push_back(estimator.title);
+}
+
+WheelContacts LiveRun::contact_for_policy(const models::Observation& observation, double command) {
+  reported_ = observation;
+  sensors_.report(std::span(&reported_, 1));
+  if (!std::isnan(reported_.time)) {
+    reported_ = noise::with_noise(reported_, noise_key(scene_), step_, settings_.noise);
+    const Signals signals = recordings::signals_from(reported_, command);
+    for (LiveEstimator& estimator : estimators_) {
+      estimator.belief = estimator.estimator->update(signals);
+    }
+  }
+  WheelContacts now = {true, true};
+  for (std::size_t i = 0; i < built_in_sources_.size(); ++i) {  // all of them keep a state
+    const WheelContacts contact = built_in_sources_[i](observation, command);
+    if (i == settings_.contact_source) now = contact;
+  }
+  if (settings_.contact_source >= built_in_sources_.size()) {
+    const Belief& belief = estimators_[settings_.contact_source - built_in_sources_.size()].belief;
+    now = {belief.wheel[0].contact, belief.wheel[1].contact};
+  }
+  contacts_.pop_back();
+  contacts_.push_front(now);
+  const auto delay = static_cast<std::size_t>(
+      std::llround(settings_.contact_delay / simulator_->control_period()));
+  const WheelContacts given = contacts_[std::min(delay, contacts_.size() - 1)];
+  if (contact_script_.empty() ? given != WheelContacts{true, true} : given != policy_contact_) {
+    contact_script_.push_back({observation.time, given[0], given[1]});
+  }
+  policy_contact_ = given;
+  return given;
+}
+
+WheelContacts LiveRun::true_contact() const {
+  const auto& force = simulator_->ground_truth().wheel_normal_force;
+  const double threshold = scoring::LabelConfig{}.force_threshold;
+  return {force[0] > threshold, force[1] > threshold};
+}
+
+void LiveRun::step() {
+  if (outcome()) return;
+  pull();
+  const models::Observation& observation = simulator_->observation();
+  const models::Action& action = rollout_->act();
+  if (records_) {
+    recording_.observation.push_back(observation);
+    recording_.action.push_back(action);
+    recording_.truth.push_back(simulator_->ground_truth());
+  }
+  const WheelContacts contact = true_contact();
+  if (step_ > 0) {  // no force has acted before the first step
+    for (LiveEstimator& estimator : estimators_) {
+      for (std::size_t wheel = 0; wheel < contact.size(); ++wheel) {
+        ++estimator.steps;
+        estimator.wrong += estimator.belief.wheel[wheel].contact != contact[wheel] ? 1 : 0;
+      }
+    }
+  }
+  if (step_ % sample_steps == 0) sample();
+  ++step_;
+  if (!outcome()) rollout_->advance();
+}
+
+void LiveRun::sample() {
+  LiveSample sample{
+      .contact = true_contact(),
+      .p_contact = {},
+      .wheel_torque =
+          static_cast<float>(reported_.servo[models::index(models::Servo::left_wheel)].torque),
+      .knee_torque =
+          static_cast<float>(reported_.servo[models::index(models::Servo::left_knee)].torque),
+      .acceleration = static_cast<float>(models::vertical_acceleration(reported_.imu))};
+  if (step_ == 0) sample.contact = {true, true};
+  for (const LiveEstimator& estimator : estimators_) {
+    sample.p_contact.push_back({static_cast<float>(estimator.belief.wheel[0].p_contact),
+                                static_cast<float>(estimator.belief.wheel[1].p_contact)});
+  }
+  samples_.push_back(std::move(sample));
+}
+
+std::vector<LiveSample> LiveRun::take_samples() { return std::exchange(samples_, {}); }
+
+/// Adds the force of a drag as short constant forces, so that the scenario repeats it.
+void LiveRun::pull() {
+  if (step_ % pull_steps != 0) return;
+  drag_force_.setZero();
+  if (!drag_) return;
+  const models::GroundTruth& truth = simulator_->ground_truth();
+  const Eigen::Vector3d lever = truth.base_orientation * handle();
+  const Eigen::Vector3d position = truth.base_position + lever;
+  const Eigen::Vector3d velocity =
+      truth.base_linear_velocity + truth.base_angular_velocity.cross(lever);
+  const double mass = mass_of(*simulator_);
+  drag_force_ = mass * (drag_stiffness * (drag_->target - position) - drag_damping * velocity);
+  const double most = largest_drag * gravity * mass;
+  if (drag_force_.norm() > most) drag_force_ *= most / drag_force_.norm();
+  rollout_->apply({.time = simulator_->observation().time,
+                   .duration = static_cast<double>(pull_steps) * simulator_->control_period(),
+                   .force = drag_force_,
+                   .point_in_base = handle()});
+}
+
+void LiveRun::change(const LiveSettings& settings) {
+  if (!(settings.sensors == settings_.sensors)) {
+    sensors_ =
+        noise::ReportingSensors(settings.sensors, noise_key(scene_), simulator_->control_period());
+  }
+  settings_ = settings;
+  settings_.contact_source = std::min(settings_.contact_source, source_names_.size() - 1);
+  settings_.contact_delay = std::clamp(settings_.contact_delay, 0.0, longest_delay);
+}
+
+void LiveRun::crouch(double hip) { rollout_->crouch(hip, crouch_rate); }
+
+void LiveRun::hop() {
+  rollout_->crouch(hop_crouch, hop_crouch_rate);
+  rollout_->crouch(hop_extension, hop_extension_rate, hop_delay);
+}
+
+recordings::Recording LiveRun::recording() const {
+  recordings::Recording recording = recording_;
+  scenarios::Scenario scenario = rollout_->scenario();
+  scenario.policy.contact = "script";
+  scenario.policy.contact_script = contact_script_;
+  if (!recording.observation.empty()) {
+    scenario.end.duration = recording.observation.back().time;
+  }
+  recording.info.scenario_yaml = scenarios::to_yaml(scenario);
+  recording.info.outcome = outcome().value_or(recordings::Outcome::finished);
+  return recording;
+}
+
+}  // namespace touchdown::viewer

@@ -1,0 +1,62 @@
+#include "viewer/screen/panel.hpp"
+
+#include <algorithm>
+
+#include <opencv2/imgproc.hpp>
+
+namespace touchdown::viewer {
+
+namespace {
+
+const render::Colour in_contact = render::rgb(0x2f8f5b);
+const render::Colour in_air = render::rgb(0xffffff);
+const render::Colour wrong = render::rgb(0xd0122f);
+const render::Colour quiet = render::rgb(0x5c636e);
+
+void draw_badges(cv::Mat& image, const render::TextPen& pen, const ContactBadges& badges, int left,
+                 int top, int size) {
+  for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+    const cv::Rect box(left + static_cast<int>(wheel) * (size + size / 3), top, size, size);
+    const bool contact = badges.contact[wheel];
+    cv::rectangle(image, box, contact ? in_contact : in_air, cv::FILLED);
+    cv::rectangle(image, box, badges.wrong[wheel] ? wrong : quiet, badges.wrong[wheel] ? 3 : 1);
+    const int letters = size * 6 / 10;
+    const char* const name = wheel == 0 ? "L" : "R";
+    pen.write(image, name, box.x + (size - pen.width(name, letters)) / 2,
+              top + (size - letters) / 2 - 1, letters, contact ? in_air : quiet);
+  }
+}
+
+}  // namespace
+
+cv::Mat panel(const render::TextPen& pen, const std::vector<PanelLine>& lines, int width,
+              int height) {
+  cv::Mat image(height, width, CV_8UC3, render::strip_paper);
+  const int count = static_cast<int>(lines.size());
+  const int line = std::clamp((height - 8) / std::max(1, count), 12, 26);
+  const int margin = 12;
+  int top = 6;
+  for (const PanelLine& one : lines) {
+    const int letters = line * (one.heading ? 54 : 50) / 100;
+    if (one.heading && top > 6) {
+      cv::line(image, {margin, top}, {width - margin, top}, render::rgb(0xdfe3e6));
+    }
+    const int text_top = top + (line - letters) / 2;
+    pen.write(image, one.text, margin, text_top, letters, one.heading ? quiet : one.colour);
+    int right = width - margin;
+    if (!one.value.empty()) {
+      right -= pen.width(one.value, letters);
+      pen.write(image, one.value, right, text_top, letters, one.heading ? quiet : one.colour);
+      right -= margin / 2;
+    }
+    if (one.badges) {
+      const int size = line * 8 / 10;
+      draw_badges(image, pen, *one.badges, right - 2 * size - size / 3, top + (line - size) / 2,
+                  size);
+    }
+    top += line;
+  }
+  return image;
+}
+
+}  // namespace touchdown::viewer

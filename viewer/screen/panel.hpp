@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "render/strip/plots.hpp"
+#include "render/strip/text.hpp"
+
+namespace touchdown::viewer {
+
+/// The contact of both wheels as two small boxes: filled in contact, empty without. A decision that
+/// differs from the true contact has a red border.
+struct ContactBadges {
+  std::array<bool, 2> contact;
+  std::array<bool, 2> wrong = {false, false};
+};
+
+/// One line of the panel beside the scene.
+struct PanelLine {
+  std::string text;
+  std::string value = {};  ///< at the right
+  bool heading = false;
+  render::Colour colour = render::strip_ink;  ///< of the text
+  std::optional<ContactBadges> badges = {};   ///< at the right, left of the value
+};
+
+/// Draws the lines on paper of this size.
+cv::Mat panel(const render::TextPen& pen, const std::vector<PanelLine>& lines, int width,
+              int height);
+
+}  // namespace touchdown::viewer

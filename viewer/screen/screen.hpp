@@ -1,0 +1,85 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "render/film/scene_view.hpp"
+#include "render/strip/text.hpp"
+#include "viewer/screen/camera_control.hpp"
+#include "viewer/window/window.hpp"
+
+namespace touchdown::viewer {
+
+/// A rectangle in the window (pixels, from the upper left corner).
+struct Area {
+  int left, top, width, height;
+
+  bool contains(double x, double y) const {
+    return x >= left && x < left + width && y >= top && y < top + height;
+  }
+};
+
+/// The areas of a window: the scene, a panel to its right, plots along the lower edge.
+struct Layout {
+  Area scene, panel, plots;
+};
+Layout layout_of(int width, int height);
+
+/// A label over the scene.
+struct Chip {
+  std::string text;
+  unsigned colour;  ///< 0xRRGGBB
+};
+
+/// Colours of chips, as in films.
+inline constexpr unsigned dark = 0x2b2f36, grey = 0x5c636e, green = 0x2f6f4f, brown = 0x8a6d1d,
+                          orange = 0xd9760f, red = 0xb0304f;
+
+/// The state of contact, by the number of wheels in contact.
+Chip contact_chip(int wheels);
+
+/// No picture follows another one sooner: the processor has more to do.
+inline constexpr std::chrono::milliseconds shortest_frame{16};
+
+/// Draws the robot and pictures into a window.
+class Screen {
+ public:
+  explicit Screen(Window& window) : window_(window) {}
+
+  /// Shows this robot on its terrain from now on. Keeps the reference.
+  void set_robot(const models::RobotModel& robot) { view_.emplace(robot); }
+
+  Layout layout() const { return layout_of(window_.width(), window_.height()); }
+  CameraControl& camera() { return camera_; }
+  const render::TextPen& pen() const { return pen_; }
+  /// The robot's state: write its positions with `models::write_pose`, or with `Poses`.
+  mjData& data() { return view_->data(); }
+
+  void draw_scene(std::span<const render::SceneVector> vectors = {});
+  void draw_chips(const std::vector<Chip>& chips);
+  /// Draws a picture (8UC3, BGR) at a place of the window.
+  void draw(const cv::Mat& picture, int left, int top);
+  /// Draws a picture in the middle of the scene.
+  void draw_centred(const cv::Mat& picture);
+
+  /// The point of the robot (m, world) under the mouse.
+  std::optional<Eigen::Vector3d> robot_under(const Mouse& mouse) const;
+  /// The motion of a point (m, world) that follows the mouse by these pixels (right, down).
+  Eigen::Vector3d motion_of(const Eigen::Vector3d& point, double right, double down) const;
+
+ private:
+  mjrRect viewport() const;
+
+  Window& window_;
+  render::TextPen pen_;
+  CameraControl camera_;
+  std::optional<render::SceneView> view_;
+  cv::Mat upload_;
+};
+
+}  // namespace touchdown::viewer
