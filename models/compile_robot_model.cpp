@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/fields.hpp"
 #include "models/contract/conventions.hpp"
+#include "models/contract/held.hpp"
 #include "models/contract/servos.hpp"
 #include "models/contract/stance.hpp"
 #include "models/contract/tyres.hpp"
+#include "models/mjcf/assets.hpp"
 #include "models/mjcf/compiler.hpp"
 #include "models/mjcf/parts.hpp"
 #include "models/mjcf/robot_only.hpp"
@@ -42,7 +43,7 @@ bool is_urdf(const MjcfDocument& document) {
   return std::strcmp(document.root().Name(), "robot") == 0;
 }
 
-RobotFile robot_file(const RobotDescription& description) {
+RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys) {
   RobotFile robot{MjcfDocument::load(description.mjcf), {}};
   std::map<std::string, double> effort;
   if (description.is_named && is_urdf(robot.document)) {
@@ -52,7 +53,9 @@ RobotFile robot_file(const RobotDescription& description) {
   }
   require_mjcf(robot.document);
   robot.ignored = keep_robot_only(robot.document);
-  name_parts(robot.document, description, effort);
+  const std::vector<std::string> missing = drop_missing_assets(robot.document);
+  robot.ignored.insert(robot.ignored.end(), missing.begin(), missing.end());
+  name_parts(robot.document, description, effort, keys);
   return robot;
 }
 
@@ -80,7 +83,7 @@ void set_actuators(RobotModel& robot, const RobotDescription& description) {
 }
 
 /// Sets the size that the robot's file specifies.
-void set_size(RobotModel& robot, const RobotDescription& description, const Contract& contract) {
+void set_size(RobotModel& robot, const RobotDescription& description, const RobotKeys& keys) {
   const double wheels = description.wheel_radius.value_or(robot.wheel_radius) / robot.wheel_radius;
   bool changed = description.mass != 1.0 || wheels != 1.0;
   if (description.mass != 1.0) scale_mass(*robot.mj, description.mass);
@@ -94,7 +97,7 @@ void set_size(RobotModel& robot, const RobotDescription& description, const Cont
     try {
       scale_leg(*robot.mj, leg, length);
     } catch (const InputError& error) {
-      contract.fail(error.what());
+      keys.fail("legs", error.what());
     }
     changed = true;
   }
@@ -114,23 +117,18 @@ RobotModel with_parts(MjModelPtr mj, const Tyre& tyre, const Contract& contract)
 
 /// Checks that the joints can have the stance that the robot's file gives.
 void check_stance(const RobotModel& robot, const RobotDescription& description,
-                  const std::filesystem::path& file) {
+                  const RobotKeys& keys) {
   if (!description.has_stance) return;
   const auto error = stance_error(robot, from_straight(robot, description.stance), true);
-  if (!error) return;
-  Fields fields(YamlDocument::load(file));
-  fields.within("stance", [&](Fields& stance) {
-    stance.know("hip");
-    stance.know("knee");
-    stance.check(false, error->key, error->message);
-  });
+  if (error) keys.fail("stance." + error->key, error->message);
 }
 
 }  // namespace
 
 RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain& terrain) {
   RobotDescription description = robot_description(file);
-  RobotFile source = robot_file(description);
+  const RobotKeys keys(file);
+  RobotFile source = robot_file(description, keys);
   PartNames& parts = description.parts;
   MjModelPtr mj = compile(source, terrain);
   const Contract contract(source.document, parts, *mj);
@@ -157,14 +155,12 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
                               ? std::string(servo_names[swapped ? (i + 3) % servo_count : i])
                               : parts.joint[i];
   }
-  for (const std::string& joint : parts.held) {
-    robot.ignored.push_back(fmt::format("joint '{}': held at the pose of the file", joint));
-  }
   robot.ignored.insert(robot.ignored.begin(), source.ignored.begin(), source.ignored.end());
   apply_conventions(robot, final_contract);
-  check_stance(robot, description, file);
+  check_stance(robot, description, keys);
   set_actuators(robot, description);
-  set_size(robot, description, final_contract);
+  set_size(robot, description, keys);
+  find_held(robot, description, final_contract);
   return robot;
 }
 

@@ -126,9 +126,8 @@ void scale_link(mjModel& mj, std::size_t servo, double factor) {
   const int body = mj.jnt_bodyid[joint];
   const int child = mj.jnt_bodyid[next];
   if (mj.body_parentid[child] != body) {
-    throw InputError(
-        fmt::format("legs: expected the body that '{}' moves on the one that '{}' does",
-                    servo_names[servo + 1], servo_names[servo]));
+    throw InputError(fmt::format("expected the body that '{}' moves on the one that '{}' does",
+                                 servo_names[servo + 1], servo_names[servo]));
   }
   const Vector3d pivot = row(mj.jnt_pos, joint);
   const Vector3d axis = row(mj.jnt_axis, joint);
@@ -160,7 +159,7 @@ void scale_wheels(mjModel& mj, double factor) {
 
 void scale_leg(mjModel& mj, std::size_t leg, double factor) {
   const std::size_t hip = index(leg == 0 ? Servo::left_hip : Servo::right_hip);
-  scale_link(mj, hip, factor);
+  if (joint_of(mj, hip) >= 0) scale_link(mj, hip, factor);
   scale_link(mj, hip + 1, factor);
 }
 

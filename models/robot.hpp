@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -16,6 +17,8 @@ enum class Servo : int { left_hip, left_knee, left_wheel, right_hip, right_knee,
 
 inline constexpr int servo_count = 6;
 inline constexpr int wheel_count = 2;
+/// The largest number of held joints (models/robot_model.hpp).
+inline constexpr int most_held = 8;
 
 inline constexpr std::array<std::string_view, servo_count> servo_names = {
     "left_hip", "left_knee", "left_wheel", "right_hip", "right_knee", "right_wheel"};
@@ -101,6 +104,9 @@ struct GroundTruth {
   /// Torque of each actuator on its joint over the last physics step (N·m), friction included
   /// (models/actuator.hpp). Empty with ideal actuators, where the servo reports this torque.
   std::optional<std::array<double, servo_count>> joint_torque = {};
+  /// Held joints (models/robot_model.hpp): position (rad), velocity (rad/s) and the torque of the
+  /// last physics step (N·m). Empty for robots without any.
+  std::vector<ServoReading> held = {};
 };
 
 /// The projection of the IMU's acceleration on the world's upward vertical (m/s²): γ^z of the

@@ -39,10 +39,33 @@ static void describe(Fields& fields, Stance& stance) {
       .doc("rad", "Knee angle, backward positive, within the joint's range.");
 }
 
+static void describe(Fields& fields, HeldServo& servo) {
+  constexpr double largest = 1e6;
+  fields.optional("kp", servo.kp, 0.0, largest)
+      .fallback("the position servo's of the file, or three times weight × leg length")
+      .doc("N·m/rad", "Stiffness.");
+  fields.optional("kd", servo.kd, 0.0, largest)
+      .fallback("the position servo's of the file, or proportional to kp")
+      .doc("N·m·s/rad", "Damping.");
+  fields.optional("maximum_torque", servo.maximum_torque, 0.0, largest)
+      .fallback("the limit of the joint's motor")
+      .doc("N·m", "Largest torque.");
+}
+
 /// A name, written only if it is given.
 static KeyNotes describe_name(Fields& fields, const std::string& key, std::string& name) {
   fields.know(key);
   return fields.present(key, !name.empty()) ? fields(key, name) : KeyNotes();
+}
+
+static void check_held(const Fields& fields, const std::vector<std::string>& held) {
+  fields.check(held.size() <= most_held, "held",
+               "expected at most " + std::to_string(most_held) + " joints");
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const auto found = std::find(held.begin(), held.end(), held[i]);
+    fields.check_item(found == held.begin() + static_cast<std::ptrdiff_t>(i), "held", i,
+                      "'" + held[i] + "' is listed twice");
+  }
 }
 
 static void describe_parts(Fields& fields, PartNames& parts) {
@@ -70,7 +93,9 @@ static void describe_parts(Fields& fields, PartNames& parts) {
   parts.has_hips = hip == "joint";
   fields.know("held");
   if (fields.present("held", !parts.held.empty())) {
-    fields("held", parts.held).doc("Joints that are held at their reference, such as hip rolls.");
+    fields("held", parts.held)
+        .doc("Joints that servos keep at their reference, such as hip rolls.");
+    check_held(fields, parts.held);
   }
   fields.know("tyres");
   if (fields.present("tyres", !parts.tyre[0].empty() || !parts.tyre[1].empty())) {
@@ -99,6 +124,11 @@ void describe(Fields& fields, RobotDescription& robot) {
   fields.require("mjcf", mjcf).doc("MJCF or URDF that this file is about, beside this file.");
   robot.mjcf = mjcf;
   describe_parts(fields, robot.parts);
+  const HeldServo& servo = robot.held_servo;
+  fields.know("held_servo");
+  if (fields.present("held_servo", servo.kp || servo.kd || servo.maximum_torque)) {
+    fields.section("held_servo", robot.held_servo).doc("Servos of the held joints.");
+  }
   fields("mass", robot.mass, 0.01, 100.0).doc("Factor on mass and inertia of every body.");
   fields.optional("wheel_radius", robot.wheel_radius, 0.005, 1.0)
       .fallback("as in the MJCF")

@@ -30,12 +30,20 @@ struct Stance {
   double knee = 0.791;
 };
 
+/// The servo of held joints: torque = clamp(kp·(reference − q) − kd·q̇, ± maximum_torque). Absent
+/// values are those of the robot's file; gains that it lacks follow from its weight.
+struct HeldServo {
+  std::optional<double> kp;              ///< N·m/rad
+  std::optional<double> kd;              ///< N·m·s/rad
+  std::optional<double> maximum_torque;  ///< N·m
+};
+
 /// The parts of a robot in its MJCF or URDF. An empty name stands for the name in the contract
 /// (docs/models.md).
 struct PartNames {
   std::array<std::string, servo_count> joint;  ///< in servo order
   bool has_hips = true;                        ///< false: legs of a knee and a wheel
-  std::vector<std::string> held;               ///< joints that stay at their reference
+  std::vector<std::string> held;               ///< joints that a servo keeps at their reference
   std::array<std::string, wheel_count> tyre;   ///< geoms, or bodies with one round collider
   std::string imu;                             ///< a site, or a body with the frame of the IMU
   std::string base;                            ///< the floating link of a URDF
@@ -62,6 +70,7 @@ struct PartNames {
 ///     joints: {left_knee: l_knee, left_wheel: l_axle, right_knee: r_knee, right_wheel: r_axle}
 ///     hip: none
 ///     held: [l_hip_roll, r_hip_roll]
+///     held_servo: {kp: 200, kd: 10, maximum_torque: 60}
 ///     tyres: {left: l_tire, right: r_tire}
 ///     imu: imu_link
 struct RobotDescription {
@@ -74,6 +83,7 @@ struct RobotDescription {
   LegActuators actuators;
   Tyre tyre;
   PartNames parts;
+  HeldServo held_servo;
   bool is_named = false;  ///< whether a YAML file gave this description, not an MJCF alone
 
   /// The actuator of a servo, if the file specifies one.

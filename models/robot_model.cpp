@@ -20,6 +20,13 @@ void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
   }
 }
 
+void write_held(const RobotModel& robot, std::span<const double> position, mjtNum* qpos) {
+  for (std::size_t i = 0; i < robot.held.size(); ++i) {
+    const HeldJoint& held = robot.held[i];
+    qpos[held.qpos_address] = i < position.size() ? position[i] : held.reference;
+  }
+}
+
 /// Kinematics of the robot with its base upright at the origin.
 static MjDataPtr at(const RobotModel& robot,
                     const std::array<double, servo_count>& joint_position) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,22 @@
 #include "models/tyre.hpp"
 
 namespace touchdown::models {
+
+/// A joint that a servo keeps at its reference. It is no part of observations and actions:
+///
+///     torque = clamp(kp·(reference − q) − kd·q̇, ± effort) − friction(q) − viscous·q̇
+struct HeldJoint {
+  std::string name;  ///< in the file
+  int joint = -1;    ///< its number, and its places in mjData::qpos and mjData::qvel
+  int qpos_address = -1;
+  int dof_address = -1;
+  double reference = 0.0;  ///< rad
+  double kp = 0.0;         ///< N·m/rad
+  double kd = 0.0;         ///< N·m·s/rad
+  double effort = 0.0;     ///< torque limit (N·m)
+  Actuator actuator;       ///< friction, viscous friction and armature of the file
+  std::string kp_source;   ///< where kp is from, for messages
+};
 
 /// A compiled robot on a terrain. Both physics engines and the renderer are built from it.
 ///
@@ -45,6 +62,7 @@ struct RobotModel {
   /// (rad).
   std::array<double, servo_count> zero = {};
   std::array<std::string, servo_count> joint_name;  ///< in the file
+  std::vector<HeldJoint> held;                      ///< in the order of the robot's file
   std::vector<std::string> ignored;                 ///< what of the file is not simulated
 
   bool has(std::size_t servo) const { return joint[servo] >= 0; }
@@ -69,7 +87,10 @@ void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
                 const Eigen::Quaterniond& orientation,
                 const std::array<double, servo_count>& joint_position, mjtNum* qpos);
 
-/// Kinematics of the robot with all joints at zero and the base upright at the origin. Errors:
+/// Writes the positions of held joints into mjData::qpos; none stand for their references.
+void write_held(const RobotModel& robot, std::span<const double> position, mjtNum* qpos);
+
+/// Kinematics of the robot with all servos at zero and the base upright at the origin. Errors:
 /// `Error` when memory is out.
 MjDataPtr at_zero(const RobotModel& robot);
 

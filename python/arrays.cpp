@@ -26,6 +26,13 @@ StepArray::StepArray(Array array)
       step_bytes_(static_cast<std::size_t>(array_.strides(0))),
       item_bytes_(array_.ndim() > 1 ? static_cast<std::size_t>(array_.strides(1)) : 0) {}
 
+std::size_t ArrayMap::width(const char* name) const {
+  if (!has(name)) return 0;
+  const auto array = py::array_t<double>::ensure(arrays_[name]);
+  if (!array) PyErr_Clear();
+  return array && array.ndim() == 2 ? static_cast<std::size_t>(array.shape(1)) : 0;
+}
+
 StepArray ArrayMap::column(const char* name, std::size_t columns) {
   if (!has(name)) {
     throw InputError(fmt::format("{}: '{}' is missing: expected an array of shape (steps{}", what_,

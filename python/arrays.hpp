@@ -97,6 +97,9 @@ class ArrayMap {
   /// steps. Errors: `InputError` if it is missing or has another shape.
   StepArray column(const char* name, std::size_t columns = 0);
 
+  /// The numbers per step of an array; zero if it is missing or has one number per step.
+  std::size_t width(const char* name) const;
+
   std::size_t steps() const { return steps_.value_or(0); }
 
  private:

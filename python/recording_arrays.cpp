@@ -75,6 +75,28 @@ void add_views(py::dict& arrays, SharedRows<Row>& rows) {
       });
 }
 
+constexpr std::array<std::pair<const char*, double models::ServoReading::*>, 3> held_arrays = {
+    {{"held_position", &models::ServoReading::position},
+     {"held_velocity", &models::ServoReading::velocity},
+     {"held_torque", &models::ServoReading::torque}}};
+
+/// Adds the held joints, for robots that have some.
+void add_held_joints(py::dict& arrays, const recordings::Recording& recording) {
+  const std::size_t count = recording.truth.front().held.size();
+  if (count == 0) return;
+  for (const auto& [name, member] : held_arrays) {
+    py::array_t<double> array({recording.truth.size(), count});
+    auto values = array.mutable_unchecked<2>();
+    for (std::size_t k = 0; k < recording.truth.size(); ++k) {
+      for (std::size_t i = 0; i < std::min(count, recording.truth[k].held.size()); ++i) {
+        values(static_cast<py::ssize_t>(k), static_cast<py::ssize_t>(i)) =
+            recording.truth[k].held[i].*member;
+      }
+    }
+    arrays[name] = array;
+  }
+}
+
 /// Adds the ground truth, and contact labels by their default definition.
 void add_truth(py::dict& arrays, recordings::Recording& recording) {
   arrays["base_orientation"] =
@@ -83,6 +105,7 @@ void add_truth(py::dict& arrays, recordings::Recording& recording) {
     arrays["joint_torque"] = copied<models::servo_count>(
         recording.truth, [](const auto& row) { return row.joint_torque.value_or(PerServo{}); });
   }
+  add_held_joints(arrays, recording);
   const auto labels = scoring::contact_labels(recording, {});
   std::vector<std::array<bool, models::wheel_count>> contact;
   contact.reserve(recording.steps());
@@ -142,6 +165,18 @@ void read_quaternions(ArrayMap& map, const char* name, std::vector<Row>& rows,
   }
 }
 
+void read_held_joints(ArrayMap& map, std::vector<models::GroundTruth>& rows) {
+  const std::size_t count = map.width("held_position");
+  for (const auto& [name, member] : held_arrays) {
+    if (count == 0) return;
+    const StepArray values = map.column(name, count);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      rows[k].held.resize(count);
+      for (std::size_t i = 0; i < count; ++i) rows[k].held[i].*member = values(k, i);
+    }
+  }
+}
+
 std::vector<models::GroundTruth> truth_from(ArrayMap& map) {
   std::vector<models::GroundTruth> rows = rows_from<models::GroundTruth>(map);
   read_quaternions(
@@ -149,6 +184,7 @@ std::vector<models::GroundTruth> truth_from(ArrayMap& map) {
   const StepArray body_contact = map.column("body_touches_terrain");
   for (std::size_t k = 0; k < rows.size(); ++k)
     rows[k].body_touches_terrain = body_contact(k) != 0.0;
+  read_held_joints(map, rows);
   if (!map.has("joint_torque")) return rows;
   const StepArray torque = map.column("joint_torque", models::servo_count);
   for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -48,7 +48,8 @@ policies::LqrGains lqr_gains(DescribedRobot& robot, const Start& start) {
 /// The stance that a robot's file specifies, from straight legs.
 models::Stance stance_of(DescribedRobot& robot) {
   const models::RobotDescription body = models::robot_description(robot.file());
-  return body.has_stance ? from_straight(robot.model(), body.stance) : body.stance;
+  return body.has_stance ? from_straight(robot.model(), body.stance)
+                         : models::usual_stance(robot.model());
 }
 
 /// Checks that the robot's joints can have all angles of the scenario.

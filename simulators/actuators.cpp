@@ -17,11 +17,8 @@ Actuators::Actuators(const models::RobotModel& model, const StepSizes& steps)
     joint.actuator = model.actuator[i];
     joint.effort = model.effort[i];  // zero without a joint
     if (!model.has(i)) continue;
-    // The limit keeps the spring's oscillation with the joint's inertia below 0.5 rad per step.
-    const double inertia = 1.0 / model.mj->dof_invweight0[model.dof_address[i]];
-    joint.stiffness = std::min(joint.actuator.presliding_stiffness,
-                               0.25 * inertia / (physics_period * physics_period));
-    joint.damping = 2.0 * std::sqrt(joint.stiffness * inertia);  // critical
+    joint.friction = JointFriction(
+        joint.actuator, 1.0 / model.mj->dof_invweight0[model.dof_address[i]], physics_period);
     if (joint.actuator.torque_lag > 0.0) {
       joint.lag_gain = -std::expm1(-physics_period / joint.actuator.torque_lag);
     }
@@ -34,7 +31,10 @@ Actuators::Actuators(const models::RobotModel& model, const StepSizes& steps)
 void Actuators::reset() {
   started_ = false;
   commands_.clear();
-  for (Joint& joint : joint_) joint.torque = joint.spring_torque = 0.0;
+  for (Joint& joint : joint_) {
+    joint.torque = 0.0;
+    joint.friction.reset();
+  }
 }
 
 const models::Action& Actuators::delayed(const models::Action& action) {
@@ -46,14 +46,6 @@ const models::Action& Actuators::delayed(const models::Action& action) {
   }
   commands_.pop_front();
   return executed_;
-}
-
-double Actuators::friction(Joint& joint, double position, double velocity) {
-  const double limit = joint.actuator.friction;
-  joint.spring_torque = std::clamp(
-      joint.spring_torque + joint.stiffness * (position - joint.position), -limit, limit);
-  joint.position = position;
-  return std::clamp(joint.spring_torque + joint.damping * velocity, -limit, limit);
 }
 
 Actuators::Torques Actuators::step(const models::Action& action, const JointTorques& position,
@@ -68,13 +60,13 @@ Actuators::Torques Actuators::step(const models::Action& action, const JointTorq
   }
   for (std::size_t i = 0; i < joint_.size(); ++i) {
     Joint& joint = joint_[i];
-    if (!started_) joint.position = position[i];
+    if (!started_) joint.friction.start_at(position[i]);
     joint.torque += joint.lag_gain * (torques.reported[i] - joint.torque);
     const models::Actuator& a = joint.actuator;
     torques.reported[i] = joint.torque;
     torques.applied[i] = (1.0 + a.torque_error) * joint.torque +
                          a.ripple * std::sin(a.ripple_cycles * position[i]) -
-                         friction(joint, position[i], velocity[i]) - a.viscous * velocity[i];
+                         joint.friction.torque(position[i], velocity[i]) - a.viscous * velocity[i];
   }
   started_ = true;
   return torques;

@@ -5,6 +5,7 @@
 
 #include "models/robot.hpp"
 #include "models/robot_model.hpp"
+#include "simulators/friction.hpp"
 #include "simulators/options.hpp"
 
 namespace touchdown::simulators {
@@ -39,21 +40,15 @@ class Actuators {
   bool are_ideal() const { return ideal_; }
 
  private:
-  /// State of friction's elastic presliding and of the motor's lag.
+  /// State of the friction and of the motor's lag.
   struct Joint {
     models::Actuator actuator;
     double effort = 0.0;
-    double stiffness = 0.0;      ///< of presliding, limited by the time step (N·m/rad)
-    double damping = 0.0;        ///< of presliding, critical (N·m·s/rad)
-    double lag_gain = 1.0;       ///< per physics step
-    std::size_t delay = 0;       ///< control steps
-    double torque = 0.0;         ///< that the servo reports (N·m)
-    double spring_torque = 0.0;  ///< torque of the presliding spring (N·m)
-    double position = 0.0;       ///< at the last step (rad)
+    JointFriction friction;
+    double lag_gain = 1.0;  ///< per physics step
+    std::size_t delay = 0;  ///< control steps
+    double torque = 0.0;    ///< that the servo reports (N·m)
   };
-
-  /// Friction torque that opposes the joint at `position` (rad) with `velocity` (rad/s).
-  static double friction(Joint& joint, double position, double velocity);
 
   std::array<Joint, models::servo_count> joint_;
   bool ideal_;

@@ -50,13 +50,20 @@ void MujocoSimulator::place(const RobotState& start) {
     if (!model().has(i)) continue;
     data_->qvel[model().dof_address[i]] = start.joint_velocity[i];
   }
+  models::write_held(model(), start.held_position, data_->qpos);
+  for (std::size_t i = 0; i < start.held_velocity.size(); ++i) {
+    data_->qvel[model().held[i].dof_address] = start.held_velocity[i];
+  }
 }
 
-void MujocoSimulator::advance(const JointTorques& torques,
+void MujocoSimulator::advance(const AppliedTorques& torques,
                               std::span<const ExternalWrench> wrenches) {
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     if (!model().has(i)) continue;
-    data_->qfrc_applied[model().dof_address[i]] = torques[i];
+    data_->qfrc_applied[model().dof_address[i]] = torques.servo[i];
+  }
+  for (std::size_t i = 0; i < torques.held.size(); ++i) {
+    data_->qfrc_applied[model().held[i].dof_address] = torques.held[i];
   }
   Eigen::Map<Eigen::Matrix<mjtNum, 6, 1>> applied(
       &data_->xfrc_applied[6 * model().base_body]);  // at the base's centre of mass
@@ -91,6 +98,12 @@ void MujocoSimulator::read(RobotState& state) const {
     if (!model().has(i)) continue;
     state.joint_position[i] = data_->qpos[model().qpos_address[i]];
     state.joint_velocity[i] = data_->qvel[model().dof_address[i]];
+  }
+  state.held_position.clear();
+  state.held_velocity.clear();
+  for (const models::HeldJoint& held : model().held) {
+    state.held_position.push_back(data_->qpos[held.qpos_address]);
+    state.held_velocity.push_back(data_->qvel[held.dof_address]);
   }
 }
 

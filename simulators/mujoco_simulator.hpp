@@ -23,7 +23,7 @@ class MujocoSimulator : public Simulator {
 
  protected:
   void place(const RobotState& start) override;
-  void advance(const JointTorques& torques, std::span<const ExternalWrench> wrenches) override;
+  void advance(const AppliedTorques& torques, std::span<const ExternalWrench> wrenches) override;
   void read(RobotState& state) const override;
   void read(ContactForces& forces) const override;
 

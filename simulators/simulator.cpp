@@ -25,6 +25,7 @@ Simulator::Simulator(std::shared_ptr<const models::RobotModel> model,
     : model_(std::move(model)),
       options_(with_steps_for_tyres(options, *model_)),
       actuators_(*model_, options_.steps),
+      held_servos_(*model_, options_.steps),
       imu_position_in_base_(model_->imu_position),
       imu_rotation_in_base_(models::imu_convention().toRotationMatrix()) {}
 
@@ -32,6 +33,7 @@ void Simulator::reset(const RobotState& start) {
   step_count_ = 0;
   forces_ = {};
   actuators_.reset();
+  held_servos_.reset();
   place(start);
   read(state_);
   observe(imu_velocity(), {});
@@ -47,10 +49,11 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
   Actuators::Torques torques;
   for (std::int64_t substep = 0; substep < substeps; ++substep) {
     torques = actuators_.step(commands, state_.joint_position, state_.joint_velocity);
-    JointTorques applied = torques.applied;
+    held_servos_.step(state_.held_position, state_.held_velocity);
+    AppliedTorques applied{torques.applied, held_servos_.torques()};
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       const std::size_t servo = models::index(models::wheel_servos[wheel]);
-      applied[servo] +=
+      applied.servo[servo] +=
           rolling_torque(options_.contact.rolling_resistance, forces_.wheel_normal_force[wheel],
                          state_.joint_velocity[servo]);
     }
@@ -105,6 +108,14 @@ void Simulator::observe(const Eigen::Vector3d& velocity_before,
             .base_linear_velocity = state_.linear_velocity,
             .base_angular_velocity = state_.angular_velocity,
             .imu_linear_velocity = velocity};
+  observe_held_joints();
+}
+
+void Simulator::observe_held_joints() {
+  for (std::size_t i = 0; i < state_.held_position.size(); ++i) {
+    truth_.held.push_back(
+        {state_.held_position[i], state_.held_velocity[i], held_servos_.torques()[i]});
+  }
 }
 
 bool Simulator::healthy() const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -12,6 +13,7 @@
 #include "models/robot.hpp"
 #include "models/robot_model.hpp"
 #include "simulators/actuators.hpp"
+#include "simulators/held_servos.hpp"
 #include "simulators/options.hpp"
 
 namespace touchdown::simulators {
@@ -30,6 +32,16 @@ struct RobotState {
   /// Joint angles (rad) and velocities (rad/s), in servo order.
   std::array<double, models::servo_count> joint_position = {};
   std::array<double, models::servo_count> joint_velocity = {};
+  /// The same of the held joints, in the model's order. If empty, they are at their references, at
+  /// rest.
+  std::vector<double> held_position = {};
+  std::vector<double> held_velocity = {};
+};
+
+/// Torques on the joints over one physics step (N·m).
+struct AppliedTorques {
+  JointTorques servo = {};
+  std::span<const double> held;  ///< in the model's order
 };
 
 /// An external force on the base, constant over one control step.
@@ -57,9 +69,9 @@ struct ContactForces {
 
 /// The interface of physics engines: a robot on a terrain, stepped by actions.
 ///
-/// This class implements the parts that all engines share: servo law, actuators, rolling
-/// resistance, IMU and contact. An engine implements the protected functions, which move the
-/// bodies.
+/// This class implements the parts that all engines share: servo law, actuators, held joints,
+/// rolling resistance, IMU and contact. An engine implements the protected functions, which move
+/// the bodies.
 class Simulator {
  public:
   virtual ~Simulator() = default;
@@ -95,8 +107,8 @@ class Simulator {
 
   /// Places the robot. All numbers of `start` are finite.
   virtual void place(const RobotState& start) = 0;
-  /// Advances one physics step under joint torques (servo order, N·m) and wrenches on the base.
-  virtual void advance(const JointTorques& torques, std::span<const ExternalWrench> wrenches) = 0;
+  /// Advances one physics step under joint torques and wrenches on the base.
+  virtual void advance(const AppliedTorques& torques, std::span<const ExternalWrench> wrenches) = 0;
   /// Reads the current state of the robot.
   virtual void read(RobotState& state) const = 0;
   /// Reads the contact forces of the last physics step.
@@ -106,10 +118,12 @@ class Simulator {
   Eigen::Vector3d imu_velocity() const;
   /// Updates observation and truth. `velocity_before`: of the IMU a control step ago (m/s, world).
   void observe(const Eigen::Vector3d& velocity_before, const JointTorques& reported_torques);
+  void observe_held_joints();
 
   std::shared_ptr<const models::RobotModel> model_;
   SimulatorOptions options_;
   Actuators actuators_;
+  HeldServos held_servos_;
   std::int64_t step_count_ = 0;
   RobotState state_;
   ContactForces forces_;

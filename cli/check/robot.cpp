@@ -18,6 +18,7 @@ namespace touchdown::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using scenarios::CheckedHeldJoint;
 using scenarios::CheckedJoint;
 using scenarios::CheckedStand;
 using scenarios::RobotCheck;
@@ -48,6 +49,15 @@ std::string joints_text(const RobotCheck& check) {
   return to_text(table);
 }
 
+std::string text_of(const CheckedHeldJoint& held) {
+  return fmt::format(
+      "held: joint '{}' at {:g} rad by a servo of {:g} N·m/rad (from {}), {:g} N·m·s/rad and at "
+      "most "
+      "{:g} N·m{}\n",
+      held.joint, rounded(held.reference), rounded(held.kp), held.kp_source, rounded(held.kd),
+      held.torque_limit, held.actuator.empty() ? "" : "; " + held.actuator);
+}
+
 std::string text_of(const std::string& path, const RobotCheck& check) {
   std::string text;
   if (!check.joints.empty()) {
@@ -59,14 +69,16 @@ std::string text_of(const std::string& path, const RobotCheck& check) {
         vector_text(check.imu), joints_text(check), rounded(check.hip), rounded(check.knee),
         check.lever);
   }
+  for (const CheckedHeldJoint& held : check.held) text += text_of(held);
   for (const std::string& ignored : check.ignored) text += "ignored: " + ignored + "\n";
   for (const std::string& difference : check.differences) {
     text += "engines differ: " + difference + "\n";
   }
   for (const CheckedStand& stand : check.stands) {
-    text +=
-        fmt::format("{}: {}, moved {:.2f} m, {:.1f} N on the left tyre, {:.1f} N on the right\n",
-                    stand.engine, stand.ending, stand.moved, stand.load[0], stand.load[1]);
+    text += fmt::format(
+        "{}: {}, moved {:.2f} m, {:.1f} N on the left tyre, {:.1f} N on the right{}\n",
+        stand.engine, stand.ending, stand.moved, stand.load[0], stand.load[1],
+        check.held.empty() ? "" : fmt::format(", held joints within {:.3f} rad", stand.given_way));
   }
   for (const std::string& complaint : check.complaints) text += "complaint: " + complaint + "\n";
   return text;
@@ -87,6 +99,13 @@ Json json_of(const CheckedJoint& joint) {
   return json;
 }
 
+Json json_of(const CheckedHeldJoint& held) {
+  return {{"joint", held.joint},      {"reference_rad", rounded(held.reference)},
+          {"kp", rounded(held.kp)},   {"kp_source", held.kp_source},
+          {"kd", rounded(held.kd)},   {"torque_limit_nm", held.torque_limit},
+          {"actuator", held.actuator}};
+}
+
 Json json_of(const std::string& path, const RobotCheck& check) {
   Json json = {{"file", path},
                {"is_usable", check.complaints.empty()},
@@ -100,15 +119,18 @@ Json json_of(const std::string& path, const RobotCheck& check) {
                {"stance_rad", {{"hip", rounded(check.hip)}, {"knee", rounded(check.knee)}}},
                {"knee_lever_m", rounded(check.lever)},
                {"joints", Json::array()},
+               {"held", Json::array()},
                {"ignored", check.ignored},
                {"differences", check.differences},
                {"stands", Json::array()}};
   for (const CheckedJoint& joint : check.joints) json["joints"].push_back(json_of(joint));
+  for (const CheckedHeldJoint& held : check.held) json["held"].push_back(json_of(held));
   for (const CheckedStand& stand : check.stands) {
     json["stands"].push_back({{"engine", stand.engine},
                               {"stands", stand.stands},
                               {"ending", stand.ending},
                               {"moved_m", rounded(stand.moved)},
+                              {"held_given_way_rad", rounded(stand.given_way)},
                               {"load_n", {rounded(stand.load[0]), rounded(stand.load[1])}}});
   }
   return json;

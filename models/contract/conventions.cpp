@@ -25,7 +25,7 @@ void check_axis(const Vector3d& axis, std::size_t servo, const Contract& contrac
   constexpr double least = 0.97;  // cosine of 14°
   if (std::abs(axis.y()) >= least) return;
   const auto rounded = [](double x) { return std::round(1e3 * x) / 1e3 + 0.0; };
-  contract.fail_at_joint(
+  contract.fail_at_servo(
       servo,
       fmt::format("its axis in the base is ({:g} {:g} {:g}), expected (0 {:g} 0) or its "
                   "opposite: x is forward, y left, z up",
@@ -47,7 +47,7 @@ void check_chain(const RobotModel& robot, const Contract& contract) {
     const int above = model.jnt_bodyid[robot.joint[i]];
     const int below = model.jnt_bodyid[robot.joint[i + 1]];
     if (above != below && is_below(model, below, above)) continue;
-    contract.fail_at_joint(i + 1, fmt::format("expected it below joint '{}': each leg is one open "
+    contract.fail_at_servo(i + 1, fmt::format("expected it below joint '{}': each leg is one open "
                                               "chain",
                                               servo_names[i]));
   }
@@ -106,7 +106,7 @@ void set_zeros(RobotModel& robot, const Contract& contract) {
       const Vector3d link = anchor(servo + 1) - anchor(servo);
       constexpr double shortest = 1e-3;  // m
       if (std::hypot(link.x(), link.z()) < shortest) {
-        contract.fail_at_joint(servo + 1,
+        contract.fail_at_servo(servo + 1,
                                "expected it away from the joint above it, seen from the "
                                "side");
       }
@@ -123,7 +123,7 @@ void set_imu(RobotModel& robot, const Contract& contract) {
   robot.imu_site = contract.find(mjOBJ_SITE, "site", "imu");
   const int body = model.site_bodyid[robot.imu_site];
   if (model.body_weldid[body] != model.body_weldid[robot.base_body]) {
-    contract.fail_at("site", "imu", "site 'imu': expected it on the base body");
+    contract.fail_at_site(robot.imu_site, "site 'imu': expected it on the base body");
   }
   robot.imu_position = vector_at(at_reference(robot)->site_xpos, robot.imu_site);
   const Eigen::Quaterniond imu_in_base = imu_convention();
@@ -145,11 +145,10 @@ void set_contacts(RobotModel& robot, const Contract& contract) {
     if (!is_tyre && model.geom_contype[geom] == 0 && model.geom_conaffinity[geom] == 0) continue;
     const int type = model.geom_type[geom];
     if (type == mjGEOM_ELLIPSOID || type == mjGEOM_HFIELD || type == mjGEOM_PLANE) {
-      const char* const name = mj_id2name(&model, mjOBJ_GEOM, geom);
-      contract.fail_at("geom", name == nullptr ? "" : name,
-                       fmt::format("geom {}: expected a sphere, capsule, cylinder, box or mesh: "
-                                   "Bullet has no counterpart of this shape",
-                                   contract.name_of(mjOBJ_GEOM, geom)));
+      contract.fail_at_geom(
+          geom, fmt::format("geom {}: expected a sphere, capsule, cylinder, box or mesh: "
+                            "Bullet has no counterpart of this shape",
+                            contract.name_of(mjOBJ_GEOM, geom)));
     }
     model.geom_contype[geom] = robot_contype;
     model.geom_conaffinity[geom] = robot_conaffinity;
@@ -176,7 +175,8 @@ bool sides_are_swapped(const RobotModel& robot, const Contract& contract) {
   const double left = vector_at(data->geom_xpos, robot.tyre_geom[0]).y();
   const double right = vector_at(data->geom_xpos, robot.tyre_geom[1]).y();
   if (std::abs(left - right) < 0.5 * robot.wheel_radius) {
-    contract.fail("expected the tyres side by side, the left one at larger y");
+    contract.fail_at_geom(robot.tyre_geom[1],
+                          "expected the tyres side by side, the left one at larger y");
   }
   return left < right;
 }

@@ -5,9 +5,8 @@
 
 namespace touchdown::models {
 
-/// Finds the floating base, the servos' joints and the torque limits of their motors, and checks
-/// them. The limit is the control range times the gain, within the force range, times the gear.
-/// Motors that are position or velocity servos count with their force range; their own laws are
+/// Finds the floating base, the servos' joints and the torque limits of their motors
+/// (models/contract/motor.hpp), and checks them. The laws of position and velocity servos are
 /// removed. Errors: `InputError` for anything that would act besides the servos: other joints,
 /// springs, several motors on a joint, activations; and for limits that are not symmetric.
 void find_servos(RobotModel& robot, const Contract& contract);

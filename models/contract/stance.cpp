@@ -32,6 +32,15 @@ Stance from_straight(const RobotModel& robot, const Stance& stance) {
           std::remainder(stance.knee + zeros.knee, turn)};
 }
 
+Stance usual_stance(const RobotModel& robot) {
+  const Stance crouch;
+  const Stance mirrored = {-crouch.hip, -crouch.knee};
+  if (!stance_error(robot, crouch)) return crouch;
+  if (!stance_error(robot, mirrored)) return mirrored;
+  const std::size_t hip = index(Servo::left_hip);
+  return {robot.has(hip) ? robot.reference(hip) : 0.0, -robot.reference(hip + 1)};
+}
+
 std::optional<StanceError> stance_error(const RobotModel& robot, const Stance& stance,
                                         bool in_zeros_of_file) {
   const std::array<double, servo_count> angle = {stance.hip,  -stance.knee, 0.0,

@@ -14,6 +14,10 @@ bool can_turn(const RobotModel& robot, std::size_t servo, double angle);
 /// A stance in the zeros of the robot's file, as angles from straight legs.
 Stance from_straight(const RobotModel& robot, const Stance& stance);
 
+/// The stance if the file of a robot gives none: Upkie's crouch; if the joints cannot have it, its
+/// mirror image, with knees that bend forward; or else the pose of the file.
+Stance usual_stance(const RobotModel& robot);
+
 /// An angle that a joint cannot have.
 struct StanceError {
   std::string key;  ///< "hip" or "knee"

@@ -17,8 +17,9 @@ std::string strip_name(std::size_t wheel, std::size_t strip) {
 [[noreturn]] void fail_at_tyre(const Contract& contract, std::size_t wheel,
                                const std::string& message) {
   const std::string& own = contract.parts().tyre[wheel];
-  contract.fail_at("geom", tyre_names[wheel],
-                   fmt::format("geom '{}': {}", own.empty() ? tyre_names[wheel] : own, message));
+  contract.fail_at_geom(
+      contract.find(mjOBJ_GEOM, "geom", tyre_names[wheel]),
+      fmt::format("geom '{}': {}", own.empty() ? tyre_names[wheel] : own, message));
 }
 
 std::string text_of(const Eigen::Vector3d& v) {
@@ -70,8 +71,7 @@ void find_tyres(RobotModel& robot, const Contract& contract) {
       fail_at_tyre(contract, i, "expected a sphere, a cylinder or a capsule");
     }
     if (robot.tyre.strips().size() > 1 && type != mjGEOM_SPHERE) {
-      contract.fail(
-          fmt::format("geom '{}': expected a sphere, as the tyre has a width", tyre_names[i]));
+      fail_at_tyre(contract, i, "expected a sphere, as the tyre has a width");
     }
     robot.tyre_geom[i] = geom;
     robot.tyre_strips[i] = {geom};

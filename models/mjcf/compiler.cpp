@@ -46,7 +46,10 @@ std::mutex& last_model() {
 std::string located(const std::filesystem::path& file, const MjcfDocument::Text& xml,
                     std::string message) {
   std::smatch match;
-  std::string where = file.string();
+  std::smatch object;
+  const bool names_object = std::regex_search(message, object, std::regex("[Nn]ame = ([^,\\n]+)"));
+  std::string where = xml.place_of_name(names_object ? object[1].str() : "");
+  if (where.empty()) where = file.string();
   if (std::regex_search(message, match, std::regex("line[ =]+(\\d+)"))) {
     const std::string digits = match[1].str();
     std::size_t line = 0;

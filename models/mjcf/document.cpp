@@ -73,11 +73,27 @@ MjcfDocument MjcfDocument::load(const std::filesystem::path& file) {
   return document;
 }
 
-MjcfDocument MjcfDocument::parse(const std::string& text, const std::filesystem::path& file) {
+MjcfDocument MjcfDocument::converted(const std::string& text, const MjcfDocument& urdf) {
   MjcfDocument document;
-  document.file_ = file;
-  document.document_ = parsed(text, file);
+  document.file_ = urdf.file_;
+  document.document_ = parsed(text, urdf.file_);
+  document.inherit_places(document.root(), urdf, urdf.place_.at(&urdf.root()));
   return document;
+}
+
+void MjcfDocument::inherit_places(const XMLElement& element, const MjcfDocument& urdf,
+                                  Place place) {
+  const std::string_view tag = element.Name();
+  const char* const counterpart = tag == "body" ? "link" : tag == "joint" ? "joint" : nullptr;
+  if (counterpart != nullptr) {
+    const XMLElement* const origin = urdf.find(counterpart, attribute(element, "name"));
+    if (origin != nullptr) place = urdf.place_.at(origin);
+  }
+  place_[&element] = place;
+  for (const auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    inherit_places(*child, urdf, place);
+  }
 }
 
 void MjcfDocument::add_places(const XMLElement& element, const std::filesystem::path& file) {
@@ -127,8 +143,7 @@ void MjcfDocument::expand(XMLElement& element, const std::filesystem::path& fold
       last = element.InsertAfterChild(last, clone);
       if (first == nullptr) first = clone;
     }
-    place_.erase(child);
-    element.DeleteChild(child);
+    remove(*child);
     child = first != nullptr ? first : next;  // the included elements may include others
   }
 }
@@ -137,6 +152,25 @@ std::string MjcfDocument::place_of(const XMLElement& element) const {
   const auto place = place_.find(&element);
   if (place == place_.end()) return file_.string();
   return fmt::format("{}:{}:1", place->second.file.string(), place->second.line);
+}
+
+void MjcfDocument::visit(const std::function<void(const XMLElement&)>& visit) const {
+  for_each_element(*document_->RootElement(), [&](XMLElement& element) { visit(element); });
+}
+
+std::string MjcfDocument::Text::place_of_name(const std::string& name) const {
+  std::string root;
+  const std::string quoted = fmt::format("name=\"{}\"", escaped(name));
+  std::size_t begin = 0;
+  for (const std::string& place : place_of_line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line(text.data() + begin, end - begin);
+    if (root.empty()) root = place;
+    if (!name.empty() && !place.empty() && line.find(quoted) != std::string_view::npos)
+      return place;
+    begin = std::min(end + 1, text.size());
+  }
+  return root;
 }
 
 XMLElement* MjcfDocument::find(std::string_view tag, std::string_view name) const {
@@ -151,6 +185,12 @@ XMLElement* MjcfDocument::find(std::string_view tag, std::string_view name) cons
 
 void MjcfDocument::fail(const XMLElement& element, const std::string& message) const {
   throw InputError(place_of(element) + ": " + message);
+}
+
+void MjcfDocument::remove(XMLElement& element) {
+  // Elements that are added later may have the same addresses.
+  for_each_element(element, [this](XMLElement& one) { place_.erase(&one); });
+  element.Parent()->DeleteChild(&element);
 }
 
 void MjcfDocument::insert_before(XMLElement& next, const std::string& elements) {

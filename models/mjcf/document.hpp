@@ -19,8 +19,9 @@ class MjcfDocument {
   /// the first one. Errors: `InputError` with file:line:1 for anything that is not XML, a missing
   /// file or one that is included twice.
   static MjcfDocument load(const std::filesystem::path& file);
-  /// The same for a text in memory. Its elements have no lines: the text is not the user's.
-  static MjcfDocument parse(const std::string& text, const std::filesystem::path& file);
+  /// Reads the MJCF that a URDF was converted to. Bodies, joints and geoms have the places of the
+  /// links and joints of their names.
+  static MjcfDocument converted(const std::string& text, const MjcfDocument& urdf);
 
   tinyxml2::XMLElement& root() { return *document_->RootElement(); }
   const tinyxml2::XMLElement& root() const { return *document_->RootElement(); }
@@ -29,11 +30,17 @@ class MjcfDocument {
   /// "file:line:1" of an element.
   std::string place_of(const tinyxml2::XMLElement& element) const;
 
+  /// Calls `visit` for every element, in the order of the file.
+  void visit(const std::function<void(const tinyxml2::XMLElement&)>& visit) const;
+
   /// The first element with this tag and name, in the order of the file; null if there is none.
   tinyxml2::XMLElement* find(std::string_view tag, std::string_view name) const;
 
   /// Throws an `InputError` about an element.
   [[noreturn]] void fail(const tinyxml2::XMLElement& element, const std::string& message) const;
+
+  /// Removes an element with all below it.
+  void remove(tinyxml2::XMLElement& element);
 
   /// Parses elements and inserts them before `next`.
   void insert_before(tinyxml2::XMLElement& next, const std::string& elements);
@@ -42,6 +49,8 @@ class MjcfDocument {
   struct Text {
     std::string text;
     std::vector<std::string> place_of_line;  ///< file:line:1 by line; empty where unknown
+    /// The place of the line with a name in quotes, else of the robot's root.
+    std::string place_of_name(const std::string& name) const;
   };
   Text text(const std::string& more) const;
 
@@ -51,6 +60,7 @@ class MjcfDocument {
     int line = 0;
   };
 
+  void inherit_places(const tinyxml2::XMLElement& element, const MjcfDocument& urdf, Place place);
   void add_places(const tinyxml2::XMLElement& element, const std::filesystem::path& file);
   void expand(tinyxml2::XMLElement& element, const std::filesystem::path& folder,
               std::vector<std::filesystem::path>& included);

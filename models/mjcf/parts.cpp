@@ -1,11 +1,14 @@
 #include "models/mjcf/parts.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
+#include <initializer_list>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "core/error.hpp"
+#include "core/yaml.hpp"
+#include "models/mjcf/defaults.hpp"
 
 namespace touchdown::models {
 
@@ -13,16 +16,32 @@ namespace {
 
 using tinyxml2::XMLElement;
 
+constexpr std::string_view held_prefix = "touchdown_held_";
 constexpr std::array<const char*, wheel_count> tyre_geoms = {"left_tire", "right_tire"};
 
-[[noreturn]] void fail_in(const MjcfDocument& document, const std::string& message) {
-  throw InputError(document.file().string() + ": " + message);
+/// The names of all elements with one of these tags.
+std::vector<std::string> names_of(const MjcfDocument& document,
+                                  std::initializer_list<std::string_view> tags) {
+  std::vector<std::string> names;
+  document.visit([&](const XMLElement& element) {
+    const std::string_view name = attribute(element, "name");
+    if (std::find(tags.begin(), tags.end(), element.Name()) == tags.end() || name.empty()) return;
+    names.emplace_back(name);
+  });
+  return names;
 }
 
-XMLElement& expect(const MjcfDocument& document, const char* tag, const std::string& name,
-                   const std::string& key) {
-  if (XMLElement* const found = document.find(tag, name)) return *found;
-  fail_in(document, fmt::format("{}: expected a {} named '{}'", key, tag, name));
+/// "expected a joint named 'x' in robot.xml (did you mean 'y'?)", or with the names that there are.
+std::string missing(const MjcfDocument& document, std::initializer_list<std::string_view> tags,
+                    const std::string& name) {
+  const std::vector<std::string> names = names_of(document, tags);
+  const std::string near = did_you_mean(name, names);
+  const std::string found =
+      near.empty() ? fmt::format(", found {}",
+                                 names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")))
+                   : near;
+  return fmt::format("expected a {} named '{}' in {}{}", fmt::join(tags, " or a "), name,
+                     document.file().filename().string(), found);
 }
 
 /// The element that holds the actuators, if any.
@@ -42,25 +61,16 @@ std::vector<XMLElement*> motors_of(MjcfDocument& document, std::string_view join
   return motors;
 }
 
-void remove_held(MjcfDocument& document, const std::vector<std::string>& held) {
-  for (const std::string& name : held) {
-    XMLElement& joint = expect(document, "joint", name, "held");
-    for (XMLElement* const motor : motors_of(document, name)) {
-      motor->Parent()->DeleteChild(motor);
-    }
-    joint.Parent()->DeleteChild(&joint);
-  }
-}
-
 /// The torque limit of a servo that has no motor in the file.
-double limit_without_motor(const MjcfDocument& document, const RobotDescription& description,
+double limit_without_motor(const MjcfDocument& document, const XMLElement& element,
+                           const RobotDescription& description,
                            const std::map<std::string, double>& effort, std::size_t servo) {
   const std::string& joint = description.parts.joint[servo];
   if (const auto found = effort.find(joint); found != effort.end()) return found->second;
   const auto& actuator = description.actuator(static_cast<Servo>(servo));
   if (actuator && std::isfinite(actuator->maximum_torque)) return actuator->maximum_torque;
-  fail_in(
-      document,
+  document.fail(
+      element,
       fmt::format("joint '{}': expected a motor that drives it, an effort limit in the URDF, or "
                   "'actuators: {{{}: {{maximum_torque: …}}}}' in the YAML file",
                   joint, std::array{"hip", "knee", "wheel"}[servo % 3]));
@@ -77,94 +87,164 @@ void add_motor(MjcfDocument& document, const std::string& joint, double limit) {
   actuators_of(document)->InsertEndChild(motor);
 }
 
+/// The motor of a joint; null if there is none.
+XMLElement* only_motor_of(MjcfDocument& document, const std::string& joint) {
+  const std::vector<XMLElement*> motors = motors_of(document, joint);
+  if (motors.size() > 1) {
+    document.fail(*motors[1], fmt::format("{}: expected one motor for joint '{}', found several",
+                                          title_of(*motors[1]), joint));
+  }
+  return motors.empty() ? nullptr : motors.front();
+}
+
+void rename(XMLElement& joint, XMLElement* motor, const std::string& name) {
+  joint.SetAttribute("name", name.c_str());
+  if (motor == nullptr) return;
+  motor->SetAttribute("name", name.c_str());
+  motor->SetAttribute("joint", name.c_str());
+}
+
+/// A named joint.
+XMLElement& joint_named(const MjcfDocument& document, const std::string& name,
+                        const std::string& key, const RobotKeys& keys) {
+  XMLElement* const joint = document.find("joint", name);
+  if (joint == nullptr) keys.fail(key, missing(document, {"joint"}, name));
+  return *joint;
+}
+
+void name_held(MjcfDocument& document, const std::vector<std::string>& held,
+               const std::map<std::string, double>& effort, const RobotKeys& keys) {
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    XMLElement& joint = joint_named(document, held[i], fmt::format("held.{}", i), keys);
+    XMLElement* const motor = only_motor_of(document, held[i]);
+    rename(joint, motor, held_name(i));
+    const auto limit = effort.find(held[i]);
+    if (motor == nullptr && limit != effort.end()) {
+      add_motor(document, held_name(i), limit->second);
+    }
+  }
+}
+
+/// Refuses a joint that has the name of a servo, but is none: its name would be taken.
+void require_free_name(const MjcfDocument& document, const PartNames& parts, std::size_t servo) {
+  const std::string name(servo_names[servo]);
+  const XMLElement* const joint = document.find("joint", name);
+  if (joint == nullptr ||
+      std::find(parts.joint.begin(), parts.joint.end(), name) != parts.joint.end()) {
+    return;
+  }
+  document.fail(*joint, fmt::format("joint '{}': expected it under `joints` or `held`, as '{}' is "
+                                    "the {}",
+                                    name, parts.joint[servo], name));
+}
+
 void name_servos(MjcfDocument& document, const RobotDescription& description,
-                 const std::map<std::string, double>& effort) {
+                 const std::map<std::string, double>& effort, const RobotKeys& keys) {
   // Found first and named afterwards, so that names can be exchanged.
   std::array<XMLElement*, servo_count> joints = {};
-  std::array<std::vector<XMLElement*>, servo_count> motors;
+  std::array<XMLElement*, servo_count> motors = {};
   for (std::size_t i = 0; i < servo_count; ++i) {
     const std::string& own = description.parts.joint[i];
     if (own.empty()) continue;
-    joints[i] = &expect(document, "joint", own, fmt::format("joints.{}", servo_names[i]));
-    motors[i] = motors_of(document, own);
-    if (motors[i].size() > 1) {
-      document.fail(*motors[i][1],
-                    fmt::format("{}: expected one motor for joint '{}', found several",
-                                title_of(*motors[i][1]), own));
-    }
+    joints[i] = &joint_named(document, own, fmt::format("joints.{}", servo_names[i]), keys);
+    require_free_name(document, description.parts, i);
+    motors[i] = only_motor_of(document, own);
   }
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (joints[i] == nullptr) continue;
     const std::string name(servo_names[i]);
-    joints[i]->SetAttribute("name", name.c_str());
-    for (XMLElement* const motor : motors[i]) {
-      motor->SetAttribute("name", name.c_str());
-      motor->SetAttribute("joint", name.c_str());
-    }
-    if (motors[i].empty()) {
-      add_motor(document, name, limit_without_motor(document, description, effort, i));
+    rename(*joints[i], motors[i], name);
+    if (motors[i] == nullptr) {
+      add_motor(document, name, limit_without_motor(document, *joints[i], description, effort, i));
     }
   }
 }
 
-/// Whether a geom is a round collider, as far as its own attributes show.
-bool is_round_collider(const XMLElement& geom) {
-  const std::string_view type = attribute(geom, "type");
-  const bool is_visual = attribute(geom, "contype") == "0" && attribute(geom, "conaffinity") == "0";
+/// Whether a geom is a round collider.
+bool is_round_collider(const MjcfDocument& document, const XMLElement& geom) {
+  const std::string_view type = attribute_or_default(document, geom, "type");
   const bool is_sphere = type == "sphere" || (type.empty() && geom.Attribute("mesh") == nullptr);
-  return !is_visual && (is_sphere || type == "cylinder" || type == "capsule");
+  return !is_visual(document, geom) && (is_sphere || type == "cylinder" || type == "capsule");
 }
 
-XMLElement& only_round_collider(const MjcfDocument& document, XMLElement& body,
-                                const std::string& key) {
-  XMLElement* found = nullptr;
-  for (auto* geom = body.FirstChildElement("geom"); geom != nullptr;
-       geom = geom->NextSiblingElement("geom")) {
-    if (!is_round_collider(*geom)) continue;
-    if (found != nullptr) {
-      document.fail(body,
-                    fmt::format("{}: {}: expected one round collider, found several: name the "
-                                "tyre's geom",
-                                key, title_of(body)));
+/// The round colliders of a body and of the bodies that are fixed to it.
+void add_round_colliders(const MjcfDocument& document, XMLElement& body,
+                         std::vector<XMLElement*>& found) {
+  for (auto* e = body.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    const std::string_view tag = e->Name();
+    if (tag == "geom" && is_round_collider(document, *e)) found.push_back(e);
+    if (tag == "body" && e->FirstChildElement("joint") == nullptr) {
+      add_round_colliders(document, *e, found);
     }
-    found = geom;
   }
-  if (found == nullptr) {
+}
+
+double radius_of(const MjcfDocument& document, const XMLElement& geom) {
+  const std::vector<double> size = numbers(attribute_or_default(document, geom, "size"));
+  return size.empty() ? 0.0 : size.front();
+}
+
+/// The tyre of a wheel: its largest round collider.
+XMLElement& largest_round_collider(const MjcfDocument& document, XMLElement& body,
+                                   const std::string& key) {
+  std::vector<XMLElement*> found;
+  add_round_colliders(document, body, found);
+  if (found.empty()) {
     document.fail(body,
                   fmt::format("{}: {}: expected a sphere, cylinder or capsule as its collider", key,
                               title_of(body)));
   }
-  return *found;
+  const auto is_smaller = [&](const XMLElement* a, const XMLElement* b) {
+    return radius_of(document, *a) < radius_of(document, *b);
+  };
+  XMLElement* const largest = *std::max_element(found.begin(), found.end(), is_smaller);
+  const auto count = std::count_if(found.begin(), found.end(), [&](const XMLElement* geom) {
+    return !is_smaller(geom, largest);
+  });
+  if (count > 1) {
+    document.fail(body,
+                  fmt::format("{}: {}: expected one round collider, found several of the same "
+                              "radius: name the tyre's geom",
+                              key, title_of(body)));
+  }
+  return *largest;
 }
 
 /// The geom of a tyre that has another name than the contract's; null otherwise.
-XMLElement* tyre_of(MjcfDocument& document, const PartNames& parts, std::size_t wheel) {
+XMLElement* tyre_of(MjcfDocument& document, const PartNames& parts, std::size_t wheel,
+                    const RobotKeys& keys) {
   const std::string& own = parts.tyre[wheel];
   const std::string key = fmt::format("tyres.{}", wheel == 0 ? "left" : "right");
   if (!own.empty()) {
     if (XMLElement* const geom = document.find("geom", own)) return geom;
     if (XMLElement* const body = document.find("body", own)) {
-      return &only_round_collider(document, *body, key);
+      return &largest_round_collider(document, *body, key);
     }
-    fail_in(document, fmt::format("{}: expected a geom or a body named '{}'", key, own));
+    keys.fail(key, missing(document, {"geom", "body"}, own));
   }
   const std::size_t servo = index(wheel_servos[wheel]);
   if (parts.joint[servo].empty() || document.find("geom", tyre_geoms[wheel]) != nullptr) {
     return nullptr;
   }
   XMLElement* const joint = document.find("joint", servo_names[servo]);
-  return &only_round_collider(document, *joint->Parent()->ToElement(), key);
+  return &largest_round_collider(document, *joint->Parent()->ToElement(), key);
 }
 
-void name_tyres(MjcfDocument& document, const PartNames& parts) {
+void name_tyres(MjcfDocument& document, const PartNames& parts, const RobotKeys& keys) {
   std::array<XMLElement*, wheel_count> tyres = {};
-  for (std::size_t i = 0; i < wheel_count; ++i) tyres[i] = tyre_of(document, parts, i);
   for (std::size_t i = 0; i < wheel_count; ++i) {
-    if (tyres[i] != nullptr) tyres[i]->SetAttribute("name", tyre_geoms[i]);
+    tyres[i] = tyre_of(document, parts, i, keys);
+  }
+  for (std::size_t i = 0; i < wheel_count; ++i) {
+    if (tyres[i] == nullptr) continue;
+    // A name may be that of another geom.
+    XMLElement* const usual = document.find("geom", tyre_geoms[i]);
+    if (usual != nullptr && usual != tyres[1 - i]) usual->DeleteAttribute("name");
+    tyres[i]->SetAttribute("name", tyre_geoms[i]);
   }
 }
 
-void name_imu(MjcfDocument& document, const std::string& own) {
+void name_imu(MjcfDocument& document, const std::string& own, const RobotKeys& keys) {
   if (own.empty()) return;
   XMLElement* const usual = own == "imu" ? nullptr : document.find("site", "imu");
   if (usual != nullptr) usual->DeleteAttribute("name");
@@ -175,7 +255,7 @@ void name_imu(MjcfDocument& document, const std::string& own) {
     added->SetAttribute("name", "imu");
     body->InsertEndChild(added);
   } else {
-    fail_in(document, fmt::format("imu: expected a site or a body named '{}'", own));
+    keys.fail("imu", missing(document, {"site", "body"}, own));
   }
 }
 
@@ -193,11 +273,17 @@ std::string mirrored_name(std::string_view name) {
 }  // namespace
 
 void name_parts(MjcfDocument& document, const RobotDescription& description,
-                const std::map<std::string, double>& effort) {
-  remove_held(document, description.parts.held);
-  name_servos(document, description, effort);
-  name_tyres(document, description.parts);
-  name_imu(document, description.parts.imu);
+                const std::map<std::string, double>& effort, const RobotKeys& keys) {
+  name_held(document, description.parts.held, effort, keys);
+  name_servos(document, description, effort, keys);
+  name_tyres(document, description.parts, keys);
+  name_imu(document, description.parts.imu, keys);
+}
+
+std::string held_name(std::size_t number) { return fmt::format("{}{}", held_prefix, number); }
+
+bool is_held_name(const char* name) {
+  return name != nullptr && std::string_view(name).starts_with(held_prefix);
 }
 
 void swap_sides(MjcfDocument& document) {

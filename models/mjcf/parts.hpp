@@ -4,16 +4,22 @@
 #include <string>
 
 #include "models/mjcf/document.hpp"
+#include "models/mjcf/robot_keys.hpp"
 #include "models/robot_description.hpp"
 
 namespace touchdown::models {
 
 /// Gives the parts of an MJCF the names of the contract, as the robot's YAML file names them. Held
-/// joints are removed: their bodies are fixed at the pose of the MJCF. A servo's joint without a
-/// motor gets one, with the effort of the URDF or the description's `maximum_torque`.
-/// Errors: `InputError` for a name that the MJCF does not have.
+/// joints and their motors get the names of `held_name`. A joint without a motor gets one, with the
+/// effort of the URDF or the description's `maximum_torque`.
+/// Errors: `InputError` for a name that the MJCF does not have, and for parts that do not fit.
 void name_parts(MjcfDocument& document, const RobotDescription& description,
-                const std::map<std::string, double>& effort);
+                const std::map<std::string, double>& effort, const RobotKeys& keys);
+
+/// The name of a held joint and its motor in the renamed MJCF, by its place in `PartNames::held`.
+std::string held_name(std::size_t number);
+/// Whether a name, which may be null, is one of these.
+bool is_held_name(const char* name);
 
 /// Exchanges the names of the left and the right leg.
 void swap_sides(MjcfDocument& document);

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
+
+#include "models/mjcf/defaults.hpp"
 
 namespace touchdown::models {
 
@@ -17,18 +18,6 @@ constexpr int most_geoms = 5000;  // compiled in about a second
 
 bool is_any_of(std::string_view word, std::initializer_list<std::string_view> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-/// The numbers of an attribute; NaN for a word that is none.
-std::vector<double> numbers(std::string_view text) {
-  std::vector<double> all;
-  std::istringstream words{std::string(text)};
-  for (std::string word; words >> word;) {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    all.push_back(*end == '\0' ? value : std::nan(""));
-  }
-  return all;
 }
 
 /// Whether all numbers of an attribute are about those of `expected`.
@@ -172,7 +161,7 @@ void reduce_world(MjcfDocument& document, XMLElement& world, bool has_robot,
     const std::string removed = removed_from_world(document, *e, has_robot);
     if (!removed.empty()) {
       note(notes, document, *e, removed);
-      world.DeleteChild(e);
+      document.remove(*e);
     }
     e = next;
   }
@@ -235,7 +224,7 @@ std::vector<std::string> keep_robot_only(MjcfDocument& document) {
     const std::string removed = removed_section(document, *section);
     if (!removed.empty()) {
       note(notes, document, *section, removed);
-      root.DeleteChild(section);
+      document.remove(*section);
     } else if (std::string_view(section->Name()) == "worldbody") {
       reduce_world(document, *section, has_robot, notes);
     } else if (std::string_view(section->Name()) == "actuator") {

@@ -1,9 +1,11 @@
 #include "models/mjcf/urdf.hpp"
 
 #include <set>
+#include <system_error>
 
 #include <fmt/format.h>
 
+#include "core/yaml.hpp"
 #include "models/mjcf/compiler.hpp"
 
 namespace touchdown::models {
@@ -32,6 +34,65 @@ std::string root_link(const XMLElement& robot) {
   return {};
 }
 
+std::vector<std::string> links_of(const XMLElement& robot) {
+  std::vector<std::string> names;
+  for (auto* link = robot.FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    names.emplace_back(attribute(*link, "name"));
+  }
+  return names;
+}
+
+/// The file that a `filename` of a URDF means. A package is a folder of this name, or any folder,
+/// above the URDF; MuJoCo itself searches beside the URDF. Empty if there is no such file.
+std::filesystem::path file_at(std::string_view address, const std::filesystem::path& urdf) {
+  constexpr std::string_view package = "package://";
+  constexpr std::string_view plain = "file://";
+  std::vector<std::filesystem::path> candidates;
+  const std::filesystem::path folder = std::filesystem::absolute(urdf).parent_path();
+  if (address.starts_with(package)) {
+    const std::filesystem::path path(address.substr(package.size()));
+    const std::filesystem::path inside = path.lexically_relative(*path.begin());
+    for (std::filesystem::path above = folder;; above = above.parent_path()) {
+      candidates.insert(candidates.end(), {above / path, above / inside});
+      if (above == above.parent_path()) break;
+    }
+  } else {
+    candidates.push_back(folder /
+                         (address.starts_with(plain) ? address.substr(plain.size()) : address));
+  }
+  candidates.push_back(folder / std::filesystem::path(address).filename());
+  for (const std::filesystem::path& file : candidates) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored)) return file.lexically_normal();
+  }
+  return {};
+}
+
+/// Removes what is only drawn, and writes the addresses of meshes as files.
+void prepare(MjcfDocument& urdf) {
+  for_each_element(urdf.root(), [&](XMLElement& element) {
+    const std::string_view tag = element.Name();
+    if (tag.starts_with("xacro:")) {
+      urdf.fail(element, fmt::format("{}: expected a URDF, found xacro: `xacro {} > robot.urdf` "
+                                     "writes one",
+                                     tag, urdf.file().filename().string()));
+    }
+    if (tag == "link") {
+      while (XMLElement* const visual = element.FirstChildElement("visual")) {
+        urdf.remove(*visual);
+      }
+    }
+    if (tag != "mesh" || element.Attribute("filename") == nullptr) return;
+    const std::string_view address = attribute(element, "filename");
+    const std::filesystem::path file = file_at(address, urdf.file());
+    if (file.empty()) {
+      urdf.fail(element, fmt::format("mesh '{}': no such file; it is a collider", address));
+    }
+    element.SetAttribute("filename", file.c_str());
+  });
+}
+
 /// Lets a body float: it becomes the child of the world, with a free joint.
 void let_float(MjcfDocument& mjcf, const std::string& base) {
   XMLElement* const body = mjcf.find("body", base);
@@ -53,8 +114,10 @@ ConvertedUrdf converted_urdf(const std::filesystem::path& file, const std::strin
   XMLElement& robot = urdf.root();
   const std::string floating = base.empty() ? root_link(robot) : base;
   if (urdf.find("link", floating) == nullptr) {
-    urdf.fail(robot, fmt::format("base: expected a link named '{}'", floating));
+    urdf.fail(robot, fmt::format("base: expected a link named '{}'{}", floating,
+                                 did_you_mean(floating, links_of(robot))));
   }
+  prepare(urdf);
   ConvertedUrdf converted;
   for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
@@ -67,8 +130,9 @@ ConvertedUrdf converted_urdf(const std::filesystem::path& file, const std::strin
     if (effort > 0.0) converted.effort[std::string(attribute(*joint, "name"))] = effort;
   }
   XMLElement* const first = robot.FirstChildElement();
-  urdf.insert_before(*first, "<mujoco><compiler fusestatic=\"false\"/></mujoco>");
-  converted.mjcf = MjcfDocument::parse(converted_to_mjcf(urdf.text(""), file), file);
+  urdf.insert_before(*first,
+                     "<mujoco><compiler fusestatic=\"false\" strippath=\"false\"/></mujoco>");
+  converted.mjcf = MjcfDocument::converted(converted_to_mjcf(urdf.text(""), file), urdf);
   let_float(converted.mjcf, floating);
   return converted;
 }

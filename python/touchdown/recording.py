@@ -47,6 +47,8 @@ class Recording(dict):
     `imu_linear_velocity`      (steps, 3) m/s       in the world
     `body_touches_terrain`     (steps,)   bool      a part other than a tyre touches the terrain
     `joint_torque`             (steps, 6) N·m       applied to joints; only for robots with non-ideal actuators
+    `held_position`            (steps, n) rad       of held joints, in the order of the robot's file; also
+                                                    `held_velocity` and `held_torque`; only for robots with some
     ========================== ========== ========= ============================================================
 
     Most arrays are views of the run's memory, which lives as long as any of them. You may write into

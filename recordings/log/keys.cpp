@@ -4,8 +4,6 @@
 #include <span>
 #include <sstream>
 
-#include "models/robot.hpp"
-
 namespace touchdown::recordings {
 
 namespace {
@@ -24,6 +22,16 @@ void add_servos(std::vector<LogKey>& keys, const std::string& prefix,
     for (const std::string_view name : names) {
       keys.push_back(
           {prefix + "." + std::string(servo) + "." + std::string(name), slot++, 1, role});
+    }
+  }
+}
+
+void add_held_joints(std::vector<LogKey>& keys) {
+  std::size_t slot = log_slot::held;
+  for (int joint = 0; joint < models::most_held; ++joint) {
+    for (const std::string_view name : reading_names) {
+      keys.push_back({"observation.sim.held." + std::to_string(joint) + "." + std::string(name),
+                      slot++, 1, Role::held_truth});
     }
   }
 }
@@ -75,6 +83,7 @@ std::vector<LogKey> make_keys() {
                   Role::truth, true});
   add_servos(keys, "observation.sim.servo", joint_truth_names, log_slot::joint_torque,
              Role::joint_truth);
+  add_held_joints(keys);
   add_truth(keys, "observation.bullet", Role::alias);
   add_contact_counts(keys, "observation.sim");
   add_contact_counts(keys, "observation.bullet");

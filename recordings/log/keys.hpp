@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "models/robot.hpp"
+
 namespace touchdown::recordings {
 
 /// Index of each number of a row in `LogValues`. Vectors and quaternions (w x y z) have consecutive
@@ -35,7 +37,8 @@ inline constexpr std::size_t normal_force = command + 52;           // left, rig
 inline constexpr std::size_t contact_points = command + 54;         // left, right
 inline constexpr std::size_t body_touches_terrain = command + 56;
 inline constexpr std::size_t joint_torque = command + 57;  // 6: torque on the joints
-inline constexpr std::size_t count = command + 63;
+inline constexpr std::size_t held = command + 63;          // position, velocity, torque of each
+inline constexpr std::size_t count = held + 3 * models::most_held;
 }  // namespace log_slot
 
 /// All numbers of one control step.
@@ -48,6 +51,7 @@ struct LogKey {
     optional,     ///< has a default or can be derived; always written
     truth,        ///< ground truth; written for simulated runs
     joint_truth,  ///< written if joint torques differ from reported ones
+    held_truth,   ///< written for the held joints that the robot has
     alias,        ///< key of another version of Upkie; only read
   };
   std::string path;  ///< dotted

@@ -102,6 +102,21 @@ void visit_truth(Truth& truth, const Visit& visit) {
   visit(log_slot::true_imu_velocity, truth.imu_linear_velocity);
 }
 
+template <typename HeldJoints, typename Visit>
+void visit_held(HeldJoints& held, const Visit& visit) {
+  for (std::size_t joint = 0; joint < held.size(); ++joint) {
+    for (std::size_t i = 0; i < reading_members.size(); ++i) {
+      visit(log_slot::held + 3 * joint + i, held[joint].*reading_members[i]);
+    }
+  }
+}
+
+std::size_t held_joints(const LogPresence& present) {
+  std::size_t count = 0;
+  while (count < models::most_held && present[log_slot::held + 3 * count]) ++count;
+  return count;
+}
+
 double normal_force(const LogValues& values, const LogPresence& present, std::size_t wheel) {
   if (present[log_slot::normal_force + wheel]) return values[log_slot::normal_force + wheel];
   if (!present[log_slot::contact_points + wheel]) return std::numeric_limits<double>::quiet_NaN();
@@ -136,6 +151,7 @@ LogValues to_values(const models::Observation& observation, const models::Action
     std::copy(truth->joint_torque->begin(), truth->joint_torque->end(),
               values.begin() + log_slot::joint_torque);
   }
+  visit_held(truth->held, write);
   return values;
 }
 
@@ -168,6 +184,8 @@ LogRow to_row(const LogValues& values, const LogPresence& present) {
     std::copy_n(values.begin() + log_slot::joint_torque, models::servo_count,
                 truth.joint_torque.emplace().begin());
   }
+  truth.held.resize(held_joints(present));
+  visit_held(truth.held, read);
   return row;
 }
 

@@ -5,28 +5,36 @@
 
 namespace touchdown::recordings {
 
-WrittenTruth truth_of(const Recording& recording) {
-  if (recording.truth.empty()) return WrittenTruth::none;
-  return recording.truth.front().joint_torque ? WrittenTruth::of_robot_and_joints
-                                              : WrittenTruth::of_robot;
+namespace {
+
+bool is_written(const LogKey& key, const WrittenTruth& truth) {
+  switch (key.role) {
+    case LogKey::Role::alias:
+      return false;
+    case LogKey::Role::truth:
+      return truth.of_robot;
+    case LogKey::Role::joint_truth:
+      return truth.of_joints;
+    case LogKey::Role::held_truth:
+      return key.slot < log_slot::held + 3 * truth.held_joints;
+    default:
+      return true;
+  }
 }
 
-LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, WrittenTruth truth)
+}  // namespace
+
+WrittenTruth truth_of(const Recording& recording) {
+  if (recording.truth.empty()) return {};
+  const models::GroundTruth& first = recording.truth.front();
+  return {true, first.joint_torque.has_value(), first.held.size()};
+}
+
+LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, const WrittenTruth& truth)
     : stream_(stream),
       info_(std::move(info)),
-      with_truth_(truth != WrittenTruth::none),
-      tree_([&](const LogKey& key) {
-        switch (key.role) {
-          case LogKey::Role::alias:
-            return false;
-          case LogKey::Role::truth:
-            return truth != WrittenTruth::none;
-          case LogKey::Role::joint_truth:
-            return truth == WrittenTruth::of_robot_and_joints;
-          default:
-            return true;
-        }
-      }),
+      with_truth_(truth.of_robot),
+      tree_([&](const LogKey& key) { return is_written(key, truth); }),
       packer_(buffer_) {}
 
 LogWriter::LogWriter(std::ostream& stream, const LogPresence& present, std::string robot)

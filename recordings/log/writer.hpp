@@ -10,9 +10,13 @@
 namespace touchdown::recordings {
 
 /// The ground truth that a log contains.
-enum class WrittenTruth : int { none, of_robot, of_robot_and_joints };
+struct WrittenTruth {
+  bool of_robot = false;
+  bool of_joints = false;       ///< torques on the joints
+  std::size_t held_joints = 0;  ///< the number of held joints
+};
 
-/// The ground truth that a run has. Joints are included if the actuators are not ideal.
+/// The ground truth that a run has. Joint torques are included if the actuators are not ideal.
 WrittenTruth truth_of(const Recording& recording);
 
 /// Writes a log in Upkie's layout, row by row, with constant memory. Each control step is one
@@ -21,7 +25,7 @@ WrittenTruth truth_of(const Recording& recording);
 class LogWriter {
  public:
   /// Every row must have the ground truth that `truth` specifies. `stream` must outlive the writer.
-  LogWriter(std::ostream& stream, RecordingInfo info, WrittenTruth truth);
+  LogWriter(std::ostream& stream, RecordingInfo info, const WrittenTruth& truth);
   /// For a robot's log: without origin, and with the values that are `present`. For a vector, its
   /// first number counts. A robot's name is under `config.robot` of the first record.
   LogWriter(std::ostream& stream, const LogPresence& present, std::string robot = {});

@@ -95,9 +95,22 @@ std::vector<std::string> differences(const models::RobotModel& robot) {
   return all;
 }
 
-CheckedStand stand(const Scenario& scenario, const std::string& engine) {
+/// The largest angle of a held joint from its reference during a run (rad).
+double given_way(const recordings::Recording& recording,
+                 const std::vector<CheckedHeldJoint>& held) {
+  double largest = 0.0;
+  for (const models::GroundTruth& truth : recording.truth) {
+    for (std::size_t i = 0; i < std::min(held.size(), truth.held.size()); ++i) {
+      largest = std::max(largest, std::abs(truth.held[i].position - held[i].reference));
+    }
+  }
+  return largest;
+}
+
+CheckedStand stand(const Scenario& scenario, const std::string& engine, const RobotCheck& check) {
   const recordings::Recording recording = play(scenario, engine);
   CheckedStand stand{.engine = engine, .ending = ending_text(recording, scenario.end)};
+  stand.given_way = given_way(recording, check.held);
   stand.stands = recording.info.outcome == recordings::Outcome::finished;
   stand.moved = (recording.truth.back().base_position - recording.truth.front().base_position)
                     .head<2>()
@@ -121,6 +134,13 @@ void check_loads(const CheckedStand& stand, double weight, std::vector<std::stri
   if (stand.moved > farthest) {
     complaints.push_back(fmt::format("{}: standing: rolled {:.2f} m away within two seconds",
                                      stand.engine, stand.moved));
+  }
+  constexpr double farthest_held = 0.2;  // rad
+  if (stand.given_way > farthest_held) {
+    complaints.push_back(
+        fmt::format("{}: standing: a held joint gives way by {:.2f} rad: its servo is too weak "
+                    "(held_servo)",
+                    stand.engine, stand.given_way));
   }
   const double sum = stand.load[0] + stand.load[1];
   constexpr double tolerance = 0.2;
@@ -150,6 +170,15 @@ void read_robot(const Scenario& scenario, RobotCheck& check) {
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     if (robot.has(i)) check.joints.push_back(checked(robot, *data, i));
   }
+  for (const models::HeldJoint& held : robot.held) {
+    check.held.push_back({.joint = held.name,
+                          .reference = held.reference,
+                          .kp = held.kp,
+                          .kd = held.kd,
+                          .torque_limit = held.effort,
+                          .kp_source = held.kp_source,
+                          .actuator = actuator_text(held.actuator)});
+  }
   check.hip = robot.has(0) ? scenario.start.hip : 0.0;
   check.knee = scenario.start.knee;
   check.lever = lever_of(robot, check.hip, check.knee);
@@ -169,7 +198,7 @@ RobotCheck check_robot(const std::filesystem::path& file) {
     read_robot(scenario, check);
     constexpr double gravity = 9.81;
     for (const std::string& engine : simulators::simulator_names()) {
-      check.stands.push_back(stand(scenario, engine));
+      check.stands.push_back(stand(scenario, engine, check));
       const CheckedStand& last = check.stands.back();
       if (!last.stands) {
         check.complaints.push_back(fmt::format("{}: standing: {}", engine, last.ending));

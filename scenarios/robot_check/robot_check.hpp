@@ -25,6 +25,17 @@ struct CheckedJoint {
   std::string actuator;       ///< friction, viscous friction and armature; empty if there are none
 };
 
+/// What was read about a held joint, and about its servo.
+struct CheckedHeldJoint {
+  std::string joint;          ///< the file's name
+  double reference = 0.0;     ///< rad
+  double kp = 0.0;            ///< N·m/rad
+  double kd = 0.0;            ///< N·m·s/rad
+  double torque_limit = 0.0;  ///< N·m
+  std::string kp_source;      ///< where kp is from
+  std::string actuator;       ///< friction, viscous friction and armature; empty if there are none
+};
+
 /// The robot standing still for two seconds in one engine.
 struct CheckedStand {
   std::string engine;
@@ -32,6 +43,7 @@ struct CheckedStand {
   bool stands = false;
   double moved = 0.0;                                 ///< along the ground (m)
   std::array<double, models::wheel_count> load = {};  ///< at the end, left and right (N)
+  double given_way = 0.0;  ///< largest angle of a held joint from its reference (rad)
 };
 
 /// What touchdown makes of a robot's file.
@@ -43,6 +55,7 @@ struct RobotCheck {
   double track = 0.0;                                     ///< between the tyres (m)
   Eigen::Vector3d imu = Eigen::Vector3d::Zero();          ///< in the base frame (m)
   std::vector<CheckedJoint> joints;
+  std::vector<CheckedHeldJoint> held;
   double hip = 0.0;                      ///< stance, from straight legs (rad)
   double knee = 0.0;                     ///< likewise
   double lever = 0.0;                    ///< knee torque per newton of load in the stance (m)

@@ -23,10 +23,15 @@ btVector3 angular_velocity(const btMultiBody& robot, int link) {
 }  // namespace
 
 Rotors::Rotors(const models::RobotModel& model, const BulletWorld& world) {
+  const auto add = [&](int dof, int link) {
+    const double inertia = model.mj->dof_armature[dof];
+    if (inertia > 0.0) rotors_.push_back({link, inertia});
+  };
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
-    if (!model.has(servo)) continue;
-    const double inertia = model.mj->dof_armature[model.dof_address[servo]];
-    if (inertia > 0.0) rotors_.push_back({world.link_of(servo), inertia});
+    if (model.has(servo)) add(model.dof_address[servo], world.link_of(servo));
+  }
+  for (std::size_t i = 0; i < model.held.size(); ++i) {
+    add(model.held[i].dof_address, world.link_of_held(i));
   }
 }
 

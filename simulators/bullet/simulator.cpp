@@ -29,18 +29,27 @@ void BulletSimulator::place(const RobotState& start) {
     robot.setJointPos(world_->link_of(i), world_->to_bullet_angle(i, start.joint_position[i]));
     robot.setJointVel(world_->link_of(i), start.joint_velocity[i]);
   }
+  for (std::size_t i = 0; i < start.held_position.size(); ++i) {
+    robot.setJointPos(world_->link_of_held(i), start.held_position[i] - model().held[i].reference);
+  }
+  for (std::size_t i = 0; i < start.held_velocity.size(); ++i) {
+    robot.setJointVel(world_->link_of_held(i), start.held_velocity[i]);
+  }
   btAlignedObjectArray<btQuaternion> rotations;
   btAlignedObjectArray<btVector3> origins;
   robot.forwardKinematics(rotations, origins);
   robot.updateCollisionObjectWorldTransforms(rotations, origins);
 }
 
-void BulletSimulator::advance(const JointTorques& torques,
+void BulletSimulator::advance(const AppliedTorques& torques,
                               std::span<const ExternalWrench> wrenches) {
   btMultiBody& robot = world_->robot();
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     if (!model().has(i)) continue;
-    robot.addJointTorque(world_->link_of(i), torques[i]);
+    robot.addJointTorque(world_->link_of(i), torques.servo[i]);
+  }
+  for (std::size_t i = 0; i < torques.held.size(); ++i) {
+    robot.addJointTorque(world_->link_of_held(i), torques.held[i]);
   }
   for (const ExternalWrench& wrench : wrenches) {
     robot.addBaseForce(to_bullet(wrench.force));
@@ -62,6 +71,13 @@ void BulletSimulator::read(RobotState& state) const {
     if (!model().has(i)) continue;
     state.joint_position[i] = world_->from_bullet_angle(i, robot.getJointPos(world_->link_of(i)));
     state.joint_velocity[i] = robot.getJointVel(world_->link_of(i));
+  }
+  state.held_position.clear();
+  state.held_velocity.clear();
+  for (std::size_t i = 0; i < model().held.size(); ++i) {
+    const int link = world_->link_of_held(i);
+    state.held_position.push_back(model().held[i].reference + robot.getJointPos(link));
+    state.held_velocity.push_back(robot.getJointVel(link));
   }
 }
 

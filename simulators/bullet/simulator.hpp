@@ -25,7 +25,7 @@ class BulletSimulator : public Simulator {
   BulletWorld& bullet() { return *world_; }
 
   void place(const RobotState& start) override;
-  void advance(const JointTorques& torques, std::span<const ExternalWrench> wrenches) override;
+  void advance(const AppliedTorques& torques, std::span<const ExternalWrench> wrenches) override;
   void read(RobotState& state) const override;
   void read(ContactForces& forces) const override;
 

@@ -169,20 +169,30 @@ void BulletWorld::build_links(const models::RobotModel& model) {
         link_of_body_[static_cast<std::size_t>(mj.jnt_bodyid[model.joint[servo]])];
     reference_[servo] = model.reference(servo);
   }
+  for (const models::HeldJoint& held : model.held) {
+    link_of_held_.push_back(link_of_body_[static_cast<std::size_t>(mj.jnt_bodyid[held.joint])]);
+  }
 }
 
 void BulletWorld::add_joint_limits(const models::RobotModel& model) {
   const mjModel& mj = *model.mj;
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
     if (!model.has(servo)) continue;
-    const int joint = model.joint[servo];
-    if (mj.jnt_limited[joint] == 0) continue;
-    const mjtNum* range = &mj.jnt_range[2 * joint];
-    auto& limit = joint_limits_.emplace_back(std::make_unique<btMultiBodyJointLimitConstraint>(
-        robot_.get(), link_of_servo_[servo], to_bullet_angle(servo, range[0]),
-        to_bullet_angle(servo, range[1])));
-    world_.addMultiBodyConstraint(limit.get());
+    add_joint_limit(mj, model.joint[servo], link_of_servo_[servo], reference_[servo]);
   }
+  for (std::size_t i = 0; i < model.held.size(); ++i) {
+    add_joint_limit(mj, model.held[i].joint, link_of_held_[i], model.held[i].reference);
+  }
+}
+
+void BulletWorld::add_joint_limit(const mjModel& mj, int joint, int link, double zero) {
+  if (mj.jnt_limited[joint] == 0) return;
+  const mjtNum* range = &mj.jnt_range[2 * joint];
+  // Without an offset, zeros keep their sign.
+  const auto in_link = [zero](double angle) { return zero == 0.0 ? angle : angle - zero; };
+  auto& limit = joint_limits_.emplace_back(std::make_unique<btMultiBodyJointLimitConstraint>(
+      robot_.get(), link, in_link(range[0]), in_link(range[1])));
+  world_.addMultiBodyConstraint(limit.get());
 }
 
 void BulletWorld::add_colliders(const models::RobotModel& model) {

@@ -43,6 +43,9 @@ class BulletWorld {
   /// Bullet's link that a servo's joint moves; the robot has this joint.
   int link_of(std::size_t servo) const { return link_of_servo_[servo]; }
 
+  /// The link that a held joint moves. Its angle is zero at the joint's reference.
+  int link_of_held(std::size_t number) const { return link_of_held_[number]; }
+
   /// Bullet's joints are at zero in the reference pose of the model, those of the model need not
   /// be. (Without an offset, zeros keep their sign.)
   double to_bullet_angle(std::size_t servo, double angle) const {
@@ -57,6 +60,9 @@ class BulletWorld {
  private:
   void build_links(const models::RobotModel& model);
   void add_joint_limits(const models::RobotModel& model);
+  /// Limits a link's angle (rad), if the model limits its joint. `zero`: the joint's angle where
+  /// that of the link is zero.
+  void add_joint_limit(const mjModel& mj, int joint, int link, double zero);
   void add_colliders(const models::RobotModel& model);
   void add_terrain(const models::RobotModel& model);
   /// The shape of a geom. It lives as long as the world.
@@ -74,6 +80,7 @@ class BulletWorld {
   std::vector<std::unique_ptr<btMultiBodyJointLimitConstraint>> joint_limits_;
   std::vector<int> link_of_body_;
   std::array<int, models::servo_count> link_of_servo_ = {};
+  std::vector<int> link_of_held_;
   std::array<double, models::servo_count> reference_ = {};  ///< of each joint (rad)
   BulletTyres tyres_;
   WorldWithTyres world_;

@@ -92,7 +92,7 @@ class LiveEstimate : public ::testing::Test {
 /// The log's records, one text each.
 std::vector<std::string> records(const recordings::Recording& log) {
   std::ostringstream stream;
-  recordings::LogWriter writer(stream, log.info, recordings::WrittenTruth::none);
+  recordings::LogWriter writer(stream, log.info, recordings::WrittenTruth{});
   std::vector<std::string> all;
   for (std::size_t k = 0; k < log.steps(); ++k) {
     writer.write(log.observation[k], log.action[k], nullptr);

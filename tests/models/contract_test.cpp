@@ -40,7 +40,7 @@ class NamingContract : public ::testing::Test {
     try {
       (void)compile_robot_model(file, Terrain{});
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), StartsWith(file));
+      EXPECT_THAT(error.what(), StartsWith(file + ":"));
       EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
       return error.what();
     }

@@ -1,11 +1,13 @@
+#include <algorithm>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "models/robot_model.hpp"
-#include "tests/models/edited_upkie.hpp"
+#include "tests/models/rolling_upkie.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::models {
@@ -25,6 +27,7 @@ class RefusedRobot : public ::testing::Test {
       (void)compile_robot_model(file, Terrain{});
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+      EXPECT_THAT(error.what(), MatchesRegex("[^:]*[.](xml|yaml):[0-9]+:[0-9]+: .+"));
       return error.what();
     }
     return "no complaint";
@@ -151,18 +154,79 @@ TEST_F(RefusedRobot, AxesAndShapesThatCannotBeOursAreNamed) {
   }
 }
 
-TEST_F(RefusedRobot, AttributesOfLaterVersionsAreNamedAsSuch) {
-  const std::string motor = "<motor name=\"left_hip\" joint=\"left_hip\"";
-  EXPECT_THAT(
-      complaint(edited_upkie({{motor, motor + " dampratio=\"1\""}})),
-      AllOf(MatchesRegex(".*robot.xml:[0-9]+:1: .*"), HasSubstr("`dampratio` came with MuJoCo 3")));
-  EXPECT_THAT(
-      complaint(edited_upkie({{"<body name=\"torso\"", "<body name=\"torso\" gravcomp=\"1\""}})),
-      HasSubstr("`gravcomp` came with MuJoCo"));
-  EXPECT_THAT(complaint(edited_upkie({added("<worldbody><frame/></worldbody>")})),
-              HasSubstr("`frame` came with MuJoCo 3"));
+/// A place in Upkie's MJCF, what is written there instead, and the name and version of what it has.
+struct Later {
+  std::string where, by, name, version;
+};
+
+/// The versions are those of the sections of MuJoCo's changelog that list it as added, and of the notes
+/// of the releases 3.11.0 and 3.12.0.
+TEST_F(RefusedRobot, WhatLaterVersionsOfMuJoCoAddedIsNamedAsSuch) {
+  const std::string motor = "<motor name=\"left_hip\" joint=\"left_hip\" ctrlrange=\"-16 16\"";
+  const std::string servo = "<position name=\"left_hip\" joint=\"left_hip\" kp=\"9\" ";
+  const std::string general = "<general name=\"left_hip\" joint=\"left_hip\" ";
+  const std::string muscle = "<muscle name=\"left_hip\" joint=\"left_hip\" ";
+  const std::string joint = "<joint name=\"left_hip\"";
+  const std::string body = "<body name=\"torso\"";
+  const std::string root = "<freejoint name=\"root\"";
+  const std::string geom = "<geom name=\"torso\"";
+  const std::string material = "<material name=\"wood\"";
+  const std::string compiler = "<compiler angle=\"radian\"";
+  const std::string site = "<site name=\"imu\"";
+  const std::string camera = "<camera name=\"eye\" ";
+  for (const auto& [where, by, name, version] : std::vector<Later>{
+           {compiler, compiler + " assetdir=\".\"", "assetdir", "2.3.0"},
+           {body, body + " gravcomp=\"1\"", "gravcomp", "2.3.1"},
+           {motor, general + "actdim=\"2\" ctrlrange=\"-1 1\"", "actdim", "2.3.1"},
+           {joint, joint + " actuatorforcerange=\"-9 9\"", "actuatorforcerange", "2.3.7"},
+           {joint, joint + " actuatorforcelimited=\"true\"", "actuatorforcelimited", "2.3.7"},
+           {joint, joint + " actuatorfrcrange=\"-9 9\"", "actuatorfrcrange", "3.0.0"},
+           {joint, joint + " actuatorfrclimited=\"true\"", "actuatorfrclimited", "3.0.0"},
+           {motor, general + "actearly=\"true\" ctrlrange=\"-1 1\"", "actearly", "3.0.0"},
+           {site, "<flexcomp name=\"cloth\"/>" + site, "flexcomp", "3.0.0"},
+           {"</mujoco>", "<deformable><flex/></deformable></mujoco>", "deformable", "3.0.0"},
+           {site, camera + "resolution=\"8 8\"/>" + site, "resolution", "3.0.0"},
+           {site, camera + "focal=\"1 1\"/>" + site, "focal", "3.0.0"},
+           {site, camera + "sensorsize=\"1 1\"/>" + site, "sensorsize", "3.0.0"},
+           {site, "<frame/>" + site, "frame", "3.1.0"},
+           {motor, servo + "kv=\"1\" forcerange=\"-9 9\"", "kv", "3.1.0"},
+           {motor, servo + "inheritrange=\"1\" forcerange=\"-9 9\"", "inheritrange", "3.1.3"},
+           {joint, joint + " actuatorgravcomp=\"true\"", "actuatorgravcomp", "3.1.4"},
+           {site, "<replicate count=\"2\"/>" + site, "replicate", "3.1.5"},
+           {material, material + " metallic=\"1\"", "metallic", "3.1.5"},
+           {material, material + " roughness=\"1\"", "roughness", "3.1.5"},
+           {site, "<light bulbradius=\"0.1\"/>" + site, "bulbradius", "3.1.5"},
+           {motor, servo + "dampratio=\"1\" forcerange=\"-9 9\"", "dampratio", "3.1.6"},
+           {motor, servo + "timeconst=\"1\" forcerange=\"-9 9\"", "timeconst", "3.1.6"},
+           {site, "<attach model=\"arm\"/>" + site, "attach", "3.2.0"},
+           {site, camera + "orthographic=\"true\"/>" + site, "orthographic", "3.2.0"},
+           {root, root + " align=\"false\"", "align", "3.2.3"},
+           {compiler, compiler + " alignfree=\"true\"", "alignfree", "3.2.3"},
+           {compiler, compiler + " saveinertial=\"true\"", "saveinertial", "3.3.1"},
+           {geom, geom + " surfacevel=\"1 0 0\"", "surfacevel", "3.11.0"},
+           {motor, "<pid name=\"left_hip\" joint=\"left_hip\"", "pid", "3.12.0"}}) {
+    EXPECT_THAT(complaint(edited_upkie({{where, by}})),
+                AllOf(MatchesRegex(".*robot.xml:[0-9]+:1: .*"),
+                      HasSubstr("`" + name + "` came with MuJoCo " + version + ";")));
+  }
   EXPECT_THAT(complaint(edited_upkie({{motor, motor + " colour=\"red\""}})),
               AllOf(HasSubstr("colour"), Not(HasSubstr("came with"))));
+}
+
+/// MuJoCo 2.2 knows these already.
+TEST_F(RefusedRobot, WhatThisVersionKnowsIsRead) {
+  const std::string geom = "<geom name=\"torso\"";
+  const std::string compiler = "<compiler angle=\"radian\" autolimits=\"true\"";
+  const std::string motor = "<motor name=\"left_hip\"";
+  for (const auto& [where, by] : std::vector<Edit>{
+           {geom, geom + " shellinertia=\"true\""},
+           {geom, geom + " fitscale=\"1\""},
+           {compiler, compiler + " discardvisual=\"true\" fitaabb=\"true\""},
+           {compiler, compiler + " exactmeshinertia=\"true\" boundmass=\"0.001\""},
+           {motor, motor + " ctrllimited=\"auto\" forcelimited=\"auto\""},
+           {"<joint name=\"left_hip\"", "<joint limited=\"auto\" name=\"left_hip\""}}) {
+    EXPECT_EQ(complaint(edited_upkie({{where, by}})), "no complaint") << by;
+  }
 }
 
 TEST_F(RefusedRobot, ErrorsInIncludedFilesAreLocatedThere) {
@@ -200,6 +264,102 @@ TEST_F(RefusedRobot, OtherJointsAndLegsAreNamedWithTheWayOut) {
                     HasSubstr("YAML")));
   EXPECT_THAT(complaint("<robot name=\"a\"><link name=\"b\"/></robot>"),
               AllOf(HasSubstr("<mujoco>"), HasSubstr("YAML file about this URDF")));
+}
+
+TEST_F(RefusedRobot, EveryComplaintHasTheLineThatItIsAbout) {
+  const std::string motor = "<motor name=\"left_hip\" joint=\"left_hip\" ctrlrange=\"-16 16\"/>";
+  const std::string torso = "<geom name=\"torso\" class=\"collider\" type=\"box\"";
+  const std::string wheel = "<joint name=\"left_wheel\"";
+  const auto line_of = [](const std::string& text, const std::string& mark) {
+    const std::size_t at = text.find(mark);
+    EXPECT_NE(at, std::string::npos) << mark;
+    return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  };
+  // What is written, and a mark in the line that the complaint must name.
+  for (const auto& [edit, mark] : std::vector<std::pair<Edit, std::string>>{
+           {{motor, motor + "\n<motor name=\"more\" joint=\"left_hip\" ctrlrange=\"-1 1\"/>"},
+            "\"more\""},
+           {{motor, motor + "\n<motor joint=\"left_knee\" gear=\"3\" ctrlrange=\"-1 1\"/>"},
+            "gear=\"3\""},
+           {{motor, motor + "\n<motor site=\"imu\" ctrlrange=\"-1 1\"/>"}, "<motor site"},
+           {{"<freejoint name=\"root\"/>", "<joint type=\"free\" armature=\"1\"/>"}, "\"free\""},
+           {{"<freejoint name=\"root\"/>", "<freejoint/>"}, ""},
+           {{torso, "<geom class=\"collider\" type=\"ellipsoid\""}, "ellipsoid"},
+           {{wheel, "<joint name=\"left_extra\" axis=\"0 1 0\"/>\n" + wheel}, "left_extra"},
+           {{wheel, "<joint axis=\"0 1 0\"/>\n" + wheel}, "<joint axis"},
+           {{wheel, wheel + " type=\"slide\""}, "\"slide\""},
+           {{"<inertial pos=\"0 -0.035535[^>]*>",
+             "<inertial pos=\"0 0 0\" mass=\"0\" "
+             "diaginertia=\"0 0 0\"/>"},
+            "name=\"left_wheel\" pos"},
+           {{"<geom name=\"left_tire\"", "<geom name=\"left_tyre\""}, "name=\"torso\" pos"},
+           {{"<site name=\"imu\"", "<site name=\"sensor\""}, "name=\"torso\" pos"},
+           {{"<motor name=\"left_knee\"", "<motor name=\"knee_left\""}, "name=\"torso\" pos"},
+           {{"<body name=\"torso\"",
+             "<body name=\"other\"><freejoint/><inertial pos=\"0 0 0\" mass=\"1\" "
+             "diaginertia=\"1 1 1\"/></body>\n<body name=\"torso\""},
+            "<freejoint name=\"root\""},
+           {{"<site name=\"imu\" pos", "<site name=\"ignored\" pos"}, "name=\"torso\" pos"},
+           {{"pos=\"0 0.1142 -0.164\">", "pos=\"0 -0.19 -0.164\">"}, "\"right_tire\""}}) {
+    const std::string text = edited_upkie({edit});
+    const std::string found = complaint(text);
+    if (mark.empty()) {
+      EXPECT_EQ(found, "no complaint");
+      continue;
+    }
+    EXPECT_THAT(found, HasSubstr(fmt::format("robot.xml:{}:1: ", line_of(text, mark)))) << mark;
+  }
+}
+
+TEST_F(RefusedRobot, EveryComplaintAboutNamesHasTheKeyOfTheYamlFile) {
+  const std::string upkie = edited_upkie({});
+  for (const auto& [yaml, words] : std::vector<Refusal>{
+           {"joints: {left_hip: left_hipp}\n",
+            "robot.yaml:3:20: joints.left_hip: expected a joint named 'left_hipp' in robot.xml "
+            "(did you mean 'left_hip'?)"},
+           {"joints:\n  right_wheel: wheel_of_the_right\n",
+            "robot.yaml:4:16: joints.right_wheel: "},
+           {"held: [left_hip, other]\n", "robot.yaml:3:18: held: expected a joint named 'other'"},
+           {"held: [left_hip, left_hip]\n", "robot.yaml:3:18: held: 'left_hip' is listed twice"},
+           {"held: [a, b, c, d, e, f, g, h, i]\n", "robot.yaml:3:7: held: expected at most 8"},
+           {"tyres: {right: right_tyre}\n",
+            "robot.yaml:3:16: tyres.right: expected a geom or a body named 'right_tyre'"},
+           {"imu: gyro\n", "robot.yaml:3:6: imu: expected a site or a body named 'gyro'"},
+           {"stance: {knee: 3}\n", "robot.yaml:3:16: stance.knee: expected -2.51 to 2.51"},
+           {"held_servo: {kp: -1}\n", "robot.yaml:3:18: held_servo.kp: expected"},
+           {"held_servo: {stiffness: 1}\n", "robot.yaml:3:14: held_servo.stiffness"}}) {
+    EXPECT_THAT(complaint(upkie, yaml), HasSubstr(words)) << yaml;
+  }
+}
+
+TEST_F(RefusedRobot, HeldJointsThatNoServoCanHoldAreNamed) {
+  const std::string keys = "held: [left_roll, right_roll]\n";
+  const std::string motor = "<motor joint=\"{0}_roll\" ctrlrange=\"-9 9\"/>\n";
+  for (const auto& [mjcf, words] : std::vector<Refusal>{
+           {rolling_upkie("", ""), "joint 'left_roll': expected a motor that holds it"},
+           {rolling_upkie("", "<position joint=\"{0}_roll\" kp=\"9\"/>\n"), "forcerange"},
+           {rolling_upkie("", "<motor joint=\"{0}_roll\" ctrlrange=\"0 9\"/>\n"), "symmetric"},
+           {rolling_upkie("", motor + motor), "several"},
+           {rolling_upkie("stiffness=\"5\"", motor), "joint 'left_roll': expected no spring"},
+           {rolling_upkie("type=\"slide\"", motor), "joint 'left_roll': expected a hinge"},
+           {rolling_upkie("/><joint axis=\"0 0 1\"", motor), "expected"}}) {
+    EXPECT_THAT(complaint(mjcf, keys), HasSubstr(words)) << words;
+  }
+}
+
+TEST_F(RefusedRobot, MeshesThatAreMissingAreNamedIfTheyCount) {
+  const Edit asset = {"<asset>", "<asset>\n<mesh name=\"shell\" file=\"shell.stl\"/>\n"};
+  const auto with = [&](const std::string& geom) {
+    return edited_upkie({asset, {"<site name=\"imu\"", geom + "<site name=\"imu\""}});
+  };
+  EXPECT_THAT(complaint(with("<geom type=\"mesh\" mesh=\"shell\" mass=\"0\"/>")),
+              AllOf(HasSubstr("mesh 'shell'"), HasSubstr("no such file"), HasSubstr("touches")));
+  EXPECT_THAT(
+      complaint(with("<body name=\"hat\"><geom class=\"visual\" type=\"mesh\" mesh=\"shell\" "
+                     "mass=\"1\"/></body>")),
+      AllOf(HasSubstr("body 'hat' has its mass from it"), HasSubstr("<inertial>")));
+  EXPECT_EQ(complaint(with("<geom class=\"visual\" type=\"mesh\" mesh=\"shell\"/>")),
+            "no complaint");
 }
 
 TEST_F(RefusedRobot, NamesThatTheMjcfDoesNotHaveAreNamed) {

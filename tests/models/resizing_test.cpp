@@ -174,7 +174,7 @@ TEST_F(RobotOfAnotherSize, IsRefusedIfALegIsNotAChainOfTwoLinks) {
   text.replace(text.find(right), right.size(), "</body>" + right);
   write_atomically(folder_ / "upkie.xml", text);
   EXPECT_THAT(complaint_about("legs: {length: 1.1}\n"),
-              AllOf(HasSubstr("upkie.xml: legs: expected"), HasSubstr("'left_knee'")));
+              AllOf(HasSubstr("robot.yaml:2:7: legs: expected"), HasSubstr("'left_knee'")));
 }
 
 TEST_F(RobotOfAnotherSize, HasTyresOfItsSizeInEveryStrip) {

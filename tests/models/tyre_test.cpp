@@ -105,7 +105,7 @@ TEST_F(TyreInARobotFile, OfSomeWidthWantsASphereInTheMjcf) {
   write_mjcf(other.replace(other.find(sphere), sphere.size(),
                            "type=\"cylinder\" size=\"0.05 0.02\" pos=\"0 -0.046 0\""));
   EXPECT_THAT(complaint_about("{law: spring_damper, width: 0.04}"),
-              AllOf(HasSubstr("upkie.xml: "), HasSubstr("'left_tire'"), HasSubstr("a sphere")));
+              AllOf(HasSubstr("upkie.xml:80:1: "), HasSubstr("'left_tire'"), HasSubstr("a sphere")));
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ std::vector<std::uint64_t> bits(const Recording& recording, std::size_t step) {
   add_vector(t.base_angular_velocity);
   add_vector(t.imu_linear_velocity);
   add({t.wheel_normal_force[0], t.wheel_normal_force[1], t.body_touches_terrain ? 1.0 : 0.0});
+  for (const models::ServoReading& s : t.held) add({s.position, s.velocity, s.torque});
   if (!t.joint_torque) return all;
   for (const double torque : *t.joint_torque) add({torque});
   return all;
@@ -93,6 +94,25 @@ TEST(RoundTrip, KeepsWhatJointsFeelWhereServosDoNotKnowIt) {
   EXPECT_EQ(read_file(folder / "ideal.mpack").find("joint_torque"), std::string::npos);
 }
 
+TEST(RoundTrip, KeepsHeldJoints) {
+  const ScratchFolder folder;
+  for (const int count : {1, 2, 5, models::most_held}) {
+    Recording recording = sample_recording(5);
+    for (std::size_t step = 0; step < recording.steps(); ++step) {
+      for (int joint = 0; joint < count; ++joint) {
+        const double x = 0.1 * static_cast<double>(step) - joint;
+        recording.truth[step].held.push_back({x, 2.0 * x, -3.0 * x});
+      }
+    }
+    write_recording(recording, folder / "run.mpack");
+    const Recording read = read_recording(folder / "run.mpack");
+    EXPECT_EQ(read.truth.back().held.size(), static_cast<std::size_t>(count));
+    expect_same(read, recording);
+  }
+  write_recording(sample_recording(5), folder / "none.mpack");
+  EXPECT_EQ(read_file(folder / "none.mpack").find("held"), std::string::npos);
+}
+
 TEST(RoundTrip, KeepsARunWithoutGroundTruthOrOutcome) {
   const ScratchFolder folder;
   Recording recording = sample_recording(3, false);
@@ -136,7 +156,7 @@ TEST(RoundTrip, SameRecordingGivesTheSameBytes) {
 TEST(RoundTrip, StreamsRowByRow) {
   const Recording recording = sample_recording(5);
   std::stringstream stream;
-  LogWriter writer(stream, recording.info, WrittenTruth::of_robot);
+  LogWriter writer(stream, recording.info, WrittenTruth{.of_robot = true});
   for (std::size_t i = 0; i < recording.steps(); ++i) {
     writer.write(recording.observation[i], recording.action[i], &recording.truth[i]);
   }
@@ -154,7 +174,7 @@ TEST(RoundTrip, StreamsRowByRow) {
 
 TEST(RoundTrip, ARowWithoutItsTruthIsRefused) {
   std::stringstream stream;
-  LogWriter writer(stream, {}, WrittenTruth::of_robot);
+  LogWriter writer(stream, {}, WrittenTruth{.of_robot = true});
   EXPECT_THROW(writer.write({}, {}, nullptr), Error);
 }
 
@@ -168,7 +188,7 @@ TEST(RoundTrip, ColumnsOfDifferentLengthsAreRefusedAndLeaveNoFile) {
 
 TEST(RoundTrip, AFullDiskIsAnError) {
   std::ofstream full("/dev/full", std::ios::binary);
-  LogWriter writer(full, {}, WrittenTruth::none);
+  LogWriter writer(full, {}, WrittenTruth{});
   const auto write_much = [&] {
     for (int i = 0; i < 1000; ++i) writer.write({}, {}, nullptr);
   };
