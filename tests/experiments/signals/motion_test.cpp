@@ -6,6 +6,7 @@
 #include "experiments/odometry/dead_reckoning.hpp"
 #include "scenarios/compiled_scenes.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/scenario_file.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -31,10 +32,15 @@ TEST(WheeledBiped, OfUpkiesModelEqualsThatOfOdometry) {
 }
 
 TEST(WheeledBiped, HasTheWheelPositionsOfTheEnginesKinematics) {
-  for (const char* robot : {"models/upkie.xml", "models/upkie_asymmetric.yaml",
-                            "models/upkie_long_legs.yaml", "models/upkie_large_wheels.yaml"}) {
+  for (const char* robot :
+       {"models/upkie.xml", "models/upkie_asymmetric.yaml", "models/upkie_long_legs.yaml",
+        "models/upkie_large_wheels.yaml", "models/knee_and_wheel.yaml", "models/hip_roll.yaml",
+        "models/ros_style.yaml"}) {
     const models::RobotModel model = scenarios::compile_robot(with_robot(robot));
-    const std::array<double, models::servo_count> joints = {0.5, -0.8, 1.0, -0.3, 0.9, 2.0};
+    std::array<double, models::servo_count> joints = {0.5, -0.8, 1.0, -0.3, 0.9, 2.0};
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      if (!model.has(i)) joints[i] = 0.0;  // as in recordings
+    }
     const models::MjDataPtr data(mj_makeData(model.mj.get()));
     models::write_pose(model, Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity(), joints,
                        data->qpos);
@@ -50,15 +56,19 @@ TEST(WheeledBiped, HasTheWheelPositionsOfTheEnginesKinematics) {
   }
 }
 
-class Driven : public ::testing::TestWithParam<const char*> {};  // by engine
+/// Robot and engine.
+class Driven : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
 TEST_P(Driven, OdometryFollowsTheRobot) {
-  scenarios::Scenario scenario = with_robot("models/upkie.xml");  // flat ground, in a curve
+  const auto& [robot, engine] = GetParam();
+  scenarios::Scenario scenario = scenarios::complete_scenario(
+      YamlDocument::parse(std::string("name: drive\nrobot: ") + robot, "drive"));
+  // Flat ground, in a curve.
   scenario.velocity = {{0.5, 0.5, 0.3}};
   scenario.end.duration = 6.0;
   const auto scene = scenarios::compile_scene(scenario);
   const recordings::Recording recording =
-      scenarios::play(scenario, *scenarios::make_simulator(scenario, GetParam(), scene));
+      scenarios::play(scenario, *scenarios::make_simulator(scenario, engine, scene));
   RunSignals run = signals_of(recording, {}, {}, scoring::SampleUnit::run);
   run.motion = std::make_shared<RunMotion>(motion_of(recording, *scene));
   const std::vector<double> sure(run.steps(), 1.0);
@@ -70,7 +80,11 @@ TEST_P(Driven, OdometryFollowsTheRobot) {
   EXPECT_LT(score.velocity_rms(), 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, Driven, ::testing::Values("mujoco", "bullet"));
+INSTANTIATE_TEST_SUITE_P(
+    Robots, Driven,
+    ::testing::Combine(::testing::Values("models/upkie.xml", "models/knee_and_wheel.yaml",
+                                         "models/hip_roll.yaml", "models/ros_style.yaml"),
+                       ::testing::Values("mujoco", "bullet")));
 
 }  // namespace
 }  // namespace touchdown::experiments
