@@ -115,7 +115,7 @@ static void describe_parts(Fields& fields, PartNames& parts) {
       .fallback("imu")
       .doc("Site of the IMU, or a body that is fixed to the base.");
   describe_name(fields, "base", parts.base)
-      .fallback("the root link")
+      .fallback("the first link with a mass")
       .doc("Floating link of a URDF.");
 }
 

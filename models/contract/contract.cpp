@@ -88,7 +88,7 @@ void Contract::fail_at_site(int site, const std::string& message) const {
   fail_at(document_.find("site", name == nullptr ? "" : name), message);
 }
 
-void Contract::fail_at_actuator(int actuator, const std::string& message) const {
+const tinyxml2::XMLElement* Contract::actuator_element(int actuator) const {
   const tinyxml2::XMLElement* found = nullptr;
   int count = 0;
   document_.visit([&](const tinyxml2::XMLElement& element) {
@@ -96,7 +96,16 @@ void Contract::fail_at_actuator(int actuator, const std::string& message) const 
     if (section == nullptr || section->Parent() != &document_.root()) return;
     if (std::string_view(section->Name()) == "actuator" && count++ == actuator) found = &element;
   });
-  fail_at(found, message);
+  return found;
+}
+
+std::string Contract::place_of_actuator(int actuator) const {
+  const tinyxml2::XMLElement* const found = actuator_element(actuator);
+  return document_.place_of(found == nullptr ? document_.root() : *found);
+}
+
+void Contract::fail_at_actuator(int actuator, const std::string& message) const {
+  fail_at(actuator_element(actuator), message);
 }
 
 void Contract::fail_at_servo(std::size_t servo, const std::string& message) const {

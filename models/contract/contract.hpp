@@ -33,6 +33,8 @@ class Contract {
   /// The same about its motor: "motor 'left_hip': …".
   [[noreturn]] void fail_at_motor(std::size_t servo, const std::string& message) const;
 
+  /// "file:line:1" of an actuator.
+  std::string place_of_actuator(int actuator) const;
   /// The name of a joint or geom in messages, as in the file; its body's name if it has none.
   std::string name_of(mjtObj type, int id) const;
 
@@ -40,6 +42,7 @@ class Contract {
 
  private:
   const tinyxml2::XMLElement* body_element(int body) const;
+  const tinyxml2::XMLElement* actuator_element(int actuator) const;
   /// The child of a body with one of these tags, by its number among them.
   const tinyxml2::XMLElement* child(int body, int number,
                                     std::initializer_list<std::string_view> tags) const;

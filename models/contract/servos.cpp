@@ -124,8 +124,8 @@ void find_servos(RobotModel& robot, const Contract& contract) {
     }
     // The servos' law is touchdown's: MuJoCo must not add that of the file.
     if (remove_law(model, i)) {
-      robot.ignored.push_back(
-          fmt::format("actuator '{}': its own law; its forcerange counts", name));
+      robot.ignored.push_back(fmt::format("{}: actuator '{}': its own law; its forcerange counts",
+                                          contract.place_of_actuator(i), name));
     }
   }
 }

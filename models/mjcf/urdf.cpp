@@ -93,6 +93,34 @@ void prepare(MjcfDocument& urdf) {
   });
 }
 
+/// The link that floats by default: the root, or the first link with a mass below it. ROS has links
+/// without mass above it, such as `world` and `base_footprint`.
+std::string floating_link(const MjcfDocument& urdf) {
+  const XMLElement& robot = urdf.root();
+  std::string link = root_link(robot);
+  const auto has_mass = [&](const std::string& name) {
+    const XMLElement* const element = urdf.find("link", name);
+    return element != nullptr && element->FirstChildElement("inertial") != nullptr;
+  };
+  while (!has_mass(link)) {
+    std::string below;
+    for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
+         joint = joint->NextSiblingElement("joint")) {
+      const std::string_view type = attribute(*joint, "type");
+      const std::string child = link_of(*joint, "child");
+      if (link_of(*joint, "parent") != link || (type != "fixed" && type != "floating")) continue;
+      if (below.empty() || has_mass(child)) below = child;
+    }
+    if (below.empty()) return link;
+    link = below;
+  }
+  return link;
+}
+
+bool is_free(const XMLElement& joint) {
+  return std::string_view(joint.Name()) == "freejoint" || attribute(joint, "type") == "free";
+}
+
 /// Lets a body float: it becomes the child of the world, with a free joint.
 void let_float(MjcfDocument& mjcf, const std::string& base) {
   XMLElement* const body = mjcf.find("body", base);
@@ -100,10 +128,12 @@ void let_float(MjcfDocument& mjcf, const std::string& base) {
   if (body == nullptr || world == nullptr) {
     mjcf.fail(mjcf.root(), fmt::format("base: expected a body of the link '{}'", base));
   }
-  if (body->FirstChildElement("joint") != nullptr) {
+  XMLElement* const joint = body->FirstChildElement("joint");
+  if (joint != nullptr && !is_free(*joint)) {
     mjcf.fail(*body, fmt::format("base: link '{}': expected fixed joints alone above it", base));
   }
   if (body->Parent() != world) world->InsertEndChild(body);
+  if (joint != nullptr || body->FirstChildElement("freejoint") != nullptr) return;
   body->InsertFirstChild(mjcf.root().GetDocument()->NewElement("freejoint"));
 }
 
@@ -112,7 +142,7 @@ void let_float(MjcfDocument& mjcf, const std::string& base) {
 ConvertedUrdf converted_urdf(const std::filesystem::path& file, const std::string& base) {
   MjcfDocument urdf = MjcfDocument::load(file);
   XMLElement& robot = urdf.root();
-  const std::string floating = base.empty() ? root_link(robot) : base;
+  const std::string floating = base.empty() ? floating_link(urdf) : base;
   if (urdf.find("link", floating) == nullptr) {
     urdf.fail(robot, fmt::format("base: expected a link named '{}'{}", floating,
                                  did_you_mean(floating, links_of(robot))));

@@ -30,8 +30,6 @@ Eigen::Quaterniond finite_or_upright(const Eigen::Quaterniond& orientation) {
   return good ? orientation.normalized() : Eigen::Quaterniond::Identity();
 }
 
-const std::vector<double> no_positions;
-
 std::vector<double> held_positions(const models::GroundTruth& truth) {
   std::vector<double> positions;
   for (const models::ServoReading& held : truth.held) positions.push_back(held.position);
@@ -71,8 +69,9 @@ void Poses::apply(std::size_t row, mjData& data) const {
     joints[i] = std::isfinite(angle) ? angle : 0.0;
   }
   models::write_pose(robot_, base_[row], orientation, joints, data.qpos);
-  models::write_held(robot_, simulated ? held_positions(recording_.truth[row]) : no_positions,
-                     data.qpos);
+  const std::vector<double> held =
+      simulated ? held_positions(recording_.truth[row]) : std::vector<double>();
+  models::write_held(robot_, held, data.qpos);
   mj_kinematics(&model, &data);
   if (!simulated) {
     double lowest = data.geom_xpos[3 * robot_.tyre_geom[0] + 2];

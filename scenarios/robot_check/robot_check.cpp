@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/resources.hpp"
 #include "estimator/force/leg_geometry.hpp"
+#include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
 #include "scenarios/ending.hpp"
 #include "scenarios/engine.hpp"
@@ -156,6 +157,15 @@ void check_loads(const CheckedStand& stand, double weight, std::vector<std::stri
   }
 }
 
+/// The way out for a robot that falls: its file does not choose gains, so they are Upkie's.
+std::string hint_about_gains(const std::filesystem::path& file) {
+  const bool has_gains =
+      models::is_about_an_mjcf(file) && YamlDocument::load(file).root()["balancer"].IsDefined();
+  return has_gains ? ""
+                   : " (with the gains of Upkie: a YAML file about this robot may have 'balancer: "
+                     "{gains: lqr}')";
+}
+
 void read_robot(const Scenario& scenario, RobotCheck& check) {
   const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
   const models::MjDataPtr data = models::at_reference(robot);
@@ -201,7 +211,8 @@ RobotCheck check_robot(const std::filesystem::path& file) {
       check.stands.push_back(stand(scenario, engine, check));
       const CheckedStand& last = check.stands.back();
       if (!last.stands) {
-        check.complaints.push_back(fmt::format("{}: standing: {}", engine, last.ending));
+        check.complaints.push_back(fmt::format("{}: standing: {}{}", engine, last.ending,
+                                               hint_about_gains(scenario.robot)));
       } else {
         check_loads(last, gravity * check.mass, check.complaints);
       }

@@ -15,8 +15,11 @@ models::RobotModel upkie_model() {
   return models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml", {});
 }
 
-TEST(SideView, HasItsCentreOfMassWhereTheEngineHasIt) {
-  const models::RobotModel robot = upkie_model();
+class SideViewOf : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SideViewOf, ARobotHasItsCentreOfMassWhereTheEngineHasIt) {
+  const models::RobotModel robot =
+      models::compile_robot_model(std::string(TOUCHDOWN_SOURCE_DIR "/models/") + GetParam(), {});
   const SideView view = side_view(robot);
   const models::MjDataPtr data(mj_makeData(robot.mj.get()));
   for (const auto& [hip, knee, pitch] : {std::array{0.0, 0.0, 0.0}, std::array{0.455, -0.791, 0.0},
@@ -30,9 +33,10 @@ TEST(SideView, HasItsCentreOfMassWhereTheEngineHasIt) {
     Eigen::Vector3d moments = Eigen::Vector3d::Zero();
     double mass = 0.0;
     for (int body = robot.base_body; body < robot.mj->nbody; ++body) {
-      const bool is_wheel = body == robot.mj->geom_bodyid[robot.tyre_geom[0]] ||
-                            body == robot.mj->geom_bodyid[robot.tyre_geom[1]];
-      if (is_wheel) continue;
+      const auto is_part_of = [&](int tyre) {
+        return robot.mj->body_weldid[body] == robot.mj->body_weldid[robot.mj->geom_bodyid[tyre]];
+      };
+      if (is_part_of(robot.tyre_geom[0]) || is_part_of(robot.tyre_geom[1])) continue;
       mass += robot.mj->body_mass[body];
       moments += robot.mj->body_mass[body] * models::vector_at(data->xipos, body);
     }
@@ -43,6 +47,10 @@ TEST(SideView, HasItsCentreOfMassWhereTheEngineHasIt) {
   }
   EXPECT_NEAR(view.mass, robot.mj->body_subtreemass[robot.base_body], 1e-12);
 }
+
+INSTANTIATE_TEST_SUITE_P(Robots, SideViewOf,
+                         ::testing::Values("upkie.xml", "upkie_long_legs.yaml", "hip_roll.yaml",
+                                           "ros_style.yaml"));
 
 /// A soft lander with contact set by the test, and its observation.
 class SoftLanding : public ::testing::Test {

@@ -86,6 +86,18 @@ class Simulation(InFolder):
         np.testing.assert_array_equal(touchdown.Recording.load("actuated.mpack")["joint_torque"], run["joint_torque"])
         self.assertNotIn("joint_torque", hop())
 
+    def test_of_held_joints_has_them_as_ground_truth(self):
+        run = touchdown.simulate(HOP, overrides={"end.duration": 0.1, "robot": "models/hip_roll.yaml"})
+        run.save("held.mpack")
+        loaded = touchdown.Recording.load("held.mpack")
+        loaded.save("again.mpack")
+        for name in ("held_position", "held_velocity", "held_torque"):
+            self.assertEqual(run[name].shape, (run.steps, 2))
+            np.testing.assert_array_equal(loaded[name], run[name])
+            self.assertNotIn(name, hop())
+        with open("held.mpack", "rb") as one, open("again.mpack", "rb") as other:
+            self.assertEqual(one.read(), other.read())
+
     def test_raises_the_program_s_messages(self):
         requests = [
             (["scenarios/hops.yaml"], {}, ["simulate", "scenarios/hops.yaml"]),

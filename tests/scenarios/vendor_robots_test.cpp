@@ -1,3 +1,4 @@
+#include <array>
 #include <regex>
 
 #include <fmt/format.h>
@@ -129,6 +130,31 @@ TEST(AUrdfOfAVendor, StandsWithoutItsMeshes) {
   EXPECT_EQ(check.joints[2].torque_limit, 3.0);
 }
 
+/// Links above the one that floats, as ROS packages have them.
+TEST(AUrdfOfAVendor, FloatsByItsFirstLinkWithAMass) {
+  const ScratchFolder folder;
+  const std::string base = "<link name=\"base\">";
+  for (const std::string above :
+       {"<link name=\"world\"/><joint name=\"a\" type=\"fixed\"><parent link=\"world\"/>"
+        "<child link=\"base\"/><origin xyz=\"0 0 1\"/></joint>",
+        "<link name=\"world\"/><joint name=\"a\" type=\"floating\"><parent link=\"world\"/>"
+        "<child link=\"base\"/></joint>",
+        "<link name=\"base_footprint\"/><joint name=\"a\" type=\"fixed\">"
+        "<parent link=\"base_footprint\"/><child link=\"base\"/><origin xyz=\"0 0 0.4\"/></joint>",
+        "<link name=\"odom\"/><link name=\"camera\"/><link name=\"footprint\"/>"
+        "<joint name=\"c\" type=\"fixed\"><parent link=\"footprint\"/><child "
+        "link=\"camera\"/></joint>"
+        "<joint name=\"a\" type=\"fixed\"><parent link=\"odom\"/><child "
+        "link=\"footprint\"/></joint>"
+        "<joint name=\"b\" type=\"fixed\"><parent link=\"footprint\"/><child "
+        "link=\"base\"/></joint>"}) {
+    folder.write("vendor.urdf", std::regex_replace(vendor_urdf(), std::regex(base), above + base));
+    const RobotCheck check = check_robot(folder.write("vendor.yaml", urdf_keys));
+    EXPECT_THAT(check.complaints, IsEmpty()) << above;
+    EXPECT_NEAR(check.imu.z(), 0.02, 1e-9) << above;
+  }
+}
+
 TEST(AUrdfOfAVendor, IsComplainedAboutAtItsLines) {
   const ScratchFolder folder;
   const std::string limit = "<limit effort=\"20\" lower=\"-1.3\"";
@@ -170,9 +196,9 @@ std::string box_obj(double x, double y, double z) {
     text += fmt::format("v {} {} {}\n", (i & 1) != 0 ? x : -x, (i & 2) != 0 ? y : -y,
                         (i & 4) != 0 ? z : -z);
   }
-  for (const char* face : {"1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"}) {
-    int a = 0, b = 0, c = 0, d = 0;
-    std::sscanf(face, "%d %d %d %d", &a, &b, &c, &d);
+  for (const auto& [a, b, c, d] :
+       {std::array{1, 3, 4, 2}, std::array{5, 6, 8, 7}, std::array{1, 2, 6, 5},
+        std::array{3, 7, 8, 4}, std::array{1, 5, 7, 3}, std::array{2, 4, 8, 6}}) {
     text += fmt::format("f {} {} {}\nf {} {} {}\n", a, b, c, a, c, d);
   }
   return text;
