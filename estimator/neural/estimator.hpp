@@ -25,8 +25,9 @@ int neural_stride(double sample_rate, double period);
 
 /// The paper's neural measurement network as a contact estimator. It estimates one probability for
 /// the robot, which serves for each wheel, for any wheel and for both. It skips signals that are
-/// not finite, and the belief then relaxes towards the prior. After a gap the recurrent state
-/// restarts.
+/// not finite, and the belief then relaxes towards the prior. The network's steps keep their times
+/// (`NeuralInputSampler`). After a gap the recurrent state restarts, and the first record after the
+/// gap is the first input.
 class NeuralEstimator : public ContactEstimator {
  public:
   /// Errors: `InputError` for a network that `check` refuses and for an invalid configuration.

@@ -25,20 +25,25 @@ NeuralInput neural_input(const Signals& signals) {
 
 void NeuralInputSampler::reset() noexcept { *this = NeuralInputSampler(stride_); }
 
+void NeuralInputSampler::count_step() noexcept {
+  if (++steps_ < stride_) return;
+  steps_ = 0;
+  is_due_ = true;
+}
+
 bool NeuralInputSampler::add(const Signals& signals) noexcept {
   if (samples_ == 0) {
     command_ = signals.ground_velocity_command;
     acceleration_sum_.setZero();
   }
-  ++steps_;
+  count_step();
   ++samples_;
   acceleration_sum_ += signals.linear_acceleration;
-  if (started_ && steps_ < stride_) return false;
+  if (!is_due_) return false;
   input_ = neural_input(signals);
   input_.head<3>() = (acceleration_sum_ / samples_).cast<float>();
   input_[neural_input_count - 1] = static_cast<float>(command_);
-  started_ = true;
-  steps_ = 0;
+  is_due_ = false;
   samples_ = 0;
   return true;
 }

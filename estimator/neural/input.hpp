@@ -21,24 +21,30 @@ NeuralInput neural_input(const Signals& signals);
 /// network's own step, so the acceleration is the mean over the stride: an acceleration that is a
 /// velocity difference becomes exactly the difference over the longer step. The command is the one
 /// after the previous input, all else is the last sample. Never throws or allocates.
+///
+/// Unusable samples do not shift the network's steps: an input that is due at one comes with the
+/// next usable sample, and the input after it is due as if none had been missing. So a missing
+/// sample leaves nothing behind but the network's memory of one late input.
 class NeuralInputSampler {
  public:
-  explicit NeuralInputSampler(int stride) noexcept : stride_(stride) {}
+  explicit NeuralInputSampler(int stride) noexcept : stride_(stride), steps_(stride - 1) {}
 
   void reset() noexcept;
 
   /// One control step with finite signals. Returns whether `input` is new.
   bool add(const Signals& signals) noexcept;
   /// One control step with unusable signals: only time passes.
-  void skip() noexcept { ++steps_; }
+  void skip() noexcept { count_step(); }
 
   [[nodiscard]] const NeuralInput& input() const noexcept { return input_; }
 
  private:
+  void count_step() noexcept;
+
   int stride_;
-  bool started_ = false;
-  int steps_ = 0;    ///< since the last input
-  int samples_ = 0;  ///< usable ones among them
+  int steps_;            ///< since an input was last due
+  bool is_due_ = false;  ///< an input, with the next usable sample
+  int samples_ = 0;      ///< usable ones since the last input
   double command_ = 0.0;
   Eigen::Vector3d acceleration_sum_ = Eigen::Vector3d::Zero();
   NeuralInput input_ = NeuralInput::Zero();

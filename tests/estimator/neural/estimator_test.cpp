@@ -1,5 +1,6 @@
 #include "estimator/neural/estimator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -55,6 +56,33 @@ TEST(NeuralInput, HasThePapersOrder) {
   for (int i = 0; i < neural_input_count; ++i) {
     const double expected = i == 8 ? std::sin(0.5) : i == 11 ? std::sin(0.25) : i + 1.0;
     EXPECT_NEAR(m[i], expected, 1e-6) << i;
+  }
+}
+
+TEST(NeuralInputSampler, KeepsItsStepsWhereSamplesAreMissing) {
+  const struct {
+    std::vector<int> missing;
+    std::vector<int> inputs;  ///< the samples that become inputs, every fifth
+  } cases[] = {
+      {{}, {0, 5, 10, 15, 20}},           {{3, 4, 6}, {0, 5, 10, 15, 20}},
+      {{5}, {0, 6, 10, 15, 20}},          {{0, 1}, {2, 5, 10, 15, 20}},
+      {{5, 6, 7, 8, 9}, {0, 10, 15, 20}}, {{4, 5, 6, 7, 8, 9, 10, 11, 12, 13}, {0, 14, 15, 20}},
+      {{10, 15}, {0, 5, 11, 16, 20}},
+  };
+  for (const auto& [missing, expected] : cases) {
+    NeuralInputSampler sampler(5);
+    for (const int pass : {0, 1}) {
+      std::vector<int> inputs;
+      for (int k = 0; k < 24; ++k) {
+        if (std::ranges::count(missing, k) > 0) {
+          sampler.skip();
+        } else if (sampler.add({})) {
+          inputs.push_back(k);
+        }
+      }
+      EXPECT_EQ(inputs, expected) << pass;
+      sampler.reset();
+    }
   }
 }
 
