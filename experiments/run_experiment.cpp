@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
+#include "experiments/fit_run_check.hpp"
 #include "experiments/fitting/refits.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/results/manifest.hpp"
@@ -172,8 +173,10 @@ Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun 
   try {
     Computed done;
     done.runs = timed(context, "simulate", [&] {
-      return run_rollouts(experiment, context.plan, runs_for(context, tasks), context.directory,
-                          missing, context.should_continue);
+      const std::set<std::size_t> needed = runs_for(context, tasks);
+      FitRunCheck check(experiment, context.plan, needed);
+      return run_rollouts(experiment, context.plan, needed, context.directory, missing,
+                          context.should_continue, [&](const Rollout& run) { check.add(run); });
     });
     done.fitted = timed(context, "fit", [&] { return fit(context, done.runs); });
     done.tasks = timed(context, "evaluate", [&] {

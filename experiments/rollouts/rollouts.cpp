@@ -195,11 +195,15 @@ void for_each_rollout(const Experiment& experiment, const Plan& plan,
 
 Rollouts run_rollouts(const Experiment& experiment, const Plan& plan,
                       const std::set<std::size_t>& needed, const RunDirectory& directory,
-                      MissingRun missing, const ShouldContinue& should_continue) {
+                      MissingRun missing, const ShouldContinue& should_continue,
+                      const std::function<void(const Rollout& run)>& check) {
   Rollouts runs;
   for (const std::size_t index : needed) runs.emplace(index, Rollout{plan.runs[index], {}, {}});
   for_each_rollout(experiment, plan, needed, directory, missing, should_continue,
-                   [&](std::size_t index, Rollout run) { runs.at(index) = std::move(run); });
+                   [&](std::size_t index, Rollout run) {
+                     check(run);
+                     runs.at(index) = std::move(run);
+                   });
   return runs;
 }
 

@@ -1,0 +1,68 @@
+#include "experiments/fit_run_check.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+bool is_whole_fit_run(const PlannedRun& run) { return run.role == RunRole::fit && run.group == 0; }
+
+}  // namespace
+
+FitRunCheck::FitRunCheck(const Experiment& experiment, const Plan& plan,
+                         const std::set<std::size_t>& needed) {
+  for (const std::string& name : experiment.estimators) {
+    const EstimatorEntry& entry = estimator_entry(experiment, name);
+    if (entry.phase) phase_estimators_.push_back(name);
+    if (entry.config) measurement_estimators_.push_back(name);
+  }
+  for (const std::size_t index : needed) {
+    const PlannedRun& run = plan.runs[index];
+    if (is_whole_fit_run(run)) ++fits_[{run.fit, run.simulator}].left;
+  }
+}
+
+void FitRunCheck::add(const Rollout& run) {
+  if (!is_whole_fit_run(run.plan)) return;
+  Contents own;
+  if (!run.failed()) {
+    const auto& [lefts, rights] = run.signals.contact;
+    for (std::size_t k = 0; k < lefts.size(); ++k) {
+      const bool left = lefts[k] != 0;
+      const bool right = rights[k] != 0;
+      own.contact = own.contact || left || right;
+      own.no_contact = own.no_contact || !left || !right;
+      own.rolling = own.rolling || (left && right);
+      own.flight = own.flight || (!left && !right);
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  Runs& runs = fits_.at({run.plan.fit, run.plan.simulator});
+  runs.scenes.insert(run.plan.scenario.name);
+  runs.is_any_usable = runs.is_any_usable || !run.failed();
+  Contents& all = runs.contents;
+  all.contact = all.contact || own.contact;
+  all.no_contact = all.no_contact || own.no_contact;
+  all.rolling = all.rolling || own.rolling;
+  all.flight = all.flight || own.flight;
+  if (--runs.left > 0 || !runs.is_any_usable) return;
+  const std::string& simulator = run.plan.simulator;
+  require(all.rolling, phase_estimators_, "rolling on both wheels", simulator, runs);
+  require(all.flight, phase_estimators_, "flight", simulator, runs);
+  require(all.contact, measurement_estimators_, "contact", simulator, runs);
+  require(all.no_contact, measurement_estimators_, "step without contact", simulator, runs);
+}
+
+void FitRunCheck::require(bool holds, const std::vector<std::string>& estimators,
+                          const std::string& missing, const std::string& simulator,
+                          const Runs& runs) {
+  if (holds || estimators.empty()) return;
+  throw InputError(fmt::format("fit on {}: {}: fit.scenarios contain no {}: {}", simulator,
+                               fmt::join(estimators, ", "), missing, fmt::join(runs.scenes, ", ")));
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,86 @@
+#include "experiments/fit_run_check.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// Two fitted runs and a test run, with these contacts of both wheels at every step.
+struct Case {
+  std::vector<std::string> estimators;
+  std::array<scoring::ContactSequence, 2> first;
+  std::array<scoring::ContactSequence, 2> second;
+};
+
+Rollout rollout(const PlannedRun& plan, const std::array<scoring::ContactSequence, 2>& contact) {
+  Rollout run{plan, {}, {}};
+  run.signals.contact = contact;
+  return run;
+}
+
+/// What the check does with the fitted runs of `given`; the second one has this outcome.
+void check(const Case& given, recordings::Outcome second = recordings::Outcome::finished) {
+  Experiment experiment;
+  experiment.estimators = given.estimators;
+  Plan plan;
+  for (const RunRole role : {RunRole::fit, RunRole::fit, RunRole::test}) {
+    PlannedRun run;
+    run.role = role;
+    run.simulator = "bullet";
+    run.scenario.name = "scene_" + std::to_string(plan.runs.size());
+    plan.runs.push_back(run);
+  }
+  FitRunCheck check(experiment, plan, {0, 1, 2});
+  check.add(rollout(plan.runs[2], {{{1, 1}, {1, 1}}}));
+  check.add(rollout(plan.runs[0], given.first));
+  Rollout last = rollout(plan.runs[1], given.second);
+  last.report.outcome = second;
+  check.add(last);
+}
+
+const std::array<scoring::ContactSequence, 2> rolls = {{{1, 1}, {1, 1}}};
+const std::array<scoring::ContactSequence, 2> hangs = {{{0, 0}, {0, 0}}};
+const std::array<scoring::ContactSequence, 2> lifts_left = {{{1, 0}, {1, 1}}};
+
+TEST(FitRunCheck, NamesWhatTheRunsOfAFitLackTheEstimatorsAndTheScenes) {
+  EXPECT_THAT(
+      [] {
+        check({{"free_fall", "phase", "hmm", "touchdown"}, rolls, lifts_left});
+      },
+      ThrowsMessage<InputError>("fit on bullet: phase, hmm: fit.scenarios contain no "
+                                "flight: scene_0, scene_1"));
+  EXPECT_THAT(
+      [] {
+        check({{"phase"}, hangs, hangs});
+      },
+      ThrowsMessage<InputError>(HasSubstr("phase: fit.scenarios contain no rolling")));
+  EXPECT_THAT(
+      [] {
+        check({{"robust", "paper"}, rolls, rolls});
+      },
+      ThrowsMessage<InputError>(
+          HasSubstr("robust, paper: fit.scenarios contain no step without contact")));
+  EXPECT_THAT(
+      [] {
+        check({{"measurement_only"}, hangs, hangs});
+      },
+      ThrowsMessage<InputError>(HasSubstr("contain no contact")));
+}
+
+TEST(FitRunCheck, AcceptsRunsThatHaveItTogether) {
+  EXPECT_NO_THROW(check({{"phase", "robust"}, rolls, hangs}));
+  EXPECT_NO_THROW(check({{"robust"}, rolls, lifts_left}));
+  EXPECT_NO_THROW(check({{"free_fall", "upkie_observer"}, rolls, rolls}));
+}
+
+TEST(FitRunCheck, DoesNotUseRunsThatFell) {
+  EXPECT_THROW(check({{"phase"}, rolls, hangs}, recordings::Outcome::fell), InputError);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
