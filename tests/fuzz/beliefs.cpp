@@ -21,7 +21,8 @@ TOUCHDOWN_FUZZ(beliefs) {
            [&] { (void)recordings::read_contact_intervals(path); }}) {
     try {
       read();
-    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
+    } catch (const Error& error) {
+      expected(error);
     }
   }
 }

@@ -2,10 +2,36 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <string>
 #include <string_view>
 
+#include "core/error.hpp"
+
+namespace touchdown::fuzz {
+
+/// Whether a message is a text of the standard library, or of a library that reads a format. A user
+/// cannot know what it is about.
+inline bool is_of_a_library(std::string_view message) {
+  for (const std::string_view text :
+       {"bad_cast", "bad_alloc", "std::", "json.exception", "yaml-cpp", "bad conversion",
+        "invalid node", "filesystem error", "basic_string", "vector::", "map::at", "stod",
+        "insufficient bytes", "regex_error"}) {
+    if (message.find(text) != std::string_view::npos) return true;
+  }
+  return message.empty();
+}
+
+/// An expected error. Its message must be touchdown's own.
+inline void expected(const Error& error) {
+  if (is_of_a_library(error.what())) std::abort();
+}
+
+}  // namespace touchdown::fuzz
+
 /// Begins the definition of a fuzzed function of `std::string_view input`. For any input, it must
-/// not crash, hang, or throw anything but `touchdown::Error`. A fuzzer makes it libFuzzer's entry
+/// not crash, hang, or throw anything but `touchdown::Error` with a message of touchdown's own. A
+/// fuzzer makes it libFuzzer's entry
 /// point; the replay of the corpus links all of them together.
 #ifdef TOUCHDOWN_FUZZER
 #define TOUCHDOWN_FUZZ(name)                                                          \

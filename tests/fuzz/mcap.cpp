@@ -16,7 +16,8 @@ TOUCHDOWN_FUZZ(mcap) {
       for (const char c : message.data) bytes += static_cast<unsigned char>(c);
     }
     if (bytes == 1 && reader.note().empty()) return;  // the data were read
-  } catch (const Error&) {                            // NOLINT(bugprone-empty-catch): expected
+  } catch (const Error& error) {
+    expected(error);
   }
 }
 

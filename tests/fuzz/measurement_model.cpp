@@ -14,7 +14,8 @@ TOUCHDOWN_FUZZ(measurement_model) {
   try {
     const MeasurementModel model = recordings::read_measurement_model(file.path());
     (void)model({0.5, 1e308});
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
+  } catch (const Error& error) {
+    expected(error);
   }
 }
 

@@ -15,7 +15,8 @@ TOUCHDOWN_FUZZ(neural_network) {
               "second_bias", "heads_weight", "heads_bias"}));
   try {
     (void)recordings::read_neural_network(file.path());
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
+  } catch (const Error& error) {
+    expected(error);
   }
 }
 

@@ -16,7 +16,8 @@ TOUCHDOWN_FUZZ(parameter_model) {
         recordings::read_parameter_model(file.path()).parameters;
     (void)recordings::parameter(parameters, "slope");
     (void)recordings::parameter(parameters, "force_mean", 2);
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
+  } catch (const Error& error) {
+    expected(error);
   }
 }
 

@@ -16,7 +16,8 @@ TOUCHDOWN_FUZZ(phase_model) {
               "acceleration_0_axis", "acceleration_0_log_density", "acceleration_1_noise"}));
   try {
     (void)recordings::read_phase_model(file.path());
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
+  } catch (const Error& error) {
+    expected(error);
   }
 }
 

@@ -11,7 +11,8 @@ namespace touchdown::fuzz {
 TOUCHDOWN_FUZZ(yaml_robot) {
   try {
     (void)from_yaml<models::RobotDescription>(YamlDocument::parse(std::string(input), "fuzz.yaml"));
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
+  } catch (const Error& error) {
+    expected(error);
   }
 }
 

@@ -12,7 +12,8 @@ TOUCHDOWN_FUZZ(yaml_scenario) {
     const YamlDocument document = YamlDocument::parse(std::string(input), "fuzz.yaml");
     const std::string written = to_yaml(scenarios::scenario_from_yaml(document));
     (void)scenarios::scenario_from_yaml(YamlDocument::parse(written, "again.yaml"));
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
+  } catch (const Error& error) {
+    expected(error);
   }
 }
 

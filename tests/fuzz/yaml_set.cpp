@@ -20,7 +20,8 @@ TOUCHDOWN_FUZZ(yaml_set) {
       document.override_value(line);
     }
     (void)to_yaml(scenarios::scenario_from_yaml(document));
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): expected
+  } catch (const Error& error) {
+    expected(error);
   }
 }
 

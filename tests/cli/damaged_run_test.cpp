@@ -1,0 +1,110 @@
+// A run directory with files that were changed: values replaced, keys exchanged, the end cut off.
+// Every command that reads them ends with one line of touchdown's own.
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "program.hpp"
+
+namespace touchdown::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+namespace fs = std::filesystem;
+
+/// The document with another value at each of its paths, the root included; of a list, in its first
+/// item only. The values take turns.
+void for_each_damage(Json document, const std::vector<Json>& values,
+                     const std::function<void(const std::string& text)>& use) {
+  std::size_t next = 0;
+  const std::function<void(Json&)> descend = [&](Json& at) {
+    const Json kept = at;
+    at = values[next++ % values.size()];
+    use(document.dump());
+    at = kept;
+    if (!at.is_structured()) return;
+    std::size_t items = at.is_array() ? 1 : at.size();
+    for (auto item = at.begin(); item != at.end() && items > 0; ++item, --items) descend(*item);
+  };
+  descend(document);
+}
+
+class DamagedRun : public ::testing::Test {
+ protected:
+  DamagedRun() {
+    const Ended ended = touchdown_program(
+        "run " + write_tiny_experiment(folder_) +
+            " --no-pictures --out run --set simulators=[mujoco] --set test.runs=1",
+        folder_.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+  }
+
+  /// Runs a command after a file of the run was replaced, and puts the file back.
+  void expect_own_words(const std::string& file, const std::string& content,
+                        const std::string& arguments) {
+    const std::string before = read_file(folder_ / file);
+    write_atomically(folder_ / file, content);
+    const Ended ended = touchdown_program(arguments, folder_.path());
+    EXPECT_TRUE(ended.exit_code >= 0 && ended.exit_code <= 2) << ended.exit_code << content;
+    for (const char* const text :
+         {"bad_cast", "std::", "json.exception", "yaml-cpp", "bad conversion", "invalid node",
+          "filesystem error", "basic_string", "vector::", "map::at", "stod"}) {
+      EXPECT_THAT(ended.errors, ::testing::Not(::testing::HasSubstr(text))) << content;
+    }
+    if (ended.exit_code != 0) {
+      EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
+      EXPECT_THAT(ended.errors, ::testing::StartsWith("touchdown: ")) << content;
+    }
+    write_atomically(folder_ / file, before);
+  }
+
+  const ScratchFolder folder_;
+};
+
+TEST_F(DamagedRun, JsonIsRefusedInOwnWords) {
+  const std::vector<Json> values = {nullptr,       "text",         -1,        1e300,
+                                    Json::array(), Json::object(), {{"a", 1}}};
+  for (const std::string file : {"run/manifest.json", "run/tables/summary.json"}) {
+    const std::string text = read_file(folder_ / file);
+    int damages = 0;
+    for_each_damage(Json::parse(text), values, [&](const std::string& damaged) {
+      expect_own_words(file, damaged, "report run");
+      ++damages;
+    });
+    EXPECT_GE(damages, 10);
+    for (const std::string& cut :
+         {std::string(), text.substr(0, 1), text.substr(0, text.size() / 2),
+          std::string("\xff\xfe"), std::string("[1,2"), std::string("[]"), std::string("null"),
+          std::string("{\"a\": \x80}")}) {
+      expect_own_words(file, cut, "report run");
+      expect_own_words(file, cut, "run tiny.yaml --no-pictures --out run");
+    }
+  }
+}
+
+TEST_F(DamagedRun, YamlIsRefusedInOwnWords) {
+  constexpr const char* commands[] = {"report run", "merge run --no-pictures",
+                                      "export --benchmark b run", "report run", "clean ."};
+  std::size_t next = 0;
+  for (const std::string file : {"run/config.yaml", "run/state/scenario_000.yaml"}) {
+    const std::string text = read_file(folder_ / file);
+    for (const std::string& damaged :
+         {std::string(), std::string("~"), std::string("[]"), std::string("3"),
+          text + "? [a]\n: 1\n", text + "? {a: 1}\n: 1\n", text + "~: 1\n", text + "<<: 1\n",
+          text.substr(0, text.size() / 2), std::string("a: *b\n"), std::string("name: {a: 1}\n"),
+          std::string("name: [x]\n")}) {
+      // The commands take turns, as each of them reads both files.
+      expect_own_words(file, damaged, commands[next++ % std::size(commands)]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::cli
