@@ -35,6 +35,23 @@ EvidenceModel wavy_curves(bool with_pairs = false) {
   return model;
 }
 
+/// Computes nothing: what its update takes is the check of signals and belief.
+class NoEstimator : public ContactEstimator {
+ public:
+  void reset() noexcept override {}
+
+ private:
+  const Belief& estimate(const Signals& /*signals*/) noexcept override { return belief_; }
+
+  Belief belief_;
+};
+
+void update_nothing(benchmark::State& state) {
+  NoEstimator estimator;
+  bench::time_updates(state, estimator);
+}
+BENCHMARK(update_nothing)->Name("update/check_alone");
+
 void update_decision_network(benchmark::State& state) {
   DecisionNetwork estimator(busy_network());
   bench::time_updates(state, estimator);
