@@ -94,6 +94,10 @@ ExperimentContext start(RunRequest request, RunDirectory directory, const RunOpt
                   "by test.runs={} and noise.seeds={}",
                   1e-9 * needs.recordings, 1e-9 * needs.parts, plan.tasks.size(),
                   request.experiment.test.runs, request.experiment.noise.seeds));
+  ShouldContinue should_continue = [stop = options.stop] { return stop == nullptr || !*stop; };
+  request.experiment.intervals.bootstrap.before_resamples = [should_continue] {
+    if (!should_continue()) throw Stopped();
+  };
   SavedCounts saved(directory.path() / "state" / "evaluation", state_key(request));
   SavedModelTasks saved_model_tasks(directory.path() / "state", state_key(request));
   return {std::move(request),
@@ -101,7 +105,7 @@ ExperimentContext start(RunRequest request, RunDirectory directory, const RunOpt
           std::move(plan),
           std::move(saved),
           std::move(saved_model_tasks),
-          [stop = options.stop] { return stop == nullptr || !*stop; },
+          std::move(should_continue),
           {options.command, threads, {}},
           tbb::global_control(tbb::global_control::max_allowed_parallelism,
                               static_cast<std::size_t>(threads))};

@@ -196,8 +196,8 @@ Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun 
   }
 }
 
-/// The second half of an experiment: score → tables. It evaluates no estimator.
-ExperimentResult summarize(ExperimentContext& context, Computed done) {
+/// Scores with intervals, and the studies. Errors: `Stopped`.
+ExperimentResult score(ExperimentContext& context, Computed& done) {
   const Experiment& experiment = context.request.experiment;
   const Plan& plan = context.plan;
   ExperimentResult result{
@@ -233,6 +233,19 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
     }
     return 0;
   });
+  return result;
+}
+
+/// The second half of an experiment: score → tables. It evaluates no estimator.
+ExperimentResult summarize(ExperimentContext& context, Computed done) {
+  const Experiment& experiment = context.request.experiment;
+  ExperimentResult result = [&] {
+    try {
+      return score(context, done);
+    } catch (const Stopped&) {
+      throw Stopped(what_is_saved(context));
+    }
+  }();
   if (is_reserved(experiment.seed)) {
     const int others =
         log_evaluation(context.directory.path(), {experiment.seed, result.id, build_commit()});

@@ -25,6 +25,9 @@ struct BootstrapConfig {
   int resamples = 1000;    ///< number of resamples
   double level = 0.95;     ///< nominal coverage of the interval
   std::uint64_t seed = 1;  ///< of the draws
+  /// Called every 256 resamples, perhaps from several threads. An exception from it ends the
+  /// computation.
+  std::function<void()> before_resamples = {};
 };
 
 struct IntervalConfig {
@@ -72,6 +75,7 @@ std::vector<Interval> bootstrap(std::span<const Sample> samples,
   const bool has_interval = samples.size() > 1;
   std::vector<std::vector<double>> values(statistics.size());
   for (std::size_t r = 0; has_interval && samples.size() * r < indices.size(); ++r) {
+    if (config.before_resamples && r % 256 == 0) config.before_resamples();
     Sample sum{};
     for (std::size_t i = 0; i < samples.size(); ++i)
       sum += samples[indices[samples.size() * r + i]];

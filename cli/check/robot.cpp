@@ -144,8 +144,9 @@ bool is_robot_file(const std::string& path) {
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
-std::size_t check_robot(const std::string& path, bool as_json) {
-  const RobotCheck check = scenarios::check_robot(find_resource(path));
+std::size_t check_robot(const std::string& path, bool as_json, const CliSession& session) {
+  const RobotCheck check =
+      scenarios::check_robot(find_resource(path), [&] { return !*session.stop; });
   print(as_json ? json_of(path, check).dump(1) + "\n" : text_of(path, check));
   return check.complaints.size();
 }

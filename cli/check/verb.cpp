@@ -29,7 +29,7 @@ struct Found {
 void check_file(const std::string& file, const CheckFlags& flags, const CliSession& session,
                 Found& found) {
   if (is_robot_file(file)) {
-    found.complaints += check_robot(file, flags.json);
+    found.complaints += check_robot(file, flags.json, session);
     return;
   }
   if (flags.json) throw InputError(fmt::format("{}: --json is for robots", file));

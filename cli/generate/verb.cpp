@@ -1,7 +1,11 @@
 #include <filesystem>
 #include <memory>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "cli/verbs.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program/streams.hpp"
 #include "scenarios/generation/generate.hpp"
@@ -15,9 +19,24 @@ struct GenerateFlags {
   std::string output;
 };
 
-void generate(const GenerateFlags& flags) {
+std::vector<scenarios::GeneratedScenario> draw(const scenarios::Generation& generation,
+                                               const CliSession& session) {
+  try {
+    return scenarios::generate(generation, [&] { return !*session.stop; });
+  } catch (const Stopped&) {
+    throw Stopped("stopped; nothing was written");
+  }
+}
+
+void generate(const GenerateFlags& flags, const CliSession& session) {
   const std::filesystem::path folder = flags.output;
-  for (const scenarios::GeneratedScenario& drawn : scenarios::generate(flags.generation)) {
+  std::size_t written = 0;
+  for (const scenarios::GeneratedScenario& drawn : draw(flags.generation, session)) {
+    if (*session.stop) {
+      throw Stopped(fmt::format("stopped; {} of {} scenarios are written in {}", written,
+                                flags.generation.count, folder.string()));
+    }
+    ++written;
     const std::filesystem::path path = folder / (drawn.name + ".yaml");
     write_atomically(path, drawn.text);
     print("{}\n", path.string());
@@ -29,7 +48,7 @@ void generate(const GenerateFlags& flags) {
 
 }  // namespace
 
-void add_generate(CLI::App& program, const CliSession& /*session*/) {
+void add_generate(CLI::App& program, const CliSession& session) {
   Verb verb(
       program, "generate",
       "touchdown generate --seed 7 --count 30 -o scenes\n\n"
@@ -47,7 +66,7 @@ void add_generate(CLI::App& program, const CliSession& /*session*/) {
               "Only scenarios of this family; `touchdown list` has them")
       .value_name("NAME")
       .one_at_a_time();
-  verb.action([flags] { generate(*flags); });
+  verb.action([flags, &session] { generate(*flags, session); });
 }
 
 }  // namespace touchdown::cli

@@ -39,7 +39,7 @@ std::array<double, 2> class_weights(const DecisionRows& rows, double exponent) {
 }  // namespace
 
 DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConfig& config,
-                           const DecisionFitConfig& fit) {
+                           const DecisionFitConfig& fit, const std::function<void()>& before_step) {
   std::size_t steps = 0;
   for (const LabelledRun& run : runs) {
     check_labels(run);
@@ -52,6 +52,7 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
   Draws draws(fit.seed);
   for (std::size_t pass = 0; pass < fit.passes; ++pass) {
     for (const LabelledRun& run : runs) {
+      if (before_step) before_step();
       const std::size_t interval = draws.uniform() < fit.share_slow ? fit.steps_of_slow : 1;
       DecisionConfig own = config;
       own.sample_rate = run.sample_rate / static_cast<double>(interval);
@@ -103,7 +104,7 @@ DecisionModel fit_decision_model(std::span<const LabelledRun> runs, const Decisi
                                  const std::function<void()>& before_step) {
   check_decision_config(config);
   check_decision_fit_config(fit);
-  const DecisionRows rows = decision_rows(runs, config, fit);
+  const DecisionRows rows = decision_rows(runs, config, fit, before_step);
   DecisionModel model = train_decision_model(rows, fit, before_step);
   model.last_bias += weights_offset(rows);
   return model;

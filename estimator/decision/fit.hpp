@@ -11,10 +11,11 @@ namespace touchdown {
 
 /// The rows that models on `FeatureExtractor` are fitted to: steps of both wheels of all runs,
 /// where inputs are valid. Each run gives several augmentation passes with other noise, biases and
-/// scales. Throws InputError if labels are not one per step, and if one class is missing.
+/// scales. `before_step` is called before each run of each pass; an exception from it ends the
+/// computation. Throws InputError if labels are not one per step, and if one class is missing.
 [[nodiscard]] DecisionRows decision_rows(std::span<const LabelledRun> runs,
-                                         const DecisionConfig& config,
-                                         const DecisionFitConfig& fit);
+                                         const DecisionConfig& config, const DecisionFitConfig& fit,
+                                         const std::function<void()>& before_step = {});
 
 /// The offset that turns a logit fitted to these weighted rows into that of equally weighted rows:
 /// ln of the weight of a row without contact relative to a row in contact.

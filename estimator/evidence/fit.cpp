@@ -9,7 +9,7 @@ EvidenceModel fit_evidence_model(std::span<const LabelledRun> runs, const Decisi
                                  const std::function<void()>& before_step) {
   check_decision_config(config);
   check_evidence_fit_config(fit);
-  const DecisionRows rows = decision_rows(runs, config, fit.descent);
+  const DecisionRows rows = decision_rows(runs, config, fit.descent, before_step);
   EvidenceModel model = train_evidence_model(rows, fit, before_step);
   model.bias += weights_offset(rows);
   return model;

@@ -12,7 +12,7 @@ TouchdownModel fit_touchdown_model(std::span<const LabelledRun> runs, const Deci
   check_decision_config(config);
   check_decision_fit_config(network);
   check_evidence_fit_config(evidence);
-  const DecisionRows rows = decision_rows(runs, config, network);
+  const DecisionRows rows = decision_rows(runs, config, network, before_step);
   TouchdownModel model = {train_evidence_model(rows, evidence, before_step),
                           train_decision_model(rows, network, before_step)};
   const float offset = weights_offset(rows);

@@ -33,6 +33,7 @@ Resampled balanced_accuracy(const FitsAndRuns& scores, std::uint64_t scene,
   const std::size_t runs = scores.runs.size();
   const auto resamples = static_cast<std::uint64_t>(runs < 2 ? 0 : bootstrap.resamples);
   for (std::uint64_t r = 0; r < resamples; ++r) {
+    if (bootstrap.before_resamples && r % 256 == 0) bootstrap.before_resamples();
     const std::size_t refits = scores.of_refit.size();
     const auto& scored =
         refits == 0 ? scores.runs

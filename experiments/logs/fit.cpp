@@ -282,6 +282,7 @@ FittedModel fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
   FitRuns fitted;
   for (const RunSignals& run : runs) fitted.whole.push_back(&run);
   fitted.scoring.skip = config.skip;
+  fitted.before_density = [&] { stop_if_asked(config); };
   return entry.fit(entry, fitted);
 }
 

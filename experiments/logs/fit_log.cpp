@@ -17,6 +17,10 @@ recordings::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
 
 }  // namespace
 
+void stop_if_asked(const LogFitConfig& config) {
+  if (config.stop != nullptr && *config.stop) throw Stopped("stopped; no model was written");
+}
+
 FitLogSteps::FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitReport& report)
     : log_(log),
       config_(config),
@@ -62,7 +66,7 @@ void FitLogSteps::compare_with_declared_class() {
 }
 
 void FitLogSteps::finish(std::int64_t used_steps) {
-  if (config_.stop != nullptr && *config_.stop) throw Stopped("stopped; no model was written");
+  stop_if_asked(config_);
   report_.warnings.insert(report_.warnings.end(), reader_.warnings().begin(),
                           reader_.warnings().end());
   if (2 * contradicting_ > compared_) {

@@ -37,6 +37,9 @@ struct LogFitConfig {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// Throws `Stopped` once the configuration's flag is true.
+void stop_if_asked(const LogFitConfig& config);
+
 /// The data of a fit; index 0 is no contact, 1 is contact.
 struct LogFitReport {
   double seconds = 0.0;                ///< of all logs, without skipped parts

@@ -90,7 +90,8 @@ GeneratedScenario generate(const Family& family, std::uint64_t seed, std::uint64
                           most_attempts, generated.rejected.back()));
 }
 
-std::vector<GeneratedScenario> generate(const Generation& generation) {
+std::vector<GeneratedScenario> generate(const Generation& generation,
+                                        const std::function<bool()>& should_continue) {
   std::vector<const Family*> chosen;
   for (const std::string& name : generation.families) chosen.push_back(&family_called(name));
   if (chosen.empty()) {
@@ -98,6 +99,7 @@ std::vector<GeneratedScenario> generate(const Generation& generation) {
   }
   std::vector<GeneratedScenario> all;
   for (int i = 0; i < generation.count; ++i) {
+    if (should_continue && !should_continue()) throw Stopped();
     const auto turn = static_cast<std::size_t>(i);
     all.push_back(generate(*chosen[turn % chosen.size()], generation.seed, turn / chosen.size()));
   }

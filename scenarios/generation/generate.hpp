@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,10 @@ struct GeneratedScenario {
 /// if a hundred draws in a row are rejected.
 GeneratedScenario generate(const Family& family, std::uint64_t seed, std::uint64_t number);
 
-/// Draws all scenarios; families take turns. A longer list begins with the shorter one. Errors:
-/// `InputError` for an unknown family, with the nearest one.
-std::vector<GeneratedScenario> generate(const Generation& generation);
+/// Draws all scenarios; families take turns. A longer list begins with the shorter one.
+/// `should_continue` is called before each draw. Errors: `InputError` for an unknown family, with
+/// the nearest one; `Stopped`.
+std::vector<GeneratedScenario> generate(const Generation& generation,
+                                        const std::function<bool()>& should_continue = {});
 
 }  // namespace touchdown::scenarios

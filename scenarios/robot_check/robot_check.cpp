@@ -108,8 +108,13 @@ double given_way(const recordings::Recording& recording,
   return largest;
 }
 
-CheckedStand stand(const Scenario& scenario, const std::string& engine, const RobotCheck& check) {
-  const recordings::Recording recording = play(scenario, engine);
+CheckedStand stand(const Scenario& scenario, const std::string& engine, const RobotCheck& check,
+                   const std::function<bool()>& should_continue) {
+  const auto is_wanted = [&](double /*time*/ = 0.0) {
+    return !should_continue || should_continue();
+  };
+  const recordings::Recording recording = play(scenario, engine, 0, 0, is_wanted);
+  if (!is_wanted()) throw Stopped("stopped");
   CheckedStand stand{.engine = engine, .ending = ending_text(recording, scenario.end)};
   stand.given_way = given_way(recording, check.held);
   stand.stands = recording.info.outcome == recordings::Outcome::finished;
@@ -198,7 +203,8 @@ void read_robot(const Scenario& scenario, RobotCheck& check) {
 
 }  // namespace
 
-RobotCheck check_robot(const std::filesystem::path& file) {
+RobotCheck check_robot(const std::filesystem::path& file,
+                       const std::function<bool()>& should_continue) {
   RobotCheck check;
   try {
     const Scenario scenario = complete_scenario(
@@ -208,7 +214,7 @@ RobotCheck check_robot(const std::filesystem::path& file) {
     read_robot(scenario, check);
     constexpr double gravity = 9.81;
     for (const std::string& engine : simulators::simulator_names()) {
-      check.stands.push_back(stand(scenario, engine, check));
+      check.stands.push_back(stand(scenario, engine, check, should_continue));
       const CheckedStand& last = check.stands.back();
       if (!last.stands) {
         check.complaints.push_back(fmt::format("{}: standing: {}{}", engine, last.ending,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,9 @@ struct RobotCheck {
 };
 
 /// Compiles a robot and lets it stand for two seconds in every engine. A file that is refused has
-/// one complaint, and nothing else is filled in.
-RobotCheck check_robot(const std::filesystem::path& file);
+/// one complaint, and nothing else is filled in. `should_continue` is called repeatedly while it
+/// stands. Errors: `Stopped`.
+RobotCheck check_robot(const std::filesystem::path& file,
+                       const std::function<bool()>& should_continue = {});
 
 }  // namespace touchdown::scenarios

@@ -1,5 +1,6 @@
 #include "scenarios/robot_check/robot_check.hpp"
 
+#include "core/error.hpp"
 #include "core/resources.hpp"
 #include "tests/models/edited_upkie.hpp"
 #include "tests/scenarios/runs.hpp"
@@ -25,6 +26,10 @@ TEST_P(RobotCheckOf, AShippedRobotHasNoComplaints) {
     EXPECT_TRUE(stand.stands) << stand.engine;
     EXPECT_NEAR(stand.load[0] + stand.load[1], 9.81 * check.mass, 0.02 * 9.81 * check.mass);
   }
+}
+
+TEST(RobotCheck, EndsWhenItIsAskedToStop) {
+  EXPECT_THROW(check_robot(upkie_mjcf, [] { return false; }), Stopped);
 }
 
 std::vector<std::string> shipped() {

@@ -28,6 +28,21 @@ double exponential(std::uint64_t seed, std::uint64_t stream, std::uint64_t i) {
   return -std::log(uniform01(seed, stream, i));
 }
 
+TEST(Bootstrap, EndsWhenItIsAskedToStop) {
+  struct Enough {};
+  int calls = 0;
+  BootstrapConfig config{.resamples = 100'000};
+  config.before_resamples = [&] {
+    if (++calls == 3) throw Enough();
+  };
+  const std::vector<Mean> samples = {{1.0, 1.0}, {2.0, 1.0}};
+  EXPECT_THROW(bootstrap<Mean>(samples, {mean}, config), Enough);
+  EXPECT_EQ(calls, 3);
+  calls = 0;
+  EXPECT_THROW(bootstrap_differences<Mean>(samples, samples, {mean}, config), Enough);
+  EXPECT_EQ(calls, 3);
+}
+
 TEST(Bootstrap, CoversTheMeanOfAnExponentialAtItsLevel) {
   int covered = 0;
   constexpr int studies = 500;

@@ -23,6 +23,14 @@ DecisionFitConfig undisturbed() {
   return fit;
 }
 
+TEST(DecisionRows, EndWhenTheyAreAskedToStop) {
+  struct Enough {};
+  const test::CarriedRun run = test::lifted_run(1, 3);
+  EXPECT_THROW((void)decision_rows(std::vector<LabelledRun>{run.view()}, {}, undisturbed(),
+                                   [] { throw Enough(); }),
+               Enough);
+}
+
 TEST(DecisionRows, OfSlowPassesMatchTheInputsOfASlowRobot) {
   const test::CarriedRun run = test::lifted_run(1, 3);
   for (const std::size_t interval : {1U, 5U}) {

@@ -129,7 +129,7 @@ class RandomSequences {
     return signals;
   }
 
-  /// Updates the estimator and the twin whose faults are NaN.
+  /// Updates the estimator and the twin that gets NaN.
   Belief update(const Signals& signals) {
     const Belief belief = estimator_->update(signals);
     for (const double p : {belief.wheel[0].p_contact, belief.wheel[1].p_contact, belief.p_any_wheel,

@@ -13,7 +13,7 @@ namespace {
 using ::testing::Each;
 using ::testing::IsEmpty;
 
-constexpr scoring::BootstrapConfig many = {.resamples = 20'000};
+const scoring::BootstrapConfig many = {.resamples = 20'000};
 
 /// A run of contact alone.
 scoring::Classification run_with(std::int64_t right, std::int64_t wrong) {

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "core/error.hpp"
 #include "scenarios/generation/named.hpp"
 #include "scenarios/generation/rules.hpp"
 #include "scenarios/scenario_file.hpp"
@@ -14,6 +15,12 @@ Scenario read(const GeneratedScenario& drawn, const std::string& robot = "models
   YamlDocument document = YamlDocument::parse(drawn.text, drawn.name);
   document.override_value("robot=" TOUCHDOWN_SOURCE_DIR "/" + robot);
   return complete_scenario(document);
+}
+
+TEST(Generation, EndsWhenItIsAskedToStop) {
+  int draws = 0;
+  EXPECT_THROW(generate({.seed = 5, .count = 30}, [&] { return ++draws < 4; }), Stopped);
+  EXPECT_EQ(draws, 4);
 }
 
 TEST(Generation, GivesTheSameFilesForTheSameSeed) {
