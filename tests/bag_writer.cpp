@@ -80,21 +80,22 @@ CdrBytes& CdrBytes::f64s(const std::vector<double>& values) {
   return *this;
 }
 
-std::string joint_state_cdr(std::int64_t stamp, const TestJoints& joints, bool is_big) {
+std::string joint_state_cdr(std::int64_t stamp, const TestJoints& joints, bool is_big,
+                            std::string_view frame) {
   CdrBytes cdr(is_big);
   cdr.u32(static_cast<std::uint32_t>(stamp / 1'000'000'000))
       .u32(static_cast<std::uint32_t>(stamp % 1'000'000'000))
-      .text("");
+      .text(frame);
   cdr.u32(static_cast<std::uint32_t>(joints.name.size()));
   for (const std::string& name : joints.name) cdr.text(name);
   return cdr.f64s(joints.position).f64s(joints.velocity).f64s(joints.effort).bytes();
 }
 
-std::string imu_cdr(std::int64_t stamp, const TestImu& imu, bool is_big) {
+std::string imu_cdr(std::int64_t stamp, const TestImu& imu, bool is_big, std::string_view frame) {
   CdrBytes cdr(is_big);
   cdr.u32(static_cast<std::uint32_t>(stamp / 1'000'000'000))
       .u32(static_cast<std::uint32_t>(stamp % 1'000'000'000))
-      .text("imu_link");
+      .text(frame);
   for (const double x : imu.orientation) cdr.f64(x);
   cdr.f64(imu.orientation_covariance);
   for (int i = 1; i < 9; ++i) cdr.f64(0.0);

@@ -35,8 +35,10 @@ struct TestImu {
   std::array<double, 3> linear_acceleration{0.0, 0.0, 9.81};
   double orientation_covariance = 0.0;
 };
-std::string joint_state_cdr(std::int64_t stamp, const TestJoints& joints, bool is_big = false);
-std::string imu_cdr(std::int64_t stamp, const TestImu& imu, bool is_big = false);
+std::string joint_state_cdr(std::int64_t stamp, const TestJoints& joints, bool is_big = false,
+                            std::string_view frame = "");
+std::string imu_cdr(std::int64_t stamp, const TestImu& imu, bool is_big = false,
+                    std::string_view frame = "imu_link");
 
 struct TestTopic {
   std::string name, type;

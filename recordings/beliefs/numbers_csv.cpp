@@ -160,6 +160,7 @@ class RowReader {
     values_.resize(names.size());
     for (std::size_t i = 0; i < names.size(); ++i) {
       needed_.push_back(!sink_.needs || sink_.needs(i));
+      has_text_.push_back(sink_.has_text && sink_.has_text(i));
     }
   }
 
@@ -184,6 +185,7 @@ class RowReader {
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (needed_[i]) values_[i] = value_of(cells[i]);
+      if (has_text_[i]) sink_.text(i, cells[i].text);
     }
     check(sink_.row(values_, rows_.line()));
   }
@@ -209,6 +211,7 @@ class RowReader {
   const NumbersCsvSink& sink_;
   std::vector<double> values_;
   std::vector<bool> needed_;
+  std::vector<bool> has_text_;
   char separator_ = ',';
   bool has_names_ = false;
 };

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "recordings/beliefs/beliefs.hpp"
@@ -18,6 +19,9 @@ struct NumbersCsvSink {
   std::function<std::optional<ColumnError>(std::span<const double> values, std::size_t line)> row;
   /// Called once the names are known. Columns that are not needed are not parsed.
   std::function<bool(std::size_t column)> needs = {};
+  /// Called once the names are known: the columns of which `text` gets each cell, before `row`.
+  std::function<bool(std::size_t column)> has_text = {};
+  std::function<void(std::size_t column, std::string_view text)> text = {};
   /// The value of an empty cell; without it an empty cell is an error.
   std::optional<double> empty_cell = {};
   /// Gets a line about a last row that is cut off and was left out; without it that is an error.

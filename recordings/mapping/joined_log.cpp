@@ -174,6 +174,7 @@ SourceNames read_names(const SourceNames& named) {
                     {.wanted = [&](const SourceNames& names) -> std::vector<SourceColumn> {
                        result.are_arrays = names.are_arrays;
                        result.names = names.names;
+                       result.has_joint_names = names.has_joint_names;
                        throw Done{};
                      },
                      .row = [](std::span<const double>, const SourceLocation&) {}});
@@ -283,7 +284,7 @@ BagSources bag_sources(const fs::path& log, const LogSources& sources) {
   const auto add = [&](const char* section, const std::vector<std::string>& topics) {
     for (const std::string& topic : topics) {
       names.push_back(topic);
-      result.names.push_back({topic, false, {}, section, true});
+      result.names.push_back({topic, false, {}, section, true, true});
     }
   };
   if (sources.empty()) {

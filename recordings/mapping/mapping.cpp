@@ -473,17 +473,28 @@ SignalKind describe_joint_names(Fields& fields, MappingReader& reader, bool has_
     fields("names", kind.names)
         .fallback("none")
         .doc(
-            "Names of the left hip, knee, wheel, right hip, knee, wheel. The columns "
-            "NAME/position, "
-            "NAME/velocity and NAME/effort then need no `from`.");
+            "Names of the left hip, knee, wheel, right hip, knee, wheel. Joints are then found by "
+            "name in each message of a topic and in each row of a CSV file with the columns "
+            "name[0], position[0], …; other files need columns NAME/position, NAME/velocity and "
+            "NAME/effort.");
     fields.check(kind.names.size() == kind.count, "names",
                  fmt::format("expected {}: {}", kind.count, kind.what));
+    const std::vector<std::string>& columns = reader.names().names;
+    const bool has_names =
+        reader.names().has_joint_names ||
+        std::any_of(columns.begin(), columns.end(),
+                    [](const std::string& column) { return column.ends_with("/position"); });
+    fields.check(has_names || fields.documenting() || fields.present("position", false), "names",
+                 fmt::format("{} has neither columns NAME/position nor the joints' names in its "
+                             "rows (name[0], …): map its columns by hand, position: {{from: [{} "
+                             "columns]}}, and velocity and torque alike",
+                             reader.names().file, kind.count));
   }
   std::string known;
   for (const std::string& name : reader.names().names) {
     if (name.ends_with("/position")) known += ", " + name.substr(0, name.rfind('/'));
   }
-  const bool is_needed = reader.names().is_topic && !fields.present("position", false);
+  const bool is_needed = reader.names().has_joint_names && !fields.present("position", false);
   fields.check(
       !is_needed || !kind.names.empty(), "",
       fmt::format("'names' is missing: expected the joints' names, {}; {} has {}", kind.what,

@@ -36,6 +36,9 @@ struct SourceNames {
   std::string section = {};
   /// Whether it is a topic of a bag: its messages have defined names and conventions.
   bool is_topic = false;
+  /// Whether columns NAME/position, NAME/velocity and NAME/effort follow from the names of joints
+  /// in the rows: of a topic, or of a file with such names.
+  bool has_joint_names = false;
   /// The number of columns of an array; 1 for an array with one axis. May be empty: unknown.
   std::function<std::size_t(const std::string& name)> width = {};
 };

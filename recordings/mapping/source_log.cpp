@@ -10,33 +10,88 @@
 
 #include "core/error.hpp"
 #include "recordings/beliefs/numbers_csv.hpp"
+#include "recordings/mapping/joint_columns.hpp"
 #include "recordings/models/npz.hpp"
 
 namespace touchdown::recordings {
 
 namespace {
 
+/// The columns that the names of joints in the first row with names give.
+std::vector<std::string> first_joint_names(const std::filesystem::path& path, JointColumns joints) {
+  struct Done {};
+  NumbersCsvSink csv;
+  csv.names = [](std::span<const std::string>) { return std::nullopt; };
+  csv.needs = [](std::size_t) { return false; };
+  csv.has_text = [&](std::size_t column) { return joints.is_name(column); };
+  csv.text = [&](std::size_t column, std::string_view text) { joints.set_name(column, text); };
+  csv.note = [](const std::string&) {};
+  csv.row = [&](std::span<const double>, std::size_t) -> std::optional<ColumnError> {
+    if (!joints.names().empty()) throw Done{};
+    return std::nullopt;
+  };
+  try {
+    read_numbers_csv(path, csv);
+  } catch (const Done&) {  // NOLINT(bugprone-empty-catch): the names suffice
+  }
+  return joints.names();
+}
+
 void read_csv(const std::filesystem::path& path, const SourceLogSink& sink) {
-  std::vector<std::size_t> positions;  // of the wanted columns in a line
+  // The position in a line of a wanted column, or its name if it follows from a joint's name.
+  struct WantedColumn {
+    std::optional<std::size_t> position;
+    std::string joint;
+  };
+  std::vector<WantedColumn> wanted;
+  std::optional<JointColumns> joints;
   std::vector<double> row;
   NumbersCsvSink csv;
   csv.names = [&](std::span<const std::string> given) -> std::optional<ColumnError> {
     const std::vector<std::string> names(given.begin(), given.end());
     if (names == std::vector<std::string>{""}) return ColumnError{0, "expected a line of names"};
-    for (const SourceColumn& column : sink.wanted({path.string(), false, names})) {
-      const auto found = std::find(names.begin(), names.end(), column.name);
-      positions.push_back(static_cast<std::size_t>(found - names.begin()));
+    std::vector<std::string> all = names;
+    joints = JointColumns::among(names);
+    if (joints) {
+      for (std::string& name : first_joint_names(path, *joints)) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+          all.push_back(std::move(name));
+        }
+      }
     }
-    row.resize(positions.size());
+    const bool has_joint_names = all.size() > names.size();
+    SourceNames source{.file = path.string(), .names = std::move(all)};
+    source.has_joint_names = has_joint_names;
+    for (const SourceColumn& column : sink.wanted(source)) {
+      const auto found = std::find(names.begin(), names.end(), column.name);
+      if (found == names.end()) {
+        wanted.push_back({std::nullopt, column.name});
+      } else {
+        wanted.push_back({static_cast<std::size_t>(found - names.begin()), ""});
+      }
+    }
+    const bool are_columns = std::all_of(wanted.begin(), wanted.end(), [](const auto& column) {
+      return column.position.has_value();
+    });
+    if (are_columns) joints.reset();
+    row.resize(wanted.size());
     return std::nullopt;
   };
   csv.needs = [&](std::size_t column) {
-    return std::find(positions.begin(), positions.end(), column) != positions.end();
+    return (joints && joints->is_number(column)) ||
+           std::any_of(wanted.begin(), wanted.end(),
+                       [&](const WantedColumn& one) { return one.position == column; });
   };
+  csv.has_text = [&](std::size_t column) { return joints && joints->is_name(column); };
+  csv.text = [&](std::size_t column, std::string_view text) { joints->set_name(column, text); };
   csv.empty_cell = std::numeric_limits<double>::quiet_NaN();
   csv.note = sink.note;
   csv.row = [&](std::span<const double> values, std::size_t line) -> std::optional<ColumnError> {
-    for (std::size_t i = 0; i < positions.size(); ++i) row[i] = values[positions[i]];
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const auto position =
+          wanted[i].position ? wanted[i].position : joints->column_of(wanted[i].joint);
+      row[i] = position ? values[*position] : std::numeric_limits<double>::quiet_NaN();
+    }
     sink.row(row, [&] { return fmt::format("{}:{}", path.string(), line); });
     return std::nullopt;
   };
@@ -75,7 +130,7 @@ void read_arrays(const std::filesystem::path& path, const SourceLogSink& sink) {
     return found != one.end() && found->second.shape.size() == 2 ? found->second.shape[1] : 1;
   };
   const std::vector<SourceColumn> wanted =
-      sink.wanted({path.string(), true, npz_names(path), "", false, width});
+      sink.wanted({path.string(), true, npz_names(path), "", false, false, width});
   const NpzArrays arrays = read_npz(path, [&](std::string_view name) {
     const bool is_wanted = std::any_of(wanted.begin(), wanted.end(),
                                        [&](const SourceColumn& one) { return one.name == name; });

@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "recordings/bags/sensor_messages.hpp"
 #include "recordings/log/reader.hpp"
 #include "recordings/mapping/conversion.hpp"
@@ -149,6 +150,43 @@ TEST_F(JoinedLog, TopicsOfABagAreJoinedAtTheJointsClock) {
   const auto rows = convert(folder_ / "bag.db3", bag_mapping);
   EXPECT_EQ(rows.size(), 499U);
   expect_joined(rows);
+}
+
+/// What messages may differ in: the order of joints, the byte order, the length of the frame's name
+/// (the numbers behind it are aligned), joints of an arm, and which joints they have.
+TEST_F(JoinedLog, MessagesMayDifferInOrderBytesAndFrames) {
+  TestBag bag = robot_bag(0.5);
+  int k = 0;
+  for (auto& message : bag.messages) {
+    const bool is_big = ++k % 3 == 0;
+    const std::string frame(static_cast<std::size_t>(k % 11), 'f');
+    const std::int64_t delay = (message.topic == 0 ? 3 : 8) * ms;
+    const std::int64_t measured = message.time - delay;
+    const double t = 1e-9 * static_cast<double>(measured - epoch);
+    if (message.topic == 0) {
+      std::vector<std::size_t> order = all_joints;
+      std::rotate(order.begin(), order.begin() + k % 6, order.end());
+      TestJoints joints = joints_at(t, order);
+      for (const char* other : {"arm_1", "gripper"}) {
+        const auto at = static_cast<std::ptrdiff_t>(k % 5);
+        joints.name.insert(joints.name.begin() + at, other);
+        for (auto* values : {&joints.position, &joints.velocity, &joints.effort}) {
+          values->insert(values->begin() + at, -99.0);
+        }
+      }
+      message.data = test::joint_state_cdr(measured, joints, is_big, frame);
+    } else if (message.topic == 1) {
+      message.data = test::imu_cdr(measured, imu_at(t), is_big, frame);
+    }
+  }
+  test::write_db3(bag, folder_ / "bag.db3", true);
+  for (const fs::path& log : {write_bag(bag), folder_ / "bag.db3"}) {
+    const auto rows = convert(log, bag_mapping);
+    EXPECT_EQ(rows.size(), 249U);
+    EXPECT_EQ(converted_.incomplete_rows, 0U);
+    expect_joined(rows);
+    EXPECT_EQ(converted_.notes.size(), 2U) << fmt::format("{}", fmt::join(converted_.notes, "; "));
+  }
 }
 
 TEST_F(JoinedLog, ImuConventionsAreThoseOfRos) {
@@ -423,6 +461,108 @@ TEST_F(JoinedLog, EachFileMayHaveAClockOfItsOwnNameAndUnit) {
   const auto rows = convert(folder_.path(), csv_mapping + "  time: {from: stamp, unit: us}\n");
   EXPECT_EQ(rows.size(), 249U);
   expect_joined(rows);
+}
+
+/// A joint state per row with its names, as programs write messages. `column` names the i-th entry
+/// of a list.
+std::string named_joints_csv(double seconds,
+                             const std::function<std::string(const char*, int)>& column,
+                             const std::function<std::vector<std::size_t>(int)>& order) {
+  std::string csv = "header.stamp.sec,header.stamp.nanosec";
+  for (const char* field : {"name", "position", "velocity", "effort"}) {
+    for (int i = 0; i < 6; ++i) csv += fmt::format(",{}", column(field, i));
+  }
+  csv += "\n";
+  for (int k = 0; k < static_cast<int>(500 * seconds); ++k) {
+    const double t = 0.002 * k;
+    std::vector<std::size_t> sent = order(k);
+    const auto cells = [&](const auto& cell) {
+      for (std::size_t i = 0; i < 6; ++i) csv += i < sent.size() ? cell(sent[i]) : std::string(",");
+    };
+    csv += sec_nanosec(t);
+    cells([](std::size_t i) { return fmt::format(",{}", joint_names[i]); });
+    cells([&](std::size_t i) { return fmt::format(",{:.12g}", position(i, t)); });
+    cells([&](std::size_t i) { return fmt::format(",{:.12g}", velocity(i, t)); });
+    cells([&](std::size_t i) { return fmt::format(",{:.12g}", torque(i, t)); });
+    csv += "\n";
+  }
+  return csv;
+}
+
+/// The text with one part replaced.
+std::string with_part(const std::string& text, const std::string& part, const std::string& by) {
+  const std::size_t at = text.find(part);
+  return fmt::format("{}{}{}", text.substr(0, at), by, text.substr(at + part.size()));
+}
+
+const auto in_brackets = [](const char* field, int i) { return fmt::format("{}[{}]", field, i); };
+
+TEST_F(JoinedLog, JointsOfAFileAreFoundByTheNamesInItsRows) {
+  write("imu.csv", robot_csv(0.5).imu);
+  using Column = std::function<std::string(const char*, int)>;
+  const std::vector<Column> styles = {
+      in_brackets,
+      [](const char* field, int i) { return fmt::format(".{}[{}]", field, i); },
+      [](const char* field, int i) { return fmt::format("/joint_states/{}[{}]", field, i); },
+      [](const char* field, int i) { return fmt::format("joint_states.{}_{}", field, i); },
+      [](const char* field, int i) { return fmt::format("field.{}{}", field, i); },
+      [](const char* field, int i) { return fmt::format("/joint_states/{}.{}", field, i); }};
+  const auto same = [](int) { return all_joints; };
+  const auto permuted = [](int k) {
+    std::vector<std::size_t> order = all_joints;
+    std::rotate(order.begin(), order.begin() + k % 6, order.end());
+    return order;
+  };
+  for (std::size_t style = 0; style < styles.size(); ++style) {
+    for (const auto& order : {std::function<std::vector<std::size_t>(int)>(same),
+                              std::function<std::vector<std::size_t>(int)>(permuted)}) {
+      write("joint_states.csv", named_joints_csv(0.5, styles[style], order));
+      const auto rows = convert(folder_.path(), csv_mapping);
+      EXPECT_EQ(rows.size(), 249U) << style;
+      expect_joined(rows);
+    }
+  }
+}
+
+TEST_F(JoinedLog, AJointThatARowOfNamesLacksIsHeld) {
+  write("imu.csv", robot_csv(0.5).imu);
+  // Every third row has the left leg alone.
+  write("joint_states.csv", named_joints_csv(0.5, in_brackets, [](int k) {
+          return k % 3 == 2 ? std::vector<std::size_t>{2, 0, 1} : all_joints;
+        }));
+  const auto rows = convert(folder_.path(), csv_mapping);
+  ASSERT_EQ(rows.size(), 249U);
+  for (const LogRow& row : rows) {
+    const double t = row.observation.time + start_ - 1e-9 * static_cast<double>(epoch);
+    const bool is_held = std::llround(t / 0.002) % 3 == 2;
+    EXPECT_NEAR(row.observation.servo[0].position, position(0, t), 1e-6);
+    EXPECT_NEAR(row.observation.servo[4].torque, torque(4, is_held ? t - 0.002 : t), 1e-6);
+  }
+  EXPECT_GT(converted_.completed_rows, 80U);
+  EXPECT_NEAR(converted_.oldest, 0.002, 1e-6);
+}
+
+TEST_F(JoinedLog, NamesThatAFileLacksHaveARemedy) {
+  write("imu.csv", robot_csv(0.1).imu);
+  write("joint_states.csv", named_joints_csv(0.1, in_brackets, [](int) { return all_joints; }));
+  const std::string misspelt = with_part(csv_mapping, "l_knee", "l_kneee");
+  EXPECT_THAT(complaint(folder_.path(), misspelt), HasSubstr("did you mean 'l_knee/position'"));
+  const std::string without =
+      "sources: {joints: joint_states.csv, imu: imu.csv}\n"
+      "time: {sec: header.stamp.sec, nanosec: header.stamp.nanosec}\njoints: {}\n" +
+      imu_columns;
+  EXPECT_THAT(complaint(folder_.path(), without),
+              AllOf(HasSubstr("'names' is missing: expected the joints' names"),
+                    HasSubstr("has r_wheel, l_wheel, l_hip, r_knee, l_knee, r_hip")));
+  // Lists without names.
+  std::string lists = read_file(folder_ / "joint_states.csv");
+  for (int i = 0; i < 6; ++i) {
+    lists = with_part(lists, fmt::format(",name[{}]", i), fmt::format(",unknown[{}]", i));
+  }
+  write("joint_states.csv", lists);
+  EXPECT_THAT(complaint(folder_.path(), csv_mapping),
+              AllOf(HasSubstr("map.yaml:3:"), HasSubstr("has neither columns NAME/position nor"),
+                    HasSubstr("position: {from: [6 columns]}")));
 }
 
 TEST_F(JoinedLog, ArraysAreJoinedToo) {
