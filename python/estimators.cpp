@@ -16,7 +16,9 @@
 #include "python/recording_arrays.hpp"
 #include "python/signal_arrays.hpp"
 #include "python/spine.hpp"
+#include "recordings/log/byte_source.hpp"
 #include "recordings/log/writer.hpp"
+#include "recordings/mapping/mapped_log.hpp"
 #include "recordings/signals_from.hpp"
 
 namespace touchdown::python {
@@ -107,21 +109,33 @@ SignalNeeds needs_of(const experiments::EstimatorEntry& entry) {
           .command = is_neural};
 }
 
-/// What is implausible about a recording in memory, or about a log by path.
-std::vector<std::string> check(const py::object& log, const std::string& robot) {
+/// What is implausible about a recording in memory, or about a log by path, which a mapping file
+/// may convert.
+std::vector<std::string> check(const py::object& log, const std::string& robot,
+                               const std::optional<fs::path>& mapping) {
   const bool in_memory = py::hasattr(log, "info");
+  if (in_memory && mapping) throw InputError("check: mapping is for logs by path");
   const auto records = in_memory ? records_of(log) : nullptr;
   const fs::path path = in_memory ? fs::path("recording") : log.cast<fs::path>();
   return long_call([&](const std::atomic<bool>& stop) {
-    recordings::LogReader reader =
-        in_memory ? recordings::LogReader(recordings::memory_source(records, &stop), path.string())
-                  : recordings::LogReader(path, &stop);
+    std::optional<recordings::MappedLog> mapped;
+    if (mapping) {
+      mapped.emplace(path, *mapping, [&] {
+        if (stop) throw Stopped("stopped");
+      });
+    }
+    recordings::LogReader reader(
+        in_memory ? recordings::memory_source(records, &stop)
+                  : recordings::file_source(mapped ? mapped->path() : path, &stop),
+        path.string());
     experiments::LogSteps steps(
         reader, nullptr,
         experiments::checked_robot(experiments::robot_called(robot), reader.info()));
     while (steps.next() != nullptr) {
     }
-    std::vector<std::string> lines = reader.warnings();
+    std::vector<std::string> lines;
+    if (mapped) lines = mapped->warnings();
+    lines.insert(lines.end(), reader.warnings().begin(), reader.warnings().end());
     const std::vector<std::string> findings = steps.findings();
     lines.insert(lines.end(), findings.begin(), findings.end());
     return lines;
@@ -363,7 +377,7 @@ void add_estimators(py::module_& module) {
   add_model(module);
   add_estimator(module);
   module.def("estimators", &estimators);
-  module.def("check", &check, py::arg("log"), py::arg("robot"));
+  module.def("check", &check, py::arg("log"), py::arg("robot"), py::arg("mapping"));
 }
 
 }  // namespace touchdown::python

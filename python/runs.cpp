@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -13,7 +14,9 @@
 #include "python/belief_arrays.hpp"
 #include "python/long_call.hpp"
 #include "python/recording_arrays.hpp"
+#include "recordings/log/byte_source.hpp"
 #include "recordings/log/recording_file.hpp"
+#include "recordings/mapping/mapped_log.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/generation/named.hpp"
 #include "scenarios/scenario_file.hpp"
@@ -46,10 +49,17 @@ py::tuple simulate(const fs::path& scenario, const std::string& simulator, std::
   }));
 }
 
-py::tuple load(const fs::path& path) {
+/// `mapping` converts another robot's log or bag.
+py::tuple load(const fs::path& path, const std::optional<fs::path>& mapping) {
   std::vector<std::string> warnings;
-  py::tuple read = with_info(long_call([&](const std::atomic<bool>& /*stop*/) {
-    return recordings::read_recording(path, &warnings);
+  py::tuple read = with_info(long_call([&](const std::atomic<bool>& stop) {
+    if (!mapping) return recordings::read_recording(path, &warnings);
+    const recordings::MappedLog mapped(path, *mapping, [&] {
+      if (stop) throw Stopped("stopped");
+    });
+    warnings = mapped.warnings();
+    recordings::LogReader reader(recordings::file_source(mapped.path(), &stop), path.string());
+    return recordings::read_recording(reader, &warnings);
   }));
   for (const std::string& warning : warnings) {
     if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
@@ -121,7 +131,7 @@ void add_runs(py::module_& module) {
   using namespace py::literals;  // NOLINT(google-build-using-namespace)
   module.def("simulate", &simulate, "scenario"_a, "simulator"_a, "seed"_a, "run"_a,
              "assignments"_a);
-  module.def("load", &load, "path"_a);
+  module.def("load", &load, "path"_a, "mapping"_a);
   module.def("save", &save, "arrays"_a, "info"_a, "path"_a);
   module.def("find_resource", &find_resource, "path"_a);
   module.def("simulators", [] { return simulators::simulator_names(); });

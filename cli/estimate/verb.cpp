@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/estimate/converted_input.hpp"
 #include "cli/estimate/outputs.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
@@ -21,6 +20,7 @@
 #include "experiments/logs/summary.hpp"
 #include "recordings/log/annotator.hpp"
 #include "recordings/log/byte_source.hpp"
+#include "recordings/mapping/mapped_log.hpp"
 #include "render/curves/log_figure.hpp"
 
 namespace touchdown::cli {
@@ -87,11 +87,11 @@ class BeliefWriter {
     if (csv_) csv_->flush();
   }
 
-  /// Call it at the end of the log. Returns the summary.
-  std::string finish(const recordings::LogReader& reader) {
+  /// Call it at the end of the log, with the number of findings about it. Returns the summary.
+  std::string finish(const recordings::LogReader& reader, std::size_t findings) {
     flush();
     if (annotator_) annotator_->copy(reader.skipped());
-    return summary_->text(score_->finish(), reader.start_time());
+    return summary_->text(score_->finish(), reader.start_time(), findings);
   }
 
   std::int64_t steps() const { return summary_->steps(); }
@@ -163,8 +163,8 @@ Evaluation evaluate(recordings::LogReader& reader, const experiments::LogEstimat
     writer.flush();  // the beliefs of a live stream before the error
     throw;
   }
-  const std::string summary = writer.finish(reader);
   std::vector<std::string> findings = log.findings();
+  const std::string summary = writer.finish(reader, findings.size());
   require_valid_steps(reader, writer, findings);
   return {fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
                       writer.duration(), log.sample_rate(), chosen.entry.title) +
@@ -191,9 +191,16 @@ std::size_t estimate_log(const std::string& path, const recordings::ContactInter
     BeliefWriter writer(csv, mpack,
                         flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
     const bool live = path == "-";
-    std::optional<ConvertedInput> converted;
-    if (!flags.mapping.empty()) converted.emplace(path, flags.mapping, session);
-    const std::string log = converted ? converted->path().string() : path;
+    std::optional<recordings::MappedLog> mapped;
+    if (!flags.mapping.empty()) {
+      mapped.emplace(path, flags.mapping, [&] {
+        if (*session.stop) throw Stopped("stopped; nothing was written");
+      });
+      for (const std::string& warning : mapped->warnings()) {
+        print_message(fmt::format("touchdown: {}\n", warning));
+      }
+    }
+    const std::string log = mapped ? mapped->path().string() : path;
     // A reader of a live stream gets every line before the program waits for the next record.
     const recordings::ByteSource source =
         [&, bytes = recordings::file_source(log, session.stop)](std::span<char> buffer) {

@@ -169,8 +169,12 @@ std::string LogSummary::events_text(std::size_t w) const {
   return text;
 }
 
-std::string LogSummary::signals_text() const {
-  if (status_[0] == steps_) return "all good";
+std::string LogSummary::signals_text(std::size_t findings) const {
+  const std::string implausible = findings == 0
+                                      ? ""
+                                      : fmt::format("not plausible: {} finding{}, printed above",
+                                                    findings, findings == 1 ? "" : "s");
+  if (status_[0] == steps_) return findings == 0 ? "all good" : implausible;
   std::vector<std::string> parts;
   for (const SignalStatus status :
        {SignalStatus::invalid, SignalStatus::gap, SignalStatus::frozen}) {
@@ -186,15 +190,17 @@ std::string LogSummary::signals_text() const {
     text += fmt::format("; unusable: {}{}", to_text(signal),
                         kinds == 1 ? "" : fmt::format(" and {} others", kinds - 1));
   }
+  if (findings > 0) text += "; " + implausible;
   return text;
 }
 
-std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, double start) {
+std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, double start,
+                             std::size_t findings) {
   for (const auto& wheel : wheels_) wheel->finish();
   std::string text =
       fmt::format("{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n", "time",
                   clock_.text(start), "contact", contact_text(), "left wheel", events_text(0),
-                  "right wheel", events_text(1), "signals", signals_text());
+                  "right wheel", events_text(1), "signals", signals_text(findings));
   if (score) text += score_text(score->wheels());
   return text;
 }

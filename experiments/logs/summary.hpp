@@ -33,8 +33,10 @@ class LogSummary {
   double duration() const;
 
   /// Ends the log. A few lines, each with a line end: time, contact, takeoffs and landings,
-  /// signals, and the score if the log has ground truth. `start` is the log's clock at time 0 (s).
-  std::string text(const std::optional<scoring::RobotScore>& score, double start = 0.0);
+  /// signals, and the score if the log has ground truth. `start` is the log's clock at time 0 (s),
+  /// `findings` the number of lines about implausible signals (recordings/plausibility/check.hpp).
+  std::string text(const std::optional<scoring::RobotScore>& score, double start = 0.0,
+                   std::size_t findings = 0);
 
  private:
   /// One kind of transition of one wheel.
@@ -86,7 +88,7 @@ class LogSummary {
   void add_valid(double time, const Belief& belief);
   std::string contact_text() const;
   std::string events_text(std::size_t wheel) const;
-  std::string signals_text() const;
+  std::string signals_text(std::size_t findings) const;
 
   Clock clock_;
   /// Steps with an invalid status, by their first unusable signal.

@@ -20,7 +20,7 @@ class Recording(dict):
 
     ========================== ========== ========= ============================================================
     `time`                     (steps,)   s         since the start of the run
-    `position`                 (steps, 6) rad       of the joints
+    `position`                 (steps, 6) rad       of the joints: left hip, knee, wheel, right hip, knee, wheel
     `velocity`                 (steps, 6) rad/s
     `torque`                   (steps, 6) N·m       as the servos report them
     `orientation`              (steps, 4)           of the IMU, w x y z, to a frame x forward, y right, z down
@@ -62,9 +62,13 @@ class Recording(dict):
         self.info: dict[str, Any] = dict(info)
 
     @classmethod
-    def load(cls, path: Path) -> Recording:
-        """Read a log in Upkie's layout (`.mpack`): a robot's, or one that touchdown wrote."""
-        return cls(*_touchdown.load(path))
+    def load(cls, path: Path, mapping: Path | None = None) -> Recording:
+        """Read a log in Upkie's layout (`.mpack`): a robot's, or one that touchdown wrote.
+
+        mapping: a mapping file, for the log of another robot: a ROS 2 bag, CSV or NumPy arrays. Joints, frames, signs
+            and units then are those above. What `touchdown export` prints, such as ages of held values, are warnings.
+        """
+        return cls(*_touchdown.load(path, mapping))
 
     def save(self, path: Path) -> None:
         """Write such a log, atomically, with the same bytes as `touchdown simulate`."""
@@ -117,14 +121,16 @@ def _several(runs: Any) -> list:
     return [runs] if isinstance(runs, (dict, str, os.PathLike)) else list(runs)
 
 
-def check(log: Any, *, robot: str = "") -> list[str]:
+def check(log: Any, *, robot: str = "", mapping: Path | None = None) -> list[str]:
     """What is implausible about a run, one line each, as `touchdown check` prints: clock, units, signs, axes, gravity,
     loads, dead channels. An empty list: nothing.
 
     log: a `Recording`, or the path of a log
     robot: its name, or its file, which gives weight, legs and ranges of joints
+    mapping: a mapping file, for the path of another robot's log: a ROS 2 bag, CSV or NumPy arrays. The list then begins
+        with what `touchdown export` prints about the conversion, such as ages of held values
     """
-    return _touchdown.check(log, robot)
+    return _touchdown.check(log, robot, mapping)
 
 
 def fit(runs: Any = (), estimator: str = "touchdown", *, contact: Any = (), no_contact: Any = (), skip: float = 0.3,

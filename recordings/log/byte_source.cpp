@@ -47,6 +47,13 @@ bool is_opened_already(std::string_view name) {
 
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop) {
   const std::string name = path.string();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw InputError(fmt::format(
+        "{}: is a folder, expected a log; `touchdown estimate`, `check` and `export` read a ROS 2 "
+        "bag with --mapping FILE.yaml",
+        name));
+  }
   if (name != "-" && !is_opened_already(name)) require_file(name);
   const int opened =
       name == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT

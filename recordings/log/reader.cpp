@@ -1,6 +1,7 @@
 #include "recordings/log/reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -243,7 +244,10 @@ void LogReader::finish() {
 }
 
 void LogReader::complain_about_garbage(std::size_t offset) const {
-  const bool is_source_log = name_.ends_with(".csv") || name_.ends_with(".npz");
+  constexpr std::array source_logs = {".csv", ".CSV", ".tsv", ".npz", ".mcap", ".db3", ".zstd"};
+  const bool is_source_log =
+      std::any_of(source_logs.begin(), source_logs.end(),
+                  [&](const char* extension) { return name_.ends_with(extension); });
   const bool is_scenario = name_.ends_with(".yaml") || name_.ends_with(".yml");
   throw InputError(fmt::format(
       "{}: byte {}: expected a MessagePack map, one per control step{}", name_, offset_ + offset,

@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "recordings/log/reader.hpp"
 #include "recordings/log/writer.hpp"
 
 namespace touchdown::recordings {
@@ -30,6 +29,10 @@ void write_recording(const Recording& recording, const std::filesystem::path& pa
 
 Recording read_recording(const std::filesystem::path& path, std::vector<std::string>* warnings) {
   LogReader reader(path);
+  return read_recording(reader, warnings);
+}
+
+Recording read_recording(LogReader& reader, std::vector<std::string>* warnings) {
   Recording recording;
   recording.info = reader.info();
   while (std::optional<LogRow> row = reader.next()) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "recordings/log/reader.hpp"
 #include "recordings/recording.hpp"
 
 namespace touchdown::recordings {
@@ -16,5 +17,7 @@ void write_recording(const Recording& recording, const std::filesystem::path& pa
 /// `warnings` if given. Errors: as `LogReader`.
 Recording read_recording(const std::filesystem::path& path,
                          std::vector<std::string>* warnings = nullptr);
+/// Reads the rest of a log.
+Recording read_recording(LogReader& reader, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace touchdown::recordings
