@@ -4,7 +4,7 @@
 #include <string>
 
 #include "estimator/force/leg_geometry.hpp"
-#include "recordings/plausibility/robot.hpp"
+#include "recordings/plausibility/joint_range.hpp"
 #include "recordings/recording.hpp"
 
 namespace touchdown::experiments {

@@ -16,6 +16,7 @@ void PlausibilityCheck::add(const models::Observation& record) {
   if (!window) return;
   motion_.add(*window);
   turning_.add(*window);
+  driving_.add(*window);
   load_.add(*window);
   if (const std::optional<CheckedWindow> stretch = still_.add(*window)) {
     gravity_.add_still(*stretch);
@@ -30,9 +31,11 @@ std::vector<std::string> PlausibilityCheck::findings() const {
   const bool has_positions = range_.report(findings);
   motion_.report(findings);
   turning_.report(findings);
+  const std::size_t before = findings.lines().size();
   gravity_.report(findings);
+  driving_.report(findings, findings.lines().size() == before);
   // A leg's load follows from its pose.
-  if (has_positions && !constant_.lacks_hips()) load_.report(findings);
+  if (has_positions && !constant_.lacks_hips()) load_.report(findings, driving_.drives());
   return findings.lines();
 }
 

@@ -6,11 +6,11 @@
 
 #include "recordings/plausibility/clock.hpp"
 #include "recordings/plausibility/constant_channels.hpp"
+#include "recordings/plausibility/driving.hpp"
 #include "recordings/plausibility/gravity.hpp"
 #include "recordings/plausibility/joint_motion.hpp"
 #include "recordings/plausibility/joint_range.hpp"
 #include "recordings/plausibility/load.hpp"
-#include "recordings/plausibility/robot.hpp"
 #include "recordings/plausibility/still.hpp"
 #include "recordings/plausibility/turning.hpp"
 #include "recordings/plausibility/window.hpp"
@@ -39,6 +39,7 @@ class PlausibilityCheck {
   JointRangeCheck range_;
   JointMotionCheck motion_;
   TurningCheck turning_;
+  DrivingCheck driving_;
   GravityCheck gravity_;
   LoadCheck load_;
 };

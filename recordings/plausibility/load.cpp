@@ -161,14 +161,21 @@ void LoadCheck::add_still(const CheckedWindow& stretch) {
                            axle_offset(geometry_, legs[1], true, stretch.up));
   }
   tolerance_ += tolerance;
-  load_ += misfit[0].load;
-  for (std::size_t i = 0; i < hypotheses; ++i) misfit_.at(i) += misfit.at(i).distance;
+  largest_load_ = std::max(largest_load_, misfit[0].load);
+  for (std::size_t i = 0; i < hypotheses; ++i) {
+    misfit_.at(i) += misfit.at(i).distance;
+    load_.at(i) += misfit.at(i).load;
+  }
 }
 
-void LoadCheck::report(Findings& findings) const {
+void LoadCheck::report(Findings& findings, bool drives) const {
   report_small_torques(findings);
   report_pose(findings);
-  if (stretches_ == 0 || misfit_[0] <= tolerance_) return;
+  if (!report_misfit(findings) && drives) report_small_load(findings);
+}
+
+bool LoadCheck::report_misfit(Findings& findings) const {
+  if (stretches_ == 0 || misfit_[0] <= tolerance_) return false;
   // The first one that explains the forces as well as they can be known, else the best one.
   const auto* best = std::find_if(misfit_.begin() + 1, misfit_.end(),
                                   [&](double misfit) { return misfit <= tolerance_; });
@@ -178,10 +185,32 @@ void LoadCheck::report(Findings& findings) const {
       *best < explains * misfit_[0]
           ? fmt::format("probably {}", all_hypotheses.at(index).cause)
           : std::string("check signs, units, gear ratios and the order of joints");
-  const double load = load_ / stretches_;
+  const double load = load_[0] / stretches_;
   const double weight = gravity_at_rest * geometry_.robot_mass;
   findings.add("load of both legs while the robot is still",
                fmt::format("{:.0f} N, expected 0 to {:.0f} N{}, straight up: {}", load, weight,
+                           is_known_ ? "" : " (Upkie's weight; --robot names another)", cause));
+  return true;
+}
+
+void LoadCheck::report_small_load(Findings& findings) const {
+  constexpr int few = 3;
+  const double weight = gravity_at_rest * geometry_.robot_mass;
+  const double least = (is_known_ ? 0.6 : 0.4) * weight;
+  if (stretches_ < few || largest_load_ >= least) return;
+  // A cause with which the legs carry the robot.
+  const auto carries = [&](double load) {
+    return std::abs(load / stretches_ - weight) < 0.3 * weight;
+  };
+  const auto* const found = std::find_if(load_.begin() + 1, load_.end(), carries);
+  const std::string cause =
+      found == load_.end()
+          ? std::string("check units, gear ratios and the order of joints")
+          : fmt::format("probably {}",
+                        all_hypotheses.at(static_cast<std::size_t>(found - load_.begin())).cause);
+  findings.add("load of both legs while the robot is still",
+               fmt::format("at most {:.0f} N although the wheels drive it, expected {:.0f} N{}: {}",
+                           largest_load_, weight,
                            is_known_ ? "" : " (Upkie's weight; --robot names another)", cause));
 }
 

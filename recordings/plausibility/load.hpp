@@ -23,11 +23,14 @@ class LoadCheck {
   void add_still(const CheckedWindow& stretch);
   /// Adds any window: the torques of a whole log have a least size.
   void add(const CheckedWindow& window);
-  void report(Findings& findings) const;
+  /// `drives`: the wheels drive the robot, so that its legs carry it.
+  void report(Findings& findings, bool drives) const;
 
  private:
   static constexpr std::size_t hypotheses = 9;
 
+  bool report_misfit(Findings& findings) const;
+  void report_small_load(Findings& findings) const;
   void report_small_torques(Findings& findings) const;
   void report_pose(Findings& findings) const;
 
@@ -36,7 +39,8 @@ class LoadCheck {
   int stretches_ = 0;                           ///< in which the load can be observed
   std::array<double, hypotheses> misfit_ = {};  ///< sums (N); the first is the log as it is
   double tolerance_ = 0.0;                      ///< sum (N)
-  double load_ = 0.0;                           ///< sum of both legs' (N)
+  std::array<double, hypotheses> load_ = {};    ///< sums of both legs' (N)
+  double largest_load_ = 0.0;                   ///< of both legs in a stretch (N)
   int standing_stretches_ = 0;                  ///< in which the torques carry the robot
   double axle_offset_ = 0.0;                    ///< sum (m)
   int windows_ = 0;

@@ -17,9 +17,9 @@ namespace {
 constexpr double least_fast_turn = 0.4;   // rad/s
 constexpr double least_slow_turn = 0.25;  // rad/s
 constexpr int half_second = 5;            // windows
-constexpr int least_windows = 5;
-constexpr double follows = 0.7;  // correlation
-constexpr double largest_factor = 1.6;
+constexpr int least_turn_windows = 5;
+constexpr double turn_follows = 0.7;  // correlation
+constexpr double largest_turn_factor = 1.6;
 
 /// A rotation or reflection of axes: entry i is the gyroscope's axis that fits the orientation's
 /// axis i, with its sign.
@@ -59,7 +59,7 @@ std::string text_of(const Axes& axes) {
   return fmt::format("[{}]", fmt::join(names, ", "));
 }
 
-std::string cause_of(double factor) {
+std::string cause_of_turn_factor(double factor) {
   // The attitude filter's error lowers the factor of a robot that turns slowly.
   const auto is_near = [&](double size) { return std::abs(std::log(factor / size)) < 0.5; };
   constexpr double degrees = 57.296;
@@ -93,8 +93,8 @@ void TurningCheck::add(const CheckedWindow& window) {
 }
 
 void TurningCheck::report(Findings& findings) const {
-  const TurningComparison& turns = fast_.windows >= least_windows ? fast_ : slow_;
-  if (turns.windows < least_windows || turns.gyroscope_squares == 0.0 ||
+  const TurningComparison& turns = fast_.windows >= least_turn_windows ? fast_ : slow_;
+  if (turns.windows < least_turn_windows || turns.gyroscope_squares == 0.0 ||
       turns.orientation_squares == 0.0) {
     return;
   }
@@ -102,11 +102,11 @@ void TurningCheck::report(Findings& findings) const {
   const double norm = std::sqrt(turns.gyroscope_squares * turns.orientation_squares);
   const double factor = std::sqrt(turns.gyroscope_squares / turns.orientation_squares);
   const double correlation = turns.products.trace() / norm;
-  const bool is_of_other_size = std::abs(std::log(factor)) > std::log(largest_factor);
-  if (correlation > follows) {
+  const bool is_of_other_size = std::abs(std::log(factor)) > std::log(largest_turn_factor);
+  if (correlation > turn_follows) {
     if (is_of_other_size) {
       add(fmt::format("is {:.2g} times the turning of the orientation: {}", factor,
-                      cause_of(factor)));
+                      cause_of_turn_factor(factor)));
     }
     return;
   }
@@ -114,11 +114,11 @@ void TurningCheck::report(Findings& findings) const {
   constexpr double much = 10.0;
   if (factor > much) {
     add(fmt::format("is {:.2g} times the turning of the orientation: {}", factor,
-                    cause_of(factor)));
-  } else if (correlation < -follows) {
+                    cause_of_turn_factor(factor)));
+  } else if (correlation < -turn_follows) {
     add("turns the other way than the orientation: its sign is wrong, or the orientation is the "
         "inverse one (from the reference to the IMU)");
-  } else if (fit(turns.products, best) > follows * norm) {
+  } else if (fit(turns.products, best) > turn_follows * norm) {
     add(fmt::format("fits the orientation as {} of its axes: check axes and signs", text_of(best)));
   } else {
     add("does not follow the orientation: check axes, the order of the quaternion and its frames");

@@ -147,6 +147,110 @@ TEST(Bag, OfAnotherRobotGivesBeliefsAsGoodAsTheRunsOwnLog) {
   EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "bag.csv"));
 }
 
+/// The same door as that of `estimate`: bags, CSV files and arrays by a mapping.
+TEST(Bag, IsCheckedByAMapping) {
+  const ScratchFolder folder;
+  const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
+  ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
+            0);
+  const test::TestBag bag = other_robots_bag(recordings::read_recording(folder / "run.mpack"));
+  std::filesystem::create_directories(folder / "bag");
+  test::write_db3(bag, folder / "bag" / "bag_0.db3");
+  std::ofstream(folder / "bag.mcap", std::ios::binary) << test::mcap_bytes(bag);
+  folder.write("right.yaml", bag_mapping);
+  const auto edited = [](const std::string& from, const std::string& to) {
+    const std::string mapping = bag_mapping;
+    const std::size_t at = mapping.find(from);
+    return fmt::format("{}{}{}", mapping.substr(0, at), to, mapping.substr(at + from.size()));
+  };
+  folder.write("signs.yaml", edited("[1, 1, 1, -1, -1, -1]", "1"));
+  folder.write("reference.yaml",
+               bag_mapping + std::string("imu: {orientation: {reference: z_down}}\n"));
+  folder.write(
+      "gravity.yaml",
+      bag_mapping + std::string("imu: {linear_acceleration: {from: [linear_acceleration.x, "
+                                "linear_acceleration.y, linear_acceleration.z]}}\n"));
+  folder.write("unit.yaml", bag_mapping + std::string("  torque: {unit: mNm}\n"));
+  for (const std::string log : {"bag", "bag.mcap", "bag/bag_0.db3"}) {
+    const Ended ended =
+        touchdown_program("check " + log + " --mapping right.yaml --strict", folder.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    EXPECT_THAT(ended.output,
+                AllOf(HasSubstr(log + ": 3500 records at 500 Hz"), HasSubstr(": plausible\n")));
+    EXPECT_THAT(ended.errors, HasSubstr("/imu/data: held at the rows of /joint_states"));
+  }
+  const auto finding = [&](const std::string& mapping) {
+    const std::string arguments = "check bag --mapping " + mapping;
+    const Ended ended = touchdown_program(arguments, folder.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    EXPECT_EQ(touchdown_program(arguments + " --strict", folder.path()).exit_code, 1);
+    return ended.output;
+  };
+  EXPECT_THAT(finding("signs.yaml"), HasSubstr("wheels: turn in opposite directions"));
+  EXPECT_THAT(finding("reference.yaml"), HasSubstr("gravity was removed by a wrong orientation"));
+  EXPECT_THAT(finding("gravity.yaml"), HasSubstr("linear_acceleration: holds gravity"));
+  EXPECT_THAT(finding("unit.yaml"), HasSubstr("torques in N·m mapped as mNm"));
+  const Ended estimated = touchdown_program("estimate bag --mapping gravity.yaml", folder.path());
+  EXPECT_EQ(estimated.exit_code, 0) << estimated.errors;
+  EXPECT_THAT(estimated.output, HasSubstr("signals      not plausible: 1 finding, printed above"));
+  EXPECT_THAT(touchdown_program("check - --mapping right.yaml", folder.path()).errors,
+              HasSubstr("--mapping: expected a file or a bag, found standard input"));
+  EXPECT_THAT(touchdown_program("check bag", folder.path()).errors, HasSubstr("--mapping"));
+}
+
+/// The code blocks of docs/ros2_bags.md, by what they begin with.
+std::vector<std::string> documented(const std::string& beginning) {
+  std::vector<std::string> lines;
+  std::istringstream page(read_file(TOUCHDOWN_SOURCE_DIR "/docs/ros2_bags.md"));
+  bool is_code = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("```")) is_code = !is_code;
+    if (is_code && line.starts_with(beginning)) lines.push_back(line);
+  }
+  return lines;
+}
+
+/// Every line that the page prints is one of the commands that it gives.
+TEST(Bag, OfThePagePrintsWhatThePagePrints) {
+  const ScratchFolder folder;
+  const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
+  ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
+            0);
+  std::filesystem::create_directories(folder / "bag");
+  test::write_db3(other_robots_bag(recordings::read_recording(folder / "run.mpack")),
+                  folder / "bag" / "bag_0.db3");
+  const std::string page = read_file(TOUCHDOWN_SOURCE_DIR "/docs/ros2_bags.md");
+  const std::size_t begin = page.find("```yaml\n") + 8;
+  const std::string mapping = page.substr(begin, page.find("```", begin) - begin);
+  folder.write("robot.yaml", mapping);
+  const std::vector<std::string> commands = documented("touchdown ");
+  ASSERT_EQ(commands.size(), 2U);
+  std::string printed;
+  for (const std::string& command : commands) {
+    const Ended ended = touchdown_program(command.substr(command.find(' ') + 1), folder.path());
+    EXPECT_EQ(ended.exit_code, 0) << command << ": " << ended.errors;
+    printed += ended.errors + ended.output;
+  }
+  std::string signs = mapping;
+  const std::size_t sign = signs.find("[1, 1, 1, -1");
+  signs = fmt::format("{}1{}", signs.substr(0, sign), signs.substr(signs.find(']', sign) + 1));
+  folder.write("signs.yaml", signs);
+  printed += touchdown_program("check bag --mapping signs.yaml", folder.path()).output;
+  std::size_t compared = 0;
+  for (const std::string beginning :
+       {"touchdown: ", "bag: ", "  wheels: ", "contact ", "left wheel ", "signals ", "beliefs "}) {
+    for (const std::string& line : documented(beginning)) {
+      EXPECT_THAT(printed, HasSubstr(line + "\n"));
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 9U);
+  // The conversion for other commands.
+  const Ended converted =
+      touchdown_program("export bag --mapping robot.yaml -o robot.mpack", folder.path());
+  EXPECT_EQ(converted.exit_code, 0) << converted.errors;
+}
+
 TEST(Bag, WhatIsWrongWithOneIsOneLine) {
   const ScratchFolder folder;
   folder.write("robot.yaml", bag_mapping);

@@ -64,7 +64,8 @@ std::vector<std::string> findings(const Records& records) {
 
 TEST(PlausibilityCheck, IsSilentOnSimulatedRecordings) {
   for (const std::string scenario :
-       {"hop", "stairs", "hang", "roam", "lift", "push_off", "squat"}) {
+       {"hop", "stairs", "hang", "roam", "lift", "push_off", "squat", "lift_slowly", "lift_drive",
+        "put_down", "hang_crouching", "pushed", "kerb_turn"}) {
     for (const std::string simulator : {"mujoco", "bullet"}) {
       for (const std::string sensors : {"ideal", "upkie", "harsh"}) {
         EXPECT_THAT(findings_about(scenario, simulator, sensors), IsEmpty())
@@ -94,6 +95,7 @@ struct Damage {
   std::function<void(models::Observation& record, std::size_t k)> change;
   std::string finding;
   bool needs_turns = false;  ///< faster ones than those of `roam`
+  bool needs_drive = false;  ///< accelerations that the attitude's error does not hide
 };
 
 /// Applies a factor to one member of some servos.
@@ -126,6 +128,24 @@ std::vector<Damage> damages() {
   };
   const auto gyroscope = [](const Eigen::Matrix3d& matrix) {
     return [=](O& o, std::size_t) { o.imu.angular_velocity = matrix * o.imu.angular_velocity; };
+  };
+  const auto negated = [](models::ServoReading& servo) {
+    servo = {-servo.position, -servo.velocity, -servo.torque};
+  };
+  const auto of_servos = [](const std::vector<std::size_t>& servos, const auto& change) {
+    return [=](O& o, std::size_t) {
+      for (const std::size_t servo : servos) change(o.servo[servo]);
+    };
+  };
+  // About the vertical, in all that the IMU reports.
+  const auto turned_imu = [](double angle) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+    return [=](O& o, std::size_t) {
+      o.imu.orientation = o.imu.orientation * turn.conjugate();
+      o.imu.angular_velocity = turn * o.imu.angular_velocity;
+      o.imu.linear_acceleration = turn * o.imu.linear_acceleration;
+      o.imu.raw_linear_acceleration = turn * o.imu.raw_linear_acceleration;
+    };
   };
   Eigen::Matrix3d x_and_y = Eigen::Matrix3d::Zero();
   x_and_y(0, 1) = x_and_y(1, 0) = x_and_y(2, 2) = 1.0;
@@ -176,6 +196,12 @@ std::vector<Damage> damages() {
        "torques of the left leg have the other sign"},
       {"torques in mNm", scaled(torque, all, 1000.0), "torques are in mNm"},
       {"torques in cNm", scaled(torque, all, 100.0), "the torques are in cNm"},
+      {"torques of hips and knees swapped",
+       [](O& o, std::size_t) {
+         std::swap(o.servo[0].torque, o.servo[1].torque);
+         std::swap(o.servo[3].torque, o.servo[4].torque);
+       },
+       "probably the torques of hips and knees are swapped", false, true},
       {"torques divided by 1000", scaled(torque, all, 1e-3), "never exceed"},
       // joints
       {"hips and knees swapped",
@@ -186,6 +212,28 @@ std::vector<Damage> damages() {
        "hips and knees"},
       {"knee and wheel swapped", swapped(1, 2), "left_knee: position leaves its range"},
       {"hip and wheel swapped", swapped(3, 5), "right_hip: position leaves its range"},
+      // legs and wheels against the mirror image
+      {"right leg counted like the left one", of_servos({3, 4, 5}, negated),
+       "wheels: turn in opposite directions"},
+      {"left leg counted like the right one", of_servos({0, 1, 2}, negated),
+       "wheels: turn in opposite directions"},
+      {"one wheel counted the other way", of_servos({2}, negated),
+       "wheels: turn in opposite directions"},
+      {"all joints counted the other way", of_servos(all, negated), "wheels: drive backwards",
+       false, true},
+      {"wheels counted the other way", of_servos({2, 5}, negated), "wheels: drive backwards", false,
+       true},
+      {"left and right swapped",
+       [](O& o, std::size_t) {
+         for (std::size_t i = 0; i < 3; ++i) std::swap(o.servo[i], o.servo[i + 3]);
+       },
+       "wheels: drive backwards", false, true},
+      {"IMU mounted backwards", turned_imu(std::numbers::pi), "wheels: drive backwards", false,
+       true},
+      {"IMU mounted sideways", turned_imu(0.5 * std::numbers::pi),
+       "linear_acceleration: its y axis follows the wheels", false, true},
+      {"IMU mounted sideways, the other way", turned_imu(-0.5 * std::numbers::pi),
+       "linear_acceleration: its y axis follows the wheels", false, true},
       // velocity against position
       {"velocities in deg/s", scaled(velocity, all, 1.0 / degree), "is the velocity in deg/s"},
       {"velocities in rpm", scaled(velocity, all, 30.0 / std::numbers::pi),
@@ -265,10 +313,13 @@ std::vector<Damage> damages() {
 TEST(PlausibilityCheck, NamesEveryKindOfDamage) {
   const std::vector<std::pair<std::string, Records>> undamaged = {
       {"ideal hop", reported("hop", "mujoco", "ideal")},
-      {"upkie roam", reported("roam", "bullet", "upkie")}};
+      {"upkie roam", reported("roam", "bullet", "upkie")},
+      {"ideal roam that drives", reported("roam", "mujoco", "ideal")},
+      {"upkie flat that drives", reported("flat", "bullet", "upkie")}};
   for (const auto& [name, records] : undamaged) {
     for (const Damage& damage : damages()) {
       if (damage.needs_turns && name == "upkie roam") continue;
+      if (damage.needs_drive != name.ends_with("drives")) continue;
       Records changed = records;
       for (std::size_t k = 0; k < changed.size(); ++k) damage.change(changed[k], k);
       const std::vector<std::string> lines = findings(changed);
@@ -276,6 +327,46 @@ TEST(PlausibilityCheck, NamesEveryKindOfDamage) {
       if (std::getenv("TOUCHDOWN_PRINT_FINDINGS") != nullptr) {
         fmt::print("| {} | {} | {} |\n", name, damage.name, fmt::join(lines, "; "));
       }
+    }
+  }
+}
+
+/// Legs that are nearly straight carry a robot with small torques. Those of the other sign, order
+/// or unit then look like those of a robot that hangs; but it drives.
+TEST(PlausibilityCheck, NamesALoadThatIsTooSmallForARobotThatDrives) {
+  using O = models::Observation;
+  const std::vector<std::pair<std::string, std::function<void(O&)>>> damages_of_load = {
+      {"probably the torques of hips and knees are swapped",
+       [](O& o) {
+         std::swap(o.servo[0].torque, o.servo[1].torque);
+         std::swap(o.servo[3].torque, o.servo[4].torque);
+       }},
+      {"the torques of the left leg have the other sign",
+       [](O& o) {
+         for (const std::size_t i : {0U, 1U, 2U}) o.servo[i].torque *= -1.0;
+       }},
+      {"the torques of the right leg have the other sign",
+       [](O& o) {
+         for (const std::size_t i : {3U, 4U, 5U}) o.servo[i].torque *= -1.0;
+       }},
+      {"check units, gear ratios", [](O& o) {
+         for (models::ServoReading& servo : o.servo) servo.torque /= 6.0;
+       }}};
+  for (const std::string robot : {"upkie.xml", "upkie_straight.yaml"}) {
+    const scenarios::Scenario rollout =
+        scenarios::find_scenario("scenarios/roam.yaml", "models/" + robot);
+    const Recording run = scenarios::play(rollout, "mujoco");
+    const CheckedRobot upkie{.legs = LegGeometry{}};
+    PlausibilityCheck undamaged(run.period(), upkie);
+    for (const O& record : run.observation) undamaged.add(record);
+    EXPECT_THAT(undamaged.findings(), IsEmpty()) << robot;
+    for (const auto& [finding, change] : damages_of_load) {
+      PlausibilityCheck check(run.period(), upkie);
+      for (O record : run.observation) {
+        change(record);
+        check.add(record);
+      }
+      EXPECT_THAT(check.findings(), Contains(HasSubstr(finding))) << robot;
     }
   }
 }
