@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "experiments/needs.hpp"
+#include "experiments/plan/served_robots.hpp"
 #include "experiments/run_directory/free_space.hpp"
 #include "experiments/run_directory/shard.hpp"
 #include "experiments/studies/registry.hpp"
@@ -81,6 +82,7 @@ Plan whole_plan(const RunRequest& request) {
   Plan plan = plan_of(request);
   for (const Study* study : requested_studies(request.experiment)) study->plan(request, plan);
   keep_recordings(request.experiment, plan);
+  require_served(request.experiment, plan);
   return plan;
 }
 

@@ -318,6 +318,13 @@ static void describe(Fields& fields, Experiment& experiment) {
   file_if_any("sensors", experiment.sensors)
       .fallback("ideal sensors")
       .doc("Sensor profile of all runs.");
+  fields.know("transfer");
+  if (fields.present("transfer", experiment.transfer)) {
+    fields("transfer", experiment.transfer)
+        .doc(
+            "Whether `touchdown_shipped` may run on another robot, or at another rate, than its "
+            "model was fitted for.");
+  }
   describe_studies(fields, "noise", experiment);
   const noise::NoiseGridConfig& noise = experiment.noise;
   fields.section("noise", experiment.noise)

@@ -113,8 +113,9 @@ struct Experiment {
   std::optional<std::uint64_t> fit_seed;  ///< for drawing fitted runs, if not `seed`
   std::optional<TuningConfig> tuning;     ///< of hyperparameters on fitted runs
   RunsConfig test;                        ///< runs for scoring; no model is fitted to them
-  std::string robot;    ///< file of the robot in all runs; empty: each scenario's own
-  std::string sensors;  ///< file of the sensor profile; empty: ideal sensors
+  std::string robot;      ///< file of the robot in all runs; empty: each scenario's own
+  std::string sensors;    ///< file of the sensor profile; empty: ideal sensors
+  bool transfer = false;  ///< whether shipped models may run on other robots and at other rates
   noise::NoiseGridConfig noise;
   std::vector<noise::NoiseCell> highlights;  ///< cells of the grid that are scored in full
   scoring::LabelConfig labels;

@@ -64,17 +64,23 @@ bool are_alike(const LegGeometry& one, const LegGeometry& other) {
          is_near(one.wheel_mass, other.wheel_mass) && is_near(one.robot_mass, other.robot_mass);
 }
 
-/// Errors: `InputError` for a rate or a robot that the shipped model does not serve.
-void check_shipped_model(const ModelMetadata& metadata, const std::filesystem::path& path,
-                         const EstimatorSetup& setup) {
+/// The shipped model. Errors: `InputError` for a rate or a robot that it does not serve.
+recordings::ParameterModelFile shipped_model_for(const EstimatorSetup& setup) {
+  const std::filesystem::path path = find_resource("models/touchdown.npz");
+  std::optional<ModelMetadata> metadata;
+  recordings::ParameterModelFile file = recordings::read_parameter_model(path, &metadata);
+  if (!metadata || setup.transfer) return file;
   const bool is_own_robot = !setup.legs || are_alike(*setup.legs, LegGeometry{});
   try {
-    check_use(metadata,
+    check_use(*metadata,
               {.sample_rate = setup.sample_rate, .robot = is_own_robot ? "" : setup.robot});
   } catch (const InputError& error) {
-    throw InputError(fmt::format("touchdown_shipped: {}: {} (fit 'touchdown' in this experiment)",
-                                 path.string(), error.what()));
+    throw InputError(
+        fmt::format("touchdown_shipped: {}: {} (fit 'touchdown' in this experiment, or "
+                    "set `transfer: true` to use it all the same)",
+                    path.string(), error.what()));
   }
+  return file;
 }
 
 Hyperparameter decay() { return fitted_with(around("decay", DecisionFitConfig{}.decay, 10.0)); }
@@ -149,14 +155,11 @@ EstimatorEntry shipped_touchdown_entry() {
   entry.learns_from_segments = false;
   entry.trained_by = "scripts/fit_shipped_model.sh";
   entry.hyperparameters = {};
+  entry.require_served = [](const EstimatorSetup& setup) { (void)shipped_model_for(setup); };
   entry.make = [](const EstimatorEntry& /*entry*/,
                   const EstimatorSetup& setup) -> EstimatorPointer {
-    const std::filesystem::path path = find_resource("models/touchdown.npz");
-    std::optional<ModelMetadata> metadata;
-    const auto file = recordings::read_parameter_model(path, &metadata);
-    if (metadata) check_shipped_model(*metadata, path, setup);
     return std::make_unique<TouchdownEstimator>(
-        touchdown_model_of(file.parameters),
+        touchdown_model_of(shipped_model_for(setup).parameters),
         DecisionConfig{.sample_rate = setup.sample_rate,
                        .geometry = setup.legs.value_or(LegGeometry{})});
   };

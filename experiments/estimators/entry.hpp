@@ -32,6 +32,8 @@ struct EstimatorSetup {
   const std::array<scoring::ContactSequence, models::wheel_count>* truth = nullptr;
   /// Name of the robot; empty if unknown.
   std::string robot = {};
+  /// Allows a model at other rates and on other robots than it was fitted for.
+  bool transfer = false;
 };
 
 /// Sensors with noise that can change an estimator's decisions about the wheels.
@@ -103,6 +105,9 @@ struct EstimatorEntry {
   void (*apply)(EstimatorEntry& entry) = nullptr;
   std::unique_ptr<ContactEstimator> (*make)(const EstimatorEntry& entry,
                                             const EstimatorSetup& setup) = nullptr;
+  /// Null for an estimator that serves every robot. Errors: `InputError` for a rate or a robot that
+  /// its model does not serve; `make` throws the same.
+  void (*require_served)(const EstimatorSetup& setup) = nullptr;
   /// Null for an estimator without a batched form. Returns nothing if that does not support such
   /// noise.
   std::optional<BatchedEstimator> (*batch)(const EstimatorEntry& entry, const EstimatorSetup& setup,

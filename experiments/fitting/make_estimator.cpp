@@ -25,8 +25,12 @@ EstimatorSetup setup_of(const Experiment& experiment, const Condition& condition
           ? &models.at(model_key(condition.fit_simulator, condition.fit, condition.refit))
                  .at(condition.estimator)
           : nullptr;
-  return {1e6 / static_cast<double>(run.info.control_period_us), model, run.legs, &run.contact,
-          robot_of(run.info)};
+  return {1e6 / static_cast<double>(run.info.control_period_us),
+          model,
+          run.legs,
+          &run.contact,
+          robot_of(run.info),
+          experiment.transfer};
 }
 
 std::unique_ptr<ContactEstimator> make_estimator(const Experiment& experiment,

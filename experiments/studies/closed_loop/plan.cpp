@@ -9,6 +9,7 @@
 #include "core/tables/table.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/plan/served_robots.hpp"
 #include "scenarios/varied.hpp"
 
 namespace touchdown::experiments {
@@ -91,6 +92,7 @@ void require_closed_loop(const RunRequest& request) {
   if (config == nullptr) return;
   const std::int64_t period =
       scenario_of(request, experiment.test.scenarios.front()).scenario.simulation.steps.control_us;
+  scenarios::CompiledScenes scenes;
   for (const ClosedLoopCell& cell : closed_loop_cells(experiment)) {
     const ClosedLoopScene& scene = config->scenes[cell.scene];
     if (scenario_of(request, cell).simulation.steps.control_us != period) {
@@ -104,6 +106,9 @@ void require_closed_loop(const RunRequest& request) {
       throw InputError(fmt::format(
           "closed_loop.contact: '{}' needs whole runs, but a policy gets contact step by step",
           cell.contact));
+    }
+    if (is_estimator) {
+      require_served(experiment, cell.contact, scenario_of(request, cell), scenes);
     }
   }
 }

@@ -6,9 +6,9 @@
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/sensors.hpp"
+#include "experiments/plan/served_robots.hpp"
 #include "experiments/signals/motion.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/leg_geometry.hpp"
 #include "scenarios/policy_contact.hpp"
 
 namespace touchdown::experiments {
@@ -18,13 +18,11 @@ namespace {
 /// The estimator with the model that was fitted in this engine.
 std::unique_ptr<ContactEstimator> estimator_of(const Experiment& experiment,
                                                const ClosedLoopCell& cell,
-                                               const FittedModels& models, double period,
-                                               const LegGeometry& legs) {
+                                               const FittedModels& models, EstimatorSetup setup) {
   const EstimatorEntry entry =
       entry_of(experiment, {cell.simulator, cell.simulator, cell.contact}, models);
-  const FittedModel* model =
-      entry.fits() ? &models.at(model_key(cell.simulator, {})).at(entry.name) : nullptr;
-  return entry.make(entry, {.sample_rate = 1.0 / period, .model = model, .legs = legs});
+  setup.model = entry.fits() ? &models.at(model_key(cell.simulator, {})).at(entry.name) : nullptr;
+  return entry.make(entry, setup);
 }
 
 }  // namespace
@@ -45,9 +43,10 @@ ClosedLoopRun run_closed_loop(const RunRequest& request, const ClosedLoopCell& c
     undelayed.policy.delay = 0.0;
     source = recorded(scenarios::policy_contact(undelayed, *simulator), loop.trace);
   } else {
-    const LegGeometry legs = scenarios::leg_geometry(*scenes.as_described(scenario));
+    EstimatorSetup setup = robot_setup(experiment, scenario, scenes);
+    setup.sample_rate = 1.0 / period;
     source = contact_source(
-        estimator_of(experiment, cell, models, period, legs),
+        estimator_of(experiment, cell, models, setup),
         {profile_of(request.sensors, experiment.sensors), sensor_key(experiment, run),
          cell.noise.levels(), noise_key(experiment, 0, run)},
         period, loop.trace);
