@@ -41,7 +41,7 @@ std::string tuning_text(const Experiment& experiment) {
   for (const auto& [estimator, hyperparameters] : experiment.hyperparameters) {
     for (const auto& [name, value] : hyperparameters) {
       given += fmt::format("{}{} of {}: {}", given.empty() ? " Given: " : ", ", name,
-                           estimator_title(estimator), exact(value));
+                           estimator_title_in(experiment, estimator), exact(value));
     }
   }
   if (!given.empty()) return given + '.';
@@ -70,6 +70,13 @@ std::string estimator_title(const std::string& estimator) {
     if (entry.name == estimator) return entry.title;
   }
   return estimator;
+}
+
+std::string estimator_title_in(const Experiment& experiment, const std::string& estimator) {
+  for (const EstimatorEntry& entry : experiment.external_estimators) {
+    if (entry.name == estimator) return entry.title;
+  }
+  return estimator_title(estimator);
 }
 
 std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,

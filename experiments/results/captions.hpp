@@ -29,6 +29,8 @@ std::string conditions_text(const Experiment& experiment);
 std::string noise_text(const noise::NoiseCell& cell);
 /// "Bayes filter (robust)"; the name itself for an estimator without a title.
 std::string estimator_title(const std::string& estimator);
+/// The same for an experiment's own estimators, too, such as those written in Python.
+std::string estimator_title_in(const Experiment& experiment, const std::string& estimator);
 /// False takeoffs per minute for the summary's condition and cell: "0.6"; a dash if not counted.
 std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
                                 const CellSummary& summary);

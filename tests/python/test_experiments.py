@@ -127,6 +127,16 @@ class WrittenInPython(InExperimentFolder):
             numbers[table] = {key: values[its] for key, values in columns.items() if key != "estimator"}
         return numbers
 
+    def test_has_its_title_in_the_tables_of_studies(self):
+        studies = {"benchmark": {}, "ablation": {}, "operating_points": {},
+                   "sweep": {"accelerometer.bias": [0, 0.1]}}
+        for key, section in studies.items():
+            result = touchdown.run("hops.yaml", overrides={"estimators": ["free_fall", "python:mine.Same"], "noise.seeds": 1,
+                                                           "test.runs": 1, key: section}, out=key)
+            text = "\n".join(result.studies)
+            self.assertIn("The same", text, key)
+            self.assertNotIn("python:mine.Same", text, key)
+
     def test_is_scored_by_its_beliefs(self):
         import mine
 

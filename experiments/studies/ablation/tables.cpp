@@ -42,8 +42,8 @@ std::string ablation_text(const std::vector<AblationRow>& rows, const Experiment
   for (const auto& alike : group_by(rows, [](const AblationRow& row) { return row.noise; })) {
     Table table{{noise_text(alike.key), "balanced accuracy", "gain"}, {}};
     for (const AblationRow& row : alike.rows) {
-      table.rows.push_back({estimator_title(row.estimator), with_interval(row.balanced_accuracy),
-                            with_interval(gain_of(row))});
+      table.rows.push_back({estimator_title_in(experiment, row.estimator),
+                            with_interval(row.balanced_accuracy), with_interval(gain_of(row))});
     }
     text += fmt::format("\n{}", to_text(table));
   }

@@ -129,12 +129,12 @@ Columns<Standings::Difference> pair_columns() {
 
 /// Rows: estimators. Columns: scenes, then the mean and the worst scene of estimators that were
 /// scored in every scene with a scored run.
-Table scene_table(const std::vector<BenchmarkRow>& rows) {
+Table scene_table(const std::vector<BenchmarkRow>& rows, const Experiment& experiment) {
   const auto shown = [](double value) {
     return std::isnan(value) ? std::string("–") : fmt::format("{:.3f}", value);
   };
   Table table = pivot(
-      rows, [](const BenchmarkRow& row) { return estimator_title(row.estimator); },
+      rows, [&](const BenchmarkRow& row) { return estimator_title_in(experiment, row.estimator); },
       &BenchmarkRow::scene,
       [&](const BenchmarkRow& row) { return shown(row.balanced_accuracy.estimate); });
   const std::size_t scenes = table.header.size() - 1;
@@ -157,13 +157,13 @@ Table scene_table(const std::vector<BenchmarkRow>& rows) {
   return table;
 }
 
-std::string standings_text(const Standings& standings) {
+std::string standings_text(const Standings& standings, const Experiment& experiment) {
   const bool has_upper_bound = !std::isnan(standings.entries.front().excess_log_loss);
   Table table{{"", "mean", "not significantly worse than the best", "worst", "in"}, {}};
   if (has_upper_bound) table.header.emplace_back("excess log loss (bits)");
   for (const Standings::Entry& entry : standings.entries) {
-    table.rows.push_back({estimator_title(entry.estimator), with_interval(entry.mean),
-                          entry.is_not_significantly_worse ? "yes" : "",
+    table.rows.push_back({estimator_title_in(experiment, entry.estimator),
+                          with_interval(entry.mean), entry.is_not_significantly_worse ? "yes" : "",
                           fmt::format("{:.3f}", entry.worst),
                           fmt::format("{}, {}", entry.worst_scene, entry.worst_simulator)});
     if (has_upper_bound) table.rows.back().push_back(fmt::format("{:.3f}", entry.excess_log_loss));
@@ -179,7 +179,7 @@ std::string standings_text(const Standings& standings) {
 
 /// Every scene of one engine, robot, sensors and noise.
 std::string scenes_text(const Standings& standings, const std::string& simulator,
-                        const std::vector<BenchmarkRow>& rows) {
+                        const std::vector<BenchmarkRow>& rows, const Experiment& experiment) {
   const auto alike = where(rows, [&](const BenchmarkRow& row) {
     return row.fitted_on == "own" && row.simulator == simulator && row.robot == standings.robot &&
            row.sensors == standings.sensors && row.noise == standings.noise;
@@ -187,7 +187,7 @@ std::string scenes_text(const Standings& standings, const std::string& simulator
   if (alike.empty()) return {};
   std::string text =
       fmt::format("\n{}, {}, sensors {}, {}\n{}", simulator, standings.robot, standings.sensors,
-                  noise_text(standings.noise), to_text(scene_table(alike)));
+                  noise_text(standings.noise), to_text(scene_table(alike, experiment)));
   std::set<std::string> failures;
   std::set<std::string> unscored;
   for (const BenchmarkRow& row : alike) {
@@ -233,10 +233,10 @@ std::string benchmark_text(const BenchmarkResult& result, const Experiment& expe
   if (result.standings.empty()) return text + "No run was scored.\n";
   const Standings& first = result.standings.front();
   for (const Standings& standings : result.standings) {
-    text += standings_text(standings);
+    text += standings_text(standings, experiment);
     if (standings.robot != first.robot || standings.sensors != first.sensors) continue;
     for (const std::string& simulator : experiment.simulators) {
-      text += scenes_text(standings, simulator, result.rows);
+      text += scenes_text(standings, simulator, result.rows, experiment);
     }
   }
   return text;

@@ -47,7 +47,8 @@ std::string learning_curve_text(const std::vector<LearningCurveRow>& rows,
   };
   for (const auto& [key, alike] : group_by(rows, engine_and_noise)) {
     Table table = pivot(
-        alike, [](const LearningCurveRow& row) { return estimator_title(row.estimator); },
+        alike,
+        [&](const LearningCurveRow& row) { return estimator_title_in(experiment, row.estimator); },
         [](const LearningCurveRow& row) { return fmt::format("{:.1f} s", row.labelled); },
         [](const LearningCurveRow& row) { return with_interval(row.balanced_accuracy); });
     table.header.front() = fmt::format("{}, {}", key.first, key.second);

@@ -73,8 +73,9 @@ constexpr std::array limits = {30.0, 10.0, 3.0, 1.0};
 
 /// Balanced accuracy of an estimator's own decision, then of the best thresholds within each limit.
 std::vector<std::string> short_row(const OperatingMean& own,
-                                   const std::vector<OperatingMean>& means) {
-  std::vector<std::string> cells = {estimator_title(own.estimator),
+                                   const std::vector<OperatingMean>& means,
+                                   const Experiment& experiment) {
+  std::vector<std::string> cells = {estimator_title_in(experiment, own.estimator),
                                     fmt::format("{:.4f} ({})", own.balanced_accuracy,
                                                 switches_text(own.extra_switches_per_minute))};
   for (const double limit : limits) {
@@ -108,7 +109,8 @@ std::string operating_points_text(const std::vector<OperatingMean>& means,
     Table table{{noise_text(cell), "own decision"}, {}};
     for (const double limit : limits) table.header.push_back(fmt::format("≤ {:.0f}", limit));
     for (const OperatingMean& mean : means) {
-      if (!mean.thresholds && mean.noise == cell) table.rows.push_back(short_row(mean, means));
+      if (!mean.thresholds && mean.noise == cell)
+        table.rows.push_back(short_row(mean, means, experiment));
     }
     text += fmt::format("\n{}", to_text(table));
   }

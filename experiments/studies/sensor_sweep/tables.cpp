@@ -82,7 +82,7 @@ std::string sensor_sweep_text(const std::vector<SensorSweepPoint>& points,
   };
   for (const auto& [key, alike] : group_by(rows_of(points), engine_and_disturbance)) {
     Table table = pivot(
-        alike, [](const SweepRow& row) { return estimator_title(row.estimator()); },
+        alike, [&](const SweepRow& row) { return estimator_title_in(experiment, row.estimator()); },
         [](const SweepRow& row) { return exact(row.variation.value); },
         [](const SweepRow& row) { return with_interval(row.score["success"]); });
     table.header.front() = fmt::format("{}, {}", key.first, key.second);
