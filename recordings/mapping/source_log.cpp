@@ -4,6 +4,11 @@
 #include <cctype>
 #include <limits>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -37,62 +42,80 @@ std::vector<std::string> first_joint_names(const std::filesystem::path& path, Jo
   return joints.names();
 }
 
-void read_csv(const std::filesystem::path& path, const SourceLogSink& sink) {
-  // The position in a line of a wanted column, or its name if it follows from a joint's name.
-  struct WantedColumn {
-    std::optional<std::size_t> position;
-    std::string joint;
+/// Where the wanted columns are in the lines of a file.
+class WantedColumns {
+ public:
+  /// Offers the columns of the file, and those that follow from joints' names, to the sink.
+  void choose(const std::filesystem::path& path, const std::vector<std::string>& names,
+              const SourceLogSink& sink) {
+    SourceNames source{.file = path.string(), .names = names};
+    joints_ = JointColumns::among(names);
+    if (joints_) {
+      for (std::string& name : first_joint_names(path, *joints_)) {
+        if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+        source.names.push_back(std::move(name));
+        source.has_joint_names = true;
+      }
+    }
+    bool needs_joints = false;
+    for (const SourceColumn& column : sink.wanted(source)) {
+      const auto found = std::find(names.begin(), names.end(), column.name);
+      Wanted& one = wanted_.emplace_back();
+      if (found == names.end()) {
+        one.joint = column.name;
+        needs_joints = true;
+      } else {
+        one.position = static_cast<std::size_t>(found - names.begin());
+      }
+    }
+    if (!needs_joints) joints_.reset();
+    row_.resize(wanted_.size());
+  }
+
+  bool needs(std::size_t column) const {
+    return (joints_ && joints_->is_number(column)) ||
+           std::any_of(wanted_.begin(), wanted_.end(),
+                       [&](const Wanted& one) { return one.position == column; });
+  }
+  bool is_name(std::size_t column) const { return joints_ && joints_->is_name(column); }
+  void set_name(std::size_t column, std::string_view name) { joints_->set_name(column, name); }
+
+  /// The wanted numbers of a line.
+  std::span<const double> in(std::span<const double> values) {
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+      const Wanted& one = wanted_[i];
+      const auto position = one.position ? one.position : joints_->column_of(one.joint);
+      row_[i] = position ? values[*position] : std::numeric_limits<double>::quiet_NaN();
+    }
+    return row_;
+  }
+
+ private:
+  struct Wanted {
+    std::optional<std::size_t> position;  ///< in a line
+    std::string joint;                    ///< without a position: its column, by name
   };
-  std::vector<WantedColumn> wanted;
-  std::optional<JointColumns> joints;
-  std::vector<double> row;
+  std::vector<Wanted> wanted_;
+  std::optional<JointColumns> joints_;
+  std::vector<double> row_;
+};
+
+void read_csv(const std::filesystem::path& path, const SourceLogSink& sink) {
+  WantedColumns columns;
   NumbersCsvSink csv;
   csv.names = [&](std::span<const std::string> given) -> std::optional<ColumnError> {
     const std::vector<std::string> names(given.begin(), given.end());
     if (names == std::vector<std::string>{""}) return ColumnError{0, "expected a line of names"};
-    std::vector<std::string> all = names;
-    joints = JointColumns::among(names);
-    if (joints) {
-      for (std::string& name : first_joint_names(path, *joints)) {
-        if (std::find(names.begin(), names.end(), name) == names.end()) {
-          all.push_back(std::move(name));
-        }
-      }
-    }
-    const bool has_joint_names = all.size() > names.size();
-    SourceNames source{.file = path.string(), .names = std::move(all)};
-    source.has_joint_names = has_joint_names;
-    for (const SourceColumn& column : sink.wanted(source)) {
-      const auto found = std::find(names.begin(), names.end(), column.name);
-      if (found == names.end()) {
-        wanted.push_back({std::nullopt, column.name});
-      } else {
-        wanted.push_back({static_cast<std::size_t>(found - names.begin()), ""});
-      }
-    }
-    const bool are_columns = std::all_of(wanted.begin(), wanted.end(), [](const auto& column) {
-      return column.position.has_value();
-    });
-    if (are_columns) joints.reset();
-    row.resize(wanted.size());
+    columns.choose(path, names, sink);
     return std::nullopt;
   };
-  csv.needs = [&](std::size_t column) {
-    return (joints && joints->is_number(column)) ||
-           std::any_of(wanted.begin(), wanted.end(),
-                       [&](const WantedColumn& one) { return one.position == column; });
-  };
-  csv.has_text = [&](std::size_t column) { return joints && joints->is_name(column); };
-  csv.text = [&](std::size_t column, std::string_view text) { joints->set_name(column, text); };
+  csv.needs = [&](std::size_t column) { return columns.needs(column); };
+  csv.has_text = [&](std::size_t column) { return columns.is_name(column); };
+  csv.text = [&](std::size_t column, std::string_view text) { columns.set_name(column, text); };
   csv.empty_cell = std::numeric_limits<double>::quiet_NaN();
   csv.note = sink.note;
   csv.row = [&](std::span<const double> values, std::size_t line) -> std::optional<ColumnError> {
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      const auto position =
-          wanted[i].position ? wanted[i].position : joints->column_of(wanted[i].joint);
-      row[i] = position ? values[*position] : std::numeric_limits<double>::quiet_NaN();
-    }
-    sink.row(row, [&] { return fmt::format("{}:{}", path.string(), line); });
+    sink.row(columns.in(values), [&] { return fmt::format("{}:{}", path.string(), line); });
     return std::nullopt;
   };
   read_numbers_csv(path, csv);
