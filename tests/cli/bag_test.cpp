@@ -251,6 +251,73 @@ TEST(Bag, OfThePagePrintsWhatThePagePrints) {
   EXPECT_EQ(converted.exit_code, 0) << converted.errors;
 }
 
+/// The messages of a bag as two CSV files, a message per row.
+void write_csv_files(const recordings::Recording& run, const ScratchFolder& folder) {
+  std::filesystem::create_directories(folder / "csv");
+  std::ofstream joints(folder / "csv" / "joint_states.csv");
+  std::ofstream imu(folder / "csv" / "imu.csv");
+  joints << "header.stamp.sec,header.stamp.nanosec";
+  for (const char* field : {"name", "position", "velocity", "effort"}) {
+    for (int i = 0; i < 6; ++i) joints << fmt::format(",{}[{}]", field, i);
+  }
+  joints << "\n";
+  imu << "header.stamp.sec,header.stamp.nanosec,header.frame_id,orientation.x,orientation.y,"
+         "orientation.z,orientation.w,angular_velocity.x,angular_velocity.y,angular_velocity.z,"
+         "linear_acceleration.x,linear_acceleration.y,linear_acceleration.z\n";
+  for (std::size_t k = 0; k < run.steps(); ++k) {
+    const models::Observation& o = run.observation[k];
+    const std::int64_t stamp = 1'732'540'000'000'000'000 + std::llround(1e9 * o.time);
+    const auto at = [](std::int64_t ns) {
+      return fmt::format("{},{}", ns / 1'000'000'000, ns % 1'000'000'000);
+    };
+    const auto list = [&](double models::ServoReading::*member) {
+      for (const auto& [name, i] : driver_joints) {
+        joints << fmt::format(",{}", (i < 3 ? 1.0 : -1.0) * (o.servo.at(i).*member));
+      }
+    };
+    if (k % 2 == 0) {
+      joints << at(stamp);
+      for (const auto& [name, i] : driver_joints) joints << ',' << name;
+      list(&models::ServoReading::position);
+      list(&models::ServoReading::velocity);
+      list(&models::ServoReading::torque);
+      joints << "\n";
+    }
+    if (k % 5 != 0) continue;
+    const Eigen::Quaterniond& q = o.imu.orientation;
+    const Eigen::Vector3d& g = o.imu.angular_velocity;
+    const Eigen::Vector3d& a = o.imu.raw_linear_acceleration;
+    imu << fmt::format("{},imu_link,{},{},{},{},{},{},{},{},{},{}\n", at(stamp + 350'000), -q.y(),
+                       -q.x(), q.w(), q.z(), -g.x(), g.y(), -g.z(), -a.x(), a.y(), -a.z());
+  }
+}
+
+/// The mappings that ship read the same robot's bag and its CSV files.
+TEST(Bag, AndCsvFilesAreReadByTheExamples) {
+  const ScratchFolder folder;
+  const std::string examples = TOUCHDOWN_SOURCE_DIR "/examples/mapping/";
+  const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
+  ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
+            0);
+  const recordings::Recording run = recordings::read_recording(folder / "run.mpack");
+  std::ofstream(folder / "bag.mcap", std::ios::binary) << test::mcap_bytes(other_robots_bag(run));
+  write_csv_files(run, folder);
+  std::vector<double> accuracy;
+  for (const std::string& log : {"bag.mcap --mapping " + examples + "ros2_bag.yaml",
+                                 "csv --mapping " + examples + "ros2_csv.yaml",
+                                 "csv/joint_states.csv --mapping " + examples + "ros2_csv.yaml"}) {
+    const Ended checked = touchdown_program("check " + log + " --strict", folder.path());
+    EXPECT_EQ(checked.exit_code, 0) << checked.errors;
+    EXPECT_THAT(checked.output, HasSubstr(": 3500 records at 500 Hz, up to 6.998 s: plausible"));
+    EXPECT_THAT(checked.errors, HasSubstr("ages 2.7 ms (median) to 4.7 ms"));
+    const Ended ended = touchdown_program("estimate " + log + " -o beliefs.csv", folder.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    accuracy.push_back(balanced_accuracy(folder / "beliefs.csv", run, 0.002));
+  }
+  EXPECT_NEAR(accuracy[1], accuracy[0], 1e-3);
+  EXPECT_EQ(accuracy[2], accuracy[1]);
+}
+
 TEST(Bag, WhatIsWrongWithOneIsOneLine) {
   const ScratchFolder folder;
   folder.write("robot.yaml", bag_mapping);
