@@ -43,24 +43,30 @@ std::size_t length(const Flight& flight) { return flight.landing - flight.takeof
 FlightCounts match_flights(const ContactSequence& truth, const ContactSequence& prediction,
                            std::size_t first, std::size_t shortest) {
   FlightCounts counts;
-  std::vector<Flight> real = flights_from(truth, first);
+  const std::vector<Flight> real = flights_from(truth, first);
   std::vector<Flight> predicted = flights_from(prediction, first);
-  // A predicted flight that overlaps a true flight below the minimum duration is not counted.
   const auto is_short = [&](const Flight& flight) { return length(flight) < shortest; };
+  const auto matches = [](const Flight& flight, const Flight& one) {
+    const std::size_t common = common_steps(flight, one);
+    return 2 * common > length(flight) + length(one) - common;
+  };
+  // Each flight has at most one match: it shares more than half of the union.
   std::erase_if(predicted, [&](const Flight& one) {
-    return std::any_of(real.begin(), real.end(), [&](const Flight& flight) {
+    const bool is_match = std::any_of(real.begin(), real.end(), [&](const Flight& flight) {
+      return !is_short(flight) && matches(flight, one);
+    });
+    counts.matched += is_match ? 1 : 0;
+    counts.predicted += is_match ? 1 : 0;
+    return is_match;
+  });
+  // Of the others, a flight that overlaps a true flight below the minimum duration is not counted.
+  counts.predicted += std::count_if(predicted.begin(), predicted.end(), [&](const Flight& one) {
+    return std::none_of(real.begin(), real.end(), [&](const Flight& flight) {
       return is_short(flight) && common_steps(flight, one) > 0;
     });
   });
-  std::erase_if(real, is_short);
-  counts.truth = static_cast<std::int64_t>(real.size());
-  counts.predicted = static_cast<std::int64_t>(predicted.size());
-  for (const Flight& flight : real) {
-    counts.matched += std::count_if(predicted.begin(), predicted.end(), [&](const Flight& one) {
-      const std::size_t common = common_steps(flight, one);
-      return 2 * common > length(flight) + length(one) - common;
-    });
-  }
+  counts.truth = static_cast<std::int64_t>(std::count_if(
+      real.begin(), real.end(), [&](const Flight& flight) { return !is_short(flight); }));
   return counts;
 }
 
@@ -81,24 +87,36 @@ std::int64_t Latencies::total() const {
   return std::accumulate(events.begin(), events.end(), std::int64_t{0});
 }
 
-double Latencies::percentile(double share) const {
-  const std::int64_t all = total();
-  const auto wanted = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(all)));
+double Latencies::ranked(std::int64_t rank) const {
   std::int64_t passed = 0;
   for (std::size_t i = 0; i < count; ++i) {
     passed += events[i];
-    if (all > 0 && passed >= wanted) return static_cast<double>(first_ms + static_cast<int>(i));
+    if (rank >= 1 && passed >= rank) return static_cast<double>(first_ms + static_cast<int>(i));
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-double Latencies::absolute_percentile(double share) const {
+Latencies Latencies::absolute() const {
   Latencies absolute;
   for (std::size_t i = 0; i < count; ++i) {
     const auto ms = std::abs(first_ms + static_cast<std::int64_t>(i));
     absolute.events[static_cast<std::size_t>(ms - first_ms)] += events[i];
   }
-  return absolute.percentile(share);
+  return absolute;
+}
+
+double Latencies::percentile(double share) const {
+  const std::int64_t all = total();
+  const auto rank = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(all)));
+  return ranked(all > 0 ? std::max<std::int64_t>(rank, 1) : 0);
+}
+
+double Latencies::absolute_percentile(double share) const { return absolute().percentile(share); }
+
+double Latencies::absolute_median() const {
+  const std::int64_t all = total();
+  const Latencies sorted = absolute();
+  return 0.5 * (sorted.ranked((all + 1) / 2) + sorted.ranked(all / 2 + 1));
 }
 
 double Latencies::early_share() const {

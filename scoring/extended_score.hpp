@@ -22,8 +22,16 @@ struct Latencies {
   /// NaN without events.
   double percentile(double share) const;
   double absolute_percentile(double share) const;
+  /// Median of |latency| (ms): of an even number of events, the mean of the middle two. NaN without
+  /// events.
+  double absolute_median() const;
   /// Share of the events with a negative latency; NaN without events.
   double early_share() const;
+
+ private:
+  Latencies absolute() const;
+  /// The latency of the event with this rank, counted from 1 (ms); NaN if there are fewer.
+  double ranked(std::int64_t rank) const;
 };
 
 /// Flights of a wheel as intervals: docs/metrics.md, "Flights".

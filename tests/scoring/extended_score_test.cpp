@@ -104,6 +104,37 @@ TEST(Flights, ThatAreTooShortDoNotCount) {
   EXPECT_EQ(score_of({{1002, 1030}}, {{1000, 1030}}).extra_switches, 0);
 }
 
+TEST(Flights, AreMatchedBeforeThoseAtShortHopsAreLeftOut) {
+  // A hop of 20 ms, 10 ms after the landing. One prediction spans both: 200 of 230 steps match.
+  EXPECT_EQ(score_of({{1000, 1230}}, {{1000, 1200}, {1210, 1230}}).flights.f1(), 1.0);
+  // The same hop before the takeoff, and hops on both sides.
+  EXPECT_EQ(score_of({{970, 1200}}, {{970, 990}, {1000, 1200}}).flights.f1(), 1.0);
+  EXPECT_EQ(score_of({{970, 1230}}, {{970, 990}, {1000, 1200}, {1210, 1230}}).flights.f1(), 1.0);
+  // By hand: truth 1. Predicted 3: one matches, one at the hop counts nowhere, one is wrong.
+  const FlightCounts counts =
+      score_of({{1000, 1190}, {1210, 1230}, {1500, 1600}}, {{1000, 1200}, {1210, 1230}}).flights;
+  EXPECT_EQ(counts.truth, 1);
+  EXPECT_EQ(counts.predicted, 2);
+  EXPECT_EQ(counts.matched, 1);
+  EXPECT_DOUBLE_EQ(counts.f1(), 2.0 / 3.0);
+  // A prediction that touches a hop and matches nothing still counts nowhere.
+  EXPECT_EQ(score_of({{1220, 1500}}, {{1000, 1200}, {1210, 1230}}).flights.predicted, 0);
+}
+
+TEST(Latencies, MedianIsTheMeanOfTheMiddleTwo) {
+  const auto median_of = [](const std::vector<int>& latencies_ms) {
+    Latencies latencies;
+    for (const int ms : latencies_ms) latencies.add(1000 * ms);
+    return latencies.absolute_median();
+  };
+  EXPECT_EQ(median_of({7}), 7.0);
+  EXPECT_EQ(median_of({2, 5}), 3.5);
+  EXPECT_EQ(median_of({2, 5, 90}), 5.0);
+  EXPECT_EQ(median_of({1, -4, 7, 100}), 5.5);  // of 1, 4, 7, 100
+  EXPECT_EQ(median_of({3, -3, 3, 3}), 3.0);
+  EXPECT_TRUE(std::isnan(median_of({})));
+}
+
 TEST(Flights, BeforeTheScoredPartAreNone) {
   const ExtendedScore score = score_of({{100, 200}}, {{100, 200}});
   EXPECT_EQ(score.flights.truth, 0);
