@@ -19,20 +19,25 @@ struct Step {
 Step step_of(const std::vector<CollectedCounts>& scenes, const std::string& estimator,
              std::size_t cell, const Experiment& experiment) {
   Step step;
-  std::vector<Resampled> all;
+  std::vector<std::vector<Resampled>> by_scene;
   for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+    std::vector<Resampled> of_engines;
     for (const std::string& simulator : experiment.simulators) {
       const FitsAndRuns scores =
           fits_and_runs(points_by_fit(scenes[scene], {simulator, simulator, estimator}, cell));
       if (scores.runs.empty()) continue;
-      all.push_back(balanced_accuracy(scores, stream_of(scene, simulator, experiment),
-                                      experiment.intervals.bootstrap));
+      of_engines.push_back(balanced_accuracy(scores, stream_of(scene, simulator, experiment),
+                                             experiment.intervals.bootstrap));
       step.runs += static_cast<int>(scores.runs.size());
     }
+    if (!of_engines.empty()) by_scene.push_back(std::move(of_engines));
   }
-  std::vector<const Resampled*> pointers;
-  for (const Resampled& one : all) pointers.push_back(&one);
-  step.balanced_accuracy = mean(pointers);
+  std::vector<SceneValues> pointers;
+  for (const std::vector<Resampled>& of_engines : by_scene) {
+    SceneValues& values = pointers.emplace_back();
+    for (const Resampled& one : of_engines) values.push_back(&one);
+  }
+  step.balanced_accuracy = mean_over_scenes(pointers, experiment.intervals.bootstrap);
   return step;
 }
 

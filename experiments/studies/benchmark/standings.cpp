@@ -22,10 +22,14 @@ auto setting_of(const BenchmarkRow* row) {
   return std::tuple(row->robot, row->sensors, row->noise);
 }
 
-Resampled mean_of(const Rows& rows) {
-  std::vector<const Resampled*> all;
-  for (const BenchmarkRow* row : rows) all.push_back(&row->balanced_accuracy);
-  return mean(all);
+/// The mean over the rows' scenes and engines.
+Resampled mean_of(const Rows& rows, const scoring::BootstrapConfig& bootstrap) {
+  std::vector<SceneValues> scenes;
+  for (const auto& scene : group_by(rows, scene_name)) {
+    SceneValues& values = scenes.emplace_back();
+    for (const BenchmarkRow* row : scene.rows) values.push_back(&row->balanced_accuracy);
+  }
+  return mean_over_scenes(scenes, bootstrap);
 }
 
 struct Named {
@@ -33,10 +37,10 @@ struct Named {
   Resampled value;
 };
 
-std::vector<Named> means_by_estimator(const Rows& rows) {
+std::vector<Named> means_by_estimator(const Rows& rows, const scoring::BootstrapConfig& bootstrap) {
   std::vector<Named> means;
   for (const auto& own : group_by(rows, estimator_of)) {
-    means.push_back({own.key, mean_of(own.rows)});
+    means.push_back({own.key, mean_of(own.rows, bootstrap)});
   }
   return means;
 }
@@ -160,7 +164,9 @@ void mark_not_significantly_worse(std::vector<Standings::Entry>& entries,
 
 }  // namespace
 
-std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double level) {
+std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
+                                 const scoring::BootstrapConfig& intervals) {
+  const double level = intervals.level;
   Rows own;
   Rows planned;
   for (const BenchmarkRow& row : rows) {
@@ -171,7 +177,7 @@ std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double l
   std::vector<Standings> all;
   for (const auto& scored : group_by(own, setting_of)) {
     const Rows alike = complete_ones(scored.rows);
-    const std::vector<Named> means = means_by_estimator(alike);
+    const std::vector<Named> means = means_by_estimator(alike, intervals);
     Standings standings{alike.front()->robot, alike.front()->sensors, alike.front()->noise,
                         entries_of(alike, means, level), all_pairs("", means, level)};
     for (Standings::Entry& entry : standings.entries) {
@@ -182,7 +188,7 @@ std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double l
     }
     mark_not_significantly_worse(standings.entries, standings.differences);
     for (const auto& scene : group_by(alike, scene_name)) {
-      const auto pairs = all_pairs(scene.key, means_by_estimator(scene.rows), level);
+      const auto pairs = all_pairs(scene.key, means_by_estimator(scene.rows, intervals), level);
       standings.differences.insert(standings.differences.end(), pairs.begin(), pairs.end());
     }
     all.push_back(std::move(standings));

@@ -17,7 +17,7 @@ struct Standings {
   /// One estimator over all scenes and engines, with equal weights.
   struct Entry {
     std::string estimator;
-    Interval mean;       ///< of balanced accuracy
+    Interval mean;       ///< of balanced accuracy; scenes, fits and runs are resampled
     double worst = 0.0;  ///< lowest balanced accuracy over scenes and engines
     std::string worst_scene;
     std::string worst_simulator;
@@ -35,7 +35,8 @@ struct Standings {
   std::vector<Entry> entries;  ///< by mean, the best first
 
   /// Balanced accuracy of the first estimator minus that of the second, on the same runs, resampled
-  /// together: the mean over engines in one scene, or over scenes and engines if `scene` is empty.
+  /// together: the mean over engines in one scene; or, if `scene` is empty, over scenes, which are
+  /// resampled, too, and engines.
   struct Difference {
     std::string scene;
     std::string first;
@@ -48,6 +49,7 @@ struct Standings {
 };
 
 /// Standings of in-domain estimators that were scored in every scored run.
-std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows, double level);
+std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
+                                 const scoring::BootstrapConfig& intervals);
 
 }  // namespace touchdown::experiments

@@ -61,9 +61,9 @@ void add_submission_rows(const Evaluation& evaluation, const RunDirectory& direc
 BenchmarkResult write_benchmark(const Evaluation& evaluation, const RunDirectory& directory) {
   std::vector<BenchmarkRow> rows = benchmark(evaluation);
   add_submission_rows(evaluation, directory, rows);
-  const double level = evaluation.request.experiment.intervals.bootstrap.level;
-  BenchmarkResult result = with_standings(std::move(rows), level);
-  write_tables(result, level, directory);
+  const scoring::BootstrapConfig& intervals = evaluation.request.experiment.intervals.bootstrap;
+  BenchmarkResult result = with_standings(std::move(rows), intervals);
+  write_tables(result, intervals.level, directory);
   return result;
 }
 

@@ -36,9 +36,9 @@ Columns<BenchmarkRow> row_columns(double level) {
       .metric("no_contact_recall", [](const Row& r) { return r.score.points.no_contact_recall(); })
       .metric("flight_f1", [](const Row& r) { return r.extended.flights.f1(); })
       .metric("takeoff_latency_median_ms",
-              [](const Row& r) { return r.extended.takeoff.absolute_percentile(0.5); })
+              [](const Row& r) { return r.extended.takeoff.absolute_median(); })
       .metric("landing_latency_median_ms",
-              [](const Row& r) { return r.extended.landing.absolute_percentile(0.5); })
+              [](const Row& r) { return r.extended.landing.absolute_median(); })
       .metric("extra_switches_per_minute",
               [](const Row& r) { return per_minute(r.extended.extra_switches, r.score.scored_us); })
       .metric("calibration_error",
@@ -207,9 +207,10 @@ std::string scenes_text(const Standings& standings, const std::string& simulator
 
 }  // namespace
 
-BenchmarkResult with_standings(std::vector<BenchmarkRow> rows, double level) {
+BenchmarkResult with_standings(std::vector<BenchmarkRow> rows,
+                               const scoring::BootstrapConfig& intervals) {
   BenchmarkResult result{std::move(rows), {}};
-  result.standings = standings(result.rows, level);
+  result.standings = standings(result.rows, intervals);
   return result;
 }
 

@@ -15,7 +15,8 @@ struct BenchmarkResult {
 };
 
 /// Adds the standings. `level`, here and below, is the level of the intervals.
-BenchmarkResult with_standings(std::vector<BenchmarkRow> rows, double level);
+BenchmarkResult with_standings(std::vector<BenchmarkRow> rows,
+                               const scoring::BootstrapConfig& intervals);
 
 /// Writes `benchmark.csv`, `benchmark_standings.csv`, `benchmark_differences.csv`, and all three as
 /// `benchmark.json`.

@@ -56,7 +56,7 @@ std::map<std::pair<std::string, int>, double> labelled_seconds(const Evaluation&
 
 Resampled over_training_sets(const std::vector<std::vector<scoring::Classification>>& sets,
                              std::uint64_t scene, const scoring::BootstrapConfig& bootstrap) {
-  Resampled result = balanced_accuracy({sets.front(), sets}, scene, bootstrap);
+  Resampled result = balanced_accuracy_of_fits(sets, scene, bootstrap);
   result.estimate = 0.0;
   for (const PointsOfRuns& set : sets) {
     result.estimate += scoring::sum(set).balanced_accuracy() / static_cast<double>(sets.size());

@@ -13,12 +13,12 @@ namespace {
 
 using ::testing::ElementsAre;
 
-constexpr double level = 0.95;
 constexpr std::size_t resamples = 20'000;
+const scoring::BootstrapConfig intervals = {.resamples = resamples};
 
 /// Normal values around the estimate, a stream of their own for each key.
 Resampled normal(double estimate, double error, std::uint64_t key) {
-  Resampled all{estimate, {}};
+  Resampled all{estimate};
   for (std::size_t r = 0; r < resamples; ++r) {
     const double radius = std::sqrt(-2.0 * std::log(uniform01(key, 0, r)));
     const double angle = 2.0 * std::numbers::pi * uniform01(key, 1, r);
@@ -43,7 +43,7 @@ BenchmarkRow row(const std::string& scene, const std::string& estimator, Resampl
 TEST(Standings, PutTheBestMeanFirstAndNameTheWorstScene) {
   const auto all = standings({row("stairs", "a", {0.9}), row("kerb", "a", {0.5}, "bullet"),
                               row("stairs", "b", {0.7}), row("kerb", "b", {0.8}, "bullet")},
-                             level);
+                             intervals);
   ASSERT_EQ(all.size(), 1U);
   ASSERT_EQ(all[0].entries.size(), 2U);
   EXPECT_EQ(all[0].entries[0].estimator, "b");
@@ -64,13 +64,13 @@ TEST(Standings, MeasureExcessLogLossFromTheReferenceUpperBound) {
   std::vector<BenchmarkRow> rows = {
       row_with("stairs", "phase", 0.9, 0.25), row_with("kerb", "phase", 0.9, 0.75),
       row_with("stairs", "free_fall", 0.8, 2.0), row_with("kerb", "free_fall", 0.8, 4.0)};
-  const std::vector<Standings> without = standings(rows, level);
+  const std::vector<Standings> without = standings(rows, intervals);
   for (const Standings::Entry& entry : without[0].entries) {
     EXPECT_TRUE(std::isnan(entry.excess_log_loss));
   }
   rows.push_back(row_with("stairs", "gradient_boosting", 0.99, 0.125));
   rows.push_back(row_with("kerb", "gradient_boosting", 0.99, 0.375));
-  const auto entries = standings(rows, level)[0].entries;
+  const auto entries = standings(rows, intervals)[0].entries;
   ASSERT_EQ(entries.size(), 3U);
   EXPECT_EQ(entries[0].estimator, "gradient_boosting");
   EXPECT_EQ(entries[0].excess_log_loss, 0.0);
@@ -89,7 +89,7 @@ TEST(Standings, AreSeparateForEverySetupAndOfInDomainFitsAlone) {
   BenchmarkRow transferred = row("stairs", "a", {0.1});
   transferred.fitted_on = "bullet";
   rows.insert(rows.end(), {harsh, noisy, transferred});
-  const auto all = standings(rows, level);
+  const auto all = standings(rows, intervals);
   ASSERT_EQ(all.size(), 3U);
   EXPECT_EQ(all[0].entries[0].mean.estimate, 0.9);
   EXPECT_EQ(all[1].sensors, "harsh");
@@ -101,17 +101,18 @@ TEST(Standings, LeaveOutEstimatorsThatWereNotScoredInAllRuns) {
   BenchmarkRow kerb = row("kerb", "ours", {0.5});
   BenchmarkRow partly = row("stairs", "theirs", {1.0});
   for (BenchmarkRow* one : {&stairs, &kerb, &partly}) one->runs = 4;
-  const auto some_scenes = standings({stairs, kerb, partly}, level);
+  const auto some_scenes = standings({stairs, kerb, partly}, intervals);
   ASSERT_EQ(some_scenes.at(0).entries.size(), 1U);
   EXPECT_EQ(some_scenes[0].entries[0].estimator, "ours");
   BenchmarkRow few = row("kerb", "theirs", {1.0});
   few.runs = 3;
-  EXPECT_EQ(standings({stairs, kerb, partly, few}, level).at(0).entries.size(), 1U);
+  EXPECT_EQ(standings({stairs, kerb, partly, few}, intervals).at(0).entries.size(), 1U);
 }
 
 TEST(Standings, BandOfOnePairIsTheNormalOne) {
   const auto all = standings(
-      {row("stairs", "a", normal(0.9, 0.03, 1)), row("stairs", "b", normal(0.8, 0.04, 2))}, level);
+      {row("stairs", "a", normal(0.9, 0.03, 1)), row("stairs", "b", normal(0.8, 0.04, 2))},
+      intervals);
   ASSERT_EQ(all[0].differences.size(), 2U);  // the mean, and the only scene
   const Interval& band = all[0].differences[0].value;
   EXPECT_NEAR(band.estimate, 0.1, 1e-12);
@@ -128,7 +129,7 @@ TEST(Standings, BandsOfManyPairsHoldTogether) {
     rows.push_back(row("stairs", std::string(1, static_cast<char>('a' + i)),
                        normal(0.9, 0.01, static_cast<std::uint64_t>(100 + i))));
   }
-  const auto all = standings(rows, level);
+  const auto all = standings(rows, intervals);
   for (const Standings::Difference& pair : all[0].differences) {
     EXPECT_NEAR(pair.value.high - pair.value.estimate, 4.62 * 0.01, 0.0015);
   }
@@ -138,7 +139,7 @@ TEST(Standings, MarkEstimatorsThatAreNotSignificantlyWorse) {
   const auto all = standings({row("stairs", "best", normal(0.95, 0.005, 1)),
                               row("stairs", "near", normal(0.945, 0.005, 2)),
                               row("stairs", "far", normal(0.85, 0.005, 3))},
-                             level);
+                             intervals);
   std::vector<bool> marks;
   for (const Standings::Entry& entry : all[0].entries)
     marks.push_back(entry.is_not_significantly_worse);
@@ -151,9 +152,31 @@ TEST(Standings, PairedDifferencesAreSurerThanTheirParts) {
   Resampled other = one;
   other.estimate -= 0.01;
   for (double& value : other.values) value -= 0.01;
-  const auto all = standings({row("stairs", "a", one), row("stairs", "b", other)}, level);
+  const auto all = standings({row("stairs", "a", one), row("stairs", "b", other)}, intervals);
   EXPECT_FALSE(all[0].entries[1].is_not_significantly_worse);
   EXPECT_GT(all[0].entries[0].mean.high, all[0].entries[0].mean.low + 0.1);
+}
+
+TEST(Standings, OverScenesHaveTheVarianceOfTheirScenes) {
+  // The mean of n scenes, s² apart, has the variance s²/n, however sure each of them is.
+  const std::vector<double> of_scene = {0.99, 0.95, 0.90, 0.99, 0.70, 0.98, 0.97, 0.93};
+  std::vector<BenchmarkRow> rows;
+  for (std::size_t i = 0; i < of_scene.size(); ++i) {
+    rows.push_back(row("scene" + std::to_string(i), "a", normal(of_scene[i], 1e-4, i)));
+    rows.push_back(row("scene" + std::to_string(i), "b", normal(of_scene[i] - 0.01, 1e-4, i)));
+  }
+  const auto n = static_cast<double>(of_scene.size());
+  double mean = 0.0;
+  for (const double value : of_scene) mean += value / n;
+  double squares = 0.0;
+  for (const double value : of_scene) squares += (value - mean) * (value - mean);
+  const double error = std::sqrt(squares / (n - 1.0) / n);
+  const Standings all = standings(rows, intervals).at(0);
+  const Interval& first = all.entries.at(0).mean;
+  EXPECT_NEAR(first.estimate, mean, 1e-12);
+  EXPECT_NEAR((first.high - first.low) / (2.0 * 1.96), error, 0.1 * error);
+  // The second is worse by the same in every scene: the pair is surer than its parts.
+  EXPECT_FALSE(all.entries.at(1).is_not_significantly_worse);
 }
 
 }  // namespace
