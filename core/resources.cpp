@@ -60,6 +60,13 @@ std::vector<std::filesystem::path> resources_in(const std::filesystem::path& fol
   return {files.begin(), files.end()};
 }
 
+std::optional<std::filesystem::path> source_folder() {
+  const std::filesystem::path folder = TOUCHDOWN_SOURCE_DIR;
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) return std::nullopt;
+  return folder;
+}
+
 std::filesystem::path find_resource(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) return path;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace touchdown {
 /// `share/touchdown` beside the running program or library.
 /// Errors: `InputError` that suggests the nearest existing file, or if the path is a folder.
 std::filesystem::path find_resource(const std::filesystem::path& path);
+
+/// The folder of the sources that this program was built from, if it is still there.
+std::optional<std::filesystem::path> source_folder();
 
 /// Errors: `InputError` when the file does not exist, with the nearest name in its folder, or when
 /// it is no regular file.

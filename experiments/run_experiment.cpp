@@ -247,12 +247,12 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
     }
   }();
   if (is_reserved(experiment.seed)) {
-    const int others =
-        log_evaluation(context.directory.path(), {experiment.seed, result.id, build_commit()});
+    const std::filesystem::path log = test_seed_log();
+    const int others = log_evaluation(log, {experiment.seed, result.id, build_commit()});
     result.studies.push_back(fmt::format(
         "Seed {} is reserved for numbers that are reported once: other configurations or builds "
-        "scored its runs {} times before (reserved_seeds.csv beside the run directory)\n",
-        experiment.seed, others));
+        "scored its runs {} times before ({})\n",
+        experiment.seed, others, log.string()));
   }
   for (auto& [index, run] : done.runs) {
     if (run.plan.group == 0) result.runs.push_back(std::move(run));

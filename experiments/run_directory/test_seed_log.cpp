@@ -5,13 +5,16 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "core/resources.hpp"
 #include "core/tables/table.hpp"
 
 namespace touchdown::experiments {
 
-int log_evaluation(const std::filesystem::path& run_directory, const TestSeedUse& use) {
-  const std::filesystem::path log =
-      std::filesystem::absolute(run_directory).parent_path() / "reserved_seeds.csv";
+std::filesystem::path test_seed_log() {
+  return source_folder().value_or(".") / "runs" / "reserved_seeds.csv";
+}
+
+int log_evaluation(const std::filesystem::path& log, const TestSeedUse& use) {
   Table table{{"seed", "id", "commit"}, {}};
   if (is_there(log)) table.rows = from_csv(read_file(log)).rows;
   const std::vector<std::string> own = {std::to_string(use.seed), use.id, use.commit};
@@ -26,6 +29,7 @@ int log_evaluation(const std::filesystem::path& run_directory, const TestSeedUse
   }
   if (!is_logged) {
     table.rows.push_back(own);
+    if (log.has_parent_path()) std::filesystem::create_directories(log.parent_path());
     write_atomically(log, to_csv(table));
   }
   return static_cast<int>(others.size());
