@@ -23,9 +23,17 @@ enum class SignalStatus : int {
   invalid,  ///< a signal that is NaN or beyond its bound: the belief relaxed towards the prior
   gap,      ///< time jumped: the window restarted and the belief relaxed
   frozen,   ///< a sensor repeated itself to the bit: the belief relaxed
+  /// The step was used, but the model's load by the servo law was muted: targets are missing, or
+  /// gains are zero.
+  degraded,
 };
 
-/// "good", "invalid", "gap", "frozen".
+/// Whether the belief follows from the step's signals.
+constexpr bool is_used(SignalStatus status) noexcept {
+  return status == SignalStatus::good || status == SignalStatus::degraded;
+}
+
+/// "good", "invalid", "gap", "frozen", "degraded".
 constexpr std::string_view to_text(SignalStatus status) noexcept {
   switch (status) {
     case SignalStatus::good:
@@ -36,6 +44,8 @@ constexpr std::string_view to_text(SignalStatus status) noexcept {
       return "gap";
     case SignalStatus::frozen:
       return "frozen";
+    case SignalStatus::degraded:
+      return "degraded";
   }
   return "";
 }

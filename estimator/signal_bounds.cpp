@@ -22,9 +22,10 @@ constexpr std::array<std::string_view, signal_count> names = {
     "angular velocity x",    "angular velocity y",     "angular velocity z",
     "vertical acceleration", "ground velocity command"};
 
-/// The members after the time as one array, by one copy that the compiler turns into vector loads.
+/// The members from the time to the targets as one array, by one copy that the compiler turns into
+/// vector loads.
 std::array<double, signal_count> values_of(const Signals& signals) noexcept {
-  static_assert(sizeof(Signals) == (1 + signal_count) * sizeof(double));
+  static_assert(sizeof(Signals) == (1 + signal_count) * sizeof(double) + sizeof(Signals::target));
   std::array<double, signal_count> values;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   // Eigen's vectors have constructors of their own, but nothing besides their numbers.
   const auto* const bytes = reinterpret_cast<const char*>(&signals);  // NOLINT
@@ -97,6 +98,7 @@ Signals SignalCheck::without_unusable(const Signals& signals) const noexcept {
   usable.angular_velocity = {values[21], values[22], values[23]};
   usable.vertical_acceleration = values[24];
   usable.ground_velocity_command = values[25];
+  usable.target = signals.target;
   return usable;
 }
 

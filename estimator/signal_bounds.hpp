@@ -25,14 +25,16 @@ struct SignalBounds {
 /// Throws InputError for a bound that is not a positive finite number.
 void check_signal_bounds(const SignalBounds& bounds);
 
-/// The number of a member of `Signals` after the time, in their order.
+/// The number of a member of `Signals` after the time, in their order, without the optional
+/// targets.
 enum class SignalIndex : int { none = -1 };
 inline constexpr std::size_t signal_count = 26;
 
 /// "left hip position", "vertical acceleration", …; empty for `none`.
 std::string_view to_text(SignalIndex signal) noexcept;
 
-/// Checks every signal of a step against its bound.
+/// Checks every signal of a step against its bound. Targets pass unchecked, because a missing one
+/// is no fault; `servo_torque` checks them.
 class SignalCheck {
  public:
   /// Throws as `check_signal_bounds`.

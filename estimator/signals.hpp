@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -22,6 +23,24 @@ struct LegSignals {
   JointSignals wheel;
 };
 
+/// The command that a joint's servo executed when its signals were measured, in the joint's own
+/// sign convention. The servo's law is τ* = k_p (q* − q) + k_d (q̇* − q̇) + τ_ff. NaN: not known.
+struct JointTarget {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  double position = unknown;            ///< q* (rad)
+  double velocity = unknown;            ///< q̇* (rad/s)
+  double feedforward_torque = unknown;  ///< τ_ff (N·m)
+  double kp = unknown;                  ///< k_p (N·m/rad)
+  double kd = unknown;                  ///< k_d (N·m·s/rad)
+};
+
+struct LegTargets {
+  JointTarget hip;
+  JointTarget knee;
+  JointTarget wheel;
+};
+
 /// All signals that a contact estimator may use at one time step. They contain no ground truth:
 /// the robot measures or commands each of them.
 struct Signals {
@@ -37,6 +56,8 @@ struct Signals {
   double vertical_acceleration = 0.0;
   /// Ground velocity that the policy commanded at the previous step (m/s).
   double ground_velocity_command = 0.0;
+  /// Left leg, right leg. Optional: no other signal depends on them.
+  std::array<LegTargets, 2> target = {};
 };
 
 }  // namespace touchdown

@@ -30,6 +30,10 @@ constexpr std::size_t index(Servo servo) { return static_cast<std::size_t>(servo
 inline constexpr std::array<Servo, wheel_count> wheel_servos = {Servo::left_wheel,
                                                                 Servo::right_wheel};
 
+/// Servo gains for scales of one, as Upkie's spine sets them.
+inline constexpr double servo_kp = 20.0;  ///< N·m/rad
+inline constexpr double servo_kd = 1.0;   ///< N·m·s/rad
+
 /// Command to one servo, as in Upkie's spine (rad, rad/s, N·m).
 /// torque = clamp(feedforward + kd·kd_scale·(velocity − ω) + kp·kp_scale·(position − q)); a NaN
 /// position drops the position term.

@@ -8,12 +8,7 @@ namespace touchdown::policies {
 
 namespace {
 
-constexpr double long_ago = 1e3;  // s
-
-// Servo gains at a scale of one, as in Upkie's spine (N·m/rad, N·m·s/rad).
-constexpr double servo_kp = 20.0;
-constexpr double servo_kd = 1.0;
-
+constexpr double long_ago = 1e3;          // s
 constexpr double speed_low_pass = 0.02;   // s: of the ground speed
 constexpr double dead_time = 0.06;        // s: a shorter flight counts as a false alarm
 constexpr double one_dead_time = 0.1;     // s: a shorter flight of one wheel counts as a bump
@@ -114,11 +109,12 @@ void SoftLander::command_leg(std::size_t side, const models::Observation& observ
   const double load = !is_flying() ? softness_ * 0.5 * robot_.mass * gravity * line.lever *
                                          std::min(1.0, standing_ / load_ramp)
                                    : 0.0;
-  action.servo[knee] = {
-      .feedforward_torque = -forward * load,
-      .position = course_.posture[knee],
-      .kp_scale = stiff * config_.leg_kp_scale + softness_ * soft_stiffness * square / servo_kp,
-      .kd_scale = stiff * config_.leg_kd_scale + softness_ * soft_damping * square / servo_kd};
+  action.servo[knee] = {.feedforward_torque = -forward * load,
+                        .position = course_.posture[knee],
+                        .kp_scale = stiff * config_.leg_kp_scale +
+                                    softness_ * soft_stiffness * square / models::servo_kp,
+                        .kd_scale = stiff * config_.leg_kd_scale +
+                                    softness_ * soft_damping * square / models::servo_kd};
   // The hip turns against the line, in proportion to the softness: the leg folds along its line.
   const double folded = stiff * target + softness_ * knee_angle;
   action.servo[hip] = {.position = course_.posture[hip] + forward * (line_of(robot_, target).angle -

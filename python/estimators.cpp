@@ -241,7 +241,8 @@ void add_belief(py::module_& module) {
       module, "Belief",
       "An estimator's belief after one step: `p_contact` and `contact` of the left and the right "
       "wheel, `p_any_wheel`, `p_both_wheels`. `status` reports whether the signals were usable: "
-      "\"good\", \"invalid\", \"gap\" or \"frozen\"; `unusable` names the first signal that is NaN "
+      "\"good\", \"invalid\", \"gap\", \"frozen\" or \"degraded\"; `unusable` names the first "
+      "signal that is NaN "
       "or "
       "beyond its bound, if any (\"left hip position\").")
       .def_property_readonly("p_contact",
@@ -335,7 +336,10 @@ void add_estimator(py::module_& module) {
           "before). Only the signals that this estimator uses are needed. Without "
           "`vertical_acceleration` it follows from `linear_acceleration` and `orientation` (4: w x "
           "y z, from the IMU to a frame with z down); with gravity_included, the orientation also "
-          "takes gravity out of `linear_acceleration`. NaN marks a failed sensor.")
+          "takes gravity out of `linear_acceleration`. NaN marks a failed sensor. Models with the "
+          "load by the servo law also use the joints' commands of the step before: "
+          "`target_position`, `target_velocity`, `target_torque` (feed-forward), `target_kp` "
+          "(N·m/rad), `target_kd` (N·m·s/rad), 6 each; without them the status is \"degraded\".")
       .def("update_from_spine", &Estimator::update_from_spine, "observation"_a,
            "ground_velocity_command"_a = 0.0,
            "Update the belief by one observation of Upkie's spine: `info[\"spine_observation\"]` "

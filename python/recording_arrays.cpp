@@ -119,6 +119,27 @@ void add_truth(py::dict& arrays, recordings::Recording& recording) {
   arrays["body_touches_terrain"] = rows.view(&rows.front().body_touches_terrain);
 }
 
+/// Adds the targets of the previous step, which were in force when a step was observed.
+void add_targets(py::dict& arrays, const recordings::Recording& recording) {
+  std::vector<std::array<JointTarget, models::servo_count>> rows;
+  rows.reserve(recording.steps());
+  recordings::RecordedJoints storage;
+  for (std::size_t k = 0; k < recording.steps(); ++k) {
+    if (k > 0) recordings::record_of(recording.observation[k], &recording.action[k - 1], storage);
+    rows.push_back(storage.targets);
+  }
+  SharedRows<std::array<JointTarget, models::servo_count>> shared(std::move(rows));
+  JointTarget& first = shared.front()[0];
+  const auto view = [&](const char* name, double JointTarget::*member) {
+    arrays[name] = shared.view(&(first.*member), models::servo_count, sizeof(JointTarget));
+  };
+  view("target_position", &JointTarget::position);
+  view("target_velocity", &JointTarget::velocity);
+  view("target_torque", &JointTarget::feedforward_torque);
+  view("target_kp", &JointTarget::kp);
+  view("target_kd", &JointTarget::kd);
+}
+
 /// Adds the signals of estimators that are computed from the recording.
 void add_derived_signals(py::dict& arrays, const recordings::Recording& recording) {
   std::vector<double> vertical_acceleration;
@@ -131,6 +152,7 @@ void add_derived_signals(py::dict& arrays, const recordings::Recording& recordin
   command.pop_back();  // the command after the last step
   arrays["vertical_acceleration"] = array_of(std::move(vertical_acceleration));
   arrays["ground_velocity_command"] = array_of(std::move(command));
+  add_targets(arrays, recording);
 }
 
 template <typename Row>

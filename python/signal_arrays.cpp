@@ -29,6 +29,27 @@ void set_joints(Signals& signals, const Joint& joint) {
   }
 }
 
+/// The arrays of targets, by member of `JointTarget`.
+struct TargetArray {
+  const char* name;
+  double JointTarget::*member;
+};
+constexpr std::array<TargetArray, 5> target_arrays = {
+    {{"target_position", &JointTarget::position},
+     {"target_velocity", &JointTarget::velocity},
+     {"target_torque", &JointTarget::feedforward_torque},
+     {"target_kp", &JointTarget::kp},
+     {"target_kd", &JointTarget::kd}}};
+
+/// Sets one member of all targets to `number(index)`.
+template <typename Number>
+void set_targets(Signals& signals, double JointTarget::*member, const Number& number) {
+  std::size_t index = 0;
+  for (LegTargets& leg : signals.target) {
+    for (JointTarget* joint : {&leg.hip, &leg.knee, &leg.wheel}) joint->*member = number(index++);
+  }
+}
+
 /// Whether the three arrays view one row of joints with the layout of `Signals`, as those of a
 /// recording do. Such rows are copied at once.
 bool have_layout_of_signals(const StepArray& position, const StepArray& velocity,
@@ -104,6 +125,9 @@ SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, G
     vertical_acceleration_ = column("vertical_acceleration", 0, needs.acceleration);
   }
   ground_velocity_command_ = column("ground_velocity_command", 0, needs.command);
+  for (std::size_t i = 0; i < target_.size(); ++i) {
+    target_[i] = column(target_arrays[i].name, joint_count, false);
+  }
   if (map_.has("heard")) {
     throw InputError("signals: 'heard' was renamed: expected 'has_record'");
   }
@@ -131,6 +155,11 @@ Signals SignalArrays::at(std::size_t step) const {
   }
   signals.vertical_acceleration = number(vertical_acceleration_, 0);
   signals.ground_velocity_command = number(ground_velocity_command_, 0);
+  for (std::size_t m = 0; m < target_.size(); ++m) {
+    if (!target_[m]) continue;
+    set_targets(signals, target_arrays[m].member,
+                [&](std::size_t i) { return (*target_[m])(step, i); });
+  }
   if (orientation_) {
     const StepArray& q = *orientation_;
     derive_accelerations(signals, {q(step, 0), q(step, 1), q(step, 2), q(step, 3)}, gravity_);
@@ -172,6 +201,10 @@ Signals signals_of_step(const py::object& step, const SignalNeeds& needs, Gravit
   }
   signals.ground_velocity_command =
       number(numbers_of(step, "ground_velocity_command", 1, needs.command), 0);
+  for (const auto& [name, member] : target_arrays) {
+    const auto target = numbers_of(step, name, joint_count, false);
+    if (target) set_targets(signals, member, [&](std::size_t i) { return (*target)(i); });
+  }
   return signals;
 }
 
@@ -190,6 +223,11 @@ py::dict arrays_of(std::vector<Signals> steps) {
   arrays["angular_velocity"] = rows.view(first.angular_velocity.data(), 3);
   arrays["vertical_acceleration"] = rows.view(&first.vertical_acceleration);
   arrays["ground_velocity_command"] = rows.view(&first.ground_velocity_command);
+  static_assert(sizeof(LegTargets) == 3 * sizeof(JointTarget));
+  JointTarget& target = first.target[0].hip;
+  for (const auto& [name, member] : target_arrays) {
+    arrays[name] = rows.view(&(target.*member), joint_count, sizeof(JointTarget));
+  }
   return arrays;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -28,7 +29,8 @@ enum class GravityIn : int {
 /// Signals of a run, read from arrays with the names of `touchdown export`: `time`, `position`,
 /// `velocity`, `torque` (six joints), `linear_acceleration`, `angular_velocity`,
 /// `vertical_acceleration`, `ground_velocity_command`, `orientation` (w x y z, to a frame with z
-/// down), and optionally `has_record`.
+/// down), and optionally `has_record` and the targets of six joints: `target_position`,
+/// `target_velocity`, `target_torque`, `target_kp`, `target_kd`.
 class SignalArrays {
  public:
   /// Errors: `InputError` for arrays that are needed and missing, renamed or have another shape.
@@ -54,6 +56,7 @@ class SignalArrays {
   std::optional<StepArray> vertical_acceleration_;
   std::optional<StepArray> ground_velocity_command_;
   std::optional<StepArray> orientation_;
+  std::array<std::optional<StepArray>, 5> target_;  ///< by member of `JointTarget`
   std::optional<StepArray> has_record_;
   bool has_layout_of_signals_ = false;
 };

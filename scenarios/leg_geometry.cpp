@@ -86,6 +86,8 @@ LegGeometry leg_geometry(const models::RobotModel& robot) {
   const auto [lower_length, lower_centre] = length_and_centre(1);
   const auto [upper_length, upper_centre] =
       has_hip ? length_and_centre(0) : std::pair(without_hip * lower_length, 0.0);
+  const models::Actuator& hip = robot.actuator[models::index(Servo::left_hip)];
+  const models::Actuator& knee = robot.actuator[models::index(Servo::left_knee)];
   return {.upper_length = rounded(upper_length, 1e6),
           .lower_length = rounded(lower_length, 1e6),
           .upper_mass = rounded(links[0].mass, 1e6),
@@ -94,7 +96,10 @@ LegGeometry leg_geometry(const models::RobotModel& robot) {
           .upper_centre = rounded(upper_centre, 1e3),
           .lower_centre = rounded(lower_centre, 1e3),
           .wheel_inertia = rounded(wheel_inertia, 1e8),
-          .robot_mass = rounded(mj_getTotalmass(robot.mj.get()), 1e6)};
+          .robot_mass = rounded(mj_getTotalmass(robot.mj.get()), 1e6),
+          .hip_friction = has_hip ? hip.friction : 0.0,
+          .knee_friction = knee.friction,
+          .position_resolution = std::max(hip.position_resolution, knee.position_resolution)};
 }
 
 }  // namespace touchdown::scenarios

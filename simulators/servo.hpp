@@ -4,10 +4,6 @@
 
 namespace touchdown::simulators {
 
-/// Servo gains for scales of one, as Upkie's spine sets them.
-inline constexpr double servo_kp = 20.0;  ///< N·m/rad
-inline constexpr double servo_kd = 1.0;   ///< N·m·s/rad
-
 /// The torque that a moteus-like servo applies to its joint (N·m):
 ///     clamp(feedforward + kd·kd_scale·(ω* − ω) + kp·kp_scale·(q* − q), ± limit),
 /// where a NaN target position q* drops the position term and the limit is the smaller of the

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstddef>
+#include <tuple>
 
 #include <benchmark/benchmark.h>
 
@@ -32,6 +33,18 @@ EvidenceModel wavy_curves(bool with_pairs = false) {
   for (EvidenceCurve& curve : model.curve) fill(curve, 0.1F);
   if (with_pairs) model.table.resize(evidence_pairs.size());
   for (EvidenceTable& table : model.table) fill(table, 0.1F);
+  return model;
+}
+
+DecisionModel with_servo_load(DecisionModel model) {
+  model.servo_weight.resize(servo_weights);
+  fill(model.servo_weight, 0.2F);
+  return model;
+}
+
+EvidenceModel with_servo_load(EvidenceModel model) {
+  model.servo_curve.resize(std::tuple_size_v<ServoLoadInputs>);
+  for (EvidenceCurve& curve : model.servo_curve) fill(curve, 0.1F);
   return model;
 }
 
@@ -70,6 +83,24 @@ void update_touchdown(benchmark::State& state) {
   bench::time_updates(state, estimator);
 }
 BENCHMARK(update_touchdown)->Name("update/touchdown");
+
+void update_network_with_servo_load(benchmark::State& state) {
+  DecisionNetwork estimator(with_servo_load(busy_network()));
+  bench::time_updates(state, estimator);
+}
+BENCHMARK(update_network_with_servo_load)->Name("update/decision_network_servo_load");
+
+void update_curves_with_servo_load(benchmark::State& state) {
+  EvidenceCurves estimator(with_servo_load(wavy_curves()));
+  bench::time_updates(state, estimator);
+}
+BENCHMARK(update_curves_with_servo_load)->Name("update/evidence_curves_servo_load");
+
+void update_touchdown_with_servo_load(benchmark::State& state) {
+  TouchdownEstimator estimator({with_servo_load(wavy_curves()), with_servo_load(busy_network())});
+  bench::time_updates(state, estimator);
+}
+BENCHMARK(update_touchdown_with_servo_load)->Name("update/touchdown_servo_load");
 
 void latency_touchdown(benchmark::State& state) {
   TouchdownEstimator estimator({wavy_curves(), busy_network()});

@@ -33,6 +33,9 @@ inline std::vector<Signals> signals(std::size_t steps) {
       leg.knee.velocity = -sign * 0.4 * std::cos(20.0 * time);
       leg.wheel.position = 10.0 * time;
       leg.wheel.velocity = 10.0;
+      LegTargets& target = s.target[static_cast<std::size_t>(side)];
+      target.hip = {leg.hip.position + sign * 0.01, 0.0, 0.0, 40.0, 2.0};
+      target.knee = {leg.knee.position + sign * (air ? 0.0 : 0.03), 0.0, 0.0, 40.0, 2.0};
     }
   }
   return stream;

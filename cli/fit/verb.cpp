@@ -147,6 +147,9 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
               "leave_below=0.25")
       .value_name("NAME=NUMBER")
       .one_at_a_time();
+  verb.flag("--servo-load", &flags.config.servo_load,
+            "Give networks and evidence curves the load by the laws of the servos: for logs with "
+            "the\ncommands of hips and knees (action.servo)");
   verb.option("--robot", &flags.robot,
               "Robot that recorded the logs, for the model's metadata (default: that of simulated\n"
               "logs). Its file gives the leg geometry to estimators that compute loads (default:\n"

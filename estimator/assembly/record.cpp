@@ -29,6 +29,16 @@ JointSignals joint(const RobotRecord& record, const JointSource& source,
           source.sign * (units.torque * theirs.torque)};
 }
 
+JointTarget target(const RobotRecord& record, const JointSource& source,
+                   const RecordUnits& units) noexcept {
+  if (source.index >= record.targets.size()) return {};
+  const JointTarget& theirs = record.targets[source.index];
+  return {source.sign * (units.position * theirs.position - source.zero),
+          source.sign * (units.velocity * theirs.velocity),
+          source.sign * (units.torque * theirs.feedforward_torque), units.kp * theirs.kp,
+          units.kd * theirs.kd};
+}
+
 /// The acceleration without gravity, in the IMU's frame.
 Eigen::Vector3d linear_acceleration(const RobotRecord& record,
                                     const AssemblyConfig& config) noexcept {
@@ -48,8 +58,9 @@ bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 void check_assembly_config(const AssemblyConfig& config) {
   const RecordUnits& units = config.units;
-  for (const double unit : {units.time, units.position, units.velocity, units.torque,
-                            units.angular_velocity, units.linear_acceleration}) {
+  for (const double unit :
+       {units.time, units.position, units.velocity, units.torque, units.angular_velocity,
+        units.linear_acceleration, units.kp, units.kd}) {
     if (!is_positive(unit)) throw InputError("assembly: units must be positive");
   }
   for (const JointSource& joint : config.joints) {
@@ -82,6 +93,9 @@ Signals signals_of(const RobotRecord& record, const AssemblyConfig& config) noex
     signals.leg[side] = {joint(record, config.joints[3 * side], config.units),
                          joint(record, config.joints[3 * side + 1], config.units),
                          joint(record, config.joints[3 * side + 2], config.units)};
+    signals.target[side] = {target(record, config.joints[3 * side], config.units),
+                            target(record, config.joints[3 * side + 1], config.units),
+                            target(record, config.joints[3 * side + 2], config.units)};
   }
   signals.linear_acceleration = linear_acceleration(record, config);
   signals.angular_velocity = config.units.angular_velocity * record.angular_velocity;

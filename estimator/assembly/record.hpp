@@ -33,6 +33,9 @@ struct RobotRecord {
   Eigen::Vector3d proper_acceleration = Eigen::Vector3d::Constant(not_reported);
   /// Ground velocity that the policy commanded at the previous step (m/s).
   double ground_velocity_command = 0.0;
+  /// The commands of the previous step, in the order of `joints`; may be empty. They must stay
+  /// valid, too.
+  std::span<const JointTarget> targets = {};
 };
 
 /// How one of our joints follows from one of the record's: ours = sign · (unit · theirs − zero).
@@ -56,6 +59,8 @@ struct RecordUnits {
   double torque = 1.0;               ///< N·m
   double angular_velocity = 1.0;     ///< of the IMU, rad/s
   double linear_acceleration = 1.0;  ///< of the IMU, m/s²
+  double kp = 1.0;                   ///< of position gains, N·m/rad
+  double kd = 1.0;                   ///< of velocity gains, N·m·s/rad
 };
 
 /// How a robot's records become `Signals`. The defaults are Upkie's. Joints: left hip, knee, wheel,

@@ -12,7 +12,8 @@ namespace {
 
 static_assert(static_cast<unsigned>(RecordFault::clock_rate) == TOUCHDOWN_CLOCK_RATE &&
               static_cast<unsigned>(RecordFault::upside_down) == TOUCHDOWN_UPSIDE_DOWN &&
-              static_cast<int>(SignalStatus::frozen) == TOUCHDOWN_FROZEN);
+              static_cast<int>(SignalStatus::frozen) == TOUCHDOWN_FROZEN &&
+              static_cast<int>(SignalStatus::degraded) == TOUCHDOWN_DEGRADED);
 
 Eigen::Vector3d vector(const double (&values)[3]) noexcept {  // NOLINT: C's arrays
   return {values[0], values[1], values[2]};
@@ -71,6 +72,12 @@ touchdown_record touchdown_empty_record(void) {
 }
 
 touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdown_record* record) {
+  return touchdown_update_with_targets(estimator, record, nullptr);
+}
+
+touchdown_belief touchdown_update_with_targets(touchdown_estimator* estimator,
+                                               const touchdown_record* record,
+                                               const touchdown_target* targets) {
   if (estimator == nullptr || record == nullptr) {
     Belief none;
     none.status = SignalStatus::invalid;
@@ -81,6 +88,12 @@ touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdow
     const touchdown_joint& joint = record->joint[i];
     joints[i] = {joint.position, joint.velocity, joint.torque};
   }
+  std::array<JointTarget, 6> commands;
+  for (std::size_t i = 0; targets != nullptr && i < commands.size(); ++i) {
+    const touchdown_target& target = targets[i];
+    commands[i] = {target.position, target.velocity, target.feedforward_torque, target.kp,
+                   target.kd};
+  }
   const double(&q)[4] = record->orientation;  // NOLINT: C's arrays
   const Signals& signals =
       estimator->assembler.assemble({.time = record->time,
@@ -89,7 +102,8 @@ touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdow
                                      .angular_velocity = vector(record->angular_velocity),
                                      .linear_acceleration = vector(record->linear_acceleration),
                                      .proper_acceleration = vector(record->proper_acceleration),
-                                     .ground_velocity_command = record->ground_velocity_command});
+                                     .ground_velocity_command = record->ground_velocity_command,
+                                     .targets = commands});
   return in_c(estimator->estimator->update(signals), estimator->assembler.faults());
 }
 

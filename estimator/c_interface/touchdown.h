@@ -38,11 +38,22 @@ typedef struct touchdown_record {
   double ground_velocity_command; /* of the policy, at the previous step (m/s) */
 } touchdown_record;
 
+/* The command of one servo, with the law torque = kp (position - measured position) +
+ * kd (velocity - measured velocity) + feedforward_torque. NaN: not known. */
+typedef struct touchdown_target {
+  double position;           /* rad */
+  double velocity;           /* rad/s */
+  double feedforward_torque; /* N·m */
+  double kp;                 /* N·m/rad */
+  double kd;                 /* N·m·s/rad */
+} touchdown_target;
+
 enum touchdown_status {
   TOUCHDOWN_GOOD = 0,
   TOUCHDOWN_INVALID = 1, /* signals that are NaN or beyond their bounds: the belief relaxes */
   TOUCHDOWN_GAP = 2,     /* time jumped: the belief relaxes to the prior */
-  TOUCHDOWN_FROZEN = 3   /* a sensor repeats itself to the bit: the belief relaxes to the prior */
+  TOUCHDOWN_FROZEN = 3,  /* a sensor repeats itself to the bit: the belief relaxes to the prior */
+  TOUCHDOWN_DEGRADED = 4 /* used, but without servo targets, which the model can use */
 };
 
 /* Faults of a record, one bit each. */
@@ -83,6 +94,13 @@ touchdown_estimator* touchdown_create(const char* model_path, const touchdown_us
  * estimator or a record (NULL), returns the flat prior with the status TOUCHDOWN_INVALID. */
 touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdown_record* record);
 
+/* The same with the commands that the servos executed when the record was measured, in the order of
+ * its joints: those of the previous step. NULL: not known, as in touchdown_update. Only models with
+ * the load by the servo law use them. */
+touchdown_belief touchdown_update_with_targets(touchdown_estimator* estimator,
+                                               const touchdown_record* record,
+                                               const touchdown_target targets[6]);
+
 /* Resets the estimator to its state after touchdown_create; NULL is allowed. */
 void touchdown_reset(touchdown_estimator* estimator);
 
@@ -93,7 +111,8 @@ void touchdown_destroy(touchdown_estimator* estimator);
  * estimator is destroyed; empty for NULL. */
 const char* touchdown_model_text(const touchdown_estimator* estimator);
 
-/* The name of an enum touchdown_status: "good", "invalid", "gap" or "frozen"; empty for others. */
+/* The name of an enum touchdown_status: "good", "invalid", "gap", "frozen" or "degraded"; empty
+ * for others. */
 const char* touchdown_status_text(int status);
 
 /* The name of a touchdown_belief's `unusable` signal: "left hip position", "vertical acceleration",

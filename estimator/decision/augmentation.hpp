@@ -20,6 +20,8 @@ struct AugmentationConfig {
   double position_bias = 0.01;
   double share_with_bias = 0.5;
   double gain_error = 0.1;  ///< … and an error of the scale of all torques, uniform within ± this.
+  /// With the load by the servo law: share of the draws that have no targets.
+  double share_without_targets = 0.25;
 
   bool operator==(const AugmentationConfig&) const = default;
 };
@@ -30,7 +32,8 @@ void check_augmentation_config(const AugmentationConfig& config);
 /// The disturbances of one augmentation pass over a run.
 class Augmentation {
  public:
-  Augmentation(const AugmentationConfig& config, Draws& draws);
+  /// `with_targets`: whether targets are used. If not, their share draws nothing.
+  Augmentation(const AugmentationConfig& config, Draws& draws, bool with_targets = false);
 
   /// Disturbs the signals of the next step.
   Signals operator()(Signals signals);
@@ -49,6 +52,7 @@ class Augmentation {
   double torque_noise_ = 0.0;
   double acceleration_noise_ = 0.0;
   double scale_ = 1.0;
+  bool drops_targets_ = false;
   std::array<Bias, 6> bias_{};  ///< left hip, knee, wheel, then right
 };
 

@@ -43,6 +43,12 @@ void check_decision_config(const DecisionConfig& config) {
     throw InputError(
         "decision: sample_rate (Hz), lengths (m) and robot_mass (kg) must be positive");
   }
+  if (!(is_level(leg.hip_friction) && is_level(leg.knee_friction) &&
+        is_level(leg.position_resolution))) {
+    throw InputError(
+        "decision: hip_friction, knee_friction (N·m) and position_resolution (rad) must not be "
+        "negative");
+  }
   if (!(is_level(leg.wheel_inertia) && is_level(config.difference) && is_level(config.smoothing))) {
     throw InputError(
         "decision: wheel_inertia (kg·m²), difference (s) and smoothing (s per N·m) must "

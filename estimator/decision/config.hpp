@@ -43,6 +43,9 @@ struct DecisionConfig {
   /// Accelerations of the wheel and the axle are differences of their velocities over this time
   /// (s).
   double difference = 0.005;
+  /// Whether the load by the servo law is one more channel (`ServoLoadInputs`). Fits decide; an
+  /// estimator follows its model.
+  bool servo_load = false;
   /// Time constant of the logit's low-pass per N·m of estimated torque noise (s).
   double smoothing = 1.3e-3;
   /// A wheel leaves contact when P(contact) falls below this, and returns above that.

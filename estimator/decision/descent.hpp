@@ -19,8 +19,12 @@ namespace touchdown {
 /// label and its weight.
 struct DecisionRows {
   Eigen::Matrix<float, static_cast<int>(decision_inputs), Eigen::Dynamic> inputs;
+  /// `ServoLoadInputs`, if the fit has them.
+  Eigen::MatrixXf servo = {};
   Eigen::RowVectorXf is_contact;  ///< 1 or 0
   Eigen::RowVectorXf weight;
+
+  [[nodiscard]] bool has_servo_load() const { return servo.rows() > 0; }
 };
 
 /// One step of Adam (Kingma, Ba 2015) with decoupled weight decay. The learning rate falls to zero
@@ -66,6 +70,7 @@ void descend(const DecisionRows& rows, const DecisionFitConfig& config, Draws& d
   DecisionRows batch;
   const auto count = static_cast<Eigen::Index>(config.batch);
   batch.inputs.resize(static_cast<int>(decision_inputs), count);
+  batch.servo.resize(rows.servo.rows(), count);
   batch.is_contact.resize(count);
   batch.weight.resize(count);
   const auto all = static_cast<std::uint64_t>(rows.inputs.cols());
@@ -76,6 +81,7 @@ void descend(const DecisionRows& rows, const DecisionFitConfig& config, Draws& d
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto row = static_cast<Eigen::Index>(draws.below(all));
       batch.inputs.col(i) = rows.inputs.col(row);
+      if (rows.has_servo_load()) batch.servo.col(i) = rows.servo.col(row);
       batch.is_contact[i] = rows.is_contact[row];
       batch.weight[i] = rows.weight[row];
     }

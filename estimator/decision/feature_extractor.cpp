@@ -52,6 +52,8 @@ FeatureExtractor::FeatureExtractor(const DecisionConfig& config)
                       LowPassBank(config.sample_rate), LowPassBank(config.sample_rate)},
            LegFilters{LowPassBank(config.sample_rate), LowPassBank(config.sample_rate),
                       LowPassBank(config.sample_rate), LowPassBank(config.sample_rate)}},
+      has_servo_load_(config.servo_load),
+      servo_load_{LowPassBank(config.sample_rate), LowPassBank(config.sample_rate)},
       acceleration_(config.sample_rate),
       roll_rate_(config.sample_rate),
       density_(std::sqrt(reference_rate / config.sample_rate)),
@@ -75,6 +77,7 @@ void FeatureExtractor::reset_features() noexcept {
   for (LegFilters& leg : leg_) {
     for (LowPassBank& channel : leg) channel.reset();
   }
+  for (LowPassBank& channel : servo_load_) channel.reset();
   acceleration_.reset();
   roll_rate_.reset();
 }
@@ -104,11 +107,20 @@ inline void FeatureExtractor::update(LowPassBank& channel, double input,
   channel.update(input);
 }
 
+inline void FeatureExtractor::update_servo_load(const Signals& signals, std::size_t side,
+                                                const FootJacobian& foot, double age) noexcept {
+  const ServoLoadFeature feature = leg_extractor_[side].servo_load(
+      signals.leg[side], signals.target[side], foot, signals.vertical_acceleration);
+  is_muted_ = is_muted_ || feature.is_muted;
+  update(servo_load_[side], feature.load, age);
+}
+
 inline void FeatureExtractor::update_legs(const Signals& signals,
                                           const std::array<bool, 2>& is_valid,
                                           bool has_acceleration, double elapsed) noexcept {
   const std::array<FootJacobian, 2> foot = foot_jacobians(geometry_, signals.leg);
   const double noise = torque_noise();
+  is_muted_ = false;
   for (std::size_t side = 0; side < 2; ++side) {
     double& age = leg_age_[side];
     if (!is_valid[side]) {
@@ -124,6 +136,7 @@ inline void FeatureExtractor::update_legs(const Signals& signals,
       const double longer = std::max(age, acceleration_age_);
       update(leg_[side][0], features.load, longer);
       update(leg_[side][3], features.axle_acceleration, longer);
+      if (has_servo_load_) update_servo_load(signals, side, foot[side], longer);
     }
     age = 0.0;
   }
@@ -131,6 +144,7 @@ inline void FeatureExtractor::update_legs(const Signals& signals,
   for (std::size_t side = 0; side < 2; ++side) {
     if (is_valid[side] || !is_valid[1 - side]) continue;
     leg_[side] = leg_[1 - side];
+    servo_load_[side] = servo_load_[1 - side];
     leg_age_[side] = 0.0;
     leg_extractor_[side].reset();
   }
@@ -166,6 +180,7 @@ FeatureExtractor::Step FeatureExtractor::update(const Signals& signals) noexcept
 
   const double elapsed = step.restart ? 0.0 : step.elapsed;  // `dropout` counted the gap
   update_legs(signals, has_leg, verdict.acceleration_good, elapsed);
+  if (is_muted_) report(SignalStatus::degraded);
   if (verdict.acceleration_good) {
     update(acceleration_, signals.vertical_acceleration, acceleration_age_);
     acceleration_age_ = 0.0;
@@ -209,6 +224,14 @@ void FeatureExtractor::compute_inputs() noexcept {
     at(inputs_, of_legs + begin) = right;
     at(pair_.common, begin) = left + right;
     at(pair_.difference, begin) = left - right;
+  }
+  if (has_servo_load_) {
+    const Scales left = compress(servo_load_[0], leg_softsign_scales[0]);
+    const Scales right = compress(servo_load_[1], leg_softsign_scales[0]);
+    at(servo_inputs_, 0) = left;
+    at(servo_inputs_, decision_scales) = right;
+    at(pair_.servo_common, 0) = left + right;
+    at(pair_.servo_difference, 0) = left - right;
   }
   const Scales acceleration = compress(acceleration_, acceleration_softsign_scale);
   at(inputs_, 2 * of_legs) = acceleration;

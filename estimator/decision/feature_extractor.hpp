@@ -76,6 +76,11 @@ class FeatureExtractor {
     return side == 0 ? inputs_ : of_other_wheel(inputs_);
   }
   [[nodiscard]] const DecisionPairInputs& pair_inputs() const noexcept { return pair_; }
+  /// Likewise the optional channel; zeros without it.
+  [[nodiscard]] const ServoLoadInputs& left_servo_load() const noexcept { return servo_inputs_; }
+  [[nodiscard]] ServoLoadInputs servo_load(std::size_t side) const noexcept {
+    return side == 0 ? servo_inputs_ : of_other_wheel(servo_inputs_);
+  }
   /// The estimated white noise of the torques (N·m), scaled to Upkie's mass and to a rate of 1 kHz:
   /// a lower rate has fewer samples to average.
   [[nodiscard]] double torque_noise() const noexcept { return density_ * torque_noise_.sigma(); }
@@ -90,6 +95,8 @@ class FeatureExtractor {
   void dropout(double seconds) noexcept;
   bool is_frozen(const LegSignals& leg, std::size_t side) noexcept;
   void update(LowPassBank& channel, double input, double age) const noexcept;
+  void update_servo_load(const Signals& signals, std::size_t side, const FootJacobian& foot,
+                         double age) noexcept;
   void update_legs(const Signals& signals, const std::array<bool, 2>& is_valid,
                    bool has_acceleration, double elapsed) noexcept;
 
@@ -101,6 +108,9 @@ class FeatureExtractor {
   Repetition<3> gyro_repetition_;
   std::array<LegFeatureExtractor, 2> leg_extractor_;
   std::array<LegFilters, 2> leg_;
+  bool has_servo_load_;
+  std::array<LowPassBank, 2> servo_load_;
+  bool is_muted_ = false;  ///< whether the load by the servo law is, of a valid leg
   LowPassBank acceleration_;
   LowPassBank roll_rate_;
   double density_;  ///< factor from white noise at this rate to the same at 1 kHz
@@ -111,8 +121,9 @@ class FeatureExtractor {
   double roll_rate_age_ = 0.0;
   NoiseEstimate<2> torque_noise_;
   NoiseEstimate<1> acceleration_noise_;
-  alignas(32) DecisionInputs inputs_{};    ///< of the left wheel
-  alignas(32) DecisionPairInputs pair_{};  ///< of both
+  alignas(32) DecisionInputs inputs_{};         ///< of the left wheel
+  alignas(32) DecisionPairInputs pair_{};       ///< of both
+  alignas(32) ServoLoadInputs servo_inputs_{};  ///< of the left wheel
 };
 
 }  // namespace touchdown

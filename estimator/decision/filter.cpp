@@ -3,7 +3,7 @@
 namespace touchdown {
 
 DecisionNetwork::DecisionNetwork(const DecisionModel& model, const DecisionConfig& config)
-    : network_(model), decision_(config) {
+    : network_(model), decision_(config, !model.servo_weight.empty()) {
   check_decision_model(model);
 }
 

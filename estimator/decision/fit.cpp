@@ -48,6 +48,7 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
   // A pass takes a row of each wheel every so many steps.
   const std::size_t stride = std::max<std::size_t>(1, 2 * steps * fit.passes / fit.rows);
   std::vector<DecisionInputs> inputs;
+  std::vector<ServoLoadInputs> servo;
   std::vector<float> is_contact;
   Draws draws(fit.seed);
   for (std::size_t pass = 0; pass < fit.passes; ++pass) {
@@ -57,7 +58,7 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
       DecisionConfig own = config;
       own.sample_rate = run.sample_rate / static_cast<double>(interval);
       FeatureExtractor features(own);
-      Augmentation augmentation(fit.augmentation, draws);
+      Augmentation augmentation(fit.augmentation, draws, config.servo_load);
       const double p_reset = reset_probability(fit, augmentation, own.sample_rate, draws);
       std::size_t next = run.skip + draws.below(stride);
       for (std::size_t k = 0; k < run.signals.size(); k += interval) {
@@ -69,6 +70,7 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
         for (std::size_t side = 0; side < 2; ++side) {
           if (!step.is_valid[side]) continue;
           inputs.push_back(features.inputs(side));
+          if (config.servo_load) servo.push_back(features.servo_load(side));
           is_contact.push_back(run.contact[side][k] != 0 ? 1.0F : 0.0F);
         }
       }
@@ -80,6 +82,10 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
   for (Eigen::Index i = 0; i < count; ++i) {
     const DecisionInputs& row = inputs[static_cast<std::size_t>(i)];
     std::copy(row.begin(), row.end(), rows.inputs.col(i).data());
+  }
+  if (config.servo_load) {
+    rows.servo = Eigen::Map<const Eigen::MatrixXf>(
+        servo.data()->data(), static_cast<int>(std::tuple_size_v<ServoLoadInputs>), count);
   }
   rows.is_contact = Eigen::Map<const Eigen::RowVectorXf>(is_contact.data(), count);
   rows.weight.resize(count);

@@ -29,6 +29,13 @@ struct LegFeatures {
   double axle_acceleration = 0.0;
 };
 
+/// The load on the wheel by the servo law (N), computed as `LegFeatures::load`.
+struct ServoLoadFeature {
+  double load = 0.0;  ///< F₀ while muted
+  /// Whether it is muted: a target is missing, or the hip or the knee has no position gain.
+  bool is_muted = true;
+};
+
 /// μ = Upkie's mass / the robot's mass. Features are scaled to Upkie's mass, because all forces and
 /// torques of a robot that is heavier throughout are larger in proportion.
 [[nodiscard]] inline double mass_ratio(const LegGeometry& geometry) noexcept {
@@ -46,8 +53,20 @@ class LegFeatureExtractor {
   LegFeatures update(const LegSignals& leg, const FootJacobian& foot, double vertical_acceleration,
                      double torque_noise) noexcept;
 
+  /// Likewise, with ε² = (0.001 m²)² + (0.004 m²/(N·m) σ)²: σ is the noise of the positions'
+  /// resolution.
+  [[nodiscard]] ServoLoadFeature servo_load(const LegSignals& leg, const LegTargets& target,
+                                            const FootJacobian& foot,
+                                            double vertical_acceleration) const noexcept;
+
  private:
+  /// The load of `LegFeatures`, from a vertical force times the determinant (N·m²).
+  /// ε is `least` (m²) without noise.
+  [[nodiscard]] double load_of(const FootJacobian& foot, double force_times_area, double least,
+                               double torque_noise) const noexcept;
+
   LegGeometry geometry_;
+  SignalGuardConfig guard_;
   double mass_ratio_;
   bool mirrored_;
   double rate_;

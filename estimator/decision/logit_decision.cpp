@@ -10,6 +10,12 @@ LogitDecision::LogitDecision(const DecisionConfig& config) : config_(config), fe
   reset();
 }
 
+LogitDecision::LogitDecision(DecisionConfig config, bool has_servo_load)
+    : LogitDecision([&] {
+        config.servo_load = has_servo_load;
+        return config;
+      }()) {}
+
 void LogitDecision::reset() noexcept {
   features_.reset();
   is_started_ = {};

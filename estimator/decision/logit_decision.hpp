@@ -21,6 +21,8 @@ class LogitDecision {
  public:
   /// Throws InputError for an invalid configuration.
   explicit LogitDecision(const DecisionConfig& config);
+  /// The same, with the load by the servo law if the model has it.
+  LogitDecision(DecisionConfig config, bool has_servo_load);
 
   void reset() noexcept;
 
@@ -33,6 +35,9 @@ class LogitDecision {
   }
   [[nodiscard]] const DecisionPairInputs& pair_inputs() const noexcept {
     return features_.pair_inputs();
+  }
+  [[nodiscard]] const ServoLoadInputs& left_servo_load() const noexcept {
+    return features_.left_servo_load();
   }
   /// The belief, given ln P(contact) / P(no contact) of each wheel that has inputs.
   const Belief& decide(const std::array<double, 2>& logit) noexcept;

@@ -11,6 +11,10 @@ namespace touchdown {
 
 namespace {
 
+template <std::size_t inputs, std::size_t outputs>
+using Layer =
+    Eigen::Map<const Eigen::Matrix<float, static_cast<int>(outputs), static_cast<int>(inputs)>>;
+
 /// One rectified layer.
 template <std::size_t inputs, std::size_t outputs>
 std::array<float, outputs> rectified(const std::array<float, inputs * outputs>& weight,
@@ -43,8 +47,22 @@ DecisionInputs of_other_wheel(const DecisionInputs& inputs) noexcept {
   return other;
 }
 
-float decision_logit(const DecisionModel& model, const DecisionInputs& inputs) noexcept {
-  const auto first = rectified(model.first_weight, model.first_bias, inputs);
+ServoLoadInputs of_other_wheel(const ServoLoadInputs& inputs) noexcept {
+  ServoLoadInputs other = inputs;
+  std::rotate(other.begin(), other.begin() + decision_scales, other.end());
+  return other;
+}
+
+float decision_logit(const DecisionModel& model, const DecisionInputs& inputs,
+                     const ServoLoadInputs& servo) noexcept {
+  std::array<float, decision_first> bias = model.first_bias;
+  if (!model.servo_weight.empty()) {
+    constexpr std::size_t count = std::tuple_size_v<ServoLoadInputs>;
+    Layer<1, decision_first>::PlainObject sums =
+        Layer<count, decision_first>(model.servo_weight.data()) * Layer<1, count>(servo.data());
+    for (std::size_t k = 0; k < bias.size(); ++k) bias[k] += sums[static_cast<Eigen::Index>(k)];
+  }
+  const auto first = rectified(model.first_weight, bias, inputs);
   const auto second = rectified(model.second_weight, model.second_bias, first);
   float logit = model.last_bias;
   for (std::size_t k = 0; k < second.size(); ++k) logit += model.last_weight[k] * second[k];
@@ -70,6 +88,13 @@ PairedDecisionNetwork::PairedDecisionNetwork(const DecisionModel& model) noexcep
       common_[(of_legs + decision_scales + i) * decision_first + unit] =
           weight(2 * of_legs + 2 * decision_scales + i);
     }
+    if (model.servo_weight.empty()) continue;
+    for (std::size_t i = 0; i < decision_scales; ++i) {
+      const float own = model.servo_weight[i * decision_first + unit];
+      const float other = model.servo_weight[(decision_scales + i) * decision_first + unit];
+      servo_common_[i * decision_first + unit] = 0.5F * (own + other);
+      servo_difference_[i * decision_first + unit] = 0.5F * (own - other);
+    }
   }
 }
 
@@ -85,6 +110,13 @@ std::array<float, 2> PairedDecisionNetwork::logits(
   }
   for (std::size_t i = inputs.difference.size(); i < inputs.common.size(); ++i) {
     common += inputs.common[i] * Column(common_.data() + i * decision_first);
+  }
+  if (!model_.servo_weight.empty()) {
+    for (std::size_t i = 0; i < decision_scales; ++i) {
+      common += inputs.servo_common[i] * Column(servo_common_.data() + i * decision_first);
+      difference +=
+          inputs.servo_difference[i] * Column(servo_difference_.data() + i * decision_first);
+    }
   }
   const Sums left = (common + difference).max(0.0F);
   const Sums right = (common - difference).max(0.0F);
@@ -110,9 +142,13 @@ std::array<float, 2> PairedDecisionNetwork::logits(
 }
 
 void check_decision_model(const DecisionModel& model) {
+  if (!model.servo_weight.empty() && model.servo_weight.size() != servo_weights) {
+    throw InputError("decision network: expected servo_weight of every input and unit, or none");
+  }
   if (is_finite(model.first_weight) && is_finite(model.first_bias) &&
       is_finite(model.second_weight) && is_finite(model.second_bias) &&
-      is_finite(model.last_weight) && std::isfinite(model.last_bias)) {
+      is_finite(model.last_weight) && is_finite(model.servo_weight) &&
+      std::isfinite(model.last_bias)) {
     return;
   }
   throw InputError("decision network: its weights must be finite");

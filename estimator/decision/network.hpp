@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <tuple>
+#include <vector>
 
 namespace touchdown {
 
@@ -18,9 +20,14 @@ inline constexpr std::size_t decision_second = 16;
 
 using DecisionInputs = std::array<float, decision_inputs>;
 
+/// The optional channel: the load by the servo law of the own leg, then of the other leg, each at
+/// all time scales.
+using ServoLoadInputs = std::array<float, 2 * decision_scales>;
+
 /// The inputs of the other wheel, from those of one: the legs change places, and the roll rate
 /// changes its sign.
 [[nodiscard]] DecisionInputs of_other_wheel(const DecisionInputs& inputs) noexcept;
+[[nodiscard]] ServoLoadInputs of_other_wheel(const ServoLoadInputs& inputs) noexcept;
 
 /// A perceptron with two rectified layers and one output, the same for both wheels. Weights are
 /// stored by input: those from one input to all outputs of its layer are neighbours.
@@ -31,13 +38,17 @@ struct DecisionModel {
   std::array<float, decision_second> second_bias{};
   std::array<float, decision_second> last_weight{};
   float last_bias = 0.0F;
+  /// Of the first layer, from `ServoLoadInputs`; empty without this channel.
+  std::vector<float> servo_weight = {};
 
   bool operator==(const DecisionModel&) const = default;
 };
 
+inline constexpr std::size_t servo_weights = std::tuple_size_v<ServoLoadInputs> * decision_first;
+
 /// ln P(contact) / P(no contact) of one wheel.
-[[nodiscard]] float decision_logit(const DecisionModel& model,
-                                   const DecisionInputs& inputs) noexcept;
+[[nodiscard]] float decision_logit(const DecisionModel& model, const DecisionInputs& inputs,
+                                   const ServoLoadInputs& servo = {}) noexcept;
 
 /// The inputs of both wheels, split into a common part and a difference: for each channel of a leg
 /// the sum and the difference, left − right, of both legs.
@@ -48,6 +59,9 @@ struct DecisionPairInputs {
   std::array<float, of_legs + decision_scales + 2> common{};
   /// Differences; then the roll rate.
   std::array<float, of_legs + decision_scales> difference{};
+  /// Sum and difference of the legs' `ServoLoadInputs`.
+  std::array<float, decision_scales> servo_common{};
+  std::array<float, decision_scales> servo_difference{};
 };
 
 /// Evaluates the network for both wheels at once. Their inputs are the same numbers in another
@@ -70,10 +84,12 @@ class PairedDecisionNetwork {
 
   alignas(32) Weights<std::tuple_size_v<decltype(DecisionPairInputs::common)>> common_{};
   alignas(32) Weights<std::tuple_size_v<decltype(DecisionPairInputs::difference)>> difference_{};
+  alignas(32) Weights<decision_scales> servo_common_{};
+  alignas(32) Weights<decision_scales> servo_difference_{};
   DecisionModel model_;
 };
 
-/// Throws InputError for weights that are not finite.
+/// Throws InputError for weights that are not finite, and for a wrong number of `servo_weight`.
 void check_decision_model(const DecisionModel& model);
 
 }  // namespace touchdown

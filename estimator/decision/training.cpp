@@ -27,6 +27,13 @@ auto weights_of_second(Model& model) {
   return Eigen::Map<std::conditional_t<std::is_const_v<Model>, const Matrix, Matrix>>(
       model.second_weight.data());
 }
+template <typename Model>
+auto weights_of_servo(Model& model) {
+  using Matrix =
+      Eigen::Matrix<float, first_count, static_cast<int>(std::tuple_size_v<ServoLoadInputs>)>;
+  return Eigen::Map<std::conditional_t<std::is_const_v<Model>, const Matrix, Matrix>>(
+      model.servo_weight.data());
+}
 template <std::size_t size>
 Eigen::Map<const Eigen::Matrix<float, static_cast<int>(size), 1>> column(
     const std::array<float, size>& values) {
@@ -47,10 +54,11 @@ void for_each_part(const Part& part, Models&... models) {
   part(std::span(models.second_bias)...);
   part(std::span(models.last_weight)...);
   part(std::span(&models.last_bias, 1)...);
+  part(std::span(models.servo_weight)...);
 }
 
 /// He's rule: the outputs of a rectified layer keep the size of its inputs.
-DecisionModel drawn(Draws& draws) {
+DecisionModel drawn(Draws& draws, bool has_servo_load) {
   DecisionModel model;
   const auto fill = [&](auto& weights, int fan_in) {
     for (float& weight : weights) {
@@ -60,6 +68,10 @@ DecisionModel drawn(Draws& draws) {
   fill(model.first_weight, input_count);
   fill(model.second_weight, first_count);
   fill(model.last_weight, second_count);
+  if (has_servo_load) {
+    model.servo_weight.resize(servo_weights);
+    fill(model.servo_weight, input_count);
+  }
   return model;
 }
 
@@ -68,8 +80,9 @@ DecisionModel drawn(Draws& draws) {
 double decision_loss(const DecisionModel& model, const DecisionRows& rows,
                      DecisionModel* gradient) {
   using Values = Eigen::MatrixXf;
-  const Values h1 =
-      ((weights_of_first(model) * rows.inputs).colwise() + column(model.first_bias)).cwiseMax(0.0F);
+  Values h1 = (weights_of_first(model) * rows.inputs).colwise() + column(model.first_bias);
+  if (rows.has_servo_load()) h1 += weights_of_servo(model) * rows.servo;
+  h1 = h1.cwiseMax(0.0F);
   const Values h2 =
       ((weights_of_second(model) * h1).colwise() + column(model.second_bias)).cwiseMax(0.0F);
   const Eigen::RowVectorXf logit =
@@ -97,16 +110,18 @@ double decision_loss(const DecisionModel& model, const DecisionRows& rows,
                               .cwiseProduct((h1.array() > 0.0F).cast<float>().matrix());
   column(gradient->first_bias) = to_first.rowwise().sum();
   weights_of_first(*gradient) = to_first * rows.inputs.transpose();
+  if (rows.has_servo_load()) weights_of_servo(*gradient) = to_first * rows.servo.transpose();
   return loss;
 }
 
 DecisionModel train_decision_model(const DecisionRows& rows, const DecisionFitConfig& config,
                                    const std::function<void()>& before_step) {
   Draws draws(config.seed);
-  DecisionModel model = drawn(draws);
+  DecisionModel model = drawn(draws, rows.has_servo_load());
   DecisionModel gradient;
-  DecisionModel mean;
-  DecisionModel square;
+  gradient.servo_weight.resize(model.servo_weight.size());
+  DecisionModel mean = gradient;
+  DecisionModel square = gradient;
   descend(rows, config, draws, before_step,
           [&](const DecisionRows& batch, const AdamStep& adam_step) {
             static_cast<void>(decision_loss(model, batch, &gradient));

@@ -29,6 +29,12 @@ inline constexpr std::array<EvidenceChannel, decision_channels> evidence_channel
     {"roll_rate", "roll rate, own side down", "rad/s", roll_rate_softsign_scale},
 }};
 
+/// In the order of `ServoLoadInputs`, which a model may lack.
+inline constexpr std::array<EvidenceChannel, 2> servo_load_channels = {{
+    {"servo_load", "load by the servo law", "N", leg_softsign_scales[0]},
+    {"other_servo_load", "other wheel's load by the servo law", "N", leg_softsign_scales[0]},
+}};
+
 /// The last two of `DecisionInputs`: logarithms of the estimated white noise levels (N·m, m/s²).
 inline constexpr std::array<const char*, 2> evidence_noise_names = {"torque_noise",
                                                                     "acceleration_noise"};

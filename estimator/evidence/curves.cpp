@@ -25,23 +25,25 @@ float table_at(const EvidenceTable& table, const EvidencePair& pair,
 }
 
 /// `evidence_position` of all inputs.
+template <std::size_t count>
 struct Positions {
-  alignas(32) std::array<int, decision_inputs> knot;
-  alignas(32) std::array<float, decision_inputs> share;
+  alignas(32) std::array<int, count> knot;
+  alignas(32) std::array<float, count> share;
 };
 
 /// In separate loops: in a single loop, compilers make branches or nearly as many blends.
-Positions positions_of(const DecisionInputs& inputs) noexcept {
+template <std::size_t count>
+Positions<count> positions_of(const std::array<float, count>& inputs) noexcept {
   constexpr auto last = static_cast<float>(evidence_knots - 1);
   constexpr float knots_per_unit = last / (2.0F * evidence_reach);
-  std::array<float, decision_inputs> inside;
-  for (std::size_t i = 0; i < decision_inputs; ++i) {
+  std::array<float, count> inside;
+  for (std::size_t i = 0; i < count; ++i) {
     const float x = inputs[i] * knots_per_unit + evidence_reach * knots_per_unit;
     inside[i] = x > 0.0F ? x : 0.0F;
   }
   for (float& x : inside) x = x < last ? x : last;
-  Positions at;
-  for (std::size_t i = 0; i < decision_inputs; ++i) {
+  Positions<count> at;
+  for (std::size_t i = 0; i < count; ++i) {
     at.knot[i] = std::min(static_cast<int>(inside[i]), static_cast<int>(evidence_knots) - 2);
     at.share[i] = inside[i] - static_cast<float>(at.knot[i]);
   }
@@ -54,11 +56,15 @@ bool all_finite(const auto& numbers) {
 
 }  // namespace
 
-float evidence_logit(const EvidenceModel& model, const DecisionInputs& inputs) noexcept {
+float evidence_logit(const EvidenceModel& model, const DecisionInputs& inputs,
+                     const ServoLoadInputs& servo) noexcept {
   float sum = model.bias;
   for (std::size_t i = 0; i < decision_inputs; ++i) sum += evidence_at(model.curve[i], inputs[i]);
   for (std::size_t p = 0; p < model.table.size(); ++p) {
     sum += table_at(model.table[p], evidence_pairs[p], inputs);
+  }
+  for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
+    sum += evidence_at(model.servo_curve[i], servo[i]);
   }
   return sum;
 }
@@ -77,18 +83,30 @@ PairedEvidence::PairedEvidence(const EvidenceModel& model)
                       model.curve[other][is_roll ? evidence_knots - 1 - k : k]};
     }
   }
+  if (model.servo_curve.empty()) return;
+  servo_curve_.resize(decision_scales);
+  for (std::size_t i = 0; i < decision_scales; ++i) {
+    for (std::size_t k = 0; k < evidence_knots; ++k) {
+      servo_curve_[i][k] = {model.servo_curve[i][k], model.servo_curve[decision_scales + i][k]};
+    }
+  }
 }
 
-std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left) const noexcept {
+std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left,
+                                            const ServoLoadInputs& left_servo) const noexcept {
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
-  const Positions at = positions_of(left);
+  const Positions<decision_inputs> at = positions_of(left);
   // The contributions of a knot and the next one, each to one wheel and to the other.
   using Four = Eigen::Array4f;
   const Four here(1.0F, 1.0F, 0.0F, 0.0F);
   const Four onwards(-1.0F, -1.0F, 1.0F, 1.0F);
+  const auto contribution = [&](const Curves& curve, const auto& positions,
+                                std::size_t input) -> Four {
+    const float* const from = curve[static_cast<std::size_t>(positions.knot[input])].data();
+    return Eigen::Map<const Four>(from) * (here + onwards * positions.share[input]);
+  };
   const auto of = [&](std::size_t curve, std::size_t input) -> Four {
-    const float* const from = curve_[curve][static_cast<std::size_t>(at.knot[input])].data();
-    return Eigen::Map<const Four>(from) * (here + onwards * at.share[input]);
+    return contribution(curve_[curve], at, input);
   };
   // Four independent sums, so that no addition waits for the one before.
   static_assert(of_legs % 2 == 0 && std::tuple_size_v<decltype(curve_)> % 2 == 0);
@@ -106,6 +124,15 @@ std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left) const no
     left_even += of(i, of_legs + i);
     left_odd += of(i + 1, of_legs + i + 1);
   }
+  if (!servo_curve_.empty()) {
+    const Positions<std::tuple_size_v<ServoLoadInputs>> servo = positions_of(left_servo);
+    for (std::size_t i = 0; i < decision_scales; i += 2) {
+      left_even += contribution(servo_curve_[i], servo, i);
+      left_odd += contribution(servo_curve_[i + 1], servo, i + 1);
+      right_even += contribution(servo_curve_[i], servo, decision_scales + i);
+      right_odd += contribution(servo_curve_[i + 1], servo, decision_scales + i + 1);
+    }
+  }
   const Four of_left = left_even + left_odd;
   const Four of_right = right_even + right_odd;
   std::array<float, 2> sum = {
@@ -122,6 +149,10 @@ std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left) const no
 }
 
 void check_evidence_model(const EvidenceModel& model) {
+  const std::size_t servo = model.servo_curve.size();
+  if (!(servo == 0 || servo == std::tuple_size_v<ServoLoadInputs>)) {
+    throw InputError("evidence curves: expected servo curves of every input, or none");
+  }
   if (!model.table.empty() && model.table.size() != evidence_pairs.size()) {
     throw InputError("evidence curves: expected a table for each pair, or none");
   }
@@ -129,6 +160,8 @@ void check_evidence_model(const EvidenceModel& model) {
                   [](const auto& curve) { return all_finite(curve); }) &&
       std::all_of(model.table.begin(), model.table.end(),
                   [](const auto& table) { return all_finite(table); }) &&
+      std::all_of(model.servo_curve.begin(), model.servo_curve.end(),
+                  [](const auto& curve) { return all_finite(curve); }) &&
       std::isfinite(model.bias)) {
     return;
   }

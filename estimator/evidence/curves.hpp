@@ -27,12 +27,28 @@ struct EvidenceModel {
   std::array<EvidenceCurve, decision_inputs> curve{};  ///< nats at the knots
   std::vector<EvidenceTable> table;                    ///< one per pair, or none
   float bias = 0.0F;
+  /// Curves of `ServoLoadInputs` and their ranges as below; empty without this channel.
+  std::vector<EvidenceCurve> servo_curve = {};
+  std::vector<std::array<float, 2>> servo_seen = {};
   /// The range of each input that holds all but two in a thousand of the fitted rows. Only figures
   /// and tables use it: beyond this range a curve is hardly supported by data.
   std::array<std::array<float, 2>, decision_inputs> seen{};
 
   bool operator==(const EvidenceModel&) const = default;
 };
+
+/// All curves of a model in one order: those of `DecisionInputs`, then those of `ServoLoadInputs`.
+[[nodiscard]] inline std::size_t curve_count(const EvidenceModel& model) noexcept {
+  return decision_inputs + model.servo_curve.size();
+}
+[[nodiscard]] inline const EvidenceCurve& curve_of(const EvidenceModel& model,
+                                                   std::size_t i) noexcept {
+  return i < decision_inputs ? model.curve[i] : model.servo_curve[i - decision_inputs];
+}
+[[nodiscard]] inline const std::array<float, 2>& seen_by(const EvidenceModel& model,
+                                                         std::size_t i) noexcept {
+  return i < decision_inputs ? model.seen[i] : model.servo_seen[i - decision_inputs];
+}
 
 /// The position of an input: between this knot, counted from 0, and the next, by this share.
 struct EvidencePosition {
@@ -58,8 +74,8 @@ struct EvidencePosition {
 }
 
 /// ln P(contact) / P(no contact) of one wheel.
-[[nodiscard]] float evidence_logit(const EvidenceModel& model,
-                                   const DecisionInputs& inputs) noexcept;
+[[nodiscard]] float evidence_logit(const EvidenceModel& model, const DecisionInputs& inputs,
+                                   const ServoLoadInputs& servo = {}) noexcept;
 
 /// Evaluates the model for both wheels at once. Their inputs are the same numbers in another order,
 /// so each is looked up once, for its contribution to both wheels.
@@ -69,7 +85,8 @@ class PairedEvidence {
 
   /// `evidence_logit` of the left and of the right wheel, from the inputs of the left one, up to
   /// rounding.
-  [[nodiscard]] std::array<float, 2> logits(const DecisionInputs& left) const noexcept;
+  [[nodiscard]] std::array<float, 2> logits(const DecisionInputs& left,
+                                            const ServoLoadInputs& left_servo = {}) const noexcept;
 
  private:
   /// For each knot, the contribution to the wheel of the input (of a common input: to the left
@@ -78,11 +95,12 @@ class PairedEvidence {
 
   /// The curves of a leg's inputs, the vertical acceleration, the roll rate and the noise levels.
   std::array<Curves, decision_inputs - DecisionPairInputs::of_legs> curve_{};
+  std::vector<Curves> servo_curve_;  ///< of one leg's `ServoLoadInputs`
   std::vector<EvidenceTable> table_;
   float bias_;
 };
 
-/// Throws InputError for numbers that are not finite, and for a wrong number of tables.
+/// Throws InputError for numbers that are not finite, and for a wrong number of tables or curves.
 void check_evidence_model(const EvidenceModel& model);
 
 }  // namespace touchdown

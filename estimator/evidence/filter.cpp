@@ -12,12 +12,14 @@ const EvidenceModel& checked(const EvidenceModel& model) {
 }  // namespace
 
 EvidenceCurves::EvidenceCurves(const EvidenceModel& model, const DecisionConfig& config)
-    : evidence_(checked(model)), decision_(config) {}
+    : evidence_(checked(model)), decision_(config, !model.servo_curve.empty()) {}
 
 const Belief& EvidenceCurves::estimate(const Signals& signals) noexcept {
   const std::array<bool, 2>& is_valid = decision_.update(signals);
   std::array<float, 2> logits{};
-  if (is_valid[0] || is_valid[1]) logits = evidence_.logits(decision_.left_inputs());
+  if (is_valid[0] || is_valid[1]) {
+    logits = evidence_.logits(decision_.left_inputs(), decision_.left_servo_load());
+  }
   return decision_.decide({logits[0], logits[1]});
 }
 

@@ -49,12 +49,22 @@ DecisionInputs inputs_of(const DecisionRows& rows, Eigen::Index row) {
   return inputs;
 }
 
+ServoLoadInputs servo_load_of(const DecisionRows& rows, Eigen::Index row) {
+  ServoLoadInputs inputs{};
+  if (rows.has_servo_load()) {
+    std::copy_n(rows.servo.col(row).data(), inputs.size(), inputs.begin());
+  }
+  return inputs;
+}
+
 /// Calls `part` with the same fitted numbers of all models, part by part.
 template <typename Part, typename... Models>
 void for_each_number(const Part& part, Models&... models) {
   for (std::size_t i = 0; i < decision_inputs; ++i) part(std::span(models.curve[i])...);
   const std::size_t tables = std::min({models.table.size()...});
   for (std::size_t p = 0; p < tables; ++p) part(std::span(models.table[p])...);
+  const std::size_t servo = std::min({models.servo_curve.size()...});
+  for (std::size_t i = 0; i < servo; ++i) part(std::span(models.servo_curve[i])...);
   part(std::span(&models.bias, 1)...);
 }
 
@@ -65,10 +75,12 @@ void add_smoothness(const EvidenceModel& model, float cost, EvidenceModel& gradi
     slopes[a] -= slope;
     slopes[b] += slope;
   };
-  for (std::size_t i = 0; i < decision_inputs; ++i) {
-    for (std::size_t k = 0; k + 1 < evidence_knots; ++k) {
-      between(model.curve[i], gradient.curve[i], k, k + 1);
-    }
+  const auto along = [&](const EvidenceCurve& curve, EvidenceCurve& slopes) {
+    for (std::size_t k = 0; k + 1 < evidence_knots; ++k) between(curve, slopes, k, k + 1);
+  };
+  for (std::size_t i = 0; i < decision_inputs; ++i) along(model.curve[i], gradient.curve[i]);
+  for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
+    along(model.servo_curve[i], gradient.servo_curve[i]);
   }
   for (std::size_t p = 0; p < model.table.size(); ++p) {
     for (std::size_t row = 0; row < evidence_pair_knots; ++row) {
@@ -102,13 +114,18 @@ float centred(Values& values, const std::vector<double>& weight) {
 /// Centres every curve and table over the rows and adds the means to the bias.
 void centre(EvidenceModel& model, const DecisionRows& rows) {
   std::vector<double> weight(evidence_knots);
-  for (std::size_t i = 0; i < decision_inputs; ++i) {
+  const auto centre_curve = [&](EvidenceCurve& curve, const auto& inputs) {
     std::fill(weight.begin(), weight.end(), 0.0);
-    for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
-      add(weight, evidence_position(rows.inputs(static_cast<Eigen::Index>(i), row), evidence_knots),
-          rows.weight[row]);
+    for (Eigen::Index row = 0; row < inputs.size(); ++row) {
+      add(weight, evidence_position(inputs[row], evidence_knots), rows.weight[row]);
     }
-    model.bias += centred(model.curve[i], weight);
+    model.bias += centred(curve, weight);
+  };
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    centre_curve(model.curve[i], rows.inputs.row(static_cast<Eigen::Index>(i)));
+  }
+  for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
+    centre_curve(model.servo_curve[i], rows.servo.row(static_cast<Eigen::Index>(i)));
   }
   weight.assign(std::tuple_size_v<EvidenceTable>, 0.0);
   for (std::size_t p = 0; p < model.table.size(); ++p) {
@@ -124,17 +141,26 @@ void centre(EvidenceModel& model, const DecisionRows& rows) {
 void set_seen_ranges(EvidenceModel& model, const DecisionRows& rows) {
   const auto count = static_cast<std::size_t>(rows.inputs.cols());
   std::vector<float> values(count);
-  for (std::size_t i = 0; i < decision_inputs; ++i) {
+  const auto range_of = [&](const auto& inputs) {
+    std::array<float, 2> range{};
     for (std::size_t row = 0; row < count; ++row) {
-      values[row] = rows.inputs(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(row));
+      values[row] = inputs[static_cast<Eigen::Index>(row)];
     }
     const std::size_t beyond = count / 1000;
     for (const bool upper : {false, true}) {
       const auto nth =
           values.begin() + static_cast<std::ptrdiff_t>(upper ? count - 1 - beyond : beyond);
       std::nth_element(values.begin(), nth, values.end());
-      model.seen[i][upper ? 1 : 0] = *nth;
+      range[upper ? 1 : 0] = *nth;
     }
+    return range;
+  };
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    model.seen[i] = range_of(rows.inputs.row(static_cast<Eigen::Index>(i)));
+  }
+  model.servo_seen.clear();
+  for (Eigen::Index i = 0; i < rows.servo.rows(); ++i) {
+    model.servo_seen.push_back(range_of(rows.servo.row(i)));
   }
 }
 
@@ -152,12 +178,14 @@ double evidence_loss(const EvidenceModel& model, const DecisionRows& rows,
   if (gradient != nullptr) {
     *gradient = {};
     gradient->table.assign(model.table.size(), EvidenceTable{});
+    gradient->servo_curve.assign(model.servo_curve.size(), EvidenceCurve{});
   }
   const float all = rows.weight.sum();
   double loss = 0.0;
   for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
     const DecisionInputs inputs = inputs_of(rows, row);
-    const float logit = evidence_logit(model, inputs);
+    const ServoLoadInputs servo = servo_load_of(rows, row);
+    const float logit = evidence_logit(model, inputs, servo);
     // log(1 + e^z) − y z, for any z.
     const float tail = std::exp(-std::abs(logit));
     loss += static_cast<double>(rows.weight[row] * (std::max(logit, 0.0F) + std::log1p(tail) -
@@ -168,6 +196,9 @@ double evidence_loss(const EvidenceModel& model, const DecisionRows& rows,
     gradient->bias += to_logit;
     for (std::size_t i = 0; i < decision_inputs; ++i) {
       add(gradient->curve[i], evidence_position(inputs[i], evidence_knots), to_logit);
+    }
+    for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
+      add(gradient->servo_curve[i], evidence_position(servo[i], evidence_knots), to_logit);
     }
     for (std::size_t pair = 0; pair < model.table.size(); ++pair) {
       add(gradient->table[pair], pair_position(evidence_pairs[pair], inputs.data()), to_logit);
@@ -180,6 +211,9 @@ EvidenceModel train_evidence_model(const DecisionRows& rows, const EvidenceFitCo
                                    const std::function<void()>& before_step) {
   EvidenceModel model;
   if (config.with_pairs) model.table.assign(evidence_pairs.size(), EvidenceTable{});
+  if (rows.has_servo_load()) {
+    model.servo_curve.assign(std::tuple_size_v<ServoLoadInputs>, EvidenceCurve{});
+  }
   EvidenceModel gradient = model;
   EvidenceModel mean = model;
   EvidenceModel square = model;

@@ -19,7 +19,10 @@ struct LegGeometry {
   /// Of the wheel about its axle (kg·m²), including its motor's rotor at the joint: the inertia
   /// that the servo's reported torque accelerates.
   double wheel_inertia = 1.7456e-4;
-  double robot_mass = 5.33922;  ///< of the whole robot (kg), which both legs carry
+  double robot_mass = 5.33922;            ///< of the whole robot (kg), which both legs carry
+  double hip_friction = 0.0;              ///< Coulomb friction of the hip (N·m)
+  double knee_friction = 0.0;             ///< and of the knee (N·m)
+  double position_resolution = 6.283e-4;  ///< of the hip's and the knee's positions (rad)
 
   bool operator==(const LegGeometry&) const = default;
 };
@@ -50,6 +53,37 @@ struct FootJacobian {
 [[nodiscard]] FootJacobian foot_jacobian(const LegGeometry& geometry, const LegSignals& leg,
                                          bool mirrored) noexcept;
 
+/// The torques of the ground about a leg's joints, in the left leg's signs (N·m).
+struct JointLoads {
+  double hip;
+  double knee;
+};
+
+/// What remains of these joint torques, which are in the joints' own signs, after gravity and the
+/// leg's acceleration: −τ + Σ_i m_i (g + a) ∂z_i/∂q, as below.
+[[nodiscard]] inline JointLoads joint_loads(const LegGeometry& geometry, const FootJacobian& foot,
+                                            double hip_torque, double knee_torque, bool mirrored,
+                                            double acceleration) noexcept {
+  constexpr double gravity = 9.81;
+  const double sign = mirrored ? -1.0 : 1.0;
+  // The moment arms of the links' and the wheel's masses about each joint (kg·m).
+  const double below_knee = geometry.lower_centre * geometry.lower_mass + geometry.wheel_mass;
+  const double on_knee = below_knee * foot.lower_z;
+  const double on_hip =
+      (geometry.upper_centre * geometry.upper_mass + geometry.lower_mass + geometry.wheel_mass) *
+          foot.upper_z +
+      on_knee;
+  return {-sign * hip_torque + on_hip * (gravity + acceleration),
+          -sign * knee_torque + on_knee * (gravity + acceleration)};
+}
+
+/// The vertical force of the ground on the foot (N) with these torques about the joints, times the
+/// determinant of J (N·m²).
+[[nodiscard]] inline double vertical_force_times_determinant(const FootJacobian& foot,
+                                                             const JointLoads& load) noexcept {
+  return (foot.upper_x + foot.lower_x) * load.knee - foot.lower_x * load.hip;
+}
+
 /// The vertical force of the ground on a leg's foot (N) that explains the leg's torques, times the
 /// determinant of J (N·m²). The torso is taken to be level, and the whole leg to accelerate upwards
 /// with `acceleration` (m/s², without gravity):
@@ -62,18 +96,8 @@ struct FootJacobian {
                                                              const FootJacobian& foot,
                                                              const LegSignals& leg, bool mirrored,
                                                              double acceleration) noexcept {
-  constexpr double gravity = 9.81;
-  const double sign = mirrored ? -1.0 : 1.0;
-  // The moment arms of the links' and the wheel's masses about each joint (kg·m).
-  const double below_knee = geometry.lower_centre * geometry.lower_mass + geometry.wheel_mass;
-  const double on_knee = below_knee * foot.lower_z;
-  const double on_hip =
-      (geometry.upper_centre * geometry.upper_mass + geometry.lower_mass + geometry.wheel_mass) *
-          foot.upper_z +
-      on_knee;
-  const double hip_load = -sign * leg.hip.torque + on_hip * (gravity + acceleration);
-  const double knee_load = -sign * leg.knee.torque + on_knee * (gravity + acceleration);
-  return (foot.upper_x + foot.lower_x) * knee_load - foot.lower_x * hip_load;
+  return vertical_force_times_determinant(
+      foot, joint_loads(geometry, foot, leg.hip.torque, leg.knee.torque, mirrored, acceleration));
 }
 
 /// The force alone (N). Not finite if the knee is straight.

@@ -206,6 +206,9 @@ void visit_members(Visit& visit, Geometry& geometry) {
   visit_geometry(visit, geometry);
   visit("wheel_inertia", geometry.wheel_inertia);
   visit("robot_mass", geometry.robot_mass);
+  visit("hip_friction", geometry.hip_friction);
+  visit("knee_friction", geometry.knee_friction);
+  visit("position_resolution", geometry.position_resolution);
 }
 
 template <typename Visit, typename Config>
@@ -213,7 +216,18 @@ requires std::same_as<std::remove_const_t<Config>, DecisionConfig>
 void visit_members(Visit& visit, Config& config) {
   // Only this configuration has the wheel's inertia and the robot's mass. Older files without the
   // mass belong to Upkie.
-  visit_members(visit, config.geometry);
+  auto& geometry = config.geometry;
+  visit_geometry(visit, geometry);
+  visit("wheel_inertia", geometry.wheel_inertia);
+  visit("robot_mass", geometry.robot_mass);
+  // Models without the load by the servo law do not have its keys.
+  const bool is_read = !std::is_const_v<Config>;
+  if (is_read || config.servo_load) {
+    visit("servo_load", config.servo_load);
+    visit("hip_friction", geometry.hip_friction);
+    visit("knee_friction", geometry.knee_friction);
+    visit("position_resolution", geometry.position_resolution);
+  }
   visit("difference", config.difference);
   visit("smoothing", config.smoothing);
   visit("leave_below", config.leave_below);

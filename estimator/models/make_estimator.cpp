@@ -37,7 +37,8 @@ struct Request {
 struct Recipe {
   std::string_view name;
   std::string_view fit;  ///< name of the estimator with the same fit
-  std::function<ConfigurationText(double sample_rate, const LegGeometry& legs)> configuration;
+  std::function<ConfigurationText(double sample_rate, const LegGeometry& legs, bool servo_load)>
+      configuration;
   std::function<Made(const ModelArrays& arrays, const Request& request)> make;
 };
 
@@ -62,18 +63,21 @@ BayesFilterConfig configured(BayesFilterConfig config, const Request& request) {
 
 template <typename Estimator>
 Recipe of_torques(std::string_view name, std::string_view fit, const BayesFilterConfig& config) {
-  return {
-      name, fit,
-      [config](double rate, const LegGeometry& /*legs*/) { return text_of(at_rate(config, rate)); },
-      [config](const ModelArrays& arrays, const Request& request) -> Made {
-        return std::make_unique<Estimator>(measurement_model_of(arrays),
-                                           configured(config, request));
-      }};
+  return {name, fit,
+          [config](double rate, const LegGeometry& /*legs*/, bool /*servo_load*/) {
+            return text_of(at_rate(config, rate));
+          },
+          [config](const ModelArrays& arrays, const Request& request) -> Made {
+            return std::make_unique<Estimator>(measurement_model_of(arrays),
+                                               configured(config, request));
+          }};
 }
 
 Recipe of_phases(std::string_view name) {
   return {name, name,
-          [](double /*rate*/, const LegGeometry& /*legs*/) { return text_of(PhaseFilterConfig{}); },
+          [](double /*rate*/, const LegGeometry& /*legs*/, bool /*servo_load*/) {
+            return text_of(PhaseFilterConfig{});
+          },
           [](const ModelArrays& arrays, const Request& request) -> Made {
             return std::make_unique<PhaseFilter>(phase_model_of(arrays),
                                                  configured(PhaseFilterConfig{}, request));
@@ -82,24 +86,28 @@ Recipe of_phases(std::string_view name) {
 
 template <typename Estimator, typename Config, auto model_of>
 Recipe of_parameters(std::string_view name) {
-  return {
-      name, name,
-      [](double /*rate*/, const LegGeometry& legs) { return text_of(Config{.geometry = legs}); },
-      [](const ModelArrays& arrays, const Request& request) -> Made {
-        return std::make_unique<Estimator>(model_of(parameters_of(arrays)),
-                                           configured(Config{}, request));
-      }};
+  return {name, name,
+          [](double /*rate*/, const LegGeometry& legs, [[maybe_unused]] bool servo_load) {
+            Config config{.geometry = legs};
+            if constexpr (requires { config.servo_load; }) config.servo_load = servo_load;
+            return text_of(config);
+          },
+          [](const ModelArrays& arrays, const Request& request) -> Made {
+            return std::make_unique<Estimator>(model_of(parameters_of(arrays)),
+                                               configured(Config{}, request));
+          }};
 }
 
 Recipe of_neural_network() {
-  return {
-      "nmn", "nmn",
-      [](double /*rate*/, const LegGeometry& /*legs*/) { return text_of(NeuralEstimatorConfig{}); },
-      [](const ModelArrays& arrays, const Request& request) -> Made {
-        return std::make_unique<NeuralEstimator>(
-            std::make_shared<const NeuralNetwork>(neural_network_of(arrays)),
-            configured(NeuralEstimatorConfig{}, request));
-      }};
+  return {"nmn", "nmn",
+          [](double /*rate*/, const LegGeometry& /*legs*/, bool /*servo_load*/) {
+            return text_of(NeuralEstimatorConfig{});
+          },
+          [](const ModelArrays& arrays, const Request& request) -> Made {
+            return std::make_unique<NeuralEstimator>(
+                std::make_shared<const NeuralNetwork>(neural_network_of(arrays)),
+                configured(NeuralEstimatorConfig{}, request));
+          }};
 }
 
 const std::vector<Recipe>& recipes() {
@@ -179,7 +187,7 @@ ConfigurationText configuration_for(const ModelMetadata& metadata, const std::st
   ConfigurationText configuration;
   if (estimator == metadata.estimator) configuration = metadata.configuration;
   if (replaced.empty()) return configuration;
-  const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate, {});
+  const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate, {}, false);
   if (configuration.empty()) configuration = usual;
   for (const auto& [key, value] : replaced) {
     if (!usual.contains(key) && !is_signal_bound(key))
@@ -192,8 +200,8 @@ ConfigurationText configuration_for(const ModelMetadata& metadata, const std::st
 }  // namespace
 
 ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
-                                        const LegGeometry& legs) {
-  return recipe(estimator).configuration(sample_rate, legs);
+                                        const LegGeometry& legs, bool servo_load) {
+  return recipe(estimator).configuration(sample_rate, legs, servo_load);
 }
 
 bool makes_estimator(std::string_view name) { return find_recipe(name) != nullptr; }

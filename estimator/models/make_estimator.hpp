@@ -20,10 +20,11 @@ std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays,
 /// The metadata that `make_estimator` uses. Errors: those of `make_estimator` about the metadata.
 ModelMetadata metadata_for(const ModelArrays& arrays, const ModelUse& use = {});
 
-/// The default configuration of an estimator at this rate (Hz), on a robot with these legs. Errors:
-/// `InputError` for a name of which no model is fitted.
+/// The default configuration of an estimator at this rate (Hz), on a robot with these legs, with
+/// a model that has the load by the servo law, if the estimator can have it. Errors: `InputError`
+/// for a name of which no model is fitted.
 ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
-                                        const LegGeometry& legs = {});
+                                        const LegGeometry& legs = {}, bool servo_load = false);
 
 /// Whether this library makes an estimator of this name from a model. Experiments have others, too.
 bool makes_estimator(std::string_view name);

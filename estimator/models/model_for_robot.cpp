@@ -14,7 +14,7 @@ namespace {
 void put_legs(const LegGeometry& legs, const ConfigurationText& usual, ModelMetadata& metadata) {
   bool uses_legs = false;
   for (const auto& [key, value] : text_of(legs)) {
-    if (!usual.contains(key)) continue;
+    if (!usual.contains(key) && !metadata.configuration.contains(key)) continue;
     metadata.configuration[key] = value;
     uses_legs = true;
   }

@@ -84,6 +84,18 @@ void check_feature_set(const Parameters& parameters) {
       "fit it again");
 }
 
+/// Calls `part(name, first)` for the channels of `ServoLoadInputs`.
+template <typename Part>
+void for_each_servo_channel(const Part& part) {
+  std::size_t first = 0;
+  for (const EvidenceChannel& channel : servo_load_channels) {
+    part(channel.name, first);
+    first += decision_scales;
+  }
+}
+
+constexpr const char* servo_weight_name = "servo_weight";
+
 std::string curves_name(const char* channel) { return std::string("curves_") + channel; }
 std::string seen_name(const char* channel) { return std::string("seen_") + channel; }
 
@@ -154,6 +166,9 @@ Parameters parameters_of(const DecisionModel& model) {
   for_each_part(model, [&](const char* name, auto numbers) {
     parameters[name].assign(numbers.begin(), numbers.end());
   });
+  if (!model.servo_weight.empty()) {
+    parameters[servo_weight_name].assign(model.servo_weight.begin(), model.servo_weight.end());
+  }
   return parameters;
 }
 
@@ -164,20 +179,32 @@ DecisionModel decision_model_of(const Parameters& parameters) {
     const std::vector<double>& values = parameter(parameters, name, numbers.size());
     take(values.data(), numbers);
   });
+  if (!parameters.contains(servo_weight_name)) return model;
+  model.servo_weight.resize(servo_weights);
+  take(parameter(parameters, servo_weight_name, servo_weights).data(), model.servo_weight);
   return model;
 }
 
 Parameters parameters_of(const EvidenceModel& model) {
   Parameters parameters = {{"bias", {model.bias}}};
   add_feature_set(parameters);
-  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
+  const auto put = [&](const char* name, const EvidenceCurve* curve,
+                       const std::array<float, 2>* seen_of, std::size_t count) {
     std::vector<double>& curves = parameters[curves_name(name)];
     std::vector<double>& seen = parameters[seen_name(name)];
-    for (std::size_t i = first; i < first + count; ++i) {
-      curves.insert(curves.end(), model.curve[i].begin(), model.curve[i].end());
-      seen.insert(seen.end(), model.seen[i].begin(), model.seen[i].end());
+    for (std::size_t i = 0; i < count; ++i) {
+      curves.insert(curves.end(), curve[i].begin(), curve[i].end());
+      seen.insert(seen.end(), seen_of[i].begin(), seen_of[i].end());
     }
+  };
+  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
+    put(name, model.curve.data() + first, model.seen.data() + first, count);
   });
+  if (!model.servo_curve.empty()) {
+    for_each_servo_channel([&](const char* name, std::size_t first) {
+      put(name, model.servo_curve.data() + first, model.servo_seen.data() + first, decision_scales);
+    });
+  }
   if (model.table.empty()) return parameters;
   parameters["pairs"] = pair_indices();
   for (const EvidenceTable& table : model.table) {
@@ -190,15 +217,27 @@ EvidenceModel evidence_model_of(const Parameters& parameters) {
   check_feature_set(parameters);
   EvidenceModel model;
   model.bias = static_cast<float>(parameter(parameters, "bias"));
-  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
+  const auto read = [&](const char* name, EvidenceCurve* curve, std::array<float, 2>* seen_of,
+                        std::size_t count) {
     const std::vector<double>& curves =
         parameter(parameters, curves_name(name), count * evidence_knots);
     const std::vector<double>& seen = parameter(parameters, seen_name(name), 2 * count);
     for (std::size_t i = 0; i < count; ++i) {
-      take(curves.data() + i * evidence_knots, model.curve[first + i]);
-      take(seen.data() + 2 * i, model.seen[first + i]);
+      take(curves.data() + i * evidence_knots, curve[i]);
+      take(seen.data() + 2 * i, seen_of[i]);
     }
+  };
+  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
+    read(name, model.curve.data() + first, model.seen.data() + first, count);
   });
+  if (parameters.contains(curves_name(servo_load_channels[0].name))) {
+    model.servo_curve.resize(std::tuple_size_v<ServoLoadInputs>);
+    model.servo_seen.resize(model.servo_curve.size());
+    for_each_servo_channel([&](const char* name, std::size_t first) {
+      read(name, model.servo_curve.data() + first, model.servo_seen.data() + first,
+           decision_scales);
+    });
+  }
   if (!parameters.contains("pairs")) return model;
   if (parameters.at("pairs") != pair_indices()) {
     throw InputError("pairs: its tables are of other pairs than this version's");

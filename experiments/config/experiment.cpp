@@ -196,6 +196,12 @@ static void describe_fit(Fields& fit, Experiment& experiment) {
         .fallback("none")
         .doc("The same number of trials for every estimator with hyperparameters.");
   }
+  if (fit.present("servo_load", experiment.fit_servo_load)) {
+    fit("servo_load", experiment.fit_servo_load)
+        .doc(
+            "Whether networks and evidence curves get the load by the servos' laws as one more "
+            "channel.");
+  }
   if (!fit.present("seed", experiment.fit_seed.has_value())) return;
   fit.optional("seed", experiment.fit_seed)
       .fallback("the experiment's")

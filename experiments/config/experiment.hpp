@@ -110,6 +110,8 @@ struct Experiment {
   RunsConfig fit;  ///< noiseless runs for fitting models
   /// If not empty: phase models are fitted to these instead, other learned models to both.
   std::vector<TrainingSegments> training_segments;
+  /// Whether fitted networks and evidence curves get the load by the servo law.
+  bool fit_servo_load = false;
   std::optional<std::uint64_t> fit_seed;  ///< for drawing fitted runs, if not `seed`
   std::optional<TuningConfig> tuning;     ///< of hyperparameters on fitted runs
   RunsConfig test;                        ///< runs for scoring; no model is fitted to them

@@ -24,9 +24,13 @@ namespace {
 
 using EstimatorPointer = std::unique_ptr<ContactEstimator>;
 
+DecisionConfig config_of(const FitRuns& runs) {
+  return {.geometry = legs_of(runs), .servo_load = runs.servo_load};
+}
+
 FittedModel fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
-    return parameters_of(fit_decision_model(labelled, {.geometry = legs_of(runs)},
+    return parameters_of(fit_decision_model(labelled, config_of(runs),
                                             {.decay = entry.chosen("decay")}, runs.before_density));
   });
 }
@@ -34,7 +38,7 @@ FittedModel fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
 FittedModel fit_touchdown(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
     return parameters_of(
-        fit_touchdown_model(labelled, {.geometry = legs_of(runs)}, {.decay = entry.chosen("decay")},
+        fit_touchdown_model(labelled, config_of(runs), {.decay = entry.chosen("decay")},
                             {.smoothness = entry.chosen("smoothness")}, runs.before_density));
   });
 }
@@ -43,7 +47,7 @@ template <bool with_pairs>
 FittedModel fit_evidence(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
     return parameters_of(fit_evidence_model(
-        labelled, {.geometry = legs_of(runs)},
+        labelled, config_of(runs),
         {.smoothness = entry.chosen("smoothness"), .with_pairs = with_pairs}, runs.before_density));
   });
 }

@@ -25,6 +25,8 @@ struct FitRuns {
   scoring::ScoringConfig scoring = {};  ///< its `skip` is the unused beginning of a whole run
   /// Called before each long computation. An exception from it ends the fit.
   std::function<void()> before_density = {};
+  /// Whether models that can have the load by the servo law get it (`DecisionConfig`).
+  bool servo_load = false;
 
   /// Whole runs and segments together as whole runs, for estimators that use all data alike.
   [[nodiscard]] FitRuns together() const;
@@ -44,6 +46,7 @@ struct FittedTo {
   double sample_rate = 0.0;  ///< of the first run (Hz)
   std::set<std::string> robots;
   LegGeometry legs = {};
+  bool servo_load = false;  ///< as in `FitRuns`
 
   void add(const recordings::RecordingInfo& info);
 };

@@ -15,14 +15,14 @@
 namespace touchdown::experiments {
 
 ModelMetadata new_metadata(const std::string& estimator, const FittedTo& fitted_to) {
-  return {
-      .estimator = estimator,
-      .sample_rate = fitted_to.sample_rate,
-      .robot = fmt::format("{}", fmt::join(fitted_to.robots, ", ")),
-      .configuration = makes_estimator(estimator)
-                           ? default_configuration(estimator, fitted_to.sample_rate, fitted_to.legs)
-                           : ConfigurationText{},
-      .fingerprint = {}};
+  return {.estimator = estimator,
+          .sample_rate = fitted_to.sample_rate,
+          .robot = fmt::format("{}", fmt::join(fitted_to.robots, ", ")),
+          .configuration = makes_estimator(estimator)
+                               ? default_configuration(estimator, fitted_to.sample_rate,
+                                                       fitted_to.legs, fitted_to.servo_load)
+                               : ConfigurationText{},
+          .fingerprint = {}};
 }
 
 HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignments) {

@@ -83,6 +83,7 @@ ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,
                            const HyperparameterValues& hyperparameters) {
   FittedTo fitted_to;
   fitted_to.legs = legs_of(runs);
+  fitted_to.servo_load = runs.servo_load;
   for (const auto* group : {&runs.whole, &runs.segments}) {
     for (const RunSignals* run : *group) fitted_to.add(run->info);
   }
@@ -102,7 +103,7 @@ FittedModels fit_models(const Experiment& experiment, const std::vector<RunSigna
   };
   const auto runs_of = [&](const std::string& simulator) {
     return FitRuns{of_engine(fit_runs, simulator), of_engine(segments, simulator),
-                   experiment.scoring, stop_if_asked};
+                   experiment.scoring, stop_if_asked, experiment.fit_servo_load};
   };
   Progress progress("fitting", "models", static_cast<std::int64_t>(jobs.size()));
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {

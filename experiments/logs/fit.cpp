@@ -283,6 +283,7 @@ FittedModel fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
   for (const RunSignals& run : runs) fitted.whole.push_back(&run);
   fitted.scoring.skip = config.skip;
   fitted.before_density = [&] { stop_if_asked(config); };
+  fitted.servo_load = config.servo_load;
   return entry.fit(entry, fitted);
 }
 
@@ -295,6 +296,7 @@ FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> log
       fit_model(with_hyperparameters(entry, config.hyperparameters), logs, config, report);
   if (!config.robot.name.empty()) report.fitted_to.robots = {config.robot.name};
   report.fitted_to.legs = config.robot.legs.value_or(LegGeometry{});
+  report.fitted_to.servo_load = config.servo_load;
   model.metadata = new_metadata(entry.name, report.fitted_to);
   put_into(*model.metadata, config.hyperparameters);
   return model;

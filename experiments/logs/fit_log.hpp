@@ -33,6 +33,7 @@ struct LogFitConfig {
   double skip = 0.3;                          ///< not used at the beginning of each log (s)
   LogRobot robot = {};                        ///< of the logs; without legs: Upkie's
   HyperparameterValues hyperparameters = {};  ///< replace the estimator's defaults
+  bool servo_load = false;                    ///< as in `FitRuns`
   /// Stops with `Stopped` once true; may be null.
   const std::atomic<bool>* stop = nullptr;
 };

@@ -54,8 +54,9 @@ const LogStep* LogSteps::next() {
   const std::optional<recordings::LogRow> row = reader_.next();
   if (!row) return nullptr;
   plausibility_.add(row->observation);
-  step_.signals = assembler_.assemble(recordings::record_of(row->observation, command_, joints_));
-  command_ = recordings::ground_velocity_command(row->action);
+  step_.signals = assembler_.assemble(
+      recordings::record_of(row->observation, previous_ ? &*previous_ : nullptr, joints_));
+  previous_ = row->action;
   step_.normal_force.reset();
   if (labels_ != nullptr) {
     step_.normal_force = forces(labels_->at(row->observation.time));

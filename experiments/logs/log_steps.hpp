@@ -56,7 +56,7 @@ class LogSteps {
   SignalAssembler assembler_;
   recordings::PlausibilityCheck plausibility_;
   recordings::RecordedJoints joints_;
-  double command_ = 0.0;
+  std::optional<models::Action> previous_;  ///< of the step before
   LogStep step_;
 };
 

@@ -131,7 +131,7 @@ void LogSummary::add(double time, const Belief& belief) {
   }
   ++status_[static_cast<std::size_t>(belief.status)];
   if (steps_++ < skipped_) return;
-  if (belief.status == SignalStatus::good) {
+  if (is_used(belief.status)) {
     add_valid(time, belief);
     invalid_in_a_row_ = 0;
   } else if (++invalid_in_a_row_ == longest_bridged_ + 1) {
@@ -177,7 +177,7 @@ std::string LogSummary::signals_text(std::size_t findings) const {
   if (status_[0] == steps_) return findings == 0 ? "all good" : implausible;
   std::vector<std::string> parts;
   for (const SignalStatus status :
-       {SignalStatus::invalid, SignalStatus::gap, SignalStatus::frozen}) {
+       {SignalStatus::invalid, SignalStatus::gap, SignalStatus::frozen, SignalStatus::degraded}) {
     const std::int64_t count = status_[static_cast<std::size_t>(status)];
     if (count > 0) parts.push_back(fmt::format("{} {}", count, to_text(status)));
   }

@@ -28,7 +28,9 @@ class LogSummary {
 
   std::int64_t steps() const { return steps_; }
   /// Steps with good signals.
-  std::int64_t valid_steps() const { return status_[0]; }
+  std::int64_t valid_steps() const {
+    return status_[0] + status_[static_cast<std::size_t>(SignalStatus::degraded)];
+  }
   /// From the first to the last step by the log's clock, one step more (s).
   double duration() const;
 
@@ -96,7 +98,7 @@ class LogSummary {
   std::int64_t skipped_;
   std::int64_t steps_ = 0;
   std::array<std::int64_t, scoring::view_count> contact_{};
-  std::array<std::int64_t, 4> status_{};
+  std::array<std::int64_t, 5> status_{};
   std::int64_t counted_ = 0;  ///< valid steps after the skipped ones
   std::int64_t invalid_in_a_row_ = 0;
   std::int64_t longest_bridged_;  ///< steps

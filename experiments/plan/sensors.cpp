@@ -60,9 +60,10 @@ noise::NoiseKey sensor_key(const Experiment& experiment, std::int64_t run) {
 }
 
 void report_through_sensors(const noise::SensorProfile& profile, const Experiment& experiment,
-                            std::int64_t run, double period,
-                            std::vector<models::Observation>& observations) {
-  noise::report_through(profile, sensor_key(experiment, run), period, observations);
+                            std::int64_t run, recordings::Recording& recording) {
+  const noise::NoiseKey key = sensor_key(experiment, run);
+  noise::report_through(profile, key, recording.period(), recording.observation);
+  noise::report_targets(profile, key, recording.action);
 }
 
 std::string setup_caption(const Experiment& experiment) {

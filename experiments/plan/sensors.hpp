@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
-#include "models/robot.hpp"
 #include "noise/gaussian.hpp"
 #include "noise/sensors/profile.hpp"
+#include "recordings/recording.hpp"
 
 namespace touchdown::experiments {
 
@@ -37,11 +37,10 @@ noise::SensorProfile profile_of(const std::vector<NamedSensors>& sensors, const 
 /// The key of the sensor errors of a run, the same in every engine.
 noise::NoiseKey sensor_key(const Experiment& experiment, std::int64_t run);
 
-/// Replaces the recorded observations of a run by the output of the sensor model. The same run of
-/// another engine gets the same draws.
+/// Replaces the recorded observations of a run by the output of the sensor model, and targets by
+/// those with the zeros of its joints. The same run of another engine gets the same draws.
 void report_through_sensors(const noise::SensorProfile& profile, const Experiment& experiment,
-                            std::int64_t run, double period,
-                            std::vector<models::Observation>& observations);
+                            std::int64_t run, recordings::Recording& recording);
 
 /// The caption of robot and sensors, such as "; sensors as in sensors/upkie.yaml". It omits ideal
 /// sensors, and the robot where each scenario has its own.

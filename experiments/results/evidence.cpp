@@ -22,24 +22,33 @@ std::set<float> knots_of(const std::array<float, 2>& seen) {
   return knots;
 }
 
+constexpr std::size_t first_noise = decision_channels * decision_scales;
+
+/// The channel of an input that is no noise level; inputs as `curve_of` numbers curves.
+const EvidenceChannel& channel_of(std::size_t input) {
+  return input < decision_inputs ? evidence_channels[input / decision_scales]
+                                 : servo_load_channels[(input - decision_inputs) / decision_scales];
+}
+
+bool is_noise_level(std::size_t input) { return input >= first_noise && input < decision_inputs; }
+
 /// An input of the network: its channel's name, time scale and unit.
 EvidencePoint input_of(std::size_t input) {
-  constexpr std::size_t first_noise = decision_channels * decision_scales;
-  if (input >= first_noise) {
+  if (is_noise_level(input)) {
     const std::size_t noise = input - first_noise;
     return {.channel = evidence_noise_names[noise], .unit = noise == 0 ? "N·m" : "m/s²"};
   }
-  const EvidenceChannel& channel = evidence_channels[input / decision_scales];
+  const EvidenceChannel& channel = channel_of(input);
+  const std::size_t scale = input < decision_inputs ? input : input - decision_inputs;
   return {.channel = channel.name,
-          .scale = std::to_string(1U << (input % decision_scales)),
+          .scale = std::to_string(1U << (scale % decision_scales)),
           .unit = channel.unit};
 }
 
 /// An input in the unit of its channel.
 double in_unit(std::size_t input, double x) {
-  if (input >= decision_channels * decision_scales) return std::exp(x);
-  const EvidenceChannel& channel = evidence_channels[input / decision_scales];
-  return uncompressed(x, static_cast<double>(channel.softsign_scale));
+  if (is_noise_level(input)) return std::exp(x);
+  return uncompressed(x, static_cast<double>(channel_of(input).softsign_scale));
 }
 
 }  // namespace
@@ -51,13 +60,13 @@ std::vector<EvidencePoint> evidence_points(const FittedModels& models) {
     for (const auto& [estimator, fitted] : by_estimator) {
       const std::optional<EvidenceModel> model = evidence_in(fitted);
       if (!model) continue;
-      for (std::size_t input = 0; input < decision_inputs; ++input) {
-        for (const float x : knots_of(model->seen[input])) {
+      for (std::size_t input = 0; input < curve_count(*model); ++input) {
+        for (const float x : knots_of(seen_by(*model, input))) {
           EvidencePoint& point = points.emplace_back(input_of(input));
           point.simulator = simulator;
           point.estimator = estimator;
           point.value = in_unit(input, static_cast<double>(x));
-          point.evidence = static_cast<double>(evidence_at(model->curve[input], x));
+          point.evidence = static_cast<double>(evidence_at(curve_of(*model, input), x));
         }
       }
     }

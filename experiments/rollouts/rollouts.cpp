@@ -70,7 +70,7 @@ Rollout failed(const PlannedRun& plan, const std::string& why) {
 Rollout rollout(const PlannedRun& run, recordings::Recording recording, const Plan& plan,
                 const Experiment& experiment, scenarios::CompiledScenes& scenes) {
   const noise::SensorProfile& sensors = plan.sensors[run.sensors].profile;
-  report_through_sensors(sensors, experiment, run.run, recording.period(), recording.observation);
+  report_through_sensors(sensors, experiment, run.run, recording);
   RunSignals signals =
       signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
   const std::shared_ptr<const models::RobotModel> robot = scenes.as_described(run.scenario);

@@ -26,13 +26,12 @@ RunSignals signals_of(const recordings::Recording& recording, const scoring::Lab
   }
   run.signals.reserve(recording.steps());
   run.up_in_imu.reserve(recording.steps());
-  double command = 0.0;
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     const models::Observation& observation = recording.observation[k];
-    run.signals.push_back(recordings::signals_from(observation, command));
+    run.signals.push_back(
+        recordings::signals_from(observation, k > 0 ? &recording.action[k - 1] : nullptr));
     // The attitude reference system's z axis points down.
     run.up_in_imu.push_back(observation.imu.orientation.conjugate() * -Eigen::Vector3d::UnitZ());
-    command = recordings::ground_velocity_command(recording.action[k]);
   }
   return run;
 }

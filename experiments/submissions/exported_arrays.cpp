@@ -25,6 +25,14 @@ recordings::NpyArray joints(const std::vector<Signals>& steps, double JointSigna
   });
 }
 
+recordings::NpyArray targets(const std::vector<Signals>& steps, double JointTarget::*member) {
+  return array_of(steps, 6, [&](const Signals& signals, std::vector<double>& data) {
+    for (const LegTargets& leg : signals.target) {
+      data.insert(data.end(), {leg.hip.*member, leg.knee.*member, leg.wheel.*member});
+    }
+  });
+}
+
 recordings::NpyArray vectors(const std::vector<Signals>& steps, Eigen::Vector3d Signals::*member) {
   return array_of(steps, 3, [&](const Signals& signals, std::vector<double>& data) {
     data.insert(data.end(), (signals.*member).begin(), (signals.*member).end());
@@ -63,6 +71,11 @@ recordings::NpzArrays arrays_of(const RunSignals& run,
           {"angular_velocity", vectors(steps, &Signals::angular_velocity)},
           {"vertical_acceleration", numbers(steps, &Signals::vertical_acceleration)},
           {"ground_velocity_command", numbers(steps, &Signals::ground_velocity_command)},
+          {"target_position", targets(steps, &JointTarget::position)},
+          {"target_velocity", targets(steps, &JointTarget::velocity)},
+          {"target_torque", targets(steps, &JointTarget::feedforward_torque)},
+          {"target_kp", targets(steps, &JointTarget::kp)},
+          {"target_kd", targets(steps, &JointTarget::kd)},
           {"contact", std::move(contact)}};
 }
 
@@ -78,8 +91,8 @@ recordings::NpzArrays exported_arrays(const RunSignals& run, const NoiseRun& noi
 }
 
 double bytes_of_exported(double steps) {
-  constexpr double numbers = 1 + 1 + 3 * 6 + 2 * 3 + 1 + 1 + 2;
-  constexpr double heads = 10 * 300.0;
+  constexpr double numbers = 1 + 1 + 3 * 6 + 2 * 3 + 1 + 1 + 5 * 6 + 2;
+  constexpr double heads = 15 * 300.0;
   return heads + numbers * sizeof(double) * steps;
 }
 

@@ -32,6 +32,8 @@ draws (`seed`) of it, {noise}.
 | `angular_velocity` | n × 3 | rad/s, of the IMU in its own frame |
 | `vertical_acceleration` | n | m/s², `linear_acceleration` along the world's upward vertical by the IMU's attitude: 0 at rest, −9.8 in free fall |
 | `ground_velocity_command` | n | m/s, what the balancer asked for one step before; forward is positive |
+| `target_position`, `target_velocity`, `target_torque` | n × 6 | rad, rad/s, N·m: commands of one step before, the last one feed-forward; NaN: none |
+| `target_kp`, `target_kd` | n × 6 | N·m/rad, N·m·s/rad: the servos' gains, with torque = kp (target position − position) + kd (target velocity − velocity) + target torque |
 | `contact` | n × 2 | the truth, left and right wheel: 1 contact, 0 none ({labels}) |
 
 Signs are each joint's own. Legs mirror each other: a positive torque drives the left wheel forward and the

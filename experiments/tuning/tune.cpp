@@ -61,7 +61,8 @@ HyperparameterValues fit_hyperparameters(const EstimatorEntry& entry,
 
 void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
               const Experiment& experiment, const std::function<void()>& stop_if_asked) {
-  const FitRuns runs{fold.fitted, fold.segments, experiment.scoring, stop_if_asked};
+  const FitRuns runs{fold.fitted, fold.segments, experiment.scoring, stop_if_asked,
+                     experiment.fit_servo_load};
   std::vector<NoiseRun> noise;
   for (const RunSignals* run : fold.held_out) noise.push_back(noise_of(*run, experiment));
   std::map<HyperparameterValues, FittedModel> models;

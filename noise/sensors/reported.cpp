@@ -291,6 +291,16 @@ void ReportingSensors::report(std::span<models::Observation> next) {
   if (reporter_) reporter_->report(next);
 }
 
+void report_targets(const SensorProfile& profile, const NoiseKey& key,
+                    std::vector<models::Action>& actions) {
+  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    const SensorChannel& channel = profile.position[servo % profile.position.size()];
+    const double zero = bias_of(channel, {key, position_channels[servo]});
+    if (zero == 0.0) continue;
+    for (models::Action& action : actions) action.servo[servo].position += zero;
+  }
+}
+
 void report_through(const SensorProfile& profile, const NoiseKey& key, double period,
                     std::vector<models::Observation>& observations) {
   ReportingSensors(profile, key, period).report(observations);

@@ -68,6 +68,10 @@ void low_pass(std::span<double> values, double gain, ChannelState& state) {
 
 }  // namespace
 
+double bias_of(const SensorChannel& channel, const ChannelDraws& draws) {
+  return channel.bias == Constant() ? 0.0 : constant_of(channel.bias, DrawnFor::bias, draws);
+}
+
 WheelTurns wheel_turns(std::span<const double> position, std::span<const double> velocity,
                        double order) {
   WheelTurns turns{std::vector<double>(position.size()), std::vector<double>(position.size())};
@@ -88,7 +92,7 @@ void disturb_values(std::span<double> values, const SensorChannel& channel, doub
     for (double& value : values) value *= gain;
   }
   if (!(channel.bias == Constant())) {
-    const double bias = constant_of(channel.bias, DrawnFor::bias, draws);
+    const double bias = bias_of(channel, draws);
     for (double& value : values) value += bias;
   }
   if (channel.walk > 0.0) {

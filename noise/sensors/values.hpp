@@ -30,6 +30,9 @@ struct ChannelState {
   double filtered = 0.0;  ///< last output of the low-pass
 };
 
+/// The channel's constant bias in this run.
+double bias_of(const SensorChannel& channel, const ChannelDraws& draws);
+
 /// Applies the value errors of a channel to the next steps in place: scale, bias and its random
 /// walk, vibration, coloured noise, low-pass, white noise, range, resolution. `turns` belong to the
 /// same steps; null without vibration.

@@ -11,7 +11,7 @@ from touchdown.recording import Recording, check, contact_labels, fit, score, si
 from touchdown.upkie import ContactWrapper
 
 #: Names of the numbers in `status` of `Estimator.run`.
-STATUS = ("good", "invalid", "gap", "frozen")
+STATUS = ("good", "invalid", "gap", "frozen", "degraded")
 
 __all__ = ["Belief", "ContactWrapper", "Error", "Estimator", "InputError", "Model", "Recording", "Result", "STATUS", "__version__",
            "check", "contact_labels", "estimators", "fit", "run", "score", "simulate", "simulators"]

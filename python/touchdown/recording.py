@@ -29,6 +29,8 @@ class Recording(dict):
     `raw_linear_acceleration`  (steps, 3) m/s²      of the IMU, in its own frame, with gravity
     `vertical_acceleration`    (steps,)   m/s²      `linear_acceleration` along the world's upward vertical
     `ground_velocity_command`  (steps,)   m/s       of the step before
+    `target_position`, …       (steps, 6)           commands of the step before, NaN: none: also `_velocity`,
+                                                    `_torque` (feed-forward), `_kp` (N·m/rad), `_kd` (N·m·s/rad)
     `pitch`, `yaw`             (steps,)   rad       of the base; rates: `pitch_rate`, `yaw_rate` (rad/s)
     `command_position`, …      (steps, 6)           commands of the servos: also `_velocity`,
                                                     `_feedforward_torque`, `_kp_scale`, `_kd_scale`,

@@ -59,6 +59,28 @@ constexpr std::size_t velocity_target(models::Servo wheel) {
   return log_slot::command + 6 * models::index(wheel) + 2;
 }
 
+constexpr std::array<models::Servo, 4> leg_servos = {
+    models::Servo::left_hip, models::Servo::left_knee, models::Servo::right_hip,
+    models::Servo::right_knee};
+
+/// The slots of a servo's feed-forward torque, position, velocity and scales of its gains.
+constexpr std::size_t command_of(models::Servo servo) {
+  return log_slot::command + 6 * models::index(servo);
+}
+constexpr std::size_t leg_command_size = 5;
+
+void put_leg_targets(const MappedLegTargets& targets, std::span<const double> row,
+                     LogValues& values) {
+  for (std::size_t i = 0; i < leg_servos.size(); ++i) {
+    double* const command = values.data() + command_of(leg_servos[i]);
+    command[0] = targets.torque ? targets.torque->value(row, i) : 0.0;
+    command[1] = targets.position.value(row, i);
+    command[2] = targets.velocity ? targets.velocity->value(row, i) : 0.0;
+    command[3] = targets.kp[i] / models::servo_kp;
+    command[4] = targets.kd[i] / models::servo_kd;
+  }
+}
+
 /// Converts one row to the numbers of a record.
 LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const double> row) {
   LogValues values{};
@@ -86,6 +108,7 @@ LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const
           mapping.wheel_velocity_target->value(row, wheel);
     }
   }
+  if (mapping.leg_targets) put_leg_targets(*mapping.leg_targets, row, values);
   return values;
 }
 
@@ -99,6 +122,11 @@ LogPresence log_presence(const LogMapping& mapping) {
   if (mapping.proper_acceleration) present.set(log_slot::raw_acceleration);
   if (mapping.wheel_velocity_target) {
     for (const models::Servo wheel : models::wheel_servos) present.set(velocity_target(wheel));
+  }
+  if (mapping.leg_targets) {
+    for (const models::Servo servo : leg_servos) {
+      for (std::size_t i = 0; i < leg_command_size; ++i) present.set(command_of(servo) + i);
+    }
   }
   return present;
 }

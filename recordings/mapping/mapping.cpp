@@ -509,9 +509,65 @@ SignalKind describe_joint_names(Fields& fields, MappingReader& reader, bool has_
   return kind;
 }
 
+/// Inserts the hips that the robot lacks before the numbers of its two knees.
+void add_missing_leg_hips(MappedSignal& signal) {
+  if (signal.numbers.empty()) return;  // documenting
+  for (const std::ptrdiff_t hip : {0, 2}) {
+    signal.numbers.insert(signal.numbers.begin() + hip, {MappedSignal::no_column});
+  }
+}
+
+/// Reads gains of hips and knees. A joint without a hip has none.
+void describe_gains(Fields& fields, const std::string& key, bool has_hips, const char* unit,
+                    const char* doc, std::array<double, 4>& gains) {
+  std::vector<double> given;
+  number_for_each(fields, key, has_hips ? 4 : 2, given).range("≥ 0").doc(unit, doc);
+  if (given.empty()) return;
+  for (const double gain : given) {
+    fields.check(std::isfinite(gain) && gain >= 0.0, key, "expected gains that are not negative");
+  }
+  gains = has_hips ? std::array{given[0], given[1], given[2], given[3]}
+                   : std::array{given[0], given[0], given[1], given[1]};
+}
+
+void describe_leg_targets(Fields& fields, MappingReader& reader, bool has_hips,
+                          LogMapping& mapping) {
+  if (!fields.present("leg_targets", false)) return;
+  MappedLegTargets& targets = mapping.leg_targets.emplace();
+  const SignalKind joints{has_hips ? "left hip, knee, right hip, knee" : "left knee, right knee",
+                          has_hips ? 4U : 2U};
+  const auto kind = [&](const std::vector<Unit>& units, bool has_zero = false) {
+    SignalKind one = joints;
+    one.units = units;
+    one.has_zero = has_zero;
+    return one;
+  };
+  const auto describe_targets = [&](Fields& inner) {
+    expect_keys(inner, {"position", "velocity", "torque", "kp", "kd"});
+    reader
+        .require(inner, "position", kind({{"rad", 1.0}, {"deg", degree}, {"rev", turn}}, true),
+                 targets.position)
+        .doc("Commanded positions, with the signs and zeros of the joints.");
+    reader.optional(inner, "velocity", kind(speeds()), targets.velocity)
+        .doc("Commanded velocities; 0 without this key.");
+    reader.optional(inner, "torque", kind({{"Nm", 1.0}, {"mNm", 1e-3}}), targets.torque)
+        .doc("Feed-forward torques; 0 without this key.");
+    inner.require("kp");
+    describe_gains(inner, "kp", has_hips, "N·m/rad", "Position gains of the servos.", targets.kp);
+    describe_gains(inner, "kd", has_hips, "N·m·s/rad", "Velocity gains of the servos.", targets.kd);
+    if (has_hips) return;
+    add_missing_leg_hips(targets.position);
+    if (targets.velocity) add_missing_leg_hips(*targets.velocity);
+    if (targets.torque) add_missing_leg_hips(*targets.torque);
+  };
+  fields.within("leg_targets", describe_targets)
+      .fallback("none")
+      .doc("Commands of the servos of hips and knees, for the load by the servos' laws.");
+}
+
 void describe_joints(Fields& fields, MappingReader& reader, LogMapping& mapping) {
-  expect_keys(fields,
-              {"names", "sign", "position", "velocity", "torque", "wheel_velocity_target", "hip"});
+  expect_keys(fields, {"names", "sign", "position", "velocity", "torque", "wheel_velocity_target",
+                       "leg_targets", "hip"});
   std::size_t hip = 0;
   fields.choose("hip", {"joint", "none"}, hip)
       .doc(
@@ -544,6 +600,7 @@ void describe_joints(Fields& fields, MappingReader& reader, LogMapping& mapping)
       .optional(fields, "wheel_velocity_target", {"left wheel, right wheel", 2, speeds()},
                 mapping.wheel_velocity_target)
       .doc("Commanded velocities of the wheels; only `nmn` uses them.");
+  describe_leg_targets(fields, reader, has_hips, mapping);
 }
 
 void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {

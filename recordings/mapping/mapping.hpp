@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -79,6 +80,15 @@ struct SourceClock {
 /// Longest plausible time between two rows (s). A longer one indicates a wrong unit of time.
 inline constexpr double longest_period = 0.5;
 
+/// Commands of the servos of hips and knees: left hip, knee, right hip, knee.
+struct MappedLegTargets {
+  MappedSignal position;                 ///< rad
+  std::optional<MappedSignal> velocity;  ///< rad/s; without it 0
+  std::optional<MappedSignal> torque;    ///< feed-forward, N·m; without it 0
+  std::array<double, 4> kp = {};         ///< gains: N·m/rad
+  std::array<double, 4> kd = {};         ///< N·m·s/rad
+};
+
 /// Maps the columns of another robot's log to signals, with units, signs, order and axes. Joints
 /// are in Upkie's order: left hip, knee, wheel, right hip, knee, wheel.
 struct LogMapping {
@@ -96,6 +106,7 @@ struct LogMapping {
   MappedSignal torque;    ///< 6, N·m
   /// Commanded velocity of the left and right wheel (rad/s).
   std::optional<MappedSignal> wheel_velocity_target;
+  std::optional<MappedLegTargets> leg_targets;
 
   MappedSignal orientation;  ///< 4: from the IMU frame to its reference, w x y z
   bool is_w_last = false;    ///< order x y z w instead

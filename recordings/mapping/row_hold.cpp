@@ -18,6 +18,11 @@ RowHold::RowHold(const LogMapping& mapping) {
   for (const MappedSignal* signal : {&mapping.position, &mapping.velocity, &mapping.torque}) {
     add(*signal, true);
   }
+  if (mapping.leg_targets) {
+    add(mapping.leg_targets->position, true);
+    if (mapping.leg_targets->velocity) add(*mapping.leg_targets->velocity, true);
+    if (mapping.leg_targets->torque) add(*mapping.leg_targets->torque, true);
+  }
   if (!mapping.clocks.empty()) return;  // the others have sources of their own (SourceJoin)
   add(mapping.orientation, false);
   add(mapping.angular_velocity, false);

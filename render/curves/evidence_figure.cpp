@@ -31,16 +31,19 @@ struct EvidencePanel {
   double softsign_scale = 0.0;  ///< of its compression, in its unit; 0: a logarithmic axis
 };
 
-std::vector<EvidencePanel> evidence_panels() {
+std::vector<EvidencePanel> evidence_panels(const EvidenceModel& model) {
   std::vector<EvidencePanel> all;
   std::size_t first = 0;
-  for (const EvidenceChannel& channel : evidence_channels) {
+  const auto add = [&](const EvidenceChannel& channel) {
     all.push_back({channel.title, channel.unit, first, decision_scales,
                    static_cast<double>(channel.softsign_scale)});
     first += decision_scales;
-  }
+  };
+  for (const EvidenceChannel& channel : evidence_channels) add(channel);
   all.push_back({"torque noise", "N·m", first++, 1, 0.0});
-  all.push_back({"acceleration noise", "m/s²", first, 1, 0.0});
+  all.push_back({"acceleration noise", "m/s²", first++, 1, 0.0});
+  if (model.servo_curve.empty()) return all;
+  for (const EvidenceChannel& channel : servo_load_channels) add(channel);
   return all;
 }
 
@@ -49,8 +52,8 @@ std::array<double, 2> evidence_ends(const EvidenceModel& model, const EvidencePa
   std::array<double, 2> ends = {std::numeric_limits<double>::max(),
                                 std::numeric_limits<double>::lowest()};
   for (std::size_t i = panel.first; i < panel.first + panel.count; ++i) {
-    ends[0] = std::min(ends[0], static_cast<double>(model.seen[i][0]));
-    ends[1] = std::max(ends[1], static_cast<double>(model.seen[i][1]));
+    ends[0] = std::min(ends[0], static_cast<double>(seen_by(model, i)[0]));
+    ends[1] = std::max(ends[1], static_cast<double>(seen_by(model, i)[1]));
   }
   // The axis of a constant channel still needs a width.
   if (!(ends[1] - ends[0] > 0.01)) ends = {ends[0] - 0.5, ends[1] + 0.5};
@@ -76,8 +79,8 @@ std::string evidence_block(const EvidenceModel& model, const EvidencePanel& pane
     fmt::format_to(std::back_inserter(text), "\n{:.5g}\t{:.5g}", x, value);
     for (std::size_t i = panel.first; i < panel.first + panel.count; ++i) {
       const auto at = static_cast<float>(x);
-      const bool is_seen = at >= model.seen[i][0] && at <= model.seen[i][1];
-      text += is_seen ? fmt::format("\t{:.4g}", evidence_at(model.curve[i], at)) : "\tNaN";
+      const bool is_seen = at >= seen_by(model, i)[0] && at <= seen_by(model, i)[1];
+      text += is_seen ? fmt::format("\t{:.4g}", evidence_at(curve_of(model, i), at)) : "\tNaN";
     }
   }
   return text + "\n\n\n";
@@ -87,10 +90,10 @@ std::string evidence_block(const EvidenceModel& model, const EvidencePanel& pane
 double largest_contribution(const EvidenceModel& model, const EvidencePanel& panel) {
   double most = 0.0;
   for (std::size_t i = panel.first; i < panel.first + panel.count; ++i) {
-    const float step = (model.seen[i][1] - model.seen[i][0]) / 240.0F;
+    const float step = (seen_by(model, i)[1] - seen_by(model, i)[0]) / 240.0F;
     for (int point = 0; point <= 240; ++point) {
-      const float x = model.seen[i][0] + step * static_cast<float>(point);
-      most = std::max(most, std::abs(static_cast<double>(evidence_at(model.curve[i], x))));
+      const float x = seen_by(model, i)[0] + step * static_cast<float>(point);
+      most = std::max(most, std::abs(static_cast<double>(evidence_at(curve_of(model, i), x))));
     }
   }
   return most;
@@ -178,7 +181,7 @@ std::vector<CompressedTick> compressed_ticks(double low, double high, double sof
 }
 
 Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem::path& stem) {
-  const std::vector<EvidencePanel> all = evidence_panels();
+  const std::vector<EvidencePanel> all = evidence_panels(figure.model);
   const std::size_t row_count = (all.size() + evidence_columns - 1) / evidence_columns;
   const auto rows = static_cast<double>(row_count);
   const FigureFrame frame(

@@ -133,7 +133,7 @@ LogTraceStep log_trace_step(const Signals& signals, const Belief& belief, double
                 p_takeoff,
                 p_landing};
   step.contact = {belief.wheel[0].contact, belief.wheel[1].contact};
-  step.status = belief.status;
+  step.status = is_used(belief.status) ? SignalStatus::good : belief.status;
   return step;
 }
 

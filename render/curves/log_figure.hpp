@@ -33,7 +33,7 @@ struct LogTraceStep {
   std::array<double, log_curve_count> value;        ///< by `LogCurve`; NaN for a missing value
   std::array<bool, 2> contact;                      ///< decision, left and right wheel
   std::optional<std::array<bool, 2>> true_contact;  ///< true contact, likewise
-  SignalStatus status = SignalStatus::good;
+  SignalStatus status = SignalStatus::good;         ///< `degraded` counts as good
 };
 
 LogTraceStep log_trace_step(const Signals& signals, const Belief& belief, double p_takeoff,

@@ -79,8 +79,7 @@ FilmedRun filmed(recordings::Recording recording, const experiments::Experiment&
   const std::int64_t run = recording.info.run;
   const noise::NoiseKey key = experiments::noise_key(experiment, 0, run);
   recordings::Recording reported = recording;
-  experiments::report_through_sensors(profile, experiment, run, recording.period(),
-                                      reported.observation);
+  experiments::report_through_sensors(profile, experiment, run, reported);
   const experiments::RunSignals signals = experiments::signals_of(
       reported, experiment.labels, experiment.scoring, experiment.intervals.over);
   const experiments::NoiseRun drawn = experiments::noise_run(signals, key);

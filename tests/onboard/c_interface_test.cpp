@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -111,8 +112,8 @@ TEST_F(CInterface, TakesNullWithoutACrash) {
   }
   touchdown_reset(nullptr);
   EXPECT_STREQ(touchdown_model_text(nullptr), "");
-  for (const int number : {-1, -7, 4, 26, 1 << 30}) {
-    EXPECT_STREQ(touchdown_signal_text(number == 4 ? -1 : number), "") << number;
+  for (const int number : {-1, -7, 5, 26, 1 << 30}) {
+    EXPECT_STREQ(touchdown_signal_text(number == 5 ? -1 : number), "") << number;
     EXPECT_STREQ(touchdown_status_text(number), "") << number;
   }
   touchdown_destroy(estimator);
@@ -149,6 +150,57 @@ TEST_F(CInterface, RefusesASampleRateThatIsNone) {
     EXPECT_EQ(touchdown_create(model().c_str(), &use, error.data(), error.size()), nullptr);
     EXPECT_THAT(error.data(), HasSubstr("m.npz: sample_rate: expected a positive number (Hz)"));
   }
+}
+
+TEST_F(CInterface, TakesTheTargetsOfServos) {
+  ModelArrays arrays = test::fitted_arrays("decision_network");
+  arrays["servo_weight"] = {{servo_weights}, std::vector<double>(servo_weights, 0.05)};
+  add_metadata(arrays, {.estimator = "decision_network",
+                        .sample_rate = 1000.0,
+                        .robot = "upkie",
+                        .configuration = default_configuration("decision_network", 1000.0),
+                        .fingerprint = {}});
+  const auto path = folder_ / "servo.npz";
+  recordings::write_npz(arrays, path);
+  std::array<char, 200> error{};
+  touchdown_estimator* const estimator =
+      touchdown_create(path.string().c_str(), nullptr, error.data(), error.size());
+  ASSERT_NE(estimator, nullptr) << error.data();
+  const auto expected = make_estimator(arrays);
+  std::array<touchdown_target, 6> targets{};
+  int seen = 0;
+  std::vector<Signals> steps = test::drops(301);
+  for (std::size_t k = 0; k < steps.size(); ++k) {  // servos never repeat themselves
+    for (LegSignals& leg : steps[k].leg) leg.hip.torque += 1e-6 * static_cast<double>(k);
+  }
+  const Signals last_step = steps.back();
+  steps.pop_back();
+  for (const Signals& s : steps) {
+    touchdown_record record = record_of(s);
+    record.angular_velocity[0] = s.angular_velocity.x();
+    record.angular_velocity[1] = record.angular_velocity[2] = 0.0;
+    Signals with_targets = s;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      targets[i] = {record.joint[i].position + 0.01 * static_cast<double>(i), 0.0, 0.1, 40.0, 2.0};
+      LegTargets& leg = with_targets.target[i / 3];
+      JointTarget& joint = i % 3 == 0 ? leg.hip : i % 3 == 1 ? leg.knee : leg.wheel;
+      joint = {targets[i].position, 0.0, 0.1, 40.0, 2.0};
+    }
+    const touchdown_belief found =
+        touchdown_update_with_targets(estimator, &record, targets.data());
+    const Belief& belief = expected->update(with_targets);
+    ASSERT_EQ(found.p_contact[0], belief.wheel[0].p_contact);
+    ASSERT_EQ(found.status, static_cast<int>(belief.status));
+    seen += found.status == TOUCHDOWN_GOOD ? 1 : 0;
+  }
+  EXPECT_GT(seen, 200);
+  touchdown_record last = record_of(last_step);
+  last.angular_velocity[0] = last.angular_velocity[1] = last.angular_velocity[2] = 1e-5;
+  EXPECT_EQ(touchdown_update(estimator, &last).status, TOUCHDOWN_DEGRADED);
+  EXPECT_STREQ(touchdown_status_text(TOUCHDOWN_DEGRADED), "degraded");
+  EXPECT_EQ(touchdown_update_with_targets(nullptr, &last, targets.data()).status,
+            TOUCHDOWN_INVALID);
+  touchdown_destroy(estimator);
 }
 
 }  // namespace

@@ -92,6 +92,29 @@ class Run(InFolder):
                 self.assertEqual([touchdown.STATUS[k] for k in beliefs["status"]], [row["status"] for row in rows])
         self.assertGreater(len(fitted), 10)
 
+    def test_takes_the_targets_of_servos(self):
+        run = hop()
+        run.save("hop.mpack")
+        program("fit", "hop.mpack", "--servo-load", "-o", "m.npz")
+        estimator = touchdown.Estimator(model="m.npz")
+        beliefs = estimator.run(run)
+        self.assertEqual([touchdown.STATUS[k] for k in beliefs["status"][:2]], ["degraded", "good"])
+        self.assertNotIn(4, beliefs["status"][1:])
+        targets = ("target_position", "target_velocity", "target_torque", "target_kp", "target_kd")
+        program("estimate", "hop.mpack", "--model", "m.npz", "-o", "beliefs.csv")
+        with open("beliefs.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        np.testing.assert_array_equal(beliefs["p_contact"][:, 1], [float(row["p_contact_right"]) for row in rows])
+        estimator.reset()
+        for k in range(100):
+            belief = estimator.update({name: run[name][k] for name in NAMES + targets})
+            self.assertEqual(belief.p_contact[0], beliefs["p_contact"][k, 0])
+        without = estimator.run({name: run[name] for name in NAMES})
+        self.assertEqual({touchdown.STATUS[k] for k in without["status"]}, {"degraded"})
+        np.testing.assert_array_equal(run["target_position"][1:, 1], run["command_position"][:-1, 1])
+        np.testing.assert_array_equal(run["target_kp"][1:, 3], 20.0 * run["command_kp_scale"][:-1, 3])
+        self.assertTrue(np.isnan(run["target_kp"][0]).all())
+
     def test_names_the_signal_that_no_sensor_reports(self):
         run = hop()
         estimator = touchdown.Estimator("upkie_observer")

@@ -54,5 +54,32 @@ TEST(SignalsFrom, GroundVelocityIsTheMeanOfTheWheelsTargets) {
   EXPECT_DOUBLE_EQ(ground_velocity_command(action, 0.1), 1.0);
 }
 
+TEST(SignalsFrom, TargetsAreThoseOfThePreviousAction) {
+  const Recording recording = test::sample_recording(3);
+  const models::Action& previous = recording.action[1];
+  const Signals signals = signals_from(recording.observation[2], &previous);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const LegTargets& leg = signals.target[side];
+    std::size_t servo = 3 * side;
+    for (const JointTarget* target : {&leg.hip, &leg.knee, &leg.wheel}) {
+      const models::ServoCommand& command = previous.servo[servo++];
+      if (std::isnan(command.position)) {
+        EXPECT_TRUE(std::isnan(target->position));
+      } else {
+        EXPECT_EQ(target->position, command.position);
+      }
+      EXPECT_EQ(target->velocity, command.velocity);
+      EXPECT_EQ(target->feedforward_torque, command.feedforward_torque);
+      EXPECT_EQ(target->kp, 20.0 * command.kp_scale);  // as Upkie's spine sets them
+      EXPECT_EQ(target->kd, command.kd_scale);
+    }
+  }
+  EXPECT_EQ(signals.ground_velocity_command, ground_velocity_command(previous));
+  const Signals first = signals_from(recording.observation[0], nullptr);
+  EXPECT_EQ(first.ground_velocity_command, 0.0);
+  EXPECT_TRUE(std::isnan(first.target[0].knee.position));
+  EXPECT_TRUE(std::isnan(first.target[1].wheel.kp));
+}
+
 }  // namespace
 }  // namespace touchdown::recordings

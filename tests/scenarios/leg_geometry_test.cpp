@@ -24,10 +24,12 @@ LegGeometry of_robot(const std::string& file) {
 }
 
 TEST(LegGeometry, OfUpkieIsTheEstimatorsDefaultToTheBit) {
-  for (const char* file :
-       {"models/upkie.xml", "models/upkie_actuated.yaml", "models/upkie_straight.yaml"}) {
+  for (const char* file : {"models/upkie.xml", "models/upkie_straight.yaml"}) {
     EXPECT_EQ(of_robot(file), LegGeometry{}) << file;
   }
+  LegGeometry with_friction;  // the friction of its actuators is its own
+  with_friction.hip_friction = with_friction.knee_friction = 0.06;
+  EXPECT_EQ(of_robot("models/upkie_actuated.yaml"), with_friction);
   LegGeometry large = of_robot("models/upkie_large_wheels.yaml");
   EXPECT_GT(large.wheel_inertia, 2.0 * LegGeometry{}.wheel_inertia);
   large.wheel_inertia = LegGeometry{}.wheel_inertia;

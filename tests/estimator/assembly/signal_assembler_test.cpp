@@ -236,5 +236,37 @@ TEST(SignalAssembler, RefusesInvalidValues) {
   refuses([](AssemblyConfig& c) { c.gravity_memory = 0.0; });
 }
 
+TEST(SignalsOfARecord, ConvertTargetsAsTheJoints) {
+  Robot robot(8);
+  RobotRecord record = robot.record(0.0);
+  std::vector<JointTarget> targets(8);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const auto n = static_cast<double>(i + 1);
+    targets[i] = {n, 10.0 * n, 100.0 * n, 2.0 * n, 3.0 * n};
+  }
+  record.targets = targets;
+  AssemblyConfig config;
+  config.joints = {{{7, -1.0, 0.5}, {6}, {5}, {4}, {3}, {2, -1.0}}};
+  config.units = {
+      .position = pi / 180.0, .velocity = 2.0 * pi, .torque = 0.1, .kp = 20.0, .kd = 0.5};
+  const Signals signals = signals_of(record, config);
+  const JointTarget& hip = signals.target[0].hip;
+  EXPECT_DOUBLE_EQ(hip.position, -(8.0 * pi / 180.0 - 0.5));
+  EXPECT_DOUBLE_EQ(hip.velocity, -80.0 * 2.0 * pi);
+  EXPECT_DOUBLE_EQ(hip.feedforward_torque, -80.0);
+  EXPECT_DOUBLE_EQ(hip.kp, 320.0);  // gains have no sign
+  EXPECT_DOUBLE_EQ(hip.kd, 12.0);
+  EXPECT_DOUBLE_EQ(signals.target[1].wheel.velocity, -30.0 * 2.0 * pi);
+  // Fewer targets than joints, or none: NaN, and no fault of the record.
+  record.targets = std::span(targets).first(7);
+  EXPECT_TRUE(std::isnan(signals_of(record, config).target[0].hip.kp));
+  EXPECT_FALSE(std::isnan(signals_of(record, config).target[0].knee.kp));
+  record.targets = {};
+  EXPECT_TRUE(std::isnan(signals_of(record, config).target[0].knee.position));
+  SignalAssembler assembler(AssemblyConfig{});
+  EXPECT_FALSE(assembler.assemble(record).target[0].hip.kp > 0.0);
+  EXPECT_FALSE(assembler.faults().any());
+}
+
 }  // namespace
 }  // namespace touchdown

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -193,6 +194,98 @@ TEST(FeatureExtractor, CopiesTheOtherLegsFeaturesForAMissingLeg) {
   for (std::size_t i = 0; i < leg; ++i) {
     EXPECT_EQ(features.inputs(0)[leg + i], features.inputs(0)[i]);
   }
+}
+
+/// The signals of a crouched robot that stands, with targets of `gain` that explain its torques.
+Signals standing_with_targets(double time, double gain) {
+  Signals signals;
+  signals.time = time;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double sign = side == 0 ? 1.0 : -1.0;
+    LegSignals& leg = signals.leg[side];
+    LegTargets& target = signals.target[side];
+    // Sensors never repeat themselves.
+    leg.hip = {sign * 0.5, 1e-6 * std::sin(900.0 * time), sign * 0.4};
+    leg.knee = {sign * -1.0, 1e-6 * std::sin(800.0 * time), sign * -1.9};
+    leg.wheel = {time, 1e-6 * std::cos(700.0 * time), 0.0};
+    for (auto [joint, to] : {std::pair(&leg.hip, &target.hip), {&leg.knee, &target.knee}}) {
+      *to = {joint->position + joint->torque / gain, joint->velocity, 0.0, gain, 1.0};
+    }
+  }
+  signals.vertical_acceleration = 1e-6 * std::sin(600.0 * time);
+  signals.angular_velocity = {1e-6 * std::sin(500.0 * time), 0.0, 0.0};
+  return signals;
+}
+
+TEST(FeatureExtractor, ServoLoadIsTheLoadWithoutItsTorques) {
+  const double area = 0.168 * 0.175 * std::sin(1.0);  // of the standing legs
+  const auto weight = [area](double least) { return 1.0 / (1.0 + std::pow(least / area, 2)); };
+  for (const double rate : {1000.0, 200.0}) {
+    FeatureExtractor features({.sample_rate = rate, .servo_load = true});
+    FeatureExtractor without({.sample_rate = rate});
+    for (int k = 0; k < 50; ++k) {
+      const Signals signals = standing_with_targets(k / rate, 40.0);
+      ASSERT_EQ(features.update(signals).status, SignalStatus::good);
+      without.update(signals);
+    }
+    features.compute_inputs();
+    without.compute_inputs();
+    EXPECT_EQ(features.left_inputs(), without.left_inputs());
+    EXPECT_EQ(without.left_servo_load(), ServoLoadInputs{});
+    for (const std::size_t side : {0U, 1U}) {
+      for (std::size_t i = 0; i < decision_scales; ++i) {
+        // Of the same force, with less of the neutral load.
+        const auto y = static_cast<double>(features.inputs(side)[i]);
+        const double load = 5.0 * y / (1.0 - 0.25 * std::abs(y));
+        const double force = (load - (1.0 - weight(0.003)) * 15.0) / weight(0.003);
+        const double expected = weight(0.001) * force + (1.0 - weight(0.001)) * 15.0;
+        EXPECT_NEAR(features.servo_load(side)[i], compressed(expected / 5.0), 1e-3) << i;
+      }
+    }
+    const auto pair = features.pair_inputs();
+    for (std::size_t i = 0; i < decision_scales; ++i) {
+      const float left = features.left_servo_load()[i];
+      const float right = features.left_servo_load()[decision_scales + i];
+      EXPECT_EQ(pair.servo_common[i], left + right);
+      EXPECT_EQ(pair.servo_difference[i], left - right);
+    }
+  }
+}
+
+TEST(FeatureExtractor, MutesTheServoLoadAndReportsIt) {
+  const auto is_neutral = [](const FeatureExtractor& features, std::size_t side) {
+    // 15 N, compressed by the softsign of loads of 5 N.
+    const ServoLoadInputs inputs = features.servo_load(side);
+    return std::abs(inputs[0] - 3.0F / (1.0F + 3.0F / saturation)) < 1e-5F;
+  };
+  const auto without_left_knee = [](double JointTarget::*member, double value) {
+    Signals signals = standing_with_targets(0.0, 40.0);
+    signals.target[0].knee.*member = value;
+    return signals;
+  };
+  for (const Signals& signals :
+       {without_left_knee(&JointTarget::position, std::nan("")),
+        without_left_knee(&JointTarget::kp, 0.0), without_left_knee(&JointTarget::kd, std::nan("")),
+        without_left_knee(&JointTarget::feedforward_torque, HUGE_VAL)}) {
+    FeatureExtractor features({.servo_load = true});
+    const FeatureExtractor::Step step = features.update(signals);
+    EXPECT_EQ(step.status, SignalStatus::degraded);
+    EXPECT_TRUE(step.is_valid[0] && step.is_valid[1]);
+    features.compute_inputs();
+    EXPECT_TRUE(is_neutral(features, 0));
+    EXPECT_FALSE(is_neutral(features, 1));  // the other leg has its targets
+    // A model without this channel does not miss them.
+    EXPECT_EQ(FeatureExtractor(DecisionConfig{}).update(signals).status, SignalStatus::good);
+  }
+  // Other faults come first, and a wheel's target is not needed.
+  FeatureExtractor features({.servo_load = true});
+  Signals signals = standing_with_targets(0.0, 40.0);
+  signals.target = {};
+  signals.angular_velocity.x() = std::nan("");
+  EXPECT_EQ(features.update(signals).status, SignalStatus::invalid);
+  signals = standing_with_targets(0.001, 40.0);
+  signals.target[0].wheel = signals.target[1].wheel = {};
+  EXPECT_EQ(features.update(signals).status, SignalStatus::good);
 }
 
 }  // namespace

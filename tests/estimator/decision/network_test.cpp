@@ -75,5 +75,40 @@ TEST(DecisionModel, WithWeightsThatAreNotFiniteIsRefused) {
   EXPECT_THROW(check_decision_model(model), InputError);
 }
 
+TEST(PairedDecisionNetwork, GivesEachWheelTheLogitWithTheServoLoad) {
+  test::Normal normal(4);
+  for (int round = 0; round < 20; ++round) {
+    DecisionModel model = test::random_model(static_cast<std::uint32_t>(round));
+    model.servo_weight.resize(servo_weights);
+    for (float& weight : model.servo_weight) weight = static_cast<float>(normal());
+    ServoLoadInputs left{};
+    for (float& x : left) x = static_cast<float>(normal());
+    DecisionPairInputs pair;
+    for (std::size_t i = 0; i < decision_scales; ++i) {
+      pair.servo_common[i] = left[i] + left[decision_scales + i];
+      pair.servo_difference[i] = left[i] - left[decision_scales + i];
+    }
+    const std::array<float, 2> logits = PairedDecisionNetwork(model).logits(pair);
+    const float of_left = decision_logit(model, {}, left);
+    const float of_right = decision_logit(model, {}, of_other_wheel(left));
+    EXPECT_NEAR(logits[0], of_left, 1e-4F * (1.0F + std::abs(of_left)));
+    EXPECT_NEAR(logits[1], of_right, 1e-4F * (1.0F + std::abs(of_right)));
+    EXPECT_NE(of_left, of_right);
+  }
+}
+
+TEST(DecisionModel, WithWrongServoWeightsIsRefused) {
+  for (const std::size_t size : {std::size_t{1}, servo_weights - 1, servo_weights + 1}) {
+    DecisionModel model;
+    model.servo_weight.resize(size);
+    EXPECT_THROW(check_decision_model(model), InputError) << size;
+  }
+  DecisionModel model;
+  model.servo_weight.resize(servo_weights);
+  EXPECT_NO_THROW(check_decision_model(model));
+  model.servo_weight[5] = std::numeric_limits<float>::infinity();
+  EXPECT_THROW(check_decision_model(model), InputError);
+}
+
 }  // namespace
 }  // namespace touchdown

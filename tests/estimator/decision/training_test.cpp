@@ -142,5 +142,55 @@ TEST(DecisionTraining, RepeatsItselfToTheBit) {
   EXPECT_FALSE(train_decision_model(rows, other) == once);
 }
 
+TEST(DecisionLoss, TreatsTheServoLoadAsOneMoreInput) {
+  // With the first inputs once more as the servo load, its weights add to theirs.
+  constexpr std::size_t count = 2 * decision_scales;
+  test::Normal normal(8);
+  DecisionModel model = test::random_model(4);
+  model.servo_weight.resize(servo_weights);
+  for (float& weight : model.servo_weight) weight = static_cast<float>(0.3 * normal());
+  DecisionModel sum = model;
+  sum.servo_weight.clear();
+  for (std::size_t i = 0; i < servo_weights; ++i) sum.first_weight[i] += model.servo_weight[i];
+  const DecisionRows rows = weighted_coins();
+  DecisionRows twice = rows;
+  twice.servo = rows.inputs.topRows(static_cast<int>(count));
+  DecisionModel found;
+  found.servo_weight.resize(servo_weights);
+  DecisionModel expected;
+  EXPECT_NEAR(decision_loss(model, twice, &found), decision_loss(sum, rows, &expected), 1e-5);
+  float largest = 0.0F;
+  for (std::size_t i = 0; i < servo_weights; ++i) {
+    ASSERT_NEAR(found.servo_weight[i], expected.first_weight[i], 1e-5F) << i;
+    ASSERT_NEAR(found.first_weight[i], expected.first_weight[i], 1e-5F) << i;
+    largest = std::max(largest, std::abs(found.servo_weight[i]));
+  }
+  EXPECT_GT(largest, 0.01F);
+  DecisionInputs inputs;
+  std::copy_n(rows.inputs.col(3).data(), inputs.size(), inputs.begin());
+  ServoLoadInputs servo;
+  std::copy_n(inputs.begin(), count, servo.begin());
+  EXPECT_NEAR(decision_logit(model, inputs, servo), decision_logit(sum, inputs), 1e-3F);
+}
+
+TEST(DecisionTraining, LearnsFromTheServoLoadWhatNoOtherInputShows) {
+  test::Normal normal(9);
+  DecisionRows rows = coins(20'000, 0.0, 0.0, 10).rows;
+  rows.servo.resize(static_cast<int>(2 * decision_scales), rows.inputs.cols());
+  for (Eigen::Index row = 0; row < rows.servo.cols(); ++row) {
+    for (Eigen::Index i = 0; i < rows.servo.rows(); ++i) {
+      rows.servo(i, row) = static_cast<float>(normal());
+    }
+    rows.is_contact[row] = rows.servo(2, row) > 0.0F ? 1.0F : 0.0F;
+  }
+  const DecisionModel model = train_decision_model(rows, {.batch = 256, .epochs = 8});
+  ServoLoadInputs loaded{};
+  ServoLoadInputs unloaded{};
+  loaded[2] = 1.5F;
+  unloaded[2] = -1.5F;
+  EXPECT_GT(decision_logit(model, {}, loaded), 2.0F);
+  EXPECT_LT(decision_logit(model, {}, unloaded), -2.0F);
+}
+
 }  // namespace
 }  // namespace touchdown

@@ -198,5 +198,32 @@ TEST(EvidenceTraining, RefusesInvalidValues) {
   EXPECT_THROW(check_evidence_fit_config({.descent = {.batch = 0}}), InputError);
 }
 
+TEST(EvidenceTraining, FindsTheLogitOfTheServoLoad) {
+  // As `two_gaussians`, of one of the optional inputs.
+  test::Normal normal(12);
+  DecisionRows rows = empty_rows(40'000);
+  rows.servo.setZero(static_cast<int>(2 * decision_scales), rows.inputs.cols());
+  constexpr std::size_t input = 11;
+  for (Eigen::Index row = 0; row < rows.servo.cols(); ++row) {
+    rows.is_contact[row] = row % 2 == 0 ? 1.0F : 0.0F;
+    rows.servo(static_cast<int>(input), row) =
+        static_cast<float>((row % 2 == 0 ? 1.0 : -1.0) + normal());
+  }
+  const EvidenceModel model = train_evidence_model(rows, brisk);
+  ASSERT_EQ(model.servo_curve.size(), 2 * decision_scales);
+  ASSERT_EQ(model.servo_seen.size(), 2 * decision_scales);
+  EXPECT_LT(model.servo_seen[input][0], -3.0F);
+  EXPECT_GT(model.servo_seen[input][1], 3.0F);
+  for (float x = -2.0F; x <= 2.0F; x += 0.25F) {
+    EXPECT_NEAR(model.bias + evidence_at(model.servo_curve[input], x), 2.0F * x, 0.35F) << x;
+    // Both wheels from one evaluation: of the left wheel it is the other leg's input.
+    ServoLoadInputs servo{};
+    servo[input] = x;
+    const std::array<float, 2> logits = PairedEvidence(model).logits({}, servo);
+    EXPECT_NEAR(logits[0], evidence_logit(model, {}, servo), 1e-4F);
+    EXPECT_NEAR(logits[1], evidence_logit(model, {}, of_other_wheel(servo)), 1e-4F);
+  }
+}
+
 }  // namespace
 }  // namespace touchdown

@@ -299,5 +299,50 @@ TEST(MakeEstimator, TakesTheBoundsOfSignalsFromMetadataAndUse) {
       HasSubstr("has no 'bounds.speed'"));
 }
 
+TEST(Configuration, HasTheServoLoadOnlyWhereTheModelHasIt) {
+  LegGeometry legs;
+  legs.hip_friction = 0.06;
+  legs.knee_friction = 0.07;
+  legs.position_resolution = 1e-3;
+  for (const char* const name : {"touchdown", "decision_network", "evidence_curves"}) {
+    const ConfigurationText without = default_configuration(name, 1000.0, legs);
+    for (const char* const key :
+         {"servo_load", "hip_friction", "knee_friction", "position_resolution"}) {
+      EXPECT_FALSE(without.contains(key)) << name << key;
+    }
+    DecisionConfig read;
+    configure(read, default_configuration(name, 1000.0, legs, true));
+    EXPECT_TRUE(read.servo_load);
+    EXPECT_EQ(read.geometry, legs);
+  }
+  // Other estimators have no such channel.
+  EXPECT_EQ(default_configuration("phase", 1000.0, legs, true),
+            default_configuration("phase", 1000.0, legs));
+}
+
+TEST(Parameters, OfModelsWithTheServoLoadReadBack) {
+  TouchdownModel model{test::random_curves(5, false), test::random_model(6)};
+  const Parameters without = parameters_of(model);
+  for (const auto& [name, values] : without) EXPECT_EQ(name.find("servo"), std::string::npos);
+  model.network.servo_weight.assign(servo_weights, 0.25F);
+  model.evidence.servo_curve.resize(2 * decision_scales);
+  model.evidence.servo_seen.resize(2 * decision_scales);
+  for (std::size_t i = 0; i < model.evidence.servo_curve.size(); ++i) {
+    model.evidence.servo_curve[i].fill(static_cast<float>(i));
+    model.evidence.servo_seen[i] = {-1.0F, static_cast<float>(i)};
+  }
+  const Parameters parameters = parameters_of(model);
+  EXPECT_EQ(touchdown_model_of(parameters), model);
+  EXPECT_TRUE(parameters.contains("curves_servo_load"));
+  EXPECT_TRUE(parameters.contains("curves_other_servo_load"));
+  // One part without the other is refused.
+  Parameters half = parameters;
+  half.erase("servo_weight");
+  EXPECT_THROW(TouchdownEstimator(touchdown_model_of(half)), InputError);
+  half = parameters;
+  half.erase("curves_other_servo_load");
+  EXPECT_THROW(touchdown_model_of(half), InputError);
+}
+
 }  // namespace
 }  // namespace touchdown

@@ -63,5 +63,60 @@ TEST(DecisionNetworkEntry, RefusesModelsWithoutALayerOrWithOtherFeatures) {
   }
 }
 
+/// The run with targets that give its torques by the law.
+RunSignals with_targets(RunSignals run) {
+  for (Signals& signals : run.signals) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const LegSignals& leg = signals.leg[side];
+      LegTargets& target = signals.target[side];
+      target.hip = {leg.hip.position + leg.hip.torque / 40.0, leg.hip.velocity, 0.0, 40.0, 2.0};
+      target.knee = {leg.knee.position + leg.knee.torque / 40.0, leg.knee.velocity, 0.0, 40.0, 2.0};
+    }
+  }
+  return run;
+}
+
+TEST(TouchdownEntry, HasTheServoLoadIfItsFitDoes) {
+  const RunSignals run = with_targets(synthetic_run(1'000'000, 1500));
+  for (const EstimatorEntry& entry :
+       {touchdown_entry(), decision_network_entry(), evidence_curves_entry()}) {
+    const FittedModel with = entry.fit(entry, {.whole = {&run}, .servo_load = true});
+    const FittedModel without = entry.fit(entry, {.whole = {&run}});
+    const auto has = [](const FittedModel& model, const char* name) {
+      return model.parameters->parameters.contains(name);
+    };
+    EXPECT_EQ(has(with, "servo_weight"), entry.name != "evidence_curves");
+    EXPECT_EQ(has(with, "curves_servo_load"), entry.name != "decision_network");
+    EXPECT_FALSE(has(without, "servo_weight") || has(without, "curves_servo_load"));
+    // A fit without the channel does not depend on targets.
+    const RunSignals plain = synthetic_run(1'000'000, 1500);
+    EXPECT_EQ(entry.fit(entry, {.whole = {&plain}}).parameters->parameters,
+              without.parameters->parameters);
+
+    const RunSignals other = with_targets(synthetic_run(3, 1500));
+    const auto estimator = entry.make(entry, {.model = &with});
+    const auto twin = entry.make(entry, {.model = &without});
+    std::size_t agreed = 0;
+    for (std::size_t k = 0; k < other.steps(); ++k) {
+      Signals signals = other.signals[k];
+      ASSERT_NE(estimator->update(signals).status, SignalStatus::degraded) << k;
+      signals.target = {};
+      ASSERT_NE(twin->update(signals).status, SignalStatus::degraded) << k;
+    }
+    estimator->reset();
+    std::size_t degraded = 0;
+    for (std::size_t k = 0; k < other.steps(); ++k) {
+      Signals signals = other.signals[k];
+      signals.target = {};
+      const Belief& belief = estimator->update(signals);
+      degraded += belief.status == SignalStatus::degraded ? 1 : 0;
+      agreed += belief.wheel[0].contact == (other.contact[0][k] != 0) ? 1 : 0;
+    }
+    EXPECT_EQ(degraded, other.steps()) << entry.name;
+    // It still decides by its other channels.
+    EXPECT_GT(static_cast<double>(agreed), 0.9 * static_cast<double>(other.steps())) << entry.name;
+  }
+}
+
 }  // namespace
 }  // namespace touchdown::experiments

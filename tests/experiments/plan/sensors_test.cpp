@@ -53,14 +53,23 @@ TEST(RequestedSensors, AreReadFromTheCopiesInTheRunDirectory) {
 
 TEST(RequestedSensors, GiveARunTheSameErrorsInBothEngines) {
   RunRequest request = request_with("sensors/harsh.yaml");
-  std::vector<models::Observation> first(20), again(20), other(20);
+  recordings::Recording first, again, other;
+  for (recordings::Recording* recording : {&first, &again, &other}) {
+    recording->observation.resize(20);
+    recording->action.resize(20);
+    for (models::Action& action : recording->action) action.servo[1].position = 0.5;
+  }
   const noise::SensorProfile profile = request.sensors.front().profile;
-  report_through_sensors(profile, request.experiment, 3, 0.001, first);
-  report_through_sensors(profile, request.experiment, 3, 0.001, again);
-  report_through_sensors(profile, request.experiment, 4, 0.001, other);
-  EXPECT_EQ(first[7].servo[1].torque, again[7].servo[1].torque);
-  EXPECT_NE(first[7].servo[1].torque, other[7].servo[1].torque);
-  EXPECT_NE(first[7].servo[1].torque, 0.0);
+  report_through_sensors(profile, request.experiment, 3, first);
+  report_through_sensors(profile, request.experiment, 3, again);
+  report_through_sensors(profile, request.experiment, 4, other);
+  EXPECT_EQ(first.observation[7].servo[1].torque, again.observation[7].servo[1].torque);
+  EXPECT_NE(first.observation[7].servo[1].torque, other.observation[7].servo[1].torque);
+  EXPECT_NE(first.observation[7].servo[1].torque, 0.0);
+  // The knee reports 0 rad plus the error of its zero, by which its target moves, too.
+  EXPECT_EQ(first.action[7].servo[1].position, again.action[7].servo[1].position);
+  EXPECT_NE(first.action[7].servo[1].position, other.action[7].servo[1].position);
+  EXPECT_NE(first.action[7].servo[1].position, 0.5);
   EXPECT_EQ(setup_caption(request.experiment), "; sensors as in sensors/harsh.yaml");
   request.experiment.robot = "models/upkie_heavy.yaml";
   EXPECT_EQ(setup_caption(request.experiment),

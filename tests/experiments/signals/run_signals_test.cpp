@@ -139,5 +139,22 @@ TEST(NoiseRun, OfAnEmptyRunIsEmpty) {
   EXPECT_TRUE(noise_run({}, key).vertical_acceleration.empty());
 }
 
+TEST(RunSignals, HaveTheTargetsOfThePreviousStep) {
+  recordings::Recording recording = wobbling_run();
+  for (std::size_t k = 0; k < recording.steps(); ++k) {
+    const auto time = static_cast<double>(k);
+    recording.action[k].servo[4] = {0.1, time, 0.2, 2.0, 3.0, 16.0};
+  }
+  const RunSignals run = signals_of(recording, {}, {}, scoring::SampleUnit::run);
+  EXPECT_TRUE(std::isnan(run.signals[0].target[1].knee.kp));
+  const JointTarget& knee = run.signals[61].target[1].knee;
+  EXPECT_EQ(knee.position, 60.0);
+  EXPECT_EQ(knee.velocity, 0.2);
+  EXPECT_EQ(knee.feedforward_torque, 0.1);
+  EXPECT_EQ(knee.kp, 40.0);
+  EXPECT_EQ(knee.kd, 3.0);
+  EXPECT_TRUE(std::isnan(run.signals[61].target[0].knee.position));
+}
+
 }  // namespace
 }  // namespace touchdown::experiments

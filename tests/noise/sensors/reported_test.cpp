@@ -391,5 +391,37 @@ TEST(ReportedDropouts, OfAMissingRecordLeaveNoNumberOfTheStep) {
 
 TEST(ReportedRun, OfNoStepsIsLeftAlone) { EXPECT_TRUE(reported(all_sensors, Steps()).empty()); }
 
+TEST(ReportTargets, KeepTheTrackingErrorOfTheServos) {
+  // Zero errors of joints move positions and targets alike, drawn or given, on every joint.
+  for (const char* text : {"position: {hip: {bias: {sd: 0.02}}, knee: {bias: {sd: 0.02}}}",
+                           "position: {bias: {value: 0.3, sd: 0.1}}", "torque: {white: 0.1}"}) {
+    const SensorProfile profile = profile_of(text);
+    const Steps ideal = tumbling(5);
+    const Steps seen = reported(profile, ideal);
+    std::vector<models::Action> actions(ideal.size());
+    for (std::size_t k = 0; k < actions.size(); ++k) {
+      for (std::size_t i = 0; i < models::servo_count; ++i) {
+        actions[k].servo[i] = {0.1, ideal[k].servo[i].position + 0.05, 0.2, 2.0, 0.3, 4.0};
+      }
+      actions[k].servo[2].position = std::nan("");
+    }
+    std::vector<models::Action> shifted = actions;
+    report_targets(profile, key, shifted);
+    for (std::size_t k = 0; k < actions.size(); ++k) {
+      for (std::size_t i = 0; i < models::servo_count; ++i) {
+        const models::ServoCommand& command = shifted[k].servo[i];
+        if (i == 2) {
+          EXPECT_TRUE(std::isnan(command.position));
+        } else {
+          EXPECT_NEAR(command.position - seen[k].servo[i].position, 0.05, 1e-12) << text;
+        }
+        EXPECT_EQ(command.velocity, 0.2);
+        EXPECT_EQ(command.feedforward_torque, 0.1);
+        EXPECT_EQ(command.kp_scale, 2.0);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace touchdown::noise

@@ -213,6 +213,39 @@ TEST_F(Conversion, CommandOfTheWheelsIsMapped) {
   EXPECT_EQ(rows.at(0).action.servo[5].velocity, -6.0);
 }
 
+TEST_F(Conversion, TargetsOfLegsAreMapped) {
+  const std::string header = names + ",ph,pk,qh,qk,vh,vk,wh,wk\n" + row("0");
+  const std::string values = ",90,-45,-90,30,1,2,3,4\n";
+  const auto mapped = [](const std::string& keys) {
+    return replaced(mapping_head, "imu:", "  leg_targets: {" + keys + "}\nimu:");
+  };
+  const std::string position =
+      "position: {from: [ph, pk, qh, qk], unit: deg, zero: [0.1, 0, 0, 0]}";
+  const auto rows =
+      convert(header + values, mapped(position + ", velocity: {from: [vh, vk, wh, wk], sign: -1}, "
+                                                 "kp: [40, 30, 20, 10], kd: 2"));
+  const auto& servo = rows.at(0).action.servo;
+  EXPECT_NEAR(servo[0].position, M_PI / 2 - 0.1, 1e-12);
+  EXPECT_NEAR(servo[1].position, -M_PI / 4, 1e-12);
+  EXPECT_NEAR(servo[3].position, -M_PI / 2, 1e-12);
+  EXPECT_NEAR(servo[4].position, M_PI / 6, 1e-12);
+  EXPECT_EQ(servo[4].velocity, -4.0);
+  EXPECT_EQ(servo[1].feedforward_torque, 0.0);
+  // Scales of Upkie's gains, 20 N·m/rad and 1 N·m·s/rad.
+  EXPECT_EQ(servo[0].kp_scale, 2.0);
+  EXPECT_EQ(servo[4].kp_scale, 0.5);
+  EXPECT_EQ(servo[3].kd_scale, 2.0);
+  // Without kd there is no damping, and without this section there are no targets.
+  EXPECT_EQ(convert(header + values, mapped(position + ", kp: 40")).at(0).action.servo[0].kd_scale,
+            0.0);
+  EXPECT_TRUE(std::isnan(convert(names + "\n" + row("0") + "\n").at(0).action.servo[0].position));
+  EXPECT_THAT(complaint(header + values, mapped(position)), HasSubstr("kp: is missing"));
+  for (const char* const kp : {"-1", ".nan", "[1, 2]", "[1, 2, 3, -4]"}) {
+    EXPECT_THAT(complaint(header + values, mapped(position + ", kp: " + kp)), HasSubstr("kp: "))
+        << kp;
+  }
+}
+
 TEST_F(Conversion, LabelsAreIntervalsOfEqualRows) {
   std::string text = names + ",left,right\n";
   const char* labels[] = {"1,1", "1,1", "0,1", "0,1", ",1", "1,0.2"};

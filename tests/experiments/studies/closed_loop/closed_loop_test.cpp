@@ -116,7 +116,7 @@ TEST(ClosedLoop, ContactSourcesDecideAsInOfflineEvaluation) {
     const ClosedLoopRun loop = run_closed_loop(request, cell, 1, {}, scenes, [] { return true; });
     recordings::Recording reported = loop.recording;
     report_through_sensors(profile_of(request.sensors, experiment.sensors), experiment, 1,
-                           reported.period(), reported.observation);
+                           reported);
     const RunSignals run =
         signals_of(reported, experiment.labels, experiment.scoring, experiment.intervals.over);
     const EstimatorEntry& entry = estimator_entry("support_force");
