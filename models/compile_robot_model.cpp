@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "models/contract/conventions.hpp"
@@ -29,18 +30,28 @@ struct RobotFile {
   std::vector<std::string> ignored;
 };
 
+bool is_urdf(const MjcfDocument& document) {
+  return std::strcmp(document.root().Name(), "robot") == 0;
+}
+
+/// ", or a YAML file about this URDF that names its joints: a, b".
+std::string hint_about_urdf(const MjcfDocument& urdf) {
+  std::vector<std::string> joints;
+  urdf.visit([&](const tinyxml2::XMLElement& element) {
+    const std::string_view type = attribute(element, "type");
+    const bool moves = type == "revolute" || type == "continuous" || type == "prismatic";
+    if (std::strcmp(element.Name(), "joint") != 0 || !moves) return;
+    joints.emplace_back(attribute(element, "name"));
+  });
+  return fmt::format(", or a YAML file about this URDF that names its joints{}",
+                     joints.empty() ? "" : fmt::format(": {}", fmt::join(joints, ", ")));
+}
+
 void require_mjcf(const MjcfDocument& document) {
   const tinyxml2::XMLElement& root = document.root();
   if (std::strcmp(root.Name(), "mujoco") == 0 && root.FirstChildElement() != nullptr) return;
-  const char* const more = std::strcmp(root.Name(), "robot") == 0
-                               ? ", or a YAML file about this URDF that names its joints"
-                               : "";
-  document.fail(root,
-                fmt::format("{}: expected a robot in <mujoco>...</mujoco>{}", root.Name(), more));
-}
-
-bool is_urdf(const MjcfDocument& document) {
-  return std::strcmp(document.root().Name(), "robot") == 0;
+  document.fail(root, fmt::format("{}: expected a robot in <mujoco>...</mujoco>{}", root.Name(),
+                                  is_urdf(document) ? hint_about_urdf(document) : ""));
 }
 
 RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys) {

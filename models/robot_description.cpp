@@ -172,8 +172,10 @@ RobotDescription robot_description(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(robot.mjcf, ignored)) {
     std::vector<std::string> neighbours;
-    for (const auto& mjcf : resources_in(robot.mjcf.parent_path(), ".xml")) {
-      neighbours.push_back(mjcf.filename().string());
+    for (const char* extension : {".xml", ".urdf"}) {
+      for (const auto& neighbour : resources_in(robot.mjcf.parent_path(), extension)) {
+        neighbours.push_back(neighbour.filename().string());
+      }
     }
     Fields(document).check(false, "mjcf",
                            robot.mjcf.string() + ": no such file" +

@@ -159,8 +159,8 @@ struct Later {
   std::string where, by, name, version;
 };
 
-/// The versions are those of the sections of MuJoCo's changelog that list it as added, and of the notes
-/// of the releases 3.11.0 and 3.12.0.
+/// The versions are those of the sections of MuJoCo's changelog that list it as added, and of the
+/// notes of the releases 3.11.0 and 3.12.0.
 TEST_F(RefusedRobot, WhatLaterVersionsOfMuJoCoAddedIsNamedAsSuch) {
   const std::string motor = "<motor name=\"left_hip\" joint=\"left_hip\" ctrlrange=\"-16 16\"";
   const std::string servo = "<position name=\"left_hip\" joint=\"left_hip\" kp=\"9\" ";
@@ -264,6 +264,9 @@ TEST_F(RefusedRobot, OtherJointsAndLegsAreNamedWithTheWayOut) {
                     HasSubstr("YAML")));
   EXPECT_THAT(complaint("<robot name=\"a\"><link name=\"b\"/></robot>"),
               AllOf(HasSubstr("<mujoco>"), HasSubstr("YAML file about this URDF")));
+  EXPECT_THAT(complaint("<robot><link name=\"b\"/><joint name=\"knee_l\" type=\"revolute\"/>"
+                        "<joint name=\"fix\" type=\"fixed\"/></robot>"),
+              HasSubstr("that names its joints: knee_l"));
 }
 
 TEST_F(RefusedRobot, EveryComplaintHasTheLineThatItIsAbout) {
