@@ -14,12 +14,18 @@ std::string strip_name(std::size_t wheel, std::size_t strip) {
   return fmt::format("touchdown_{}_{}", tyre_names[wheel], strip);
 }
 
+/// A tyre in messages: its geom, or the joint of its wheel.
+std::string title_of_tyre(const Contract& contract, std::size_t wheel) {
+  const std::string& own = contract.parts().tyre[wheel];
+  const std::string& joint = contract.parts().joint[index(wheel_servos[wheel])];
+  if (own.empty() && !joint.empty()) return fmt::format("tyre of joint '{}'", joint);
+  return fmt::format("geom '{}'", own.empty() ? tyre_names[wheel] : own);
+}
+
 [[noreturn]] void fail_at_tyre(const Contract& contract, std::size_t wheel,
                                const std::string& message) {
-  const std::string& own = contract.parts().tyre[wheel];
-  contract.fail_at_geom(
-      contract.find(mjOBJ_GEOM, "geom", tyre_names[wheel]),
-      fmt::format("geom '{}': {}", own.empty() ? tyre_names[wheel] : own, message));
+  contract.fail_at_geom(contract.find(mjOBJ_GEOM, "geom", tyre_names[wheel]),
+                        fmt::format("{}: {}", title_of_tyre(contract, wheel), message));
 }
 
 std::string text_of(const Eigen::Vector3d& v) {

@@ -170,6 +170,9 @@ TEST(AUrdfOfAVendor, IsComplainedAboutAtItsLines) {
             "expected a URDF, found xacro"},
            {"<limit effort=\"20\" lower=\"-1.3\"", "<limit lower=\"-1.3\"",
             "joint 'left_hip_joint': expected a motor that drives it, an effort limit"},
+           {"<geometry><cylinder length=\"0.03\" radius=\"0.07\"/>",
+            "<origin rpy=\"1.5707963 0 0\"/>$&",
+            "tyre of joint 'left_wheel_joint': its axis in the base is (0 0 "},
            {"<axis xyz=\"0 0 -1\"/>", "<axis xyz=\"1 0 0\"/>", "its axis in the base is (1 0 0)"},
            {"<origin xyz=\"0 0.1 0\"/><mass value=\"0.5\"/>\\s*<inertia[^>]*>",
             "<mass value=\"0\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" "
