@@ -114,6 +114,8 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return complain(complaint(program, argc, argv, error), wrong_request);
   } catch (const InputError& error) {
+    // To the reader of a stream that ends early, because it was asked to, the input looks cut off.
+    if (*session.stop) return complain("stopped", failed);
     return complain(error.what(), wrong_request);
   } catch (const std::bad_alloc&) {
     throw;

@@ -1,6 +1,9 @@
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <functional>
 #include <random>
+#include <sys/wait.h>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -87,6 +90,47 @@ TEST(Restart, ComputesDamagedPartsAgain) {
     EXPECT_EQ(fs::last_write_time(parts[i]) == written[i], i != 2 && i != 7) << parts[i];
   }
   EXPECT_THAT(different_files(result_files(folder / "a"), expected), IsEmpty());
+}
+
+TEST(Interrupt, WhileStandardInputIsSilentIsNoEmptyLog) {
+  const ScratchFolder folder;
+  for (const std::string arguments : {"check -", "fit - -o m.npz", "export - -o x.mcap"}) {
+    const std::string command = "cd '" + folder.path().string() +
+                                "' && timeout 3 tail -f /dev/null | timeout --preserve-status -s "
+                                "INT 1 '" TOUCHDOWN_PROGRAM "' " +
+                                arguments + " >/dev/null 2>.stderr";
+    const int status = std::system(command.c_str());
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    constexpr int ended_by_signal = 128 + SIGINT;  // on a busy machine, before it can react
+    if (code == ended_by_signal) continue;
+    EXPECT_EQ(code, 1) << arguments;
+    EXPECT_THAT(read_file(folder / ".stderr"), ::testing::StartsWith("touchdown: stopped"));
+  }
+}
+
+TEST(Interrupt, EndsIntervalsAndDrawsOfScenarios) {
+  const ScratchFolder folder;
+  const auto stopped = [&](const std::string& arguments, const std::function<bool()>& has_begun) {
+    StartedProgram program(arguments, folder.path());
+    while (program.is_running() && !has_begun()) program.let_run(0.002);
+    program.send(SIGINT);
+    return program.end();
+  };
+  // A million resamples take minutes. They begin after the last part of the evaluation.
+  const Ended run = stopped("run " + write_tiny_experiment(folder) +
+                                " --no-pictures --out a --set intervals.resamples=1000000",
+                            [&] { return saved_parts(folder / "a").size() == 12; });
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.errors, ContainsRegex("stopped; 8 of 8 recordings and (all )?12"));
+  EXPECT_FALSE(fs::exists(folder / "a/tables/success.csv"));
+  int waits = 0;
+  const Ended draws = stopped("generate --count 100000 -o scenes", [&] { return ++waits > 200; });
+  // On a busy machine the program may still be loading its libraries.
+  if (draws.exit_code != -SIGINT) {
+    EXPECT_EQ(draws.exit_code, 1);
+    EXPECT_THAT(draws.errors, HasSubstr("stopped; nothing was written"));
+  }
+  EXPECT_FALSE(fs::exists(folder / "scenes"));
 }
 
 TEST(Interrupt, ReportsWhatIsSavedAndTheSameCommandContinues) {
