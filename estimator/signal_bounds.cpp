@@ -22,15 +22,14 @@ constexpr std::array<std::string_view, signal_count> names = {
     "angular velocity x",    "angular velocity y",     "angular velocity z",
     "vertical acceleration", "ground velocity command"};
 
-/// The members from the time to the targets as one array, by one copy that the compiler turns into
-/// vector loads.
-std::array<double, signal_count> values_of(const Signals& signals) noexcept {
+/// A member from the time to the targets, by its number.
+double value_of(const Signals& signals, std::size_t index) noexcept {
   static_assert(sizeof(Signals) == (1 + signal_count) * sizeof(double) + sizeof(Signals::target));
-  std::array<double, signal_count> values;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  double value = 0.0;
   // Eigen's vectors have constructors of their own, but nothing besides their numbers.
   const auto* const bytes = reinterpret_cast<const char*>(&signals);  // NOLINT
-  std::memcpy(values.data(), bytes + sizeof(signals.time), sizeof(values));
-  return values;
+  std::memcpy(&value, bytes + sizeof(signals.time) + index * sizeof(value), sizeof(value));
+  return value;
 }
 
 /// Written so that NaN fails.
@@ -70,21 +69,22 @@ SignalCheck::SignalCheck(const SignalBounds& bounds) {
 }
 
 SignalIndex SignalCheck::first_unusable(const Signals& signals) const noexcept {
-  const std::array<double, signal_count> values = values_of(signals);
+  // Without a copy of the values, which would be stored in other pieces than it is loaded.
   std::int64_t usable = 1;  // as wide as the values, so that the loop vectorises
   for (std::size_t i = 0; i < signal_count; ++i) {
-    usable &= is_within(values[i], largest_[i]) ? 1 : 0;
+    usable &= is_within(value_of(signals, i), largest_[i]) ? 1 : 0;
   }
   if (usable != 0) return SignalIndex::none;
   std::size_t first = 0;
-  while (is_within(values[first], largest_[first])) ++first;
+  while (is_within(value_of(signals, first), largest_[first])) ++first;
   return static_cast<SignalIndex>(first);
 }
 
 Signals SignalCheck::without_unusable(const Signals& signals) const noexcept {
-  std::array<double, signal_count> values = values_of(signals);
+  std::array<double, signal_count> values{};
   for (std::size_t i = 0; i < signal_count; ++i) {
-    if (!is_within(values[i], largest_[i])) values[i] = std::numeric_limits<double>::quiet_NaN();
+    const double value = value_of(signals, i);
+    values[i] = is_within(value, largest_[i]) ? value : std::numeric_limits<double>::quiet_NaN();
   }
   Signals usable;
   usable.time = signals.time;
