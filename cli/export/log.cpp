@@ -1,5 +1,7 @@
 #include "cli/export/log.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -7,10 +9,14 @@
 #include "core/program/outputs.hpp"
 #include "core/program/streams.hpp"
 #include "core/progress.hpp"
+#include "core/resources.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
+#include "recordings/log/recording_file.hpp"
 #include "recordings/mapping/conversion.hpp"
 #include "recordings/mcap/log.hpp"
+#include "render/mcap/scene.hpp"
+#include "render/pictures/filmed_run.hpp"
 
 namespace touchdown::cli {
 
@@ -55,6 +61,22 @@ std::string labels_text(const ExportedLog& files, const recordings::ConvertedLog
   return recordings::to_csv(log.contact);
 }
 
+/// A log with the robot to draw: the one of a recording, or the named one on flat ground. Nothing
+/// for a log without either, and for a live stream.
+std::optional<render::FilmedRun> drawable(const std::string& log, const std::string& robot,
+                                          const recordings::RecordingInfo& info) {
+  if (log == "-") return std::nullopt;
+  std::vector<std::string> warnings;  // the reader of the log prints them
+  if (!robot.empty()) {
+    return render::FilmedRun{models::compile_robot_model(find_resource(robot), {}),
+                             recordings::read_recording(log, &warnings),
+                             {},
+                             {}};
+  }
+  if (info.scenario_yaml.empty()) return std::nullopt;
+  return render::filmed_recording(log, warnings);
+}
+
 }  // namespace
 
 void export_log(const ExportedLog& files, const CliSession& session) {
@@ -84,12 +106,15 @@ void export_log(const ExportedLog& files, const CliSession& session) {
   }
 }
 
-void export_mcap(const std::string& log, const std::string& output, const CliSession& session) {
+void export_mcap(const std::string& log, const std::string& robot, const std::string& output,
+                 const CliSession& session) {
   check_outputs({{log, "log"}}, {output});
   recordings::LogReader reader(log, session.stop);
   std::uint64_t rows = 0;
+  const std::optional<render::FilmedRun> run = drawable(log, robot, reader.info());
   write_stream_atomically(output, [&](std::ostream& stream) {
-    rows = recordings::write_mcap(reader, stream);
+    rows = run ? render::write_mcap_with_scene(reader, stream, run->robot, run->recording)
+               : recordings::write_mcap(reader, stream);
     check_stop(session);
   });
   for (const std::string& warning : reader.warnings())

@@ -135,7 +135,8 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
   if (!flags.mapping.empty()) {
     export_log({flags.source, flags.mapping, flags.output, flags.labels, flags.strict}, session);
   } else if (std::filesystem::path(flags.output).extension() == ".mcap") {
-    export_mcap(flags.source, flags.output, session);
+    export_mcap(flags.source, flags.part.robots.empty() ? "" : flags.part.robots.front(),
+                flags.output, session);
   } else if (!flags.output.empty()) {
     export_model(flags);
   } else {
@@ -193,7 +194,9 @@ void add_export(CLI::App& program, const CliSession& session) {
       .not_negative();
   verb.option("--robot", &flags->part.robots,
               "Export only this robot, as the benchmark's table names it. For a model: the robot\n"
-              "that it is for. Its file gives the leg geometry to an estimator that computes loads")
+              "that it is for. Its file gives the leg geometry to an estimator that computes "
+              "loads. For\n"
+              "a log as FILE.mcap: the robot to show, if the log does not contain it")
       .value_name("NAME|FILE")
       .one_at_a_time();
   verb.option(

@@ -61,7 +61,11 @@ Json beliefs_of(Json& observation) {
 
 }  // namespace
 
-std::uint64_t write_mcap(LogReader& reader, std::ostream& stream) {
+std::string json_schema_of(std::string_view message) {
+  return text_of(schema_of(Json::parse(message)));
+}
+
+std::uint64_t write_mcap(LogReader& reader, std::ostream& stream, const AddMessages& add) {
   McapWriter writer(stream);
   std::uint16_t of_observation = 0;
   std::uint16_t of_beliefs = 0;
@@ -75,13 +79,16 @@ std::uint64_t write_mcap(LogReader& reader, std::ostream& stream) {
     Json observation = observation_in(reader.record(), reader.name());
     const Json beliefs = beliefs_of(observation);
     if (rows == 0) {
-      of_observation = writer.add_topic(mcap_observation_topic, text_of(schema_of(observation)));
+      of_observation = writer.add_topic(mcap_observation_topic, mcap_observation_topic + 1,
+                                        text_of(schema_of(observation)));
       if (!beliefs.empty()) {
-        of_beliefs = writer.add_topic(mcap_belief_topic, text_of(schema_of(beliefs)));
+        of_beliefs =
+            writer.add_topic(mcap_belief_topic, mcap_belief_topic + 1, text_of(schema_of(beliefs)));
       }
     }
     writer.write(of_observation, time, text_of(observation));
     if (of_beliefs != 0 && !beliefs.empty()) writer.write(of_beliefs, time, text_of(beliefs));
+    if (add) add(writer, rows, time);
   }
   writer.finish();
   return rows;

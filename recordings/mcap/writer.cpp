@@ -81,11 +81,12 @@ void McapWriter::emit(std::string_view bytes) {
   position_ += bytes.size();
 }
 
-std::uint16_t McapWriter::add_topic(std::string_view topic, std::string_view schema) {
+std::uint16_t McapWriter::add_topic(std::string_view topic, std::string_view schema_name,
+                                    std::string_view schema) {
   const auto id = static_cast<std::uint16_t>(counts_.size() + 1);
   counts_[id] = 0;
   const std::string of_schema =
-      record(Op::schema, content(id, topic.substr(1), std::string_view("jsonschema"), schema));
+      record(Op::schema, content(id, schema_name, std::string_view("jsonschema"), schema));
   const std::string of_channel =
       record(Op::channel, content(id, id, topic, std::string_view("json"), std::string_view()));
   schemas_ += of_schema;

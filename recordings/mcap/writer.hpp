@@ -18,8 +18,9 @@ class McapWriter {
   /// `stream` must outlive the writer.
   explicit McapWriter(std::ostream& stream);
 
-  /// Adds a topic. `schema` is a JSON Schema. Returns the number of the topic.
-  std::uint16_t add_topic(std::string_view topic, std::string_view schema);
+  /// Adds a topic. `schema` is a JSON Schema with this name. Returns the number of the topic.
+  std::uint16_t add_topic(std::string_view topic, std::string_view schema_name,
+                          std::string_view schema);
 
   /// `time` in ns. Errors: `Error` when the stream fails.
   void write(std::uint16_t topic, std::uint64_t time, std::string_view json);

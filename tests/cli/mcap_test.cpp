@@ -1,4 +1,6 @@
+#include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
@@ -19,6 +21,7 @@ using ::testing::HasSubstr;
 
 struct Message {
   std::string topic;
+  std::string schema;      ///< its name
   std::uint64_t time = 0;  ///< ns
   nlohmann::json json;
 };
@@ -42,7 +45,7 @@ class Mcap : public ::testing::Test {
     while (status == 0 && output.peek() != std::ifstream::traits_type::eof()) {
       Message& message = messages.emplace_back();
       std::string json;
-      output >> message.topic >> message.time;
+      output >> message.topic >> message.schema >> message.time;
       std::getline(output, json);
       message.json = nlohmann::json::parse(json);
     }
@@ -93,6 +96,71 @@ TEST_F(Mcap, OfARobotWithoutBeliefsKeepsTheRobotsClock) {
   EXPECT_EQ(messages[0].time, 81'000'000'000U);
   EXPECT_EQ(messages[9].time, 81'009'000'000U);
   EXPECT_EQ(messages[9].topic, "/upkie/observation");
+}
+
+TEST_F(Mcap, ShowsRobotTerrainAndTakeoffsOfASimulatedRun) {
+  ran("simulate " TOUCHDOWN_SOURCE_DIR "/scenarios/stairs.yaml --set end.duration=5 -o run.mpack");
+  ran("export run.mpack -o run.mcap");
+  const recordings::Recording run = recordings::read_recording(folder_ / "run.mpack");
+  std::map<std::string, std::vector<Message>> by_schema;
+  for (Message& message : read("run.mcap")) by_schema[message.schema].push_back(message);
+
+  ASSERT_EQ(by_schema["foxglove.SceneUpdate"].size(), 1U);
+  const auto& entities = by_schema["foxglove.SceneUpdate"][0].json["entities"];
+  std::set<std::string> frames;
+  std::size_t triangles = 0;
+  for (const auto& entity : entities) {
+    frames.insert(entity["frame_id"]);
+    for (const auto& mesh : entity["triangles"]) {
+      triangles += mesh["indices"].size() / 3;
+      for (const auto& index : mesh["indices"]) ASSERT_LT(index, mesh["points"].size());
+    }
+  }
+  EXPECT_TRUE(frames.contains("world") && frames.contains("torso"));
+  EXPECT_GE(frames.size(), 6U);  // and wheels, and links of both legs
+  EXPECT_GT(triangles, 10U) << "no terrain";
+
+  const auto& poses = by_schema["foxglove.FrameTransforms"];
+  ASSERT_EQ(poses.size(), (run.steps() + 19) / 20);  // 50 a second
+  for (const Message& message : poses) {
+    const std::size_t row = message.time / 1'000'000U;
+    std::set<std::string> moved;
+    for (const auto& transform : message.json["transforms"]) {
+      moved.insert(transform["child_frame_id"]);
+      if (transform["child_frame_id"] != "torso") continue;
+      const Eigen::Vector3d& base = run.truth[row].base_position;
+      ASSERT_NEAR(transform["translation"]["x"], base.x(), 1e-9);
+      ASSERT_NEAR(transform["translation"]["z"], base.z(), 1e-9);
+      ASSERT_NEAR(std::abs(transform["rotation"]["w"].get<double>()),
+                  std::abs(run.truth[row].base_orientation.w()), 1e-6);
+    }
+    for (const std::string& frame : frames) {
+      ASSERT_TRUE(frame == "world" || moved.contains(frame)) << frame;
+    }
+  }
+
+  // A takeoff is a step in contact before one without.
+  std::size_t takeoffs = 0;
+  for (const Message& message : by_schema["foxglove.Log"]) {
+    if (!message.json["message"].get<std::string>().starts_with("left wheel takes off")) continue;
+    ++takeoffs;
+    const std::size_t row = message.time / 1'000'000U;
+    EXPECT_GT(run.truth[row - 6].wheel_normal_force[0], 1.0);
+    EXPECT_LE(run.truth[row].wheel_normal_force[0], 1.0);
+  }
+  EXPECT_GE(takeoffs, 1U);
+  ASSERT_EQ(run.info.outcome, recordings::Outcome::timed_out);
+  EXPECT_EQ(by_schema["foxglove.Log"].back().json["message"], "timed out");
+}
+
+TEST_F(Mcap, ShowsTheNamedRobotOfALogWithoutAScene) {
+  recordings::write_recording(test::robot_log(1.0), folder_ / "log.mpack");
+  ran("export log.mpack --robot " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml -o log.mcap");
+  std::map<std::string, std::size_t> count;
+  for (const Message& message : read("log.mcap")) ++count[message.schema];
+  EXPECT_EQ(count["foxglove.SceneUpdate"], 1U);
+  EXPECT_EQ(count["foxglove.FrameTransforms"], 50U);
+  EXPECT_EQ(count["foxglove.Log"], 0U) << "nothing is true in a robot's log";
 }
 
 TEST_F(Mcap, OfNoLogIsRefusedAndNothingIsWritten) {

@@ -183,7 +183,7 @@ def main():
             sys.exit(f'{word} is no JSON')
         value = json.loads(data, parse_constant=no_constant)
         assert fits(value, json.loads(schemas[schema][2])), (name, value)
-        print(name, time, json.dumps(value))
+        print(name, schemas[schema][0], time, json.dumps(value))
 
 
 if __name__ == '__main__':
