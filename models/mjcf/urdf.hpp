@@ -16,9 +16,9 @@ struct ConvertedUrdf {
 };
 
 /// Converts a URDF by MuJoCo's own reader, which rounds to six digits. `base` is the link that
-/// floats; if empty, the first link with a mass from the root on. Links stay bodies of their names. What is only drawn is left
-/// out; `package://` is searched in the folders above the URDF. Errors: `InputError` for an unknown
-/// base, mimic joints, missing meshes and xacro; and those of MuJoCo.
+/// floats; if empty, the first link with a mass from the root on. Links stay bodies of their names.
+/// What is only drawn is left out; `package://` is searched in the folders above the URDF. Errors:
+/// `InputError` for an unknown base, mimic joints, missing meshes and xacro; and those of MuJoCo.
 ConvertedUrdf converted_urdf(const std::filesystem::path& file, const std::string& base);
 
 }  // namespace touchdown::models

@@ -185,9 +185,9 @@ TEST_F(RefusedRobot, WhatLaterVersionsOfMuJoCoAddedIsNamedAsSuch) {
            {motor, general + "actearly=\"true\" ctrlrange=\"-1 1\"", "actearly", "3.0.0"},
            {site, "<flexcomp name=\"cloth\"/>" + site, "flexcomp", "3.0.0"},
            {"</mujoco>", "<deformable><flex/></deformable></mujoco>", "deformable", "3.0.0"},
-           {site, camera + "resolution=\"8 8\"/>" + site, "resolution", "3.0.0"},
-           {site, camera + "focal=\"1 1\"/>" + site, "focal", "3.0.0"},
-           {site, camera + "sensorsize=\"1 1\"/>" + site, "sensorsize", "3.0.0"},
+           {site, camera + "resolution=\"8 8\"/>$&", "resolution", "3.0.0"},
+           {site, camera + "focal=\"1 1\"/>$&", "focal", "3.0.0"},
+           {site, camera + "sensorsize=\"1 1\"/>$&", "sensorsize", "3.0.0"},
            {site, "<frame/>" + site, "frame", "3.1.0"},
            {motor, servo + "kv=\"1\" forcerange=\"-9 9\"", "kv", "3.1.0"},
            {motor, servo + "inheritrange=\"1\" forcerange=\"-9 9\"", "inheritrange", "3.1.3"},
@@ -199,7 +199,7 @@ TEST_F(RefusedRobot, WhatLaterVersionsOfMuJoCoAddedIsNamedAsSuch) {
            {motor, servo + "dampratio=\"1\" forcerange=\"-9 9\"", "dampratio", "3.1.6"},
            {motor, servo + "timeconst=\"1\" forcerange=\"-9 9\"", "timeconst", "3.1.6"},
            {site, "<attach model=\"arm\"/>" + site, "attach", "3.2.0"},
-           {site, camera + "orthographic=\"true\"/>" + site, "orthographic", "3.2.0"},
+           {site, camera + "orthographic=\"true\"/>$&", "orthographic", "3.2.0"},
            {root, root + " align=\"false\"", "align", "3.2.3"},
            {compiler, compiler + " alignfree=\"true\"", "alignfree", "3.2.3"},
            {compiler, compiler + " saveinertial=\"true\"", "saveinertial", "3.3.1"},
@@ -207,7 +207,7 @@ TEST_F(RefusedRobot, WhatLaterVersionsOfMuJoCoAddedIsNamedAsSuch) {
            {motor, "<pid name=\"left_hip\" joint=\"left_hip\"", "pid", "3.12.0"}}) {
     EXPECT_THAT(complaint(edited_upkie({{where, by}})),
                 AllOf(MatchesRegex(".*robot.xml:[0-9]+:1: .*"),
-                      HasSubstr("`" + name + "` came with MuJoCo " + version + ";")));
+                      HasSubstr(fmt::format("`{}` came with MuJoCo {};", name, version))));
   }
   EXPECT_THAT(complaint(edited_upkie({{motor, motor + " colour=\"red\""}})),
               AllOf(HasSubstr("colour"), Not(HasSubstr("came with"))));

@@ -104,8 +104,9 @@ TEST_F(TyreInARobotFile, OfSomeWidthWantsASphereInTheMjcf) {
   ASSERT_NE(other.find(sphere), std::string::npos);
   write_mjcf(other.replace(other.find(sphere), sphere.size(),
                            "type=\"cylinder\" size=\"0.05 0.02\" pos=\"0 -0.046 0\""));
-  EXPECT_THAT(complaint_about("{law: spring_damper, width: 0.04}"),
-              AllOf(HasSubstr("upkie.xml:80:1: "), HasSubstr("'left_tire'"), HasSubstr("a sphere")));
+  EXPECT_THAT(
+      complaint_about("{law: spring_damper, width: 0.04}"),
+      AllOf(HasSubstr("upkie.xml:80:1: "), HasSubstr("'left_tire'"), HasSubstr("a sphere")));
 }
 
 }  // namespace
