@@ -89,10 +89,8 @@ TEST_F(RobotWithHeldJoints, LeavesTheRestToTheSimulators) {
 TEST_F(RobotWithHeldJoints, MayHaveTheNamesOfServos) {
   // Hip rolls called left_hip and right_hip, above hips of other names.
   std::string mjcf = rolling_upkie();
-  for (const std::string side : {"left", "right"}) {
-    mjcf = std::regex_replace(mjcf, std::regex("\"" + side + "_hip\""), "\"" + side + "_pitch\"");
-    mjcf = std::regex_replace(mjcf, std::regex("\"" + side + "_roll\""), "\"" + side + "_hip\"");
-  }
+  mjcf = std::regex_replace(mjcf, std::regex("\"(left|right)_hip\""), "\"$1_pitch\"");
+  mjcf = std::regex_replace(mjcf, std::regex("\"(left|right)_roll\""), "\"$1_hip\"");
   folder_.write("rolling.xml", mjcf);
   const RobotModel rolling =
       compile_robot_model(folder_.write("rolling.yaml",
