@@ -87,8 +87,13 @@ Plan whole_plan(const RunRequest& request) {
 }
 
 ExperimentContext start(RunRequest request, RunDirectory directory, const RunOptions& options) {
-  const int threads = threads_of(request.experiment);
   Plan plan = whole_plan(request);
+  return start(std::move(request), std::move(plan), std::move(directory), options);
+}
+
+ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
+                        const RunOptions& options) {
+  const int threads = threads_of(request.experiment);
   const DiskNeeds needs = disk_needs(plan, directory);
   require_free_space(
       directory.path(), static_cast<std::uintmax_t>(needs.all()),

@@ -39,6 +39,9 @@ Plan whole_plan(const RunRequest& request);
 /// Plans the experiment and checks that the disk has room for it. Errors: `InputError` for a wrong
 /// request; `Error` for too little memory or disk space.
 ExperimentContext start(RunRequest request, RunDirectory directory, const RunOptions& options);
+/// The same with a plan that was made before the directory.
+ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
+                        const RunOptions& options);
 
 /// Runs one step and records its duration.
 template <typename Step>

@@ -303,18 +303,22 @@ RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options) {
   RunRequest request = request_of(experiment);
   require_memory(request, 1.0);
+  Plan plan = whole_plan(request);  // a request that is refused makes no directory
   RunDirectory directory = open_run_directory(request, Access::alone, options);
   remove_partial_files(directory.path());
-  ExperimentContext context = start(std::move(request), std::move(directory), options);
+  ExperimentContext context =
+      start(std::move(request), std::move(plan), std::move(directory), options);
   return summarize(context, compute(context, context.plan.all_tasks(), MissingRun::simulate));
 }
 
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
   RunRequest request = request_of(experiment);
   require_memory(request, 1.0 / shard.count);
+  Plan plan = whole_plan(request);
   RunDirectory directory = open_run_directory(request, Access::shared, options);
   mark_shard_started(directory.path(), shard);
-  ExperimentContext context = start(std::move(request), std::move(directory), options);
+  ExperimentContext context =
+      start(std::move(request), std::move(plan), std::move(directory), options);
   const std::size_t all = context.plan.tasks.size();
   const TaskRange tasks{shard.begin(all), shard.end(all)};
   ShardReport report{context.directory, tasks.size(), 0, {}};

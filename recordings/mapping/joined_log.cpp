@@ -399,6 +399,7 @@ std::vector<std::string> read_joined_bag(const fs::path& log, const LogSources& 
 
 std::vector<std::string> read_joined_log(const fs::path& log, const LogSources& sources,
                                          const JoinedLogSink& sink) {
+  if (!fs::exists(log)) throw InputError(fmt::format("{}: no such file or folder", log.string()));
   if (sources.are_files()) return read_joined_files(log, sources, sink);
   if (is_bag(log)) return read_joined_bag(log, sources, sink);
   throw InputError(fmt::format(

@@ -332,7 +332,10 @@ TEST(Bag, WhatIsWrongWithOneIsOneLine) {
   EXPECT_THAT(complaint("estimate old.bag" + free_fall), HasSubstr("rosbags-convert"));
   EXPECT_THAT(complaint("export old.bag --mapping robot.yaml -o a.mpack"),
               HasSubstr("rosbags-convert"));
-  EXPECT_THAT(complaint("estimate none.mcap" + free_fall), HasSubstr("none.mcap"));
+  for (const char* log : {"none.mcap", "none", "none.csv"}) {
+    EXPECT_THAT(complaint(fmt::format("estimate {}{}", log, free_fall)),
+                HasSubstr(fmt::format("{}: no such file", log)));
+  }
   EXPECT_THAT(complaint("estimate -" + free_fall), HasSubstr("found standard input"));
   EXPECT_FALSE(std::filesystem::exists(folder / "a.mpack"));
 }

@@ -58,13 +58,12 @@ TEST(ServedRobots, AnotherRobotIsRefusedBeforeAnythingIsComputed) {
   }
 }
 
-TEST(ServedRobots, NothingIsSimulated) {
+TEST(ServedRobots, ARefusedRequestMakesNoDirectory) {
   const ScratchFolder folder;
   EXPECT_THROW((void)run_experiment(experiment_with("robot: models/upkie_heavy.yaml"),
                                     {.out = folder.path() / "out", .command = ""}),
                InputError);
-  EXPECT_FALSE(std::filesystem::exists(folder / "out" / "tables"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "out" / "recordings"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 TEST(ServedRobots, AnotherRateIsRefused) {
