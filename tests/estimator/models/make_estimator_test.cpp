@@ -279,7 +279,7 @@ TEST(MakeEstimator, TakesTheBoundsOfSignalsFromMetadataAndUse) {
   ModelMetadata metadata = metadata_of(arrays).value();
   metadata.configuration["bounds.torque"] = "40";
   add_metadata(arrays, metadata);
-  const Belief& belief = make_estimator(arrays)->update(fast);
+  const Belief belief = make_estimator(arrays)->update(fast);
   EXPECT_EQ(to_text(belief.unusable), "right knee torque");
   EXPECT_EQ(belief.status, SignalStatus::invalid);
   EXPECT_EQ(
