@@ -16,6 +16,8 @@ done
 DISPLAY=":$(cat "$number")"
 export DISPLAY
 
+# In a sanitizer's build: the display's driver, unloaded when a window closes, keeps 240 bytes.
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 "$@" &
 program=$!
 # Without a window manager, keys go to the window under the mouse.
