@@ -37,21 +37,20 @@ std::string cause(const recordings::Recording& recording, const End& end) {
   return {};
 }
 
-/// An outcome in running text: "timed out".
-std::string words(recordings::Outcome outcome) {
+}  // namespace
+
+std::string outcome_text(recordings::Outcome outcome) {
   if (outcome == recordings::Outcome::left_terrain) return "left the terrain";
   std::string text(recordings::to_text(outcome));
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
 
-}  // namespace
-
 std::string ending_text(const recordings::Recording& recording, const End& end) {
   const double duration = static_cast<double>(recording.steps()) * recording.period();
   if (!recording.info.outcome) return fmt::format("stopped after {:.3f} s", duration);
   const std::string ended =
-      fmt::format("{} after {:.3f} s", words(*recording.info.outcome), duration);
+      fmt::format("{} after {:.3f} s", outcome_text(*recording.info.outcome), duration);
   const std::string why = recording.truth.empty() ? "" : cause(recording, end);
   return why.empty() ? ended : ended + ": " + why;
 }

@@ -318,9 +318,7 @@ std::vector<Chip> LiveWindow::chips() const {
       {fmt::format("t = {:.2f} s", time), grey},
       contact_chip((state_.contact[0] ? 1 : 0) + (state_.contact[1] ? 1 : 0))};
   if (state_.outcome) {
-    std::string text(recordings::to_text(*state_.outcome));
-    std::replace(text.begin(), text.end(), '_', ' ');
-    chips.push_back({fmt::format("{}: r restarts", text), red});
+    chips.push_back({fmt::format("{}: r restarts", scenarios::outcome_text(*state_.outcome)), red});
   } else if (paused_) {
     chips.push_back({"PAUSED", dark});
   } else if (speed_ != 1.0) {

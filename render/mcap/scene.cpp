@@ -10,6 +10,7 @@
 #include "recordings/mcap/writer.hpp"
 #include "render/film/pose.hpp"
 #include "render/mcap/messages.hpp"
+#include "scenarios/ending.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::render {
@@ -48,10 +49,9 @@ std::multimap<std::size_t, LogEvent> events_of(const recordings::Recording& reco
   }
   if (recording.info.outcome) {
     const bool is_finished = *recording.info.outcome == recordings::Outcome::finished;
-    std::string text(recordings::to_text(*recording.info.outcome));
-    std::replace(text.begin(), text.end(), '_', ' ');
-    events.insert(
-        {recording.steps() - 1, {"run", std::move(text), is_finished ? information : warning}});
+    events.insert({recording.steps() - 1,
+                   {"run", scenarios::outcome_text(*recording.info.outcome),
+                    is_finished ? information : warning}});
   }
   return events;
 }
