@@ -19,7 +19,6 @@
 #include "recordings/log/recording_file.hpp"
 #include "render/pictures/filmed_run.hpp"
 #include "render/report/subject.hpp"
-#include "scenarios/compiled_scenes.hpp"
 #include "scenarios/generation/named.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "viewer/screen/live_plots.hpp"
@@ -79,22 +78,7 @@ models::RobotModel robot_of(const recordings::Recording& recording, const std::s
   if (recording.info.scenario_yaml.empty() || !named.empty()) {
     return models::compile_robot_model(find_resource(named.empty() ? usual_robot : named), {});
   }
-  scenarios::Scenario scenario = scenarios::scenario_from_yaml(
-      YamlDocument::parse(recording.info.scenario_yaml, recording.info.scenario + " (in the log)"));
-  scenario.robot = find_resource(scenario.robot);
-  return scenarios::compile_robot(scenario);
-}
-
-void add_belief(render::BeliefTrack& track, const ContactEstimator& estimator,
-                const Belief& belief) {
-  const Evidence::Transition transition = estimator.evidence().transition;
-  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-    track.p_contact[wheel].push_back(static_cast<float>(belief.wheel[wheel].p_contact));
-    track.contact[wheel].push_back(belief.wheel[wheel].contact ? 1 : 0);
-    if (std::isnan(transition.p_takeoff)) continue;
-    track.p_takeoff[wheel].push_back(static_cast<float>(transition.p_takeoff));
-    track.p_landing[wheel].push_back(static_cast<float>(transition.p_landing));
-  }
+  return render::recorded_robot(recording);
 }
 
 /// Runs all estimators over the log, and reads true contact from it or from its labels.
@@ -119,7 +103,7 @@ void evaluate(const WatchRequest& request, LoggedRun& run) {
       static_cast<std::size_t>(std::lround(definition.debounce * log.sample_rate()));
   while (const experiments::LogStep* step = log.next()) {
     for (std::size_t i = 0; i < estimators.size(); ++i) {
-      add_belief(run.beliefs[i], *estimators[i], estimators[i]->update(step->signals));
+      render::add_belief(run.beliefs[i], *estimators[i], estimators[i]->update(step->signals));
     }
     if (!step->normal_force) continue;
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {

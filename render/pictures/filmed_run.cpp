@@ -34,19 +34,6 @@ experiments::FittedModel model_of(const ReportSubject& subject, const std::strin
       *kind, subject.directory / "models" / experiments::model_name(simulator, estimator));
 }
 
-/// The robot as drawn for the run, on the terrain of the scenario that the recording contains.
-models::RobotModel robot_of(const recordings::Recording& recording) {
-  const recordings::RecordingInfo& info = recording.info;
-  if (info.scenario_yaml.empty()) {
-    throw InputError(
-        "the recording does not contain its terrain: a robot's own log cannot be drawn");
-  }
-  scenarios::Scenario scenario = scenarios::scenario_from_yaml(
-      YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)"));
-  scenario.robot = find_resource(scenario.robot);
-  return scenarios::compile_robot(scenario);
-}
-
 /// An estimator's beliefs along a noisy recording. `noise` was drawn for the run.
 BeliefTrack beliefs_of(const experiments::Experiment& experiment,
                        const experiments::Condition& condition,
@@ -60,19 +47,35 @@ BeliefTrack beliefs_of(const experiments::Experiment& experiment,
     if (experiments::has_record(run.signals[k])) {
       belief = estimator->update(experiments::noisy(run, noise, levels, k));
     }
-    const Evidence::Transition transition = estimator->evidence().transition;
-    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      track.p_contact[wheel].push_back(static_cast<float>(belief.wheel[wheel].p_contact));
-      track.contact[wheel].push_back(belief.wheel[wheel].contact ? 1 : 0);
-      if (std::isnan(transition.p_takeoff)) continue;
-      track.p_takeoff[wheel].push_back(static_cast<float>(transition.p_takeoff));
-      track.p_landing[wheel].push_back(static_cast<float>(transition.p_landing));
-    }
+    add_belief(track, *estimator, belief);
   }
   return track;
 }
 
 }  // namespace
+
+models::RobotModel recorded_robot(const recordings::Recording& recording) {
+  const recordings::RecordingInfo& info = recording.info;
+  if (info.scenario_yaml.empty()) {
+    throw InputError(
+        "the recording does not contain its terrain: a robot's own log cannot be drawn");
+  }
+  scenarios::Scenario scenario = scenarios::scenario_from_yaml(
+      YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)"));
+  scenario.robot = find_resource(scenario.robot);
+  return scenarios::compile_robot(scenario);
+}
+
+void add_belief(BeliefTrack& track, const ContactEstimator& estimator, const Belief& belief) {
+  const Evidence::Transition transition = estimator.evidence().transition;
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+    track.p_contact[wheel].push_back(static_cast<float>(belief.wheel[wheel].p_contact));
+    track.contact[wheel].push_back(belief.wheel[wheel].contact ? 1 : 0);
+    if (std::isnan(transition.p_takeoff)) continue;
+    track.p_takeoff[wheel].push_back(static_cast<float>(transition.p_takeoff));
+    track.p_landing[wheel].push_back(static_cast<float>(transition.p_landing));
+  }
+}
 
 FilmedRun filmed(recordings::Recording recording, const experiments::Experiment& experiment,
                  const noise::SensorProfile& profile, const FilmedEstimators& filmed_estimators) {
@@ -91,7 +94,7 @@ FilmedRun filmed(recordings::Recording recording, const experiments::Experiment&
                                  filmed_estimators.noise));
     beliefs.back().colour = line_colour(line_type_of(experiment.estimators, estimator));
   }
-  models::RobotModel robot = robot_of(recording);
+  models::RobotModel robot = recorded_robot(recording);
   // Torques become those that the sensors report; ground truth and pose stay.
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
@@ -132,7 +135,7 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
 
 FilmedRun filmed_recording(const fs::path& log, std::vector<std::string>& warnings) {
   recordings::Recording recording = recordings::read_recording(log, &warnings);
-  models::RobotModel robot = robot_of(recording);
+  models::RobotModel robot = recorded_robot(recording);
   return {std::move(robot), std::move(recording), {}, {}};
 }
 

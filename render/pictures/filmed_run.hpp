@@ -14,7 +14,19 @@
 #include "render/film/video.hpp"
 #include "render/report/subject.hpp"
 
+namespace touchdown {
+class ContactEstimator;
+struct Belief;
+}  // namespace touchdown
+
 namespace touchdown::render {
+
+/// The robot of a recording, on the terrain of the scenario that the recording contains. Errors:
+/// `InputError` when it contains none.
+models::RobotModel recorded_robot(const recordings::Recording& recording);
+
+/// Adds an estimator's belief at the next row.
+void add_belief(BeliefTrack& track, const ContactEstimator& estimator, const Belief& belief);
 
 /// A run with all data for a film of it.
 struct FilmedRun {
