@@ -157,6 +157,17 @@ function(touchdown_library name)
   endif()
 endfunction()
 
+# touchdown_program(<name> <source> <target>...)
+# makes a program with a command line of its own beside `touchdown`, linked to these targets.
+function(touchdown_program name source)
+  find_package(CLI11 REQUIRED)
+  add_executable(${name} ${source})
+  touchdown_precompile(${name})
+  touchdown_optimize_less(${name})
+  target_link_libraries(${name} PRIVATE touchdown_flags ${ARGN} CLI11::CLI11)
+  install(TARGETS ${name} RUNTIME)
+endfunction()
+
 # Lists every .cpp of the folders. Each build lists them again, so a new file needs no line anywhere.
 function(touchdown_sources result folders)
   if(NOT folders)
