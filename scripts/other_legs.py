@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Print the tables of docs/models.md about robots with other legs: runs finished, and the shipped
-model's mean balanced accuracy with the robot's own legs (and with Upkie's).
+"""Print the tables of docs/guides/models.md about robots with other legs: runs finished, and the
+shipped model's mean balanced accuracy with the robot's own legs (and with Upkie's).
 
 Run it in the checkout: scripts/other_legs.py [--runs 8] [ROBOT.yaml ...]
 """

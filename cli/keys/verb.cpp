@@ -45,7 +45,8 @@ void add_keys(CLI::App& program, const CliSession& /*session*/) {
             "Kinds of files: experiment, scenario, robot, sensors, mapping, training.");
   const auto flags = std::make_shared<KeysFlags>();
   verb.option("kind", &flags->kind, "Kind of file; all kinds if absent").value_name("KIND");
-  verb.flag("--markdown", &flags->markdown, "Print the document docs/keys.md, or its section");
+  verb.flag("--markdown", &flags->markdown,
+            "Print the document docs/reference/keys.md, or its section");
   verb.action([flags] { print_keys(*flags); });
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# Free fall means no contact. free_fall.py SIGNALS BELIEFS (docs/enter.md)
+# Free fall means no contact. free_fall.py SIGNALS BELIEFS (docs/guides/enter.md)
 import csv, math, pathlib, sys
 import numpy as np
 

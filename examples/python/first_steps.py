@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# Simulate, look, fit, estimate, score (docs/python.md). first_steps.py [FIGURE.png]
+# Simulate, look, fit, estimate, score (docs/reference/python.md). first_steps.py [FIGURE.png]
 # %%
 import sys
 

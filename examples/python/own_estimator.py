@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# Your own estimator beside `robust`: on one run, then in an experiment (docs/python.md).
+# Your own estimator beside `robust`: on one run, then in an experiment (docs/reference/python.md).
 # %%
 import numpy as np
 

@@ -61,8 +61,8 @@ and named.
 
 adds it to the tables of a finished run of the benchmark, scored by the same code as our estimators. The first
 {skip} ms of a run are not scored. Balanced accuracy is the mean of the recalls of contact and of flight, with
-95 % bootstrap intervals over runs; docs/benchmark.md and docs/metrics.md of touchdown define the other
-columns. Another build of touchdown may simulate other runs: export and score with the same build.
+95 % bootstrap intervals over runs; docs/reference/metrics.md of touchdown defines the
+other columns. Another build of touchdown may simulate other runs: export and score with the same build.
 )";
 
 std::string noise_of(const Experiment& experiment) {

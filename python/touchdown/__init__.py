@@ -3,7 +3,7 @@
 Arrays have one row per control step. The order of the six joints is left hip, knee, wheel, right hip,
 knee, wheel; that of the two wheels is left, right. Units are SI. A wrong request raises `InputError`,
 any other failure `Error`, with the messages of the program `touchdown`. Ctrl-C ends long calls.
-See docs/python.md.
+See docs/reference/python.md.
 """
 from touchdown._touchdown import Belief, Error, Estimator, InputError, Model, __version__, estimators, simulators
 from touchdown.experiment import Result, run

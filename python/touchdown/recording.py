@@ -157,7 +157,7 @@ def fit(runs: Any = (), estimator: str = "touchdown", *, contact: Any = (), no_c
 def score(beliefs: Any, recording: Mapping[str, np.ndarray], *, skip: float = 0.3, hold_off: float = 0.25,
           takeoff_opens: float = 0.06, landing_opens: float = 0.02,
           minimum_flight: float = 0.05) -> dict[str, dict[str, float]]:
-    """Score beliefs about a run by the definitions of docs/metrics.md.
+    """Score beliefs about a run by the definitions of docs/reference/metrics.md.
 
     beliefs: a result of `Estimator.run`, or an array of probabilities or decisions, (steps, 2) for the
         wheels or (steps,) for both

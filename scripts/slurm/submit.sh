@@ -2,7 +2,7 @@
 # scripts/slurm/submit.sh EXPERIMENT SHARDS [SBATCH OPTION...]
 # Runs an experiment on a Slurm cluster: an array job of SHARDS tasks, and a job that merges their
 # results when all are done. Call it in the folder for the results, on a file system that all nodes
-# share. TOUCHDOWN names the program if it is not this checkout's. See docs/shards.md.
+# share. TOUCHDOWN names the program if it is not this checkout's. See docs/guides/shards.md.
 set -euo pipefail
 
 complain() {

@@ -24,7 +24,7 @@ std::string text_of(const std::filesystem::path& path) {
 }
 
 DependencyTable written_table() {
-  return dependency_table_in(text_of(source / "docs/architecture.md"));
+  return dependency_table_in(text_of(source / "docs/reference/architecture.md"));
 }
 
 /// All sources below the top-level folders of the table.

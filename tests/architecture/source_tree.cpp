@@ -87,7 +87,8 @@ std::vector<std::string> forbidden_includes(const DependencyTable& table, const 
   std::set<std::string> folders;
   for (const std::string& file : tree.files) folders.insert(folder_of(file));
   for (const std::string& folder : folders) {
-    if (!table.contains(folder)) lines.push_back(folder + ": has no row in docs/architecture.md");
+    if (!table.contains(folder))
+      lines.push_back(folder + ": has no row in docs/reference/architecture.md");
   }
   for (const Include& include : tree.includes) {
     if (is_allowed(table, folder_of(include.from), include.to)) continue;

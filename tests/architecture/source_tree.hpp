@@ -27,7 +27,8 @@ SourceTree source_tree_in(const std::filesystem::path& source,
 /// estimator and all folders inside) or single files ("core/error.hpp").
 using DependencyTable = std::map<std::string, std::set<std::string>>;
 
-/// Reads the table in docs/architecture.md: the rows between the lines "<!-- dependencies -->" and
+/// Reads the table in docs/reference/architecture.md: the rows between the lines "<!-- dependencies
+/// -->" and
 /// "<!-- /dependencies -->". The first column is the folder. The last lists what it may include,
 /// in backquotes.
 DependencyTable dependency_table_in(const std::string& markdown);

@@ -198,10 +198,10 @@ TEST(Bag, IsCheckedByAMapping) {
   EXPECT_THAT(touchdown_program("check bag", folder.path()).errors, HasSubstr("--mapping"));
 }
 
-/// The code blocks of docs/ros2_bags.md, by what they begin with.
+/// The code blocks of docs/tutorials/ros2_bag.md, by what they begin with.
 std::vector<std::string> documented(const std::string& beginning) {
   std::vector<std::string> lines;
-  std::istringstream page(read_file(TOUCHDOWN_SOURCE_DIR "/docs/ros2_bags.md"));
+  std::istringstream page(read_file(TOUCHDOWN_SOURCE_DIR "/docs/tutorials/ros2_bag.md"));
   bool is_code = false;
   for (std::string line; std::getline(page, line);) {
     if (line.starts_with("```")) is_code = !is_code;
@@ -219,7 +219,7 @@ TEST(Bag, OfThePagePrintsWhatThePagePrints) {
   std::filesystem::create_directories(folder / "bag");
   test::write_db3(other_robots_bag(recordings::read_recording(folder / "run.mpack")),
                   folder / "bag" / "bag_0.db3");
-  const std::string page = read_file(TOUCHDOWN_SOURCE_DIR "/docs/ros2_bags.md");
+  const std::string page = read_file(TOUCHDOWN_SOURCE_DIR "/docs/tutorials/ros2_bag.md");
   const std::size_t begin = page.find("```yaml\n") + 8;
   const std::string mapping = page.substr(begin, page.find("```", begin) - begin);
   folder.write("robot.yaml", mapping);

@@ -62,9 +62,10 @@ TEST_F(Keys, OfEveryKindHaveAMeaningAndAType) {
 }
 
 TEST_F(Keys, AreTheDocument) {
-  EXPECT_TRUE(printed("--markdown") ==
-              read_file(std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "docs" / "keys.md"))
-      << "docs/keys.md is out of date; write it with: touchdown keys --markdown > docs/keys.md";
+  EXPECT_TRUE(printed("--markdown") == read_file(std::filesystem::path(TOUCHDOWN_SOURCE_DIR) /
+                                                 "docs" / "reference" / "keys.md"))
+      << "docs/reference/keys.md is out of date; write it with: touchdown keys --markdown > "
+         "docs/reference/keys.md";
 }
 
 TEST_F(Keys, ArePrintedForATerminalWithTypeUnitRangeDefaultAndMeaning) {

@@ -115,7 +115,7 @@ TEST_F(Submission, ProgramWithTheSameEquationsHasTheSameScores) {
 
 TEST_F(Submission, ProgramInTheDocumentsIsTheTestedOne) {
   const std::string script = read_file(TOUCHDOWN_SOURCE_DIR "/examples/enter/free_fall.py");
-  EXPECT_THAT(read_file(TOUCHDOWN_SOURCE_DIR "/docs/enter.md"),
+  EXPECT_THAT(read_file(TOUCHDOWN_SOURCE_DIR "/docs/guides/enter.md"),
               HasSubstr("```python\n" + script.substr(script.find("import csv")) + "```\n"));
 }
 

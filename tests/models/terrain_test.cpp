@@ -89,7 +89,7 @@ TEST(Terrain, GroundBelowTheFloorIsRefused) {
 }
 
 TEST(Terrain, OfTheDocumentationCanBeBuilt) {
-  const std::string text = read_file(TOUCHDOWN_SOURCE_DIR "/docs/models.md");
+  const std::string text = read_file(TOUCHDOWN_SOURCE_DIR "/docs/guides/models.md");
   const std::string before = "```yaml\nterrain:\n";
   const std::size_t begin = text.find(before);
   ASSERT_NE(begin, std::string::npos);

@@ -52,7 +52,7 @@ class Examples(InFolder):
 
     def test_in_the_documents(self):
         for which in range(3):
-            (self.folder / "page.py").write_text(block("docs/python.md", which))
+            (self.folder / "page.py").write_text(block("docs/reference/python.md", which))
             self.output_of("page.py")
 
 

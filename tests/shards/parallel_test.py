@@ -1,5 +1,5 @@
-"""Runs a small experiment by the recipe for GNU parallel in docs/shards.md, on this machine only:
-every file must equal that of a single run.
+"""Runs a small experiment by the recipe for GNU parallel in docs/guides/shards.md, on this machine
+only: every file must equal that of a single run.
 
     parallel_test.py TOUCHDOWN
 

@@ -1,4 +1,4 @@
-"""A folder that runs recipes of docs/shards.md, with the program in the path."""
+"""A folder that runs recipes of docs/guides/shards.md, with the program in the path."""
 
 import os
 import pathlib

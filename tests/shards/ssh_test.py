@@ -1,5 +1,5 @@
-"""Runs a small experiment by the two recipes for ssh in docs/shards.md, with its own server on
-loopback: every file must equal that of a single run.
+"""Runs a small experiment by the two recipes for ssh in docs/guides/shards.md, with its own server
+on loopback: every file must equal that of a single run.
 
     ssh_test.py TOUCHDOWN
 

@@ -68,9 +68,9 @@ def compare_with_local_run(results, touchdown, folder):
 
 
 def recipe(title, **variables):
-    """The commands under this title in docs/shards.md, with other values for the variables of their
-    first line."""
-    text = (pathlib.Path(__file__).resolve().parents[2] / 'docs' / 'shards.md').read_text()
+    """The commands under this title in docs/guides/shards.md, with other values for the variables of
+    their first line."""
+    text = (pathlib.Path(__file__).resolve().parents[2] / 'docs' / 'guides' / 'shards.md').read_text()
     lines = re.search(rf'^## {re.escape(title)}$.*?^```bash\n(.*?)^```$', text, re.M | re.S)[1]
     first, rest = lines.split('\n', 1)
     for name, value in variables.items():

@@ -68,7 +68,7 @@ TEST(DropPosterior, HasTheTruePhasesBesideTheEstimated) {
   EXPECT_GT(posterior.phases[300][index(Phase::flight)], 0.9);
 }
 
-/// Eq. of docs/phase_filter.md, done again with the model's transitions.
+/// Eq. of docs/explanation/phase_filter.md, done again with the model's transitions.
 TEST(DropPosterior, FollowsFromThePreviousPosteriorAndTheStepsEvidence) {
   const PosteriorStudy study;
   const RunSignals run = synthetic_run(3);
