@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Print the tables of docs/guides/models.md about robots with other legs: runs finished, and the
+"""Print the tables of docs/guides/robots.md about robots with other legs: runs finished, and the
 shipped model's mean balanced accuracy with the robot's own legs (and with Upkie's).
 
 Run it in the checkout: scripts/other_legs.py [--runs 8] [ROBOT.yaml ...]

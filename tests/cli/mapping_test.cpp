@@ -250,7 +250,7 @@ TEST_F(Mapping, LogWithOtherUnitsAxesAndOrderGivesTheSameBeliefs) {
 
 TEST_F(Mapping, ExampleIsTheOneInTheDocuments) {
   const std::string example = TOUCHDOWN_SOURCE_DIR "/examples/mapping/robot";
-  EXPECT_THAT(read_file(TOUCHDOWN_SOURCE_DIR "/docs/guides/robot.md"),
+  EXPECT_THAT(read_file(TOUCHDOWN_SOURCE_DIR "/docs/guides/map_a_log.md"),
               HasSubstr("```yaml\n" + read_file(example + ".yaml") + "```\n"));
   EXPECT_THAT(
       ran(fmt::format("export {0}.csv --mapping {0}.yaml -o example.mpack --labels example.csv",

@@ -89,13 +89,13 @@ TEST(Terrain, GroundBelowTheFloorIsRefused) {
 }
 
 TEST(Terrain, OfTheDocumentationCanBeBuilt) {
-  const std::string text = read_file(TOUCHDOWN_SOURCE_DIR "/docs/guides/models.md");
+  const std::string text = read_file(TOUCHDOWN_SOURCE_DIR "/docs/reference/scenarios.md");
   const std::string before = "```yaml\nterrain:\n";
   const std::size_t begin = text.find(before);
   ASSERT_NE(begin, std::string::npos);
   const std::string keys =
       text.substr(begin + before.size(), text.find("```\n", begin + 1) - begin - before.size());
-  const auto terrain = from_yaml<Terrain>(YamlDocument::parse(keys, "models.md"));
+  const auto terrain = from_yaml<Terrain>(YamlDocument::parse(keys, "scenarios.md"));
   EXPECT_EQ(terrain.pieces.size(), 6U);
   EXPECT_EQ(terrain.beside.size(), 1U);
 }
