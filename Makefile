@@ -4,7 +4,7 @@ BUILD := build/release
 
 .DEFAULT_GOAL := help
 .PHONY: help setup program-packages trainer-packages viewer-packages python-packages test-packages \
-	fuzz-packages build run trainer viewer python everything test faults package lint lint-all format bench asan tsan fuzz clean
+	fuzz-packages build run trainer viewer python everything test faults package lint lint-all format bench results figures asan tsan fuzz clean
 
 help: ## Show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -104,6 +104,12 @@ format: ## Format every source file
 
 bench: everything ## Run every benchmark
 	@for program in $(BUILD)/bench_*; do echo "$$program"; "$$program" || exit 1; done
+
+results: build ## Run the commands of docs/results.md and compare its numbers: hours
+	scripts/documents/results.py $(BUILD)/touchdown
+
+figures: build ## Draw the pictures of docs/images again: half an hour
+	scripts/documents/figures.py $(BUILD)/touchdown
 
 asan: build/asan/build.ninja ## Build and test with AddressSanitizer and UBSan
 	cmake --build --preset asan --parallel $(JOBS)

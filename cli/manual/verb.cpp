@@ -7,8 +7,11 @@
 #include "cli/keys/kinds.hpp"
 #include "cli/manual/completion.hpp"
 #include "cli/manual/man_page.hpp"
+#include "cli/manual/markdown.hpp"
 #include "cli/verbs.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/program/streams.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "simulators/registry.hpp"
 
@@ -32,8 +35,16 @@ void add_known_names(std::vector<DescribedVerb>& verbs) {
   }
 }
 
-void write_manual(const CLI::App& program, const std::filesystem::path& share) {
+struct ManualFlags {
+  std::string share;
+  bool markdown = false;
+};
+
+void write_manual(const CLI::App& program, const ManualFlags& flags) {
   std::vector<DescribedVerb> verbs = described_verbs(program);
+  if (flags.markdown) return print(markdown_manual(verbs));
+  if (flags.share.empty()) throw InputError("manual: expected DIR or --markdown");
+  const std::filesystem::path share = flags.share;
   add_known_names(verbs);
   const std::filesystem::path pages = share / "man" / "man1";
   write_atomically(pages / "touchdown.1", man_page(described(program), verbs, TOUCHDOWN_VERSION));
@@ -53,11 +64,10 @@ void add_manual(CLI::App& program, const CliSession& /*session*/) {
       "touchdown manual ~/.local/share\n\n"
       "Writes a man page for every command, and completion scripts for bash and zsh, to where\n"
       "man and the shells look for them. An installed touchdown includes them.");
-  const auto share = std::make_shared<std::string>();
-  verb.option("share", share.get(), "Folder for data, such as ~/.local/share")
-      .required()
-      .value_name("DIR");
-  verb.action([&program, share] { write_manual(program, *share); });
+  const auto flags = std::make_shared<ManualFlags>();
+  verb.option("share", &flags->share, "Folder for data, such as ~/.local/share").value_name("DIR");
+  verb.flag("--markdown", &flags->markdown, "Print the document docs/reference/cli.md");
+  verb.action([&program, flags] { write_manual(program, *flags); });
 }
 
 }  // namespace touchdown::cli

@@ -127,3 +127,5 @@ const char* touchdown_signal_text(int signal) {
   const std::string_view text = to_text(static_cast<SignalIndex>(signal));
   return text.empty() ? "" : text.data();
 }
+
+const char* touchdown_version() { return TOUCHDOWN_VERSION; }

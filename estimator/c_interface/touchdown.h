@@ -119,6 +119,9 @@ const char* touchdown_status_text(int status);
  * …; empty for -1. */
 const char* touchdown_signal_text(int signal);
 
+/* The library's version, "1.0.0". */
+const char* touchdown_version(void);
+
 #ifdef __cplusplus
 }
 #endif

@@ -60,6 +60,18 @@ TEST_F(Manual, HasAPageForEveryCommandAndNamesEachOfItsFlags) {
   EXPECT_GE(verbs, 10);
 }
 
+TEST_F(Manual, ReferenceOfTheDocumentsIsThatOfTheProgram) {
+  const std::string file = TOUCHDOWN_SOURCE_DIR "/docs/reference/cli.md";
+  EXPECT_TRUE(touchdown_program("manual --markdown", folder.path()).output == read_file(file))
+      << file << " is out of date; write it with: touchdown manual --markdown";
+}
+
+TEST_F(Manual, NeedsAFolderOrAFormat) {
+  const Ended ended = touchdown_program("manual", folder.path());
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.errors, HasSubstr("manual: expected DIR or --markdown"));
+}
+
 TEST_F(Manual, BashOffersCommandsFlagsAndKnownNames) {
   EXPECT_EQ(offered(share, "touchdown si"), "simulate");
   EXPECT_EQ(offered(share, "touchdown simulate --sim"), "--simulator");

@@ -4,7 +4,7 @@
 
 Blocks of YAML and Python that begin with a file's name are written; commands in blocks of `sh` run one after the
 other in a folder of the page's own; every line of a block of `text` must be printed. Left to the reader are
-commands that install, compile, or open a window; other tests compile the examples.
+commands that install, compile, or open a window, and what follows `make`; other tests compile the examples.
 """
 
 import os
@@ -21,7 +21,7 @@ from pages import blocks  # noqa: E402
 
 LEFT_TO_READERS = re.compile(r'make |export [A-Z]+=|sudo |cmake |cp -r examples|\$EDITOR|build/|touchdown watch')
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
-PACKAGE = sys.argv.pop(1) if len(sys.argv) > 1 else ''
+PACKAGE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 else ''
 
 
 class Tutorial:
@@ -30,7 +30,7 @@ class Tutorial:
     def __init__(self, page, folder):
         self.page, self.folder, self.printed, self.ran = page, folder, '', []
         self.environment = {**os.environ, 'PATH': f'{PROGRAM.parent}{os.pathsep}{os.environ["PATH"]}',
-                            'PYTHONPATH': PACKAGE, 'PYTHONDONTWRITEBYTECODE': '1'}
+                            'TOUCHDOWN': str(ROOT), 'PYTHONPATH': PACKAGE, 'PYTHONDONTWRITEBYTECODE': '1'}
 
     def run(self, command):
         if command.startswith('python3'):
@@ -51,6 +51,8 @@ class Tutorial:
                 (self.folder / name[1]).write_text(code, encoding='utf-8')
             elif language == 'sh':
                 for line in code.replace('\\\n', ' ').splitlines():
+                    if line.startswith('make '):
+                        break  # what follows needs what it builds
                     if line.strip() and not LEFT_TO_READERS.match(line):
                         self.run(line)
             elif language == 'text':

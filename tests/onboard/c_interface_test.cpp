@@ -119,6 +119,8 @@ TEST_F(CInterface, TakesNullWithoutACrash) {
   touchdown_destroy(estimator);
 }
 
+TEST(CVersion, IsTheProjects) { EXPECT_STREQ(touchdown_version(), PROJECT_VERSION); }
+
 TEST_F(CInterface, NamesASignalBeyondItsBound) {
   touchdown_estimator* const estimator = touchdown_create(model().c_str(), nullptr, nullptr, 0);
   ASSERT_NE(estimator, nullptr);

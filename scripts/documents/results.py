@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""results.py PROGRAM [--quick]: runs the commands of docs/results.md and compares the numbers of its tables.
+
+A comment above a table names the command and where its columns are in tables/results.csv of the run:
+
+    <!-- results: touchdown run experiments/stairs.yaml
+    2: study=success; simulator=mujoco; noise=1 N·m, 5 m/s²; metric=success / simulator=bullet
+    -->
+
+Column 2 is then compared; behind " / " stands what differs for the second part of a cell "a / b". A row's
+estimator is the first name in code in its first cell; `row: KEY` takes the first cell's text for another key.
+A cell's numbers are the estimate, or the estimate with its interval, rounded to the cell's decimals; `%` counts in
+percent. Comments that begin with `results quick:` are those of --quick. Runs stay in runs/results and resume.
+"""
+
+import argparse
+import csv
+import hashlib
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CHECK = re.compile(r'<!-- results( quick)?: (touchdown run [^\n]*)\n(.*?)-->\n+((?:\|[^\n]*\n)+)', re.S)
+NUMBER = re.compile(r'[-−]?\d*\.?\d+')
+
+
+def checks(page):
+    """Yields (quick, command, {column: [filters of its parts]}, key of the rows, rows of cells)."""
+    for quick, command, places, table in CHECK.findall(page):
+        columns, key = {}, 'estimator'
+        for line in places.strip().splitlines():
+            name, _, text = line.partition(': ')
+            if name == 'row':
+                key = text.strip()
+                continue
+            parts = [dict(item.split('=', 1) for item in part.strip().split('; ')) for part in text.split(' / ')]
+            columns[int(name)] = [{**parts[0], **part} for part in parts]
+        rows = [[cell.strip() for cell in re.split(r'(?<!\\)\|', line)[1:-1]] for line in table.splitlines()[2:]]
+        yield bool(quick), command, columns, key, rows
+
+
+def name_of(cell, key):
+    if key != 'estimator':
+        return cell
+    code = re.search(r'`([^`]+)`', cell)
+    return code[1] if code else None
+
+
+def agrees(text, value, percent):
+    """Whether a number of the page is this value, rounded to its decimals."""
+    decimals = len(text.partition('.')[2])
+    return abs(float(text.replace('−', '-')) - value * (100 if percent else 1)) <= 0.5 * 10 ** -decimals + 1e-9
+
+
+def faults_of_part(text, where, results):
+    """Yields what is wrong with a part of a cell."""
+    found = [row for row in results if all(row[name] == value for name, value in where.items())]
+    if len(found) != 1:
+        yield f'{len(found)} numbers in results.csv for {where}'
+        return
+    numbers = NUMBER.findall(text.split('(')[0])
+    names = ['estimate'] if len(numbers) == 1 else ['estimate', 'low', 'high']
+    if len(numbers) != len(names):
+        yield f'expected one number or three, found "{text}"'
+        return
+    for number, name in zip(numbers, names):
+        if found[0][name] in ('', 'nan') or not agrees(number, float(found[0][name]), '%' in text):
+            yield f'{number}: the run has {found[0][name]} ({name})'
+
+
+def faults_of_table(columns, key, rows, results):
+    """Yields (first cell, column, what is wrong)."""
+    for row in rows:
+        name = name_of(row[0], key)
+        if name is None:
+            continue
+        for column, places in columns.items():
+            parts = row[column - 1].split(' / ') if len(places) > 1 else [row[column - 1]]
+            if parts == ['']:
+                continue
+            if len(parts) != len(places):
+                yield name, column, f'expected {len(places)} parts, found "{row[column - 1]}"'
+                continue
+            for part, where in zip(parts, places):
+                for fault in faults_of_part(part, {key: name, **where}, results):
+                    yield name, column, fault
+
+
+def results_of(program, command, runs):
+    """Runs a command, or finds its finished run, and returns the rows of its results.csv."""
+    words = shlex.split(command)[1:]
+    run = runs / hashlib.sha256(command.encode()).hexdigest()[:12]
+    done = subprocess.run([program, *words, '--no-pictures', '--out', run], cwd=ROOT, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True, check=False)
+    file = run / 'tables' / 'results.csv'
+    if not file.exists():
+        sys.exit(f'{command}: {done.stderr.strip()}')
+    with file.open(encoding='utf-8', newline='') as rows:
+        return list(csv.DictReader(rows))
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument('program', type=pathlib.Path)
+    parser.add_argument('--quick', action='store_true')
+    parser.add_argument('--runs', type=pathlib.Path, default=ROOT / 'runs' / 'results')
+    parser.add_argument('--page', type=pathlib.Path, default=ROOT / 'docs' / 'results.md')
+    flags = parser.parse_args()
+    failed, compared, known = 0, 0, {}
+    for quick, command, columns, key, rows in checks(flags.page.read_text(encoding='utf-8')):
+        if flags.quick and not quick:
+            continue
+        if command not in known:
+            known[command] = results_of(flags.program.resolve(), command, flags.runs.resolve())
+        faults = list(faults_of_table(columns, key, rows, known[command]))
+        print(f'{command}: {len(rows)} rows, {len(faults)} differences')
+        for name, column, fault in faults:
+            print(f'  {name}, column {column}: {fault}')
+        compared += 1
+        failed += len(faults)
+    if compared == 0:
+        sys.exit('no table to compare')
+    return 1 if failed else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

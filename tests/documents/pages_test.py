@@ -1,0 +1,60 @@
+"""The pages: each is of one kind, found from the index, short, and of short sentences."""
+
+import pathlib
+import re
+import sys
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DOCS = ROOT / 'docs'
+sys.path.insert(0, str(ROOT / 'scripts' / 'words'))
+import sentences  # noqa: E402
+
+KINDS = {'tutorials', 'guides', 'explanation', 'reference'}
+OF_NO_KIND = {'README.md', 'results.md', 'limits.md', 'history.md'}
+GENERATED = {DOCS / 'reference' / name for name in ('keys.md', 'tables.md', 'cli.md')}
+
+
+def measured(text):
+    """Words a sentence, subordinate words a sentence."""
+    found = list(sentences.sentences(text))
+    count = max(len(found), 1)
+    return sum(map(len, found)) / count, sum(word in sentences.SUBORDINATE for words in found for word in words) / count
+
+
+class Pages(unittest.TestCase):
+    def setUp(self):
+        self.pages = sorted(DOCS.rglob('*.md'))
+        self.written = [page for page in self.pages if page not in GENERATED]
+        self.written += [ROOT / name for name in ('README.md', 'CHANGELOG.md', 'CONTRIBUTING.md')]
+
+    def test_are_of_one_kind_each(self):
+        for page in self.pages:
+            place = page.relative_to(DOCS)
+            self.assertTrue(place.parts[0] in KINDS and len(place.parts) == 2 or str(place) in OF_NO_KIND, place)
+
+    def test_are_all_in_the_index(self):
+        index = (DOCS / 'README.md').read_text(encoding='utf-8')
+        linked = {(DOCS / link.split('#')[0]).resolve() for link in re.findall(r'\]\(([^)]+)\)', index)}
+        missing = [str(page.relative_to(DOCS)) for page in self.pages if page.resolve() not in linked]
+        self.assertEqual(missing, ['README.md'])
+
+    def test_have_short_sentences(self):
+        for page in self.written:
+            words, subordinate = measured(page.read_text(encoding='utf-8'))
+            self.assertLessEqual(words, 16, page)
+            self.assertLessEqual(subordinate, 0.45, page)
+
+    def test_are_short(self):
+        words = {page: len(page.read_text(encoding='utf-8').split()) for page in self.written}
+        self.assertLessEqual(words[ROOT / 'README.md'], 650)
+        self.assertLessEqual(sum(words.values()), 42000, 'all but the generated pages')
+
+    def test_with_long_sentences_are_noticed(self):
+        words, subordinate = measured('It is what was that which one sees when and why so if where it goes on and on at all times now.')
+        self.assertGreater(words, 16)
+        self.assertGreater(subordinate, 0.45)
+
+
+if __name__ == '__main__':
+    unittest.main()
