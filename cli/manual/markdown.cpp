@@ -1,16 +1,19 @@
 #include "cli/manual/markdown.hpp"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 namespace touchdown::cli {
 
 namespace {
 
-/// Text for a cell of a table, which a plain bar would end.
-std::string cell(const std::string& text) {
+/// Text for a cell of a table, without `special` characters of Markdown: a bar ends a cell, and `<`
+/// begins HTML outside of code.
+std::string cell(const std::string& text, std::string_view special) {
   std::string result;
   for (const char letter : text) {
-    if (letter == '|') result += '\\';
+    if (special.find(letter) != std::string_view::npos) result += '\\';
     result += letter;
   }
   return result;
@@ -28,14 +31,16 @@ std::string row(const DescribedOption& option) {
   std::string text = option.text;
   if (option.required) text += " (required)";
   if (!option.fallback.empty()) text += fmt::format(" (default: {})", option.fallback);
-  return fmt::format("| `{}` | {} |\n", cell(names_of(option)), cell(text));
+  return fmt::format("| `{}` | {} |\n", cell(names_of(option), "|"), cell(text, "|<"));
 }
 
 std::string section(const DescribedVerb& verb) {
   std::string text = fmt::format("\n## {}\n\n{}\n\n```\n{}\n```\n", verb.name, verb.text,
                                  fmt::join(verb.examples, "\n"));
   if (!verb.options.empty()) text += "\n| option | meaning |\n|---|---|\n";
-  for (const DescribedOption& option : verb.options) text += row(option);
+  for (const DescribedOption& option : verb.options) {
+    if (option.names.back() != "--help") text += row(option);  // of every command
+  }
   return text;
 }
 
