@@ -22,6 +22,17 @@ def measured(text):
     return sum(map(len, found)) / count, sum(word in sentences.SUBORDINATE for words in found for word in words) / count
 
 
+def uneven_rows(text):
+    """Rows of tables with another number of cells than their header; a bar in code counts, as for GitHub."""
+    columns, in_code = 0, False
+    for line in text.splitlines():
+        in_code = line.startswith('```') != in_code
+        cells = len(re.findall(r'(?<!\\)\|', line)) if line.startswith('|') and not in_code else 0
+        if cells and columns and cells != columns:
+            yield line
+        columns = columns or cells if cells else 0
+
+
 class Pages(unittest.TestCase):
     def setUp(self):
         self.pages = sorted(DOCS.rglob('*.md'))
@@ -49,6 +60,16 @@ class Pages(unittest.TestCase):
         words = {page: len(page.read_text(encoding='utf-8').split()) for page in self.written}
         self.assertLessEqual(words[ROOT / 'README.md'], 650)
         self.assertLessEqual(sum(words.values()), 42000, 'all but the generated pages')
+
+    def test_have_tables_with_rows_of_equal_length(self):
+        for page in [*self.pages, ROOT / 'README.md', ROOT / 'CHANGELOG.md', ROOT / 'CONTRIBUTING.md']:
+            self.assertEqual(list(uneven_rows(page.read_text(encoding='utf-8'))), [], page)
+
+    def test_with_uneven_tables_are_noticed(self):
+        table = '| a | b |\n|---|---|\n| {} | d |\n'
+        for cell, count in (('c', 0), ('`x \\| y`', 0), ('`x | y`', 1), ('c | e', 1)):
+            self.assertEqual(len(list(uneven_rows(table.format(cell)))), count, cell)
+        self.assertEqual(list(uneven_rows('```\n' + table.format('c | e') + '```\n')), [])
 
     def test_with_long_sentences_are_noticed(self):
         words, subordinate = measured('It is what was that which one sees when and why so if where it goes on and on at all times now.')
