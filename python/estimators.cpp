@@ -19,6 +19,7 @@
 #include "recordings/log/byte_source.hpp"
 #include "recordings/log/writer.hpp"
 #include "recordings/mapping/mapped_log.hpp"
+#include "recordings/sample_times.hpp"
 #include "recordings/signals_from.hpp"
 
 namespace touchdown::python {
@@ -219,6 +220,10 @@ class Estimator {
   void require_rate(const SignalArrays& signals) const {
     const std::optional<double> period = signals.period();
     if (!period || (*period * rate_ > 0.8 && *period * rate_ < 1.25)) return;
+    if (const std::string unit = recordings::unit_of_step(*period, 1.0 / rate_); !unit.empty()) {
+      throw InputError(fmt::format("signals: time: expected seconds: steps of {:.6g} look like {}",
+                                   *period, unit));
+    }
     throw InputError(fmt::format(
         "signals: {:.6g} steps per second, and the estimator was made for {:.6g}: make it with "
         "sample_rate={:.6g}",

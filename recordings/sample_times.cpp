@@ -89,6 +89,20 @@ Line line_through(std::span<const double> steps) {
   return line;
 }
 
+/// The unit in which the step is between these times (s); empty if there is none.
+std::string unit_between(double shortest, double longest, double step) {
+  struct Unit {
+    double size;
+    const char* name;
+  };
+  constexpr std::array<Unit, 3> units = {
+      {{1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}};
+  for (const Unit& unit : units) {
+    if (step >= shortest * unit.size && step <= longest * unit.size) return unit.name;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<double> typical_step(std::span<const double> times) {
@@ -141,20 +155,14 @@ double nominal_rate(double measured) {
 }
 
 std::string unit_of_step(double step) {
-  struct Unit {
-    double size;
-    const char* name;
-  };
   constexpr double shortest = 5e-4;  // s, at 2000 Hz: in milliseconds, less may be a slow log
   constexpr double longest = 1e-2;   // s, at 100 Hz
-  constexpr std::array<Unit, 3> units = {
-      {{1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}};
-  for (const Unit& unit : units) {
-    if (step >= 0.999 * shortest * unit.size && step <= 1.001 * longest * unit.size) {
-      return unit.name;
-    }
-  }
-  return {};
+  return unit_between(0.999 * shortest, 1.001 * longest, step);
+}
+
+std::string unit_of_step(double step, double period) {
+  constexpr double factor = 10.0;  // lost samples and coarse ticks; units differ by 1000
+  return unit_between(period / factor, period * factor, step);
 }
 
 }  // namespace touchdown::recordings

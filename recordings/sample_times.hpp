@@ -25,4 +25,8 @@ double nominal_rate(double measured);
 /// samples per second, so these units do not overlap.
 std::string unit_of_step(double step);
 
+/// The same for samples that are known to be `period` (s) apart: the unit in which the step is a
+/// tenth of it to ten times as long; empty for seconds and for any other step.
+std::string unit_of_step(double step, double period);
+
 }  // namespace touchdown::recordings

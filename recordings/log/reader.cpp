@@ -23,6 +23,8 @@ constexpr std::size_t largest_record = std::size_t{1} << 23U;
 /// Until all of its observers run, a spine logs incomplete records; two seconds are too long.
 constexpr std::uint64_t most_skipped_in_a_row = 2000;
 constexpr std::size_t rows_for_period = 200;
+/// With fewer rows, long steps may be pauses.
+constexpr std::size_t rows_for_unit = 11;
 
 }  // namespace
 
@@ -67,13 +69,21 @@ std::int64_t LogReader::period_us_of(const std::vector<double>& times) const {
                     name_));
   }
   if (const std::string unit = unit_of_step(*step); !unit.empty()) {
-    throw InputError(
-        fmt::format("{}: observation.time: expected seconds: steps of {:.6g} look like {}", name_,
-                    *step, unit));
+    complain_about_unit(*step, unit);
   }
   const double microseconds = std::round(1e6 * *step);
   constexpr double longest = 1e9;
   return static_cast<std::int64_t>(std::clamp(microseconds, 1.0, longest));
+}
+
+/// Without a look ahead, which would delay a live log.
+void LogReader::compare_clock_with_period(double time) {
+  if (first_times_.size() >= rows_for_unit) return;
+  first_times_.push_back(time);
+  if (first_times_.size() < rows_for_unit) return;
+  const double step = typical_step(first_times_).value_or(0.0);
+  const std::string unit = unit_of_step(step, 1e-6 * static_cast<double>(info_->control_period_us));
+  if (!unit.empty()) complain_about_unit(step, unit);
 }
 
 void LogReader::look_ahead(std::size_t rows) {
@@ -123,7 +133,10 @@ void LogReader::read_entry(Entry& entry) {
     double& time = entry.row->observation.time;
     if (!start_time_) start_time_ = info_ ? 0.0 : time;
     if (*start_time_ != 0.0) time -= *start_time_;
-    if (info_) has_period_ = true;
+    if (info_) {
+      has_period_ = true;
+      compare_clock_with_period(time);
+    }
     entry.record = record;
     return;
   }
@@ -263,6 +276,11 @@ void LogReader::complain_about_missing_keys() const {
   }
   throw InputError(
       fmt::format("{}: needed keys are missing: {}", name_, fmt::join(parser_.missing(), ", ")));
+}
+
+void LogReader::complain_about_unit(double step, const std::string& unit) const {
+  throw InputError(fmt::format(
+      "{}: observation.time: expected seconds: steps of {:.6g} look like {}", name_, step, unit));
 }
 
 }  // namespace touchdown::recordings

@@ -26,7 +26,8 @@ namespace touchdown::recordings {
 /// - and a last record that is cut off.
 /// The time of a robot's log counts from its first row. Errors (`InputError`): a file that cannot
 /// be read; bytes that are not MessagePack maps (named by their offset); a log without a single
-/// complete record (all missing keys named in one message).
+/// complete record (all missing keys named in one message); a log that states its period, with
+/// times in milliseconds, microseconds or nanoseconds.
 class LogReader {
  public:
   /// "-" reads standard input. The log ends early once `stop` is true; `stop` may be null.
@@ -67,6 +68,7 @@ class LogReader {
   bool parse_record();
   bool refill();
   std::int64_t period_us_of(const std::vector<double>& times) const;
+  void compare_clock_with_period(double time);
   void look_ahead(std::size_t rows);
   bool is_without_time(const LogRow& row);
   bool repeats_last();
@@ -74,6 +76,7 @@ class LogReader {
   void count_malformed();
   [[noreturn]] void complain_about_garbage(std::size_t offset) const;
   [[noreturn]] void complain_about_missing_keys() const;
+  [[noreturn]] void complain_about_unit(double step, const std::string& unit) const;
   void finish();
 
   ByteSource source_;
@@ -101,6 +104,7 @@ class LogReader {
   std::optional<RecordingInfo> info_;
   std::string robot_;  ///< of a robot's log
   bool has_period_ = false;
+  std::vector<double> first_times_;  ///< of a log that states its period
   std::deque<Entry> ahead_;
   Entry current_;
   std::vector<std::string> warnings_;

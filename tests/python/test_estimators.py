@@ -205,6 +205,13 @@ class Run(InFolder):
         with self.assertRaisesRegex(touchdown.InputError, "'velocity': expected an array of numbers"):
             touchdown.Estimator("free_fall").run(run)
 
+    def test_refuses_times_in_another_unit_than_seconds(self):
+        for factor, unit in ((1e3, "milliseconds"), (1e6, "microseconds"), (1e9, "nanoseconds")):
+            run = dict(hop())
+            run["time"] = factor * run["time"]
+            with self.assertRaisesRegex(touchdown.InputError, f"signals: time: expected seconds: .* look like {unit}"):
+                touchdown.Estimator("free_fall").run(run)
+
     def test_needs_the_model_that_the_estimator_is_fitted_with(self):
         for name, model, words in (("robust", None, "'robust' has to be fitted"),
                                    ("free_fall", touchdown.fit(hop(), "robust"), "one of 'robust', which 'free_fall' cannot use"),

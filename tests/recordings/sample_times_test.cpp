@@ -132,5 +132,17 @@ TEST(UnitOfStep, DistinguishesTheUnitsOfClocks) {
   EXPECT_EQ(unit_of_step(0.1), "") << "10 Hz";
 }
 
+TEST(UnitOfStep, OfAKnownPeriodAllowsForLostSamples) {
+  for (const double period : {5e-5, 1e-3, 5e-3, 1e-2, 0.1}) {
+    for (const double lost : {0.2, 1.0, 2.0, 9.0}) {
+      EXPECT_EQ(unit_of_step(lost * period, period), "");
+      EXPECT_EQ(unit_of_step(1e3 * lost * period, period), "milliseconds");
+      EXPECT_EQ(unit_of_step(1e6 * lost * period, period), "microseconds");
+      EXPECT_EQ(unit_of_step(1e9 * lost * period, period), "nanoseconds");
+    }
+    EXPECT_EQ(unit_of_step(50.0 * period, period), "") << "a slow log";
+  }
+}
+
 }  // namespace
 }  // namespace touchdown::recordings

@@ -365,6 +365,68 @@ TEST(UglyLogs, TimesInAnotherUnitThanSecondsAreRefusedByName) {
   }
 }
 
+/// A log that states its period, with times `change(k)` (s) apart from its start.
+template <typename Change>
+std::string complaint_about_stated(std::int64_t period_us, const Change& change) {
+  const ScratchFolder folder;
+  Recording log = test::sample_recording(60, false);
+  log.info.control_period_us = period_us;
+  for (std::size_t k = 0; k < log.steps(); ++k) {
+    log.observation[k].time = change(1e-6 * static_cast<double>(period_us), k);
+  }
+  write_recording(log, folder / "stated.mpack");
+  try {
+    (void)read_recording(folder / "stated.mpack");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(UglyLogs, ThatStateTheirPeriodAreReadInSecondsOnly) {
+  const auto step = [](std::size_t k) { return static_cast<double>(k); };
+  for (const std::int64_t period : {500, 1000, 5000, 10000}) {
+    for (const auto& [factor, unit] : std::vector<std::pair<double, std::string>>{
+             {1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}) {
+      const auto expected = AllOf(HasSubstr("stated.mpack: observation.time: expected seconds"),
+                                  HasSubstr("look like " + unit));
+      const double scale = factor;
+      EXPECT_THAT(complaint_about_stated(
+                      period, [&](double dt, std::size_t k) { return scale * dt * step(k); }),
+                  expected);
+      EXPECT_THAT(
+          complaint_about_stated(
+              period, [&](double dt, std::size_t k) { return scale * (1.7e9 + dt * step(k)); }),
+          expected)
+          << "since 1970";
+      EXPECT_THAT(complaint_about_stated(period,
+                                         [&](double dt, std::size_t k) {
+                                           return scale * dt * (step(k) + (k % 2 == 0 ? 0.3 : 0.0));
+                                         }),
+                  expected)
+          << "with jitter";
+      EXPECT_THAT(complaint_about_stated(period,
+                                         [&](double dt, std::size_t k) {
+                                           return scale * dt * (step(k) + (k > 4 ? 50.0 : 0.0));
+                                         }),
+                  expected)
+          << "with a gap";
+    }
+    // Seconds: as they are, every tenth record only, and a pause after each record at the start.
+    EXPECT_EQ(
+        complaint_about_stated(period, [&](double dt, std::size_t k) { return dt * step(k); }), "");
+    EXPECT_EQ(complaint_about_stated(period,
+                                     [&](double dt, std::size_t k) { return 10.0 * dt * step(k); }),
+              "");
+    EXPECT_EQ(complaint_about_stated(period,
+                                     [&](double dt, std::size_t k) {
+                                       return dt * step(k) + 5.0 * static_cast<double>(
+                                                                       std::min(k, std::size_t{4}));
+                                     }),
+              "");
+  }
+}
+
 TEST(UglyLogs, ConsumesALongLogAtAConstantMemory) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "AddressSanitizer keeps freed memory, which is what is measured here";
