@@ -26,7 +26,7 @@ FitLogSteps::FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitRe
       config_(config),
       report_(report),
       reader_(reader_of(log, config)),
-      steps_(reader_, log.labels.get()),
+      steps_(reader_, log.labels.get(), checked_robot(config.robot, reader_.info())),
       info_(reader_.info()) {
   check_may_be_fitted(info_);
   info_.control_period_us = steps_.period_us();
@@ -69,6 +69,9 @@ void FitLogSteps::finish(std::int64_t used_steps) {
   stop_if_asked(config_);
   report_.warnings.insert(report_.warnings.end(), reader_.warnings().begin(),
                           reader_.warnings().end());
+  for (const std::string& finding : steps_.findings()) {
+    report_.warnings.push_back(fmt::format("{}: {}", log_.path.string(), finding));
+  }
   if (2 * contradicting_ > compared_) {
     throw InputError(fmt::format(
         "{}: is declared {}, but its own ground truth contradicts this for {:.1f} % of the steps: "
