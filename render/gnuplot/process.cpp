@@ -2,12 +2,18 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
+#include <cstring>
 #include <fcntl.h>
 #include <sstream>
 #include <string_view>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -26,6 +32,20 @@ std::string first_reason(const std::string& complaints) {
     if (line.find_first_not_of(" ^\t") != std::string::npos) last = line;
   }
   return last;
+}
+
+/// Without them gnuplot draws a figure without fonts or data, and reports success.
+void require_descriptors() {
+  constexpr rlim_t needed = 16;
+  rlimit limit = {};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= needed) return;
+  throw Error(fmt::format("gnuplot needs {} file descriptors, and the limit is {} (ulimit -n)",
+                          needed, limit.rlim_cur));
+}
+
+/// gnuplot only warns of data that it cannot read.
+bool lacks_data(const std::string& complaints) {
+  return complaints.find("Cannot find or open file") != std::string::npos;
 }
 
 /// This process's environment, but in UTC: gnuplot writes the time zone into every PDF.
@@ -49,10 +69,17 @@ std::string gnuplot_complaint(const std::filesystem::path& folder, const std::st
                                           nullptr};
   const std::vector<char*> environment = environment_in_utc();
   std::array<int, 2> ends = {};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("no pipe for gnuplot");
+  require_descriptors();
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+    throw Error(fmt::format("no pipe for gnuplot: {}", std::strerror(errno)));
+  }
   const pid_t pid = ::fork();
-  if (pid < 0) throw Error("no process for gnuplot");
+  if (pid < 0) throw Error(fmt::format("no process for gnuplot: {}", std::strerror(errno)));
   if (pid == 0) {
+    // Ctrl-C at a terminal reaches every process of a group. It stops this program between two
+    // figures, so gnuplot gets a group of its own, and dies with this program only.
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::dup2(ends[1], STDERR_FILENO);
     ::dup2(::open("/dev/null", O_RDWR), STDIN_FILENO);
     ::dup2(STDIN_FILENO, STDOUT_FILENO);
@@ -74,7 +101,7 @@ std::string gnuplot_complaint(const std::filesystem::path& folder, const std::st
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
     throw Error("gnuplot is not installed: the figures need the package gnuplot-nox");
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && !lacks_data(complaints)) return {};
   return complaints.empty() ? "it failed and gave no reason" : first_reason(complaints);
 }
 

@@ -6,8 +6,8 @@
 namespace touchdown::render {
 
 /// Runs gnuplot on `script` in `folder`, without the user's settings and in UTC. Returns the line
-/// in which gnuplot reports an error, or nothing; warnings are ignored. Errors: `Error` when
-/// gnuplot is not installed.
+/// in which gnuplot reports an error or data that it cannot read, or nothing; other warnings are
+/// ignored. Errors: `Error` when gnuplot is not installed, or gets too few file descriptors.
 std::string gnuplot_complaint(const std::filesystem::path& folder, const std::string& script);
 
 /// Writes a script, runs it in its folder and returns the PNG that it draws, which has the script's

@@ -10,6 +10,7 @@
 #include "render/curves/drop_detail_figure.hpp"
 #include "render/curves/phase_posterior_figure.hpp"
 #include "render/pictures/chosen_run.hpp"
+#include "render/pictures/stop.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -87,11 +88,13 @@ FigureText posterior_text(const experiments::Experiment& experiment,
 
 }  // namespace
 
-std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& result) {
+std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& result,
+                                      const std::atomic<bool>* stop) {
   const experiments::Experiment& experiment = result.experiment;
   std::vector<Figure> figures;
   if (experiment.detail) {
     for (const std::string& simulator : experiment.simulators) {
+      stop_if_asked(stop);
       draw_if_possible([&] { figures.push_back(draw_detail(result, simulator)); });
     }
   }
@@ -99,6 +102,7 @@ std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& resul
   const experiments::PosteriorConfig& config = *experiment.posterior;
   std::vector<experiments::DropPosterior> drops;
   for (const std::string& simulator : experiment.simulators) {
+    stop_if_asked(stop);
     draw_if_possible([&] {
       const experiments::Rollout& run =
           chosen_run(result, simulator, config.choice.run, "posterior");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <vector>
 
 #include "experiments/results/result.hpp"
@@ -10,6 +11,7 @@ namespace touchdown::render {
 /// Draws the drops that the experiment's sections `detail` and `posterior` select, for every
 /// engine. An engine without such a drop gets no figure, and one line on the error stream states
 /// the reason; the experiment continues.
-std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& result);
+std::vector<Figure> draw_drop_figures(const experiments::ExperimentResult& result,
+                                      const std::atomic<bool>* stop);
 
 }  // namespace touchdown::render

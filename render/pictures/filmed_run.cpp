@@ -17,6 +17,7 @@
 #include "experiments/tuning/table.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "render/palette.hpp"
+#include "render/pictures/stop.hpp"
 #include "scenarios/compiled_scenes.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -146,7 +147,7 @@ std::function<void(int done, int of)> film_progress(const std::string& what,
     // The number of frames is known only now.
     if (!*bar) bar->emplace(what, "frames", frames);
     (*bar)->advance();
-    if (*stop) throw Stopped();
+    stop_if_asked(stop);
   };
 }
 

@@ -11,6 +11,7 @@
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/maps/heatmap_figure.hpp"
+#include "render/pictures/stop.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -94,7 +95,8 @@ Heatmap filled(Heatmap heatmap, const experiments::ExperimentResult& result,
 
 }  // namespace
 
-std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result) {
+std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result,
+                                  const std::atomic<bool>* stop) {
   const experiments::Experiment& experiment = result.experiment;
   const noise::KneeWheelGridConfig& apart = experiment.noise.knee_wheel;
   const CellCoordinates by_torque = [](const noise::NoiseCell& cell) {
@@ -106,6 +108,7 @@ std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result) {
   };
   std::vector<Figure> figures;
   for (const std::string& simulator : experiment.simulators) {
+    stop_if_asked(stop);
     const std::string where =
         fmt::format("{}, {}", experiment.name, simulators::simulator_title(simulator));
     Heatmap heatmap;
@@ -117,6 +120,7 @@ std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result) {
     figures.push_back(draw_heatmap(filled(heatmap, result, simulator, by_torque),
                                    result.directory.file("figures", "error_" + simulator)));
     if (apart.knee.empty()) continue;
+    stop_if_asked(stop);
     heatmap.title = fmt::format("Error rate under torque noise, {} m/s² on the accelerometer: {}",
                                 apart.accelerometer, where);
     heatmap.x_label = "wheel torque noise (N·m)";

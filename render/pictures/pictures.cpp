@@ -11,6 +11,7 @@
 #include "render/pictures/drop_figures.hpp"
 #include "render/pictures/heatmaps.hpp"
 #include "render/pictures/score_figures.hpp"
+#include "render/pictures/stop.hpp"
 
 namespace touchdown::render {
 
@@ -35,15 +36,17 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
   const auto start = std::chrono::steady_clock::now();
   {
     Progress progress("drawing", "kinds of figures", 3);
-    if (result.cells.size() > 1) draw_heatmaps(result);
+    if (result.cells.size() > 1) draw_heatmaps(result, stop);
     progress.advance();
-    draw_score_figures(result);
+    draw_score_figures(result, stop);
     progress.advance();
-    draw_drop_figures(result);
+    draw_drop_figures(result, stop);
     for (const StudyPictures& study : studies) {
+      stop_if_asked(stop);
       if (study.draw && study.is_requested(result.experiment)) study.draw(result);
     }
     for (const experiments::FigureSpec& figure : result.figures) {
+      stop_if_asked(stop);
       draw_facets(figure, from_csv(read_file(result.directory.file("tables", figure.table))),
                   result.directory.file("figures", figure.name));
     }

@@ -13,6 +13,7 @@
 #include "render/curves/score_figure.hpp"
 #include "render/maps/density_figure.hpp"
 #include "render/palette.hpp"
+#include "render/pictures/stop.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -128,13 +129,15 @@ std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
 
 }  // namespace
 
-std::vector<Figure> draw_score_figures(const experiments::ExperimentResult& result) {
+std::vector<Figure> draw_score_figures(const experiments::ExperimentResult& result,
+                                       const std::atomic<bool>* stop) {
   const experiments::Experiment& experiment = result.experiment;
   std::vector<Figure> figures;
   for (const std::string& simulator : experiment.simulators) {
     const std::string where =
         fmt::format("{}, {}", experiment.name, simulators::simulator_title(simulator));
     const auto stem = [&](const char* name) {
+      stop_if_asked(stop);
       return result.directory.file("figures", fmt::format("{}_{}", name, simulator));
     };
     if (const auto densities = density_figure(result, simulator)) {

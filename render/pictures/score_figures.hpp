@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <vector>
 
 #include "experiments/results/result.hpp"
@@ -10,6 +11,7 @@ namespace touchdown::render {
 /// Draws into the run directory, for every engine: the measurement models that were fitted to its
 /// runs, evidence curves, and reliability diagrams and latencies at the highlighted noise settings,
 /// both wheels pooled. Figures without data are left out.
-std::vector<Figure> draw_score_figures(const experiments::ExperimentResult& result);
+std::vector<Figure> draw_score_figures(const experiments::ExperimentResult& result,
+                                       const std::atomic<bool>* stop);
 
 }  // namespace touchdown::render
