@@ -6,6 +6,7 @@
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/program/outputs.hpp"
 #include "core/program/streams.hpp"
 #include "core/progress.hpp"
@@ -36,8 +37,8 @@ std::vector<InputFile> files_of(const std::vector<std::string>& inputs) {
     const std::filesystem::path directory = input;
     files.push_back({directory / "config.yaml", "run's config.yaml"});
     for (const char* const folder : {"recordings", "models"}) {
-      for (const auto& entry : std::filesystem::directory_iterator(directory / folder, ignored)) {
-        files.push_back({entry.path(), "run's own file"});
+      for (const std::filesystem::path& entry : entries_in(directory / folder)) {
+        files.push_back({entry, "run's own file"});
       }
     }
   }

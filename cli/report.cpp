@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
+#include "core/files.hpp"
 #include "core/program/streams.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/own_files.hpp"
@@ -44,7 +45,7 @@ void add_report(CLI::App& program, const CliSession& session) {
     const std::filesystem::path path =
         render::make_report(subject, filmed, render::study_pictures(), session.stop);
     print("report    {} ({:.1f} MB)\n", path.string(),
-          static_cast<double>(std::filesystem::file_size(path)) / 1e6);
+          static_cast<double>(size_of_file(path)) / 1e6);
   });
 }
 

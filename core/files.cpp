@@ -1,9 +1,12 @@
 #include "core/files.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
+#include <new>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -55,6 +58,23 @@ std::filesystem::path new_part_folder(const std::filesystem::path& path) {
   }
 }
 
+/// By steps that throw nothing. A folder that another process removes meanwhile has no entries.
+template <typename Iterator>
+std::vector<std::filesystem::path> entries_by(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> entries;
+  std::error_code error;
+  Iterator entry(folder, error);
+  while (!error && entry != Iterator()) {
+    entries.push_back(entry->path());
+    entry.increment(error);
+  }
+  const bool is_missing =
+      error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory;
+  if (error && !is_missing) complain_unreadable(folder.string(), error);
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
 }  // namespace
 
 void write_atomically(const std::filesystem::path& path,
@@ -103,15 +123,64 @@ bool is_there(const std::filesystem::path& path) noexcept {
   return std::filesystem::exists(path, ignored);
 }
 
+bool is_folder(const std::filesystem::path& path) noexcept {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
+
+std::uintmax_t size_of_file(const std::filesystem::path& path) noexcept {
+  std::error_code missing;
+  const std::uintmax_t size = std::filesystem::file_size(path, missing);
+  return missing ? 0 : size;
+}
+
+std::vector<std::filesystem::path> entries_in(const std::filesystem::path& folder) {
+  return entries_by<std::filesystem::directory_iterator>(folder);
+}
+
+std::vector<std::filesystem::path> entries_below(const std::filesystem::path& folder) {
+  return entries_by<std::filesystem::recursive_directory_iterator>(folder);
+}
+
+std::filesystem::path temporary_folder() {
+  std::error_code error;
+  std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (!error) return folder;
+  const char* const named = std::getenv("TMPDIR");
+  throw InputError(fmt::format("{}: no folder for temporary files (TMPDIR): {}",
+                               named == nullptr ? "/tmp" : named, error.message()));
+}
+
+std::filesystem::path absolute_path(const std::filesystem::path& path) {
+  if (path.is_absolute()) return path;
+  std::error_code error;
+  const std::filesystem::path here = std::filesystem::current_path(error);
+  if (error) {
+    throw Error(fmt::format("{}: no working directory: {}", path.string(), error.message()));
+  }
+  return here / path;
+}
+
+void complain_unreadable(const std::string& name, const std::error_code& why,
+                         std::string_view done) {
+  if (why == std::errc::not_enough_memory) throw std::bad_alloc();
+  const std::string message = fmt::format("{}: cannot be {}: {}", name, done, why.message());
+  const bool is_of_the_system = why == std::errc::too_many_files_open ||
+                                why == std::errc::too_many_files_open_in_system ||
+                                why == std::errc::io_error;
+  if (is_of_the_system) throw Error(message);
+  throw InputError(message);
+}
+
 void require_regular_file(const std::filesystem::path& path) {
   using Type = std::filesystem::file_type;
   std::error_code error;
   const Type type = std::filesystem::status(path, error).type();
   if (type == Type::regular) return;
+  if (type == Type::none) complain_unreadable(path.string(), error, "opened");
   std::string reason = "is not a regular file";
   if (type == Type::not_found) reason = "no such file";
   if (type == Type::directory) reason = "is a folder, expected a file";
-  if (type == Type::none) reason = fmt::format("cannot be opened: {}", error.message());
   throw InputError(fmt::format("{}: {}", path.string(), reason));
 }
 
@@ -119,10 +188,7 @@ std::string read_file(const std::filesystem::path& path) {
   require_regular_file(path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw InputError(fmt::format("{}: cannot be opened: {}", path.string(),
-                                 std::generic_category().message(errno)));
-  }
+  if (!file) complain_unreadable(path.string(), {errno, std::generic_category()}, "opened");
   std::string content;
   std::array<char, 16384> block;
   do {
@@ -158,7 +224,7 @@ void require_writable(const std::filesystem::path& path) {
 
 PartFolder::PartFolder(const std::filesystem::path& stem) {
   try {
-    const std::filesystem::path whole = std::filesystem::absolute(stem);
+    const std::filesystem::path whole = absolute_path(stem);
     std::filesystem::create_directories(whole.parent_path());
     path_ = new_part_folder(whole);
   } catch (const std::filesystem::filesystem_error& error) {

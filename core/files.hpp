@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 namespace touchdown {
 
@@ -25,6 +28,31 @@ void write_stream_atomically(const std::filesystem::path& path,
 /// Whether a file or folder is there. What cannot be looked at, such as a file in a folder without
 /// permission, is not.
 bool is_there(const std::filesystem::path& path) noexcept;
+
+/// Whether a folder, or a link to one, is there.
+bool is_folder(const std::filesystem::path& path) noexcept;
+
+/// Bytes of a file; 0 if it is not there.
+std::uintmax_t size_of_file(const std::filesystem::path& path) noexcept;
+
+/// The paths of all entries of a folder, sorted; none if there is no such folder. Errors: those of
+/// `complain_unreadable`: a folder that cannot be read is no empty one.
+std::vector<std::filesystem::path> entries_in(const std::filesystem::path& folder);
+
+/// The same for the folder and all folders below it. Links to folders are not followed.
+std::vector<std::filesystem::path> entries_below(const std::filesystem::path& folder);
+
+/// The folder for temporary files: that of `TMPDIR`, else /tmp. Errors: `InputError` if it is none.
+std::filesystem::path temporary_folder();
+
+/// The path from the root. Errors: `Error` when the working directory is gone.
+std::filesystem::path absolute_path(const std::filesystem::path& path);
+
+/// Errors: always, "`name`: cannot be `done`: `why`". `std::bad_alloc` if memory is short, `Error`
+/// if the system has no descriptor left or the disk fails, `InputError` for all that the request is
+/// to blame for.
+[[noreturn]] void complain_unreadable(const std::string& name, const std::error_code& why,
+                                      std::string_view done = "read");
 
 /// Errors: `InputError` with the reason, unless `path` is a regular file or a link to one. Opens
 /// nothing: a pipe would wait for its writer, a device would not end.

@@ -25,13 +25,14 @@ std::vector<std::filesystem::path> roots() {
 /// The names of the files in the same folder with the same extension.
 std::vector<std::string> neighbours_of(const std::filesystem::path& path) {
   std::vector<std::string> names;
-  std::error_code ignored;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::filesystem::path name = entry.path().filename();
-    if (name.extension() == path.extension()) names.push_back(name.string());
+  try {
+    for (const std::filesystem::path& entry : entries_in(folder)) {
+      if (entry.extension() == path.extension()) names.push_back(entry.filename().string());
+    }
+  } catch (const Error&) {
+    // They are suggestions: without them the message is that the file is missing.
   }
-  std::sort(names.begin(), names.end());  // directory iteration has no defined order
   return names;
 }
 
@@ -51,9 +52,9 @@ std::vector<std::filesystem::path> resources_in(const std::filesystem::path& fol
   std::set<std::filesystem::path> files;
   for (const std::filesystem::path& root : roots()) {
     std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(root / folder, ignored)) {
-      if (entry.is_regular_file(ignored) && entry.path().extension() == extension) {
-        files.insert(folder / entry.path().filename());
+    for (const std::filesystem::path& entry : entries_in(root / folder)) {
+      if (std::filesystem::is_regular_file(entry, ignored) && entry.extension() == extension) {
+        files.insert(folder / entry.filename());
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/plan/served_robots.hpp"
 #include "experiments/run_directory/free_space.hpp"
@@ -45,9 +46,7 @@ std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
 
 /// The number of saved parts, whichever process computed them.
 std::size_t saved_parts(const RunDirectory& directory) {
-  std::error_code ignored;
-  const std::filesystem::directory_iterator parts(directory.path() / "state/evaluation", ignored);
-  return static_cast<std::size_t>(std::distance(begin(parts), end(parts)));
+  return entries_in(directory.path() / "state/evaluation").size();
 }
 
 /// An upper bound of what the run may still write: a step of a recording takes about 1.05 kB.

@@ -82,7 +82,7 @@ ExportReport export_benchmark(const ExportRequest& wanted, const RunOptions& opt
   }
   // The export needs a directory for the state of runs that cannot be simulated.
   request.experiment.recordings = KeptRecordings::none;
-  const PartFolder scratch(std::filesystem::temp_directory_path() / "touchdown_export");
+  const PartFolder scratch(temporary_folder() / "touchdown_export");
   return write(RunDirectory(name, id, scratch.path()));
 }
 

@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 std::string name_of(const BeliefRequest& wanted) {
   std::string name = wanted.name;
   if (name.empty()) {
-    const fs::path path = fs::absolute(wanted.beliefs).lexically_normal();
+    const fs::path path = absolute_path(wanted.beliefs).lexically_normal();
     name = (path.has_filename() ? path : path.parent_path()).stem().string();
   }
   if (!is_name_word(name)) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <span>
@@ -31,9 +33,13 @@ using Member = std::unique_ptr<zip_file_t, CloseMember>;
 
 Zip open_zip(const std::filesystem::path& path, int flags) {
   int code = 0;
+  errno = 0;
   Zip archive(zip_open(path.c_str(), flags, &code));
   if (archive) return archive;
   if (code == ZIP_ER_MEMORY) throw std::bad_alloc();
+  if (code == ZIP_ER_OPEN && (errno == EMFILE || errno == ENFILE)) {
+    throw Error(path.string() + ": cannot be opened: " + std::strerror(errno));
+  }
   zip_error_t error;
   zip_error_init_with_code(&error, code);
   const std::string reason = zip_error_strerror(&error);

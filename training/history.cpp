@@ -131,7 +131,7 @@ std::filesystem::path draw_losses(const std::filesystem::path& history,
   return render::try_gnuplot(
       folder / "training.gp",
       fmt::format(script_text, fmt::arg("chosen", chosen_iteration),
-                  fmt::arg("data", std::filesystem::relative(history, folder).string())));
+                  fmt::arg("data", history.lexically_relative(folder).string())));
 }
 
 }  // namespace touchdown::training

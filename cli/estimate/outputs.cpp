@@ -67,7 +67,7 @@ std::vector<fs::path> figure_files(const fs::path& stem) {
 
 void check(const fs::path& output, std::set<fs::path>& seen) {
   if (output.empty() || output == "-") return;
-  if (!seen.insert(fs::absolute(output).lexically_normal()).second) {
+  if (!seen.insert(absolute_path(output).lexically_normal()).second) {
     throw InputError(
         fmt::format("{}: would be written for two logs of that name", output.string()));
   }

@@ -120,7 +120,7 @@ void export_mcap(const std::string& log, const std::string& robot, const std::st
   for (const std::string& warning : reader.warnings())
     print_message(fmt::format("touchdown: {}\n", warning));
   print("log       {}, {} records, {:.1f} MB\n", output, rows,
-        1e-6 * static_cast<double>(std::filesystem::file_size(output)));
+        1e-6 * static_cast<double>(size_of_file(output)));
 }
 
 }  // namespace touchdown::cli

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace touchdown {
 
@@ -48,8 +49,8 @@ bool is_one_file(const fs::path& a, const fs::path& b) {
   if (identity) return identity == identity_of(b, STDOUT_FILENO);
   if (a == "-" || b == "-") return a == b;
   std::error_code ignored;
-  return fs::weakly_canonical(fs::absolute(a), ignored) ==
-         fs::weakly_canonical(fs::absolute(b), ignored);
+  return fs::weakly_canonical(absolute_path(a), ignored) ==
+         fs::weakly_canonical(absolute_path(b), ignored);
 }
 
 void check_replaceable(const fs::path& output) {

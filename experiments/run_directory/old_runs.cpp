@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace touchdown::experiments {
 
@@ -12,10 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Links are not followed.
+fs::file_type type_of(const fs::path& path) {
+  std::error_code ignored;
+  return fs::symlink_status(path, ignored).type();
+}
+
 std::uintmax_t size_of(const fs::path& directory) {
   std::uintmax_t bytes = 0;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory)) {
-    if (entry.is_regular_file() && !entry.is_symlink()) bytes += entry.file_size();
+  for (const fs::path& entry : entries_below(directory)) {
+    if (type_of(entry) == fs::file_type::regular) bytes += size_of_file(entry);
   }
   return bytes;
 }
@@ -24,24 +31,22 @@ void add_old_runs_of(const fs::path& experiment, std::vector<OldRun>& found) {
   std::error_code none;
   const fs::path latest = fs::canonical(experiment / "latest", none);
   if (none) return;
-  for (const fs::directory_entry& entry : fs::directory_iterator(experiment)) {
-    const bool is_run = entry.is_directory() && !entry.is_symlink() &&
-                        fs::is_regular_file(entry.path() / "config.yaml");
-    if (is_run && fs::canonical(entry.path()) != latest) {
-      found.push_back({entry.path(), size_of(entry.path())});
-    }
+  for (const fs::path& entry : entries_in(experiment)) {
+    const bool is_run = type_of(entry) == fs::file_type::directory &&
+                        fs::is_regular_file(entry / "config.yaml", none);
+    if (is_run && fs::canonical(entry, none) != latest) found.push_back({entry, size_of(entry)});
   }
 }
 
 }  // namespace
 
 std::vector<OldRun> old_runs(const fs::path& runs) {
-  if (!fs::is_directory(runs)) {
+  if (!is_folder(runs)) {
     throw InputError(fmt::format("{}: expected a folder of runs", runs.string()));
   }
   std::vector<OldRun> found;
-  for (const fs::directory_entry& entry : fs::directory_iterator(runs)) {
-    if (entry.is_directory() && !entry.is_symlink()) add_old_runs_of(entry.path(), found);
+  for (const fs::path& entry : entries_in(runs)) {
+    if (type_of(entry) == fs::file_type::directory) add_old_runs_of(entry, found);
   }
   std::sort(found.begin(), found.end(),
             [](const OldRun& a, const OldRun& b) { return a.directory < b.directory; });

@@ -67,9 +67,9 @@ constexpr std::array result_folders = {"recordings", "models",       "tables",  
 Names all_folders(const fs::path& directory) {
   Names folders;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(directory / "state", ignored)) {
-    if (entry.symlink_status(ignored).type() == fs::file_type::directory) {
-      folders.push_back("state/" + entry.path().filename().string());
+  for (const fs::path& entry : entries_in(directory / "state")) {
+    if (fs::symlink_status(entry, ignored).type() == fs::file_type::directory) {
+      folders.push_back("state/" + entry.filename().string());
     }
   }
   folders.emplace_back("state");
@@ -82,12 +82,11 @@ Names files_in(const fs::path& folder) {
   Names names;
   std::error_code ignored;
   if (fs::is_symlink(folder, ignored)) return names;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.symlink_status(ignored).type() == fs::file_type::regular) {
-      names.push_back(entry.path().filename().string());
+  for (const fs::path& entry : entries_in(folder)) {
+    if (fs::symlink_status(entry, ignored).type() == fs::file_type::regular) {
+      names.push_back(entry.filename().string());
     }
   }
-  std::sort(names.begin(), names.end());
   return names;
 }
 
@@ -217,8 +216,8 @@ std::vector<fs::path> own_files(const fs::path& directory) {
 void require_no_links(const fs::path& directory) {
   std::error_code ignored;
   Names folders = all_folders(directory);
-  for (const auto& entry : fs::directory_iterator(directory / "state", ignored)) {
-    folders.push_back("state/" + entry.path().filename().string());
+  for (const fs::path& entry : entries_in(directory / "state")) {
+    folders.push_back("state/" + entry.filename().string());
   }
   for (const std::string& folder : folders) {
     const fs::path path = directory / folder;
@@ -244,11 +243,12 @@ UntrackedFiles remove_run(const fs::path& directory) {
   }
   if (is_file(key_file(directory))) remove_file(key_file(directory));
   UntrackedFiles left;
-  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
-    const fs::file_type type = entry.symlink_status().type();
-    if (type == fs::file_type::directory || entry.path() == lock_file(directory)) continue;
+  std::error_code gone;
+  for (const fs::path& entry : entries_below(directory)) {
+    const fs::file_type type = fs::symlink_status(entry, gone).type();
+    if (type == fs::file_type::directory || entry == lock_file(directory)) continue;
     ++left.files;
-    if (type == fs::file_type::regular) left.bytes += entry.file_size();
+    if (type == fs::file_type::regular) left.bytes += size_of_file(entry);
   }
   if (left.files > 0) return left;
   // Other processes detect that the lock file is gone and lock a new one.
@@ -264,12 +264,12 @@ void remove_partial_files(const fs::path& directory) {
   std::vector<fs::path> partial;
   for (const std::string& folder : all_folders(directory)) {
     if (fs::is_symlink(directory / folder, ignored)) continue;
-    for (const auto& entry : fs::directory_iterator(directory / folder, ignored)) {
-      const fs::path name = entry.path().filename();
-      const fs::file_type type = entry.symlink_status(ignored).type();
+    for (const fs::path& entry : entries_in(directory / folder)) {
+      const fs::path name = entry.filename();
+      const fs::file_type type = fs::symlink_status(entry, ignored).type();
       if ((type == fs::file_type::regular && is_part_file_name(name)) ||
           (type == fs::file_type::directory && is_part_folder_name(name))) {
-        partial.push_back(entry.path());
+        partial.push_back(entry);
       }
     }
   }

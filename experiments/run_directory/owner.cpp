@@ -1,7 +1,5 @@
 #include "experiments/run_directory/owner.hpp"
 
-#include <new>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -43,17 +41,11 @@ std::optional<RunDirectoryOwner> finished_in(const fs::path& directory) {
 
 /// An entry of a folder that neither a killed start nor a concurrent start leaves there.
 fs::path untracked_file_in(const fs::path& folder) {
-  std::error_code unreadable;
-  for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
-    const bool is_lock = entry.path() == lock_file(folder.parent_path());
-    if (!is_lock && !is_part_file_name(entry.path().filename())) return entry.path();
+  for (const fs::path& entry : entries_in(folder)) {
+    const bool is_lock = entry == lock_file(folder.parent_path());
+    if (!is_lock && !is_part_file_name(entry.filename())) return entry;
   }
-  if (unreadable == std::errc::not_enough_memory) throw std::bad_alloc();
-  const bool is_no_folder = unreadable == std::errc::not_a_directory;
-  if (unreadable && !is_no_folder) {
-    throw Error(fmt::format("{}: cannot be read: {}", folder.string(), unreadable.message()));
-  }
-  return unreadable ? folder : fs::path();
+  return is_folder(folder) ? fs::path() : folder;
 }
 
 /// A run writes its key first. If there is a key by now, `file` may belong to a run that starts at

@@ -45,13 +45,12 @@ fs::path record_file(const fs::path& run_directory, const fs::path& name) {
 
 std::vector<fs::path> recorded_files(const fs::path& run_directory) {
   std::vector<fs::path> names;
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(records_in(run_directory), missing)) {
-    const std::string record = entry.path().filename().string();
+  for (const fs::path& entry : entries_in(records_in(run_directory))) {
+    const std::string record = entry.filename().string();
     const fs::path name = name_of(record);
     // Half-written records begin with a dot. No record leads out of the run directory.
     const bool is_inside = !record.starts_with('.') && !name.filename().string().starts_with('.');
-    if (is_inside && is_regular(entry.path()) && is_regular(run_directory / name)) {
+    if (is_inside && is_regular(entry) && is_regular(run_directory / name)) {
       names.push_back(name);
     }
   }

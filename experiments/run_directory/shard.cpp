@@ -22,12 +22,11 @@ fs::path mark_folder(const fs::path& run_directory) { return run_directory / "st
 std::vector<std::pair<fs::path, Shard>> marks_in(const fs::path& run_directory) {
   static const std::regex shape(R"((\d{1,6})_of_(\d{1,6}))");
   std::vector<std::pair<fs::path, Shard>> found;
-  std::error_code ignored;
-  for (const auto& mark : fs::directory_iterator(mark_folder(run_directory), ignored)) {
-    const std::string name = mark.path().filename().string();
+  for (const fs::path& mark : entries_in(mark_folder(run_directory))) {
+    const std::string name = mark.filename().string();
     std::smatch part;
     if (!std::regex_match(name, part, shape)) continue;
-    found.push_back({mark.path(), {std::stoi(part[1]), std::stoi(part[2])}});
+    found.push_back({mark, {std::stoi(part[1]), std::stoi(part[2])}});
   }
   return found;
 }

@@ -57,12 +57,10 @@ std::vector<ColumnInfo> read_columns(const fs::path& run_directory, std::string_
 
 std::vector<std::string> tables_with_columns(const fs::path& run_directory) {
   std::vector<std::string> names;
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(folder_in(run_directory), missing)) {
-    const std::string name = entry.path().filename().string();
+  for (const fs::path& entry : entries_in(folder_in(run_directory))) {
+    const std::string name = entry.filename().string();
     if (name.ends_with(".csv") && !name.starts_with('.')) names.push_back(name);
   }
-  std::sort(names.begin(), names.end());
   return names;
 }
 

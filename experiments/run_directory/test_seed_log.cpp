@@ -29,7 +29,6 @@ int log_evaluation(const std::filesystem::path& log, const TestSeedUse& use) {
   }
   if (!is_logged) {
     table.rows.push_back(own);
-    if (log.has_parent_path()) std::filesystem::create_directories(log.parent_path());
     write_atomically(log, to_csv(table));
   }
   return static_cast<int>(others.size());

@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/yaml.hpp"
 #include "recordings/beliefs/file.hpp"
 
@@ -25,14 +26,10 @@ bool is_hidden(const fs::path& name) {
 /// The relative paths of all files below the folder that are not hidden, sorted.
 std::vector<fs::path> files_below(const fs::path& folder) {
   std::vector<fs::path> names;
-  try {
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-      const fs::path name = entry.path().lexically_relative(folder);
-      if (entry.is_regular_file() && !is_hidden(name)) names.push_back(name);
-    }
-  } catch (const fs::filesystem_error& error) {
-    throw InputError(
-        fmt::format("{}: cannot be read: {}", folder.string(), error.code().message()));
+  std::error_code ignored;
+  for (const fs::path& entry : entries_below(folder)) {
+    const fs::path name = entry.lexically_relative(folder);
+    if (fs::is_regular_file(entry, ignored) && !is_hidden(name)) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -91,13 +88,11 @@ Submission submission_of_file(const fs::path& file, const std::vector<ExportedRu
 }  // namespace
 
 Submission submission_in(const fs::path& beliefs, const std::vector<ExportedRun>& runs) {
-  std::error_code ignored;
-  if (!fs::exists(beliefs, ignored)) {
+  if (!is_there(beliefs)) {
     throw InputError(fmt::format("{}: no such file or folder", beliefs.string()));
   }
-  const bool is_folder = fs::is_directory(beliefs, ignored);
   Submission all =
-      is_folder ? submission_of_folder(beliefs, runs) : submission_of_file(beliefs, runs);
+      is_folder(beliefs) ? submission_of_folder(beliefs, runs) : submission_of_file(beliefs, runs);
   if (all.files.empty()) {
     throw InputError(
         fmt::format("{}: holds no beliefs about a test run: expected files such as {}.csv",

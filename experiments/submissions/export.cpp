@@ -22,17 +22,15 @@ namespace fs = std::filesystem;
 /// A folder for the export. A new folder is removed again unless the export is complete.
 class ExportFolder {
  public:
-  explicit ExportFolder(const fs::path& folder) : path_(fs::absolute(folder)) {
-    std::error_code ignored;
-    is_new_ = !fs::exists(path_, ignored);
-    if (!is_new_ && !fs::is_directory(path_, ignored)) {
+  explicit ExportFolder(const fs::path& folder) : path_(absolute_path(folder)) {
+    is_new_ = !is_there(path_);
+    if (!is_new_ && !is_folder(path_)) {
       throw InputError(
           fmt::format("{}: is no folder: name a new or an empty one", folder.string()));
     }
-    const fs::directory_iterator content(path_, ignored);
-    if (content != fs::directory_iterator()) {
+    if (const std::vector<fs::path> content = entries_in(path_); !content.empty()) {
       throw InputError(fmt::format("{}: holds '{}': name a new or an empty folder", folder.string(),
-                                   content->path().filename().string()));
+                                   content.front().filename().string()));
     }
   }
   ~ExportFolder() {
@@ -47,11 +45,16 @@ class ExportFolder {
   /// Moves all content of `made` into this folder, the checksums last.
   void take(const fs::path& made) const {
     std::vector<fs::path> names;
-    for (const auto& entry : fs::directory_iterator(made)) names.push_back(entry.path().filename());
-    std::sort(names.begin(), names.end());
+    for (const fs::path& entry : entries_in(made)) names.push_back(entry.filename());
     std::stable_partition(names.begin(), names.end(),
                           [](const fs::path& name) { return name != "SHA256SUMS"; });
-    for (const fs::path& name : names) fs::rename(made / name, path_ / name);
+    for (const fs::path& name : names) {
+      std::error_code error;
+      fs::rename(made / name, path_ / name, error);
+      if (!error) continue;
+      throw Error(
+          fmt::format("{}: cannot be written: {}", (path_ / name).string(), error.message()));
+    }
   }
 
  private:

@@ -102,7 +102,7 @@ std::string converted_to_mjcf(const MjcfDocument::Text& urdf, const std::filesys
   const std::scoped_lock lock(last_model());
   const MjModelPtr model = load(urdf, file);
   // MuJoCo writes to files only.
-  std::string folder = (std::filesystem::temp_directory_path() / "touchdown_XXXXXX").string();
+  std::string folder = (temporary_folder() / "touchdown_XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) {
     throw Error(fmt::format("{}: cannot make a temporary folder", folder));
   }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/files.hpp"
 #include "core/yaml.hpp"
 #include "models/mjcf/compiler.hpp"
 
@@ -49,7 +50,7 @@ std::filesystem::path file_at(std::string_view address, const std::filesystem::p
   constexpr std::string_view package = "package://";
   constexpr std::string_view plain = "file://";
   std::vector<std::filesystem::path> candidates;
-  const std::filesystem::path folder = std::filesystem::absolute(urdf).parent_path();
+  const std::filesystem::path folder = absolute_path(urdf).parent_path();
   if (address.starts_with(package)) {
     const std::filesystem::path path(address.substr(package.size()));
     const std::filesystem::path inside = path.lexically_relative(*path.begin());

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "recordings/bags/bag_files.hpp"
 #include "recordings/bags/storage/compression.hpp"
 #include "recordings/bags/storage/random_file.hpp"
@@ -28,13 +29,13 @@ std::string first_bytes(const fs::path& path) {
 }  // namespace
 
 bool is_bag(const fs::path& path) {
-  if (fs::is_directory(path)) {
-    if (fs::exists(path / "metadata.yaml")) return true;
-    return std::any_of(fs::directory_iterator(path), fs::directory_iterator(),
-                       [](const auto& entry) {
-                         const std::string extension = bag_extension(entry.path());
-                         return extension == ".mcap" || extension == ".db3";
-                       });
+  if (is_folder(path)) {
+    if (is_there(path / "metadata.yaml")) return true;
+    const std::vector<fs::path> entries = entries_in(path);
+    return std::any_of(entries.begin(), entries.end(), [](const fs::path& entry) {
+      const std::string extension = bag_extension(entry);
+      return extension == ".mcap" || extension == ".db3";
+    });
   }
   const std::string extension = bag_extension(path);
   return extension == ".mcap" || extension == ".db3" || extension == ".bag";

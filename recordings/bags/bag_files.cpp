@@ -9,6 +9,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/resources.hpp"
 
 namespace touchdown::recordings {
@@ -46,10 +47,11 @@ std::vector<fs::path> listed_files(const fs::path& metadata) {
 
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string extension = bag_extension(entry.path());
-    if (entry.is_regular_file() && (extension == ".mcap" || extension == ".db3")) {
-      files.push_back(entry.path());
+  std::error_code ignored;
+  for (const fs::path& entry : entries_in(folder)) {
+    const std::string extension = bag_extension(entry);
+    if (fs::is_regular_file(entry, ignored) && (extension == ".mcap" || extension == ".db3")) {
+      files.push_back(entry);
     }
   }
   std::sort(files.begin(), files.end(),
@@ -65,18 +67,18 @@ std::string bag_extension(const fs::path& file) {
 }
 
 std::vector<fs::path> bag_files(const fs::path& path) {
-  if (!fs::is_directory(path)) {
+  if (!is_folder(path)) {
     require_file(path);
     return {path};
   }
   const fs::path metadata = path / "metadata.yaml";
   std::vector<fs::path> files;
-  if (fs::exists(metadata)) files = listed_files(metadata);
+  if (is_there(metadata)) files = listed_files(metadata);
   for (fs::path& file : files) {
     const fs::path named = path / file.filename();  // older versions list the folder too
     const fs::path compressed = named.string() + ".zstd";
-    file = !fs::exists(named) && fs::exists(compressed) ? compressed : named;
-    if (!fs::exists(file)) {
+    file = !is_there(named) && is_there(compressed) ? compressed : named;
+    if (!is_there(file)) {
       throw InputError(
           fmt::format("{}: lists {}, which is not there", metadata.string(), named.string()));
     }

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/resources.hpp"
 
 namespace touchdown::recordings {
@@ -47,8 +48,7 @@ bool is_opened_already(std::string_view name) {
 
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop) {
   const std::string name = path.string();
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
+  if (is_folder(path)) {
     throw InputError(fmt::format(
         "{}: is a folder, expected a log; `touchdown estimate`, `check` and `export` read a ROS 2 "
         "bag with --mapping FILE.yaml",
@@ -57,9 +57,7 @@ ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool
   if (name != "-" && !is_opened_already(name)) require_file(name);
   const int opened =
       name == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT
-  if (opened < 0) {
-    throw InputError(fmt::format("{}: cannot be opened: {}", name, std::strerror(errno)));
-  }
+  if (opened < 0) complain_unreadable(name, {errno, std::generic_category()}, "opened");
   const auto descriptor = std::make_shared<Descriptor>(opened);
   return [descriptor, name, stop](std::span<char> buffer) {
     while (true) {
@@ -68,7 +66,7 @@ ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool
       const ssize_t size = ::read(descriptor->number, buffer.data(), buffer.size());
       if (size >= 0) return static_cast<std::size_t>(size);
       if (errno == EINTR) continue;
-      throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+      complain_unreadable(name, {errno, std::generic_category()});
     }
   };
 }

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "recordings/bags/bag.hpp"
 #include "recordings/bags/find_topics.hpp"
 #include "recordings/bags/topic_rows.hpp"
@@ -127,8 +128,8 @@ class Arrival {
 
 /// The files of the sources, in the folder of the log.
 std::vector<SourceNames> named_files(const fs::path& log, const LogSources& sources) {
-  const bool is_folder = fs::is_directory(log);
-  const fs::path folder = is_folder ? log : log.parent_path();
+  const bool is_whole_folder = is_folder(log);
+  const fs::path folder = is_whole_folder ? log : log.parent_path();
   std::vector<SourceNames> named;
   std::vector<std::string> all;
   const auto add = [&](const char* section, const std::vector<std::string>& files) {
@@ -145,7 +146,7 @@ std::vector<SourceNames> named_files(const fs::path& log, const LogSources& sour
   const bool is_one_of_them = std::any_of(all.begin(), all.end(), [&](const std::string& file) {
     return fs::path(file).filename() == log.filename();
   });
-  if (!is_folder && !is_one_of_them) {
+  if (!is_whole_folder && !is_one_of_them) {
     throw InputError(
         fmt::format("{}: the mapping's `sources` are {}: give one of them, or their folder",
                     log.string(), fmt::join(all, ", ")));
@@ -399,7 +400,7 @@ std::vector<std::string> read_joined_bag(const fs::path& log, const LogSources& 
 
 std::vector<std::string> read_joined_log(const fs::path& log, const LogSources& sources,
                                          const JoinedLogSink& sink) {
-  if (!fs::exists(log)) throw InputError(fmt::format("{}: no such file or folder", log.string()));
+  if (!is_there(log)) throw InputError(fmt::format("{}: no such file or folder", log.string()));
   if (sources.are_files()) return read_joined_files(log, sources, sink);
   if (is_bag(log)) return read_joined_bag(log, sources, sink);
   throw InputError(fmt::format(

@@ -5,13 +5,14 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "recordings/mapping/conversion.hpp"
 
 namespace touchdown::recordings {
 
 MappedLog::MappedLog(const std::filesystem::path& log, const std::filesystem::path& mapping,
                      const std::function<void()>& check_stop)
-    : folder_(std::filesystem::temp_directory_path() / "touchdown_mapped_log") {
+    : folder_(temporary_folder() / "touchdown_mapped_log") {
   std::ofstream stream(path(), std::ios::binary);
   const ConvertedLog converted = convert_log(log, mapping, stream, check_stop, false);
   stream.close();

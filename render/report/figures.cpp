@@ -65,9 +65,9 @@ bool is_wide(const fs::path& svg) {
 std::vector<fs::path> more_data_of(const fs::path& figure) {
   const std::string beginning = figure.stem().string() + "_";
   std::vector<fs::path> names;
-  for (const auto& entry : fs::directory_iterator(figure.parent_path())) {
-    const std::string name = entry.path().filename().string();
-    const bool is_its_own = is_there(fs::path(entry.path()).replace_extension(".svg"));
+  for (const fs::path& entry : entries_in(figure.parent_path())) {
+    const std::string name = entry.filename().string();
+    const bool is_its_own = is_there(fs::path(entry).replace_extension(".svg"));
     if (name.starts_with(beginning) && name.ends_with(".dat") && !is_its_own) {
       names.emplace_back(name);
     }
@@ -100,13 +100,11 @@ void sort_by_engine(std::vector<fs::path>& files, const std::vector<std::string>
 ReportSection figures_section(const ReportSubject& subject) {
   ReportSection section{"figures", "Figures", {}};
   const fs::path folder = subject.directory / "figures";
-  std::error_code ignored;
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const fs::path& path = entry.path();
+  for (const fs::path& path : entries_in(folder)) {
     const bool drawn = path.extension() == ".svg";
-    const bool painted = path.extension() == ".png" &&
-                         !fs::exists(fs::path(path).replace_extension(".svg"), ignored);
+    const bool painted =
+        path.extension() == ".png" && !is_there(fs::path(path).replace_extension(".svg"));
     if (drawn || painted) files.push_back(path);
   }
   const std::vector<std::string>& simulators = subject.experiment.simulators;
@@ -114,10 +112,10 @@ ReportSection figures_section(const ReportSubject& subject) {
   for (const fs::path& file : files) {
     fs::path shown = file;
     const fs::path painted = fs::path(file).replace_extension(".png");
-    if (fs::file_size(file, ignored) > largest_picture && fs::exists(painted, ignored)) {
+    if (size_of_file(file) > largest_picture && is_there(painted)) {
       shown = painted;
     }
-    if (fs::file_size(shown, ignored) > largest_picture) continue;
+    if (size_of_file(shown) > largest_picture) continue;
     const FigureText text = text_of(file);
     section.html += fmt::format(
         "<figure{}><div class=\"pan\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">"
@@ -127,7 +125,7 @@ ReportSection figures_section(const ReportSubject& subject) {
         escaped(text.title), escaped(text.caption));
     for (const char* kind : {".svg", ".png", ".pdf", ".gp", ".dat", ".csv"}) {
       const fs::path beside = fs::path(file).replace_extension(kind);
-      if (!fs::exists(beside, ignored)) continue;
+      if (!is_there(beside)) continue;
       section.html += fmt::format(" <a href=\"figures/{0}\">{1}</a>",
                                   escaped(beside.filename().string()), kind + 1);
     }

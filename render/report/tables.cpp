@@ -154,10 +154,8 @@ ReportSection more_tables_section(const ReportSubject& subject) {
   ReportSection section{"tables", "Every table", {}};
   std::error_code ignored;
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(subject.directory / "tables", ignored)) {
-    if (entry.path().extension() == ".csv" && entry.is_regular_file()) {
-      files.push_back(entry.path());
-    }
+  for (const fs::path& entry : entries_in(subject.directory / "tables")) {
+    if (entry.extension() == ".csv" && fs::is_regular_file(entry, ignored)) files.push_back(entry);
   }
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {

@@ -1,8 +1,11 @@
 #include "core/files.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -176,6 +179,105 @@ TEST_F(Files, AStreamThatFailsIsReportedByTheNameOfItsFile) {
   EXPECT_EQ(complaint([](std::ostream&) { throw Error("a record is broken"); }),
             "a record is broken");
   EXPECT_EQ(read_file(path), "x");  // as before
+}
+
+TEST_F(Files, OfAFolderAreListedInOrderAndThoseOfNoFolderAreNone) {
+  using ::testing::ElementsAre;
+  using ::testing::IsEmpty;
+  scratch_.write("b", "12");
+  scratch_.write("a/c", "123");
+  std::filesystem::create_directory_symlink("a", folder_ / "link");
+  const std::filesystem::path f = folder_;
+  EXPECT_THAT(entries_in(f), ElementsAre(f / "a", f / "b", f / "link"));
+  EXPECT_THAT(entries_below(f), ElementsAre(f / "a", f / "a" / "c", f / "b", f / "link"));
+  for (const char* const none : {"none", "b", "none/below", "b/below"}) {
+    EXPECT_THAT(entries_in(f / none), IsEmpty()) << none;
+    EXPECT_THAT(entries_below(f / none), IsEmpty()) << none;
+  }
+  EXPECT_TRUE(is_folder(f / "link"));
+  EXPECT_FALSE(is_folder(f / "b"));
+  EXPECT_EQ(size_of_file(f / "b"), 2U);
+  EXPECT_EQ(size_of_file(f / "none"), 0U);
+  EXPECT_EQ(size_of_file(f), 0U) << "a folder";
+}
+
+TEST_F(Files, OfAFolderThatCannotBeReadAreAnErrorAndNotNone) {
+  std::filesystem::create_symlink("b", folder_ / "a");
+  std::filesystem::create_symlink("a", folder_ / "b");
+  const std::filesystem::path long_name = folder_ / std::string(300, 'x');
+  for (const std::filesystem::path& path : {folder_ / "a", long_name}) {
+    EXPECT_THROW(entries_in(path), InputError);
+    EXPECT_THROW(entries_below(path), InputError);
+    EXPECT_FALSE(is_folder(path));
+  }
+}
+
+/// Calls `use` while the process can open no more files.
+template <typename Use>
+std::string without_descriptors(const Use& use) {
+  rlimit before = {};
+  ::getrlimit(RLIMIT_NOFILE, &before);
+  const rlimit none = {0, before.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, &none);
+  std::string complaint = "none";
+  try {
+    use();
+  } catch (const InputError& error) {
+    complaint = "InputError";
+  } catch (const Error& error) {
+    complaint = error.what();
+  }
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  return complaint;
+}
+
+TEST_F(Files, WithoutADescriptorLeftAreNoFaultOfTheRequest) {
+  using ::testing::StartsWith;
+  scratch_.write("file", "x");
+  const std::string file = (folder_ / "file").string();
+  EXPECT_THAT(without_descriptors([&] { (void)read_file(file); }),
+              StartsWith(file + ": cannot be opened: "));
+  EXPECT_THAT(without_descriptors([&] { (void)entries_in(folder_); }),
+              StartsWith(folder_.string() + ": cannot be read: "));
+  EXPECT_THAT(without_descriptors([&] { (void)entries_below(folder_); }),
+              StartsWith(folder_.string() + ": cannot be read: "));
+  EXPECT_THAT(without_descriptors([&] { write_atomically(file, "y"); }),
+              StartsWith(file + ": cannot be written: "));
+  EXPECT_EQ(read_file(file), "x");
+}
+
+TEST(TemporaryFolder, ThatIsNoneIsNamed) {
+  const char* const before = std::getenv("TMPDIR");
+  const std::optional<std::string> kept =
+      before == nullptr ? std::nullopt : std::optional<std::string>(before);
+  for (const char* const wrong : {"/nonexistent/tmp", "/dev/null", "/etc/passwd"}) {
+    ::setenv("TMPDIR", wrong, 1);
+    try {
+      (void)temporary_folder();
+      ADD_FAILURE() << wrong;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), ::testing::StartsWith(std::string(wrong) + ": no folder"));
+    }
+  }
+  if (kept) {
+    ::setenv("TMPDIR", kept->c_str(), 1);
+  } else {
+    ::unsetenv("TMPDIR");
+  }
+}
+
+TEST(AbsolutePath, NeedsAWorkingDirectory) {
+  EXPECT_EQ(absolute_path("/a/b"), "/a/b");
+  EXPECT_EQ(absolute_path("a"), std::filesystem::current_path() / "a");
+  EXPECT_EQ(absolute_path(""), std::filesystem::current_path() / "");
+  const std::filesystem::path before = std::filesystem::current_path();
+  {
+    const ScratchFolder gone;
+    std::filesystem::current_path(gone.path());
+  }
+  EXPECT_THROW((void)absolute_path("a"), Error);
+  EXPECT_EQ(absolute_path("/a"), "/a");
+  std::filesystem::current_path(before);
 }
 
 }  // namespace

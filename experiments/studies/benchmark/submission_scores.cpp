@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "experiments/run_directory/saved_state.hpp"
 
 namespace touchdown::experiments {
@@ -42,10 +43,9 @@ void save(const SubmissionScores& scores, const RunRequest& request,
 std::vector<SubmissionScores> saved_submissions(const RunRequest& request,
                                                 const RunDirectory& directory) {
   std::vector<SubmissionScores> all;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(directory.path() / folder, none)) {
-    SubmissionScores scores{entry.path().filename().string(), {}};
-    const auto bytes = read_state(entry.path(), key_for(request, scores.name));
+  for (const std::filesystem::path& entry : entries_in(directory.path() / folder)) {
+    SubmissionScores scores{entry.filename().string(), {}};
+    const auto bytes = read_state(entry, key_for(request, scores.name));
     if (!bytes) continue;
     std::string_view rest = *bytes;
     for (std::size_t cell = 0; cell < request.experiment.highlights.size(); ++cell) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/resources.hpp"
 
 namespace touchdown::recordings {
@@ -20,9 +21,9 @@ RandomFile::RandomFile(const std::filesystem::path& path, std::string name)
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT
   const off_t end = descriptor_ < 0 ? -1 : ::lseek(descriptor_, 0, SEEK_END);
   if (end < 0) {
-    const std::string why = std::strerror(errno);
+    const std::error_code why(errno, std::generic_category());
     if (descriptor_ >= 0) ::close(descriptor_);
-    throw InputError(fmt::format("{}: cannot be opened: {}", name_, why));
+    complain_unreadable(name_, why, "opened");
   }
   size_ = static_cast<std::uint64_t>(end);
 }

@@ -8,11 +8,12 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace touchdown::recordings {
 
 TemporaryFile::TemporaryFile() {
-  std::string name = (std::filesystem::temp_directory_path() / "touchdown_bag_XXXXXX").string();
+  std::string name = (temporary_folder() / "touchdown_bag_XXXXXX").string();
   const int descriptor = ::mkstemp(name.data());
   if (descriptor < 0) throw Error(fmt::format("{}: cannot be made", name));
   ::close(descriptor);
