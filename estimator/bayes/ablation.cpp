@@ -23,9 +23,13 @@ constexpr Change changes[] = {
        config.measurement.fit.knee_range = robust.measurement.fit.knee_range;
        config.measurement.fit.wheel_range = robust.measurement.fit.wheel_range;
      }},
-    {"paper_bandwidth", "bandwidths of at least 0.1 N·m",
+    {"paper_bandwidth", "bandwidths of at least 0.01 N·m",
      [](BayesFilterConfig& config, const BayesFilterConfig& robust) {
        config.measurement.fit.bandwidth_floor = robust.measurement.fit.bandwidth_floor;
+     }},
+    {"paper_noise", "densities that follow the sensors' noise",
+     [](BayesFilterConfig& config, const BayesFilterConfig& robust) {
+       config.measurement.noise = robust.measurement.noise;
      }},
     {"paper_floor", "a floor under the likelihood of contact",
      [](BayesFilterConfig& config, const BayesFilterConfig& robust) {

@@ -48,7 +48,10 @@ BayesFilterConfig BayesFilterConfig::robust() {
   config.measurement.torque.sign = TorqueSign::absolute;
   config.measurement.fit.knee_range.reset();
   config.measurement.fit.wheel_range.reset();
-  config.measurement.fit.bandwidth_floor = {0.1, 0.1};
+  // The servos' resolution. Noise that the fitted runs lack widens the densities while the filter
+  // runs.
+  config.measurement.fit.bandwidth_floor = {0.01, 0.01};
+  config.measurement.noise.is_followed = true;
   config.transition.median_of = SpectrumKind::power;
   config.transition.nyquist = true;
   config.transition.row_stochastic = true;

@@ -7,11 +7,32 @@
 
 namespace touchdown {
 
+/// Whether and how the densities follow white noise of the torque sensors.
+struct TorqueNoiseConfig {
+  /// Widens the densities by the noise that the filter estimates while it runs. Otherwise they stay
+  /// as fitted.
+  bool is_followed = false;
+  /// The densities are widened by this share of the noise that the torques' low-pass leaves. The
+  /// filter takes low-passed samples for independent, so densities narrower than the noise do best.
+  double share = 0.7;
+  /// Range of the estimated noise (N·m), before the torques' low-pass.
+  double floor = 0.02;
+  double ceiling = 6.4;
+  /// Relative change of the estimate at each step.
+  double gain = 0.01;
+  /// During this time after the start (s) the estimate moves faster, as 1/time.
+  double warm_up = 0.1;
+
+  bool operator==(const TorqueNoiseConfig&) const = default;
+};
+
 struct MeasurementConfig {
   /// How m_t follows from the torques, in the fit and in the estimator.
   TorqueConfig torque;
   /// How the densities are fitted.
   MeasurementFitConfig fit;
+  /// How they follow the sensors' noise.
+  TorqueNoiseConfig noise;
   /// Added to P(m_t | S_t = C) and to P(m_t | S_t = ¬C) at every step.
   double contact_floor = 0.0;
   double no_contact_floor = 0.0;

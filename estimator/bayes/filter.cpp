@@ -26,7 +26,8 @@ State correct(const Likelihoods& p, const State& predicted, const State& bel) no
 
 BayesFilter::BayesFilter(MeasurementModel model, const BayesFilterConfig& config)
     : config_(config),
-      model_(std::move(model)),
+      model_(std::move(model), config.measurement),
+      noise_(config.measurement, config.sample_rate),
       transition_(config.transition, config.sample_rate),
       guard_(config.guard, config.sample_rate),
       torque_{TorqueChannel(config.measurement.torque, Side::left, config.sample_rate),
@@ -38,6 +39,7 @@ BayesFilter::BayesFilter(MeasurementModel model, const BayesFilterConfig& config
 void BayesFilter::reset() noexcept {
   transition_.reset();
   guard_.reset();
+  noise_.reset();
   for (TorqueChannel& torque : torque_) torque.reset();
   measurement_ = {};
   bel_ = {};
@@ -50,12 +52,14 @@ const Belief& BayesFilter::estimate(const Signals& signals) noexcept {
   belief_.status = verdict.status;
   if (verdict.restart) {
     transition_.reset();
+    noise_.reset_signals();
     torque_[0].reset();
     torque_[1].reset();
   }
   if (verdict.acceleration_good) {
     transition_.update(signals.vertical_acceleration);  // Eq. (7) to (13)
   }
+  const MeasurementModel& model = model_.at(noise_.update(signals, config_.guard));
 
   for (std::size_t side = 0; side < 2; ++side) {
     State& bel = bel_[side];  // Eq. (1)
@@ -70,7 +74,7 @@ const Belief& BayesFilter::estimate(const Signals& signals) noexcept {
     if (measured) {
       MeasurementDiagnostics& m = measurement_[side];
       m.torque = torque_[side].update(leg);  // Eq. (4)
-      m.likelihood = model_(m.torque);       // Eq. (5) and (6)
+      m.likelihood = model(m.torque);        // Eq. (5) and (6)
       m.likelihood.contact += config_.measurement.contact_floor;
       m.likelihood.no_contact += config_.measurement.no_contact_floor;
 

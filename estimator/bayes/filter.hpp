@@ -4,6 +4,7 @@
 
 #include "estimator/bayes/config.hpp"
 #include "estimator/bayes/measurement_model.hpp"
+#include "estimator/bayes/noisy_measurement.hpp"
 #include "estimator/bayes/transition_model.hpp"
 #include "estimator/contact_estimator.hpp"
 #include "estimator/signal_guard.hpp"
@@ -62,7 +63,8 @@ class BayesFilter : public ContactEstimator {
   const Belief& estimate(const Signals& signals) noexcept override;
 
   BayesFilterConfig config_;
-  MeasurementModel model_;
+  NoisyMeasurement model_;
+  TorqueNoise noise_;
   TransitionModel transition_;
   SignalGuard guard_;
   std::array<TorqueChannel, 2> torque_;

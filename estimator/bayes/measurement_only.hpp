@@ -33,7 +33,8 @@ class MeasurementOnly : public ContactEstimator {
   const Belief& estimate(const Signals& signals) noexcept override;
 
   BayesFilterConfig config_;
-  MeasurementModel model_;
+  NoisyMeasurement model_;
+  TorqueNoise noise_;
   SignalGuard guard_;
   std::array<TorqueChannel, 2> torque_;
   std::array<MeasurementDiagnostics, 2> measurement_;

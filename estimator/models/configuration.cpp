@@ -140,6 +140,16 @@ void visit_members(Visit& visit, Config& config) {
   visit("torque.low_pass", config.measurement.torque.low_pass);
   visit("contact_floor", config.measurement.contact_floor);
   visit("no_contact_floor", config.measurement.no_contact_floor);
+  // Models whose densities stay as fitted do not have these keys.
+  auto& noise = config.measurement.noise;
+  if (!std::is_const_v<Config> || noise.is_followed) {
+    visit("noise.is_followed", noise.is_followed);
+    visit("noise.share", noise.share);
+    visit("noise.floor", noise.floor);
+    visit("noise.ceiling", noise.ceiling);
+    visit("noise.gain", noise.gain);
+    visit("noise.warm_up", noise.warm_up);
+  }
   auto& transition = config.transition;
   visit("transition.window", transition.window);
   visit.choose("transition.power", powers, transition.power);

@@ -9,7 +9,7 @@ namespace touchdown::experiments {
 
 BatchedMeasurement::BatchedMeasurement(MeasurementModel model, const BayesFilterConfig& config,
                                        std::span<const BatchNoise> levels)
-    : model_(std::move(model)),
+    : model_(std::move(model), config.measurement),
       config_(config.measurement),
       gain_(low_pass_gain(config.measurement.torque.low_pass, 1.0 / config.sample_rate)) {
   check_measurement_config(config.measurement, config.threshold);
@@ -17,6 +17,7 @@ BatchedMeasurement::BatchedMeasurement(MeasurementModel model, const BayesFilter
   for (const BatchNoise& level : levels) {
     knee_sigma_.push_back(level.knee_torque);
     wheel_sigma_.push_back(level.wheel_torque);
+    if (config_.noise.is_followed) noise_.emplace_back(config_, config.sample_rate);
   }
   for (Leg& leg : leg_) {
     for (auto* column : {&leg.knee, &leg.wheel, &leg.knee_weight, &leg.wheel_weight, &leg.contact,
@@ -27,11 +28,23 @@ BatchedMeasurement::BatchedMeasurement(MeasurementModel model, const BayesFilter
   }
 }
 
-/// Eq. (4) of one leg, and the position of its torques on the grid.
+void BatchedMeasurement::estimate_noise(const Signals& clean, const NoiseStep& draws) noexcept {
+  for (std::size_t i = 0; i < noise_.size(); ++i) {
+    std::array<double, 2> knee{};
+    std::array<double, 2> wheel{};
+    for (std::size_t side = 0; side < 2; ++side) {
+      knee[side] = clean.leg[side].knee.torque + knee_sigma_[i] * draws.torque[side].knee;
+      wheel[side] = clean.leg[side].wheel.torque + wheel_sigma_[i] * draws.torque[side].wheel;
+    }
+    noise_[i].update(knee, wheel);
+  }
+}
+
+/// Eq. (4) of one leg, and the position of its torques on the fitted grid.
 void BatchedMeasurement::filter_torques(Leg& leg, const LegSignals& clean, const TorqueSample& draw,
-                                        double mirror, double gain) noexcept {
+                                        double mirror, double gain) const noexcept {
   const std::size_t count = knee_sigma_.size();
-  const MeasurementModel& model = model_;
+  const MeasurementModel& model = model_.fitted();
   const bool absolute = config_.torque.sign == TorqueSign::absolute;
   const double* const knee_sigma = knee_sigma_.data();
   const double* const wheel_sigma = wheel_sigma_.data();
@@ -57,17 +70,32 @@ void BatchedMeasurement::filter_torques(Leg& leg, const LegSignals& clean, const
   }
 }
 
+/// Eq. (6) of one leg.
+void BatchedMeasurement::look_up(Leg& leg) const noexcept {
+  const MeasurementModel& fitted = model_.fitted();
+  const bool absolute = config_.torque.sign == TorqueSign::absolute;
+  for (std::size_t i = 0; i < knee_sigma_.size(); ++i) {
+    const std::size_t level = noise_.empty() ? 0 : noise_[i].level();
+    Likelihoods p;
+    if (level == 0) {
+      p = fitted.at({leg.cell[i], leg.knee_weight[i], leg.wheel_weight[i]});
+    } else {
+      const TorqueSample m = {leg.knee[i], leg.wheel[i]};
+      p = model_.at(level)(absolute ? TorqueSample{std::abs(m.knee), std::abs(m.wheel)} : m);
+    }
+    leg.contact[i] = p.contact + config_.contact_floor;
+    leg.no_contact[i] = p.no_contact + config_.no_contact_floor;
+  }
+}
+
 void BatchedMeasurement::observe(const Signals& clean, const NoiseStep& draws) noexcept {
   const double gain = started_ ? gain_ : 1.0;
   started_ = true;
+  estimate_noise(clean, draws);
   for (std::size_t side = 0; side < 2; ++side) {
     Leg& leg = leg_[side];
     filter_torques(leg, clean.leg[side], draws.torque[side], side == 0 ? 1.0 : -1.0, gain);
-    for (std::size_t i = 0; i < knee_sigma_.size(); ++i) {
-      const Likelihoods p = model_.at({leg.cell[i], leg.knee_weight[i], leg.wheel_weight[i]});
-      leg.contact[i] = p.contact + config_.contact_floor;
-      leg.no_contact[i] = p.no_contact + config_.no_contact_floor;
-    }
+    look_up(leg);
   }
 }
 

@@ -48,11 +48,14 @@ class BatchedMeasurement {
     std::vector<double> no_contact;
     std::vector<double> p_measurement;
   };
+  void estimate_noise(const Signals& clean, const NoiseStep& draws) noexcept;
   void filter_torques(Leg& leg, const LegSignals& clean, const TorqueSample& draw, double mirror,
-                      double gain) noexcept;
+                      double gain) const noexcept;
+  void look_up(Leg& leg) const noexcept;
 
-  MeasurementModel model_;
+  NoisyMeasurement model_;
   MeasurementConfig config_;
+  std::vector<TorqueNoise> noise_;  ///< per level of the batch; empty if it is not followed
   double gain_;
   bool started_ = false;
   std::vector<double> knee_sigma_;

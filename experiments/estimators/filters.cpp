@@ -176,7 +176,10 @@ EstimatorEntry measurement_only_entry() {
       .config = BayesFilterConfig::robust(),
       .fit = fit_measurement,
       .hyperparameters = {between("threshold", BayesFilterConfig::robust().threshold, 0.2, 0.95),
-                          fitted_with(around("bandwidth_floor", 0.1, 4.0))},
+                          fitted_with(around(
+                              "bandwidth_floor",
+                              BayesFilterConfig::robust().measurement.fit.bandwidth_floor.knee,
+                              4.0))},
       .apply = apply_bayes,
       .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
         return std::make_unique<MeasurementOnly>(*setup.model->measurement,

@@ -41,6 +41,8 @@ const std::vector<Setting>& settings() {
          to.measurement.fit.bandwidth_floor = from.measurement.fit.bandwidth_floor;
          to.measurement.fit.bandwidth = from.measurement.fit.bandwidth;
        }},
+      {"noise of torques",
+       [](Config& to, const Config& from) { to.measurement.noise = from.measurement.noise; }},
       {"likelihood floor",
        [](Config& to, const Config& from) {
          to.measurement.contact_floor = from.measurement.contact_floor;
@@ -110,7 +112,7 @@ TEST(BayesAblation, GoesFromPaperToRobustOneChangeAtATime) {
   }
   const std::vector<std::string> between_ends = differences(Config::paper(), Config::robust());
   EXPECT_EQ(changed, std::set<std::string>(between_ends.begin(), between_ends.end()));
-  EXPECT_EQ(between_ends.size(), 9U);
+  EXPECT_EQ(between_ends.size(), 10U);
 }
 
 TEST(BayesAblation, HasTheOtherReadingOfThePowerBesideItsFirstStep) {

@@ -276,7 +276,10 @@ TEST(BayesFilterConfig, HasTheNumbersOfItsSources) {
   EXPECT_EQ(reference.measurement.contact_floor, 1e-20);
   EXPECT_EQ(reference.measurement.no_contact_floor, 0.0);
   const BayesFilterConfig robust = BayesFilterConfig::robust();
-  EXPECT_EQ(robust.measurement.fit.bandwidth_floor, (TorqueBandwidth{0.1, 0.1}));
+  EXPECT_EQ(robust.measurement.fit.bandwidth_floor, (TorqueBandwidth{0.01, 0.01}));
+  EXPECT_TRUE(robust.measurement.noise.is_followed);
+  EXPECT_FALSE(reference.measurement.noise.is_followed);
+  EXPECT_FALSE(paper.measurement.noise.is_followed);
   EXPECT_EQ(robust.measurement.torque.low_pass, 0.025);
   EXPECT_TRUE(robust.transition.row_stochastic);
 }
