@@ -126,6 +126,19 @@ std::string to_yaml(const Scenario& scenario) {
   return YAML::Dump(fields.node()) + "\n";
 }
 
+namespace {
+
+/// The drawn change of a hip angle. Legs keep a bend of at least `least_bend`: straight legs are
+/// singular, and beyond them the knees bend backwards. The half width towards straight legs ends
+/// there.
+double bent(double hip, double change, double half_width) {
+  const double room = std::max(0.0, std::abs(hip) - least_bend);
+  if (change * hip >= 0.0 || half_width <= room) return change;
+  return change * room / half_width;
+}
+
+}  // namespace
+
 Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t run) {
   // The numbers of the streams define what a seed draws: append, never renumber.
   enum Stream : std::uint64_t {
@@ -156,7 +169,7 @@ Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t ru
   for (policies::VelocityCommand& command : varied.velocity) {
     if (command.velocity != 0.0) command.velocity += faster;
   }
-  const double deeper = draw(crouch, p.crouch);
+  const double deeper = bent(scenario.start.hip, draw(crouch, p.crouch), p.crouch);
   if (scenario.start.hip != 0.0) {
     varied.start.knee *= (scenario.start.hip + deeper) / scenario.start.hip;
   }

@@ -90,8 +90,11 @@ std::string robot_text(const Scenario& scenario);
 /// The scenario as YAML that `scenario_from_yaml` reads back to the same scenario.
 std::string to_yaml(const Scenario& scenario);
 
+/// No draw of a run's hip angle is nearer to a straight leg than this (rad).
+inline constexpr double least_bend = 0.03;
+
 /// The scenario of run `run`: the quantities of `perturbation` are drawn from (seed, run). Each has
-/// its own stream, so adding one changes no other.
+/// its own stream, so adding one changes no other. No draw bends knees backwards.
 Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t run);
 
 }  // namespace touchdown::scenarios

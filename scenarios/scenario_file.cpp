@@ -52,6 +52,19 @@ models::Stance stance_of(DescribedRobot& robot) {
                          : models::usual_stance(robot.model());
 }
 
+/// Checks that random crouches do not bend knees both ways.
+void check_stays_bent(const Scenario& scenario, const std::string& document) {
+  const Start& start = scenario.start;
+  const Range& hip = scenario.perturbation.crouching->hip;
+  const double straight = start.hip - start.knee / policies::knee_per_hip;
+  if (hip.low < straight && straight < hip.high) {
+    throw InputError(fmt::format(
+        "{}: perturbation.crouching.hip: expected [low, high] on one side of {:.3f}, where the "
+        "knees are straight, found [{:g}, {:g}]",
+        document, straight, hip.low, hip.high));
+  }
+}
+
 /// Checks that the robot's joints can have all angles of the scenario.
 void check_angles(const Scenario& scenario, const std::string& document, DescribedRobot& robot) {
   const auto check = [&](const std::string& section, const models::Stance& stance) {
@@ -70,6 +83,7 @@ void check_angles(const Scenario& scenario, const std::string& document, Describ
   if (scenario.perturbation.crouching) {
     check_crouch("perturbation.crouching", scenario.perturbation.crouching->hip.low);
     check_crouch("perturbation.crouching", scenario.perturbation.crouching->hip.high);
+    check_stays_bent(scenario, document);
   }
 }
 

@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <set>
 
+#include "core/random.hpp"
+#include "policies/crouching.hpp"
+#include "scenarios/scenario_file.hpp"
 #include "tests/scenarios/runs.hpp"
 
 namespace touchdown::scenarios {
@@ -130,6 +134,93 @@ TEST(Perturbed, QuantitiesAreIndependent) {
     product += (varied.start.x / 0.1) * (varied.start.yaw / 0.3);
   }
   EXPECT_LT(std::abs(product / runs) * 3.0, 4.0 / std::sqrt(runs));
+}
+
+/// The knees that a run commands, from straight legs, positive where the robot's stance bends them.
+std::vector<double> commanded_knees(const Scenario& scenario, const Scenario& varied) {
+  const double side = scenario.start.knee < 0.0 ? -1.0 : 1.0;
+  std::vector<double> knees = {side * varied.start.knee};
+  for (const policies::CrouchCommand& command : varied.crouch) {
+    knees.push_back(
+        side * (varied.start.knee + policies::knee_per_hip * (command.hip - varied.start.hip)));
+  }
+  return knees;
+}
+
+const std::vector<const char*> robots_of_all_stances = {
+    "upkie.xml",           "upkie_straight.yaml",  "upkie_straight_actuated.yaml",
+    "upkie_actuated.yaml", "upkie_long_legs.yaml", "upkie_asymmetric.yaml"};
+
+Scenario with_robot(const std::string& scenario, const std::string& robot) {
+  YamlDocument document =
+      YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/scenarios/" + scenario + ".yaml");
+  document.override_value("robot=" TOUCHDOWN_SOURCE_DIR "/models/" + robot);
+  return complete_scenario(document);
+}
+
+TEST(Perturbed, BendsNoKneeBackwards) {
+  for (const char* name : {"roam", "hang", "kerb", "put_down", "pushed", "lift_slowly",
+                           "roam_crouching", "hang_crouching"}) {
+    for (const char* robot : robots_of_all_stances) {
+      const Scenario scenario = with_robot(name, robot);
+      double lowest = 1e9;
+      for (int run = 0; run < 2000; ++run) {
+        for (const double knee : commanded_knees(scenario, perturbed(scenario, 7, run))) {
+          lowest = std::min(lowest, knee);
+        }
+      }
+      EXPECT_GE(lowest, 1.7 * least_bend) << name << ' ' << robot;
+    }
+  }
+}
+
+class StraightRobot : public InEveryEngine {};
+
+/// Targets are not all: servos give way, and wheels turn the legs.
+TEST_P(StraightRobot, BendsNoKneeBackwardsWhileItMoves) {
+  for (const char* name : {"roam", "hang", "roam_crouching", "hang_crouching"}) {
+    Scenario scenario = with_robot(name, "upkie_straight_actuated.yaml");
+    scenario.end.duration = 5.0;
+    for (int run = 0; run < 4; ++run) {
+      const recordings::Recording recording =
+          play(perturbed(scenario, 11, run), GetParam(), 11, run);
+      double lowest = 1e9;
+      for (const models::Observation& observation : recording.observation) {
+        lowest =
+            std::min({lowest, -observation.servo[models::index(models::Servo::left_knee)].position,
+                      observation.servo[models::index(models::Servo::right_knee)].position});
+      }
+      EXPECT_GT(lowest, 0.01) << name << " run " << run;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, StraightRobot, ::testing::ValuesIn(simulators::simulator_names()),
+                         engine_name);
+
+TEST(Perturbed, BendsNoKneeBackwardsForAnyStance) {
+  for (const double hip : {0.02, 0.05, 0.1, 0.3, -0.02, -0.05, -0.1, -0.3}) {
+    Scenario scenario = standing(1.0);
+    scenario.start.hip = hip;
+    scenario.start.knee = policies::knee_per_hip * hip;
+    for (const double half_width : {0.01, 0.15, 0.6}) {
+      scenario.perturbation.crouch = half_width;
+      for (int run = 0; run < 300; ++run) {
+        const double drawn = perturbed(scenario, 1, run).start.hip;
+        EXPECT_GE(drawn / hip, std::min(1.0, least_bend / std::abs(hip)))
+            << hip << ' ' << half_width;
+        EXPECT_LE(std::abs(drawn - hip), half_width);
+      }
+    }
+  }
+}
+
+TEST(Perturbed, KeepsTheDrawsOfBentRobots) {
+  const Scenario roam = with_robot("roam", "upkie.xml");
+  for (int run = 0; run < 200; ++run) {
+    const double u = uniform01(3, static_cast<std::uint64_t>(run), 4);
+    EXPECT_EQ(perturbed(roam, 3, run).start.hip, 0.455 + 0.15 * (2.0 * u - 1.0));
+  }
 }
 
 }  // namespace

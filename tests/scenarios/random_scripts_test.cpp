@@ -146,5 +146,29 @@ TEST(RandomScripts, ComplainOnTheLine) {
   EXPECT_THAT(complaint_about("drive:\n  standing: 1.5\n"), HasSubstr("standing: expected"));
 }
 
+TEST(RandomCrouches, AreRefusedIfTheyBendKneesBothWays) {
+  const auto complaint = [](const std::string& more) -> std::string {
+    try {
+      (void)scenario_from_yaml(YamlDocument::parse(
+          "name: both\nrobot: " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml\n" + more, "s.yaml"));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto crouching = [](const std::string& hip) {
+    return "perturbation: {crouching: {hip: " + hip + "}}\n";
+  };
+  EXPECT_EQ(complaint(crouching("[0.0, 0.6]")), "");
+  EXPECT_EQ(complaint(crouching("[0.03, 0.28]")), "");
+  EXPECT_EQ(complaint(crouching("[-0.4, -0.1]")), "");
+  for (const char* hip : {"[-0.05, 0.27]", "[-0.001, 0.6]", "[-0.6, 0.001]"}) {
+    EXPECT_THAT(complaint(crouching(hip)),
+                AllOf(HasSubstr("perturbation.crouching.hip: expected [low, high] on one side of"),
+                      HasSubstr("the knees are straight, found")))
+        << hip;
+  }
+}
+
 }  // namespace
 }  // namespace touchdown::scenarios

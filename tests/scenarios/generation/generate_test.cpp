@@ -90,6 +90,24 @@ TEST(Generation, LeavesStanceAndGainsToTheRobot) {
   }
 }
 
+TEST(Generation, BendsNoKneeBackwards) {
+  for (const char* robot :
+       {"models/upkie.xml", "models/upkie_straight.yaml", "models/upkie_straight_actuated.yaml"}) {
+    for (const GeneratedScenario& drawn : generate({.seed = 21, .count = 150})) {
+      const Scenario scenario = read(drawn, robot);
+      for (int run = 0; run < 20; ++run) {
+        const Scenario varied = perturbed(scenario, 5, run);
+        double lowest = varied.start.knee;
+        for (const policies::CrouchCommand& command : varied.crouch) {
+          const double bend = command.hip - varied.start.hip;
+          lowest = std::min(lowest, varied.start.knee + policies::knee_per_hip * bend);
+        }
+        ASSERT_GE(lowest, 1.7 * least_bend) << robot << '\n' << drawn.text;
+      }
+    }
+  }
+}
+
 TEST(Generation, OfLiftsScalesWithTheRobotsMass) {
   const auto drawn = generate({.seed = 3, .count = 1, .families = {"slow_lifts"}});
   const Scenario upkie = read(drawn.front());
