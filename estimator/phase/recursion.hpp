@@ -63,6 +63,42 @@ class PhaseRecursion {
     for (std::size_t k = 0; k < phase_simd_width; ++k) alpha[k] = predicted[k] * scale;
   }
 
+  /// Values of several filters side by side: element [phase][filter].
+  template <std::size_t filters>
+  using Block = std::array<std::array<double, filters>, phase_count>;
+
+  /// The same step for several filters. Each performs the operations of the single one in the same
+  /// order, but no operation waits for another one of its own filter's sums.
+  template <std::size_t filters>
+  void predict_and_correct(Block<filters>& alpha,
+                           const Block<filters>& log_likelihood) const noexcept {
+    static_assert(phase_count == phase_simd_width, "the single step has padding");
+    Block<filters> predicted{};
+    for (std::size_t i = 0; i < phase_count; ++i) {
+      for (std::size_t j = 0; j < phase_count; ++j) {
+        for (std::size_t f = 0; f < filters; ++f)
+          predicted[j][f] += alpha[i][f] * transition_[i][j];
+      }
+    }
+    std::array<double, filters> largest = log_likelihood[0];
+    for (std::size_t k = 1; k < phase_count; ++k) {
+      for (std::size_t f = 0; f < filters; ++f)
+        largest[f] = std::max(largest[f], log_likelihood[k][f]);
+    }
+    std::array<double, filters> sum{};
+    for (std::size_t k = 0; k < phase_count; ++k) {
+      for (std::size_t f = 0; f < filters; ++f) {
+        predicted[k][f] *= exponential(log_likelihood[k][f] - largest[f]);
+        sum[f] += predicted[k][f];
+      }
+    }
+    std::array<double, filters> scale;
+    for (std::size_t f = 0; f < filters; ++f) scale[f] = 1.0 / sum[f];
+    for (std::size_t k = 0; k < phase_count; ++k) {
+      for (std::size_t f = 0; f < filters; ++f) alpha[k][f] = predicted[k][f] * scale[f];
+    }
+  }
+
   /// P(left wheel in contact), P(right wheel in contact).
   static std::array<double, 2> wheels(const Lanes& alpha) noexcept {
     const double none = alpha[index(Phase::flight)] + alpha[index(Phase::held)];

@@ -27,7 +27,7 @@ class BatchedPhaseFilter {
   void update(const Signals& clean, const NoiseStep& draws) noexcept;
 
   /// The number of noise levels.
-  [[nodiscard]] std::size_t size() const noexcept { return alpha_.size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return p_contact_[0].size(); }
   /// P(S_t = C | m_0:t) of one wheel, per noise level.
   [[nodiscard]] std::span<const double> p_contact(Side side) const noexcept {
     return p_contact_[static_cast<std::size_t>(side)];
@@ -44,8 +44,7 @@ class BatchedPhaseFilter {
     double wheel_sigma;
     NoiseEstimate<2> knee_noise;
     NoiseEstimate<2> wheel_noise;
-    PhaseRow left{};
-    PhaseRow right{};
+    PhaseRow row{};  ///< both legs together, by phase
   };
   /// Everything that depends on one level of accelerometer noise.
   struct AccelerationLevel {
@@ -60,7 +59,11 @@ class BatchedPhaseFilter {
   BatchByLevel<double> acceleration_;
   std::vector<TorqueLevel> torque_levels_;
   std::vector<AccelerationLevel> acceleration_levels_;
-  std::vector<PhaseRecursion::Lanes> alpha_;
+  /// Elements in blocks, as wide as a vector register; the last block is filled with copies.
+  static constexpr std::size_t block_size = 4;
+  using Block = PhaseRecursion::Block<block_size>;
+  void decide(std::size_t block) noexcept;
+  std::vector<Block> alpha_;
   std::array<std::vector<double>, 2> p_contact_;
   std::array<std::vector<double>, 2> contact_;
 };
