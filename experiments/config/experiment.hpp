@@ -106,7 +106,9 @@ struct Experiment {
   /// no part of the file.
   std::vector<EstimatorEntry> external_estimators = {};
   std::map<std::string, HyperparameterValues> hyperparameters =
-      {};          ///< of these estimators, instead of the defaults
+      {};  ///< of these estimators, instead of the defaults
+  /// Likewise in one engine, by engine, then estimator. They precede those of all engines.
+  std::map<std::string, std::map<std::string, HyperparameterValues>> engine_hyperparameters = {};
   RunsConfig fit;  ///< noiseless runs for fitting models
   /// If not empty: phase models are fitted to these instead, other learned models to both.
   std::vector<TrainingSegments> training_segments;

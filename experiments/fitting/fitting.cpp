@@ -55,6 +55,11 @@ std::vector<Job> jobs_of(const Experiment& experiment, const TunedHyperparameter
 }  // namespace
 
 TunedHyperparameters or_given(TunedHyperparameters chosen, const Experiment& experiment) {
+  for (const auto& [simulator, by_estimator] : experiment.engine_hyperparameters) {
+    for (const auto& [name, hyperparameters] : by_estimator) {
+      chosen[simulator].try_emplace(name, hyperparameters);
+    }
+  }
   for (const std::string& simulator : experiment.simulators) {
     for (const auto& [name, hyperparameters] : experiment.hyperparameters) {
       chosen[simulator].try_emplace(name, hyperparameters);

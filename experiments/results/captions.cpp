@@ -44,6 +44,9 @@ std::string tuning_text(const Experiment& experiment) {
                            estimator_title_in(experiment, estimator), exact(value));
     }
   }
+  if (!experiment.engine_hyperparameters.empty()) {
+    given += given.empty() ? " Given by engine (config.yaml)" : "; others by engine (config.yaml)";
+  }
   if (!given.empty()) return given + '.';
   if (!experiment.tuning) return {};
   return fmt::format(

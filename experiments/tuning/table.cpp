@@ -7,9 +7,11 @@
 #include <fmt/ranges.h>
 
 #include "core/files.hpp"
+#include "core/fingerprint.hpp"
 #include "core/tables/table.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/plan/plan.hpp"
 #include "experiments/tuning/figures.hpp"
 
 namespace touchdown::experiments {
@@ -48,6 +50,27 @@ void write_table(const std::vector<Trial>& trials, const RunDirectory& directory
   directory.write_table("tuning.csv", columns, trials);
 }
 
+/// The choices for the experiment's own fit, as its key `hyperparameters.file` takes them.
+std::string chosen_yaml(const std::vector<Trial>& trials, const Experiment& experiment) {
+  std::string text = fmt::format(
+      "# Hyperparameters that fit.tuning chose: the best of {} trials in {}-fold "
+      "cross-validation.\n"
+      "manifest: {{experiment: {}, seed: {}, trials: {}, folds: {}, build: '{}'}}\n",
+      experiment.tuning->trials, experiment.tuning->folds, experiment.name, seed_of_fit(experiment),
+      experiment.tuning->trials, experiment.tuning->folds, build_commit());
+  std::string simulator;
+  for (const Trial& trial : trials) {
+    if (!trial.is_chosen || !trial.fit.empty() || trial.hyperparameters.empty()) continue;
+    if (trial.simulator != simulator) text += fmt::format("{}:\n", trial.simulator);
+    simulator = trial.simulator;
+    text += fmt::format("  {}:\n", trial.estimator);
+    for (const auto& [name, value] : trial.hyperparameters) {
+      text += fmt::format("    {}: {}\n", name, exact(value));
+    }
+  }
+  return text;
+}
+
 std::string tuning_text(const std::vector<Trial>& trials, const Experiment& experiment) {
   Table table{{"", "on", "defaults", "chosen", "with"}, {}};
   const Trial* defaults = nullptr;
@@ -83,6 +106,8 @@ TunedHyperparameters read_chosen(const std::filesystem::path& run_directory) {
 StudyResult summarize_tuning(const std::vector<Trial>& trials, const Experiment& experiment,
                              const RunDirectory& directory) {
   write_table(trials, directory);
+  write_atomically(directory.own_file("tables", "hyperparameters.yaml"),
+                   chosen_yaml(trials, experiment));
   return {.texts = {tuning_text(trials, experiment)},
           .figures = {tuning_figure(directory.read_table("tuning.csv"), experiment)}};
 }

@@ -8,6 +8,7 @@
 #include "experiments/results/captions.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -90,6 +91,74 @@ TEST(GivenHyperparameters, ReportErrorsWithTheLine) {
               HasSubstr("hyperparameters.phase.leave_below"));
   EXPECT_THAT(error_of(given, ", tuning: {trials: 2}, runs: 2, perturbed: true"),
               HasSubstr("expected no fit.tuning beside it"));
+}
+
+/// Both engines, with hyperparameters from a file with this content.
+Experiment with_file(const ScratchFolder& folder, const std::string& content,
+                     const std::string& more = "") {
+  const std::string file = folder.write("chosen.yaml", content).string();
+  return experiment_from_yaml(YamlDocument::parse(
+      "name: study\nestimators: [phase, free_fall]\nfit: {scenarios: [scenarios/stairs.yaml]}\n"
+      "test: {scenarios: [scenarios/stairs.yaml]}\nhyperparameters: {file: " +
+          file + more + "}\n",
+      "study.yaml"));
+}
+
+TEST(HyperparameterFile, GivesEachEngineItsOwnValuesBeforeThoseOfAll) {
+  const ScratchFolder folder;
+  const Experiment experiment = with_file(
+      folder,
+      "manifest: {anything: 1}\nmujoco: {phase: {leave_below: 0.125}, robust: {threshold: 0.3}}\n"
+      "bullet: {phase: {leave_below: 0.25}}\n",
+      ", phase: {leave_below: 0.4, return_above: 0.9}, free_fall: {half_way: -3}");
+  const TunedHyperparameters all = or_given({}, experiment);
+  EXPECT_EQ(all.at("mujoco").at("phase"), (HyperparameterValues{{"leave_below", 0.125}}));
+  EXPECT_EQ(all.at("bullet").at("phase"), (HyperparameterValues{{"leave_below", 0.25}}));
+  EXPECT_EQ(all.at("bullet").at("free_fall").at("half_way"), -3.0);
+  EXPECT_FALSE(all.at("mujoco").contains("robust")) << "not among the estimators";
+  EXPECT_EQ(or_given({{"mujoco", {{"phase", {{"leave_below", 0.3}}}}}}, experiment)
+                .at("mujoco")
+                .at("phase")
+                .at("leave_below"),
+            0.3);
+  const std::string text = to_yaml(experiment);
+  EXPECT_THAT(text, Not(HasSubstr("chosen.yaml"))) << "a run directory needs no other file";
+  EXPECT_EQ(text, to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))));
+  EXPECT_THAT(tuning_text(experiment), HasSubstr("by engine"));
+}
+
+TEST(HyperparameterFile, ReportsErrorsAtTheirPlace) {
+  const ScratchFolder folder;
+  const auto error_of = [&](const std::string& content) -> std::string {
+    try {
+      (void)with_file(folder, content);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error_of("mujoco: {}\n"), "no error");
+  EXPECT_THAT(error_of("mujoco:\n  phase: {leave_bellow: 0.5}\n"),
+              AllOf(HasSubstr("chosen.yaml:2:"), HasSubstr("did you mean 'leave_below'")));
+  EXPECT_THAT(error_of("mujoco: {fase: {leave_below: 0.5}}\n"),
+              AllOf(HasSubstr("chosen.yaml:1:"), HasSubstr("did you mean 'phase'")));
+  EXPECT_THAT(error_of("mujocco: {phase: {leave_below: 0.5}}\n"),
+              AllOf(HasSubstr("chosen.yaml:1:"), HasSubstr("did you mean 'mujoco'")));
+  EXPECT_THAT(error_of("bullet: {phase: {leave_below: much}}\n"),
+              HasSubstr("bullet.phase.leave_below"));
+  EXPECT_THAT(error_of("bullet: 3\n"), HasSubstr("chosen.yaml:1:"));
+}
+
+TEST(HyperparameterFile, IsReportedIfItIsMissing) {
+  try {
+    (void)experiment_from_yaml(YamlDocument::parse(
+        "name: study\nestimators: [phase]\nfit: {scenarios: [scenarios/stairs.yaml]}\n"
+        "test: {scenarios: [scenarios/stairs.yaml]}\nhyperparameters:\n  file: nowhere.yaml\n",
+        "study.yaml"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("study.yaml:6:"), HasSubstr("nowhere.yaml")));
+  }
 }
 
 }  // namespace

@@ -110,6 +110,27 @@ TEST_F(TunedExperiment, SharesChoicesWithOtherSensorsUnlessTunedEverywhere) {
   EXPECT_EQ(fits_in("everywhere"), 2U);
 }
 
+/// A stranger repeats a tuned experiment without its trials.
+TEST_F(TunedExperiment, WritesItsChoicesAsAFileThatReplacesTheTuning) {
+  const ExperimentResult tuned = run("tuned", tuned_study(folder_, ", tuning: {trials: 6}"));
+  const std::string file = (folder_ / "tuned/tables/hyperparameters.yaml").string();
+  EXPECT_THAT(read_file(file), HasSubstr("manifest: {experiment: small, seed: 11, trials: 6,"));
+  EXPECT_THAT(own_files(folder_ / "tuned"),
+              Contains(std::filesystem::path("tables/hyperparameters.yaml")));
+  const Experiment given = tuned_study(folder_, "", "hyperparameters={file: " + file + "}");
+  EXPECT_EQ(to_yaml(given),
+            to_yaml(experiment_from_yaml(YamlDocument::parse(to_yaml(given), "config.yaml"))));
+  const ExperimentResult repeated = run("given", given);
+  for (const char* estimator : {"load_logistic", "support_force"}) {
+    EXPECT_EQ(repeated.models.at("mujoco").at(estimator).hyperparameters,
+              tuned.models.at("mujoco").at(estimator).hyperparameters);
+  }
+  for (const char* table : {"tables/benchmark.csv", "tables/success.csv", "tables/latency.csv",
+                            "models/mujoco_load_logistic.npz"}) {
+    EXPECT_EQ(text("given", table), text("tuned", table)) << table;
+  }
+}
+
 TEST_F(TunedExperiment, MakesAnotherRequestThanWithoutTrials) {
   EXPECT_NE(request_of(tuned_study(folder_, "")).id,
             request_of(tuned_study(folder_, ", tuning: {trials: 2}")).id);
