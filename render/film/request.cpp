@@ -1,5 +1,6 @@
 #include "render/film/request.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -18,6 +19,13 @@ std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recordi
     count[k] = static_cast<std::uint8_t>((wheels[0][k] != 0) + (wheels[1][k] != 0));
   }
   return count;
+}
+
+std::vector<scoring::Flight> visible_flights(const recordings::Recording& recording,
+                                             scoring::LabelConfig labels) {
+  constexpr double visible = 0.05;  // s
+  labels.debounce = std::max(labels.debounce, visible);
+  return scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, labels)));
 }
 
 std::string label_of(const VideoSource& source) {

@@ -2,10 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <opencv2/core/types.hpp>
 
 #include "models/robot_model.hpp"
 #include "recordings/recording.hpp"
@@ -39,6 +43,10 @@ struct VideoSource {
 std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recording,
                                             const scoring::LabelConfig& labels);
 
+/// Flights of both wheels of a simulated run that are long enough to be seen.
+std::vector<scoring::Flight> visible_flights(const recordings::Recording& recording,
+                                             scoring::LabelConfig labels);
+
 /// A run's label, or else "MuJoCo", "Bullet" or "robot log".
 std::string label_of(const VideoSource& source);
 
@@ -56,6 +64,22 @@ struct VideoOptions : VideoFormat {
   scoring::LabelConfig labels = {};                     ///< what counts as true contact
   /// Called after every frame; may be empty.
   std::function<void(int done, int of)> progress = {};
+};
+
+/// A picture of a film as a file.
+struct Still {
+  std::filesystem::path path;  ///< a JPEG
+  double time = 0.0;           ///< of the recording (s)
+};
+
+/// One of several films of the same runs.
+struct Film {
+  std::vector<std::size_t> runs;  ///< those that it shows, as indices of the sources
+  VideoOptions options;
+  std::filesystem::path path = {};
+  std::optional<Still> still = {};  ///< the frame that is nearest to its time
+  /// The size at which views are painted at least, before they are reduced to their place.
+  std::optional<cv::Size> least_view = {};
 };
 
 /// The largest number of runs in a film.

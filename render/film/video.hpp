@@ -28,6 +28,15 @@ struct VideoStatistics {
 VideoStatistics render_video(const std::vector<VideoSource>& sources, const VideoOptions& options,
                              const std::filesystem::path& path);
 
+/// Writes several films of the same runs. The view of each run is painted once for all films that
+/// show it. The first frame's time, speed, frames per second, quality and workers are those of the
+/// first film; the others must have the same. A shorter film ends earlier. Errors: as above.
+VideoStatistics render_films(const std::vector<VideoSource>& sources,
+                             const std::vector<Film>& films);
+
+/// The middle of the run's first visible flight, or else of the run (s).
+double first_flight(const recordings::Recording& recording, const scoring::LabelConfig& labels);
+
 /// Writes the video's picture at `time` of the recording (s) as a PNG, or as a JPEG for a path with
 /// `.jpg`. NaN means the middle of the first run's first flight. The quality is always `page`.
 void render_poster(const std::vector<VideoSource>& sources, const VideoOptions& options,

@@ -9,7 +9,8 @@
 namespace touchdown::render {
 namespace {
 
-constexpr int wide = 1000;  ///< from this width on, names fit beside the plots
+constexpr int wide = 1000;         ///< from this width on, names fit beside the plots
+constexpr int smallest_names = 7;  ///< height of letters (px)
 
 }  // namespace
 
@@ -21,17 +22,16 @@ SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height,
       height_(height),
       narrow_(width < wide),
       letters_(narrow_ ? std::clamp(height * 11 / 150, 8, 13) : std::max(9, height * 12 / 220)),
+      names_(letters_ - 1),
       left_(narrow_ ? 3 * letters_ : std::max(width * 176 / 1280, 60)),
       right_(narrow_ ? width - letters_ : width - width * 24 / 1280) {
-  place_rows(narrow_ ? letters_ + letters_ / 2 : 0);
+  if (!place_rows_alike()) {
+    while (!place_rows_by_legend() && names_ > smallest_names) --names_;
+  }
   background_ = cv::Mat(height_, width_, CV_8UC3, strip_paper);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     draw_ticks(i);
-    if (narrow_) {
-      draw_names_above(i);
-    } else {
-      draw_names_beside(i);
-    }
+    draw_names(i);
   }
   const int plot_width = right_ - left_;
   const int now = static_cast<int>(std::lround(window_.present * plot_width));
@@ -39,14 +39,82 @@ SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height,
   plots_ = std::make_unique<StripPlots>(rows_, areas_, plot_width, height_, window_.seconds);
 }
 
-void SignalStrip::place_rows(int header) {
+bool SignalStrip::is_in_legend_before(std::size_t i, const StripCurve& curve) const {
+  return std::any_of(
+      rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(i), [&](const StripRow& row) {
+        return std::any_of(row.curves.begin(), row.curves.end(), [&](const StripCurve& before) {
+          return before.label == curve.label && before.colour == curve.colour;
+        });
+      });
+}
+
+std::vector<SignalStrip::Name> SignalStrip::names_of(std::size_t i) const {
+  const int left = narrow_ ? left_ : width_ * 12 / 1280;
+  const int right = narrow_ ? right_ : left_ - letters_ * 2;
+  int x = narrow_ ? left_ + pen_.width(rows_[i].title, letters_) + letters_ : left;
+  int line = narrow_ ? 0 : 1;
+  std::vector<Name> names;
+  // The first curve of the legend is drawn last.
+  for (auto curve = rows_[i].curves.rbegin(); curve != rows_[i].curves.rend(); ++curve) {
+    if (!curve->emphasis || curve->label.empty() || is_in_legend_before(i, *curve)) continue;
+    if (x > left && x + legend_width(*curve) > right) {
+      x = left;
+      ++line;
+    }
+    names.push_back({&*curve, x, line});
+    x += legend_width(*curve) + (narrow_ ? letters_ / 2 : 0);
+  }
+  return names;
+}
+
+int SignalStrip::lines_of(std::size_t i) const {
+  const std::vector<Name> names = names_of(i);
+  return names.empty() ? 0 : names.back().line;
+}
+
+/// Rows of the same height, unless a legend is longer.
+bool SignalStrip::place_rows_alike() {
   const int gap = std::max(4, height_ / 20);
   const int count = std::max<int>(1, static_cast<int>(rows_.size()));
   const int row_height = (height_ - gap * (count + 1)) / count;
-  for (int i = 0; i < count; ++i) {
-    const int top = gap + i * (row_height + gap);
-    areas_.push_back({top + std::min(header, row_height / 2), top + row_height});
+  line_ = std::min(letters_ * 7 / 4, row_height / 2);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const int lines = lines_of(i);
+    if (narrow_ ? lines > 0 : 2 + lines * line_ + letters_ > row_height + 4) return false;
   }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const int top = gap + static_cast<int>(i) * (row_height + gap);
+    areas_.push_back({top + std::min(header_of(i), row_height / 2), top + row_height});
+  }
+  return true;
+}
+
+/// Rows as high as their legends, with the remaining height shared evenly. False if the strip is
+/// too low; its rows are then cut off.
+bool SignalStrip::place_rows_by_legend() {
+  line_ = names_ + std::max(2, names_ / 4);
+  const int gap = std::max(4, height_ / 20);
+  const int count = static_cast<int>(rows_.size());
+  std::vector<int> heights;
+  int rest = height_ - gap * (count + 1);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    heights.push_back(narrow_ ? header_of(i) + 2 * letters_
+                              : std::max(2 * letters_, 2 + lines_of(i) * line_ + names_));
+    rest -= heights.back();
+  }
+  areas_.clear();
+  int top = gap;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const int bottom = std::min(height_ - 2, top + heights[i] + std::max(0, rest) / count);
+    areas_.push_back({std::min(top + header_of(i), bottom - 2), bottom});
+    top = bottom + gap;
+  }
+  return rest >= 0;
+}
+
+/// The height of title and legend above a plot (px).
+int SignalStrip::header_of(std::size_t i) const {
+  return narrow_ ? letters_ + letters_ / 2 + lines_of(i) * line_ : 0;
 }
 
 void SignalStrip::draw_ticks(std::size_t i) {
@@ -61,47 +129,22 @@ void SignalStrip::draw_ticks(std::size_t i) {
 }
 
 int SignalStrip::legend_width(const StripCurve& curve) const {
-  return letters_ * 5 / 4 + 4 + pen_.width(curve.label, letters_ - 1) + letters_ / 2;
+  return letters_ * 5 / 4 + 4 + pen_.width(curve.label, names_) + letters_ / 2;
 }
 
 void SignalStrip::draw_legend(const StripCurve& curve, int x, int top) {
   const int dash = letters_ * 5 / 4;
   const int middle = top + letters_ / 2 + 1;
   cv::line(background_, {x, middle}, {x + dash, middle}, curve.colour, 3, cv::LINE_AA);
-  pen_.write(background_, curve.label, x + dash + 4, top, letters_ - 1, curve.colour);
+  pen_.write(background_, curve.label, x + dash + 4, top, names_, curve.colour);
 }
 
-void SignalStrip::draw_names_beside(std::size_t i) {
-  const PlotArea& area = areas_[i];
-  const int left = width_ * 12 / 1280;
-  const int line = std::min(letters_ * 7 / 4, (area.bottom - area.top) / 2);
-  int top = area.top + 2;
+/// Title and legend, beside the plot or above it.
+void SignalStrip::draw_names(std::size_t i) {
+  const int left = narrow_ ? left_ : width_ * 12 / 1280;
+  const int top = narrow_ ? areas_[i].top - header_of(i) : areas_[i].top + 2;
   pen_.write(background_, rows_[i].title, left, top, letters_, strip_ink);
-  top += line;
-  int x = left;
-  // The first curve of the legend is drawn last.
-  for (auto curve = rows_[i].curves.rbegin(); curve != rows_[i].curves.rend(); ++curve) {
-    if (!curve->emphasis || curve->label.empty()) continue;
-    if (x > left && x + legend_width(*curve) > left_ - letters_ * 2) {
-      x = left;
-      top += line;
-    }
-    if (top + letters_ > area.bottom + 4) break;
-    draw_legend(*curve, x, top);
-    x += legend_width(*curve);
-  }
-}
-
-void SignalStrip::draw_names_above(std::size_t i) {
-  const int top = areas_[i].top - letters_ - letters_ / 2;
-  int x = left_;
-  x += pen_.write(background_, rows_[i].title, x, top, letters_, strip_ink) + letters_;
-  for (auto curve = rows_[i].curves.rbegin(); curve != rows_[i].curves.rend(); ++curve) {
-    if (!curve->emphasis || curve->label.empty()) continue;
-    if (x + legend_width(*curve) > right_) break;
-    draw_legend(*curve, x, top);
-    x += legend_width(*curve) + letters_ / 2;
-  }
+  for (const Name& name : names_of(i)) draw_legend(*name.curve, name.x, top + name.line * line_);
 }
 
 StripRow& SignalStrip::growing_row(std::size_t i, double time) {
@@ -114,9 +157,10 @@ void SignalStrip::draw(cv::Mat image, double time) {
   cv::Mat plots = image.colRange(left_, right_);
   plots_->copy_window(time - window_.present * window_.seconds, plots);
   if (narrow_) {  // names stand on the plots' paper, above them
-    for (const PlotArea& area : areas_) {
-      const int top = std::max(0, area.top - letters_ - letters_ / 2);
-      background_.rowRange(top, area.top).copyTo(image.rowRange(top, area.top));
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const int bottom = areas_[i].top;
+      const int top = std::max(0, bottom - header_of(i));
+      background_.rowRange(top, bottom).copyTo(image.rowRange(top, bottom));
     }
   }
   const int now = plots.cols - fog_.cols;

@@ -16,7 +16,9 @@ struct StripWindow {
 };
 
 /// Moving plots below the view: a window of time with the present at its place and the future
-/// faded. Titles and legends are left of the plots, or above them in a narrow strip.
+/// faded. Titles and legends are left of the plots, or above them in a narrow strip. Every curve is
+/// in a legend once: a row with a long legend is higher than others, and its names are smaller if
+/// need be.
 class SignalStrip {
  public:
   /// A strip of `width`·`height` pixels.
@@ -30,10 +32,19 @@ class SignalStrip {
   void draw(cv::Mat image, double time);
 
  private:
-  void place_rows(int header);
+  /// A name of a legend: its curve, its left edge and its line below or beside the title.
+  struct Name {
+    const StripCurve* curve;
+    int x, line;
+  };
+  std::vector<Name> names_of(std::size_t i) const;
+  int lines_of(std::size_t i) const;
+  bool is_in_legend_before(std::size_t i, const StripCurve& curve) const;
+  bool place_rows_alike();
+  bool place_rows_by_legend();
+  int header_of(std::size_t i) const;
   void draw_ticks(std::size_t i);
-  void draw_names_beside(std::size_t i);
-  void draw_names_above(std::size_t i);
+  void draw_names(std::size_t i);
   void draw_legend(const StripCurve& curve, int x, int top);
   int legend_width(const StripCurve& curve) const;
 
@@ -42,6 +53,8 @@ class SignalStrip {
   int width_, height_;
   bool narrow_;
   int letters_;       ///< height of the text
+  int names_;         ///< height of the names in legends
+  int line_ = 0;      ///< distance of a legend's lines
   int left_, right_;  ///< of the plots
   std::vector<PlotArea> areas_;
   TextPen pen_;

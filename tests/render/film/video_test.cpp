@@ -83,6 +83,76 @@ TEST_F(Video, IsAnMp4WithItsIndexInFrontAndTheSameBytesEveryTime) {
   EXPECT_EQ(files(), 3u);  // a.mp4, deep, deep/b.mp4
 }
 
+/// Films of one pass: one of each run, as alone, and a small one of both.
+TEST_F(Video, SeveralFilmsAreThoseThatAreMadeAlone) {
+  const recordings::Recording shorter = staged_run(2.1, "bullet");
+  const std::vector<BeliefTrack> beliefs = {staged_beliefs(shorter, "robust")};
+  const std::vector<VideoSource> sources = {{robot_, run_, beliefs_}, {robot_, shorter, beliefs}};
+  VideoOptions small = small_;
+  small.width = 240;
+  small.height = 160;
+  Film both{.runs = {0, 1}, .options = small, .path = folder_ / "both.mp4"};
+  both.still = Still{folder_ / "both.jpg", 2.05};
+  const VideoStatistics statistics =
+      render_films(sources, {{.runs = {0}, .options = small_, .path = folder_ / "a.mp4"},
+                             {.runs = {1}, .options = small_, .path = folder_ / "b.mp4"},
+                             both});
+  EXPECT_EQ(statistics.frames, 13);
+  render_video({sources[0]}, small_, folder_ / "a_alone.mp4");
+  render_video({sources[1]}, small_, folder_ / "b_alone.mp4");
+  both.path = folder_ / "both_alone.mp4";
+  both.still->path = folder_ / "both_alone.jpg";
+  both.least_view = single_view_size(small_);
+  render_films(sources, {both});
+  for (const char* name : {"a", "b", "both"}) {
+    const std::string stem = (folder_ / name).string();
+    EXPECT_TRUE(read_file(stem + ".mp4") == read_file(stem + "_alone.mp4")) << name;
+  }
+  EXPECT_TRUE(read_file(folder_ / "both.jpg") == read_file(folder_ / "both_alone.jpg"));
+  const cv::Mat still = cv::imread((folder_ / "both.jpg").string());
+  EXPECT_EQ(still.size(), cv::Size(240, 160));
+}
+
+/// The small film shows the middle of the large view, in its proportions.
+TEST_F(Video, ReducedViewsShowTheMiddle) {
+  const std::vector<VideoSource> sources = {{robot_, run_, beliefs_}};
+  const Film wide{.runs = {0}, .options = {{.width = 640, .height = 240}}};
+  const Film high{.runs = {0}, .options = {{.width = 240, .height = 240}}};
+  constexpr std::size_t wide_bytes = std::size_t{640} * 240 * 3;
+  constexpr std::size_t high_bytes = std::size_t{240} * 240 * 3;
+  cv::Mat of_wide, of_high;
+  paint_in_order(
+      1, wide_bytes + high_bytes, 1,
+      [&]() -> PaintFrame {
+        auto painter =
+            std::make_shared<FramePainter>(sources, std::vector<Film>{wide, high}, false);
+        return [painter](int, std::uint8_t* pixels) {
+          if (!painter->paint(2.2, {false, true})[0].empty()) throw Error("painted unasked");
+          const std::vector<cv::Mat> pictures = painter->paint(2.2, {true, true});
+          std::memcpy(pixels, pictures[0].data, wide_bytes);
+          std::memcpy(pixels + wide_bytes, pictures[1].data, high_bytes);
+        };
+      },
+      [&](int, const std::uint8_t* pixels) {
+        auto* const data = const_cast<std::uint8_t*>(pixels);
+        of_wide = cv::Mat(240, 640, CV_8UC3, data).clone();
+        of_high = cv::Mat(240, 240, CV_8UC3, data + wide_bytes).clone();
+      });
+  const cv::Mat middle = of_wide.colRange(200, 440).clone();
+  EXPECT_EQ(cv::norm(middle, of_high, cv::NORM_INF), 0.0);
+  EXPECT_GT(cv::norm(middle), 0.0);
+}
+
+TEST_F(Video, AStillThatCannotBeWrittenIsRefusedBeforeAnythingIsPainted) {
+  std::ofstream(folder_ / "file") << "in the way";
+  const std::vector<VideoSource> sources = {{robot_, run_, beliefs_}};
+  Film film{.runs = {0}, .options = small_, .path = folder_ / "x.mp4"};
+  film.still = Still{folder_ / "file/x.jpg", 2.0};
+  EXPECT_THAT([&] { render_films(sources, {film}); },
+              ThrowsMessage<Error>(HasSubstr("cannot be written")));
+  EXPECT_EQ(files(), 1u);
+}
+
 TEST_F(Video, SlowMotionHasMoreFrames) {
   VideoOptions slow = small_;
   slow.speed = 0.25;
