@@ -11,13 +11,13 @@ namespace {
 
 struct MergeFlags {
   std::string directory;
-  bool no_pictures = false;
+  ShownPictures pictures;
 };
 
 void merge(const MergeFlags& flags, const CliSession& session) {
   experiments::ExperimentResult result = experiments::merge_run(
       flags.directory, {.out = {}, .command = session.command, .stop = session.stop});
-  show(result, session, flags.no_pictures);
+  show(result, session, flags.pictures);
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ void add_merge(CLI::App& program, const CliSession& session) {
   verb.option("directory", &flags->directory, "Run directory that the shards share")
       .required()
       .value_name("DIR");
-  verb.flag("--no-pictures", &flags->no_pictures, "Write tables only, without figures and videos");
+  add_picture_flags(verb, &flags->pictures);
   verb.action([flags, &session] { merge(*flags, session); });
 }
 

@@ -25,7 +25,7 @@ struct RunFlags {
   std::vector<std::string> shard;  ///< empty, or one text such as "1/3"
   bool overwrite = false;
   bool dry_run = false;
-  bool no_pictures = false;
+  ShownPictures pictures;
 };
 
 void run_one_shard(const experiments::Experiment& experiment, const experiments::Shard& shard,
@@ -66,7 +66,7 @@ void run(const RunFlags& flags, const CliSession& session) {
     return;
   }
   experiments::ExperimentResult result = experiments::run_experiment(experiment, options);
-  show(result, session, flags.no_pictures);
+  show(result, session, flags.pictures);
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ void add_run(CLI::App& program, const CliSession& session) {
   verb.flag("--dry-run", &flags->dry_run,
             "Only check the experiment, and print its run directory and the number of parts in\n"
             "which it can be computed");
-  verb.flag("--no-pictures", &flags->no_pictures, "Write tables only, without figures and videos");
+  add_picture_flags(verb, &flags->pictures);
   verb.action([flags, &session] { run(*flags, session); });
 }
 

@@ -17,15 +17,15 @@ namespace touchdown::cli {
 
 namespace {
 
-void draw(experiments::ExperimentResult& result, const CliSession& session) {
+void draw(experiments::ExperimentResult& result, const CliSession& session, bool with_films) {
   std::vector<render::FilmedRun> filmed;
   if (result.experiment.video.enabled) {
     filmed = render::filmed_runs(render::read_subject(result.directory.path()));
   }
-  render::draw_pictures(result, filmed, render::study_pictures(), session.stop);
+  render::draw_pictures(result, filmed, render::study_pictures(), with_films, session.stop);
   experiments::write_manifest(result);
   render::make_report(render::read_subject(result.directory.path()), filmed,
-                      render::study_pictures(), session.stop);
+                      render::study_pictures(), {.film = with_films});
 }
 
 /// The last lines of output: a table of results, the paths of all outputs and the next commands.
@@ -44,13 +44,20 @@ std::string last_screen(const experiments::ExperimentResult& result, const CliSe
 
 }  // namespace
 
-void show(experiments::ExperimentResult& result, const CliSession& session, bool no_pictures) {
+void add_picture_flags(Verb& verb, ShownPictures* pictures) {
+  verb.flag("--no-pictures", &pictures->none, "Write tables only, without figures and videos");
+  verb.flag("--no-video", &pictures->no_video,
+            "Write tables, figures and the report, but no videos");
+}
+
+void show(experiments::ExperimentResult& result, const CliSession& session,
+          const ShownPictures& pictures) {
   print(experiments::summary_text(result));
   print(fmt::format("\nresults   {}\ntables    {}\n", result.directory.path().string(),
                     (result.directory.path() / "tables").string()));
   std::fflush(stdout);
-  if (!no_pictures) {
-    draw(result, session);
+  if (!pictures.none) {
+    draw(result, session, !pictures.no_video);
     print(last_screen(result, session));
   }
   if (!result.failed_demands.empty()) {

@@ -9,6 +9,7 @@
 #include "experiments/score_beliefs.hpp"
 #include "render/benchmark/standings_figure.hpp"
 #include "render/pictures/filmed_report.hpp"
+#include "render/pictures/films.hpp"
 #include "render/studies/registry.hpp"
 
 namespace touchdown::cli {
@@ -48,8 +49,9 @@ void write_report_again(const std::filesystem::path& run, const CliSession& sess
   render::draw_standings_figures(run, subject.experiment.intervals.bootstrap.level);
   std::vector<render::FilmedRun> filmed;
   if (subject.experiment.video.enabled) filmed = render::filmed_runs(subject);
+  render::film_for_report(filmed, run, subject.experiment.workers, session.stop);
   const std::filesystem::path report =
-      render::make_report(subject, filmed, render::study_pictures(), session.stop);
+      render::make_report(subject, filmed, render::study_pictures(), {});
   print(fmt::format("report    {}\n", report.string()));
 }
 

@@ -131,15 +131,21 @@ static void describe(Fields& fields, VideoConfig& video, const Experiment& exper
   fields("run", video.run, 0, experiment.test.runs - 1)
       .range(test_run_index)
       .doc("Index of the test run.");
-  if (fields.reading()) video.estimators = {experiment.estimators.front()};
+  if (fields.reading()) video.estimators = experiment.estimators;
   fields.names("estimators", experiment.estimators, video.estimators)
       .type(own_estimators)
-      .fallback("the first one")
+      .fallback("all of them")
       .doc("Estimators with probabilities shown.");
-  fields("torque_noise", video.torque_noise, 0.0, 1e3)
-      .doc("N·m", "Noise on knee and wheel torques.");
-  fields("accelerometer_noise", video.accelerometer_noise, 0.0, 1e3)
-      .doc("m/s²", "Noise on each acceleration.");
+  fields.renamed("torque_noise", "noise.torque");
+  fields.renamed("accelerometer_noise", "noise.accelerometer");
+  fields.know("noise");
+  if (fields.reading() && !fields.documenting()) video.noise = experiment.highlights.front();
+  if (fields.present("noise", true)) {
+    fields.section("noise", video.noise)
+        .fallback("the first highlight")
+        .doc("Noise setting of the film.");
+  }
+  video.noise = noise::as_on_grid(video.noise, experiment.noise);
 }
 
 static void describe(Fields& fields, DetailConfig& detail, const Experiment& experiment) {

@@ -61,9 +61,8 @@ enum class KeptRecordings : int {
 struct VideoConfig {
   bool enabled = true;
   int run = 0;                          ///< index of the test run
-  std::vector<std::string> estimators;  ///< with probabilities shown; empty: the first one
-  double torque_noise = 0.0;            ///< N·m
-  double accelerometer_noise = 0.0;     ///< m/s²
+  std::vector<std::string> estimators;  ///< with probabilities shown
+  noise::NoiseCell noise;
 };
 
 /// Which flights count as drops: those of both wheels at once, or those of one wheel.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <vector>
 
@@ -10,12 +9,17 @@
 
 namespace touchdown::render {
 
-/// Writes `report.html` into a run directory, and the pages of its studies. If there are filmed
-/// runs, the report contains a small film with up to two of them side by side. Returns the report's
-/// path.
+/// What a report shows of runs and films.
+struct ReportParts {
+  bool film = true;    ///< films that are in the run directory
+  bool replay = true;  ///< a replay that the reader can turn
+};
+
+/// Writes `report.html` into a run directory, and the pages of its studies. Film and replay show
+/// the filmed runs, if there are any. Returns the report's path.
 std::filesystem::path make_report(const ReportSubject& subject,
                                   const std::vector<FilmedRun>& filmed,
                                   const std::vector<StudyPictures>& studies,
-                                  const std::atomic<bool>* stop);
+                                  const ReportParts& parts = {});
 
 }  // namespace touchdown::render

@@ -113,8 +113,7 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
   const noise::SensorProfile profile = experiments::profile_of(
       experiments::read_sensors(experiment, subject.directory), experiment.sensors);
   const experiments::VideoConfig& video = experiment.video;
-  const noise::SensorNoise levels =
-      noise::as_on_grid({video.torque_noise, video.accelerometer_noise}, experiment.noise).levels();
+  const noise::SensorNoise levels = video.noise.levels();
   experiments::TunedHyperparameters chosen =
       experiments::or_given(experiments::read_chosen(subject.directory), experiment);
   std::vector<FilmedRun> all;

@@ -2,37 +2,20 @@
 
 #include <chrono>
 
-#include <fmt/format.h>
-
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "render/figures/facets.hpp"
-#include "render/film/video.hpp"
 #include "render/pictures/drop_figures.hpp"
+#include "render/pictures/films.hpp"
 #include "render/pictures/heatmaps.hpp"
 #include "render/pictures/score_figures.hpp"
 #include "render/pictures/stop.hpp"
 
 namespace touchdown::render {
 
-namespace {
-
-void film(const experiments::ExperimentResult& result, const FilmedRun& run,
-          const std::atomic<bool>* stop) {
-  const recordings::RecordingInfo& info = run.recording.info;
-  VideoOptions options;
-  options.labels = run.labels;
-  options.workers = result.experiment.workers;
-  options.progress = film_progress(fmt::format("filming {}", info.simulator), stop);
-  render_video(
-      {run.source()}, options,
-      result.directory.file("videos", experiments::video_name(info.simulator, info.scenario)));
-}
-
-}  // namespace
-
 void draw_pictures(experiments::ExperimentResult& result, const std::vector<FilmedRun>& filmed,
-                   const std::vector<StudyPictures>& studies, const std::atomic<bool>* stop) {
+                   const std::vector<StudyPictures>& studies, bool with_films,
+                   const std::atomic<bool>* stop) {
   const auto start = std::chrono::steady_clock::now();
   {
     Progress progress("drawing", "kinds of figures", 3);
@@ -53,9 +36,12 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     progress.advance();
   }
   for (const StudyPictures& study : studies) {
+    if (!with_films) break;
     if (study.film && study.is_requested(result.experiment)) study.film(result, stop);
   }
-  for (const FilmedRun& run : filmed) film(result, run, stop);
+  if (with_films) {
+    film_runs(filmed, result.directory.path(), result.experiment.workers, stop);
+  }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   result.provenance.timings.emplace_back("draw", elapsed.count());
 }

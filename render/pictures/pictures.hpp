@@ -11,10 +11,12 @@
 
 namespace touchdown::render {
 
-/// Draws all figures and films of an experiment's result, those of its studies included, into its
-/// run directory, and adds the elapsed time to the provenance. `stop`, which may be null, is looked
-/// at between figures and frames. Errors: `Stopped`; as `draw_figure` and `render_video`.
+/// Draws all figures and, if `with_films`, all films of an experiment's result, those of its
+/// studies included, into its run directory, and adds the elapsed time to the provenance. `stop`,
+/// which may be null, is looked at between figures and frames. Errors: `Stopped`; as `draw_figure`
+/// and `render_video`.
 void draw_pictures(experiments::ExperimentResult& result, const std::vector<FilmedRun>& filmed,
-                   const std::vector<StudyPictures>& studies, const std::atomic<bool>* stop);
+                   const std::vector<StudyPictures>& studies, bool with_films,
+                   const std::atomic<bool>* stop);
 
 }  // namespace touchdown::render

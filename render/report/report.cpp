@@ -79,11 +79,12 @@ ReportSection reproduce_section(const ReportSubject& subject) {
 
 }  // namespace
 
-fs::path write_report(const ReportSubject& subject, const std::string& film_html,
+fs::path write_report(const ReportSubject& subject, const std::vector<ReportSection>& of_runs,
                       const std::vector<ReportSection>& of_studies) {
   fs::path path = subject.directory / "report.html";
-  std::vector<ReportSection> sections = {
-      {"film", "Film", film_html}, estimators_section(subject), results_section(subject)};
+  std::vector<ReportSection> sections = of_runs;
+  sections.push_back(estimators_section(subject));
+  sections.push_back(results_section(subject));
   sections.insert(sections.end(), of_studies.begin(), of_studies.end());
   for (ReportSection (*const section)(const ReportSubject&) :
        {heatmap_section, paper_section, figures_section, more_tables_section, reproduce_section}) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
@@ -103,11 +104,59 @@ TEST_F(Render, FilmsRunDirectoriesAndReportsThemAgain) {
   ASSERT_EQ(both.exit_code, 0) << both.errors;
   const Ended one = render("run -o y.mp4 --to 0.5");
   ASSERT_EQ(one.exit_code, 0) << one.errors;
-  const Ended report = touchdown_program("report run --no-film", folder_.path());
+  const Ended report = touchdown_program("report run --no-video --no-replay", folder_.path());
   ASSERT_EQ(report.exit_code, 0) << report.errors;
   const std::string page = read_file(folder_ / "run/report.html");
   EXPECT_THAT(page, AllOf(HasSubstr("Bayes filter (robust)"), HasSubstr("touchdown run")));
   EXPECT_EQ(page.find("<video"), std::string::npos);
+}
+
+/// One pass paints all films of a run; the report's film alone has the same bytes.
+TEST_F(Render, FilmsOfARunAreMadeOnRequest) {
+  const auto ends_well = [&](const std::string& arguments) {
+    const Ended ended = touchdown_program(arguments, folder_.path());
+    EXPECT_EQ(ended.exit_code, 0) << arguments << ": " << ended.errors;
+  };
+  const auto page = [&] { return read_file(folder_ / "run/report.html"); };
+  ends_well("run tiny.yaml --out run --no-video --set video.enabled=true");
+  EXPECT_FALSE(fs::exists(folder_ / "run/videos/report.mp4"));
+  EXPECT_EQ(page().find("<video"), std::string::npos);
+  EXPECT_NE(page().find("class=\"replay\""), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "run/figures"));
+
+  ends_well("report run");
+  const std::string alone = read_file(folder_ / "run/videos/report.mp4");
+  EXPECT_NE(page().find("<video"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "run/videos/mujoco_step.mp4"));
+
+  ends_well("run tiny.yaml --out run --set video.enabled=true");
+  EXPECT_TRUE(read_file(folder_ / "run/videos/report.mp4") == alone);
+  EXPECT_TRUE(fs::exists(folder_ / "run/videos/mujoco_step.mp4"));
+
+  // A film that is newer than the run's recordings and models is not painted again.
+  const fs::file_time_type now = fs::file_time_type::clock::now();
+  const auto set_age = [&](const fs::path& file, int hours) {
+    fs::last_write_time(file, now - std::chrono::hours(hours));
+  };
+  const auto film = folder_ / "run/videos/report.mp4";
+  for (const std::string kept : {"recordings", "models"}) {
+    fs::path one;
+    for (const char* folder : {"recordings", "models"}) {
+      for (const auto& file : fs::directory_iterator(folder_ / "run" / folder)) {
+        set_age(file, 5);
+        if (folder == kept) one = file;
+      }
+    }
+    set_age(film, 3);
+    set_age(folder_ / "run/videos/report.jpg", 3);
+    ends_well("report run --no-replay");
+    EXPECT_EQ(fs::last_write_time(film), now - std::chrono::hours(3));
+    EXPECT_EQ(page().find("class=\"replay\""), std::string::npos);
+    set_age(one, 2);
+    ends_well("report run");
+    EXPECT_GT(fs::last_write_time(film), now - std::chrono::hours(1)) << kept;
+    EXPECT_TRUE(read_file(film) == alone);
+  }
 }
 
 TEST_F(Render, WrongRequestsAreNamed) {

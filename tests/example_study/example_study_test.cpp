@@ -100,7 +100,7 @@ TEST(ExampleStudy, GetsItsFigureItsResultsAndItsCleaningFromOthers) {
   EXPECT_THAT(read_file(folder / "run/tables/results.csv"), HasSubstr("\nprompt_takeoffs,mujoco,"));
   ASSERT_EQ(result.figures.size(), 1U);
   EXPECT_EQ(result.figures[0].panels.groups.size(), result.experiment.highlights.size());
-  render::draw_pictures(result, {}, {}, nullptr);
+  render::draw_pictures(result, {}, {}, true, nullptr);
   EXPECT_TRUE(fs::exists(folder / "run/figures/prompt_takeoffs.png"));
   folder.write("run/tables/mine.csv", "precious");
   remove_own_files(folder / "run");

@@ -13,6 +13,32 @@ def available():
     return shutil.which("chromium") and shutil.which("chromedriver")
 
 
+# Decodes a PNG into `window.pictures`, for `changed` and `colours`.
+DECODE = """
+const bytes = Uint8Array.from(atob(arguments[0]), (c) => c.charCodeAt(0));
+createImageBitmap(new Blob([bytes], {type: 'image/png'})).then((bitmap) => {
+  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), pen = canvas.getContext('2d');
+  pen.drawImage(bitmap, 0, 0);
+  window.pictures ??= [];
+  done(window.pictures.push(pen.getImageData(0, 0, bitmap.width, bitmap.height).data) - 1);
+});
+"""
+
+CHANGED = """
+const [a, b] = [...arguments].map((i) => window.pictures[i]);
+if (a.length !== b.length) return 1;
+let count = 0;
+for (let i = 0; i < a.length; i += 4) if ([0, 1, 2].some((k) => Math.abs(a[i + k] - b[i + k]) > 8)) ++count;
+return 4 * count / a.length;
+"""
+
+COLOURS = """
+const data = window.pictures[arguments[0]], seen = new Set();
+for (let i = 0; i < data.length; i += 4) seen.add(data[i] << 16 | data[i + 1] << 8 | data[i + 2]);
+return seen.size;
+"""
+
+
 class Browser:
     def __init__(self, profile):
         self.driver = subprocess.Popen(
@@ -27,7 +53,8 @@ class Browser:
             arguments = [
                 "--headless=new",
                 "--no-sandbox",  # root has no other way
-                "--disable-gpu",
+                "--use-angle=swiftshader",  # WebGL without a graphics card
+                "--enable-unsafe-swiftshader",
                 "--disable-dev-shm-usage",
                 "--mute-audio",
                 "--autoplay-policy=no-user-gesture-required",
@@ -118,8 +145,51 @@ class Browser:
     def keys(self, selector, text):
         self._send("POST", f"/element/{self._element(selector)}/value", {"text": text})
 
+    def press_at(self, selector, moves, pointer="mouse"):
+        """Presses one or two pointers in the middle of an element and moves each along its `moves`, (x, y) pairs
+        relative to the middle, in steps."""
+        element = {"element-6066-11e4-a52e-4f735466cecf": self._element(selector)}
+        self.bring(selector)
+        sources = []
+        for number, path in enumerate(moves):
+            actions = [
+                {"type": "pointerMove", "origin": element, "x": x, "y": y, "duration": 20} for x, y in path
+            ]
+            actions.insert(1, {"type": "pointerDown", "button": 0})
+            actions.append({"type": "pointerUp", "button": 0})
+            sources.append({"type": "pointer", "id": f"{pointer} {number}",
+                            "parameters": {"pointerType": pointer}, "actions": actions})
+        self._send("POST", "/actions", {"actions": sources})
+
+    def scroll_at(self, selector, down):
+        element = {"element-6066-11e4-a52e-4f735466cecf": self._element(selector)}
+        scroll = {"type": "scroll", "origin": element, "x": 0, "y": 0, "deltaX": 0, "deltaY": down, "duration": 0}
+        self._send("POST", "/actions", {"actions": [{"type": "wheel", "id": "wheel", "actions": [scroll]}]})
+
     def console(self):
-        return [entry["message"] for entry in self._send("POST", "/se/log", {"type": "browser"})]
+        """Messages on the console, without those of the software renderer about its own speed."""
+        messages = [entry["message"] for entry in self._send("POST", "/se/log", {"type": "browser"})]
+        return [message for message in messages if "GPU stall due to ReadPixels" not in message]
+
+    def picture(self, selector):
+        """The number of a picture of what the window shows of an element."""
+        self.bring(selector)
+        self.run("requestAnimationFrame(() => requestAnimationFrame(() => done(0)))")
+        x, y, width, height = self.run(
+            f"const r = document.querySelector({json.dumps(selector)}).getBoundingClientRect();"
+            "return [r.x + scrollX, r.y + scrollY, r.width, r.height]"
+        )
+        shot = self.devtools(
+            "Page.captureScreenshot", clip={"x": x, "y": y, "width": width, "height": height, "scale": 1}
+        )
+        return self.run(DECODE, shot["data"])
+
+    def changed(self, before, after):
+        """The share of pixels that differ by more than 8 of 255 in a channel."""
+        return self.run(CHANGED, before, after)
+
+    def colours(self, picture):
+        return self.run(COLOURS, picture)
 
     def screenshot(self, path):
         size = self.devtools("Page.getLayoutMetrics")["cssContentSize"]

@@ -2,6 +2,8 @@
 and dark. The console has no message, everything is loaded, the heatmap shows a cell's numbers, and
 drops seek the video.
 
+The replay turns, zooms, plays, and its time is that of the curves.
+
     report_test.py TOUCHDOWN [--report REPORT.html] [--screenshots FOLDER]
 
 Exit code 77: there is no Chromium here.
@@ -97,6 +99,78 @@ def check(condition, message):
         raise AssertionError(message)
 
 
+def check_replay(page, touch):
+    view, curves, overview = ".replay .view", ".replay .curves", ".replay .overview"
+    set_time = ("const slider = document.querySelector('.replay .time'); slider.value = arguments[0];"
+                "slider.dispatchEvent(new Event('input'));")
+    time = lambda: float(page.run("return document.querySelector('.replay .time').value"))
+    state = lambda: page.run("return document.querySelector('.replay .state').textContent")
+    page.run(set_time, 0.2)
+    first = page.picture(view)
+    check(page.colours(first) > 200, "the view is one flat colour")
+    check("ON THE GROUND" in state(), f"the run begins on the ground, not '{state()}'")
+    first_curves = page.picture(curves)
+
+    # The film's drops are found by other code: at the middle of each, the robot is in the air.
+    for seek, end in page.run("return [...document.querySelectorAll('.drops ol:first-of-type .drop')]"
+                              ".map((drop) => [drop.dataset.seek, drop.dataset.end])"):
+        page.run(set_time, (float(seek) + 0.4 + float(end) - 0.4) / 2)
+        later = page.picture(view)
+        check("IN THE AIR" in state(), f"at {time()} s the view shows '{state()}'")
+        check(page.changed(first, later) > 0.02, "another time, the same view")
+        check(page.changed(first_curves, page.picture(curves)) > 0.02, "another time, the same curves")
+    page.run(set_time, 0.2)
+    check(page.changed(first, page.picture(view)) == 0, "the view at a time depends on earlier ones")
+
+    page.press_at(view, [[(0, 0), (30, 4), (60, 8), (90, 10)]], "touch" if touch else "mouse")
+    turned = page.picture(view)
+    check(page.changed(first, turned) > 0.1, "dragging does not turn the view")
+    page.click(".replay .reset")
+    check(page.changed(first, page.picture(view)) == 0, "the view is not reset")
+    if touch:
+        page.press_at(view, [[(-20, 0), (-60, 0), (-110, 0)], [(20, 0), (60, 0), (110, 0)]], "touch")
+    else:
+        page.click(view)
+        page.scroll_at(view, -300)
+    check(page.changed(first, page.picture(view)) > 0.05, "pinch or wheel do not zoom")
+    page.keys(view, "\ue011")  # Home
+    check(page.changed(first, page.picture(view)) < 1e-3, "Home does not reset the view")  # focus has a ring
+    for key in ("\ue012", "\ue014", "\ue013", "\ue015", "+", "-"):  # arrow keys
+        page.keys(view, key)
+        check(page.changed(first, page.picture(view)) > 0.01, f"the key {key!r} does nothing")
+        page.keys(view, "\ue011")
+
+    page.run("document.querySelector('.replay select').value = '2';"
+             "document.querySelector('.replay select').dispatchEvent(new Event('change'))")
+    page.keys(view, " ")
+    page.run("const poll = () => document.querySelector('.replay .time').value > 0.3 ? done(0) : setTimeout(poll, 50);"
+             "poll()")
+    page.click(".replay .play")
+    stopped = time()
+    page.run("setTimeout(() => done(0), 200)")
+    check(time() == stopped, "a paused replay plays")
+
+    page.run(set_time, 0)
+    page.click('.replay [data-jump="flight"][data-step="1"]')
+    takeoff = time()
+    check(takeoff > 0, "no jump to a flight")
+    page.click('.replay [data-jump="error"][data-step="1"]')
+    check(time() > takeoff, "no jump to an error")
+    page.click('.replay [data-jump="error"][data-step="-1"]')
+    before = page.picture(curves)
+    page.press_at(curves, [[(0, 0), (20, 0), (40, 0)]], "touch" if touch else "mouse")
+    check(page.changed(before, page.picture(curves)) > 0.01, "dragging the curves does nothing")
+    before = page.picture(curves)
+    page.click(".replay .estimators-shown label:nth-of-type(1) input")
+    check(page.changed(before, page.picture(curves)) > 0, "an estimator cannot be hidden")
+    page.click(".replay .estimators-shown label:nth-of-type(1) input")
+    check(page.changed(before, page.picture(curves)) == 0, "a hidden estimator does not return")
+    before = page.picture(overview)
+    page.click(".replay .engines label:nth-of-type(2) input")
+    check(page.changed(before, page.picture(overview)) > 0, "both engines have the same overview")
+    page.click(".replay .engines label:nth-of-type(1) input")
+
+
 def check_page(page, report, name, width, height, dark, touch, screenshots, must_be_filmed):
     page.open(report, width, height, dark, touch)
     check(page.run(LOADED) == "loaded", "not everything was loaded")
@@ -135,6 +209,12 @@ def check_page(page, report, name, width, height, dark, touch, screenshots, must
             f"seek to {asked} of {duration} s ended at {at} s",
         )
         page.run("document.querySelector('video').pause()")
+    if page.run("return document.querySelectorAll('.replay').length"):
+        check_replay(page, touch)
+    else:
+        check(not must_be_filmed, "no replay")
+    overflow = page.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
+    check(overflow <= 0, f"after the replay the page is {overflow} pixels wider than the window")
     if screenshots:
         page.run("scrollTo({top: 0, behavior: 'instant'})")
         page.screenshot(screenshots / f"report_{name}.png")
@@ -163,10 +243,10 @@ def main():
             report = folder / "run" / "report.html"
         with browser.Browser(folder / "profile") as page:
             for name, width, height, dark, touch in [
-                ("desktop_light", 1280, 900, False, False),
-                ("desktop_dark", 1280, 900, True, False),
-                ("phone_light", 390, 844, False, True),
-                ("phone_dark", 390, 844, True, True),
+                ("desktop_light", 1400, 900, False, False),
+                ("desktop_dark", 1400, 900, True, False),
+                ("phone_light", 400, 844, False, True),
+                ("phone_dark", 400, 844, True, True),
             ]:
                 check_page(page, report.resolve(), name, width, height, dark, touch, asked.screenshots, not asked.report)
                 print(name, "is good")

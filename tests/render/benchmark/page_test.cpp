@@ -76,7 +76,7 @@ class BenchmarkPage : public ::testing::Test {
 
 TEST_F(BenchmarkPage, IsLinkedFromTheReportOfABenchmarkAlone) {
   const auto report = [&] {
-    return read_file(make_report(read_subject(folder_.path()), {}, study_pictures(), nullptr));
+    return read_file(make_report(read_subject(folder_.path()), {}, study_pictures()));
   };
   EXPECT_THAT(report(), HasSubstr("href=\"benchmark.html\""));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "benchmark.html"));
