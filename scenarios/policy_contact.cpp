@@ -1,7 +1,6 @@
 #include "scenarios/policy_contact.hpp"
 
 #include <cmath>
-#include <deque>
 #include <memory>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "estimator/free_fall.hpp"
 #include "models/robot_model.hpp"
 #include "recordings/signals_from.hpp"
+#include "scenarios/contact_delay.hpp"
 #include "scenarios/leg_geometry.hpp"
 
 namespace touchdown::scenarios {
@@ -41,12 +41,9 @@ policies::WheelContact contact_from_truth(const simulators::Simulator& simulator
 
 policies::WheelContact delayed(policies::WheelContact contact, std::size_t steps) {
   if (steps == 0) return contact;
-  return [contact = std::move(contact), waiting = std::deque<WheelContacts>(steps, {true, true})](
+  return [contact = std::move(contact), delay = ContactDelay(steps), steps](
              const models::Observation& observation, double command) mutable {
-    waiting.push_back(contact(observation, command));
-    const WheelContacts contacts = waiting.front();
-    waiting.pop_front();
-    return contacts;
+    return delay.add(contact(observation, command), steps);
   };
 }
 

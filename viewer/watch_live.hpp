@@ -1,30 +1,27 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/logs/estimator.hpp"
-#include "viewer/live/run.hpp"
+#include "viewer/live_controls.hpp"
 
 namespace touchdown::viewer {
 
-/// What a user asked to watch live.
-struct LiveRequest {
-  LiveScene scene;
-  std::vector<experiments::LogEstimator> estimators;
-  LiveSettings settings;
-  std::vector<std::pair<std::string, noise::SensorProfile>> sensors;  ///< that `p` changes between
-  std::filesystem::path record = {};  ///< recording to write at the end; empty: none
-  int width = 1280, height = 720;     ///< of the window
+/// The times of a session's pictures (s, all of them added).
+struct PictureTimes {
+  double scene = 0.0;    ///< MuJoCo draws robot and terrain
+  double overlay = 0.0;  ///< labels, panel and plots are painted and copied into the window
+  double display = 0.0;  ///< the window system shows the picture
 };
 
 /// The result of a session.
 struct LiveSession {
   std::vector<std::string> recorded;  ///< one line per recording
   int frames = 0;
-  double seconds = 0.0;  ///< of the session
+  double seconds = 0.0;               ///< of the session
+  std::optional<PictureTimes> times;  ///< if the request measures them
 };
 
 /// Shows a robot in a window and lets the user drive it, until the window is closed or `stop` is

@@ -72,15 +72,19 @@ void Poses::apply(std::size_t row, mjData& data) const {
   const std::vector<double> held =
       simulated ? held_positions(recording_.truth[row]) : std::vector<double>();
   models::write_held(robot_, held, data.qpos);
-  mj_kinematics(&model, &data);
   if (!simulated) {
+    mj_kinematics(&model, &data);
     double lowest = data.geom_xpos[3 * robot_.tyre_geom[0] + 2];
     for (const int geom : robot_.tyre_geom) {
       lowest = std::min(lowest, data.geom_xpos[3 * geom + 2]);
     }
     data.qpos[robot_.base_qpos() + 2] += robot_.wheel_radius - lowest;
-    mj_kinematics(&model, &data);
   }
+  update_geoms(model, data);
+}
+
+void update_geoms(const mjModel& model, mjData& data) {
+  mj_kinematics(&model, &data);
   mj_comPos(&model, &data);
   mj_camlight(&model, &data);
 }

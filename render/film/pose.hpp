@@ -31,6 +31,9 @@ class Poses {
   std::vector<Eigen::Vector3d> base_;
 };
 
+/// Computes all that MuJoCo's renderer needs from the positions in `data`.
+void update_geoms(const mjModel& model, mjData& data);
+
 /// Filters `values`, sampled every `period` seconds, with a first-order low-pass of `time_constant`
 /// seconds, forward and then backward. The result is smooth and has no lag.
 std::vector<Eigen::Vector3d> smoothed(std::vector<Eigen::Vector3d> values, double period,

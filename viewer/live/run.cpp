@@ -68,9 +68,7 @@ LiveRun::LiveRun(LiveScene scene, const std::vector<experiments::LogEstimator>& 
   }
   make_contact_sources();
   settings_.contact_source = std::min(settings_.contact_source, source_names_.size() - 1);
-  const auto most =
-      static_cast<std::size_t>(std::llround(longest_delay / simulator_->control_period()));
-  contacts_.assign(most + 1, {true, true});
+  contact_delay_ = scenarios::ContactDelay(steps_of(longest_delay));
   scenarios::Scenario undelayed = scene_.scenario;
   undelayed.policy.delay = 0.0;  // `contact_for_policy` delays
   rollout_ = std::make_unique<scenarios::Rollout>(
@@ -79,6 +77,10 @@ LiveRun::LiveRun(LiveScene scene, const std::vector<experiments::LogEstimator>& 
       });
   recording_.info = scenarios::recording_info(scene_.scenario, scene_.engine, scene_.seed,
                                               std::max(scene_.run, std::int64_t{0}));
+}
+
+std::size_t LiveRun::steps_of(double seconds) const {
+  return static_cast<std::size_t>(std::llround(seconds / simulator_->control_period()));
 }
 
 void LiveRun::make_contact_sources() {
@@ -113,11 +115,7 @@ WheelContacts LiveRun::contact_for_policy(const models::Observation& observation
     const Belief& belief = estimators_[settings_.contact_source - built_in_sources_.size()].belief;
     now = {belief.wheel[0].contact, belief.wheel[1].contact};
   }
-  contacts_.pop_back();
-  contacts_.push_front(now);
-  const auto delay = static_cast<std::size_t>(
-      std::llround(settings_.contact_delay / simulator_->control_period()));
-  const WheelContacts given = contacts_[std::min(delay, contacts_.size() - 1)];
+  const WheelContacts given = contact_delay_.add(now, steps_of(settings_.contact_delay));
   if (contact_script_.empty() ? given != WheelContacts{true, true} : given != policy_contact_) {
     contact_script_.push_back({observation.time, given[0], given[1]});
   }

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "noise/sensor_noise.hpp"
 #include "noise/sensors/reported.hpp"
 #include "recordings/recording.hpp"
+#include "scenarios/contact_delay.hpp"
 #include "scenarios/rollout.hpp"
 #include "scenarios/scenario.hpp"
 #include "simulators/simulator.hpp"
@@ -112,6 +112,7 @@ class LiveRun {
   std::array<bool, models::wheel_count> contact_for_policy(const models::Observation& observation,
                                                            double command);
   void make_contact_sources();
+  std::size_t steps_of(double seconds) const;
   void pull();
   void sample();
 
@@ -123,7 +124,7 @@ class LiveRun {
   noise::ReportingSensors sensors_;
   std::vector<std::string> source_names_;
   std::vector<policies::WheelContact> built_in_sources_;
-  std::deque<std::array<bool, models::wheel_count>> contacts_;  ///< of the source, newest first
+  scenarios::ContactDelay contact_delay_{0};
   std::array<bool, models::wheel_count> policy_contact_ = {true, true};
   policies::ContactScript contact_script_;
   models::Observation reported_;

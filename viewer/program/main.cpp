@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -24,7 +25,17 @@ struct Flags {
   std::filesystem::path record;
   int width = 1280;
   int height = 720;
+  bool statistics = false;
 };
+
+void print_statistics(const LiveSession& session) {
+  print("{} pictures in {:.1f} s: {:.1f} a second\n", session.frames, session.seconds,
+        session.frames / std::max(1e-3, session.seconds));
+  if (!session.times || session.frames == 0) return;
+  const double each = 1e3 / session.frames;
+  print("a picture: scene {:.1f} ms; labels, panel and plots {:.1f} ms; display {:.1f} ms\n",
+        each * session.times->scene, each * session.times->overlay, each * session.times->display);
+}
 
 int watch(Flags& flags, const std::atomic<bool>& stop) {
   if (!flags.record.empty()) {
@@ -44,10 +55,10 @@ int watch(Flags& flags, const std::atomic<bool>& stop) {
   request.record = flags.record;
   request.width = flags.width;
   request.height = flags.height;
+  request.measures = flags.statistics;
   const LiveSession session = watch_live(std::move(request), stop);
   for (const std::string& line : session.recorded) print("{}\n", line);
-  print("{} pictures in {:.1f} s: {:.1f} a second\n", session.frames, session.seconds,
-        session.frames / std::max(1e-3, session.seconds));
+  print_statistics(session);
   return good;
 }
 
@@ -90,6 +101,8 @@ int run_program(int argc, char** argv) {
       ->type_name("FILE.csv");
   program.add_option("--record", flags.record, "Recording to write of what was driven")
       ->type_name("FILE.mpack");
+  program.add_flag("--statistics", flags.statistics,
+                   "Print how long the parts of a picture took, at the end of a live run");
   constexpr int least = 600;
   constexpr int most = 8000;
   program.add_option("--width", flags.width, "Width of the window (pixels)")
