@@ -171,10 +171,14 @@ class Browser:
         messages = [entry["message"] for entry in self._send("POST", "/se/log", {"type": "browser"})]
         return [message for message in messages if "GPU stall due to ReadPixels" not in message]
 
+    def settle(self):
+        """Waits until the page has drawn what it was asked to."""
+        self.run("requestAnimationFrame(() => requestAnimationFrame(() => done(0)))")
+
     def picture(self, selector):
         """The number of a picture of what the window shows of an element."""
         self.bring(selector)
-        self.run("requestAnimationFrame(() => requestAnimationFrame(() => done(0)))")
+        self.settle()
         x, y, width, height = self.run(
             f"const r = document.querySelector({json.dumps(selector)}).getBoundingClientRect();"
             "return [r.x + scrollX, r.y + scrollY, r.width, r.height]"

@@ -103,8 +103,15 @@ def check_replay(page, touch):
     view, curves, overview = ".replay .view", ".replay .curves", ".replay .overview"
     set_time = ("const slider = document.querySelector('.replay .time'); slider.value = arguments[0];"
                 "slider.dispatchEvent(new Event('input'));")
-    time = lambda: float(page.run("return document.querySelector('.replay .time').value"))
-    state = lambda: page.run("return document.querySelector('.replay .state').textContent")
+
+    def time():
+        page.settle()
+        return float(page.run("return document.querySelector('.replay .time').value"))
+
+    def state():
+        page.settle()
+        return page.run("return document.querySelector('.replay .state').textContent")
+
     page.run(set_time, 0.2)
     first = page.picture(view)
     check(page.colours(first) > 200, "the view is one flat colour")

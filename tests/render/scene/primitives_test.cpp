@@ -13,14 +13,14 @@
 namespace touchdown::render {
 namespace {
 
-/// A model with one body of these geoms.
-models::MjModelPtr model_of(const std::string& geoms) {
+/// A model with one body of these geoms, on a terrain.
+models::MjModelPtr model_of(const std::string& geoms, const std::string& terrain = {}) {
   const ScratchFolder folder;
   const auto file = folder.write(
       "m.xml", fmt::format("<mujoco><asset><mesh name=\"m\" vertex=\"0 0 0 1 0 0 0 1 0 0 0 1\"/>"
-                           "</asset><worldbody><body name=\"b\"><freejoint/>{}</body></worldbody>"
+                           "</asset><worldbody>{}<body name=\"b\"><freejoint/>{}</body></worldbody>"
                            "</mujoco>",
-                           geoms));
+                           terrain, geoms));
   std::array<char, 500> error = {};
   models::MjModelPtr model(mj_loadXML(file.c_str(), nullptr, error.data(), error.size()));
   EXPECT_TRUE(model) << error.data();
@@ -62,14 +62,19 @@ TEST(Primitives, ACapsuleIsACylinderWithASphereAtEachEnd) {
 
 /// The surface of a plane is the upper side of its box.
 TEST(Primitives, APlaneIsAThinBoxBelowItsSurface) {
-  const auto model = model_of(
-      "<geom size=\"0.1\" group=\"4\"/>"
-      "<geom type=\"plane\" size=\"2 3 1\" pos=\"0 0 0.5\" contype=\"0\" conaffinity=\"0\"/>");
-  const auto primitives = primitives_of(*model, 1);
-  ASSERT_EQ(primitives.size(), 1U);
+  const auto model = model_of("<geom size=\"0.1\"/>",
+                              "<geom type=\"plane\" size=\"2 3 1\" pos=\"0 0 0.5\"/>"
+                              "<geom type=\"plane\" size=\"0 0 1\" zaxis=\"1 0 1\"/>");
+  ASSERT_TRUE(model);
+  const auto primitives = primitives_of(*model, 0);
+  ASSERT_EQ(primitives.size(), 2U);
   EXPECT_NEAR(primitives[0].position.z() + 0.5 * primitives[0].size.z(), 0.5, 1e-12);
   EXPECT_DOUBLE_EQ(primitives[0].size.x(), 4.0);
   EXPECT_DOUBLE_EQ(primitives[0].size.y(), 6.0);
+  const Primitive& endless = primitives[1];
+  const Eigen::Vector3d up = endless.orientation * Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(endless.position.dot(up) + 0.5 * endless.size.z(), 0.0, 1e-9);
+  EXPECT_GT(endless.size.x(), 10.0);
 }
 
 TEST(Primitives, WhatFilmsDoNotDrawIsLeftOut) {
