@@ -49,7 +49,7 @@ const openScene = (canvas) => {
         }
       }
       vec3 base = mix(paint, tint, tinted);
-      if (isTerrain > 0.5) base = min(base, vec3(0.80, 0.84, 0.89)); // not as bright as the sky
+      if (isTerrain > 0.5 && min(base.r, min(base.g, base.b)) > 0.9) base = vec3(0.70, 0.76, 0.83); // a white floor would be sky
       if (isTerrain > 0.5 && n.z > 0.7) {
         float distance = length(eye - at);
         float grid = max(0.10 * lines(at.xy, 0.25), 0.22 * lines(at.xy, 1.0));
