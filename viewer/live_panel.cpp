@@ -36,6 +36,16 @@ void add_estimators(const LiveControls& controls, const LiveState& state,
   }
 }
 
+/// The estimators that decide wrongly now; empty without one.
+std::string wrong_estimators(const LiveControls& controls, const LiveState& state) {
+  std::string names;
+  for (std::size_t i = 0; i < std::min(state.estimates.size(), controls.estimators().size()); ++i) {
+    if (state.estimates[i].contact == state.contact) continue;
+    names += (names.empty() ? "" : ", ") + controls.estimators()[i];
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<Chip> live_chips(const LiveControls& controls, const LiveState& state) {
@@ -50,6 +60,8 @@ std::vector<Chip> live_chips(const LiveControls& controls, const LiveState& stat
   } else if (controls.speed() != 1.0) {
     chips.push_back({fmt::format("{:.3g}× speed", controls.speed()), dark});
   }
+  const std::string wrong = wrong_estimators(controls, state);
+  if (!wrong.empty() && state.steps > 0) chips.push_back({"wrong: " + wrong, red});
   return chips;
 }
 

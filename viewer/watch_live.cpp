@@ -165,11 +165,12 @@ void LiveWindow::draw(double seconds) {
   const Layout layout = screen_.layout();
   screen_.draw_chips(live_chips(controls_, state_));
   if (shows_keys_) {
-    screen_.draw_centred(key_list(screen_.pen(), bindings_,
+    screen_.draw_at_edge(key_list(screen_.pen(), bindings_,
                                   {{"drag the robot", "push, pull or lift it"},
                                    {"drag elsewhere", "turn the camera"},
                                    {"mouse wheel", "move the camera"},
-                                   {"drag a blue bar", "set noise or delay"}},
+                                   {"drag a blue bar", "set noise or delay"},
+                                   {"errors are red", "more of them: t, a, p, e, lift it"}},
                                   layout.scene.width, layout.scene.height));
   }
   lines_ = live_panel(controls_, state_);

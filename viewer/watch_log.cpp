@@ -290,7 +290,7 @@ void LogWindow::draw(double seconds) {
   }
   screen_.draw_chips(chips);
   if (shows_keys_) {
-    screen_.draw_centred(key_list(screen_.pen(), bindings_,
+    screen_.draw_at_edge(key_list(screen_.pen(), bindings_,
                                   {{"time line", "click or drag: orange flights, red errors"},
                                    {"drag the scene", "turn the camera"},
                                    {"mouse wheel", "move the camera"}},

@@ -36,9 +36,9 @@ void Screen::draw(const cv::Mat& picture, int left, int top) {
               {left, window_.height() - top - picture.rows, picture.cols, picture.rows});
 }
 
-void Screen::draw_centred(const cv::Mat& picture) {
+void Screen::draw_at_edge(const cv::Mat& picture) {
   const Area scene = layout().scene;
-  draw(picture, scene.left + std::max(0, (scene.width - picture.cols) / 2),
+  draw(picture, scene.left + std::max(0, scene.width - picture.cols),
        scene.top + std::max(0, (scene.height - picture.rows) / 2));
 }
 

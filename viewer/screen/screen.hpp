@@ -64,8 +64,8 @@ class Screen {
   void draw_chips(const std::vector<Chip>& chips);
   /// Draws a picture (8UC3, BGR) at a place of the window.
   void draw(const cv::Mat& picture, int left, int top);
-  /// Draws a picture in the middle of the scene.
-  void draw_centred(const cv::Mat& picture);
+  /// Draws a picture at the right edge of the scene, where it hides no robot.
+  void draw_at_edge(const cv::Mat& picture);
 
   /// The point of the robot (m, world) under the mouse.
   std::optional<Eigen::Vector3d> robot_under(const Mouse& mouse) const;
