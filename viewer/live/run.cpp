@@ -86,7 +86,7 @@ std::size_t LiveRun::steps_of(double seconds) const {
 void LiveRun::make_contact_sources() {
   scenarios::Scenario scenario = scene_.scenario;
   scenario.policy.delay = 0.0;
-  source_names_.push_back(fmt::format("the scenario's ({})", scenario.policy.contact));
+  source_names_.push_back(scenario.policy.contact);
   built_in_sources_.push_back(scenarios::policy_contact(scenario, *simulator_));
   if (scenario.policy.contact != "truth") {
     scenario.policy.contact = "truth";
