@@ -60,11 +60,6 @@ void LiveControls::take_over() {
   });
 }
 
-std::string LiveControls::contact_source() const {
-  const std::string& name = sources_[settings_.contact_source];
-  return settings_.contact_source == 0 ? fmt::format("the scenario's ({})", name) : name;
-}
-
 std::string LiveControls::sensors_name() const {
   return request_.sensors.empty() ? "ideal" : request_.sensors[sensors_].first;
 }

@@ -44,8 +44,7 @@ class LiveControls {
   const LiveScene& scene() const { return request_.scene; }
   const LiveSettings& settings() const { return settings_; }
   const std::vector<std::string>& estimators() const { return estimators_; }
-  /// The name of the policy's contact source.
-  std::string contact_source() const;
+  const std::string& contact_source() const { return sources_[settings_.contact_source]; }
   std::string sensors_name() const;
   double speed() const { return speed_; }  ///< simulated seconds per second
   bool is_paused() const { return is_paused_; }

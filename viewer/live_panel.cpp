@@ -69,7 +69,9 @@ std::vector<PanelLine> live_panel(const LiveControls& controls, const LiveState&
   std::vector<PanelLine> lines;
   add_estimators(controls, state, lines);
   lines.push_back({.text = "policy", .heading = true});
-  lines.push_back({.text = "contact from (o)", .value = controls.contact_source()});
+  const bool is_scenarios = controls.settings().contact_source == 0;
+  lines.push_back({.text = is_scenarios ? "scenario's contact (o)" : "contact from (o)",
+                   .value = controls.contact_source()});
   lines.push_back(slider_line(controls, LiveNumber::contact_delay, "  delayed by (b)",
                               fmt::format("{:.0f} ms", 1e3 * controls.settings().contact_delay)));
   lines.push_back({.text = "  received", .badges = ContactBadges{state.policy_contact}});
