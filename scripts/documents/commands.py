@@ -20,10 +20,17 @@ MADE = ('build/', 'tables/', 'figures/', 'state/', 'logs/', 'runs/', 'scenes/', 
 
 
 @functools.cache
+def verbs_of(program):
+    """The program's verbs."""
+    text = subprocess.run([program, '--help'], capture_output=True, text=True, check=True).stdout
+    return set(re.findall(r'^  ([a-z]+)  +touchdown ', text, re.M))
+
+
+@functools.cache
 def options_of(program, verb):
-    """The options of a verb, or None if there is no such verb."""
+    """The options of a verb; None if they are another program's, such as the trainer's, which is not built."""
     done = subprocess.run([program, verb, '--help'], capture_output=True, text=True, check=False)
-    if done.returncode != 0 or f'Usage: touchdown {verb} ' not in done.stdout:
+    if f'Usage: touchdown {verb} ' not in done.stdout:
         return None
     return set(re.findall(r'(?<![\w-])(--?[a-z][\w-]*)', done.stdout.partition('Usage:')[2]))
 
@@ -34,9 +41,11 @@ def faults_of_command(program, line):
     for call in re.findall(r'(?:^|[\s/])touchdown ((?!-)[a-z]+(?: [^|>#;&]*)?)', line):
         words = call.split()
         verb = words[0]
+        if verb not in verbs_of(program):
+            yield verb, 'no such command'
+            continue
         options = options_of(program, verb)
         if options is None:
-            yield verb, 'no such command'
             continue
         for word in words[1:]:
             name = word.split('=')[0]
