@@ -39,7 +39,7 @@ struct HeldServo {
 };
 
 /// The parts of a robot in its MJCF or URDF. An empty name stands for the name in the contract
-/// (docs/models.md).
+/// (docs/guides/robots.md).
 struct PartNames {
   std::array<std::string, servo_count> joint;  ///< in servo order
   bool has_hips = true;                        ///< false: legs of a knee and a wheel

@@ -35,9 +35,9 @@ struct HeldJoint {
 
 /// A compiled robot on a terrain. Both physics engines and the renderer are built from it.
 ///
-/// Any robot works if its file keeps the contract of docs/models.md, or if a YAML file names its
-/// parts. The model follows touchdown's conventions for axes, signs and zeros, whatever those of
-/// the file (models/contract/conventions.hpp).
+/// Any robot works if its file keeps the contract of docs/guides/robots.md, or if a YAML file names
+/// its parts. The model follows touchdown's conventions for axes, signs and zeros, whatever those
+/// of the file (models/contract/conventions.hpp).
 struct RobotModel {
   MjModelPtr mj;
   std::string name;  ///< the MJCF's model name

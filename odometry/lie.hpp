@@ -6,7 +6,7 @@ namespace touchdown::odometry {
 
 // The groups SO(3) and SE₂(3), which combines rotation, velocity and position (Barrau and Bonnabel
 // 2017). A vector of its algebra is (φ, ν, ρ): rotation, velocity, position. Equations:
-// docs/odometry.md.
+// docs/explanation/odometry.md.
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;

@@ -14,7 +14,7 @@ namespace touchdown::policies {
 /// wheel
 ///   hangs over an edge, and sinks instead of tipping over the other wheel.
 /// Wheel commands and gains are those of policies/wheel_balancer.hpp. Equations and the effect of
-/// each part: docs/policy.md.
+/// each part: docs/explanation/policy.md.
 class SoftLander : public Policy {
  public:
   SoftLander(const WheelBalancerConfig& config, Course course, const SideView& robot,

@@ -9,7 +9,7 @@
 namespace touchdown::scoring {
 
 /// Calibration of the probability of contact: the Brier score and the reliability curve of
-/// docs/metrics.md, "Calibration". All members are sums over steps, so they add.
+/// docs/reference/metrics.md, "Calibration". All members are sums over steps, so they add.
 struct Calibration {
   static constexpr std::size_t bins = 10;
 

@@ -12,7 +12,7 @@ inline double ratio(std::int64_t part, std::int64_t whole) {
 }
 
 /// Point-wise confusion counts of one or many sequences, `<truth>_as_<prediction>`. They are sums
-/// over steps, so they add. docs/metrics.md, "Point-wise", defines the metrics; NaN if a
+/// over steps, so they add. docs/reference/metrics.md, "Point-wise", defines the metrics; NaN if a
 /// denominator is zero.
 struct Classification {
   std::int64_t contact_as_contact = 0;

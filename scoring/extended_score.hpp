@@ -34,7 +34,7 @@ struct Latencies {
   double ranked(std::int64_t rank) const;
 };
 
-/// Flights of a wheel as intervals: docs/metrics.md, "Flights".
+/// Flights of a wheel as intervals: docs/reference/metrics.md, "Flights".
 struct FlightCounts {
   std::int64_t truth = 0;      ///< true flights of at least the minimum duration
   std::int64_t predicted = 0;  ///< maximal intervals that are predicted as flight

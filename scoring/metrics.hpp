@@ -11,7 +11,8 @@
 
 namespace touchdown::scoring {
 
-/// A number computed from a score; NaN where it is not defined. docs/metrics.md defines the counts.
+/// A number computed from a score; NaN where it is not defined. docs/reference/metrics.md defines
+/// the counts.
 struct Metric {
   std::string name;  ///< as in a CSV header, unit last
   std::function<double(const Score&)> of;

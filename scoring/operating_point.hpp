@@ -21,7 +21,7 @@ struct Hysteresis {
 ContactSequence decisions(const std::vector<double>& p_contact, const Hysteresis& thresholds);
 
 /// Score of the decisions about both wheels, over one or many runs. Sums, so they add.
-/// docs/metrics.md, "Operating points".
+/// docs/reference/metrics.md, "Operating points".
 struct OperatingScore {
   Classification points;
   std::int64_t extra_switches = 0;

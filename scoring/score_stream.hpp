@@ -11,9 +11,9 @@ namespace touchdown::scoring {
 
 /// `score` of a whole run for beliefs and forces that arrive one by one, with a memory that does
 /// not grow with the run. The run is scored in segments. Each ends where truth and decisions have
-/// been constant for longer than every window of docs/metrics.md, so the sum is the score of the
-/// run. (Without such a place for five minutes, the segment ends anyway, and an event near its end
-/// is not counted.)
+/// been constant for longer than every window of docs/reference/metrics.md, so the sum is the score
+/// of the run. (Without such a place for five minutes, the segment ends anyway, and an event near
+/// its end is not counted.)
 class ScoreStream {
  public:
   ScoreStream(std::int64_t period_us, const LabelConfig& labels, const ScoringConfig& scoring);

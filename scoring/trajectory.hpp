@@ -19,8 +19,8 @@ struct TimedPose {
 };
 using Trajectory = std::vector<TimedPose>;
 
-/// Sums of squared errors of estimated trajectories, which docs/metrics.md defines, and the metrics
-/// computed from them. A metric is NaN if its denominator is zero.
+/// Sums of squared errors of estimated trajectories, which docs/reference/metrics.md defines, and
+/// the metrics computed from them. A metric is NaN if its denominator is zero.
 struct TrajectoryScore {
   std::int64_t steps = 0;
   double squared_horizontal = 0.0;     ///< errors after aligning the first poses (m²)

@@ -10,7 +10,7 @@
 
 namespace touchdown::scoring {
 
-/// How predictions are compared with the truth; docs/metrics.md defines the windows.
+/// How predictions are compared with the truth; docs/reference/metrics.md defines the windows.
 struct ScoringConfig {
   double skip = 0.3;             ///< not scored at the beginning of a run (s)
   double hold_off = 0.25;        ///< further transitions are ignored for this long (s)
@@ -34,8 +34,8 @@ struct JudgedTransition {
   friend bool operator==(const JudgedTransition&, const JudgedTransition&) = default;
 };
 
-/// Matches predicted transitions with true ones, by docs/metrics.md, "Transitions". Both sequences
-/// have one state per step of `period` seconds. The result is ordered by kind, then time.
+/// Matches predicted transitions with true ones, by docs/reference/metrics.md, "Transitions". Both
+/// sequences have one state per step of `period` seconds. The result is ordered by kind, then time.
 std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
                                                 const ContactSequence& predicted, double period,
                                                 const ScoringConfig& config);

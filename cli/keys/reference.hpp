@@ -14,7 +14,7 @@ std::string reference_text(const FileKind& kind, std::size_t columns);
 /// The same as a section of a Markdown document, with one table.
 std::string reference_markdown(const FileKind& kind);
 
-/// The document docs/keys.md.
+/// The document docs/reference/keys.md.
 std::string reference_document();
 
 }  // namespace touchdown::cli

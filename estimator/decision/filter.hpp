@@ -10,7 +10,7 @@ namespace touchdown {
 /// A small network that is fitted to decide contact directly rather than to model densities. Its
 /// inputs for each wheel are the load, the ground's reaction and the axle's motion of both legs,
 /// the vertical acceleration and the roll rate, all at eight time scales, and the noise levels
-/// (docs/estimator.md). Hysteresis turns its probability into a decision.
+/// (docs/explanation/estimator.md). Hysteresis turns its probability into a decision.
 ///
 /// `update` never throws, allocates or locks, and never returns NaN. `LogitDecision` describes the
 /// behaviour without usable signals.

@@ -9,7 +9,7 @@ namespace touchdown {
 
 /// The interpretable counterpart of the decision network: an additive model (GAM) with the same
 /// inputs and the same decision rule. Each input contributes to the log-odds of contact by a curve
-/// of its own, and the contributions add up (docs/estimator.md).
+/// of its own, and the contributions add up (docs/explanation/estimator.md).
 ///
 /// `update` never throws, allocates or locks, and never returns NaN. `LogitDecision` describes the
 /// behaviour without usable signals.

@@ -17,8 +17,8 @@ struct TouchdownModel {
 };
 
 /// Evidence curves and the decision network side by side, with the same inputs. The logit is the
-/// mean of their logits (docs/estimator.md). They err at different times, so the mean has fewer
-/// errors and fewer changes of decision than either.
+/// mean of their logits (docs/explanation/estimator.md). They err at different times, so the mean
+/// has fewer errors and fewer changes of decision than either.
 ///
 /// `update` never throws, allocates or locks, and never returns NaN. `LogitDecision` describes the
 /// behaviour without usable signals.

@@ -33,7 +33,7 @@ struct ForceKinematicsModel {
   bool operator==(const ForceKinematicsModel&) const = default;
 };
 
-/// Settings, chosen on runs of seed 2 (docs/estimator.md).
+/// Settings, chosen on runs of seed 2 (docs/explanation/estimator.md).
 struct ForceKinematicsConfig {
   double sample_rate = 1000.0;  ///< at which `update` is called (Hz)
   LegGeometry geometry = {};

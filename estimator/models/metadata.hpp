@@ -62,7 +62,7 @@ struct ModelUse {
 void check_sample_rate(const ModelUse& use);
 
 /// The rates at which a model may be used (Hz): those that its estimator was measured at
-/// (docs/robot.md), and the fitted one. Rates that differ by less than 1 % are equal.
+/// (docs/results.md), and the fitted one. Rates that differ by less than 1 % are equal.
 struct ServedRates {
   double lowest = 0.0;
   double highest = 0.0;

@@ -8,11 +8,11 @@
 
 namespace touchdown {
 
-/// A hidden Markov model over the contact phases of both legs, run forward (docs/phase_filter.md).
-/// The paper's filter estimates whether a wheel is in contact now. This one estimates in which
-/// phase between rolling and falling the robot is, from the signed knee and wheel torques of both
-/// legs and the vertical acceleration. P(left wheel in contact) is the sum over all phases in which
-/// it is.
+/// A hidden Markov model over the contact phases of both legs, run forward
+/// (docs/explanation/phase_filter.md). The paper's filter estimates whether a wheel is in contact
+/// now. This one estimates in which phase between rolling and falling the robot is, from the signed
+/// knee and wheel torques of both legs and the vertical acceleration. P(left wheel in contact) is
+/// the sum over all phases in which it is.
 ///
 /// `update` never throws, allocates or locks, and never returns NaN. A leg with torques that are
 /// not finite gives no evidence at that step. Without a usable acceleration, or without torques of

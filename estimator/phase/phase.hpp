@@ -8,7 +8,7 @@
 namespace touchdown {
 
 /// The phases of both legs between rolling and falling: the joint states of the phase filter's
-/// hidden Markov model (docs/phase_filter.md).
+/// hidden Markov model (docs/explanation/phase_filter.md).
 enum class Phase : std::uint8_t {
   rolling,      ///< both wheels carry the robot; no takeoff or landing is near
   unloading_1,  ///< both wheels are in contact; they take off in 150 to 60 ms

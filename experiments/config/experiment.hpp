@@ -38,7 +38,7 @@ struct TrainingSegments {
 };
 
 /// The section `fit.tuning`: every estimator with hyperparameters gets the same number of trials.
-/// Only fitted runs decide which trial is best (docs/benchmark.md).
+/// Only fitted runs decide which trial is best (docs/explanation/benchmark.md).
 struct TuningConfig {
   int trials = 8;  ///< the first one has the estimator's defaults
   int folds = 2;   ///< of the fitted runs, for cross-validation

@@ -8,8 +8,8 @@
 
 namespace touchdown::experiments {
 
-/// Seeds from this one on are reserved for reported numbers (docs/protocol.md). No model may be
-/// fitted to a run that was drawn with one.
+/// Seeds from this one on are reserved for reported numbers (docs/explanation/protocol.md). No
+/// model may be fitted to a run that was drawn with one.
 inline constexpr std::uint64_t first_reserved_seed = 900'000'000;
 
 inline bool is_reserved(std::uint64_t seed) { return seed >= first_reserved_seed; }

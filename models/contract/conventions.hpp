@@ -9,8 +9,8 @@ namespace touchdown::models {
 /// side.
 bool sides_are_swapped(const RobotModel& robot, const Contract& contract);
 
-/// Changes a compiled model to touchdown's conventions (docs/models.md), whatever its file's are.
-/// Recordings, policies and estimators then need to know no other.
+/// Changes a compiled model to touchdown's conventions (docs/guides/robots.md), whatever its file's
+/// are. Recordings, policies and estimators then need to know no other.
 /// - Axes: hips and knees turn forward about −y (left) and +y (right); wheels drive forward about
 ///   +y (left) and −y (right).
 /// - Zeros: at zero, both links of a leg point straight down.

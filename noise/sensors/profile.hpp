@@ -53,7 +53,7 @@ struct Dropout {
 };
 
 /// Error model between a physical quantity and its reported value, in the order of application
-/// (equations: docs/noise.md). The defaults change nothing.
+/// (equations: docs/explanation/sensors.md). The defaults change nothing.
 struct SensorChannel {
   Constant scale = {};  ///< relative error
   Constant bias = {};   ///< the channel's unit

@@ -11,7 +11,7 @@ import re
 import sys
 import unicodedata
 
-ENDINGS = {'.cpp', '.c', '.py', '.yaml', '.yml', '.txt', '.sh', '.cmake', '.in', '.toml', '.cff', '.md'}
+ENDINGS = {'.cpp', '.hpp', '.h', '.c', '.py', '.yaml', '.yml', '.txt', '.sh', '.cmake', '.in', '.toml', '.cff', '.md'}
 LEFT_OUT = ('build', 'runs', 'tests/documents', 'tests/words', 'tests/fuzz')
 LINK = re.compile(r'\]\(([^)\s]+)\)')
 MENTION = re.compile(r'(?<![\w./-])docs/[\w/]+\.md')

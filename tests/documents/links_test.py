@@ -49,9 +49,9 @@ class Links(unittest.TestCase):
         self.assert_complete({'a.md': '```\n[b](b.md)\n```\n`[c](c.md)` [d](https://example.org/d.md)\n'})
 
     def test_names_of_pages_are_checked_in_code_too(self):
-        self.assert_missing({'core/a.cpp': '/// See docs/b.md.\n'}, 'core/a.cpp:1: docs/b.md: no such file')
+        self.assert_missing({'core/a.hpp': '/// See docs/b.md.\n'}, 'core/a.hpp:1: docs/b.md: no such file')
         self.assert_missing({'a.yaml': '# (docs/guides/b.md)\n'}, 'a.yaml:1: docs/guides/b.md: no such file')
-        self.assert_complete({'core/a.cpp': '/// See docs/b.md.\n', 'docs/b.md': ''})
+        self.assert_complete({'core/a.hpp': '/// See docs/b.md.\n', 'docs/b.md': ''})
 
 
 if __name__ == '__main__':

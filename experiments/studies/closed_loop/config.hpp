@@ -30,7 +30,7 @@ struct ClosedLoopFilm {
 };
 
 /// The section `closed_loop`: runs of a policy with contact from an estimator, from the ground
-/// truth or without contact feedback (docs/closed_loop.md).
+/// truth or without contact feedback (docs/explanation/closed_loop.md).
 struct ClosedLoopConfig {
   std::vector<std::string> laws = {"soft_landing"};  ///< of policies
   std::vector<std::string> contact;  ///< contact sources: `truth`, `always`, estimators

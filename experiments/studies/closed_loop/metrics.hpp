@@ -10,7 +10,7 @@
 
 namespace touchdown::experiments {
 
-/// Closed-loop metrics, summed over runs. docs/closed_loop.md defines each.
+/// Closed-loop metrics, summed over runs. docs/reference/metrics.md defines each.
 struct ClosedLoopMetrics {
   std::int64_t runs = 0;
   std::int64_t finished = 0;

@@ -30,7 +30,7 @@ struct Mean {
 };
 
 /// Quantities of the runs that are compared between engines, independent of estimators.
-/// docs/cross_simulator.md defines each.
+/// docs/reference/metrics.md defines each.
 enum class Quantity : int {
   flight_duration,    ///< ms
   peak_acceleration,  ///< of a landing (m/s²)

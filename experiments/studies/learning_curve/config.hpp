@@ -7,7 +7,7 @@
 namespace touchdown::experiments {
 
 /// The section `learning_curve`: scores of every fitted estimator by the size of its training set
-/// (docs/learning_curve.md).
+/// (docs/explanation/learning_curve.md).
 struct LearningCurveConfig {
   /// Numbers of training segments, increasing; without `fit.segments`, of fitted runs. A set takes
   /// them from the scenes in turn.

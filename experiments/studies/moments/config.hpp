@@ -4,7 +4,7 @@
 
 namespace touchdown::experiments {
 
-/// The key `moments`: tables of torques next to the real robot's (docs/realism.md).
+/// The key `moments`: tables of torques next to the real robot's (docs/explanation/realism.md).
 struct MomentsConfig {};
 
 /// The key. `false` is the same as no key.

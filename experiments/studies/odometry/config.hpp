@@ -7,7 +7,7 @@
 namespace touchdown::experiments {
 
 /// The section `odometry`: odometry on every test run, with contact from every estimator, from the
-/// ground truth, and from the ground truth with these delays (docs/odometry.md).
+/// ground truth, and from the ground truth with these delays (docs/explanation/odometry.md).
 struct OdometryStudyConfig {
   std::vector<double> delay;  ///< s
 };
