@@ -140,6 +140,43 @@ TEST_F(RobotsLog, CountsValidStepsOnlyAndNamesTheirNumber) {
   EXPECT_THAT(estimated.output, HasSubstr("3000 invalid of 7001 steps"));
 }
 
+TEST(LogThatStatesItsPeriod, IsRefusedByEveryReaderIfItsTimesAreNoSeconds) {
+  const ScratchFolder folder;
+  for (const auto& [factor, unit] : std::vector<std::pair<double, std::string>>{
+           {1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}) {
+    recordings::Recording log = test::synthetic_log(2.0);
+    for (models::Observation& o : log.observation) o.time *= factor;
+    recordings::write_recording(log, folder / "stated.mpack");
+    for (const std::string arguments :
+         {"check stated.mpack", "fit stated.mpack -o out.npz", "estimate stated.mpack",
+          "estimate stated.mpack -o out.csv", "estimate stated.mpack -o out.mpack",
+          "estimate - --estimator free_fall <stated.mpack", "export stated.mpack -o out.mcap",
+          "render stated.mpack -o out.mp4",
+          "fit --contact stated.mpack --no-contact stated.mpack.2 -o out.npz"}) {
+      const Ended ended = touchdown_program(arguments, folder.path());
+      EXPECT_EQ(ended.exit_code, 2) << arguments;
+      EXPECT_THAT(ended.errors, HasSubstr("expected seconds: steps of")) << arguments;
+      EXPECT_THAT(ended.errors, HasSubstr("look like " + unit)) << arguments;
+    }
+    for (const char* const output : {"out.npz", "out.csv", "out.mpack", "out.mcap", "out.mp4"}) {
+      EXPECT_FALSE(std::filesystem::exists(folder / output)) << output;
+    }
+  }
+}
+
+TEST_F(RobotsLog, WithImplausibleSignalsIsNamedByAFit) {
+  for (const auto& [change, finding] :
+       std::vector<std::pair<Change, const char*>>{{negate_torques, "torques have the other sign"},
+                                                   {silence_knees, "torque is 0 throughout"}}) {
+    write("wrong.mpack", change);
+    folder_.write("wrong.csv", "start,end,contact\n0,2,1\n3,4,0\n");
+    const Ended fitted =
+        run("fit wrong.mpack --labels wrong.csv -o m.npz --estimator robust --bandwidth 0.1 0.1");
+    EXPECT_EQ(fitted.exit_code, 0) << fitted.errors;
+    EXPECT_THAT(fitted.errors, AllOf(HasSubstr("touchdown: wrong.mpack: "), HasSubstr(finding)));
+  }
+}
+
 TEST(FittedLogs, RefusesALogThatIsNamedTwice) {
   const ScratchFolder folder;
   recordings::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");

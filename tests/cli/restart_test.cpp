@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -164,6 +165,35 @@ TEST(Interrupt, ReportsWhatIsSavedAndTheSameCommandContinues) {
   run_through(run + "undisturbed", folder);
   EXPECT_THAT(different_files(result_files(folder / "a"), result_files(folder / "undisturbed")),
               IsEmpty());
+}
+
+TEST(Interrupt, InFiguresAndFilmsLosesNothingComputed) {
+  const ScratchFolder folder;
+  const std::string run =
+      "run " + write_tiny_experiment(folder) + " --set video.enabled=true --out ";
+  run_through(run + "undisturbed", folder);
+  const auto expected = result_files(folder / "undisturbed");
+  int interrupted = 0;
+  for (const std::string stage : {"figures", "videos"}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      const std::string out = fmt::format("{}_{}", stage, signal);
+      StartedProgram program(run + out, folder.path());
+      while (program.is_running() && entries_in(folder / out / stage).empty()) {
+        program.let_run(0.002);
+      }
+      program.send(signal);
+      const Ended ended = program.end();
+      if (ended.exit_code != 0) {  // else it had drawn everything
+        ++interrupted;
+        EXPECT_EQ(ended.exit_code, 1) << out;
+        EXPECT_THAT(ended.errors, HasSubstr("touchdown: stopped; ")) << out;
+      }
+      EXPECT_THAT(run_through(run + out, folder), HasSubstr("12/12 parts (12 of them done before)"))
+          << out;
+      EXPECT_THAT(different_files(result_files(folder / out), expected), IsEmpty()) << out;
+    }
+  }
+  EXPECT_GT(interrupted, 0);
 }
 
 TEST(Interrupt, BeforeAnythingIsSavedReportsThat) {
