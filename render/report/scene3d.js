@@ -2,7 +2,8 @@
 "use strict";
 // Draws bodies of boxes, spheres, cylinders and meshes with WebGL 2, one sun and its shadows.
 const openScene = (canvas) => {
-  const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
+  // The buffer is kept, so that the page can be printed.
+  const gl = canvas.getContext("webgl2", { antialias: true, alpha: false, preserveDrawingBuffer: true });
   if (!gl) return null;
 
   const SHADOW_SIZE = 2048, SHADOW_REACH = 1.5; // texels; m around the robot

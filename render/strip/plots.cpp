@@ -9,6 +9,7 @@ namespace touchdown::render {
 namespace {
 
 constexpr int oversampling = 2;
+constexpr double span_margin = 0.1;  // s: the end of a line must not be visible at the image's edge
 
 const Colour one_wheel = rgb(0xe6f2e8);
 const Colour two_wheels = rgb(0xcfe8d2);
@@ -59,9 +60,8 @@ void draw_grid(const TimeSpan& span, const StripRow& row, const PlotArea& area) 
 
 void draw_curve(const TimeSpan& span, const StripRow& row, const PlotArea& area,
                 const StripCurve& curve) {
-  constexpr double margin = 0.1;  // s: the end of a line must not be visible at the image's edge
   const std::size_t size = curve.values.size();
-  const std::size_t last = TimeSpan::row_at(row, span.end + margin, size);
+  const std::size_t last = TimeSpan::row_at(row, span.end + span_margin, size);
   const int thickness = oversampling * (curve.emphasis ? 2 : 1);
   std::vector<cv::Point> line;
   const auto flush = [&] {
@@ -70,7 +70,7 @@ void draw_curve(const TimeSpan& span, const StripRow& row, const PlotArea& area,
     }
     line.clear();
   };
-  for (std::size_t k = TimeSpan::row_at(row, span.begin - margin, size); k < last; ++k) {
+  for (std::size_t k = TimeSpan::row_at(row, span.begin - span_margin, size); k < last; ++k) {
     if (!std::isfinite(curve.values[k])) {
       flush();
       continue;
@@ -93,11 +93,17 @@ float plot_y(const StripRow& row, const PlotArea& area, float value) {
 }
 
 StripPlots::StripPlots(const std::vector<StripRow>& rows, std::vector<PlotArea> areas, int width,
-                       int height, double seconds)
-    : rows_(rows), areas_(std::move(areas)), width_(width), height_(height), seconds_(seconds) {}
+                       int height, double seconds, int tiles_per_window)
+    : rows_(rows),
+      areas_(std::move(areas)),
+      width_(width),
+      height_(height),
+      seconds_(seconds),
+      tile_width_((width + tiles_per_window - 1) / tiles_per_window),
+      tile_seconds_(seconds * (static_cast<double>(tile_width_) / width)) {}
 
 void StripPlots::redraw_from(double time) {
-  const int first = static_cast<int>(std::floor(time / seconds_));
+  const int first = static_cast<int>(std::floor((time - span_margin) / tile_seconds_));
   for (auto& tiles : tiles_) tiles.erase(tiles.lower_bound(first), tiles.end());
 }
 
@@ -105,11 +111,12 @@ void StripPlots::copy_window(double from, const cv::Mat& image) {
   const int begin = static_cast<int>(std::lround(from * width_ * oversampling / seconds_));
   const int first = floor_div(begin, oversampling);
   const int half_pixels = begin - first * oversampling;
-  for (int number = floor_div(first, width_); number * width_ < first + width_; ++number) {
-    const int left = std::max(first, number * width_);
-    const int right = std::min(first + width_, (number + 1) * width_);
+  const int size = tile_width_;
+  for (int number = floor_div(first, size); number * size < first + width_; ++number) {
+    const int left = std::max(first, number * size);
+    const int right = std::min(first + width_, (number + 1) * size);
     tile(number, half_pixels)
-        .colRange(left - number * width_, right - number * width_)
+        .colRange(left - number * size, right - number * size)
         .copyTo(image.colRange(left - first, right - first));
   }
 }
@@ -117,21 +124,22 @@ void StripPlots::copy_window(double from, const cv::Mat& image) {
 const cv::Mat& StripPlots::tile(int number, int half_pixels) {
   auto& tiles = tiles_[static_cast<std::size_t>(half_pixels)];
   if (const auto found = tiles.find(number); found != tiles.end()) return found->second;
-  if (tiles.size() > 3) {
+  const int windows = 3;
+  if (static_cast<int>(tiles.size()) * tile_width_ > windows * width_) {
     for (auto& some : tiles_) some.clear();
   }
   const cv::Mat drawn = drawn_tile(number);
   for (int half = 0; half < oversampling; ++half) {
-    cv::resize(drawn.colRange(half, half + width_ * oversampling),
-               tiles_[static_cast<std::size_t>(half)][number], {width_, height_}, 0, 0,
+    cv::resize(drawn.colRange(half, half + tile_width_ * oversampling),
+               tiles_[static_cast<std::size_t>(half)][number], {tile_width_, height_}, 0, 0,
                cv::INTER_AREA);
   }
   return tiles.at(number);
 }
 
 cv::Mat StripPlots::drawn_tile(int number) const {
-  cv::Mat image(height_ * oversampling, (width_ + 1) * oversampling, CV_8UC3, strip_paper);
-  const TimeSpan span{image, number * seconds_, (number + 1) * seconds_ + 0.1,
+  cv::Mat image(height_ * oversampling, (tile_width_ + 1) * oversampling, CV_8UC3, strip_paper);
+  const TimeSpan span{image, number * tile_seconds_, (number + 1) * tile_seconds_ + span_margin,
                       width_ * oversampling / seconds_};
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const PlotArea area{areas_[i].top * oversampling, areas_[i].bottom * oversampling};

@@ -46,13 +46,14 @@ struct PlotArea {
 /// its edge.
 float plot_y(const StripRow& row, const PlotArea& area, float value);
 
-/// The plots of a whole run as one very wide image. Tiles of it are drawn on demand, at twice the
-/// size and averaged. There are two sets of tiles, because a window may begin at half a pixel.
+/// The plots of a whole run as one very wide image. Tiles of it, some per window, are drawn on
+/// demand, at twice the size and averaged. There are two sets of tiles, because a window may begin
+/// at half a pixel.
 class StripPlots {
  public:
   /// Keeps a reference to `rows`. A window is `width` pixels wide and shows `seconds`.
   StripPlots(const std::vector<StripRow>& rows, std::vector<PlotArea> areas, int width, int height,
-             double seconds);
+             double seconds, int tiles_per_window = 1);
 
   /// Draws again what is later than `time` (s), because its rows have grown.
   void redraw_from(double time);
@@ -68,6 +69,8 @@ class StripPlots {
   std::vector<PlotArea> areas_;
   int width_, height_;
   double seconds_;
+  int tile_width_;
+  double tile_seconds_;
   std::array<std::map<int, cv::Mat>, 2> tiles_;  ///< by half pixel, then number
 };
 

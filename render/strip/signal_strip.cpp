@@ -36,7 +36,8 @@ SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height,
   const int plot_width = right_ - left_;
   const int now = static_cast<int>(std::lround(window_.present * plot_width));
   fog_ = cv::Mat(height_, plot_width - now, CV_8UC3, strip_paper);
-  plots_ = std::make_unique<StripPlots>(rows_, areas_, plot_width, height_, window_.seconds);
+  plots_ = std::make_unique<StripPlots>(rows_, areas_, plot_width, height_, window_.seconds,
+                                        window_.tiles);
 }
 
 bool SignalStrip::is_in_legend_before(std::size_t i, const StripCurve& curve) const {

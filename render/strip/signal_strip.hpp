@@ -13,6 +13,7 @@ namespace touchdown::render {
 struct StripWindow {
   double seconds = 4.0;
   double present = 0.75;  ///< position of the present in the window
+  int tiles = 1;          ///< images per window; rows that grow draw only the last ones again
 };
 
 /// Moving plots below the view: a window of time with the present at its place and the future

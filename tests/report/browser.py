@@ -13,15 +13,13 @@ def available():
     return shutil.which("chromium") and shutil.which("chromedriver")
 
 
-# Decodes a PNG into `window.pictures`, for `changed` and `colours`.
-DECODE = """
-const bytes = Uint8Array.from(atob(arguments[0]), (c) => c.charCodeAt(0));
-createImageBitmap(new Blob([bytes], {type: 'image/png'})).then((bitmap) => {
-  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), pen = canvas.getContext('2d');
-  pen.drawImage(bitmap, 0, 0);
-  window.pictures ??= [];
-  done(window.pictures.push(pen.getImageData(0, 0, bitmap.width, bitmap.height).data) - 1);
-});
+# Copies what a canvas shows into `window.pictures`, for `changed` and `colours`.
+COPY = """
+const canvas = document.querySelector(arguments[0]);
+const pen = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
+pen.drawImage(canvas, 0, 0);
+window.pictures ??= [];
+return window.pictures.push(pen.getImageData(0, 0, canvas.width, canvas.height).data) - 1;
 """
 
 CHANGED = """
@@ -176,17 +174,10 @@ class Browser:
         self.run("requestAnimationFrame(() => requestAnimationFrame(() => done(0)))")
 
     def picture(self, selector):
-        """The number of a picture of what the window shows of an element."""
+        """The number of a picture of what a canvas shows."""
         self.bring(selector)
         self.settle()
-        x, y, width, height = self.run(
-            f"const r = document.querySelector({json.dumps(selector)}).getBoundingClientRect();"
-            "return [r.x + scrollX, r.y + scrollY, r.width, r.height]"
-        )
-        shot = self.devtools(
-            "Page.captureScreenshot", clip={"x": x, "y": y, "width": width, "height": height, "scale": 1}
-        )
-        return self.run(DECODE, shot["data"])
+        return self.run(COPY, selector)
 
     def changed(self, before, after):
         """The share of pixels that differ by more than 8 of 255 in a channel."""

@@ -9,7 +9,7 @@ namespace touchdown::viewer {
 
 namespace {
 
-constexpr render::StripWindow window = {.seconds = 6.0, .present = 0.98};
+constexpr render::StripWindow window = {.seconds = 6.0, .present = 0.98, .tiles = 8};
 constexpr float acceleration_range = 20.0F;  // m/s²
 
 }  // namespace
