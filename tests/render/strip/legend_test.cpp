@@ -88,7 +88,7 @@ TEST(StripTiles, ShowTheSamePlots) {
       rows[0].curves[i].values[k] =
           static_cast<float>(0.5 + 0.4 * std::sin(3.0 * time + static_cast<double>(i)));
     }
-    rows[0].wheels_in_contact.push_back(k / 300 % 3);
+    rows[0].wheels_in_contact.push_back(static_cast<std::uint8_t>(k / 300 % 3));
   }
   std::vector<StripRow> growing = rows;
   for (StripCurve& curve : growing[0].curves) curve.values.resize(2000);
