@@ -22,7 +22,7 @@ cv::Mat key_list(const render::TextPen& pen, const std::vector<KeyBinding>& bind
   for (const KeyBinding& binding : bindings) lines.emplace_back(binding.label, binding.text);
   lines.insert(lines.end(), mouse.begin(), mouse.end());
   const int count = static_cast<int>(lines.size());
-  const int line = std::clamp((height - 24) / std::max(1, count), 10, 24);
+  const int line = std::clamp((height - 24) / std::max(1, count), 10, 18);
   const int letters = line * 6 / 10;
   int labels = 0;
   int texts = 0;
