@@ -22,6 +22,7 @@ set(public
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
 # The headers of types that these hold by value. They are not for programs and may change.
 set(detail
+  bayes/noisy_measurement
   decision/feature_extractor decision/leg_features decision/logit_decision decision/repetition force/axle_motion
   force/wheel_loads neural/forward numerics/axis numerics/exponential numerics/noise_estimate
   phase/prepared_model phase/recursion phase/tables spectrum/sliding_dft spectrum/summary)

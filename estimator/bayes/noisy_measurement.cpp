@@ -42,8 +42,7 @@ double normal_density(double x, double sigma) {
 
 /// One axis under noise: the density at the widened axis' points is this matrix times the fitted
 /// one. Absolute values fold the noise at zero.
-Matrix widened_by(const Axis& fitted, const Axis& wide, double sigma, bool folds) {
-  if (sigma == 0.0) return Matrix::Identity(fitted.count, fitted.count);
+Matrix widening_kernel(const Axis& fitted, const Axis& wide, double sigma, bool folds) {
   Matrix kernel(wide.count, fitted.count);
   for (int i = 0; i < wide.count; ++i) {
     for (int j = 0; j < fitted.count; ++j) {
@@ -62,18 +61,27 @@ struct WidenedAxis {
     const bool folds = is_absolute && fitted.lower >= 0.0;
     for (const double sigma : widening) {
       axis.push_back(axis_under(fitted, sigma));
-      kernel.push_back(widened_by(fitted, axis.back(), sigma, folds));
+      kernel.push_back(sigma > 0.0 ? widening_kernel(fitted, axis.back(), sigma, folds) : Matrix());
     }
   }
   std::vector<Axis> axis;
-  std::vector<Matrix> kernel;
+  std::vector<Matrix> kernel;  ///< empty without noise
 };
 
-std::vector<double> widened(const std::vector<double>& grid, const Matrix& knee,
-                            const Matrix& wheel) {
-  const Eigen::Map<const Matrix> fitted(grid.data(), wheel.cols(), knee.cols());
-  const Matrix wide = wheel * (fitted * knee.transpose());
-  return {wide.data(), wide.data() + wide.size()};
+/// A density at every level: rows of the wheel, columns of the knee, by knee level, then wheel
+/// level.
+std::vector<std::vector<double>> widened(const std::vector<double>& grid, const WidenedAxis& knee,
+                                         const WidenedAxis& wheel) {
+  const Eigen::Map<const Matrix> fitted(grid.data(), wheel.axis[0].count, knee.axis[0].count);
+  std::vector<std::vector<double>> all;
+  for (const Matrix& by_knee : knee.kernel) {
+    const Matrix rows = by_knee.size() > 0 ? Matrix(fitted * by_knee.transpose()) : Matrix(fitted);
+    for (const Matrix& by_wheel : wheel.kernel) {
+      const Matrix wide = by_wheel.size() > 0 ? Matrix(by_wheel * rows) : rows;
+      all.emplace_back(wide.data(), wide.data() + wide.size());
+    }
+  }
+  return all;
 }
 
 std::vector<MeasurementModel> widened_models(MeasurementModel model, bool is_absolute) {
@@ -81,14 +89,13 @@ std::vector<MeasurementModel> widened_models(MeasurementModel model, bool is_abs
   const LikelihoodGrids fitted = model.grids();
   const WidenedAxis knee(fitted.knee, is_absolute);
   const WidenedAxis wheel(fitted.wheel, is_absolute);
+  const auto contact = widened(fitted.contact, knee, wheel);
+  const auto no_contact = widened(fitted.no_contact, knee, wheel);
   std::vector<MeasurementModel> models = {std::move(model)};
-  for (std::size_t i = 0; i < widening.size(); ++i) {
-    for (std::size_t j = 0; j < widening.size(); ++j) {
-      if (i == 0 && j == 0) continue;
-      models.emplace_back(LikelihoodGrids{
-          knee.axis[i], wheel.axis[j], widened(fitted.contact, knee.kernel[i], wheel.kernel[j]),
-          widened(fitted.no_contact, knee.kernel[i], wheel.kernel[j])});
-    }
+  for (std::size_t level = 1; level < contact.size(); ++level) {
+    models.emplace_back(LikelihoodGrids{knee.axis[level / widening.size()],
+                                        wheel.axis[level % widening.size()], contact[level],
+                                        no_contact[level]});
   }
   return models;
 }

@@ -219,7 +219,7 @@ TEST(Perturbed, KeepsTheDrawsOfBentRobots) {
   const Scenario roam = with_robot("roam", "upkie.xml");
   for (int run = 0; run < 200; ++run) {
     const double u = uniform01(3, static_cast<std::uint64_t>(run), 4);
-    EXPECT_EQ(perturbed(roam, 3, run).start.hip, 0.455 + 0.15 * (2.0 * u - 1.0));
+    EXPECT_DOUBLE_EQ(perturbed(roam, 3, run).start.hip, 0.455 + 0.15 * (2.0 * u - 1.0));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "core/fields.hpp"
 #include "scenarios/perturbation.hpp"
+#include "scenarios/scenario_file.hpp"
 #include "tests/scenarios/runs.hpp"
 
 namespace touchdown::scenarios {
@@ -149,7 +150,7 @@ TEST(RandomScripts, ComplainOnTheLine) {
 TEST(RandomCrouches, AreRefusedIfTheyBendKneesBothWays) {
   const auto complaint = [](const std::string& more) -> std::string {
     try {
-      (void)scenario_from_yaml(YamlDocument::parse(
+      (void)complete_scenario(YamlDocument::parse(
           "name: both\nrobot: " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml\n" + more, "s.yaml"));
     } catch (const InputError& error) {
       return error.what();

@@ -44,7 +44,7 @@ TEST(BayesAblation, StepsAreInItsExperimentFromPaperToRobust) {
 
 TEST(AblationEstimators, AreNoneOfThoseThatAUserMayChoose) {
   const std::vector<std::string> names = estimator_names();
-  EXPECT_EQ(ablation_estimators().size(), 9U);
+  EXPECT_EQ(ablation_estimators().size(), 10U);
   for (const EstimatorEntry& entry : ablation_estimators()) {
     EXPECT_EQ(std::count(names.begin(), names.end(), entry.name), 0) << entry.name;
   }
