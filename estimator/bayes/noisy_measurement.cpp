@@ -30,7 +30,7 @@ double widening_gain(const MeasurementConfig& config, double sample_rate) {
 /// The axis of a widened density: as coarse as the noise allows.
 Axis axis_under(const Axis& fitted, double sigma) {
   if (sigma == 0.0) return fitted;
-  const double step = 0.6 * sigma;
+  const double step = 0.4 * sigma;
   const int points = 1 + static_cast<int>(std::ceil((fitted.upper - fitted.lower) / step));
   return {fitted.lower, fitted.upper, std::clamp(points, 2, fitted.count)};
 }
@@ -117,8 +117,7 @@ std::vector<std::size_t> nearest_levels(const NoiseEstimate<2>& estimate, double
   return nearest;
 }
 
-NoiseEstimate<2> noise_estimate(const MeasurementConfig& config, double sample_rate) {
-  const TorqueNoiseConfig& noise = config.noise;
+NoiseEstimate<2> noise_estimate(const TorqueNoiseConfig& noise, double sample_rate) {
   return {noise.floor, noise.ceiling, noise.gain, noise.warm_up * sample_rate};
 }
 
@@ -130,14 +129,17 @@ NoisyMeasurement::NoisyMeasurement(MeasurementModel model, const MeasurementConf
               ? widened_models(std::move(model), config.torque.sign == TorqueSign::absolute)
               : std::vector<MeasurementModel>{std::move(model)})) {}
 
+TorqueNoiseLevels::TorqueNoiseLevels(const MeasurementConfig& config, double sample_rate)
+    : estimate(noise_estimate(config.noise, sample_rate)),
+      warm_up(config.noise.warm_up * sample_rate),
+      densities(widening.size()),
+      nearest(nearest_levels(estimate, widening_gain(config, sample_rate))) {}
+
 TorqueNoise::TorqueNoise(const MeasurementConfig& config, double sample_rate)
     : follows_(config.noise.is_followed),
-      knee_(noise_estimate(config, sample_rate)),
-      wheel_(knee_),
-      knee_level_(nearest_levels(knee_, widening_gain(config, sample_rate))),
-      wheel_level_(knee_level_) {
-  for (std::size_t& level : knee_level_) level *= widening.size();
-}
+      levels_(config, sample_rate),
+      knee_(levels_.estimate),
+      wheel_(levels_.estimate) {}
 
 void TorqueNoise::reset() noexcept {
   knee_.reset();

@@ -32,6 +32,22 @@ class NoisyMeasurement {
   std::shared_ptr<const std::vector<MeasurementModel>> models_;
 };
 
+/// The levels of a noise estimate, and the level of the densities that is nearest to each.
+struct TorqueNoiseLevels {
+  TorqueNoiseLevels(const MeasurementConfig& config, double sample_rate);
+
+  /// The index of a model of `NoisyMeasurement`, from the levels of the knees' and wheels'
+  /// estimates.
+  [[nodiscard]] std::size_t model(std::size_t knee, std::size_t wheel) const noexcept {
+    return nearest[knee] * densities + nearest[wheel];
+  }
+
+  NoiseEstimate<2> estimate;         ///< a fresh one of two joints with the same noise
+  double warm_up;                    ///< of the estimate, in updates
+  std::size_t densities;             ///< per joint
+  std::vector<std::size_t> nearest;  ///< of the densities, by level of the estimate
+};
+
 /// Estimates the noise of both knees' and both wheels' torques while the filter runs, and selects
 /// the densities that are nearest to it.
 class TorqueNoise {
@@ -56,15 +72,14 @@ class TorqueNoise {
   std::size_t update(const Signals& signals, const SignalGuardConfig& guard) noexcept;
 
   [[nodiscard]] std::size_t level() const noexcept {
-    return follows_ ? knee_level_[knee_.level()] + wheel_level_[wheel_.level()] : 0;
+    return follows_ ? levels_.model(knee_.level(), wheel_.level()) : 0;
   }
 
  private:
   bool follows_;
+  TorqueNoiseLevels levels_;
   NoiseEstimate<2> knee_;
   NoiseEstimate<2> wheel_;
-  std::vector<std::size_t> knee_level_;   ///< of each level of the estimate
-  std::vector<std::size_t> wheel_level_;  ///< likewise
 };
 
 }  // namespace touchdown

@@ -11,13 +11,19 @@ BatchedMeasurement::BatchedMeasurement(MeasurementModel model, const BayesFilter
                                        std::span<const BatchNoise> levels)
     : model_(std::move(model), config.measurement),
       config_(config.measurement),
+      follows_noise_(config.measurement.noise.is_followed),
+      noise_levels_(config.measurement, config.sample_rate),
+      knee_noise_(noise_levels_.estimate, noise_levels_.warm_up, levels.size()),
+      wheel_noise_(knee_noise_),
       gain_(low_pass_gain(config.measurement.torque.low_pass, 1.0 / config.sample_rate)) {
   check_measurement_config(config.measurement, config.threshold);
   check_levels(levels);
   for (const BatchNoise& level : levels) {
     knee_sigma_.push_back(level.knee_torque);
     wheel_sigma_.push_back(level.wheel_torque);
-    if (config_.noise.is_followed) noise_.emplace_back(config_, config.sample_rate);
+  }
+  for (auto* noisy : {&noisy_knee_, &noisy_wheel_}) {
+    noisy->fill(std::vector<double>(levels.size(), 0.0));
   }
   for (Leg& leg : leg_) {
     for (auto* column : {&leg.knee, &leg.wheel, &leg.knee_weight, &leg.wheel_weight, &leg.contact,
@@ -29,15 +35,16 @@ BatchedMeasurement::BatchedMeasurement(MeasurementModel model, const BayesFilter
 }
 
 void BatchedMeasurement::estimate_noise(const Signals& clean, const NoiseStep& draws) noexcept {
-  for (std::size_t i = 0; i < noise_.size(); ++i) {
-    std::array<double, 2> knee{};
-    std::array<double, 2> wheel{};
-    for (std::size_t side = 0; side < 2; ++side) {
-      knee[side] = clean.leg[side].knee.torque + knee_sigma_[i] * draws.torque[side].knee;
-      wheel[side] = clean.leg[side].wheel.torque + wheel_sigma_[i] * draws.torque[side].wheel;
+  if (!follows_noise_) return;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const LegSignals& leg = clean.leg[side];
+    for (std::size_t i = 0; i < knee_sigma_.size(); ++i) {
+      noisy_knee_[side][i] = leg.knee.torque + knee_sigma_[i] * draws.torque[side].knee;
+      noisy_wheel_[side][i] = leg.wheel.torque + wheel_sigma_[i] * draws.torque[side].wheel;
     }
-    noise_[i].update(knee, wheel);
   }
+  knee_noise_.update(noisy_knee_);
+  wheel_noise_.update(noisy_wheel_);
 }
 
 /// Eq. (4) of one leg, and the position of its torques on the fitted grid.
@@ -75,7 +82,8 @@ void BatchedMeasurement::look_up(Leg& leg) const noexcept {
   const MeasurementModel& fitted = model_.fitted();
   const bool absolute = config_.torque.sign == TorqueSign::absolute;
   for (std::size_t i = 0; i < knee_sigma_.size(); ++i) {
-    const std::size_t level = noise_.empty() ? 0 : noise_[i].level();
+    const std::size_t level =
+        follows_noise_ ? noise_levels_.model(knee_noise_.level(i), wheel_noise_.level(i)) : 0;
     Likelihoods p;
     if (level == 0) {
       p = fitted.at({leg.cell[i], leg.knee_weight[i], leg.wheel_weight[i]});

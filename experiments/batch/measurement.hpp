@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "estimator/bayes/filter.hpp"
+#include "experiments/batch/noise_estimates.hpp"
 #include "experiments/batch/noise_level.hpp"
 
 namespace touchdown::experiments {
@@ -55,7 +56,13 @@ class BatchedMeasurement {
 
   NoisyMeasurement model_;
   MeasurementConfig config_;
-  std::vector<TorqueNoise> noise_;  ///< per level of the batch; empty if it is not followed
+  /// The noise that each element estimates, and its torques before the low-pass, if it is followed.
+  bool follows_noise_;
+  TorqueNoiseLevels noise_levels_;
+  NoiseEstimates knee_noise_;
+  NoiseEstimates wheel_noise_;
+  std::array<std::vector<double>, 2> noisy_knee_;
+  std::array<std::vector<double>, 2> noisy_wheel_;
   double gain_;
   bool started_ = false;
   std::vector<double> knee_sigma_;

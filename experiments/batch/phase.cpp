@@ -22,10 +22,16 @@ BatchedPhaseFilter::BatchedPhaseFilter(const PhaseModel& model, const PhaseFilte
     : config_(config),
       prepared_(model, config),
       torque_(levels, torque_part),
-      acceleration_(levels, &BatchNoise::acceleration) {
+      acceleration_(levels, &BatchNoise::acceleration),
+      knee_noise_(prepared_.knee_noise, config.noise_warm_up * config.sample_rate,
+                  torque_.level.size()),
+      wheel_noise_(prepared_.wheel_noise, config.noise_warm_up * config.sample_rate,
+                   torque_.level.size()) {
   for (const BatchNoise& level : torque_.level) {
-    torque_levels_.push_back(
-        {level.knee_torque, level.wheel_torque, prepared_.knee_noise, prepared_.wheel_noise});
+    torque_levels_.push_back({level.knee_torque, level.wheel_torque});
+  }
+  for (auto* torque : {&knee_, &wheel_}) {
+    torque->fill(std::vector<double>(torque_levels_.size(), 0.0));
   }
   for (const double sigma : acceleration_.level) {
     acceleration_levels_.push_back({sigma, prepared_.acceleration_noise});
@@ -38,24 +44,26 @@ BatchedPhaseFilter::BatchedPhaseFilter(const PhaseModel& model, const PhaseFilte
 }
 
 void BatchedPhaseFilter::update(const Signals& clean, const NoiseStep& draws) noexcept {
-  for (TorqueLevel& level : torque_levels_) {
-    std::array<double, 2> knee{};
-    std::array<double, 2> wheel{};
-    for (std::size_t side = 0; side < 2; ++side) {
-      const LegSignals& leg = clean.leg[side];
-      knee[side] = leg.knee.torque + level.knee_sigma * draws.torque[side].knee;
-      wheel[side] = leg.wheel.torque + level.wheel_sigma * draws.torque[side].wheel;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const LegSignals& leg = clean.leg[side];
+    for (std::size_t i = 0; i < torque_levels_.size(); ++i) {
+      const TorqueLevel& level = torque_levels_[i];
+      knee_[side][i] = leg.knee.torque + level.knee_sigma * draws.torque[side].knee;
+      wheel_[side][i] = leg.wheel.torque + level.wheel_sigma * draws.torque[side].wheel;
     }
-    if (!config_.noise) {
-      level.knee_noise.update(knee);
-      level.wheel_noise.update(wheel);
-    }
+  }
+  if (!config_.noise) {
+    knee_noise_.update(knee_);
+    wheel_noise_.update(wheel_);
+  }
+  for (std::size_t i = 0; i < torque_levels_.size(); ++i) {
     const PhaseNoiseLevel& knee_level =
-        prepared_.knee_levels[config_.noise ? 0 : level.knee_noise.level()];
+        prepared_.knee_levels[config_.noise ? 0 : knee_noise_.level(i)];
     const PhaseNoiseLevel& wheel_level =
-        prepared_.wheel_levels[config_.noise ? 0 : level.wheel_noise.level()];
-    level.row = of_both_legs(prepared_.torque(knee[0], wheel[0], knee_level, wheel_level),
-                             prepared_.torque(-knee[1], -wheel[1], knee_level, wheel_level));
+        prepared_.wheel_levels[config_.noise ? 0 : wheel_noise_.level(i)];
+    torque_levels_[i].row =
+        of_both_legs(prepared_.torque(knee_[0][i], wheel_[0][i], knee_level, wheel_level),
+                     prepared_.torque(-knee_[1][i], -wheel_[1][i], knee_level, wheel_level));
   }
   for (AccelerationLevel& level : acceleration_levels_) {
     const double acceleration = clean.vertical_acceleration + level.sigma * draws.acceleration;

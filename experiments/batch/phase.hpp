@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "estimator/phase/prepared_model.hpp"
+#include "experiments/batch/noise_estimates.hpp"
 #include "experiments/batch/noise_level.hpp"
 
 namespace touchdown::experiments {
@@ -42,8 +43,6 @@ class BatchedPhaseFilter {
   struct TorqueLevel {
     double knee_sigma;
     double wheel_sigma;
-    NoiseEstimate<2> knee_noise;
-    NoiseEstimate<2> wheel_noise;
     PhaseRow row{};  ///< both legs together, by phase
   };
   /// Everything that depends on one level of accelerometer noise.
@@ -58,6 +57,10 @@ class BatchedPhaseFilter {
   BatchByLevel<BatchNoise> torque_;
   BatchByLevel<double> acceleration_;
   std::vector<TorqueLevel> torque_levels_;
+  NoiseEstimates knee_noise_;  ///< by level of torque noise
+  NoiseEstimates wheel_noise_;
+  std::array<std::vector<double>, 2> knee_;  ///< noisy torques of both legs, by level
+  std::array<std::vector<double>, 2> wheel_;
   std::vector<AccelerationLevel> acceleration_levels_;
   /// Elements in blocks, as wide as a vector register; the last block is filled with copies.
   static constexpr std::size_t block_size = 4;
