@@ -1,6 +1,8 @@
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -43,6 +45,23 @@ void run_one_shard(const experiments::Experiment& experiment, const experiments:
 void outline(const experiments::Experiment& experiment, const experiments::RunOptions& options) {
   const experiments::RunOutline outline = experiments::outline_of(experiment, options);
   print("results   {}\nparts     {}\n", outline.directory.string(), outline.tasks);
+  const experiments::CostEstimate& cost = outline.cost;
+  for (const experiments::StageCost& stage : cost.stages) {
+    print("{:<9} {}\n", stage.stage,
+          std::isnan(stage.seconds) ? "not estimated"
+                                    : fmt::format("{:.3g} s of processor time", stage.seconds));
+  }
+  print(
+      "together  {:.3g} s of processor time, {:.2g} min on {} threads; scores and pictures "
+      "besides\n",
+      cost.seconds(), cost.seconds() / 60.0 / outline.threads, outline.threads);
+  print("memory    {:.0f} MB of signals\n", 1e-6 * cost.memory);
+  print("disk      at most {:.0f} MB\n", 1e-6 * cost.disk);
+  std::string steps;
+  for (const auto& [engine, seconds] : cost.step_seconds) {
+    steps += fmt::format(", {:.1f} µs a step in {}", 1e6 * seconds, engine);
+  }
+  print("measured  in {:.1f} s on this machine{}\n", cost.measured, steps);
 }
 
 void run(const RunFlags& flags, const CliSession& session) {
@@ -92,8 +111,9 @@ void add_run(CLI::App& program, const CliSession& session) {
   verb.flag("--overwrite", &flags->overwrite,
             "Replace another experiment in the run directory; untracked files remain");
   verb.flag("--dry-run", &flags->dry_run,
-            "Only check the experiment, and print its run directory and the number of parts in\n"
-            "which it can be computed");
+             "Only check the experiment; print its run directory, the number of parts in which it
+"
+             "can be computed, and its cost by stage, from a calibration of a few seconds");
   add_picture_flags(verb, &flags->pictures);
   verb.action([flags, &session] { run(*flags, session); });
 }

@@ -19,11 +19,6 @@ namespace touchdown::experiments {
 
 namespace {
 
-int threads_of(const Experiment& experiment) {
-  if (experiment.workers > 0) return experiment.workers;
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
-
 /// The indices of the tasks that are not finished.
 std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
   const Plan& plan = context.plan;
@@ -49,14 +44,11 @@ std::size_t saved_parts(const RunDirectory& directory) {
   return entries_in(directory.path() / "state/evaluation").size();
 }
 
-/// An upper bound of what the run may still write: a step of a recording takes about 1.05 kB.
+/// An upper bound of what the run may still write.
 DiskNeeds disk_needs(const Plan& plan, const RunDirectory& directory) {
-  constexpr double recorded_step_bytes = 1100.0;
   DiskNeeds needs;
   for (const PlannedRun& run : plan.runs) {
-    if (!run.kept || has_stamp(run, directory)) continue;
-    needs.recordings += recorded_step_bytes * run.scenario.end.duration /
-                        (1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us));
+    if (run.kept && !has_stamp(run, directory)) needs.recordings += bytes_of_recording(run);
   }
   const std::size_t parts = plan.tasks.size();
   const std::size_t missing = parts - std::min(parts, saved_parts(directory));
@@ -76,10 +68,16 @@ void require_own(const ExperimentContext& context, const Task& task) {
 
 }  // namespace
 
+int threads_of(const Experiment& experiment) {
+  if (experiment.workers > 0) return experiment.workers;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 Plan whole_plan(const RunRequest& request) {
   require_memory(request, 0.0);
   Plan plan = plan_of(request);
   for (const Study* study : requested_studies(request.experiment)) study->plan(request, plan);
+  plan.kept_signals = kept_signals(request.experiment);
   keep_recordings(request.experiment, plan);
   require_served(request.experiment, plan);
   return plan;

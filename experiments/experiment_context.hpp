@@ -33,6 +33,9 @@ struct ExperimentContext {
   tbb::global_control limit;
 };
 
+/// The number of threads that an experiment uses on this machine.
+int threads_of(const Experiment& experiment);
+
 /// Plans everything that the experiment file asks for, its studies included.
 Plan whole_plan(const RunRequest& request);
 

@@ -25,6 +25,33 @@ constexpr double signal_step_bytes =
 /// Additional memory per step where test runs keep their motion.
 constexpr double motion_step_bytes = sizeof(Eigen::Vector3d) + sizeof(scoring::TimedPose);
 
+/// Adds the fitted runs of the experiment's own fit.
+void add_fitted_runs(const RunRequest& request, Needs& needs) {
+  const Experiment& experiment = request.experiment;
+  const auto engines = static_cast<double>(experiment.simulators.size());
+  for (const std::string& file : experiment.fit.scenarios) {
+    add_runs(needs, scenario_of(request, file).scenario, engines * experiment.fit.runs, 0.0);
+  }
+  for (const TrainingSegments& segments : experiment.training_segments) {
+    add_runs(needs, scenario_of(request, segments.scenario).scenario, engines * segments.runs, 0.0);
+  }
+}
+
+/// Steps of the runs whose signals are in memory at once.
+double held_steps(const RunRequest& request, const Needs& all) {
+  const Experiment& experiment = request.experiment;
+  const KeptSignals kept = kept_signals(experiment);
+  if (kept == KeptSignals::all) return all.steps;
+  Needs held;
+  add_fitted_runs(request, held);
+  for (const std::string& file : experiment.test.scenarios) {
+    if (kept == KeptSignals::none) break;
+    const auto engines = static_cast<double>(experiment.simulators.size());
+    add_runs(held, scenario_of(request, file).scenario, engines * experiment.test.runs, 0.0);
+  }
+  return held.steps;
+}
+
 }  // namespace
 
 Needs needs_of(const RunRequest& request) {
@@ -32,18 +59,22 @@ Needs needs_of(const RunRequest& request) {
   const auto engines = static_cast<double>(experiment.simulators.size());
   const double seeds = experiment.noise.seeds;
   Needs needs;
-  for (const std::string& file : experiment.fit.scenarios) {
-    add_runs(needs, scenario_of(request, file).scenario, engines * experiment.fit.runs, 0.0);
-  }
-  for (const TrainingSegments& segments : experiment.training_segments) {
-    add_runs(needs, scenario_of(request, segments.scenario).scenario, engines * segments.runs, 0.0);
-  }
+  add_fitted_runs(request, needs);
   for (const Study* study : requested_studies(experiment)) study->add_needs(request, needs);
   for (const std::string& file : experiment.test.scenarios) {
     add_runs(needs, scenario_of(request, file).scenario, engines * experiment.test.runs, seeds,
              needs.setups);
   }
   return needs;
+}
+
+KeptSignals kept_signals(const Experiment& experiment) {
+  const std::vector<const Study*> studies = requested_studies(experiment);
+  if (studies.empty()) return KeptSignals::all;
+  const bool has_pictures = experiment.video.enabled || experiment.detail || experiment.posterior;
+  KeptSignals kept = has_pictures ? KeptSignals::own : KeptSignals::none;
+  for (const Study* study : studies) kept = std::max(kept, study->kept_signals(experiment));
+  return kept;
 }
 
 double memory_of_machine() {
@@ -56,7 +87,7 @@ void require_memory(const RunRequest& request, double share_of_runs, double memo
   const Needs needs = needs_of(request);
   const double planned = needs.runs * planned_bytes + needs.parts * sizeof(Task);
   const double step = signal_step_bytes + (needs.motion ? motion_step_bytes : 0.0);
-  const double rollout = share_of_runs * needs.steps * step;
+  const double rollout = share_of_runs * held_steps(request, needs) * step;
   if (planned + rollout <= memory) return;
   const Experiment& experiment = request.experiment;
   const bool too_long = rollout > planned;
@@ -67,6 +98,25 @@ void require_memory(const RunRequest& request, double share_of_runs, double memo
       experiment.fit.runs, experiment.noise.seeds, 1e-9 * (planned + rollout), 1e-9 * memory,
       too_long ? "lower test.runs or fit.runs, or compute it in shards (--shard)"
                : "lower test.runs or noise.seeds"));
+}
+
+double signal_bytes_per_step(bool with_motion) {
+  return signal_step_bytes + (with_motion ? motion_step_bytes : 0.0);
+}
+
+double bytes_of_recording(const PlannedRun& run) {
+  constexpr double recorded_step_bytes = 1100.0;  // 1.05 kB were measured
+  return recorded_step_bytes * run.scenario.end.duration /
+         (1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us));
+}
+
+DiskNeeds disk_needs(const Plan& plan) {
+  DiskNeeds needs;
+  for (const PlannedRun& run : plan.runs) {
+    if (run.kept) needs.recordings += bytes_of_recording(run);
+  }
+  needs.parts = bytes_of_parts(plan);
+  return needs;
 }
 
 double bytes_of_parts(const Plan& plan) {

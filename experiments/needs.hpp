@@ -8,6 +8,10 @@ namespace touchdown::experiments {
 /// The size of an experiment with its studies.
 Needs needs_of(const RunRequest& request);
 
+/// The test runs whose signals stay in memory: the most that a study or a picture needs; all for an
+/// experiment without studies.
+KeptSignals kept_signals(const Experiment& experiment);
+
 /// Memory and swap of this machine (bytes).
 double memory_of_machine();
 
@@ -24,6 +28,15 @@ struct DiskNeeds {
 
   double all() const { return recordings + parts + results; }
 };
+
+/// An upper bound for a whole plan in an empty run directory.
+DiskNeeds disk_needs(const Plan& plan);
+
+/// An upper bound of the size of a run's recording (bytes).
+double bytes_of_recording(const PlannedRun& run);
+
+/// Memory of a run's signals per control step (bytes).
+double signal_bytes_per_step(bool with_motion);
 
 /// Size of the files of a plan's parts (bytes).
 double bytes_of_parts(const Plan& plan);

@@ -1,8 +1,10 @@
 #include "experiments/run_experiment.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -30,6 +32,13 @@
 namespace touchdown::experiments {
 
 namespace {
+
+/// Keeps of a run what tables need, and frees its signals.
+void drop_signals(Rollout& run) {
+  RunSignals left;
+  left.info = std::move(run.signals.info);
+  run.signals = std::move(left);
+}
 
 bool is_any_scored(const Rollouts& runs) {
   return std::any_of(runs.begin(), runs.end(), [](const auto& entry) {
@@ -118,16 +127,73 @@ FittedModels fit_training_sets(const Experiment& experiment, const ExperimentCon
   return models;
 }
 
+/// Simulates the streamed runs of one fit.
+Rollouts simulate_fit(const ExperimentContext& context, const std::set<std::size_t>& streamed,
+                      const std::string& name, MissingRun missing) {
+  std::set<std::size_t> wanted;
+  for (const std::size_t index : streamed) {
+    const PlannedRun& run = context.plan.runs[index];
+    if (run.role == RunRole::fit && run.fit == name) wanted.insert(index);
+  }
+  if (wanted.empty()) return {};
+  const Experiment& experiment = context.request.experiment;
+  FitRunCheck check(experiment, context.plan, wanted);
+  return run_rollouts(experiment, context.plan, wanted, context.directory, missing,
+                      context.should_continue, [&](const Rollout& run) { check.add(run); });
+}
+
+/// Simulates the streamed test runs, and evaluates each at once; its report goes to `runs`. Returns
+/// the number of tasks that were not saved.
+std::size_t evaluate_streamed(const ExperimentContext& context,
+                              const std::set<std::size_t>& streamed, const TaskRange& tasks,
+                              const FittedModels& models, MissingRun missing, Rollouts& runs) {
+  const Plan& plan = context.plan;
+  const Experiment& experiment = context.request.experiment;
+  std::map<std::size_t, std::vector<const Task*>> tasks_of;
+  for (std::size_t t = tasks.begin; t < tasks.end; ++t) {
+    tasks_of[plan.tasks[t].run].push_back(&plan.tasks[t]);
+  }
+  std::set<std::size_t> tests;
+  for (const std::size_t index : streamed) {
+    if (plan.runs[index].role != RunRole::test) continue;
+    tests.insert(index);
+    runs.emplace(index, Rollout{plan.runs[index], {}, {}});
+  }
+  std::atomic<std::size_t> computed = 0;
+  if (tests.empty()) return computed;
+  for_each_rollout(experiment, plan, tests, context.directory, missing, context.should_continue,
+                   [&](std::size_t index, Rollout run) {
+                     for (const Task* task : tasks_of.at(index)) {
+                       computed += evaluate_and_save(plan, *task, run, experiment, models,
+                                                     context.saved, context.should_continue)
+                                       ? 1U
+                                       : 0U;
+                     }
+                     drop_signals(run);
+                     runs.at(index) = std::move(run);
+                   });
+  return computed;
+}
+
 /// Fits the models that the evaluation of these runs needs; none if no run can be scored.
-Fitted fit(const ExperimentContext& context, const Rollouts& runs) {
-  if (!is_any_scored(runs)) return {};
+/// Runs of other fits that are `streamed` are simulated first, and only their reports remain in
+/// `runs`.
+Fitted fit(const ExperimentContext& context, const std::set<std::size_t>& streamed,
+           MissingRun missing, Rollouts& runs) {
+  const Plan& plan = context.plan;
+  const bool has_later_tests = std::any_of(streamed.begin(), streamed.end(), [&](std::size_t run) {
+    return plan.runs[run].role == RunRole::test;
+  });
+  if (!has_later_tests && !is_any_scored(runs)) return {};
   Experiment experiment = context.request.experiment;
   std::set<std::string> engines;
   std::set<std::string> fits = {""};
-  for (const auto& [index, run] : runs) {
-    engines.insert(run.plan.simulator);
-    if (run.plan.role == RunRole::fit) fits.insert(run.plan.fit);
-  }
+  const auto note = [&](const PlannedRun& run) {
+    engines.insert(run.simulator);
+    if (run.role == RunRole::fit) fits.insert(run.fit);
+  };
+  for (const auto& [index, run] : runs) note(run.plan);
+  for (const std::size_t index : streamed) note(plan.runs[index]);
   // A shard may have runs of one engine only.
   std::erase_if(experiment.simulators,
                 [&](const std::string& simulator) { return !engines.contains(simulator); });
@@ -136,14 +202,24 @@ Fitted fit(const ExperimentContext& context, const Rollouts& runs) {
   Fitted all;
   for (const std::string& name : fits) {
     // The experiment's own fit is the first. Without `everywhere` the others use its choice.
-    const auto refits = context.plan.refits.find(name);
-    Fitted one =
-        fit(experiment, runs, name, refits == context.plan.refits.end() ? 0 : refits->second,
-            context.should_continue, saved, chosen_in(all.trials));
+    const auto refits = plan.refits.find(name);
+    Rollouts of_fit = simulate_fit(context, streamed, name, missing);
+    Fitted one = fit(experiment, of_fit.empty() ? runs : of_fit, name,
+                     refits == plan.refits.end() ? 0 : refits->second, context.should_continue,
+                     saved, chosen_in(all.trials));
+    for (auto& [index, run] : of_fit) {
+      drop_signals(run);
+      runs.emplace(index, std::move(run));
+    }
     all.models.merge(one.models);
     std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
   }
   all.models.merge(fit_training_sets(experiment, context, runs, chosen_in(all.trials)));
+  if (plan.kept_signals != KeptSignals::all) {
+    for (auto& [index, run] : runs) {
+      if (run.plan.role == RunRole::fit) drop_signals(run);
+    }
+  }
   if (!context.should_continue()) throw Stopped();
   return all;
 }
@@ -172,16 +248,24 @@ Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun 
   const Experiment& experiment = context.request.experiment;
   try {
     Computed done;
+    std::set<std::size_t> streamed;
     done.runs = timed(context, "simulate", [&] {
-      const std::set<std::size_t> needed = runs_for(context, tasks);
+      std::set<std::size_t> needed = runs_for(context, tasks);
+      for (auto index = needed.begin(); index != needed.end();) {
+        const bool is_later = is_streamed(context.plan.runs[*index], context.plan);
+        if (is_later) streamed.insert(*index);
+        index = is_later ? needed.erase(index) : std::next(index);
+      }
       FitRunCheck check(experiment, context.plan, needed);
       return run_rollouts(experiment, context.plan, needed, context.directory, missing,
                           context.should_continue, [&](const Rollout& run) { check.add(run); });
     });
-    done.fitted = timed(context, "fit", [&] { return fit(context, done.runs); });
+    done.fitted = timed(context, "fit", [&] { return fit(context, streamed, missing, done.runs); });
     done.tasks = timed(context, "evaluate", [&] {
-      return evaluate(context.plan, tasks, done.runs, experiment, done.fitted.models, context.saved,
-                      context.should_continue);
+      const FittedModels& models = done.fitted.models;
+      return evaluate(context.plan, tasks, done.runs, experiment, models, context.saved,
+                      context.should_continue) +
+             evaluate_streamed(context, streamed, tasks, models, missing, done.runs);
     });
     if (has_model_tasks(context.plan, tasks)) {
       timed(context, "model_tasks", [&] {
@@ -297,7 +381,13 @@ RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
   const RunRequest request = request_of(experiment);
   const std::filesystem::path directory = run_path(experiment.name, request.id, options.out);
   require_place(request, directory, options.overwrite);
-  return {directory, whole_plan(request).tasks.size()};
+  const Plan plan = whole_plan(request);
+  const int threads = threads_of(experiment);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  return {
+      directory, plan.tasks.size(), threads,
+      estimate_cost(request, plan, [stop = options.stop] { return stop == nullptr || !*stop; })};
 }
 
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/cost_estimate.hpp"
 #include "experiments/experiment_context.hpp"
 #include "experiments/run_directory/shard.hpp"
 
@@ -13,10 +14,12 @@ namespace touchdown::experiments {
 struct RunOutline {
   std::filesystem::path directory;  ///< of its results
   std::size_t tasks = 0;            ///< parts that can be computed independently
+  int threads = 1;
+  CostEstimate cost;
 };
 
-/// Checks an experiment and its scenarios. Computes and writes nothing.
-/// Errors: `InputError` for a wrong request.
+/// Checks an experiment and its scenarios, and estimates its cost from a short calibration. Writes
+/// nothing. Errors: `InputError` for a wrong request; `Stopped`.
 RunOutline outline_of(const Experiment& experiment, const RunOptions& options);
 
 /// Simulates, fits, evaluates, scores and writes tables. It reuses the complete results of an

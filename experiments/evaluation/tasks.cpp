@@ -196,29 +196,39 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
   return counts;
 }
 
+bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
+                       const Experiment& experiment, const FittedModels& models,
+                       const SavedCounts& saved, const ShouldContinue& should_continue) {
+  if (saved.read(plan, task)) return false;
+  saved.write(plan, task,
+              run.failed()
+                  ? TaskCounts{}
+                  : evaluate(plan, task, run.signals, experiment, models, should_continue));
+  return true;
+}
+
 std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& runs,
                      const Experiment& experiment, const FittedModels& models,
                      const SavedCounts& saved, const ShouldContinue& should_continue) {
-  Progress progress("evaluating", "parts", static_cast<std::int64_t>(tasks.size()));
+  std::vector<std::size_t> held;
+  for (std::size_t t = tasks.begin; t < tasks.end; ++t) {
+    if (runs.contains(plan.tasks[t].run)) held.push_back(t);
+  }
+  Progress progress("evaluating", "parts", static_cast<std::int64_t>(held.size()));
   std::atomic<std::size_t> computed = 0;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(tasks.begin, tasks.end, 1), [&](const auto& range) {
-        for (std::size_t t = range.begin(); t < range.end(); ++t) {
-          if (!should_continue()) throw Stopped();
-          const Task& task = plan.tasks[t];
-          if (saved.read(plan, task)) {
-            progress.skip();
-            continue;
-          }
-          const Rollout& run = runs.at(task.run);
-          saved.write(plan, task,
-                      run.failed()
-                          ? TaskCounts{}
-                          : evaluate(plan, task, run.signals, experiment, models, should_continue));
-          ++computed;
-          progress.advance();
-        }
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, held.size(), 1), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      if (!should_continue()) throw Stopped();
+      const Task& task = plan.tasks[held[i]];
+      if (evaluate_and_save(plan, task, runs.at(task.run), experiment, models, saved,
+                            should_continue)) {
+        ++computed;
+        progress.advance();
+      } else {
+        progress.skip();
+      }
+    }
+  });
   return computed;
 }
 

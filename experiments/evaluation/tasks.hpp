@@ -85,8 +85,14 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
                     const Experiment& experiment, const FittedModels& models,
                     const ShouldContinue& should_continue);
 
-/// Computes and saves, in parallel, those tasks of the range that are not saved yet. Returns their
-/// number. Errors: `Stopped`.
+/// Computes and saves one task of this run, unless it is saved. Returns whether it was computed.
+/// Errors: `Stopped`.
+bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
+                       const Experiment& experiment, const FittedModels& models,
+                       const SavedCounts& saved, const ShouldContinue& should_continue);
+
+/// Computes and saves, in parallel, those tasks of these runs that are in the range and not saved
+/// yet. Returns their number. Errors: `Stopped`.
 std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& runs,
                      const Experiment& experiment, const FittedModels& models,
                      const SavedCounts& saved, const ShouldContinue& should_continue);

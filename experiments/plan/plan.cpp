@@ -34,6 +34,12 @@ void add_measure(Measure measure, RunGroup& group) {
 
 std::string_view to_text(RunRole role) { return role == RunRole::fit ? "fit" : "test"; }
 
+bool is_streamed(const PlannedRun& run, const Plan& plan) {
+  if (plan.kept_signals == KeptSignals::all) return false;
+  if (run.role == RunRole::fit) return !run.fit.empty();
+  return run.group > 0 || plan.kept_signals == KeptSignals::none;
+}
+
 std::uint64_t seed_of_fit(const Experiment& experiment) {
   // Nothing is fitted to runs of reserved seeds.
   return experiment.fit_seed.value_or(fit_seed(experiment.seed));

@@ -102,6 +102,9 @@ struct PlannedSensors {
   noise::SensorProfile profile;
 };
 
+/// The test runs whose signals stay in memory after their evaluation, for studies and pictures.
+enum class KeptSignals : int { none, own, all };
+
 /// Everything that an experiment will compute.
 struct Plan {
   std::vector<PlannedSensors> sensors = {{}};  ///< the experiment's own first
@@ -115,6 +118,7 @@ struct Plan {
   std::map<std::string, std::size_t> training_sets;
   std::set<std::int64_t> pictured;  ///< indices of own test runs that pictures show
   bool needs_motion = false;        ///< whether test runs keep their motion
+  KeptSignals kept_signals = KeptSignals::all;
   TaskRange all_tasks() const { return {0, tasks.size()}; }
   const RunGroup& group_of(const Task& task) const { return groups[runs[task.run].group]; }
   /// The group of this name, if there is one.
@@ -124,6 +128,10 @@ struct Plan {
   /// The test runs of a group, in the order of the plan.
   std::vector<std::size_t> runs_in(std::size_t group) const;
 };
+
+/// Whether a run is simulated after the experiment's own fits, and its signals are dropped as soon
+/// as they are used: a run of another fit, or a test run whose signals are not kept.
+bool is_streamed(const PlannedRun& run, const Plan& plan);
 
 /// The group of the fitted runs for one entry of `fit.segments`.
 constexpr std::size_t segment_group(std::size_t entry) { return 1 + entry; }

@@ -30,6 +30,12 @@ class Study {
   /// Adds runs, groups, measures and model tasks. Errors: `InputError` for a wrong request.
   virtual void plan(const RunRequest& /*request*/, Plan& /*plan*/) const {}
 
+  /// The test runs whose signals it or its pictures need after the evaluation. The fewer, the less
+  /// memory an experiment takes.
+  virtual KeptSignals kept_signals(const Experiment& /*experiment*/) const {
+    return KeptSignals::all;
+  }
+
   /// Writes its tables and returns its texts. Computes nothing that a task could have computed.
   virtual StudyResult summarize(const Evaluation& evaluation,
                                 const RunDirectory& directory) const = 0;

@@ -11,6 +11,7 @@ namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -87,6 +88,11 @@ TEST(DryRun, PrintsTheRunDirectoryAndWritesNothing) {
   const std::string run = "run " + write_tiny_experiment(folder);
   const std::string output = in(folder, run + " --dry-run").output;
   EXPECT_THAT(output, AllOf(HasSubstr("results   runs/tiny/"), HasSubstr("\nparts     12\n")));
+  for (const char* stage : {"\nsimulate ", "\nfit ", "\nevaluate ", "\ntogether "}) {
+    EXPECT_THAT(output, ContainsRegex(std::string(stage) + " *[0-9.e+-]+ s of processor time"));
+  }
+  EXPECT_THAT(output, AllOf(ContainsRegex("\nmemory    [0-9]+ MB"), HasSubstr("\ndisk "),
+                            HasSubstr("µs a step in mujoco")));
   EXPECT_FALSE(fs::exists(folder / "runs"));
   in(folder, run + " --shard 1/12");
   const std::string directory = output.substr(10, output.find('\n') - 10);

@@ -48,6 +48,21 @@ TEST(Needs, NameTheSettingsToLowerIfMemoryIsTooSmall) {
   EXPECT_NO_THROW(require_memory(longer, 1e-5, 4e9));
 }
 
+TEST(Needs, LeaveOutSignalsThatLeaveTheMemoryAfterTheirEvaluation) {
+  const auto of_many_runs = [](const std::string& studies) {
+    return request_of(experiment_from_yaml(
+        YamlDocument::parse("name: many\nfit: {scenarios: [scenarios/stairs.yaml]}\n"
+                            "test: {scenarios: [scenarios/stairs.yaml], runs: 20000}\n"
+                            "recordings: none\nvideo: {enabled: false}\n" +
+                                studies,
+                            "many.yaml")));
+  };
+  EXPECT_NO_THROW(require_memory(of_many_runs("benchmark: {}\n"), 1.0, 4e9));
+  for (const char* studies : {"", "benchmark: {clips: true}\n", "benchmark: {}\nmoments: true\n"}) {
+    EXPECT_THROW(require_memory(of_many_runs(studies), 1.0, 4e9), Error) << studies;
+  }
+}
+
 TEST(Needs, CountPartsInWholeDiskBlocks) {
   const Plan plan = whole_plan(request_of(experiment_with("seed=3")));
   EXPECT_GE(bytes_of_parts(plan), 4096.0 * static_cast<double>(plan.tasks.size()));

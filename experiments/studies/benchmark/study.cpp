@@ -30,6 +30,10 @@ class BenchmarkStudy final : public SectionStudy<BenchmarkConfig> {
 
   void plan(const RunRequest& request, Plan& plan) const override { add_benchmark(request, plan); }
 
+  KeptSignals kept_signals(const Experiment& experiment) const override {
+    return section_of(experiment).clips ? KeptSignals::own : KeptSignals::none;
+  }
+
   StudyResult summarize(const Evaluation& evaluation,
                         const RunDirectory& directory) const override {
     const BenchmarkResult found = write_benchmark(evaluation, directory);

@@ -222,6 +222,50 @@ TEST(ABenchmark, SimulatesARobotOnceForAllItsSensors) {
   }
 }
 
+/// The text of a run's table.
+std::string table(const std::filesystem::path& run, const std::string& name) {
+  return read_file(run / "tables" / name);
+}
+
+TEST(ABenchmark, HasTheSameTablesWhetherItKeepsSignalsInMemoryOrNot) {
+  const ScratchFolder folder;
+  const auto run = [&](const std::string& name, const std::string& clips, const std::string& more) {
+    const Experiment experiment = with(
+        folder, "{robots: [models/upkie_heavy.yaml], sensors: [sensors/upkie.yaml], refits: 1" +
+                    clips + "}" + more);
+    const Plan plan = whole_plan(request_of(experiment));
+    (void)run_experiment(experiment, {.out = folder / name, .command = "test"});
+    return plan.kept_signals;
+  };
+  EXPECT_EQ(run("streamed", "", ""), KeptSignals::none);
+  EXPECT_EQ(run("own", ", clips: true", ""), KeptSignals::own);
+  EXPECT_EQ(run("kept", "", "\nmoments: true"), KeptSignals::all);
+  for (const char* name : {"benchmark.csv", "benchmark_standings.csv", "success.csv", "runs.csv",
+                           "transitions.csv", "latency.csv"}) {
+    const std::string expected = table(folder / "kept", name);
+    EXPECT_FALSE(expected.empty()) << name;
+    EXPECT_EQ(table(folder / "streamed", name), expected) << name;
+    EXPECT_EQ(table(folder / "own", name), expected) << name;
+  }
+}
+
+TEST(ABenchmark, ContinuesAndMergesWithoutSignalsInMemory) {
+  const ScratchFolder folder;
+  const Experiment experiment = with(folder, "{robots: [models/upkie_heavy.yaml]}");
+  const auto options = [&](const char* name) {
+    return RunOptions{.out = folder / name, .command = "test"};
+  };
+  (void)run_experiment(experiment, options("whole"));
+  EXPECT_GT(run_shard(experiment, {1, 3}, options("parts")).computed, 0U);
+  EXPECT_EQ(run_shard(experiment, {1, 3}, options("parts")).computed, 0U);
+  (void)run_shard(experiment, {2, 3}, options("parts"));
+  (void)run_shard(experiment, {3, 3}, options("parts"));
+  (void)merge_run(folder / "parts", options("parts"));
+  for (const char* name : {"benchmark.csv", "success.csv", "runs.csv"}) {
+    EXPECT_EQ(table(folder / "parts", name), table(folder / "whole", name)) << name;
+  }
+}
+
 TEST(ABenchmark, UsesEveryRobotsOwnPostureAndBalancer) {
   const ScratchFolder folder;
   const auto [request, plan] = Planned(folder, "{robots: [models/upkie_straight.yaml]}");

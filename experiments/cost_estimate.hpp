@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiments/plan/plan.hpp"
+
+namespace touchdown::experiments {
+
+/// The estimated cost of one stage of an experiment.
+struct StageCost {
+  std::string stage;     ///< "simulate", "tune", "fit", "evaluate", "model_tasks"
+  double seconds = 0.0;  ///< of processor time; NaN if it cannot be estimated
+};
+
+/// What an experiment will cost on this machine.
+struct CostEstimate {
+  std::vector<StageCost> stages;
+  std::map<std::string, double> step_seconds;  ///< per control step, by engine
+  double memory = 0.0;                         ///< signals that are held at once (bytes)
+  double disk = 0.0;                           ///< at most, pictures included (bytes)
+  double measured = 0.0;                       ///< duration of the calibration (s)
+
+  double seconds() const;  ///< of the stages that can be estimated
+};
+
+/// Estimates the cost from a short calibration on this machine: it simulates one run of every
+/// scene, fits every estimator to a few seconds of them, and evaluates every estimator on a few
+/// seconds more. Costs grow linearly with the data. Writes nothing into run directories. Errors:
+/// `InputError` for an invalid scene; `Stopped`.
+CostEstimate estimate_cost(const RunRequest& request, const Plan& plan,
+                           const std::function<bool()>& should_continue);
+
+}  // namespace touchdown::experiments
