@@ -265,12 +265,12 @@ static void describe_hyperparameters(Fields& fields, Experiment& experiment) {
   if (!fields.present(key, !experiment.hyperparameters.empty() || !of_engines.empty())) return;
   const auto describe_all = [&](Fields& all) {
     std::string file;
-    all.know("file");
-    if (all.present("file", false) || all.documenting()) {
-      all("file", file)
+    all.know("tuned");
+    if (all.present("tuned", false) || all.documenting()) {
+      all("tuned", file)
           .fallback("none")
           .doc("Values by engine that `fit.tuning` chose: `tables/hyperparameters.yaml` of a run.");
-      if (!all.documenting()) all.check("file", [&] { read_hyperparameters(file, experiment); });
+      if (!all.documenting()) all.check("tuned", [&] { read_hyperparameters(file, experiment); });
     }
     for (const std::string& engine : experiment.simulators) {
       all.know(engine);

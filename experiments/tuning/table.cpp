@@ -50,7 +50,7 @@ void write_table(const std::vector<Trial>& trials, const RunDirectory& directory
   directory.write_table("tuning.csv", columns, trials);
 }
 
-/// The choices for the experiment's own fit, as its key `hyperparameters.file` takes them.
+/// The choices for the experiment's own fit, as its key `hyperparameters.tuned` takes them.
 std::string chosen_yaml(const std::vector<Trial>& trials, const Experiment& experiment) {
   std::string text = fmt::format(
       "# Hyperparameters that fit.tuning chose: the best of {} trials in {}-fold "

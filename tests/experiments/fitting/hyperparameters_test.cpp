@@ -99,7 +99,7 @@ Experiment with_file(const ScratchFolder& folder, const std::string& content,
   const std::string file = folder.write("chosen.yaml", content).string();
   return experiment_from_yaml(YamlDocument::parse(
       "name: study\nestimators: [phase, free_fall]\nfit: {scenarios: [scenarios/stairs.yaml]}\n"
-      "test: {scenarios: [scenarios/stairs.yaml]}\nhyperparameters: {file: " +
+      "test: {scenarios: [scenarios/stairs.yaml]}\nhyperparameters: {tuned: " +
           file + more + "}\n",
       "study.yaml"));
 }
@@ -153,7 +153,7 @@ TEST(HyperparameterFile, IsReportedIfItIsMissing) {
   try {
     (void)experiment_from_yaml(YamlDocument::parse(
         "name: study\nestimators: [phase]\nfit: {scenarios: [scenarios/stairs.yaml]}\n"
-        "test: {scenarios: [scenarios/stairs.yaml]}\nhyperparameters:\n  file: nowhere.yaml\n",
+        "test: {scenarios: [scenarios/stairs.yaml]}\nhyperparameters:\n  tuned: nowhere.yaml\n",
         "study.yaml"));
     FAIL();
   } catch (const InputError& error) {

@@ -117,7 +117,7 @@ TEST_F(TunedExperiment, WritesItsChoicesAsAFileThatReplacesTheTuning) {
   EXPECT_THAT(read_file(file), HasSubstr("manifest: {experiment: small, seed: 11, trials: 6,"));
   EXPECT_THAT(own_files(folder_ / "tuned"),
               Contains(std::filesystem::path("tables/hyperparameters.yaml")));
-  const Experiment given = tuned_study(folder_, "", "hyperparameters={file: " + file + "}");
+  const Experiment given = tuned_study(folder_, "", "hyperparameters={tuned: " + file + "}");
   EXPECT_EQ(to_yaml(given),
             to_yaml(experiment_from_yaml(YamlDocument::parse(to_yaml(given), "config.yaml"))));
   const ExperimentResult repeated = run("given", given);
