@@ -37,7 +37,7 @@ void add_fitted_runs(const RunRequest& request, Needs& needs) {
   }
 }
 
-/// Steps of the runs whose signals are in memory at once.
+/// Steps of the runs that have signals in memory at once.
 double held_steps(const RunRequest& request, const Needs& all) {
   const Experiment& experiment = request.experiment;
   const KeptSignals kept = kept_signals(experiment);

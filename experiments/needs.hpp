@@ -8,7 +8,7 @@ namespace touchdown::experiments {
 /// The size of an experiment with its studies.
 Needs needs_of(const RunRequest& request);
 
-/// The test runs whose signals stay in memory: the most that a study or a picture needs; all for an
+/// The test runs that keep signals in memory: the most that a study or a picture needs; all for an
 /// experiment without studies.
 KeptSignals kept_signals(const Experiment& experiment);
 

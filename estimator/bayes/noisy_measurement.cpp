@@ -17,7 +17,7 @@ namespace {
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Standard deviations by which the densities are widened (N·m). Above the last one contact and
-/// air are hardly told apart, and wider densities only lower the decisions below the threshold.
+/// air hardly differ, and wider densities only lower the decisions below the threshold.
 constexpr std::array<double, 4> widening = {0.0, 0.025, 0.05, 0.1};
 
 /// The widening per standard deviation of white noise: a share of what the torques' low-pass

@@ -68,7 +68,7 @@ class TorqueNoise {
     }
     return level();
   }
-  /// The same for the legs whose torques are usable.
+  /// The same for the legs with usable torques.
   std::size_t update(const Signals& signals, const SignalGuardConfig& guard) noexcept;
 
   [[nodiscard]] std::size_t level() const noexcept {

@@ -140,7 +140,7 @@ void visit_members(Visit& visit, Config& config) {
   visit("torque.low_pass", config.measurement.torque.low_pass);
   visit("contact_floor", config.measurement.contact_floor);
   visit("no_contact_floor", config.measurement.no_contact_floor);
-  // Models whose densities stay as fitted do not have these keys.
+  // Models with densities that stay as fitted do not have these keys.
   auto& noise = config.measurement.noise;
   if (!std::is_const_v<Config> || noise.is_followed) {
     visit("noise.is_followed", noise.is_followed);

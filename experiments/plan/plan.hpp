@@ -102,7 +102,7 @@ struct PlannedSensors {
   noise::SensorProfile profile;
 };
 
-/// The test runs whose signals stay in memory after their evaluation, for studies and pictures.
+/// The test runs that keep their signals after their evaluation, for studies and pictures.
 enum class KeptSignals : int { none, own, all };
 
 /// Everything that an experiment will compute.
@@ -130,7 +130,7 @@ struct Plan {
 };
 
 /// Whether a run is simulated after the experiment's own fits, and its signals are dropped as soon
-/// as they are used: a run of another fit, or a test run whose signals are not kept.
+/// as they are used: a run of another fit, or a test run that does not keep them.
 bool is_streamed(const PlannedRun& run, const Plan& plan);
 
 /// The group of the fitted runs for one entry of `fit.segments`.

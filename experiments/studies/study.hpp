@@ -30,8 +30,8 @@ class Study {
   /// Adds runs, groups, measures and model tasks. Errors: `InputError` for a wrong request.
   virtual void plan(const RunRequest& /*request*/, Plan& /*plan*/) const {}
 
-  /// The test runs whose signals it or its pictures need after the evaluation. The fewer, the less
-  /// memory an experiment takes.
+  /// The test runs that keep their signals after the evaluation, for it or its pictures. The fewer,
+  /// the less memory an experiment takes.
   virtual KeptSignals kept_signals(const Experiment& /*experiment*/) const {
     return KeptSignals::all;
   }

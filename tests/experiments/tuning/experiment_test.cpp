@@ -110,7 +110,7 @@ TEST_F(TunedExperiment, SharesChoicesWithOtherSensorsUnlessTunedEverywhere) {
   EXPECT_EQ(fits_in("everywhere"), 2U);
 }
 
-/// A stranger repeats a tuned experiment without its trials.
+/// Another user repeats a tuned experiment without its trials.
 TEST_F(TunedExperiment, WritesItsChoicesAsAFileThatReplacesTheTuning) {
   const ExperimentResult tuned = run("tuned", tuned_study(folder_, ", tuning: {trials: 6}"));
   const std::string file = (folder_ / "tuned/tables/hyperparameters.yaml").string();
