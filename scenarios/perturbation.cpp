@@ -93,7 +93,8 @@ void describe(Fields& fields, Perturbation& perturbation) {
   fields("velocity", perturbation.velocity, 0.0, 2.0)
       .doc("m/s", "Every commanded velocity that is not zero.");
   fields("crouch", perturbation.crouch, 0.0, 1.0)
-      .doc("rad", "Hip angle at the start, never within 0.03 of straight; the knee is proportional.");
+      .doc("rad",
+           "Hip angle at the start, never within 0.03 of straight; the knee is proportional.");
   fields("mass_scale", perturbation.mass_scale, 0.0, 0.9).doc("Mass and inertia of every body.");
   fields("friction", perturbation.friction, 0.0, 2.0).doc("Friction of the terrain.");
   fields("servo_gain_scale", perturbation.servo_gain_scale, 0.0, 0.9)
