@@ -111,9 +111,8 @@ void add_run(CLI::App& program, const CliSession& session) {
   verb.flag("--overwrite", &flags->overwrite,
             "Replace another experiment in the run directory; untracked files remain");
   verb.flag("--dry-run", &flags->dry_run,
-             "Only check the experiment; print its run directory, the number of parts in which it
-"
-             "can be computed, and its cost by stage, from a calibration of a few seconds");
+            "Only check the experiment; print its run directory, the number of parts in which it\n"
+            "can be computed, and its cost by stage, from a calibration of a few seconds");
   add_picture_flags(verb, &flags->pictures);
   verb.action([flags, &session] { run(*flags, session); });
 }
