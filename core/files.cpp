@@ -45,6 +45,14 @@ void flush_to_disk(const std::filesystem::path& path) {
   if (!flushed) throw std::filesystem::filesystem_error("fsync", path, why);
 }
 
+/// The temporary file would replace a device or a pipe, and not be written to it.
+void require_replaceable(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_other(std::filesystem::status(path, ignored))) return;
+  throw Error(fmt::format(
+      "{}: cannot be written: is a device or a pipe, which a file would replace", path.string()));
+}
+
 /// Makes a new folder beside `path` that only this user can access. An existing file, folder or
 /// link of the same name is left alone.
 std::filesystem::path new_part_folder(const std::filesystem::path& path) {
@@ -79,6 +87,7 @@ std::vector<std::filesystem::path> entries_by(const std::filesystem::path& folde
 
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write) {
+  require_replaceable(path);
   try {
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
     const TemporaryFile temporary{part_path(path)};

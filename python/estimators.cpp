@@ -55,6 +55,15 @@ std::shared_ptr<const std::string> records_of(const py::object& recording) {
   return std::make_shared<const std::string>(stream.str());
 }
 
+/// Errors: `InputError` for what Python accepts in a path and no system does, such as "a\0".
+fs::path path_of(const py::object& object) {
+  try {
+    return object.cast<fs::path>();
+  } catch (const py::cast_error&) {
+    throw InputError(fmt::format("{}: expected a path", py::repr(object).cast<std::string>()));
+  }
+}
+
 using DeclaredRun = std::pair<py::object, std::optional<bool>>;
 
 /// Fits to recordings in memory, or to logs by path.
@@ -65,7 +74,7 @@ Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double 
     if (py::hasattr(run, "info")) {
       logs.push_back({fmt::format("recording {}", logs.size()), contact, records_of(run)});
     } else {
-      logs.push_back({run.cast<fs::path>(), contact});
+      logs.push_back({path_of(run), contact});
     }
   }
   const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
@@ -117,7 +126,7 @@ std::vector<std::string> check(const py::object& log, const std::string& robot,
   const bool in_memory = py::hasattr(log, "info");
   if (in_memory && mapping) throw InputError("check: mapping is for logs by path");
   const auto records = in_memory ? records_of(log) : nullptr;
-  const fs::path path = in_memory ? fs::path("recording") : log.cast<fs::path>();
+  const fs::path path = in_memory ? fs::path("recording") : path_of(log);
   return long_call([&](const std::atomic<bool>& stop) {
     std::optional<recordings::MappedLog> mapped;
     if (mapping) {
@@ -317,7 +326,7 @@ void add_estimator(py::module_& module) {
                return std::make_unique<Estimator>(
                    with_model(std::move(request), model.cast<const Model&>()), sample_rate);
              }
-             if (!model.is_none()) request.model = model.cast<fs::path>();
+             if (!model.is_none()) request.model = path_of(model);
              return std::make_unique<Estimator>(experiments::log_estimator(std::move(request)),
                                                 sample_rate);
            }),

@@ -181,6 +181,19 @@ TEST_F(Files, AStreamThatFailsIsReportedByTheNameOfItsFile) {
   EXPECT_EQ(read_file(path), "x");  // as before
 }
 
+TEST_F(Files, DoNotReplaceDevicesAndPipes) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder_ / "zero");
+  std::filesystem::create_symlink("pipe", folder_ / "to_pipe");
+  for (const char* const special : {"pipe", "zero", "to_pipe"}) {
+    EXPECT_THROW(write_atomically(folder_ / special, "x"), Error) << special;
+    EXPECT_FALSE(std::filesystem::is_regular_file(folder_ / special)) << special;
+  }
+  std::filesystem::create_symlink("nowhere", folder_ / "dangling");
+  write_atomically(folder_ / "dangling", "x");
+  EXPECT_EQ(read_file(folder_ / "dangling"), "x");
+}
+
 TEST_F(Files, OfAFolderAreListedInOrderAndThoseOfNoFolderAreNone) {
   using ::testing::ElementsAre;
   using ::testing::IsEmpty;

@@ -205,6 +205,12 @@ class Run(InFolder):
         with self.assertRaisesRegex(touchdown.InputError, "'velocity': expected an array of numbers"):
             touchdown.Estimator("free_fall").run(run)
 
+    def test_refuses_paths_that_no_system_accepts(self):
+        for call in (lambda path: touchdown.Estimator("robust", path), touchdown.check,
+                     lambda path: touchdown.fit(path, "robust")):
+            with self.assertRaisesRegex(touchdown.InputError, "expected a path"):
+                call("a\0b")
+
     def test_refuses_times_in_another_unit_than_seconds(self):
         for factor, unit in ((1e3, "milliseconds"), (1e6, "microseconds"), (1e9, "nanoseconds")):
             run = dict(hop())
