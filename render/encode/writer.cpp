@@ -50,12 +50,22 @@ using CodecHandle = std::unique_ptr<AVCodecContext, FfmpegFree>;
 using FrameHandle = std::unique_ptr<AVFrame, FfmpegFree>;
 using PacketHandle = std::unique_ptr<AVPacket, FfmpegFree>;
 
-/// Throws that `what` failed, with FFmpeg's reason, when `result` is negative.
-void check_ffmpeg(int result, const char* what) {
-  if (result >= 0) return;
+/// FFmpeg's reason for a negative result.
+std::string ffmpeg_reason(int result) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text = {};
   av_strerror(result, text.data(), text.size());
-  throw Error(fmt::format("video: {}: {}", what, text.data()));
+  return text.data();
+}
+
+/// Throws that `what` failed, with FFmpeg's reason, when `result` is negative.
+void check_ffmpeg(int result, const char* what) {
+  if (result < 0) throw Error(fmt::format("video: {}: {}", what, ffmpeg_reason(result)));
+}
+
+/// Throws that the file cannot be written when `result` is negative.
+void check_written(int result, const std::filesystem::path& path) {
+  if (result >= 0) return;
+  throw Error(fmt::format("{}: cannot be written: {}", path.string(), ffmpeg_reason(result)));
 }
 
 /// A started encoder. With `global_header`, the container stores the stream's parameters.
@@ -178,10 +188,10 @@ void VideoWriter::write(const std::uint8_t* i420) {
 
 void VideoWriter::finish() {
   streams_->encode(nullptr);
-  check_ffmpeg(av_write_trailer(streams_->format.get()), "cannot finish the file");
+  check_written(av_write_trailer(streams_->format.get()), path_);
   // An earlier write error is recorded only here.
-  check_ffmpeg(streams_->format->pb->error, "cannot write");
-  check_ffmpeg(avio_closep(&streams_->format->pb), "cannot finish the file");
+  check_written(streams_->format->pb->error, path_);
+  check_written(avio_closep(&streams_->format->pb), path_);
   write_atomically(path_, read_file(streams_->file.path()));
   streams_.reset();
 }

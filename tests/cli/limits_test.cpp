@@ -35,6 +35,11 @@ Ended after(const std::string& shell, const std::string& arguments, const Scratc
   return {code, read_file(folder / ".stdout"), read_file(folder / ".stderr")};
 }
 
+std::string last_line(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
 class Limits : public ::testing::Test {
  protected:
   Limits() { recordings::write_recording(test::synthetic_log(2.0), folder_ / "a.mpack"); }
@@ -192,12 +197,88 @@ TEST_F(Limits, FiguresMayHaveNamesThatGnuplotTakesForSomethingElse) {
   }
 }
 
-TEST_F(Limits, TooFewDescriptorsAreNoUntrackedFiles) {
+/// What a program without enough descriptors or disk says: one line, in which it names the cause.
+void expect_one_reason(const Ended& ended, const std::string& command) {
+  EXPECT_TRUE(ended.exit_code == 0 || ended.exit_code == 1) << command << ": " << ended.errors;
+  if (ended.exit_code == 0) return;
+  const std::string line = last_line(ended.errors);
+  EXPECT_THAT(line, StartsWith("touchdown: ")) << command;
+  EXPECT_THAT(line, ::testing::AnyOf(HasSubstr("Too many open files"), HasSubstr("ulimit -n"),
+                                     HasSubstr("descriptor")))
+      << command;
+}
+
+TEST_F(Limits, TooFewDescriptorsAreNamedByEveryVerb) {
+  folder_.write("s.yaml", "# A scene.\nname: s\nend: {duration: 0.1}\n");
+  const std::string run = "run " + write_tiny_experiment(folder_) + " --out out";
+  ASSERT_EQ(touchdown_program(run + " --no-pictures", folder_.path()).exit_code, 0);
+  ASSERT_EQ(touchdown_program("simulate s.yaml -o s.mpack", folder_.path()).exit_code, 0);
+  ASSERT_EQ(
+      touchdown_program("fit a.mpack -o m.npz --estimator robust --grid 40 40", folder_.path())
+          .exit_code,
+      0);
+  const std::vector<std::string> verbs = {"check a.mpack",
+                                          "estimate a.mpack",
+                                          "estimate a.mpack --model m.npz -o b.csv",
+                                          "estimate a.mpack -o b.mpack",
+                                          "estimate a.mpack --estimator free_fall --figure b.png",
+                                          "export a.mpack -o b.mcap",
+                                          "fit a.mpack -o n.npz --grid 40 40",
+                                          "simulate s.yaml -o b.mpack",
+                                          "list",
+                                          "keys",
+                                          "generate --count 1 -o generated",
+                                          "render s.mpack -o b.mp4 --width 160 --height 120",
+                                          "report out",
+                                          "merge out --no-pictures",
+                                          run + " --no-pictures",
+                                          "clean ."};
+  for (const std::string& arguments : verbs) {
+    for (const int descriptors : {4, 5, 6, 7, 8, 10, 12, 16}) {
+      fs::remove_all(folder_ / "generated");
+      const Ended ended = after(fmt::format("ulimit -n {}", descriptors), arguments, folder_);
+      expect_one_reason(ended, fmt::format("{} descriptors: {}", descriptors, arguments));
+      if (ended.exit_code == 0) break;
+    }
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "out/tables/success.csv"));
+}
+
+TEST_F(Limits, AFullDiskIsNamedWithItsFileByEveryVerb) {
+  const fs::path full = "/dev/full";
+  if (!fs::exists(full)) GTEST_SKIP() << "/dev/full is missing";
+  folder_.write("s.yaml", "# A scene.\nname: s\nend: {duration: 2}\n");
+  ASSERT_EQ(touchdown_program("simulate s.yaml -o s.mpack", folder_.path()).exit_code, 0);
   const std::string run = "run " + write_tiny_experiment(folder_) + " --no-pictures --out out";
-  EXPECT_EQ(touchdown_program(run, folder_.path()).exit_code, 0);
-  for (const int descriptors : {4, 5, 6}) {
-    const Ended ended = after(fmt::format("ulimit -n {}", descriptors), run, folder_);
-    EXPECT_THAT(ended.errors, Not(HasSubstr("no run of touchdown made it"))) << descriptors;
+  // Blocks of 512 or 1024 bytes, by shell: all of these files are larger.
+  const struct {
+    std::string arguments;
+    std::string file;
+  } cases[] = {{"simulate s.yaml -o b.mpack", "b.mpack"},
+               {"estimate a.mpack -o b.csv", "b.csv"},
+               {"estimate a.mpack -o b.mpack", "b.mpack"},
+               {"estimate a.mpack --estimator free_fall --figure b.png", "b.gp"},
+               {"export a.mpack -o b.mcap", "b.mcap"},
+               {"fit a.mpack -o b.npz --estimator robust", "b.npz"},
+               {"render s.mpack -o b.mp4 --width 160 --height 120", "b.mp4"},
+               {run, ""}};
+  for (const auto& [arguments, file] : cases) {
+    const Ended ended = after("ulimit -f 8", arguments, folder_);
+    EXPECT_EQ(ended.exit_code, 1) << arguments << ": " << ended.errors;
+    EXPECT_THAT(last_line(ended.errors),
+                AllOf(StartsWith("touchdown: "), HasSubstr(file), HasSubstr("cannot be written")))
+        << arguments;
+    EXPECT_TRUE(file.empty() || !fs::exists(folder_ / file)) << arguments;
+  }
+  for (const std::string arguments :
+       {"estimate a.mpack --estimator free_fall -o -", "estimate a.mpack", "check a.mpack", "list",
+        "keys", "fit a.mpack -o c.npz --estimator robust --grid 40 40"}) {
+    const std::string command = fmt::format("cd '{}' && '{}' {} >/dev/full 2>.stderr",
+                                            folder_.path().string(), TOUCHDOWN_PROGRAM, arguments);
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << arguments;
+    EXPECT_THAT(last_line(read_file(folder_ / ".stderr")), HasSubstr("standard output"))
+        << arguments;
   }
 }
 
