@@ -126,7 +126,7 @@ void SoftLander::command_leg(std::size_t side, const models::Observation& observ
 
 models::Action SoftLander::act(const models::Observation& observation) {
   course_.follow(observation, config_);
-  contact_ = contact_source_(observation, ground_velocity_);
+  contact_ = contact_source_(observation, previous_ ? &*previous_ : nullptr);
   in_air_ = contact_[0] || contact_[1] ? 0.0 : in_air_ + course_.period;
   one_in_air_ = contact_[0] && contact_[1] ? 0.0 : one_in_air_ + course_.period;
   update_ground_velocity(observation);
@@ -138,6 +138,7 @@ models::Action SoftLander::act(const models::Observation& observation) {
   // With both wheels in the air, the wheels cannot turn the robot.
   const double turn = !is_flying() ? course_.yaw_torque(observation, config_) : 0.0;
   command_wheels(ground_velocity_, {turn, turn}, course_.wheel_radius, config_, action);
+  previous_ = action;
   return action;
 }
 

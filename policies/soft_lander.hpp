@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "policies/course.hpp"
 #include "policies/policy.hpp"
 #include "policies/side_view.hpp"
@@ -48,6 +50,7 @@ class SoftLander : public Policy {
   double standing_ = 0.0;         ///< time since the first contact after a flight (s)
   double on_ground_ = 0.0;        ///< time since both regained contact, bumps ignored (s)
   double softness_ = 0.0;
+  std::optional<models::Action> previous_;  ///< the last action
 };
 
 }  // namespace touchdown::policies

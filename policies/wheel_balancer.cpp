@@ -22,7 +22,7 @@ void WheelBalancer::reset(const models::Observation& observation) {
 }
 
 bool WheelBalancer::in_the_air(const models::Observation& observation) {
-  const auto in_contact = contact_source_(observation, ground_velocity_);
+  const auto in_contact = contact_source_(observation, previous_ ? &*previous_ : nullptr);
   return !in_contact[0] && !in_contact[1];
 }
 
@@ -60,6 +60,7 @@ models::Action WheelBalancer::act(const models::Observation& observation) {
   }
   const double turn = course_.yaw_torque(observation, config_);
   command_wheels(ground_velocity_, {turn, turn}, course_.wheel_radius, config_, action);
+  previous_ = action;
   return action;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "policies/course.hpp"
 #include "policies/policy.hpp"
 #include "policies/wheel_contact.hpp"
@@ -35,6 +37,7 @@ class WheelBalancer : public Policy {
   double lean_ = 0.0;  ///< pitch at which the robot balances (rad)
   double integral_ = 0.0;
   double ground_velocity_ = 0.0;
+  std::optional<models::Action> previous_;  ///< the last action
 };
 
 }  // namespace touchdown::policies

@@ -10,7 +10,7 @@ namespace touchdown::policies {
 
 WheelContact upkie_contact(double period) {
   return [period, observers = std::array<WheelContactObserver, models::wheel_count>()](
-             const models::Observation& observation, double /*command*/) mutable {
+             const models::Observation& observation, const models::Action* /*previous*/) mutable {
     std::array<bool, models::wheel_count> in_contact = {};
     for (std::size_t wheel = 0; wheel < in_contact.size(); ++wheel) {
       const models::ServoReading& servo =
@@ -22,7 +22,8 @@ WheelContact upkie_contact(double period) {
 }
 
 WheelContact scripted_contact(ContactScript script) {
-  return [script = std::move(script)](const models::Observation& observation, double /*command*/) {
+  return [script = std::move(script)](const models::Observation& observation,
+                                      const models::Action* /*previous*/) {
     const ContactCommand* command = in_force(script, observation.time);
     using Contacts = std::array<bool, models::wheel_count>;
     return command == nullptr ? Contacts{true, true} : Contacts{command->left, command->right};

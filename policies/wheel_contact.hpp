@@ -14,9 +14,9 @@ class Fields;
 namespace touchdown::policies {
 
 /// A contact source: returns which wheels are in contact, once per control step. Its second input
-/// is the ground velocity that the policy commanded one step before (m/s).
+/// is the policy's action of the step before, null at the first step.
 using WheelContact = std::function<std::array<bool, models::wheel_count>(
-    const models::Observation& observation, double ground_velocity_command)>;
+    const models::Observation& observation, const models::Action* previous)>;
 
 /// Upkie's own observer, one per wheel. `period` of the control loop in s.
 WheelContact upkie_contact(double period);

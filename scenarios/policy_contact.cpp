@@ -23,16 +23,16 @@ using WheelContacts = std::array<bool, models::wheel_count>;
 /// Contact from an estimator in the loop. It gets the signals that a recording would give it.
 policies::WheelContact contact_from(std::shared_ptr<ContactEstimator> estimator) {
   estimator->reset();
-  return
-      [estimator = std::move(estimator)](const models::Observation& observation, double command) {
-        const Belief& belief = estimator->update(recordings::signals_from(observation, command));
-        return WheelContacts{belief.wheel[0].contact, belief.wheel[1].contact};
-      };
+  return [estimator = std::move(estimator)](const models::Observation& observation,
+                                            const models::Action* previous) {
+    const Belief& belief = estimator->update(recordings::signals_from(observation, previous));
+    return WheelContacts{belief.wheel[0].contact, belief.wheel[1].contact};
+  };
 }
 
 policies::WheelContact contact_from_truth(const simulators::Simulator& simulator) {
   constexpr double threshold = 1.0;  // N, the labels' default
-  return [&simulator](const models::Observation& observation, double /*command*/) {
+  return [&simulator](const models::Observation& observation, const models::Action* /*previous*/) {
     if (observation.time <= 0.0) return WheelContacts{true, true};  // no force has acted yet
     const auto& force = simulator.ground_truth().wheel_normal_force;
     return WheelContacts{force[0] > threshold, force[1] > threshold};
@@ -42,8 +42,8 @@ policies::WheelContact contact_from_truth(const simulators::Simulator& simulator
 policies::WheelContact delayed(policies::WheelContact contact, std::size_t steps) {
   if (steps == 0) return contact;
   return [contact = std::move(contact), delay = ContactDelay(steps), steps](
-             const models::Observation& observation, double command) mutable {
-    return delay.add(contact(observation, command), steps);
+             const models::Observation& observation, const models::Action* previous) mutable {
+    return delay.add(contact(observation, previous), steps);
   };
 }
 
@@ -53,7 +53,9 @@ policies::WheelContact named_source(const Scenario& scenario,
   const double period = simulator.control_period();
   if (name == "upkie_observer") return policies::upkie_contact(period);
   if (name == "always") {
-    return [](const models::Observation&, double) { return WheelContacts{true, true}; };
+    return [](const models::Observation&, const models::Action*) {
+      return WheelContacts{true, true};
+    };
   }
   if (name == "script") return policies::scripted_contact(scenario.policy.contact_script);
   if (name == "free_fall") {

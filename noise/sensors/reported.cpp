@@ -292,7 +292,7 @@ void ReportingSensors::report(std::span<models::Observation> next) {
 }
 
 void report_targets(const SensorProfile& profile, const NoiseKey& key,
-                    std::vector<models::Action>& actions) {
+                    std::span<models::Action> actions) {
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
     const SensorChannel& channel = profile.position[servo % profile.position.size()];
     const double zero = bias_of(channel, {key, position_channels[servo]});

@@ -33,7 +33,7 @@ class ReportingSensors {
 /// Shifts targets of positions by the zeros of the joints that sensors of this profile have in a
 /// run: a servo tracks its target with the position that it reports.
 void report_targets(const SensorProfile& profile, const NoiseKey& key,
-                    std::vector<models::Action>& actions);
+                    std::span<models::Action> actions);
 
 /// The same for all steps of a run.
 void report_through(const SensorProfile& profile, const NoiseKey& key, double period,

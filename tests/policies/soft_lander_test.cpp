@@ -86,7 +86,7 @@ class SoftLanding : public ::testing::Test {
   bool right_in_contact_too_ = true;
   SoftLander policy_{
       WheelBalancerConfig{}, make_course({}, 0.05, 1e-3), side_view(upkie_model()),
-      [this](const models::Observation&, double) {
+      [this](const models::Observation&, const models::Action* /*previous*/) {
         return std::array<bool, 2>{in_contact_, in_contact_ && right_in_contact_too_};
       }};
 };
@@ -121,7 +121,7 @@ TEST_F(SoftLanding, BalancesOnThroughAFalseAlarmAsIfThereWereNone) {
   seen_.yaw = 0.3;
   seen_.pitch = 0.05;
   SoftLander calm(WheelBalancerConfig{}, make_course({}, 0.05, 1e-3), side_view(upkie_model()),
-                  [](const models::Observation&, double) {
+                  [](const models::Observation&, const models::Action* /*previous*/) {
                     return std::array{true, true};
                   });
   models::Observation still = seen_;

@@ -66,8 +66,8 @@ TEST(PolicyContact, OfTheTruthHasTheConfiguredDelay) {
   const policies::WheelContact delayed = policy_contact(scenario, *simulator);
   std::vector<bool> contact, delayed_contact;
   for (int k = 0; k < 450; ++k) {
-    contact.push_back(immediate(simulator->observation(), 0.0)[0]);
-    delayed_contact.push_back(delayed(simulator->observation(), 0.0)[0]);
+    contact.push_back(immediate(simulator->observation(), nullptr)[0]);
+    delayed_contact.push_back(delayed(simulator->observation(), nullptr)[0]);
     EXPECT_EQ(contact[static_cast<std::size_t>(k)],
               k == 0 || in_contact(simulator->ground_truth(), 0));
     simulator->step(models::Action{});

@@ -1,6 +1,7 @@
 #include "scenarios/rollout.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -86,12 +87,50 @@ TEST_P(RolloutTest, TakesNoCommandsAfterItsEnd) {
   EXPECT_EQ(to_yaml(rollout.scenario()), before);
 }
 
+TEST_P(RolloutTest, GivesTheContactSourceTheActionOfTheStepBefore) {
+  using Law = policies::PolicyConfig::Law;
+  for (const Law law : {Law::balancer, Law::soft_landing}) {
+    for (const double delay : {0.0, 0.005}) {
+      Scenario scenario = standing(0.2);
+      scenario.velocity = {{0.05, 0.5, 0.3}};
+      scenario.crouch = {{0.05, 0.6, 2.0}};
+      scenario.policy.law = law;
+      scenario.policy.delay = delay;
+      const auto same = [](double a, double b) {
+        return a == b || (std::isnan(a) && std::isnan(b));
+      };
+      std::vector<std::optional<models::Action>> given;
+      const auto source = [&](const models::Observation&, const models::Action* previous) {
+        given.push_back(previous == nullptr ? std::nullopt : std::optional(*previous));
+        return std::array<bool, 2>{true, true};
+      };
+      const auto simulator = make_simulator(scenario, GetParam());
+      for (int attempt = 0; attempt < 2; ++attempt) {  // the second on a simulator that was used
+        given.clear();
+        const recordings::Recording run = play(scenario, *simulator, 0, 0, {}, source);
+        ASSERT_EQ(given.size(), run.steps());
+        EXPECT_FALSE(given.front());
+        for (std::size_t k = 1; k < given.size(); ++k) {
+          ASSERT_TRUE(given[k]);
+          for (std::size_t i = 0; i < models::servo_count; ++i) {
+            const models::ServoCommand& command = run.action[k - 1].servo[i];
+            EXPECT_TRUE(same(given[k]->servo[i].position, command.position)) << k;
+            EXPECT_TRUE(same(given[k]->servo[i].velocity, command.velocity)) << k;
+            EXPECT_TRUE(same(given[k]->servo[i].kp_scale, command.kp_scale)) << k;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST_P(RolloutTest, RepeatsRecordedContactOfThePolicy) {
   // The decisions of a wrong contact source are only in its record.
   Scenario scenario = standing(2.0);
   scenario.velocity = {{0.1, 0.5, 0.0}};
   policies::ContactScript script;
-  const auto source = [&](const models::Observation& observation, double /*command*/) {
+  const auto source = [&](const models::Observation& observation,
+                          const models::Action* /*previous*/) {
     const auto tenth = static_cast<int>(observation.time / 0.1);
     const std::array<bool, 2> contact = {tenth % 3 != 0, tenth % 5 != 0};
     if (script.empty() || script.back().left != contact[0] || script.back().right != contact[1]) {

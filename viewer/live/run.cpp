@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -72,8 +73,9 @@ LiveRun::LiveRun(LiveScene scene, const std::vector<experiments::LogEstimator>& 
   scenarios::Scenario undelayed = scene_.scenario;
   undelayed.policy.delay = 0.0;  // `contact_for_policy` delays
   rollout_ = std::make_unique<scenarios::Rollout>(
-      undelayed, *simulator_, [this](const models::Observation& observation, double command) {
-        return contact_for_policy(observation, command);
+      undelayed, *simulator_,
+      [this](const models::Observation& observation, const models::Action* previous) {
+        return contact_for_policy(observation, previous);
       });
   recording_.info = scenarios::recording_info(scene_.scenario, scene_.engine, scene_.seed,
                                               std::max(scene_.run, std::int64_t{0}));
@@ -96,19 +98,25 @@ void LiveRun::make_contact_sources() {
   for (const LiveEstimator& estimator : estimators_) source_names_.push_back(estimator.title);
 }
 
-WheelContacts LiveRun::contact_for_policy(const models::Observation& observation, double command) {
+WheelContacts LiveRun::contact_for_policy(const models::Observation& observation,
+                                          const models::Action* previous) {
   reported_ = observation;
   sensors_.report(std::span(&reported_, 1));
   if (!std::isnan(reported_.time)) {
     reported_ = noise::with_noise(reported_, noise_key(scene_), step_, settings_.noise);
-    const Signals signals = recordings::signals_from(reported_, command);
+    std::optional<models::Action> action;
+    if (previous != nullptr) {
+      action = *previous;
+      noise::report_targets(settings_.sensors, noise_key(scene_), std::span(&*action, 1));
+    }
+    const Signals signals = recordings::signals_from(reported_, action ? &*action : nullptr);
     for (LiveEstimator& estimator : estimators_) {
       estimator.belief = estimator.estimator->update(signals);
     }
   }
   WheelContacts now = {true, true};
   for (std::size_t i = 0; i < built_in_sources_.size(); ++i) {  // all of them keep a state
-    const WheelContacts contact = built_in_sources_[i](observation, command);
+    const WheelContacts contact = built_in_sources_[i](observation, previous);
     if (i == settings_.contact_source) now = contact;
   }
   if (settings_.contact_source >= built_in_sources_.size()) {

@@ -110,7 +110,7 @@ class LiveRun {
 
  private:
   std::array<bool, models::wheel_count> contact_for_policy(const models::Observation& observation,
-                                                           double command);
+                                                           const models::Action* previous);
   void make_contact_sources();
   std::size_t steps_of(double seconds) const;
   void pull();
